@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "mesh/cuts.h"
+#include "mesh/mesh.h"
+#include "solve/softness.h"
+#include "solve/solver.h"
+
+namespace chainmail {
+
+/// How far links lie outside their valid regions, in rest lengths of the link (a link of zero length:
+/// in the mesh's mean rest length). Cut links do not count.
+struct Violation {
+  double max = 0;
+  double rms = 0;
+  double fraction = 0;      // of the links looked at, those above 1e-4
+  std::uint64_t links = 0;  // looked at
+
+  bool operator==(const Violation&) const = default;
+};
+
+/// The violation of one link: the Euclidean norm, over the axes, of what exceeds the region.
+/// Computed in double, whatever the solver uses.
+double link_violation(const Mesh& mesh, const Softness& softness, const PositionView& position, LinkId link);
+
+/// The violation over the whole mesh.
+Violation measure_violation(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position);
+
+/// The violation over the links of these elements; a link between two of them counts twice.
+Violation measure_violation(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
+                            std::span<const ElementId> elements);
+
+/// Elastic energy ½ Σ over links |(x_j − x_i) − r_ij|² (mesh units squared), in double.
+double elastic_energy(const Mesh& mesh, const Cuts& cuts, const PositionView& position);
+
+/// Distance from rest over the elements (mesh units), in double.
+struct Displacement {
+  double max = 0;
+  double rms = 0;
+};
+Displacement measure_displacement(const Mesh& mesh, const PositionView& position);
+
+}  // namespace chainmail

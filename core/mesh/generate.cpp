@@ -1,0 +1,126 @@
+#include "mesh/generate.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+constexpr std::array kinds{
+    MeshKindInfo{MeshKind::line, "line", 1, "a chain of elements along x"},
+    MeshKindInfo{MeshKind::grid, "grid", 2, "links along x and y"},
+    MeshKindInfo{MeshKind::cloth, "cloth", 2, "a grid whose squares are split into triangles"},
+    MeshKindInfo{MeshKind::block, "block", 3, "links along x, y and z"},
+    MeshKindInfo{MeshKind::tetra, "tetra", 3, "a block whose cubes are split into tetrahedra"},
+};
+
+/// The six ways from a cube's first corner to its last, one axis after another: each way is the
+/// spine of one tetrahedron.
+constexpr std::array<std::array<int, 3>, 6> axis_orders{
+    {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+
+void check(const MeshRecipe& recipe, const Lattice& lattice) {
+  if (*std::min_element(lattice.size.begin(), lattice.size.end()) == 0) {
+    throw Error("size", "a size of 0 leaves no elements", "use 1 or more along each axis");
+  }
+  const double count = double(lattice.size[0]) * lattice.size[1] * lattice.size[2];
+  if (count > double(element_limit)) {
+    throw Error("size", "the mesh would have more than " + std::to_string(element_limit) + " elements",
+                "use smaller sizes");
+  }
+  if (!(recipe.spacing > 0) ||
+      !std::isfinite(recipe.spacing * *std::max_element(lattice.size.begin(), lattice.size.end()))) {
+    throw Error("spacing", "the spacing must be positive and finite", "use a number above 0");
+  }
+}
+
+/// Calls `visit(element, {dx, dy, dz})` for every element, where d is 1 on the axes that go on.
+template <class Visit>
+void for_each_element(const Lattice& lattice, Visit visit) {
+  ElementId element = 0;
+  for (std::uint32_t z = 0; z < lattice.size[2]; ++z) {
+    for (std::uint32_t y = 0; y < lattice.size[1]; ++y) {
+      for (std::uint32_t x = 0; x < lattice.size[0]; ++x, ++element) {
+        visit(element, std::array<bool, 3>{x + 1 < lattice.size[0], y + 1 < lattice.size[1], z + 1 < lattice.size[2]});
+      }
+    }
+  }
+}
+
+struct Builder {
+  MeshParts& parts;
+  std::array<ElementId, 3> stride;
+
+  /// Links to the elements one step on: along the axes, and across where `diagonals` says so.
+  void add_links(ElementId element, const std::array<bool, 3>& more, bool diagonals) {
+    for (unsigned axes = 1; axes < 8; ++axes) {
+      if (!diagonals && !std::has_single_bit(axes)) {
+        continue;
+      }
+      bool inside = true;
+      ElementId other = element;
+      for (unsigned k = 0; k < 3; ++k) {
+        if ((axes >> k & 1) != 0) {
+          inside = inside && more[k];
+          other += stride[k];
+        }
+      }
+      if (inside) {
+        parts.links.push_back({element, other});
+      }
+    }
+  }
+
+  void add_square(ElementId a) {
+    const ElementId b = a + stride[0], c = a + stride[1], d = b + stride[1];
+    parts.triangles.push_back({a, b, d});
+    parts.triangles.push_back({a, d, c});
+  }
+
+  void add_cube(ElementId first) {
+    for (const auto& [i, j, k] : axis_orders) {
+      std::array<ElementId, 4> corner{first, first + stride[i], first + stride[i] + stride[j], 0};
+      corner[3] = corner[2] + stride[k];
+      // An odd order of axes gives a left-handed tetrahedron.
+      if ((i + 1) % 3 != j) {
+        std::swap(corner[2], corner[3]);
+      }
+      parts.tetrahedra.push_back(corner);
+    }
+  }
+};
+
+}  // namespace
+
+std::span<const MeshKindInfo> mesh_kinds() { return kinds; }
+
+MeshPointer generate(const MeshRecipe& recipe) {
+  Lattice lattice{recipe.size, recipe.spacing};
+  const int sizes =
+      std::find_if(kinds.begin(), kinds.end(), [&](auto& info) { return info.kind == recipe.kind; })->sizes;
+  std::fill(lattice.size.begin() + sizes, lattice.size.end(), 1);
+  check(recipe, lattice);
+
+  MeshParts parts;
+  parts.lattice = lattice;
+  parts.space_dimension = recipe.space_dimension;
+  parts.rest.reserve(lattice.element_count());
+  Builder builder{parts, {1, lattice.size[0], lattice.size[0] * lattice.size[1]}};
+  for_each_element(lattice, [&](ElementId element, const std::array<bool, 3>& more) {
+    parts.rest.push_back(lattice.position(element));
+    builder.add_links(element, more, recipe.kind == MeshKind::cloth || recipe.kind == MeshKind::tetra);
+    if (recipe.kind == MeshKind::cloth && more[0] && more[1]) {
+      builder.add_square(element);
+    }
+    if (recipe.kind == MeshKind::tetra && more[0] && more[1] && more[2]) {
+      builder.add_cube(element);
+    }
+  });
+  return build_mesh(std::move(parts));
+}
+
+}  // namespace chainmail

@@ -1,0 +1,231 @@
+#include "mesh/mesh.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+/// Rows in ascending order, each link in both its rows once, from pairs in any order.
+void fill_neighbour_table(Mesh& mesh, const std::vector<std::array<ElementId, 2>>& links, std::size_t element_count) {
+  std::vector<EntryId> next(element_count + 1, 0);
+  for (const auto& [a, b] : links) {
+    ++next[a + 1];
+    ++next[b + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  mesh.first_entry = next;
+  mesh.neighbours.resize(2 * links.size());
+  for (const auto& [a, b] : links) {
+    mesh.neighbours[next[a]++] = b;
+    mesh.neighbours[next[b]++] = a;
+  }
+  EntryId kept = 0;
+  for (std::size_t e = 0; e < element_count; ++e) {
+    const auto first = mesh.neighbours.begin() + mesh.first_entry[e];
+    const auto last = mesh.neighbours.begin() + mesh.first_entry[e + 1];
+    std::sort(first, last);
+    mesh.first_entry[e] = kept;
+    kept += static_cast<EntryId>(std::distance(
+        mesh.neighbours.begin() + kept, std::copy(first, std::unique(first, last), mesh.neighbours.begin() + kept)));
+  }
+  mesh.first_entry[element_count] = kept;
+  mesh.neighbours.resize(kept);
+}
+
+/// The entries of one row in ascending order of neighbour, so that a link's second entry is found fast.
+class AscendingRows {
+ public:
+  explicit AscendingRows(const Mesh& mesh) : mesh_(mesh), order_(mesh.neighbours.size()) {
+    std::iota(order_.begin(), order_.end(), EntryId{0});
+    for (ElementId e = 0; e < mesh.element_count(); ++e) {
+      const auto row = mesh.neighbours_of(e);
+      if (!std::is_sorted(row.begin(), row.end())) {
+        std::sort(order_.begin() + mesh.first_entry[e], order_.begin() + mesh.first_entry[e + 1],
+                  [&mesh](EntryId i, EntryId j) { return mesh.neighbours[i] < mesh.neighbours[j]; });
+      }
+    }
+  }
+
+  /// The entry of `neighbour` in the row of `element`, or none.
+  std::optional<EntryId> find(ElementId element, ElementId neighbour) const {
+    const auto first = order_.begin() + mesh_.first_entry[element];
+    const auto last = order_.begin() + mesh_.first_entry[element + 1];
+    const auto found = std::lower_bound(first, last, neighbour,
+                                        [this](EntryId entry, ElementId id) { return mesh_.neighbours[entry] < id; });
+    if (found == last || mesh_.neighbours[*found] != neighbour) {
+      return std::nullopt;
+    }
+    return *found;
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<EntryId> order_;
+};
+
+void number_links(Mesh& mesh) {
+  const AscendingRows rows(mesh);
+  mesh.entry_link.resize(mesh.neighbours.size());
+  mesh.links.reserve(mesh.neighbours.size() / 2);
+  for (ElementId a = 0; a < mesh.element_count(); ++a) {
+    for (EntryId entry = mesh.first_entry[a]; entry < mesh.first_entry[a + 1]; ++entry) {
+      const ElementId b = mesh.neighbours[entry];
+      if (a < b) {
+        const auto twin = rows.find(b, a);
+        assert(twin && "a link stands in both its rows");
+        mesh.entry_link[entry] = mesh.entry_link[*twin] = mesh.link_count();
+        mesh.links.push_back({a, b});
+      }
+    }
+  }
+}
+
+/// Chooses the axes that the object needs, and those asked for beyond them in the order x, y, z.
+void choose_axes(Mesh& mesh, const std::vector<Point>& rest, std::optional<int> asked) {
+  std::array<bool, 3> carried{};
+  for (int k = 0; k < 3; ++k) {
+    carried[k] = std::any_of(rest.begin(), rest.end(), [&](const Point& p) { return p[k] != rest.front()[k]; });
+  }
+  const auto needed = static_cast<int>(std::count(carried.begin(), carried.end(), true));
+  if (asked && *asked < needed) {
+    throw Error("space dimension " + std::to_string(*asked),
+                "the object extends along " + std::to_string(needed) + " axes",
+                "use " + std::to_string(needed) + " or more");
+  }
+  const int wanted = std::max(asked.value_or(needed), 1);
+  for (int k = 0; k < 3; ++k) {
+    if (std::count(carried.begin(), carried.end(), true) < wanted) {
+      carried[k] = true;
+    }
+  }
+  mesh.space_dimension = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (carried[k]) {
+      mesh.axes[mesh.space_dimension++] = k;
+    }
+  }
+  mesh.origin = rest.empty() ? Point(Point::Zero()) : rest.front();
+}
+
+void store_rest(Mesh& mesh, const std::vector<Point>& rest) {
+  mesh.rest.reserve(rest.size() * mesh.space_dimension);
+  for (const Point& p : rest) {
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      mesh.rest.push_back(p[mesh.axes[k]]);
+    }
+  }
+}
+
+/// A fan about the first corner: enough to draw a convex polygon.
+void split_polygons(Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.polygons.size(); i += mesh.polygons[i] + 1) {
+    const ElementId* corner = mesh.polygons.data() + i + 1;
+    for (ElementId j = 2; j < mesh.polygons[i]; ++j) {
+      mesh.triangles.push_back({corner[0], corner[j - 1], corner[j]});
+    }
+  }
+}
+
+int object_dimension(const Mesh& mesh) {
+  if (!mesh.tetrahedra.empty()) {
+    return 3;
+  }
+  if (!mesh.triangles.empty()) {
+    return 2;
+  }
+  if (!mesh.lattice) {
+    return 1;
+  }
+  const auto& size = mesh.lattice->size;
+  const auto extended = std::count_if(size.begin(), size.end(), [](std::uint32_t n) { return n > 1; });
+  return std::max(1, static_cast<int>(extended));
+}
+
+double mean_link_length(const Mesh& mesh) {
+  double sum = 0;
+  for (LinkId link = 0; link < mesh.link_count(); ++link) {
+    sum += rest_length(mesh, link);
+  }
+  return mesh.links.empty() ? 0 : sum / mesh.link_count();
+}
+
+}  // namespace
+
+Point Lattice::position(ElementId element) const {
+  const std::uint64_t layer = std::uint64_t{size[0]} * size[1];
+  return Point(element % size[0], element / size[0] % size[1], static_cast<double>(element / layer)) * spacing;
+}
+
+Point Mesh::to_point(const double* carried) const {
+  Point point = origin;
+  for (int k = 0; k < space_dimension; ++k) {
+    point[axes[k]] = carried[k];
+  }
+  return point;
+}
+
+Point Mesh::rest_position(ElementId element) const {
+  return to_point(rest.data() + std::size_t{element} * space_dimension);
+}
+
+std::array<Point, 2> bounds(const Mesh& mesh) {
+  std::array<Point, 2> box{mesh.origin, mesh.origin};
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    const Point p = mesh.rest_position(e);
+    box[0] = box[0].cwiseMin(p);
+    box[1] = box[1].cwiseMax(p);
+  }
+  return box;
+}
+
+double rest_length(const Mesh& mesh, LinkId link) {
+  const auto [a, b] = mesh.links[link];
+  return (mesh.rest_position(b) - mesh.rest_position(a)).stableNorm();
+}
+
+std::optional<LinkId> find_link(const Mesh& mesh, ElementId a, ElementId b) {
+  if (mesh.neighbours_of(a).size() > mesh.neighbours_of(b).size()) {
+    std::swap(a, b);
+  }
+  const auto row = mesh.neighbours_of(a);
+  const auto found = std::find(row.begin(), row.end(), b);
+  if (found == row.end()) {
+    return std::nullopt;
+  }
+  return mesh.entry_link[mesh.first_entry[a] + std::distance(row.begin(), found)];
+}
+
+MeshPointer build_mesh(MeshParts parts) {
+  if (parts.rest.size() > element_limit) {
+    throw Error("mesh", std::to_string(parts.rest.size()) + " elements are too many",
+                "use at most " + std::to_string(element_limit));
+  }
+  auto mesh = std::make_shared<Mesh>();
+  choose_axes(*mesh, parts.rest, parts.space_dimension);
+  store_rest(*mesh, parts.rest);
+  if (parts.first_entry.empty()) {
+    fill_neighbour_table(*mesh, parts.links, parts.rest.size());
+  } else {
+    mesh->first_entry = std::move(parts.first_entry);
+    mesh->neighbours = std::move(parts.neighbours);
+  }
+  number_links(*mesh);
+  mesh->own_triangles = parts.triangles.size();
+  mesh->triangles = std::move(parts.triangles);
+  mesh->polygons = std::move(parts.polygons);
+  mesh->tetrahedra = std::move(parts.tetrahedra);
+  mesh->lattice = parts.lattice;
+  split_polygons(*mesh);
+  mesh->object_dimension = object_dimension(*mesh);
+  mesh->mean_link_length = mean_link_length(*mesh);
+  return mesh;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "mesh/cuts.h"
+#include "mesh/mesh.h"
+#include "solve/softness.h"
+#include "solve/solver.h"
+
+namespace chainmail {
+
+/// Everything that changes a simulation is one of these. They are values: they can be logged, sent to
+/// several simulations and replayed.
+namespace commands {
+
+/// The hand takes hold of an element; nothing moves yet.
+struct Grab {
+  ElementId element = 0;
+};
+/// The grabbed element goes to a target (mesh units): one pass.
+struct Drag {
+  Point target = Point::Zero();
+};
+/// The hand lets go.
+struct Release {};
+struct SetSoftness {
+  Softness softness;
+};
+/// Relaxation in idle time, with a step in (0, 1].
+struct SetRelaxation {
+  bool on = false;
+  double step = 1;
+};
+struct SetAlgorithm {
+  Algorithm algorithm = Algorithm::natural_queue;
+};
+struct Cut {
+  std::vector<LinkId> links;
+};
+struct Uncut {
+  std::vector<LinkId> links;
+};
+/// Back to the rest positions; cuts and softness stay.
+struct Reset {};
+/// Another object, uncut, at rest; softness per link goes, the global one stays.
+struct ReplaceMesh {
+  MeshPointer mesh;
+};
+
+/// Names a state that a simulation keeps for undo.
+using StateId = std::uint64_t;
+/// Keeps the object as it is now (mesh, cuts, softness, positions) under a name.
+struct KeepState {
+  StateId state = 0;
+};
+/// Exchanges the object with the one kept under a name: undo and redo are the same command.
+struct SwapState {
+  StateId state = 0;
+};
+/// Forgets a kept state.
+struct DropState {
+  StateId state = 0;
+};
+
+}  // namespace commands
+
+using Command =
+    std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness, commands::SetRelaxation,
+                 commands::SetAlgorithm, commands::Cut, commands::Uncut, commands::Reset, commands::ReplaceMesh,
+                 commands::KeepState, commands::SwapState, commands::DropState>;
+
+}  // namespace chainmail

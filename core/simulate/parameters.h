@@ -1,0 +1,69 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace chainmail {
+
+/// A number that a user may set. This one table feeds the docks, the command line, the checks and the
+/// help texts.
+struct Parameter {
+  std::string_view name;   // on the command line
+  std::string_view label;  // in the window
+  std::string_view unit;
+  double standard;         // the default
+  double lowest, highest;  // what is accepted
+  double slider_highest;   // what a slider spans, from lowest
+  double step;             // one click
+  int decimals;
+  std::string_view help;
+};
+
+namespace parameters {
+
+inline constexpr Parameter compression{"compression",
+                                       "Compression",
+                                       "of rest length",
+                                       0.8,
+                                       0,
+                                       1,
+                                       1,
+                                       0.01,
+                                       3,
+                                       "how far a link may shorten, along each axis: 1 not at all, 0 to nothing"};
+inline constexpr Parameter stretch{
+    "stretch",
+    "Stretch",
+    "of rest length",
+    1.2,
+    1,
+    1e6,
+    3,
+    0.01,
+    3,
+    "how far a link may lengthen, along each axis: 1 not at all, 2 to twice its rest length"};
+inline constexpr Parameter shear{"shear",
+                                 "Shear",
+                                 "of rest length",
+                                 0.1,
+                                 0,
+                                 1e6,
+                                 1,
+                                 0.01,
+                                 3,
+                                 "how far a link may lean, per length along the other axes: 0 not at all"};
+inline constexpr Parameter relax_step{"relax-step",
+                                      "Step",
+                                      "of the way to the mean",
+                                      1,
+                                      0.01,
+                                      1,
+                                      1,
+                                      0.05,
+                                      2,
+                                      "how far one relaxation step moves an element toward the mean of its neighbours"};
+inline constexpr Parameter spacing{"spacing", "Spacing", "mesh units", 1, 1e-6,
+                                   1e6,       10,        0.1,          4, "distance between neighbouring elements"};
+
+}  // namespace parameters
+}  // namespace chainmail

@@ -1,0 +1,252 @@
+#include "simulate/simulation.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+using Clock = PassTimes::Clock;
+
+// Relaxation sleeps when no step of a sweep exceeds this share of the mean rest length, or after this long.
+constexpr double asleep_below = 1e-4;
+constexpr auto relaxation_time = std::chrono::seconds(10);
+// About 2 ms: a command never waits longer for a slice of relaxation to end.
+constexpr std::uint64_t elements_per_slice = 20'000;
+
+}  // namespace
+
+Simulation::Simulation(MeshPointer mesh, Algorithm algorithm, Precision precision)
+    : mesh_(std::move(mesh)),
+      algorithm_(algorithm),
+      precision_(precision),
+      solver_(make_solver(mesh_, algorithm, precision)) {
+  statistics_.algorithm = algorithm;
+  refresh_statistics(true);
+}
+
+void Simulation::apply(const Command& command) {
+  std::visit([this](const auto& one) { apply(one); }, command);
+}
+
+void Simulation::apply(const commands::Grab& command) {
+  if (command.element >= mesh_->element_count()) {
+    throw Error("element " + std::to_string(command.element), "there is no such element",
+                "use an id below " + std::to_string(mesh_->element_count()));
+  }
+  grabbed_ = command.element;
+}
+
+void Simulation::apply(const commands::Drag& command) {
+  if (!grabbed_) {
+    throw Error("drag", "no element is grabbed", "grab one first");
+  }
+  pass(*grabbed_, command.target);
+}
+
+void Simulation::apply(const commands::Release&) { grabbed_.reset(); }
+
+void Simulation::apply(const commands::SetSoftness& command) {
+  check(command.softness.global);
+  for (const auto& [link, softness] : command.softness.links) {
+    check_links({link});
+    check(softness);
+  }
+  softness_ = command.softness;
+  solver_->set_softness(softness_);
+  // Under load the object may now violate its links: a pass about the element that was moved last
+  // answers the new softness at once. From a valid state it moves nothing.
+  valid_ = false;
+  if (last_moved_) {
+    const auto position = solver_->positions();
+    double carried[3]{};
+    for (int k = 0; k < mesh_->space_dimension; ++k) {
+      carried[k] = position(*last_moved_, k);
+    }
+    pass(*last_moved_, mesh_->to_point(carried));
+  }
+}
+
+void Simulation::apply(const commands::SetRelaxation& command) {
+  if (!(command.step > 0 && command.step <= 1)) {
+    throw Error("relax-step", "it must lie above 0 and up to 1", "1 goes all the way to the mean");
+  }
+  relaxation_on_ = command.on;
+  relaxation_step_ = command.step;
+  if (relaxation_on_) {
+    wake_all();
+  } else {
+    fall_asleep();
+  }
+}
+
+void Simulation::apply(const commands::SetAlgorithm& command) {
+  algorithm_ = statistics_.algorithm = command.algorithm;
+  solver_->set_algorithm(command.algorithm);
+}
+
+void Simulation::apply(const commands::Cut& command) {
+  check_links(command.links);
+  solver_->cut(command.links);
+  wake_all();
+}
+
+void Simulation::apply(const commands::Uncut& command) {
+  check_links(command.links);
+  solver_->uncut(command.links);
+  valid_ = false;  // the ends may have gone apart
+  wake_all();
+}
+
+void Simulation::apply(const commands::Reset&) {
+  solver_->reset();
+  last_moved_.reset();
+  valid_ = true;
+  fall_asleep();
+}
+
+void Simulation::apply(const commands::ReplaceMesh& command) {
+  take_mesh(command.mesh);
+  softness_.links.clear();
+  solver_->set_softness(softness_);
+}
+
+void Simulation::apply(const commands::KeepState& command) { kept_[command.state] = current_state(); }
+
+void Simulation::apply(const commands::SwapState& command) {
+  const auto kept = kept_.find(command.state);
+  if (kept == kept_.end()) {
+    throw Error("state " + std::to_string(command.state), "no such state is kept", "keep it first");
+  }
+  State now = current_state();
+  std::swap(now, kept->second);
+  if (now.mesh != mesh_) {
+    take_mesh(now.mesh);
+  } else {
+    solver_->uncut(solver_->cuts().links());
+  }
+  softness_ = now.softness;
+  solver_->set_softness(softness_);
+  solver_->cut(now.cuts);
+  solver_->set_positions(now.positions);
+  valid_ = now.valid;
+  grabbed_.reset();
+  last_moved_.reset();
+  fall_asleep();
+}
+
+void Simulation::apply(const commands::DropState& command) { kept_.erase(command.state); }
+
+void Simulation::pass(ElementId element, const Point& target) {
+  const auto start = Clock::now();
+  statistics_.last_pass = solver_->move(element, target, trace_);
+  const auto end = Clock::now();
+  statistics_.last_pass_ms = std::chrono::duration<double, std::milli>(end - start).count();
+  times_.add(end, statistics_.last_pass_ms);
+  ++statistics_.passes;
+  last_moved_ = element;
+  valid_ = false;
+  if (relaxation_on_) {
+    solver_->wake(std::span(&element, 1));
+    solver_->wake(solver_->moved());
+    relaxation_deadline_ = end + relaxation_time;
+    statistics_.relaxing = true;
+    statistics_.sweeps = 0;
+  }
+}
+
+bool Simulation::step() {
+  if (!statistics_.relaxing) {
+    return false;
+  }
+  const auto slice = solver_->relax(relaxation_step_, elements_per_slice, grabbed_);
+  if (slice.sweep_ended) {
+    ++statistics_.sweeps;
+    if (slice.largest_step <= asleep_below * mesh_->mean_link_length) {
+      fall_asleep();
+    }
+  }
+  if (Clock::now() > relaxation_deadline_) {
+    fall_asleep();
+  }
+  return statistics_.relaxing;
+}
+
+void Simulation::relax(int count, double step) {
+  if (count == 0) {
+    return;
+  }
+  if (last_moved_) {
+    solver_->wake(std::span(&*last_moved_, 1));
+    solver_->wake(solver_->moved());
+  }
+  for (int i = 0; i < count; ++i) {
+    if (solver_->relax(step, std::numeric_limits<std::uint64_t>::max(), grabbed_).visited == 0) {
+      break;
+    }
+  }
+}
+
+void Simulation::refresh_statistics(bool whole_mesh) {
+  statistics_.last_second = times_.summary(Clock::now());
+  const auto position = solver_->positions();
+  if (whole_mesh || !last_moved_) {
+    statistics_.violation = measure_violation(*mesh_, softness_, solver_->cuts(), position);
+    valid_ = statistics_.violation.fraction == 0;
+  } else {
+    std::vector<ElementId> touched(solver_->moved().begin(), solver_->moved().end());
+    touched.push_back(*last_moved_);
+    statistics_.violation = measure_violation(*mesh_, softness_, solver_->cuts(), position, touched);
+  }
+  statistics_.violation_of_whole_mesh = whole_mesh || !last_moved_;
+}
+
+void Simulation::check_links(const std::vector<LinkId>& links) const {
+  for (const LinkId link : links) {
+    if (link >= mesh_->link_count()) {
+      throw Error("link " + std::to_string(link), "there is no such link",
+                  "use a number below " + std::to_string(mesh_->link_count()));
+    }
+  }
+}
+
+void Simulation::take_mesh(MeshPointer mesh) {
+  mesh_ = std::move(mesh);
+  solver_ = make_solver(mesh_, algorithm_, precision_);
+  grabbed_.reset();
+  last_moved_.reset();
+  valid_ = true;
+  statistics_.last_pass = {};
+  statistics_.last_pass_ms = 0;
+  times_ = {};
+  fall_asleep();
+}
+
+void Simulation::wake_all() {
+  if (!relaxation_on_) {
+    return;
+  }
+  std::vector<ElementId> all(mesh_->element_count());
+  std::iota(all.begin(), all.end(), ElementId{0});
+  solver_->wake(all);
+  relaxation_deadline_ = Clock::now() + relaxation_time;
+  statistics_.relaxing = true;
+  statistics_.sweeps = 0;
+}
+
+void Simulation::fall_asleep() {
+  solver_->sleep();
+  statistics_.relaxing = false;
+}
+
+Simulation::State Simulation::current_state() const {
+  State state{mesh_, solver_->cuts().links(), softness_, {}, valid_};
+  state.positions.resize(mesh_->rest.size());
+  solver_->copy_positions(state.positions);
+  return state;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "measure/pass_times.h"
+#include "measure/violation.h"
+#include "simulate/command.h"
+#include "solve/solver.h"
+
+namespace chainmail {
+
+/// What a reader of a frame wants to know of the simulation.
+struct Statistics {
+  Algorithm algorithm = Algorithm::natural_queue;
+  std::uint64_t passes = 0;  // since the start
+  PassCount last_pass;
+  double last_pass_ms = 0;
+  PassTimes::Summary last_second;
+  Violation violation;
+  bool violation_of_whole_mesh = true;  // else of the links that the last pass touched
+  bool relaxing = false;
+  std::uint64_t sweeps = 0;  // since the last pass
+};
+
+/// An object in time: commands in, positions and statistics out. It knows no thread.
+class Simulation {
+ public:
+  Simulation(MeshPointer mesh, Algorithm algorithm, Precision precision);
+
+  /// Carries a command out. Throws Error where the command does not fit the object (an element or link
+  /// that is not there, softness out of range, a drag without a grab, a state that is not kept);
+  /// nothing has changed then.
+  void apply(const Command& command);
+  /// Spends idle time: a slice of relaxation of about 2 ms. Returns whether there is more to do.
+  bool step();
+
+  /// `trace`, where set, receives every candidate that a pass processes.
+  void set_trace(Trace* trace) { trace_ = trace; }
+  /// Sweeps of relaxation at once, whatever is switched on: `count` of them, or until nothing moves.
+  void relax(int count, double step);
+
+  const Mesh& mesh() const { return *mesh_; }
+  const MeshPointer& mesh_pointer() const { return mesh_; }
+  const Solver& solver() const { return *solver_; }
+  const Softness& softness() const { return softness_; }
+  std::optional<ElementId> grabbed() const { return grabbed_; }
+  const Statistics& statistics() const { return statistics_; }
+  /// No link violated beyond rounding, as far as is known without looking at the whole mesh.
+  bool valid() const { return valid_; }
+
+  /// Refreshes the figures that cost more than a pass may: the times of the last second and the violation,
+  /// over the whole mesh or over the links that the last pass touched.
+  void refresh_statistics(bool whole_mesh);
+
+ private:
+  struct State {
+    MeshPointer mesh;
+    std::vector<LinkId> cuts;
+    Softness softness;
+    std::vector<double> positions;
+    bool valid = true;
+  };
+
+  void apply(const commands::Grab& command);
+  void apply(const commands::Drag& command);
+  void apply(const commands::Release& command);
+  void apply(const commands::SetSoftness& command);
+  void apply(const commands::SetRelaxation& command);
+  void apply(const commands::SetAlgorithm& command);
+  void apply(const commands::Cut& command);
+  void apply(const commands::Uncut& command);
+  void apply(const commands::Reset& command);
+  void apply(const commands::ReplaceMesh& command);
+  void apply(const commands::KeepState& command);
+  void apply(const commands::SwapState& command);
+  void apply(const commands::DropState& command);
+
+  void pass(ElementId element, const Point& target);
+  void check_links(const std::vector<LinkId>& links) const;
+  void take_mesh(MeshPointer mesh);
+  void wake_all();
+  void fall_asleep();
+  State current_state() const;
+
+  MeshPointer mesh_;
+  Algorithm algorithm_;
+  Precision precision_;
+  std::unique_ptr<Solver> solver_;
+  Softness softness_;
+  std::optional<ElementId> grabbed_;
+  std::optional<ElementId> last_moved_;  // the element of the last pass
+  bool valid_ = true;
+  bool relaxation_on_ = false;
+  double relaxation_step_ = 1;
+  PassTimes::Clock::time_point relaxation_deadline_{};
+  std::map<commands::StateId, State> kept_;
+  PassTimes times_;
+  Statistics statistics_;
+  Trace* trace_ = nullptr;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,114 @@
+#include "simulate/solver_thread.h"
+
+#include <utility>
+
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+using Clock = PassTimes::Clock;
+
+constexpr auto frame_time = std::chrono::milliseconds(16);
+// Relaxation takes this much of each frame's time, so that drawing and the other panel get the rest.
+constexpr auto relaxation_share = std::chrono::milliseconds(8);
+// A figure that is read by eye need not change more often; on large meshes it costs more than a pass.
+constexpr auto violation_time = std::chrono::milliseconds(250);
+
+}  // namespace
+
+SolverThread::SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready)
+    : simulation_(std::move(mesh), algorithm, Precision::single_precision), frame_ready_(std::move(frame_ready)) {
+  publish(true);
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+SolverThread::~SolverThread() = default;
+
+void SolverThread::post(Command command) {
+  {
+    const std::lock_guard lock(mutex_);
+    commands_.push_back(std::move(command));
+    waiting_.fetch_add(1, std::memory_order_release);
+  }
+  changed_.notify_one();
+}
+
+std::string SolverThread::take_error() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(error_, {});
+}
+
+void SolverThread::carry_out(const Command& command) {
+  try {
+    simulation_.apply(command);
+  } catch (const Error& error) {
+    const std::lock_guard lock(mutex_);
+    error_ = error.what();
+  }
+  waiting_.fetch_sub(1, std::memory_order_release);
+}
+
+void SolverThread::run(const std::stop_token& stop) {
+  bool unseen = false;   // something changed since the last frame
+  bool measured = true;  // the frame shows the violation of the whole mesh
+  std::unique_lock lock(mutex_);
+  while (!stop.stop_requested()) {
+    if (!commands_.empty()) {
+      const Command command = std::move(commands_.front());
+      commands_.pop_front();
+      lock.unlock();
+      carry_out(command);
+      unseen = true;
+      measured = false;
+    } else if (simulation_.statistics().relaxing) {
+      lock.unlock();
+      const auto end = Clock::now() + relaxation_share;
+      while (idle() && Clock::now() < end && simulation_.step()) {
+      }
+      unseen = true;
+      measured = false;
+    } else if (!unseen && measured) {
+      changed_.wait(lock, stop, [this] { return !commands_.empty(); });
+      continue;
+    } else {
+      lock.unlock();
+    }
+
+    const auto due = last_frame_ + frame_time;
+    if (unseen && (Clock::now() >= due || (idle() && !simulation_.statistics().relaxing))) {
+      publish(false);
+      unseen = false;
+    }
+    lock.lock();
+    if (simulation_.statistics().relaxing) {
+      changed_.wait_until(lock, stop, last_frame_ + frame_time, [this] { return !commands_.empty(); });
+    } else if (!measured && commands_.empty() &&
+               !changed_.wait_for(lock, stop, violation_time, [this] { return !commands_.empty(); })) {
+      // Nothing came for a while: the object is at rest.
+      lock.unlock();
+      publish(true);
+      measured = true;
+      lock.lock();
+    }
+  }
+}
+
+void SolverThread::publish(bool at_rest) {
+  const auto now = Clock::now();
+  if (at_rest || now - last_violation_ >= violation_time) {
+    simulation_.refresh_statistics(at_rest);
+    last_violation_ = Clock::now();
+  }
+  Frame& frame = frames_.back();
+  frame.mesh = simulation_.mesh_pointer();
+  frame.positions.resize(frame.mesh->rest.size());
+  simulation_.solver().copy_positions(std::span(frame.positions));
+  frame.statistics = simulation_.statistics();
+  frame.number = ++frame_number_;
+  frames_.publish();
+  last_frame_ = now;
+  frame_ready_();
+}
+
+}  // namespace chainmail

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "simulate/frame.h"
+#include "simulate/simulation.h"
+
+namespace chainmail {
+
+/// Runs one Simulation on a thread of its own. It sleeps while there is nothing to do, relaxes in idle
+/// time, and hands over a frame when something changed, at most 60 times a second.
+class SolverThread {
+ public:
+  /// `frame_ready` is called on the solver's thread after a frame was handed over; it must not wait.
+  SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready);
+  /// Leaves the commands not yet begun undone.
+  ~SolverThread();
+
+  /// Adds a command to the end of the list.
+  void post(Command command);
+  /// Whether every command posted has been carried out.
+  bool idle() const { return waiting_.load(std::memory_order_acquire) == 0; }
+  /// The newest frame; for one reading thread.
+  const Frame& latest_frame() { return frames_.latest(); }
+  /// Takes the sentence of the last command that was refused, if any.
+  std::string take_error();
+
+ private:
+  void run(const std::stop_token& stop);
+  void carry_out(const Command& command);
+  void publish(bool at_rest);
+
+  Simulation simulation_;
+  std::function<void()> frame_ready_;
+  TripleBuffer frames_;
+  std::uint64_t frame_number_ = 0;
+  PassTimes::Clock::time_point last_frame_{};
+  PassTimes::Clock::time_point last_violation_{};
+
+  std::mutex mutex_;  // guards commands_ and error_
+  std::condition_variable_any changed_;
+  std::deque<Command> commands_;
+  std::string error_;
+  std::atomic<int> waiting_ = 0;  // commands posted and not yet carried out
+
+  std::jthread thread_;  // last: it starts when all else stands, and ends first
+};
+
+}  // namespace chainmail

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "solve/body.h"
+#include "solve/waiting_list.h"
+
+namespace chainmail {
+
+/// The propagation that answers a move: one loop for all algorithms that differ in their waiting list.
+///
+/// The grabbed element stands at its target already. `moved` receives the elements that moved, in order
+/// of update, without the grabbed one; `observe(element, sponsor, moved)` is called for every candidate
+/// taken and not dropped. Returns the number of those. Each element is updated at most once (thesis 3.1
+/// and 4.1; Li and Brodlie 2003).
+template <class List, class Body, class Observe>
+std::uint64_t propagate(Body& body, List& list, ElementId grabbed, std::vector<ElementId>& moved, Observe observe) {
+  const auto admit_neighbours = [&](ElementId sponsor) {
+    body.for_each_neighbour(sponsor, [&](ElementId neighbour, EntryId entry) {
+      if (List::admits_updated || !body.updated(neighbour)) {
+        list.admit({entry, sponsor});
+      }
+    });
+  };
+  std::uint64_t checked = 0;
+  moved.clear();
+  body.begin_pass();
+  body.mark_updated(grabbed);
+  admit_neighbours(grabbed);
+  while (!list.empty()) {
+    const Candidate candidate = list.take();
+    const ElementId element = body.mesh->neighbours[candidate.entry];
+    if (body.updated(element)) {
+      continue;
+    }
+    ++checked;
+    const bool has_moved = body.clamp(element, candidate.sponsor, candidate.entry);
+    body.mark_updated(element);
+    observe(element, candidate.sponsor, has_moved);
+    if (has_moved) {
+      moved.push_back(element);
+      admit_neighbours(element);
+    }
+  }
+  return checked;
+}
+
+}  // namespace chainmail

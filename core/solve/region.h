@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/mesh.h"
+#include "solve/softness.h"
+
+namespace chainmail {
+
+/// The valid region: the axis-aligned box in which a neighbour may lie, relative to its sponsor (mesh units).
+template <class Scalar, int Dimension>
+struct Region {
+  Scalar low[Dimension];
+  Scalar high[Dimension];
+};
+
+/// The valid region of a link with this rest vector (thesis section 3.1, Li and Brodlie 2003).
+///
+/// The minimum and maximum, which the thesis leaves out, keep the region of a link that runs left or
+/// down from being inside out. Bounds are computed in double and rounded once.
+template <class Scalar, int Dimension>
+Region<Scalar, Dimension> valid_region(const double (&rest_vector)[Dimension], const LinkSoftness& softness) {
+  Region<Scalar, Dimension> region;
+  for (int k = 0; k < Dimension; ++k) {
+    double others = 0;
+    for (int j = 0; j < Dimension; ++j) {
+      others += j == k ? 0 : std::abs(rest_vector[j]);
+    }
+    const double compressed = softness.compression * rest_vector[k];
+    const double stretched = softness.stretch * rest_vector[k];
+    region.low[k] = static_cast<Scalar>(std::min(compressed, stretched) - softness.shear * others);
+    region.high[k] = static_cast<Scalar>(std::max(compressed, stretched) + softness.shear * others);
+  }
+  return region;
+}
+
+/// The valid region of element `to` relative to element `from`.
+template <class Scalar, int Dimension>
+Region<Scalar, Dimension> valid_region(const Mesh& mesh, ElementId from, ElementId to, const LinkSoftness& softness) {
+  double rest_vector[Dimension];
+  for (int k = 0; k < Dimension; ++k) {
+    rest_vector[k] = mesh.rest[std::size_t{to} * Dimension + k] - mesh.rest[std::size_t{from} * Dimension + k];
+  }
+  return valid_region<Scalar, Dimension>(rest_vector, softness);
+}
+
+}  // namespace chainmail

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "mesh/cuts.h"
+#include "mesh/mesh.h"
+#include "solve/relaxation.h"
+#include "solve/softness.h"
+
+namespace chainmail {
+
+enum class Algorithm { generalized, spiral, natural_queue };
+
+/// How an algorithm is called: `name` on the command line, `label` in the window, and its source.
+struct AlgorithmInfo {
+  Algorithm algorithm;
+  std::string_view name;
+  std::string_view label;
+  std::string_view source;
+};
+
+/// Every algorithm, in the order in which they are offered.
+std::span<const AlgorithmInfo> algorithms();
+const AlgorithmInfo& info(Algorithm algorithm);
+/// The algorithm of this name, if there is one.
+std::optional<Algorithm> find_algorithm(std::string_view name);
+
+enum class Precision { single_precision, double_precision };
+
+/// One processed candidate of a pass.
+struct TraceRow {
+  ElementId element;
+  ElementId sponsor;
+  bool moved;
+};
+using Trace = std::vector<TraceRow>;
+
+/// What a pass did: candidates taken and not dropped, and elements moved without the grabbed one.
+struct PassCount {
+  std::uint64_t checked = 0;
+  std::uint64_t moved = 0;
+};
+
+/// The current positions of all elements, read in place; valid until the solver is next changed.
+class PositionView {
+ public:
+  PositionView(const void* first, std::size_t stride, Precision precision)
+      : first_(static_cast<const std::byte*>(first)), stride_(stride), precision_(precision) {}
+
+  /// Coordinate k (of those the scene carries) of an element, in mesh units.
+  double operator()(ElementId element, int k) const {
+    const std::byte* at = first_ + element * stride_;
+    return precision_ == Precision::single_precision ? double(reinterpret_cast<const float*>(at)[k])
+                                                     : reinterpret_cast<const double*>(at)[k];
+  }
+
+ private:
+  const std::byte* first_;
+  std::size_t stride_;
+  Precision precision_;
+};
+
+/// Moves one object by one algorithm. The scalar and the space dimension are chosen once, at run time,
+/// by make_solver; the algorithm may change between passes and finds the positions as they are.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+
+  virtual void set_algorithm(Algorithm algorithm) = 0;
+  virtual void set_softness(const Softness& softness) = 0;
+  virtual void cut(std::span<const LinkId> links) = 0;
+  virtual void uncut(std::span<const LinkId> links) = 0;
+  /// Back to the rest positions; cuts and softness stay.
+  virtual void reset() = 0;
+
+  /// Sets an element to a target (mesh units; the carried axes count) and propagates: one pass.
+  /// `trace`, where given, receives every candidate that was processed. Throws Error where the target
+  /// is not a finite number of the solver's scalar; nothing has moved then.
+  virtual PassCount move(ElementId element, const Point& target, Trace* trace = nullptr) = 0;
+  /// The elements that the last pass moved, in order of update, without the grabbed one.
+  virtual std::span<const ElementId> moved() const = 0;
+
+  /// Makes these elements and their neighbours active: relaxation will look at them.
+  virtual void wake(std::span<const ElementId> elements) = 0;
+  /// Goes on relaxing with a step in (0, 1] until a sweep ends or `budget` elements were visited;
+  /// `held` stays. Sleeps where nothing is active (then visited is 0 and the sweep has ended).
+  virtual RelaxationResult relax(double step, std::uint64_t budget, std::optional<ElementId> held) = 0;
+  /// Leaves nothing active.
+  virtual void sleep() = 0;
+
+  virtual const Cuts& cuts() const = 0;
+  virtual PositionView positions() const = 0;
+  /// Writes every carried coordinate, element by element, into `out` (element_count x space_dimension).
+  virtual void copy_positions(std::span<float> out) const = 0;
+  virtual void copy_positions(std::span<double> out) const = 0;
+  /// Takes every carried coordinate from `in`, as copy_positions wrote it.
+  virtual void set_positions(std::span<const double> in) = 0;
+};
+
+std::unique_ptr<Solver> make_solver(const MeshPointer& mesh, Algorithm algorithm, Precision precision);
+
+}  // namespace chainmail

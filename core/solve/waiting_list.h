@@ -1,0 +1,71 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// An element that may have to move, and the element whose move made it so.
+struct Candidate {
+  EntryId entry;      // in the sponsor's row of the neighbour table; it names the element and the region
+  ElementId sponsor;  // 8 bytes in all
+};
+
+/// Generalized ChainMail (thesis 3.1, Li and Brodlie 2003): candidates enter at the front, so the last
+/// one in is taken first; all are admitted.
+class FrontList {
+ public:
+  static constexpr bool admits_updated = true;
+
+  bool empty() const { return candidates_.empty(); }
+  void admit(Candidate candidate) { candidates_.push_back(candidate); }
+  Candidate take() {
+    const Candidate candidate = candidates_.back();
+    candidates_.pop_back();
+    return candidate;
+  }
+
+ private:
+  std::vector<Candidate> candidates_;
+};
+
+/// First in, first out, in a ring that only ever grows: after warm-up a pass takes no memory.
+class BackList {
+ public:
+  bool empty() const { return first_ == last_; }
+  void admit(Candidate candidate) {
+    if (last_ - first_ == ring_.size()) {
+      grow();
+    }
+    ring_[last_++ & (ring_.size() - 1)] = candidate;
+  }
+  Candidate take() { return ring_[first_++ & (ring_.size() - 1)]; }
+
+ private:
+  void grow() {
+    std::vector<Candidate> larger(2 * ring_.size());
+    for (std::size_t i = first_; i != last_; ++i) {
+      larger[i & (larger.size() - 1)] = ring_[i & (ring_.size() - 1)];
+    }
+    ring_.swap(larger);
+  }
+
+  std::vector<Candidate> ring_ = std::vector<Candidate>(64);  // a power of two
+  std::size_t first_ = 0;
+  std::size_t last_ = 0;
+};
+
+/// Spiral (thesis 3.2, first alteration): candidates enter at the back; all are admitted.
+struct SpiralList : BackList {
+  static constexpr bool admits_updated = true;
+};
+
+/// Natural Queue ChainMail (thesis 4.1): candidates enter at the back; only those not yet updated.
+struct NaturalQueueList : BackList {
+  static constexpr bool admits_updated = false;
+};
+
+}  // namespace chainmail
