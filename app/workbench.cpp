@@ -1,0 +1,55 @@
+// The workbench's window: reads arguments and opens it.
+
+#include <QApplication>
+#include <QCommandLineParser>
+#include <cstdio>
+
+#include "main_window.h"
+#include "mesh_dock.h"
+#include "startup.h"
+
+namespace {
+
+int fail(const QString& sentence) {
+  std::fprintf(stderr, "workbench: %s\n", qPrintable(sentence));
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  chainmail::prepareApplication();
+  QApplication application(argc, argv);
+  QCoreApplication::setApplicationVersion(QStringLiteral(CHAINMAIL_VERSION));
+  chainmail::styleApplication();
+
+  QCommandLineParser parser;
+  parser.setApplicationDescription(
+      QStringLiteral("Soft objects under Generalized and Natural Queue ChainMail, side by side.\n"
+                     "Example: workbench meshes/sphere.obj"));
+  parser.addHelpOption();
+  parser.addVersionOption();
+  parser.addPositionalArgument(QStringLiteral("MESH"), QStringLiteral("a .dat or .obj file to open"),
+                               QStringLiteral("[MESH]"));
+  if (!parser.parse(QCoreApplication::arguments())) {
+    return fail(parser.errorText() + QStringLiteral("; see workbench --help"));
+  }
+  if (parser.isSet(QStringLiteral("help")) || parser.isSet(QStringLiteral("version"))) {
+    parser.process(application);
+  }
+  if (parser.positionalArguments().size() > 1) {
+    return fail(QStringLiteral("arguments: more than one mesh was given; name one file"));
+  }
+  if (const QString why = chainmail::whyNoWindow(); !why.isEmpty()) {
+    return fail(why);
+  }
+
+  const auto sample = chainmail::sampleRecipe();
+  chainmail::MainWindow window(chainmail::generate(sample), chainmail::recipeName(sample));
+  window.show();
+  if (!parser.positionalArguments().isEmpty()) {
+    window.openFile(parser.positionalArguments().constFirst());
+    window.document().undoStack().clear();  // there is no way back to before the start
+  }
+  return QApplication::exec();
+}

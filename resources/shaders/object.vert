@@ -1,0 +1,17 @@
+#version 330 core
+
+// The coordinates that the scene carries; those it does not carry arrive as 0.
+layout(location = 0) in vec3 carried;
+
+uniform mat4 to_view;  // carried coordinates to view space
+uniform mat4 to_clip;  // view space to clip space
+uniform float point_size;
+
+out vec3 in_view;
+
+void main() {
+  vec4 view = to_view * vec4(carried, 1.0);
+  in_view = view.xyz;
+  gl_Position = to_clip * view;
+  gl_PointSize = point_size;
+}

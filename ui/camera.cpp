@@ -1,0 +1,89 @@
+#include "camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chainmail {
+namespace {
+
+constexpr double fieldOfView = 35;  // degrees, vertical
+constexpr double margin = 1.25;     // of the view around an object that fits
+constexpr double degreesPerPixel = 0.4;
+
+double eyeDistance(double height) { return height / 2 / std::tan(fieldOfView / 2 * M_PI / 180); }
+
+}  // namespace
+
+void Camera::fit(const std::array<Point, 2>& box, bool spatial, QSizeF view) {
+  const Point centre = (box[0] + box[1]) / 2;
+  const Point extent = box[1] - box[0];
+  const double aspect = view.width() / std::max(view.height(), 1.0);
+  centre_ = QVector3D(float(centre.x()), float(centre.y()), float(centre.z()));
+  radius_ = std::max(extent.norm() / 2, 1e-9);
+  spatial_ = spatial;
+  yaw_ = spatial ? -30 : 0;
+  pitch_ = spatial ? 25 : 0;
+  const double flat = std::max(extent.y(), extent.x() / aspect);
+  const double round = 2 * radius_ / std::min(aspect, 1.0) * 0.85;
+  height_ = margin * (spatial ? round : flat > 0 ? flat : 2 * radius_);
+}
+
+void Camera::orbit(QPointF pixels) {
+  if (spatial_) {
+    yaw_ += pixels.x() * degreesPerPixel;
+    pitch_ = std::clamp(pitch_ + pixels.y() * degreesPerPixel, -90.0, 90.0);
+  }
+}
+
+void Camera::pan(QPointF pixels, QSizeF view) {
+  const QVector3D before = pointAt({0, 0}, centre_, view);
+  const QVector3D after = pointAt(pixels, centre_, view);
+  centre_ -= after - before;
+}
+
+void Camera::zoom(double factor, QPointF cursor, QSizeF view) {
+  const QVector3D before = pointAt(cursor, centre_, view);
+  height_ = std::clamp(height_ / factor, radius_ * 1e-5, radius_ * 1e3);
+  centre_ += before - pointAt(cursor, centre_, view);
+}
+
+QMatrix4x4 Camera::toView() const {
+  QMatrix4x4 matrix;
+  matrix.translate(0, 0, float(-eyeDistance(height_)));
+  matrix.rotate(float(pitch_), 1, 0, 0);
+  matrix.rotate(float(yaw_), 0, 1, 0);
+  matrix.translate(-centre_);
+  return matrix;
+}
+
+QMatrix4x4 Camera::toClip(QSizeF view) const {
+  const double aspect = view.width() / std::max(view.height(), 1.0);
+  const double distance = eyeDistance(height_);
+  const double reach = 8 * radius_;  // a dragged object may leave its box by a good way
+  QMatrix4x4 matrix;
+  if (spatial_) {
+    matrix.perspective(float(fieldOfView), float(aspect), float(std::max(distance - reach, distance * 0.02)),
+                       float(distance + reach));
+  } else {
+    const auto halfHeight = float(height_ / 2), halfWidth = float(height_ / 2 * aspect);
+    matrix.ortho(-halfWidth, halfWidth, -halfHeight, halfHeight, float(distance - reach), float(distance + reach));
+  }
+  return matrix;
+}
+
+double Camera::unitsPerPixel(QSizeF view) const { return height_ / std::max(view.height(), 1.0); }
+
+std::array<double, 2> Camera::depthRange() const {
+  const double distance = eyeDistance(height_);
+  return {distance - radius_, distance + radius_};
+}
+
+QVector3D Camera::pointAt(QPointF place, const QVector3D& through, QSizeF view) const {
+  const QMatrix4x4 matrix = toClip(view) * toView();
+  // The depth of the plane, then the place at that depth back into the scene.
+  const float depth = matrix.map(through).z();
+  const QVector3D device(float(2 * place.x() / view.width() - 1), float(1 - 2 * place.y() / view.height()), depth);
+  return matrix.inverted().map(device);
+}
+
+}  // namespace chainmail

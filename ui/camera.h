@@ -1,0 +1,42 @@
+#pragma once
+
+#include <QMatrix4x4>
+#include <QPointF>
+#include <QSizeF>
+#include <QVector3D>
+
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// Where an object is looked at from: straight down on the plane in 1D and 2D, in perspective about a
+/// centre in 3D. Lengths are in mesh units, places in the view in logical pixels from its top left.
+class Camera {
+ public:
+  /// Shows the whole box, from the front, or obliquely from above where it is 3D.
+  void fit(const std::array<Point, 2>& box, bool spatial, QSizeF view);
+  void orbit(QPointF pixels);
+  void pan(QPointF pixels, QSizeF view);
+  /// Brings the object nearer (factor > 1) about the place under the cursor.
+  void zoom(double factor, QPointF cursor, QSizeF view);
+
+  bool spatial() const { return spatial_; }
+  QMatrix4x4 toView() const;
+  QMatrix4x4 toClip(QSizeF view) const;
+  /// Mesh units that a pixel spans, in the plane through the centre.
+  double unitsPerPixel(QSizeF view) const;
+  /// Distances from the eye between which the object lies, for fading with depth.
+  std::array<double, 2> depthRange() const;
+  /// The point under a place of the view, in the plane parallel to the view through `through`.
+  QVector3D pointAt(QPointF place, const QVector3D& through, QSizeF view) const;
+
+ private:
+  QVector3D centre_;
+  double radius_ = 1;  // of the object (mesh units)
+  double height_ = 2;  // of what the view shows in the plane through the centre (mesh units)
+  double yaw_ = 0;     // degrees
+  double pitch_ = 0;
+  bool spatial_ = false;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <QColor>
+
+/// The few colours of the views, told apart by the colour-blind (Okabe and Ito 2008).
+namespace chainmail::colours {
+
+inline const QColor background(0x15, 0x19, 0x1f);
+inline const QColor left(0xe6, 0x9f, 0x00);
+inline const QColor right(0x56, 0xb4, 0xe9);
+inline const QColor marked(0xff, 0xff, 0xff);
+inline const QColor lit(0xf0, 0x50, 0x30);
+
+}  // namespace chainmail::colours

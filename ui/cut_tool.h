@@ -1,0 +1,34 @@
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "document.h"
+#include "tool.h"
+
+namespace chainmail {
+
+/// Draws a stroke; the links that it crosses light up, and are cut in both panels on release.
+class CutTool : public Tool {
+ public:
+  explicit CutTool(Document& document) : document_(document) {}
+
+  QString name() const override { return QStringLiteral("Cut"); }
+  QString hint() const override;
+  QCursor cursor() const override { return Qt::CrossCursor; }
+
+  void hover(View& view, QPointF place) override;
+  void press(View& view, QPointF place) override;
+  void move(View& view, QPointF place) override;
+  void release(View& view, QPointF place) override;
+  void cancel() override;
+  std::span<const QPointF> stroke(const View& view) const override;
+
+ private:
+  Document& document_;
+  const View* at_ = nullptr;  // the view that the stroke is drawn in
+  std::vector<QPointF> stroke_;
+  std::set<LinkId> crossed_;
+};
+
+}  // namespace chainmail

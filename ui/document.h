@@ -1,0 +1,113 @@
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+#include <QUndoStack>
+#include <array>
+#include <atomic>
+#include <memory>
+#include <optional>
+
+#include "mesh/cuts.h"
+#include "simulate/command_log.h"
+#include "simulate/solver_thread.h"
+
+namespace chainmail {
+
+/// What both panels share beside the object: the element under the cursor or the hand, and the links
+/// that a stroke would cut.
+struct Highlight {
+  std::optional<ElementId> element;
+  bool grabbed = false;
+  std::vector<LinkId> links;
+
+  bool operator==(const Highlight&) const = default;
+};
+
+/// The object, its parameters, their undo stack, and the two solvers that deform it side by side.
+///
+/// Edits go through the undo stack and change the data and both solvers; the moves of the hand go
+/// straight to the solvers' one log.
+class Document : public QObject {
+  Q_OBJECT
+
+ public:
+  static constexpr int panels = 2;
+
+  Document(MeshPointer mesh, const QString& name);
+  ~Document() override;
+
+  const MeshPointer& mesh() const { return mesh_; }
+  const QString& name() const { return name_; }
+  const Cuts& cuts() const { return cuts_; }
+  const LinkSoftness& softness() const { return softness_.global; }
+  bool relaxationOn() const { return relaxation_.on; }
+  double relaxationStep() const { return relaxation_.step; }
+  Algorithm algorithm(int panel) const { return algorithms_[panel]; }
+  QUndoStack& undoStack() { return undoStack_; }
+
+  /// The newest frame of a panel, or none while it does not show the object yet; it stays as it is until
+  /// frameReady.
+  const Frame* frame(int panel) const { return frames_[panel]->mesh == mesh_ ? frames_[panel] : nullptr; }
+  /// Whether both solvers have carried out all that was asked of them.
+  bool idle() const;
+
+  /// The hand, in mesh units. Not undone: 'reset object' is.
+  void grab(ElementId element);
+  void drag(const Point& target);
+  void release();
+
+  /// Edits, each one step of undo. Softness changes of one gesture (not 0) become one step.
+  void setSoftness(const LinkSoftness& softness, const QString& text, int gesture = 0);
+  void cut(const std::vector<LinkId>& links);
+  void resetObject();
+  void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text);
+
+  void setAlgorithm(int panel, Algorithm algorithm);
+  void setRelaxation(bool on, double step);
+
+  const Highlight& highlight() const { return highlight_; }
+  void setHighlight(const Highlight& highlight);
+
+ signals:
+  void frameReady(int panel);
+  void meshChanged();
+  void cutsChanged();
+  void softnessChanged();
+  void relaxationChanged();
+  void algorithmChanged(int panel);
+  void highlightChanged();
+  /// A command was refused: one sentence.
+  void refused(const QString& sentence);
+
+ private:
+  friend class CutEdit;
+  friend class SoftnessEdit;
+  friend class KeepingEdit;
+  friend class ResetEdit;
+  friend class MeshEdit;
+
+  void applyCuts(const std::vector<LinkId>& links, bool cut);
+  void applySoftness(const LinkSoftness& softness);
+  void post(const Command& command) { log_->post(command); }
+  void receiveFrame(int panel);
+
+  MeshPointer mesh_;
+  QString name_;
+  Cuts cuts_;
+  Softness softness_;
+  commands::SetRelaxation relaxation_;
+  std::array<Algorithm, panels> algorithms_{Algorithm::generalized, Algorithm::natural_queue};
+  Highlight highlight_;
+  commands::StateId nextState_ = 1;
+
+  // The solver threads announce a frame at most once until it is received.
+  std::array<std::atomic<bool>, panels> announced_{};
+  std::array<std::unique_ptr<SolverThread>, panels> solvers_;
+  std::array<const Frame*, panels> frames_{};
+  std::unique_ptr<CommandLog> log_;
+  QTimer sampler_;
+  QUndoStack undoStack_;  // last: its edits post to the log when they go
+};
+
+}  // namespace chainmail

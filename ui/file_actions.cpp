@@ -1,0 +1,146 @@
+#include "file_actions.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QGuiApplication>
+#include <QPixmap>
+#include <QSaveFile>
+#include <QSettings>
+#include <filesystem>
+#include <functional>
+
+#include "files/mesh_file.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int recentFiles = 8;
+
+std::filesystem::path asPath(const QString& path) { return std::filesystem::path(path.toStdU16String()); }
+
+QString recentKey() { return QStringLiteral("recentFiles"); }
+
+}  // namespace
+
+void FileActions::fill(QMenu& menu) {
+  auto* openAction = menu.addAction(QStringLiteral("&Open…"), QKeySequence::Open, this, &FileActions::open);
+  openAction->setObjectName(QStringLiteral("openFile"));
+  openAction->setIconText(QStringLiteral("Open"));
+  recent_ = menu.addMenu(QStringLiteral("Open &recent"));
+  auto* saveAction = menu.addAction(QStringLiteral("&Save mesh…"), QKeySequence::Save, this, &FileActions::save);
+  saveAction->setObjectName(QStringLiteral("saveFile"));
+  saveAction->setIconText(QStringLiteral("Save"));
+  saveAction->setStatusTip(QStringLiteral("The object at rest, without its cut links, as .dat or .obj"));
+  addShapeActions(menu);
+  menu.addSeparator();
+  menu.addAction(QStringLiteral("Save s&creenshot…"), Qt::Key_F12, this, &FileActions::saveScreenshot);
+  fillRecent();
+}
+
+void FileActions::addShapeActions(QMenu& menu) {
+  auto* shapes = menu.addMenu(QStringLiteral("Save &deformed shape"));
+  for (int panel = 0; panel < Document::panels; ++panel) {
+    shapes->addAction(
+        panel == 0 ? QStringLiteral("&Left panel…") : QStringLiteral("&Right panel…"), this, [this, panel] {
+          const QString path = QFileDialog::getSaveFileName(&window_, QStringLiteral("Save deformed shape"),
+                                                            startFolder(), QStringLiteral("Wavefront OBJ (*.obj)"));
+          if (!path.isEmpty()) {
+            saveShapePath(panel, path);
+          }
+        });
+  }
+}
+
+void FileActions::open() {
+  const QString path = QFileDialog::getOpenFileName(&window_, QStringLiteral("Open mesh"), startFolder(),
+                                                    QStringLiteral("Meshes (*.dat *.obj);;All files (*)"));
+  if (!path.isEmpty()) {
+    openPath(path);
+  }
+}
+
+void FileActions::openPath(const QString& path) {
+  QGuiApplication::setOverrideCursor(Qt::WaitCursor);
+  try {
+    const QString name = QFileInfo(path).fileName();
+    document_.replaceMesh(read_mesh(asPath(path), {}), name, QStringLiteral("open %1").arg(name));
+    remember(path);
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+  QGuiApplication::restoreOverrideCursor();
+}
+
+void FileActions::save() {
+  const QString path = QFileDialog::getSaveFileName(
+      &window_, QStringLiteral("Save mesh"), startFolder(),
+      document_.mesh()->lattice ? QStringLiteral("Links of a grid (*.dat);;Wavefront OBJ (*.obj)")
+                                : QStringLiteral("Wavefront OBJ (*.obj)"));
+  if (!path.isEmpty()) {
+    savePath(path);
+  }
+}
+
+void FileActions::savePath(const QString& path) { write(path, rest_positions(*document_.mesh())); }
+
+void FileActions::saveShapePath(int panel, const QString& path) {
+  if (const Frame* frame = document_.frame(panel)) {
+    write(path, {frame->positions.data(), frame->mesh->space_dimension * sizeof(float), Precision::single_precision});
+  }
+}
+
+void FileActions::write(const QString& path, const PositionView& positions) {
+  try {
+    save_mesh(asPath(path), *document_.mesh(), document_.cuts(), positions);
+    remember(path);
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+}
+
+void FileActions::saveScreenshot() {
+  // The window is taken before the dialog can cover it.
+  const QPixmap picture = window_.grab();
+  const QString path = QFileDialog::getSaveFileName(&window_, QStringLiteral("Save screenshot"), startFolder(),
+                                                    QStringLiteral("PNG picture (*.png)"));
+  if (!path.isEmpty()) {
+    writePicture(picture, path);
+  }
+}
+
+void FileActions::saveScreenshotPath(const QString& path) { writePicture(window_.grab(), path); }
+
+void FileActions::writePicture(const QPixmap& picture, const QString& path) {
+  QSaveFile file(path);
+  if (!file.open(QIODevice::WriteOnly) || !picture.save(&file, "PNG") || !file.commit()) {
+    emit failed(QStringLiteral("%1: the picture could not be written (%2); choose another place")
+                    .arg(path, file.errorString()));
+  }
+}
+
+void FileActions::fillRecent() {
+  recent_->clear();
+  for (const QString& path : QSettings().value(recentKey()).toStringList()) {
+    recent_->addAction(QDir::toNativeSeparators(path), this, [this, path] { openPath(path); });
+  }
+  recent_->setEnabled(!recent_->isEmpty());
+}
+
+void FileActions::remember(const QString& path) {
+  QSettings settings;
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  QStringList recent = settings.value(recentKey()).toStringList();
+  recent.removeAll(absolute);
+  recent.prepend(absolute);
+  settings.setValue(recentKey(), recent.mid(0, recentFiles));
+  fillRecent();
+}
+
+QString FileActions::startFolder() const {
+  const QStringList recent = QSettings().value(recentKey()).toStringList();
+  return recent.isEmpty() ? QDir::currentPath() : QFileInfo(recent.first()).absolutePath();
+}
+
+}  // namespace chainmail

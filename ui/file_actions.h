@@ -1,0 +1,45 @@
+#pragma once
+
+#include <QMenu>
+#include <QObject>
+
+#include "document.h"
+
+namespace chainmail {
+
+/// The File menu: open, recent files, save, screenshot. Nothing is lost when one of them fails.
+class FileActions : public QObject {
+  Q_OBJECT
+
+ public:
+  FileActions(QWidget& window, Document& document) : QObject(&window), window_(window), document_(document) {}
+
+  void fill(QMenu& menu);
+  void open();
+  void openPath(const QString& path);
+  void save();
+  /// Saves the object, without its cut links: .dat its links, .obj its rest shape.
+  void savePath(const QString& path);
+  /// Saves the shape that a panel shows, as .obj.
+  void saveShapePath(int panel, const QString& path);
+  /// Saves a picture of the window as it stands.
+  void saveScreenshotPath(const QString& path);
+
+ signals:
+  void failed(const QString& sentence);
+
+ private:
+  void addShapeActions(QMenu& menu);
+  void write(const QString& path, const PositionView& positions);
+  void saveScreenshot();
+  void writePicture(const QPixmap& picture, const QString& path);
+  void fillRecent();
+  void remember(const QString& path);
+  QString startFolder() const;
+
+  QWidget& window_;
+  Document& document_;
+  QMenu* recent_ = nullptr;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,154 @@
+#include "mesh_dock.h"
+
+#include <QFormLayout>
+#include <QGuiApplication>
+#include <QHBoxLayout>
+#include <QLocale>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+/// The largest size offered along an axis, by the number of sizes of a kind.
+constexpr std::array largestSize{1'000'000, 1024, 100};
+constexpr std::array axisNames{"W", "H", "D"};
+
+QString text(std::string_view view) { return QString::fromUtf8(view.data(), qsizetype(view.size())); }
+
+QString capitalised(QString name) {
+  name[0] = name[0].toUpper();
+  return name;
+}
+
+const MeshKindInfo& infoOf(MeshKind kind) {
+  return *std::find_if(mesh_kinds().begin(), mesh_kinds().end(), [kind](auto& info) { return info.kind == kind; });
+}
+
+}  // namespace
+
+QString recipeName(const MeshRecipe& recipe) {
+  const MeshKindInfo& info = infoOf(recipe.kind);
+  QStringList size;
+  for (int k = 0; k < info.sizes; ++k) {
+    size << QString::number(recipe.size[k]);
+  }
+  return QStringLiteral("%1 %2").arg(text(info.name), size.join(QStringLiteral("×")));
+}
+
+MeshDock::MeshDock(Document& document)
+    : QDockWidget(QStringLiteral("Mesh")),
+      document_(document),
+      kind_(new QComboBox),
+      spacing_(new ParameterRow(parameters::spacing)),
+      space_(new QComboBox),
+      build_(new QPushButton(QStringLiteral("Build"))),
+      description_(new QLabel) {
+  setObjectName(QStringLiteral("meshDock"));
+  kind_->setObjectName(QStringLiteral("meshKind"));
+  for (const auto& info : mesh_kinds()) {
+    kind_->addItem(capitalised(text(info.name)));
+    kind_->setItemData(kind_->count() - 1, text(info.help), Qt::ToolTipRole);
+  }
+  kind_->setCurrentText(capitalised(text(infoOf(sampleRecipe().kind).name)));
+  auto* sizes = new QHBoxLayout;
+  for (int k = 0; k < 3; ++k) {
+    sizes_[k] = new QSpinBox;
+    sizes_[k]->setObjectName(QStringLiteral("size%1").arg(QLatin1String(axisNames[k])));
+    sizes_[k]->setAccessibleName(QStringLiteral("Elements along %1").arg(QLatin1Char("xyz"[k])));
+    sizes_[k]->setToolTip(QStringLiteral("Elements along %1").arg(QLatin1Char("xyz"[k])));
+    sizes_[k]->setKeyboardTracking(false);
+    sizes_[k]->setRange(2, largestSize[0]);
+    sizes_[k]->setValue(k == 2 ? 16 : int(sampleRecipe().size[k]));
+    sizes->addWidget(sizes_[k]);
+  }
+  space_->setObjectName(QStringLiteral("spaceDimension"));
+  space_->setToolTip(QStringLiteral("How many coordinates exist: a plane scene carries no third"));
+  build_->setObjectName(QStringLiteral("buildMesh"));
+  description_->setObjectName(QStringLiteral("meshDescription"));
+  description_->setWordWrap(true);
+  auto* open = new QPushButton(QStringLiteral("Open…"));
+  auto* save = new QPushButton(QStringLiteral("Save…"));
+
+  auto* content = new QWidget;
+  auto* column = new QVBoxLayout(content);
+  auto* form = new QFormLayout;
+  form->addRow(QStringLiteral("Kind"), kind_);
+  form->addRow(QStringLiteral("Size"), sizes);
+  form->addRow(QStringLiteral("Space"), space_);
+  column->addLayout(form);
+  column->addWidget(spacing_);
+  column->addWidget(build_);
+  column->addWidget(description_);
+  auto* files = new QHBoxLayout;
+  files->addWidget(open);
+  files->addWidget(save);
+  column->addLayout(files);
+  column->addStretch();
+  content->setMinimumWidth(dockWidth);
+  setWidget(content);
+
+  connect(kind_, &QComboBox::currentIndexChanged, this, &MeshDock::adaptToKind);
+  connect(build_, &QPushButton::clicked, this, &MeshDock::build);
+  connect(open, &QPushButton::clicked, this, &MeshDock::openRequested);
+  connect(save, &QPushButton::clicked, this, &MeshDock::saveRequested);
+  connect(&document, &Document::meshChanged, this, &MeshDock::describe);
+  connect(&document, &Document::cutsChanged, this, &MeshDock::describe);
+  adaptToKind();
+  describe();
+}
+
+void MeshDock::adaptToKind() {
+  const int count = kind().sizes;
+  for (int k = 0; k < 3; ++k) {
+    sizes_[k]->setVisible(k < count);
+    sizes_[k]->setRange(2, largestSize[count - 1]);
+  }
+  space_->clear();
+  for (int dimension = count; dimension <= 3; ++dimension) {
+    space_->addItem(QStringLiteral("%1D").arg(dimension), dimension);
+  }
+}
+
+MeshRecipe MeshDock::recipe() const {
+  MeshRecipe recipe;
+  recipe.kind = kind().kind;
+  for (int k = 0; k < 3; ++k) {
+    recipe.size[k] = k < kind().sizes ? std::uint32_t(sizes_[k]->value()) : 1;
+  }
+  recipe.spacing = spacing_->value();
+  recipe.space_dimension = space_->currentData().toInt();
+  return recipe;
+}
+
+void MeshDock::build() {
+  const QString name = recipeName(recipe());
+  QGuiApplication::setOverrideCursor(Qt::WaitCursor);
+  try {
+    document_.replaceMesh(generate(recipe()), name, QStringLiteral("build %1").arg(name));
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+  QGuiApplication::restoreOverrideCursor();
+}
+
+void MeshDock::describe() {
+  const Mesh& mesh = *document_.mesh();
+  const QLocale locale;
+  QString what = QStringLiteral("<b>%1</b><br>%2 elements, %3 links")
+                     .arg(document_.name().toHtmlEscaped(), locale.toString(mesh.element_count()),
+                          locale.toString(mesh.link_count()));
+  if (document_.cuts().count() != 0) {
+    what += QStringLiteral(", %1 cut").arg(locale.toString(document_.cuts().count()));
+  }
+  what += QStringLiteral("<br>a %1 in %2D space")
+              .arg(QStringList{QStringLiteral("chain"), QStringLiteral("surface"),
+                               QStringLiteral("volume")}[mesh.object_dimension - 1])
+              .arg(mesh.space_dimension);
+  description_->setText(what);
+}
+
+}  // namespace chainmail

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <QComboBox>
+#include <QElapsedTimer>
+#include <QFrame>
+#include <QLabel>
+#include <QTimer>
+
+#include "view.h"
+
+namespace chainmail {
+
+/// One side of the comparison: the algorithm's selector, the view, and what the last pass did.
+class Panel : public QFrame {
+  Q_OBJECT
+
+ public:
+  Panel(Document& document, int panel, std::shared_ptr<Camera> camera, QColor colour);
+
+  View& view() { return *view_; }
+  QComboBox& selector() { return *selector_; }
+
+ private:
+  void showStatistics();
+  QString describe(const Statistics& statistics) const;
+
+  Document& document_;
+  int panel_;
+  QComboBox* selector_;
+  QLabel* state_;
+  QLabel* statistics_;
+  View* view_;
+  QTimer refresh_;  // figures change at a rate that can be read, and only when there is something new
+};
+
+}  // namespace chainmail

@@ -1,0 +1,98 @@
+#include "parameter_row.h"
+
+#include <QGridLayout>
+#include <QSignalBlocker>
+#include <algorithm>
+#include <cmath>
+
+namespace chainmail {
+namespace {
+
+constexpr int sliderSteps = 1000;
+constexpr int gesturePauseMilliseconds = 700;
+
+QString text(std::string_view view) { return QString::fromUtf8(view.data(), qsizetype(view.size())); }
+
+/// Gestures are numbered through the whole window, so that two rows never share one.
+int nextGesture() {
+  static int last = 0;
+  return ++last;
+}
+
+}  // namespace
+
+ParameterRow::ParameterRow(const Parameter& parameter)
+    : parameter_(parameter),
+      label_(new QLabel(text(parameter.label))),
+      slider_(new QSlider(Qt::Horizontal)),
+      spin_(new QDoubleSpinBox),
+      reset_(new QToolButton) {
+  const QString name = text(parameter.name);
+  const QString help =
+      QStringLiteral("%1 (%2): %3").arg(text(parameter.label), text(parameter.unit), text(parameter.help));
+  label_->setBuddy(spin_);
+  slider_->setObjectName(name + QStringLiteral("Slider"));
+  slider_->setAccessibleName(text(parameter.label));
+  slider_->setRange(0, sliderSteps);
+  slider_->setPageStep(sliderSteps / 20);
+  spin_->setObjectName(name + QStringLiteral("Spin"));
+  spin_->setKeyboardTracking(false);
+  spin_->setDecimals(parameter.decimals);
+  spin_->setRange(parameter.lowest, parameter.highest);
+  spin_->setSingleStep(parameter.step);
+  spin_->setStepType(parameter.highest > 1000 ? QAbstractSpinBox::AdaptiveDecimalStepType
+                                              : QAbstractSpinBox::DefaultStepType);
+  spin_->setFixedWidth(88);
+  reset_->setObjectName(name + QStringLiteral("Reset"));
+  reset_->setText(QStringLiteral("↺"));
+  reset_->setAutoRaise(true);
+  reset_->setToolTip(QStringLiteral("Back to %1").arg(parameter.standard));
+  reset_->setAccessibleName(QStringLiteral("Reset %1").arg(text(parameter.label)));
+  for (QWidget* widget : std::initializer_list<QWidget*>{label_, slider_, spin_}) {
+    widget->setToolTip(help);
+  }
+  show(parameter.standard);
+
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(6);
+  grid->setVerticalSpacing(2);
+  grid->addWidget(label_, 0, 0);
+  grid->addWidget(spin_, 0, 1);
+  grid->addWidget(reset_, 0, 2);
+  grid->addWidget(slider_, 1, 0, 1, 3);
+  grid->setColumnStretch(0, 1);
+
+  connect(slider_, &QSlider::sliderPressed, this, [this] { gesture_ = nextGesture(); });
+  connect(slider_, &QSlider::valueChanged, this, [this](int at) {
+    announce(parameter_.lowest + (parameter_.slider_highest - parameter_.lowest) * at / sliderSteps);
+  });
+  connect(spin_, &QDoubleSpinBox::valueChanged, this, &ParameterRow::announce);
+  connect(reset_, &QToolButton::clicked, this, [this] { announce(parameter_.standard); });
+}
+
+void ParameterRow::show(double value) {
+  const QSignalBlocker blockSlider(slider_);
+  const QSignalBlocker blockSpin(spin_);
+  spin_->setValue(value);
+  if (!slider_->isSliderDown()) {
+    slider_->setValue(toSlider(value));
+  }
+  reset_->setEnabled(spin_->value() != parameter_.standard);
+}
+
+int ParameterRow::toSlider(double value) const {
+  const double share = (value - parameter_.lowest) / (parameter_.slider_highest - parameter_.lowest);
+  return int(std::lround(std::clamp(share, 0.0, 1.0) * sliderSteps));
+}
+
+void ParameterRow::announce(double value) {
+  if (!slider_->isSliderDown() && (!sinceChange_.isValid() || sinceChange_.elapsed() > gesturePauseMilliseconds)) {
+    gesture_ = nextGesture();
+  }
+  sinceChange_.start();
+  show(value);
+  emit changed(spin_->value(), gesture_);
+}
+
+}  // namespace chainmail

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <QCursor>
+#include <QPointF>
+#include <QString>
+#include <span>
+
+namespace chainmail {
+
+class View;
+
+/// What the left mouse button does in a view. One tool is active at a time, for all views.
+class Tool {
+ public:
+  virtual ~Tool() = default;
+
+  virtual QString name() const = 0;
+  /// What the buttons do, for the status bar.
+  virtual QString hint() const = 0;
+  virtual QCursor cursor() const = 0;
+
+  /// Places are in logical pixels from the view's top left. `hover` is a move without a button.
+  virtual void hover(View& view, QPointF place) = 0;
+  virtual void press(View& view, QPointF place) = 0;
+  virtual void move(View& view, QPointF place) = 0;
+  virtual void release(View& view, QPointF place) = 0;
+  /// Esc, or another tool: gives up what was begun and leaves nothing behind.
+  virtual void cancel() = 0;
+
+  /// A line to draw in the view where the tool is at work (logical pixels).
+  virtual std::span<const QPointF> stroke(const View& view) const = 0;
+};
+
+}  // namespace chainmail

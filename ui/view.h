@@ -1,0 +1,77 @@
+#pragma once
+
+#include <QOpenGLWidget>
+#include <QTimer>
+#include <memory>
+
+#include "camera.h"
+#include "document.h"
+#include "frame_meter.h"
+#include "object_painter.h"
+#include "picking.h"
+#include "tool.h"
+
+namespace chainmail {
+
+/// Draws one panel's object and hands the mouse to the active tool. It knows no rule of the model.
+class View : public QOpenGLWidget {
+  Q_OBJECT
+
+ public:
+  View(Document& document, int panel, std::shared_ptr<Camera> camera, QColor colour);
+  ~View() override;
+
+  void setTool(Tool* tool);
+  void setCamera(std::shared_ptr<Camera> camera);
+  const std::shared_ptr<Camera>& camera() const { return camera_; }
+  /// Shows the whole rest shape.
+  void fit();
+
+  /// For tools: what is under a place of this view, and where an element is.
+  std::optional<ElementId> elementAt(QPointF place) const;
+  std::vector<LinkId> linksCrossing(QLineF stroke) const;
+  Point position(ElementId element) const;
+  QVector3D pointAt(QPointF place, const Point& through) const;
+
+  /// Where an element appears (logical pixels).
+  QPointF placeOf(ElementId element) const;
+
+  FrameMeter& meter() { return meter_; }
+  /// How coarsely the object is drawn, as ObjectPainter::step.
+  unsigned drawnStep() const { return painter_.step(); }
+
+ signals:
+  void cameraChanged();
+  void failed(const QString& sentence);
+  void drawnStepChanged();
+
+ protected:
+  void initializeGL() override;
+  void paintGL() override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+
+ private:
+  ObjectPainter::Scene scene() const;
+  Projection projection() const;
+  void drawHighlight(const ObjectPainter::Scene& scene);
+  void moveCamera(QPointF travel, Qt::MouseButtons buttons);
+
+  Document& document_;
+  int panel_;
+  std::shared_ptr<Camera> camera_;
+  QColor colour_;
+  Tool* tool_ = nullptr;
+  ObjectPainter painter_;
+  FrameMeter meter_;
+  QTimer hover_;  // the search for the element under the cursor runs once a frame, not once an event
+  QPointF cursor_;
+  bool fitPending_ = true;
+  bool painterReady_ = false;
+};
+
+}  // namespace chainmail
