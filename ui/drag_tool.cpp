@@ -9,7 +9,11 @@ QString DragTool::hint() const {
       "Left: drag an element, in both panels  ·  Right: orbit (3D)  ·  Middle: pan  ·  Wheel: zoom  ·  F: fit");
 }
 
-void DragTool::hover(View& view, QPointF place) { document_.setHighlight({view.elementAt(place), false, {}}); }
+void DragTool::hover(View& view, QPointF place) {
+  if (!grabbed_) {
+    document_.setHighlight({view.elementAt(place), false, {}});
+  }
+}
 
 void DragTool::press(View& view, QPointF place) {
   const auto element = view.elementAt(place);

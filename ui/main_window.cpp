@@ -65,7 +65,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
 
 MainWindow::~MainWindow() {
   // The panels look at the document until they are gone.
-  qDeleteAll(panels_);
+  delete takeCentralWidget();
 }
 
 void MainWindow::makePanels() {

@@ -48,6 +48,9 @@ View::View(Document& document, int panel, std::shared_ptr<Camera> camera, QColor
 }
 
 View::~View() {
+  if (context() != nullptr) {
+    disconnect(context(), nullptr, this, nullptr);  // its end must find nothing of this view
+  }
   makeCurrent();
   painter_.destroy();
   doneCurrent();

@@ -1,0 +1,77 @@
+// Which element lies under the cursor, and which links a stroke crosses.
+
+#include "picking.h"
+
+#include <QTest>
+
+#include "camera.h"
+#include "mesh/generate.h"
+
+using namespace chainmail;
+
+namespace {
+
+struct Scene {
+  explicit Scene(const MeshRecipe& recipe) {
+    frame.mesh = generate(recipe);
+    frame.positions.assign(frame.mesh->rest.begin(), frame.mesh->rest.end());
+    camera.fit(bounds(*frame.mesh), frame.mesh->space_dimension == 3, view);
+  }
+  Projection projection() const { return {*frame.mesh, camera.toView(), camera.toClip(view), view}; }
+  QPointF place(ElementId e) const {
+    const auto at = projection()(frame.positions.data() + std::size_t{e} * frame.mesh->space_dimension);
+    return {at.x, at.y};
+  }
+
+  QSizeF view{800, 600};
+  Frame frame;
+  Camera camera;
+};
+
+}  // namespace
+
+class Picking : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void theNearestWithinReach() {
+    const Scene scene({MeshKind::grid, {5, 4, 1}, 1, {}});
+    const QPointF at = scene.place(7);
+    QCOMPARE(nearestElement(scene.frame, scene.projection(), at + QPointF(6, 5), 14), std::optional<ElementId>(7));
+    QCOMPARE(nearestElement(scene.frame, scene.projection(), at + QPointF(20, 0), 14), std::nullopt);
+  }
+
+  void theOneInFrontIsPreferred() {
+    // Seen straight from the front, the elements of a column along z nearly cover each other.
+    Scene scene({MeshKind::block, {2, 2, 9}, 1, {}});
+    scene.camera.orbit({30 / 0.4, -25 / 0.4});
+    const ElementId front = 4 * 8;
+    QCOMPARE(nearestElement(scene.frame, scene.projection(), scene.place(front), 40), std::optional<ElementId>(front));
+  }
+
+  void aStrokeCrossesWhatLiesUnderIt() {
+    const Scene scene({MeshKind::grid, {5, 4, 1}, 1, {}});
+    const QPointF half = (scene.place(6) - scene.place(0)) / 2;
+    // From the middle of the first square to the middle of the one above: across one link.
+    const QLineF stroke(scene.place(0) + half, scene.place(5) + half);
+    const auto link = find_link(*scene.frame.mesh, 5, 6);
+    const Cuts none(scene.frame.mesh);
+    QCOMPARE(crossedLinks(scene.frame, none, scene.projection(), stroke), std::vector<LinkId>{*link});
+    Cuts cut(scene.frame.mesh);
+    cut.cut(*link);
+    QVERIFY(crossedLinks(scene.frame, cut, scene.projection(), stroke).empty());
+    QVERIFY(crossedLinks(scene.frame, none, scene.projection(), QLineF(1, 1, 9, 1)).empty());
+  }
+
+  void coordinatesThatAreNotCarriedStayInPlace() {
+    MeshParts parts;
+    parts.rest = {Point(0, 5, 1), Point(2, 5, 3)};
+    parts.links = {{0, 1}};
+    const auto mesh = build_mesh(std::move(parts));
+    const QVector3D second = placement(*mesh).map(QVector3D(2, 3, 0));
+    QCOMPARE(second, QVector3D(2, 5, 3));
+  }
+};
+
+QTEST_GUILESS_MAIN(Picking)
+#include "picking.moc"

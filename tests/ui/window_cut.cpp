@@ -1,0 +1,101 @@
+// The cut tool in a real window.
+
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+/// A stroke straight down between the fourth and the fifth column of a 9 x 7 grid.
+QList<QPoint> strokeBetweenColumns(Workbench& bench) {
+  const QPoint top = (bench.place(0, 57) + bench.place(0, 58)) / 2;
+  const QPoint bottom = (bench.place(0, 3) + bench.place(0, 4)) / 2;
+  return {top - QPoint(0, 20), bottom + QPoint(0, 20)};
+}
+
+}  // namespace
+
+class WindowCut : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void aStrokeLightsItsLinksAndCutsThemInBothPanels() {
+    Workbench bench;
+    bench.trigger("toolCut");
+    const auto places = strokeBetweenColumns(bench);
+    bench.stroke(0, places, false);
+    QCOMPARE(bench.document().highlight().links.size(), 7U);  // one a row
+    QCOMPARE(bench.document().cuts().count(), 0U);
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, places.last());
+    bench.settle();
+    QCOMPARE(bench.document().cuts().count(), 7U);
+    for (ElementId row = 0; row < 7; ++row) {
+      const auto link = find_link(*bench.document().mesh(), 9 * row + 3, 9 * row + 4);
+      QVERIFY(bench.document().cuts().is_cut(*link));
+    }
+    QVERIFY(bench.document().highlight().links.empty());
+
+    // The halves are apart: dragging one leaves the other where it is.
+    bench.trigger("toolDrag");
+    const QPoint from = bench.place(1, 35);
+    bench.stroke(1, {from, from + QPoint(100, -120)});
+    for (int p = 0; p < 2; ++p) {
+      QVERIFY(bench.position(p, 35) != bench.document().mesh()->rest_position(35));
+      for (const ElementId left : {0U, 3U, 30U, 57U}) {
+        QCOMPARE(bench.position(p, left), bench.document().mesh()->rest_position(left));
+      }
+    }
+  }
+
+  void escapeGivesTheStrokeUp() {
+    Workbench bench;
+    bench.trigger("toolCut");
+    const auto places = strokeBetweenColumns(bench);
+    bench.stroke(0, places, false);
+    QTest::keyClick(&bench.window, Qt::Key_Escape);
+    QVERIFY(bench.document().highlight().links.empty());
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, places.last());
+    bench.settle();
+    QCOMPARE(bench.document().cuts().count(), 0U);
+    QVERIFY(!bench.document().undoStack().canUndo());
+  }
+
+  void cutsAreUndoneAndRedone() {
+    Workbench bench;
+    bench.trigger("toolCut");
+    bench.stroke(0, strokeBetweenColumns(bench));
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("cut 7 links"));
+    QTest::keyClick(&bench.window, Qt::Key_Z, Qt::ControlModifier);
+    bench.settle();
+    QCOMPARE(bench.document().cuts().count(), 0U);
+    bench.trigger("toolDrag");
+    const QPoint from = bench.place(0, 35);
+    bench.stroke(0, {from, from + QPoint(250, 0)});
+    QVERIFY(bench.position(1, 30) != bench.document().mesh()->rest_position(30));  // whole again
+    bench.document().undoStack().redo();
+    bench.settle();
+    QCOMPARE(bench.document().cuts().count(), 7U);
+  }
+
+  void keysChooseTheTool() {
+    Workbench bench;
+    QTest::keyClick(&bench.window, Qt::Key_K);
+    QVERIFY(bench.find<QAction>("toolCut")->isChecked());
+    QCOMPARE(bench.view(1).cursor().shape(), Qt::CrossCursor);
+    QTest::keyClick(&bench.window, Qt::Key_D);
+    QVERIFY(bench.find<QAction>("toolDrag")->isChecked());
+  }
+
+  void cuttingTwiceCutsNothingTwice() {
+    Workbench bench;
+    bench.trigger("toolCut");
+    bench.stroke(0, strokeBetweenColumns(bench));
+    bench.stroke(0, strokeBetweenColumns(bench));
+    QCOMPARE(bench.document().undoStack().count(), 1);
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowCut>(argc, argv); }
+#include "window_cut.moc"

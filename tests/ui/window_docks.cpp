@@ -1,0 +1,179 @@
+// Every control of the docks, in a real window.
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QSlider>
+#include <QSpinBox>
+#include <QToolButton>
+
+#include "window.h"
+
+using namespace chainmail;
+
+class WindowDocks : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void stiffness_data() {
+    QTest::addColumn<QByteArray>("name");
+    QTest::addColumn<double>("value");
+    QTest::newRow("compression") << QByteArray("compression") << 0.5;
+    QTest::newRow("stretch") << QByteArray("stretch") << 1.75;
+    QTest::newRow("shear") << QByteArray("shear") << 0.4;
+  }
+  void stiffness() {
+    QFETCH(QByteArray, name);
+    QFETCH(double, value);
+    Workbench bench;
+    auto* spin = bench.find<QDoubleSpinBox>(name + "Spin");
+    auto* slider = bench.find<QSlider>(name + "Slider");
+    auto* reset = bench.find<QToolButton>(name + "Reset");
+    const double standard = spin->value();
+    const int sliderAt = slider->value();
+    QVERIFY(!reset->isEnabled());
+    spin->setValue(value);
+    QCOMPARE(of(bench, name), value);
+    QVERIFY(slider->value() != sliderAt);
+    QVERIFY(reset->isEnabled());
+    QCOMPARE(bench.document().undoStack().undoText(), QString::fromLatin1(name));
+    bench.document().undoStack().undo();
+    QCOMPARE(spin->value(), standard);
+    QCOMPARE(slider->value(), sliderAt);
+    slider->setValue(slider->maximum());
+    QVERIFY(of(bench, name) != standard);
+    reset->click();
+    QCOMPARE(of(bench, name), standard);
+  }
+
+  void oneDragOfASliderIsOneStepOfUndo() {
+    Workbench bench;
+    auto* slider = bench.find<QSlider>("stretchSlider");
+    slider->setSliderDown(true);
+    for (int at = 200; at <= 400; at += 20) {
+      slider->setValue(at);
+    }
+    slider->setSliderDown(false);
+    QCOMPARE(bench.document().undoStack().count(), 1);
+    bench.document().undoStack().undo();
+    QCOMPARE(bench.document().softness(), LinkSoftness());
+  }
+
+  void stiffnessActsLiveOnADeformedObject() {
+    Workbench bench;
+    bench.find<QDoubleSpinBox>("stretchSpin")->setValue(3);
+    const QPoint from = bench.place(0, 35);
+    bench.stroke(0, {from, from + QPoint(100, 0)});
+    const double before = bench.position(1, 27).x();
+    bench.find<QDoubleSpinBox>("stretchSpin")->setValue(1);
+    bench.settle();
+    QVERIFY(bench.position(1, 27).x() > before);
+    bench.trigger("resetStiffness");
+    QCOMPARE(bench.document().softness(), LinkSoftness());
+  }
+
+  void meshOfEveryKind_data() {
+    QTest::addColumn<QString>("kind");
+    QTest::addColumn<unsigned>("elements");
+    QTest::addColumn<int>("space");
+    QTest::newRow("line") << QStringLiteral("Line") << 5U << 1;
+    QTest::newRow("grid") << QStringLiteral("Grid") << 20U << 2;
+    QTest::newRow("cloth") << QStringLiteral("Cloth") << 20U << 2;
+    QTest::newRow("block") << QStringLiteral("Block") << 60U << 3;
+    QTest::newRow("tetra") << QStringLiteral("Tetra") << 60U << 3;
+  }
+  void meshOfEveryKind() {
+    QFETCH(QString, kind);
+    QFETCH(unsigned, elements);
+    QFETCH(int, space);
+    Workbench bench;
+    const MeshPointer before = bench.document().mesh();
+    bench.find<QComboBox>("meshKind")->setCurrentText(kind);
+    bench.find<QSpinBox>("sizeW")->setValue(5);
+    bench.find<QSpinBox>("sizeH")->setValue(4);
+    bench.find<QSpinBox>("sizeD")->setValue(3);
+    bench.find<QDoubleSpinBox>("spacingSpin")->setValue(0.25);
+    bench.find<QPushButton>("buildMesh")->click();
+    bench.settle();
+    const Mesh& mesh = *bench.document().mesh();
+    QCOMPARE(mesh.element_count(), elements);
+    QCOMPARE(mesh.space_dimension, space);
+    QCOMPARE(mesh.rest_position(1).x(), 0.25);
+    QVERIFY(bench.find<QLabel>("meshDescription")->text().contains(QString::number(elements)));
+    bench.document().undoStack().undo();
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), before);
+  }
+
+  void aFlatMeshMayLieInSpace() {
+    Workbench bench;
+    bench.find<QComboBox>("meshKind")->setCurrentText(QStringLiteral("Cloth"));
+    bench.find<QComboBox>("spaceDimension")->setCurrentText(QStringLiteral("3D"));
+    bench.find<QPushButton>("buildMesh")->click();
+    bench.settle();
+    QCOMPARE(bench.document().mesh()->space_dimension, 3);
+  }
+
+  void undoOfAMeshBringsTheDeformedObjectBack() {
+    Workbench bench;
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(150, -150)});
+    const Point left = bench.position(0, 40), right = bench.position(1, 40);
+    bench.find<QPushButton>("buildMesh")->click();
+    bench.settle();
+    bench.document().undoStack().undo();
+    bench.settle();
+    QCOMPARE(bench.position(0, 40), left);
+    QCOMPARE(bench.position(1, 40), right);
+  }
+
+  void relaxationRunsInIdleTimeAndSleeps() {
+    Workbench bench;
+    auto* on = bench.find<QCheckBox>("relaxationOn");
+    on->click();
+    QVERIFY(bench.document().relaxationOn());
+    bench.find<QDoubleSpinBox>("relax-stepSpin")->setValue(0.5);
+    QCOMPARE(bench.document().relaxationStep(), 0.5);
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(150, -150)}, false);
+    QTRY_VERIFY(bench.document().frame(1)->statistics.sweeps > 0);
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from + QPoint(150, -150));
+    // Sleeps by itself, at the latest 10 s after the last pass.
+    QTRY_VERIFY_WITH_TIMEOUT(
+        !bench.document().frame(0)->statistics.relaxing && !bench.document().frame(1)->statistics.relaxing, 12'000);
+    on->click();
+    QVERIFY(!bench.document().relaxationOn());
+  }
+
+  void frameRatesAreShownAndRest() {
+    Workbench bench;
+    const QPoint from = bench.place(0, 31);
+    QList<QPoint> there{from};
+    for (int i = 0; i < 12; ++i) {
+      there << from + QPoint(i % 2 == 0 ? 120 : 0, -60);
+    }
+    bench.stroke(0, there);
+    for (const char* name : {"painted0", "painted1"}) {
+      QTRY_VERIFY(bench.find<QLabel>(name)->text().toInt() > 0);
+    }
+    for (const char* name : {"passes0", "passes1", "median0", "median1", "worst0", "worst1"}) {
+      QTRY_VERIFY(QLocale().toDouble(bench.find<QLabel>(name)->text()) > 0);
+    }
+    // A still scene paints nothing.
+    QTRY_COMPARE(bench.find<QLabel>("painted0")->text(), QStringLiteral("idle"));
+    QTRY_COMPARE(bench.find<QLabel>("painted1")->text(), QStringLiteral("idle"));
+  }
+
+ private:
+  static double of(Workbench& bench, const QByteArray& name) {
+    const LinkSoftness& softness = bench.document().softness();
+    return name == "compression" ? softness.compression : name == "stretch" ? softness.stretch : softness.shear;
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowDocks>(argc, argv); }
+#include "window_docks.moc"

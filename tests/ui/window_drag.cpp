@@ -1,0 +1,142 @@
+// Dragging in a real window: what a hand does in one panel happens in both.
+
+#include "window.h"
+
+using namespace chainmail;
+
+class WindowDrag : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void hoverHighlightsInBothPanels() {
+    Workbench bench;
+    QVERIFY(bench.shown);
+    QTest::mouseMove(&bench.view(1), bench.place(1, 31) + QPoint(4, 3));
+    QTRY_COMPARE(bench.document().highlight().element, std::optional<ElementId>(31));
+    QVERIFY(!bench.document().highlight().grabbed);
+    QTest::mouseMove(&bench.view(1), QPoint(2, 2));
+    QTRY_VERIFY(!bench.document().highlight().element);
+  }
+
+  void dragFollowsTheHandInBothPanels_data() {
+    QTest::addColumn<int>("panel");
+    QTest::newRow("left") << 0;
+    QTest::newRow("right") << 1;
+  }
+  void dragFollowsTheHandInBothPanels() {
+    QFETCH(int, panel);
+    Workbench bench;
+    const ElementId element = 31;  // the middle of 9 x 7
+    const QPoint from = bench.place(panel, element), to = from + QPoint(60, -80);
+    bench.stroke(panel, {from + QPoint(3, 2), to + QPoint(3, 2)}, false);
+    bench.settle();
+    QVERIFY(bench.document().highlight().grabbed);
+    for (int p = 0; p < 2; ++p) {
+      // The element keeps its place under the hand; a pixel for the rounding of mouse places.
+      QVERIFY((bench.place(p, element) - to).manhattanLength() <= 2);
+      QVERIFY(bench.document().frame(p)->statistics.passes > 0);
+    }
+    QCOMPARE(bench.position(0, element), bench.position(1, element));
+    QTest::mouseRelease(&bench.view(panel), Qt::LeftButton, {}, to);
+    QVERIFY(!bench.document().highlight().grabbed);
+  }
+
+  void pressingBesideTheObjectMovesNothing() {
+    Workbench bench;
+    bench.stroke(0, {QPoint(5, 5), QPoint(80, 80)});
+    QCOMPARE(bench.document().frame(0)->statistics.passes, 0U);
+    QCOMPARE(bench.position(0, 0), bench.document().mesh()->rest_position(0));
+  }
+
+  void aMoveInsideTheRegionsMovesTheGrabbedElementAlone() {
+    Workbench bench;
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(5, 0)});
+    for (int p = 0; p < 2; ++p) {
+      QVERIFY(bench.document().frame(p)->statistics.passes > 0);
+      QCOMPARE(bench.document().frame(p)->statistics.last_pass.moved, 0U);
+      QCOMPARE(bench.position(p, 32), bench.document().mesh()->rest_position(32));
+    }
+  }
+
+  void aChainInOneDimensionMovesAlongX() {
+    Workbench bench(generate({MeshKind::line, {8, 1, 1}, 1, {}}));
+    const QPoint from = bench.place(0, 7);
+    bench.stroke(0, {from, from + QPoint(90, -120)});
+    for (int p = 0; p < 2; ++p) {
+      QVERIFY(bench.position(p, 7).x() > 7.5);
+      QCOMPARE(bench.position(p, 7).y(), 0.0);
+      QVERIFY(bench.position(p, 0).x() >= 0);
+    }
+  }
+
+  void aBlockIsDraggedInTheViewPlaneAndOrbits() {
+    Workbench bench(generate({MeshKind::tetra, {4, 4, 4}, 1, {}}));
+    const ElementId element = 63;
+    const QPoint from = bench.place(0, element), to = from + QPoint(50, -70);
+    bench.stroke(0, {from, to});
+    QVERIFY((bench.place(0, element) - to).manhattanLength() <= 2);
+    QVERIFY((bench.place(1, element) - to).manhattanLength() <= 2);
+
+    const QPoint before = bench.place(1, 0);
+    View& view = bench.view(0);
+    QTest::mousePress(&view, Qt::RightButton, {}, QPoint(100, 100));
+    QMouseEvent move(QEvent::MouseMove, QPointF(160, 130), view.mapToGlobal(QPointF(160, 130)), Qt::NoButton,
+                     Qt::RightButton, Qt::NoModifier);
+    QApplication::sendEvent(&view, &move);
+    QTest::mouseRelease(&view, Qt::RightButton, {}, QPoint(160, 130));
+    QVERIFY((bench.place(1, 0) - before).manhattanLength() > 20);  // the cameras are linked
+  }
+
+  void resetObjectComesBackExactlyAndIsUndone() {
+    Workbench bench;
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(0, -200)});
+    const Point left = bench.position(0, 40), right = bench.position(1, 40);
+    QVERIFY(right != bench.document().mesh()->rest_position(40));
+    bench.trigger("resetObject");
+    bench.settle();
+    QCOMPARE(bench.position(0, 31), bench.document().mesh()->rest_position(31));
+    QCOMPARE(bench.position(1, 40), bench.document().mesh()->rest_position(40));
+    bench.document().undoStack().undo();
+    bench.settle();
+    QCOMPARE(bench.position(0, 40), left);
+    QCOMPARE(bench.position(1, 40), right);
+  }
+
+  void theSelectorChangesOnePanelsAlgorithm() {
+    Workbench bench;
+    auto& selector = bench.window.panel(0).selector();
+    selector.setCurrentIndex(selector.findText(QStringLiteral("Spiral")));
+    emit selector.activated(selector.currentIndex());
+    QCOMPARE(bench.document().algorithm(0), Algorithm::spiral);
+    QCOMPARE(bench.document().algorithm(1), Algorithm::natural_queue);
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(120, -200)});
+    for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
+      QCOMPARE(bench.position(0, e), bench.position(1, e));  // Spiral ends where Natural Queue does
+    }
+  }
+
+  void theObjectIsDrawn() {
+    Workbench bench;
+    const QColor background = bench.view(0).grabFramebuffer().pixelColor(3, 3);
+    const double ratio = bench.view(0).devicePixelRatioF();
+    for (int p = 0; p < 2; ++p) {
+      const QPoint at = (QPointF(bench.place(p, 31)) * ratio).toPoint();
+      const QImage picture = bench.view(p).grabFramebuffer();
+      bool drawn = false;
+      for (int dx = -2; dx <= 2; ++dx) {
+        for (int dy = -2; dy <= 2; ++dy) {
+          drawn = drawn || picture.pixelColor(at + QPoint(dx, dy)) != background;
+        }
+      }
+      QVERIFY(drawn);
+    }
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowDrag>(argc, argv); }
+#include "window_drag.moc"

@@ -1,0 +1,131 @@
+// Opening and saving in a real window.
+
+#include <QDropEvent>
+#include <QFile>
+#include <QImage>
+#include <QMimeData>
+
+#include "file_actions.h"
+#include "message_bar.h"
+#include "window.h"
+
+using namespace chainmail;
+
+class WindowFiles : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void aBadFileGetsASentenceAndChangesNothing() {
+    Workbench bench;
+    const MeshPointer before = bench.document().mesh();
+    bench.window.openFile(write("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n"));
+    QVERIFY(bench.window.messages().isVisible());
+    QVERIFY2(bench.window.messages().sentence().contains(QStringLiteral("bad.obj:3: ")),
+             qPrintable(bench.window.messages().sentence()));
+    QCOMPARE(bench.document().mesh(), before);
+    QVERIFY(!bench.document().undoStack().canUndo());
+
+    bench.window.openFile(folder_.filePath(QStringLiteral("not there.obj")));
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("not there.obj")));
+    bench.window.openFile(write("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    QVERIFY(!bench.window.messages().isVisible());
+    QCOMPARE(bench.document().mesh()->element_count(), 3U);
+  }
+
+  void openingIsOneStepOfUndo() {
+    Workbench bench;
+    const MeshPointer before = bench.document().mesh();
+    bench.window.openFile(write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("open triangle.obj"));
+    QVERIFY(bench.window.windowTitle().startsWith(QStringLiteral("triangle.obj")));
+    bench.document().undoStack().undo();
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), before);
+    QVERIFY(bench.window.windowTitle().startsWith(QStringLiteral("sample")));
+  }
+
+  void aFileIsDropped() {
+    Workbench bench;
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(write("dropped.obj", "v 0 0 0\nv 2 0 0\nl 1 2\n"))});
+    QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&bench.window, &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&bench.window, &drop);
+    QCOMPARE(bench.document().mesh()->element_count(), 2U);
+  }
+
+  void whatIsSavedOpensAgain_data() {
+    QTest::addColumn<QString>("name");
+    QTest::newRow("dat") << QStringLiteral("saved.dat");
+    QTest::newRow("obj") << QStringLiteral("saved.obj");
+  }
+  void whatIsSavedOpensAgain() {
+    QFETCH(QString, name);
+    Workbench bench;
+    const MeshPointer before = bench.document().mesh();
+    bench.document().cut({0, 5});
+    const QString path = folder_.filePath(name);
+    files(bench).savePath(path);
+    bench.window.openFile(path);
+    QVERIFY2(!bench.window.messages().isVisible(), qPrintable(bench.window.messages().sentence()));
+    const Mesh& again = *bench.document().mesh();
+    QCOMPARE(again.element_count(), before->element_count());
+    QCOMPARE(again.link_count(), before->link_count() - 2);
+    for (ElementId e = 0; e < again.element_count(); ++e) {
+      QCOMPARE(again.rest_position(e), before->rest_position(e));
+    }
+  }
+
+  void theDeformedShapeIsSaved() {
+    Workbench bench;
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(140, -90)});
+    const Point shown = bench.position(1, 31);
+    const QString path = folder_.filePath(QStringLiteral("shape.obj"));
+    files(bench).saveShapePath(1, path);
+    bench.window.openFile(path);
+    QCOMPARE(bench.document().mesh()->rest_position(31), shown);
+  }
+
+  void aPlaceThatCannotBeWrittenGetsASentence() {
+    Workbench bench;
+    const QString nowhere = folder_.filePath(QStringLiteral("no/such/folder/x.obj"));
+    files(bench).savePath(nowhere);
+    QVERIFY(bench.window.messages().isVisible());
+    QVERIFY(bench.window.messages().sentence().contains(nowhere));
+    files(bench).saveScreenshotPath(folder_.filePath(QStringLiteral("no/such/folder/x.png")));
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("x.png")));
+  }
+
+  void theScreenshotShowsTheViews() {
+    Workbench bench;
+    const QString path = folder_.filePath(QStringLiteral("window.png"));
+    files(bench).saveScreenshotPath(path);
+    const QImage picture(path);
+    QCOMPARE(picture.size(), bench.window.size() * bench.window.devicePixelRatioF());
+    View& view = bench.view(1);
+    const QPoint corner = view.mapTo(&bench.window, QPoint(0, 0)) * view.devicePixelRatioF();
+    const QImage shown = view.grabFramebuffer();
+    QCOMPARE(picture.pixelColor(corner + QPoint(9, 9)), shown.pixelColor(9, 9));
+  }
+
+ private:
+  QString write(const char* name, const char* text) {
+    const QString path = folder_.filePath(QLatin1String(name));
+    QFile file(path);
+    if (!file.open(QIODevice::WriteOnly) || file.write(text) < 0) {
+      qFatal("cannot write %s", name);
+    }
+    return path;
+  }
+  static FileActions& files(Workbench& bench) { return *bench.window.findChild<FileActions*>(); }
+
+  QTemporaryDir folder_;
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowFiles>(argc, argv); }
+#include "window_files.moc"

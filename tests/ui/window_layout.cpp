@@ -1,0 +1,130 @@
+// Sizes, docking, cameras and what is remembered, in a real window.
+
+#include <QDockWidget>
+#include <QSplitter>
+#include <QWheelEvent>
+
+#include "window.h"
+
+using namespace chainmail;
+
+class WindowLayout : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  void resizing() {
+    Workbench bench;
+    for (const QSize size : {QSize(1000, 640), QSize(1500, 860), QSize(1200, 800)}) {
+      bench.window.resize(size);
+      bench.settle();
+      for (int p = 0; p < 2; ++p) {
+        QCOMPARE(bench.view(p).grabFramebuffer().size(), bench.view(p).size() * bench.view(p).devicePixelRatioF());
+      }
+      bench.trigger("fitView");
+      const QRect all = bench.view(0).rect();
+      QVERIFY(all.contains(bench.place(0, 0)) && all.contains(bench.place(0, 62)));
+    }
+  }
+
+  void docksFloatAndComeBack() {
+    Workbench bench;
+    for (auto* dock : bench.window.findChildren<QDockWidget*>()) {
+      dock->setFloating(true);
+      QTest::qWait(20);
+      dock->setFloating(false);
+      dock->hide();
+      dock->show();
+    }
+    bench.settle();
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(40, 40)});
+    QVERIFY(bench.document().frame(1)->statistics.passes > 0);
+  }
+
+  void aViewSurvivesAnotherParent() {
+    Workbench bench;
+    QWidget* panel = &bench.window.panel(0);
+    QWidget* home = panel->parentWidget();
+    const QImage before = bench.view(0).grabFramebuffer();
+    panel->setParent(nullptr);
+    panel->show();
+    QVERIFY(QTest::qWaitForWindowExposed(panel));
+    panel->setParent(home);
+    panel->show();
+    qobject_cast<QSplitter*>(home)->insertWidget(0, panel);
+    bench.settle();
+    bench.trigger("fitView");
+    bench.settle();
+    QVERIFY(differing(bench.view(0).grabFramebuffer(), QColor(bench.view(0).grabFramebuffer().pixelColor(3, 3))) >
+            differing(before, before.pixelColor(3, 3)) / 2);
+  }
+
+  void camerasAreLinkedUntilTheSwitchIsOff() {
+    Workbench bench;
+    const auto wheel = [&bench](int panel) {
+      const QPointF at(bench.view(panel).rect().center());
+      QWheelEvent event(at, bench.view(panel).mapToGlobal(at), {}, {0, 240}, Qt::NoButton, Qt::NoModifier,
+                        Qt::NoScrollPhase, false);
+      QApplication::sendEvent(&bench.view(panel), &event);
+    };
+    const QPoint before = bench.place(1, 0);
+    wheel(0);
+    QVERIFY(bench.place(1, 0) != before);
+    bench.trigger("linkCameras");
+    const QPoint apart = bench.place(1, 0);
+    wheel(0);
+    QCOMPARE(bench.place(1, 0), apart);
+    bench.trigger("linkCameras");
+    QCOMPARE(bench.place(1, 0) - bench.place(1, 62), bench.place(0, 0) - bench.place(0, 62));
+  }
+
+  void theMiddleButtonPans() {
+    Workbench bench;
+    const QPoint before = bench.place(0, 0);
+    View& view = bench.view(0);
+    QTest::mousePress(&view, Qt::MiddleButton, {}, QPoint(100, 100));
+    QMouseEvent move(QEvent::MouseMove, QPointF(130, 90), view.mapToGlobal(QPointF(130, 90)), Qt::NoButton,
+                     Qt::MiddleButton, Qt::NoModifier);
+    QApplication::sendEvent(&view, &move);
+    QTest::mouseRelease(&view, Qt::MiddleButton, {}, QPoint(130, 90));
+    QVERIFY(((bench.place(0, 0) - before) - QPoint(30, -10)).manhattanLength() <= 2);  // rounding of places
+  }
+
+  void theLayoutIsRemembered() {
+    {
+      Workbench bench;
+      bench.find<QDockWidget>("relaxationDock")->hide();
+      bench.window.close();
+    }
+    Workbench again;
+    QVERIFY(!again.find<QDockWidget>("relaxationDock")->isVisible());
+    QVERIFY(again.find<QDockWidget>("stiffnessDock")->isVisible());
+  }
+
+  void aLargeGridIsDrawnCoarselyAndSaysSo() {
+    Workbench bench(generate({MeshKind::grid, {512, 512, 1}, 1, {}}));
+    QTRY_VERIFY(bench.view(0).drawnStep() > 1);
+    const QPoint from = bench.place(0, 131'328);
+    bench.stroke(0, {from, from + QPoint(60, 30)});
+    QVERIFY(bench.document().frame(1)->statistics.last_pass.moved > 0);
+  }
+
+ private:
+  static int differing(const QImage& picture, QColor colour) {
+    int count = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        count += picture.pixelColor(x, y) != colour ? 1 : 0;
+      }
+    }
+    return count;
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowLayout>(argc, argv); }
+#include "window_layout.moc"
