@@ -29,7 +29,7 @@ Document::Document(MeshPointer mesh, const QString& name) : mesh_(std::move(mesh
   sampler_.setTimerType(Qt::PreciseTimer);
   sampler_.setInterval(samplingMilliseconds);
   connect(&sampler_, &QTimer::timeout, this, [this] {
-    if (!log_->move_waits()) {
+    if (!log_->waits()) {
       sampler_.stop();
     }
     log_->sample();
@@ -39,7 +39,7 @@ Document::Document(MeshPointer mesh, const QString& name) : mesh_(std::move(mesh
 Document::~Document() { undoStack_.clear(); }
 
 bool Document::idle() const {
-  return !log_->move_waits() && std::all_of(solvers_.begin(), solvers_.end(), [](auto& one) { return one->idle(); });
+  return !log_->waits() && std::all_of(solvers_.begin(), solvers_.end(), [](auto& one) { return one->idle(); });
 }
 
 void Document::receiveFrame(int panel) {
@@ -53,10 +53,12 @@ void Document::receiveFrame(int panel) {
 
 void Document::grab(ElementId element) { post(commands::Grab{element}); }
 
-void Document::drag(const Point& target) {
-  post(commands::Drag{target});
-  // The first move of a while goes at once, later ones 60 times a second.
-  if (!sampler_.isActive()) {
+void Document::drag(const Point& target) { post(commands::Drag{target}); }
+
+void Document::post(const Command& command) {
+  log_->post(command);
+  // The first sampled command of a while goes at once, later ones 60 times a second.
+  if (log_->waits() && !sampler_.isActive()) {
     log_->sample();
     sampler_.start();
   }

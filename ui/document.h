@@ -89,7 +89,7 @@ class Document : public QObject {
 
   void applyCuts(const std::vector<LinkId>& links, bool cut);
   void applySoftness(const LinkSoftness& softness);
-  void post(const Command& command) { log_->post(command); }
+  void post(const Command& command);
   void receiveFrame(int panel);
 
   MeshPointer mesh_;

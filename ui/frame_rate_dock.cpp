@@ -82,7 +82,7 @@ QWidget* FrameRateDock::makeChart(const std::vector<QColor>& colours) {
   time_->setLabelsVisible(false);
   time_->setTickCount(2);
   milliseconds_->setTickCount(3);
-  milliseconds_->setLabelFormat(QStringLiteral("%.2g"));
+  milliseconds_->setLabelFormat(QStringLiteral("%.3g"));
   chart->addAxis(time_, Qt::AlignBottom);
   chart->addAxis(milliseconds_, Qt::AlignLeft);
   for (QValueAxis* axis : {time_, milliseconds_}) {

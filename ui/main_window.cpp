@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QScreen>
 #include <QSettings>
 #include <QSplitter>
 #include <QStatusBar>
@@ -211,7 +212,7 @@ void MainWindow::openFile(const QString& path) { files_->openPath(path); }
 void MainWindow::showTitle() { setWindowTitle(QStringLiteral("%1 – ChainMail workbench").arg(document_.name())); }
 
 void MainWindow::restoreLayout() {
-  resize(1600, 900);
+  resize(QSize(1600, 900).boundedTo(screen()->availableSize()));
   const QSettings settings;
   restoreGeometry(settings.value(QStringLiteral("geometry")).toByteArray());
   restoreState(settings.value(QStringLiteral("layout")).toByteArray(), layoutVersion);

@@ -10,22 +10,29 @@ void CommandLog::send(const Command& command) {
   }
 }
 
+void CommandLog::flush() {
+  if (waiting_) {
+    send(*waiting_);
+    waiting_.reset();
+  }
+}
+
 void CommandLog::post(const Command& command) {
-  if (const auto* move = std::get_if<commands::Drag>(&command)) {
-    move_ = *move;
-    return;
+  const bool sampled =
+      std::holds_alternative<commands::Drag>(command) || std::holds_alternative<commands::SetSoftness>(command);
+  if (waiting_ && waiting_->index() != command.index()) {
+    flush();
   }
-  if (move_) {
-    send(*move_);
-    move_.reset();
+  if (sampled) {
+    waiting_ = command;
+  } else {
+    send(command);
   }
-  send(command);
 }
 
 void CommandLog::sample() {
-  if (move_ && std::all_of(solvers_.begin(), solvers_.end(), [](const SolverThread* one) { return one->idle(); })) {
-    send(*move_);
-    move_.reset();
+  if (std::all_of(solvers_.begin(), solvers_.end(), [](const SolverThread* one) { return one->idle(); })) {
+    flush();
   }
 }
 
