@@ -29,6 +29,10 @@ Panel::Panel(Document& document, int panel, std::shared_ptr<Camera> camera, QCol
   statistics_ = new QLabel;
   statistics_->setObjectName(QStringLiteral("statistics%1").arg(panel));
   statistics_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  statistics_->setToolTip(
+      QStringLiteral("Violation: how far links lie outside their valid regions, in rest lengths; the last figure is "
+                     "the share of links above 1e-4.\nDuring a drag it covers the links that the pass touched, at rest "
+                     "all links."));
   view_ = new View(document, panel, std::move(camera), colour);
   view_->setObjectName(QStringLiteral("view%1").arg(panel));
 
@@ -67,7 +71,7 @@ QString Panel::describe(const Statistics& statistics) const {
   const Violation& violation = statistics.violation;
   return QStringLiteral(
              "moved <b>%1</b> · links looked at <b>%2</b> · <b>%3</b> ms a pass<br>"
-             "violation of %4: max <b>%5</b> · RMS <b>%6</b> · <b>%7</b> % of links")
+             "violation of %4: max <b>%5</b> · RMS <b>%6</b> · <b>%7</b> %")
       .arg(locale.toString(qulonglong(statistics.last_pass.moved)),
            locale.toString(qulonglong(statistics.last_pass.checked)), locale.toString(statistics.last_pass_ms, 'f', 3),
            statistics.violation_of_whole_mesh ? QStringLiteral("all links") : QStringLiteral("touched links"),
