@@ -1,0 +1,36 @@
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "command_line/common.h"
+#include "files/outputs.h"
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace {
+
+enum ExitCode { done = 0, failed = 1, bad_usage = 2 };
+
+/// One line, whatever the message carries.
+ExitCode complain(std::string_view message, ExitCode code) {
+  std::cerr << "chainmail: " << chainmail::printable(message) << '\n';
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::ios::sync_with_stdio(false);
+  try {
+    chainmail::command_line::run(argc, argv);
+    return done;
+  } catch (const chainmail::WriteFailure& failure) {
+    return complain(failure.what(), failed);
+  } catch (const chainmail::Error& error) {
+    return complain(error.what(), bad_usage);
+  } catch (const std::bad_alloc&) {
+    return complain("memory: there is not enough; use a smaller mesh", failed);
+  } catch (const std::exception& error) {
+    return complain(std::string("internal: ") + error.what() + "; please report it", failed);
+  }
+}

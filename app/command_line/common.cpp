@@ -1,0 +1,152 @@
+#include "command_line/common.h"
+
+#include <algorithm>
+#include <array>
+
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace chainmail::command_line {
+namespace {
+
+constexpr std::uint32_t highest_whole_number = 1'000'000'000;
+
+std::string digits(double number) {
+  std::string text;
+  append_number(text, number);
+  return text;
+}
+
+std::string name_of(const Parameter& parameter) { return "--" + std::string(parameter.name); }
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text += i == 0 ? "" : i + 1 == words.size() ? " or " : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
+}  // namespace
+
+CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string& type, const std::string& help) {
+  return app.add_option(name, help)
+      ->type_name(type)
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+CLI::Option* add_parameter(CLI::App& app, const Parameter& parameter) {
+  return add_value(app, name_of(parameter), "NUMBER",
+                   std::string(parameter.help) + " [" + digits(parameter.standard) + "]");
+}
+
+std::optional<std::string> value_of(const CLI::Option* option) {
+  const auto& values = option->results();
+  if (values.empty()) {
+    return std::nullopt;
+  }
+  if (values.size() > 1) {
+    throw Error(option->get_name(), "it is given " + std::to_string(values.size()) + " times", "give it once");
+  }
+  return values.front();
+}
+
+double parse_number_of(const std::string& where, std::string_view text) {
+  const auto number = parse_number(text);
+  if (!number) {
+    throw Error(where, in_quotes(text) + " is not a finite number", "write a decimal number like 0.5 or -2e3");
+  }
+  return *number;
+}
+
+double value_of(const CLI::Option* option, const Parameter& parameter) {
+  const auto text = value_of(option);
+  if (!text) {
+    return parameter.standard;
+  }
+  const double number = parse_number_of(name_of(parameter), *text);
+  if (!(number >= parameter.lowest && number <= parameter.highest)) {
+    throw Error(name_of(parameter), *text + " lies out of its range",
+                "use " + digits(parameter.lowest) + " to " + digits(parameter.highest));
+  }
+  return number;
+}
+
+std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t standard) {
+  const auto text = value_of(option);
+  if (!text) {
+    return standard;
+  }
+  const auto number = parse_count(*text);
+  if (!number || *number < lowest || *number > highest_whole_number) {
+    throw Error(option->get_name(), in_quotes(*text) + " is not a whole number that it can be",
+                "use " + std::to_string(lowest) + " to " + std::to_string(highest_whole_number));
+  }
+  return *number;
+}
+
+void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words) {
+  if (std::find(words.begin(), words.end(), word) == words.end()) {
+    throw Error(where, in_quotes(word) + " is not known", "use " + joined(words));
+  }
+}
+
+std::optional<int> space_of(const CLI::Option* option) {
+  const auto text = value_of(option);
+  if (!text) {
+    return std::nullopt;
+  }
+  check_word("--space", *text, {"1", "2", "3"});
+  return text->front() - '0';
+}
+
+MeshOptions add_mesh_options(CLI::App& app) {
+  MeshOptions options;
+  options.path = add_value(app, "MESH", "", "the mesh, a .dat or .obj file")->required();
+  options.size = add_value(app, "--size", "WxH[xD]", "how many elements a .dat file has along each axis");
+  options.spacing = add_value(app, "--spacing", "NUMBER", "their distance, before what the file states");
+  return options;
+}
+
+MeshPointer read_mesh(const MeshOptions& options) {
+  ReadOptions how;
+  if (const auto size = value_of(options.size)) {
+    how.size = parse_size(*size);
+    if (!how.size) {
+      throw Error("--size", in_quotes(*size) + " is not a size", "write WxH or WxHxD with whole numbers from 1");
+    }
+  }
+  if (const double spacing = value_of(options.spacing, parameters::spacing); options.spacing->count() > 0) {
+    how.spacing = spacing;
+  }
+  how.space_dimension = options.space == nullptr ? std::nullopt : space_of(options.space);
+  const std::filesystem::path path = *value_of(options.path);
+  return in_options([&] { return chainmail::read_mesh(path, how); });
+}
+
+MeshPointer in_options(const std::function<MeshPointer()>& make) {
+  static constexpr std::array<std::array<std::string_view, 2>, 3> names{
+      {{"size", "SIZE"}, {"spacing", "--spacing"}, {"space dimension", "--space"}}};
+  try {
+    return make();
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    const std::size_t colon = text.find(": "), semicolon = text.rfind("; ");
+    for (const auto& [inside, option] : names) {
+      if (text.starts_with(inside) && (text[inside.size()] == ':' || text[inside.size()] == ' ')) {
+        throw Error(std::string(option) + text.substr(inside.size(), colon - inside.size()),
+                    text.substr(colon + 2, semicolon - colon - 2), text.substr(semicolon + 2));
+      }
+    }
+    throw;
+  }
+}
+
+void refuse_unbuilt(const std::string& where, const std::string& remedy) {
+  throw Error(where, "it is not built yet", remedy);
+}
+
+}  // namespace chainmail::command_line

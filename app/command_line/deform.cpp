@@ -1,0 +1,231 @@
+#include <algorithm>
+#include <map>
+#include <ostream>
+
+#include "command_line/common.h"
+#include "command_line/script.h"
+#include "files/outputs.h"
+#include "files/tables.h"
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace chainmail::command_line {
+namespace {
+
+struct Options {
+  CLI::App* app = nullptr;
+  MeshOptions mesh;
+  CLI::Option *algorithm, *precision, *compression, *stretch, *shear;
+  CLI::Option *move, *by, *cut;
+  CLI::Option *steps, *relax, *relaxation, *relax_step;
+  CLI::Option *positions, *trace, *json;
+};
+
+/// Where the results go; nothing is said twice of one place.
+struct Targets {
+  std::optional<std::string> positions, trace, json;
+  bool none() const { return !positions && !trace && !json; }
+};
+
+constexpr const char* example =
+    "Passes, orders and ids in the output count from 0. Links that are cut still count in \"links\".\n\n"
+    "Example:\n"
+    "  chainmail deform grid.dat --algorithm natural-queue --cut 30-31 --by 31:3,2 --steps 10 \\\n"
+    "      --relax 20 --positions moved.csv --json -";
+
+std::vector<std::string> algorithm_names() {
+  std::vector<std::string> names;
+  for (const AlgorithmInfo& one : algorithms()) {
+    names.emplace_back(one.name);
+  }
+  return names;
+}
+
+void refuse_later_work(const Options& options, const std::string& algorithm) {
+  for (const auto* name : {"--pin", "--softness"}) {
+    if (options.app->count(name) > 0) {
+      refuse_unbuilt(name, "leave it out");
+    }
+  }
+  if (algorithm == "enhanced" || algorithm == "exact" || algorithm == "original") {
+    refuse_unbuilt("--algorithm " + algorithm, "use generalized, spiral or natural-queue");
+  }
+  if (value_of(options.relaxation) == "link") {
+    refuse_unbuilt("--relaxation link", "use mean");
+  }
+}
+
+Algorithm read_algorithm(const Options& options) {
+  const std::string name = *value_of(options.algorithm);
+  refuse_later_work(options, name);
+  check_word("--algorithm", name, algorithm_names());
+  return *find_algorithm(name);
+}
+
+Precision read_precision(const Options& options) {
+  const std::string word = value_of(options.precision).value_or("double");
+  check_word("--precision", word, {"double", "float"});
+  return word == "float" ? Precision::single_precision : Precision::double_precision;
+}
+
+LinkSoftness read_softness(const Options& options) {
+  return {value_of(options.compression, parameters::compression), value_of(options.stretch, parameters::stretch),
+          value_of(options.shear, parameters::shear)};
+}
+
+Schedule read_schedule(const Options& options, const Targets& targets) {
+  check_word("--relaxation", value_of(options.relaxation).value_or("mean"), {"mean"});
+  return {whole_number_of(options.steps, 1, 1), whole_number_of(options.relax, 0, 0),
+          value_of(options.relax_step, parameters::relax_step), targets.trace.has_value()};
+}
+
+/// The acts in the order in which their options stand on the command line.
+std::vector<Act> read_acts(const Options& options) {
+  const std::map<const CLI::Option*, Act::Kind> kinds{
+      {options.move, Act::Kind::move}, {options.by, Act::Kind::by}, {options.cut, Act::Kind::cut}};
+  std::map<const CLI::Option*, std::size_t> taken;
+  std::vector<Act> acts;
+  for (const CLI::Option* option : options.app->parse_order()) {
+    if (const auto kind = kinds.find(option); kind != kinds.end()) {
+      acts.push_back(parse_act(kind->second, option->get_name(), option->results()[taken[option]++]));
+    }
+  }
+  return acts;
+}
+
+bool positions_as_obj(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".vtu") {
+    refuse_unbuilt("--positions " + path, "use .csv or .obj");
+  }
+  if (path != "-" && ending != ".csv" && ending != ".obj") {
+    throw Error("--positions " + path, "its ending is not known", "use .csv or .obj");
+  }
+  return ending == ".obj";
+}
+
+Targets read_targets(const Options& options) {
+  const Targets targets{value_of(options.positions), value_of(options.trace), value_of(options.json)};
+  if (targets.positions) {
+    positions_as_obj(*targets.positions);
+  }
+  return targets;
+}
+
+DeformSummary summarize(Simulation& simulation, const Run& run) {
+  const Mesh& mesh = simulation.mesh();
+  const auto positions = simulation.solver().positions();
+  simulation.refresh_statistics(true);
+  const Statistics& statistics = simulation.statistics();
+  return {std::string(info(statistics.algorithm).name),
+          mesh.element_count(),
+          mesh.link_count(),
+          run.passes,
+          statistics.violation,
+          elastic_energy(mesh, simulation.solver().cuts(), positions),
+          measure_displacement(mesh, positions)};
+}
+
+void write_positions(std::ostream& out, const std::string& path, const Simulation& simulation) {
+  const auto positions = simulation.solver().positions();
+  if (positions_as_obj(path)) {
+    write_mesh(out, MeshFormat::obj, simulation.mesh(), simulation.solver().cuts(), positions);
+  } else {
+    write_positions_csv(out, simulation.mesh(), positions);
+  }
+}
+
+void write_text(std::ostream& out, const DeformSummary& summary) {
+  out << summary.algorithm << " on " << summary.elements << " elements, " << summary.links << " links\n";
+  for (std::size_t i = 0; i < summary.passes.size(); ++i) {
+    const auto& pass = summary.passes[i];
+    out << "pass " << i << ": element " << pass.element << " to (" << pass.target.x() << ", " << pass.target.y() << ", "
+        << pass.target.z() << "), " << pass.checked << " checked, " << pass.moved << " moved, " << pass.milliseconds
+        << " ms\n";
+  }
+  out << "violation: max " << summary.violation.max << ", rms " << summary.violation.rms << ", "
+      << 100 * summary.violation.fraction << "% of links\n";
+}
+
+void deform(const Options& options) {
+  const Algorithm algorithm = read_algorithm(options);
+  const Precision precision = read_precision(options);
+  const LinkSoftness softness = read_softness(options);
+  const Targets targets = read_targets(options);
+  const Schedule schedule = read_schedule(options, targets);
+  const std::vector<Act> acts = read_acts(options);
+  const MeshPointer mesh = read_mesh(options.mesh);
+  std::for_each(acts.begin(), acts.end(), [&](const Act& act) { check_act(act, *mesh); });
+
+  Simulation simulation(mesh, algorithm, precision);
+  simulation.apply(chainmail::Command(commands::SetSoftness{{softness, {}}}));
+  const Run run = carry_out(simulation, acts, schedule);
+  const DeformSummary summary = summarize(simulation, run);
+
+  Outputs outputs;
+  if (targets.positions) {
+    outputs.add(*targets.positions, [&](std::ostream& out) { write_positions(out, *targets.positions, simulation); });
+  }
+  if (targets.trace) {
+    outputs.add(*targets.trace, [&](std::ostream& out) { write_trace_csv(out, run.traces); });
+  }
+  if (targets.json) {
+    outputs.add(*targets.json, [&](std::ostream& out) { write_json(out, summary); });
+  }
+  if (targets.none()) {
+    outputs.add("-", [&](std::ostream& out) { write_text(out, summary); });
+  }
+  outputs.commit();
+}
+
+void add_acts(CLI::App& app, Options& options) {
+  options.move = add_value(app, "--move", "ID:X[,Y[,Z]]", "drag an element to a position; what is left out stays");
+  options.by = add_value(app, "--by", "ID:DX[,DY[,DZ]]", "drag an element from where it is");
+  options.cut = add_value(app, "--cut", "A-B", "cut the link of two elements");
+  for (CLI::Option* option : {options.move, options.by, options.cut}) {
+    option->group("Acts, repeated at will and carried out in the order given");
+  }
+  options.steps = add_value(app, "--steps", "N", "passes of equal steps a move [1]");
+}
+
+void add_model(CLI::App& app, Options& options) {
+  std::string names;
+  for (const auto& name : algorithm_names()) {
+    names += (names.empty() ? "" : "|") + name;
+  }
+  options.algorithm = add_value(app, "--algorithm", "NAME", names)->required();
+  options.compression = add_parameter(app, parameters::compression);
+  options.stretch = add_parameter(app, parameters::stretch);
+  options.shear = add_parameter(app, parameters::shear);
+  options.relax = add_value(app, "--relax", "N", "sweeps of relaxation after each pass [0]");
+  options.relaxation = add_value(app, "--relaxation", "mean", "how an element relaxes [mean]");
+  options.relax_step = add_parameter(app, parameters::relax_step);
+  options.precision = add_value(app, "--precision", "double|float", "the numbers to compute in [double]");
+  options.mesh.space = add_value(app, "--space", "1|2|3", "space dimension [what the mesh states or extends along]");
+}
+
+void add_outputs(CLI::App& app, Options& options) {
+  options.positions = add_value(app, "--positions", "FILE", "where the elements end: .csv (id,x,y,z) or .obj");
+  options.trace =
+      add_value(app, "--trace", "FILE", "every candidate processed, as CSV pass,order,element,sponsor,moved");
+  options.json = add_value(app, "--json", "FILE", "passes, violation, energy and displacement as JSON");
+}
+
+}  // namespace
+
+Command add_deform(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("deform", "Drag elements and cut links of a mesh");
+  Options options{};
+  options.app = app;
+  options.mesh = add_mesh_options(*app);
+  add_model(*app, options);
+  add_acts(*app, options);
+  add_outputs(*app, options);
+  for (const auto* name : {"--pin", "--softness"}) {
+    add_value(*app, name, "VALUE", "later work")->group("");
+  }
+  app->footer(example);
+  return {app, [options] { deform(options); }};
+}
+
+}  // namespace chainmail::command_line

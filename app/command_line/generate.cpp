@@ -1,0 +1,75 @@
+#include "mesh/generate.h"
+
+#include "command_line/common.h"
+#include "files/outputs.h"
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace chainmail::command_line {
+namespace {
+
+struct Options {
+  CLI::Option *kind, *size, *spacing, *space, *output;
+};
+
+std::string size_form(int sizes) { return sizes == 1 ? "N" : sizes == 2 ? "WxH" : "WxHxD"; }
+
+std::string kinds_help() {
+  std::string text = "what to make:";
+  for (const MeshKindInfo& info : mesh_kinds()) {
+    text += "\n" + std::string(info.name) + " " + size_form(info.sizes) + ", " + std::string(info.help);
+  }
+  return text;
+}
+
+const MeshKindInfo& find_kind(const std::string& name) {
+  std::vector<std::string> names;
+  for (const MeshKindInfo& info : mesh_kinds()) {
+    if (info.name == name) {
+      return info;
+    }
+    names.emplace_back(info.name);
+  }
+  check_word("KIND", name, names);
+  throw Error("KIND", "it is not known", "see chainmail generate --help");
+}
+
+MeshRecipe read_recipe(const Options& options) {
+  const MeshKindInfo& info = find_kind(*value_of(options.kind));
+  MeshRecipe recipe;
+  recipe.kind = info.kind;
+  const std::string text = *value_of(options.size);
+  const auto size = parse_size(text, info.sizes);
+  if (!size) {
+    throw Error("SIZE", in_quotes(text) + " is not the size of a " + std::string(info.name),
+                "write " + size_form(info.sizes) + " with whole numbers from 1");
+  }
+  recipe.size = *size;
+  recipe.spacing = value_of(options.spacing, parameters::spacing);
+  recipe.space_dimension = space_of(options.space);
+  return recipe;
+}
+
+void generate_to_file(const Options& options) {
+  const MeshRecipe recipe = read_recipe(options);
+  const std::filesystem::path path = *value_of(options.output);
+  const MeshFormat format = path == "-" ? MeshFormat::dat : mesh_format(path);
+  const MeshPointer mesh = in_options([&] { return generate(recipe); });
+  write_file(path, [&](std::ostream& out) { write_mesh(out, format, *mesh, Cuts(mesh), rest_positions(*mesh)); });
+}
+
+}  // namespace
+
+Command add_generate(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("generate", "Make a regular mesh");
+  Options options{};
+  options.kind = add_value(*app, "KIND", "", kinds_help())->required();
+  options.size = add_value(*app, "SIZE", "", "elements along each axis")->required();
+  options.spacing = add_parameter(*app, parameters::spacing);
+  options.space = add_value(*app, "--space", "1|2|3", "space dimension [the axes on which the mesh extends]");
+  options.output = add_value(*app, "-o", "FILE", "where to: .dat or .obj, - for .dat on standard output")->required();
+  app->footer("Example:\n  chainmail generate cloth 24x16 --spacing 0.5 -o cloth.obj");
+  return {app, [options] { generate_to_file(options); }};
+}
+
+}  // namespace chainmail::command_line

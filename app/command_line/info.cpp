@@ -1,0 +1,50 @@
+#include <ostream>
+
+#include "command_line/common.h"
+#include "files/outputs.h"
+#include "files/summary.h"
+#include "files/text.h"
+
+namespace chainmail::command_line {
+namespace {
+
+std::string digits(double number) {
+  std::string text;
+  append_number(text, number);
+  return text;
+}
+
+std::string digits(const Point& point) {
+  return "(" + digits(point.x()) + ", " + digits(point.y()) + ", " + digits(point.z()) + ")";
+}
+
+void write_text(std::ostream& out, const MeshSummary& summary) {
+  out << "elements          " << summary.elements << '\n'
+      << "links             " << summary.links << '\n'
+      << "triangles         " << summary.triangles << '\n'
+      << "tetrahedra        " << summary.tetrahedra << '\n'
+      << "object dimension  " << summary.object_dimension << '\n'
+      << "space dimension   " << summary.space_dimension << '\n'
+      << "components        " << summary.components << '\n'
+      << "bounds            " << digits(summary.bounds[0]) << " to " << digits(summary.bounds[1]) << '\n'
+      << "mean link length  " << digits(summary.mean_link_length) << '\n';
+}
+
+}  // namespace
+
+Command add_info(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("info", "Say what a mesh holds");
+  const MeshOptions mesh = add_mesh_options(*app);
+  CLI::Option* json = add_value(*app, "--json", "FILE", "write it as JSON instead");
+  app->footer("Example:\n  chainmail info 3x3.dat --json -");
+  return {app, [mesh, json] {
+            const MeshSummary summary = summarize(*read_mesh(mesh));
+            if (const auto path = value_of(json)) {
+              write_file(*path, [&](std::ostream& out) { write_json(out, summary); });
+            } else {
+              write_file("-", [&](std::ostream& out) { write_text(out, summary); });
+            }
+          }};
+}
+
+}  // namespace chainmail::command_line

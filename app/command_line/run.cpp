@@ -1,0 +1,107 @@
+#include <iostream>
+#include <vector>
+
+#include "command_line/common.h"
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace chainmail::command_line {
+namespace {
+
+constexpr const char* footer =
+    "Exit status: 0 done; 2 bad usage or bad input, with one line on standard error and no\n"
+    "output file touched; 1 anything else. The file name - is standard output.\n\n"
+    "Example:\n"
+    "  chainmail generate grid 9x7 -o grid.dat\n"
+    "  chainmail deform grid.dat --algorithm natural-queue --by 31:3,2 --positions moved.csv";
+
+std::string help_hint(const CLI::App& app) {
+  return "see chainmail" + (app.get_parent() == nullptr ? "" : " " + app.get_name()) + " --help";
+}
+
+const CLI::App& chosen(const CLI::App& root) {
+  const auto commands = root.get_subcommands();
+  return commands.empty() ? root : *commands.front();
+}
+
+/// Turns what CLI11 says into one line of ours. Its texts begin with the name of the option or positional.
+Error usage_error(const CLI::App& root, const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::string name = text.substr(0, text.find_first_of(": "));
+  const std::string hint = help_hint(chosen(root));
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+    return {name, "it is missing", hint};
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    return {name, "its value is missing", hint};
+  }
+  return {"arguments", text, hint};
+}
+
+/// What no option and no positional has taken.
+void refuse_extras(const CLI::App& root) {
+  const CLI::App& app = chosen(root);
+  for (const CLI::App* with_extras : {&root, &app}) {
+    const auto extras = with_extras->remaining();
+    if (extras.empty()) {
+      continue;
+    }
+    const std::string word = extras.front();
+    if (word.size() > 1 && word.front() == '-') {
+      throw Error(word, "there is no such option", help_hint(app));
+    }
+    throw Error(word, with_extras == &root ? "there is no such command" : "it is one argument too many",
+                help_hint(app));
+  }
+}
+
+/// An option's value that looks like an option: the real one was forgotten.
+void refuse_swallowed_options(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (value.starts_with("--")) {
+        throw Error(option->get_name(), "its value is missing", help_hint(app));
+      }
+    }
+  }
+}
+
+void add_unbuilt(CLI::App& root, const std::string& name) {
+  CLI::App* app = root.add_subcommand(name)->group("")->prefix_command();
+  app->set_help_flag();
+  app->callback([name] { refuse_unbuilt(name, "use generate, info or deform"); });
+}
+
+}  // namespace
+
+void run(int argc, char** argv) {
+  CLI::App root("Deforms meshes with the ChainMail family of algorithms.", "chainmail");
+  root.set_version_flag("--version", std::string("chainmail ") + CHAINMAIL_VERSION, "Print the version and exit");
+  root.footer(footer);
+  root.allow_extras()->require_subcommand(0, 1);
+  const std::vector<Command> commands{add_generate(root), add_info(root), add_deform(root)};
+  for (const Command& command : commands) {
+    command.app->allow_extras();
+  }
+  add_unbuilt(root, "compare");
+  add_unbuilt(root, "ramp");
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    root.exit(asked);
+    return;
+  } catch (const CLI::ParseError& error) {
+    throw usage_error(root, error);
+  }
+  refuse_swallowed_options(chosen(root));
+  refuse_extras(root);
+  for (const Command& command : commands) {
+    if (command.app->parsed()) {
+      command.run();
+      return;
+    }
+  }
+  throw Error("command", "none is given", "use generate, info or deform; see chainmail --help");
+}
+
+}  // namespace chainmail::command_line

@@ -1,0 +1,197 @@
+#include "command_line/script.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+
+#include "command_line/common.h"
+#include "files/space.h"
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace chainmail::command_line {
+namespace {
+
+/// A line on standard error, where that is a terminal, for work that takes more than a second.
+class Progress {
+ public:
+  explicit Progress(std::uint64_t total) : total_(total), is_terminal_(isatty(STDERR_FILENO) != 0) {}
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() {
+    if (shown_) {
+      std::cerr << "\r\x1b[K" << std::flush;
+    }
+  }
+
+  void advance() {
+    ++done_;
+    const auto now = Clock::now();
+    if (is_terminal_ && now - last_ > std::chrono::seconds(1)) {
+      std::cerr << "\r\x1b[Kpass " << done_ << " of " << total_ << std::flush;
+      shown_ = true;
+      last_ = now;
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::uint64_t total_;
+  std::uint64_t done_ = 0;
+  bool is_terminal_;
+  bool shown_ = false;
+  Clock::time_point last_ = Clock::now();
+};
+
+ElementId parse_id(const std::string& where, std::string_view text) {
+  const auto id = parse_count(text);
+  if (!id) {
+    throw Error(where, in_quotes(text) + " is not an element's id", "ids are whole numbers from 0");
+  }
+  return *id;
+}
+
+void check_element(const Act& act, ElementId element, const Mesh& mesh) {
+  if (element >= mesh.element_count()) {
+    throw Error(act.where, "there is no element " + std::to_string(element),
+                "ids run from 0 to " + std::to_string(mesh.element_count() - 1));
+  }
+}
+
+void check_axes(const Act& act, const Mesh& mesh) {
+  for (int k = 0; k < static_cast<int>(act.coordinates.size()); ++k) {
+    const bool carried = std::find(mesh.axes.begin(), mesh.axes.begin() + mesh.space_dimension, k) !=
+                         mesh.axes.begin() + mesh.space_dimension;
+    const double coordinate = act.coordinates[k];
+    const bool stays = coordinate == 0 || (act.kind == Act::Kind::move && coordinate == mesh.origin[k]);
+    if (!carried && !stays) {
+      const std::string axis(1, "xyz"[k]);
+      throw Error(act.where, "the object does not extend along " + axis,
+                  "write 0 for " + axis + ", or give it more dimensions with --space");
+    }
+  }
+}
+
+class Runner {
+ public:
+  Runner(Simulation& simulation, const Schedule& schedule, std::uint64_t moves)
+      : simulation_(simulation), schedule_(schedule), progress_(moves * schedule.steps) {}
+
+  void carry_out(const Act& act) {
+    if (act.kind == Act::Kind::cut) {
+      simulation_.apply(chainmail::Command(commands::Cut{{*find_link(simulation_.mesh(), act.element, act.other)}}));
+    } else {
+      move(act);
+    }
+  }
+  Run take() { return std::move(run_); }
+
+ private:
+  Point target_of(const Act& act, const Point& start) const;
+  void move(const Act& act);
+  void pass(ElementId element, const Point& target);
+
+  Simulation& simulation_;
+  const Schedule& schedule_;
+  Progress progress_;
+  Run run_;
+};
+
+Point Runner::target_of(const Act& act, const Point& start) const {
+  Point target = start;
+  for (int i = 0; i < simulation_.mesh().space_dimension; ++i) {
+    const int k = simulation_.mesh().axes[i];
+    if (k < static_cast<int>(act.coordinates.size())) {
+      target[k] = act.kind == Act::Kind::by ? start[k] + act.coordinates[k] : act.coordinates[k];
+    }
+  }
+  return target;
+}
+
+void Runner::move(const Act& act) {
+  const Point start = point_of(simulation_.mesh(), simulation_.solver().positions(), act.element);
+  const Point target = target_of(act, start);
+  simulation_.apply(chainmail::Command(commands::Grab{act.element}));
+  for (std::uint32_t step = 1; step <= schedule_.steps; ++step) {
+    Point between;
+    for (int k = 0; k < 3; ++k) {
+      // std::lerp ends exactly at the target, and does not leave the numbers' range on the way.
+      between[k] = std::lerp(start[k], target[k], double(step) / schedule_.steps);
+    }
+    pass(act.element, between);
+  }
+  simulation_.apply(chainmail::Command(commands::Release{}));
+}
+
+void Runner::pass(ElementId element, const Point& target) {
+  Trace trace;
+  simulation_.set_trace(schedule_.trace ? &trace : nullptr);
+  simulation_.apply(chainmail::Command(commands::Drag{target}));
+  simulation_.set_trace(nullptr);
+  const Statistics& statistics = simulation_.statistics();
+  run_.passes.push_back(
+      {element, target, statistics.last_pass.checked, statistics.last_pass.moved, statistics.last_pass_ms});
+  if (schedule_.trace) {
+    run_.traces.push_back(std::move(trace));
+  }
+  simulation_.relax(static_cast<int>(schedule_.relax), schedule_.relax_step);
+  progress_.advance();
+}
+
+}  // namespace
+
+Act parse_act(Act::Kind kind, const std::string& option, const std::string& text) {
+  Act act{kind, option + " " + text, 0, 0, {}};
+  const bool is_cut = kind == Act::Kind::cut;
+  const std::size_t mark = text.find(is_cut ? '-' : ':');
+  if (mark == std::string::npos) {
+    throw Error(act.where, is_cut ? "it names no link" : "it names no place",
+                is_cut ? "write A-B with the ids of a link's ends" : "write ID:X[,Y[,Z]]");
+  }
+  act.element = parse_id(act.where, std::string_view(text).substr(0, mark));
+  std::string_view rest = std::string_view(text).substr(mark + 1);
+  if (is_cut) {
+    act.other = parse_id(act.where, rest);
+    return act;
+  }
+  for (;;) {
+    const std::size_t end = std::min(rest.find(','), rest.size());
+    act.coordinates.push_back(parse_number_of(act.where, rest.substr(0, end)));
+    if (end == rest.size()) {
+      break;
+    }
+    rest.remove_prefix(end + 1);
+  }
+  if (act.coordinates.size() > 3) {
+    throw Error(act.where, "it has more than three coordinates", "write ID:X[,Y[,Z]]");
+  }
+  return act;
+}
+
+void check_act(const Act& act, const Mesh& mesh) {
+  check_element(act, act.element, mesh);
+  if (act.kind != Act::Kind::cut) {
+    check_axes(act, mesh);
+    return;
+  }
+  check_element(act, act.other, mesh);
+  if (!find_link(mesh, act.element, act.other)) {
+    throw Error(act.where, "these elements are not linked", "give the two ends of a link");
+  }
+}
+
+Run carry_out(Simulation& simulation, const std::vector<Act>& acts, const Schedule& schedule) {
+  const auto moves = static_cast<std::uint64_t>(
+      std::count_if(acts.begin(), acts.end(), [](const Act& act) { return act.kind != Act::Kind::cut; }));
+  Runner runner(simulation, schedule, moves);
+  for (const Act& act : acts) {
+    runner.carry_out(act);
+  }
+  return runner.take();
+}
+
+}  // namespace chainmail::command_line

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "files/summary.h"
+#include "simulate/simulation.h"
+
+namespace chainmail::command_line {
+
+/// One of the options that act in the order given.
+struct Act {
+  enum class Kind { move, by, cut };
+
+  Kind kind = Kind::move;
+  std::string where;  // the option and its value, for errors
+  ElementId element = 0;
+  ElementId other = 0;              // cut: the link's other end
+  std::vector<double> coordinates;  // move, by: x, y, z as far as given
+};
+
+/// Reads `ID:X[,Y[,Z]]` for a move, `A-B` for a cut. Throws Error naming the option.
+Act parse_act(Act::Kind kind, const std::string& option, const std::string& text);
+
+/// Throws Error where an act does not fit the mesh: an element or link that is not there, a coordinate on
+/// an axis that does not exist.
+void check_act(const Act& act, const Mesh& mesh);
+
+/// How each move is made.
+struct Schedule {
+  std::uint32_t steps = 1;  // passes a move
+  std::uint32_t relax = 0;  // sweeps after each pass
+  double relax_step = 1;
+  bool trace = false;
+};
+
+struct Run {
+  std::vector<DeformSummary::Pass> passes;
+  std::vector<Trace> traces;
+};
+
+/// Carries the acts out, one after another; says on a terminal how far it is.
+Run carry_out(Simulation& simulation, const std::vector<Act>& acts, const Schedule& schedule);
+
+}  // namespace chainmail::command_line

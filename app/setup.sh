@@ -1,0 +1,91 @@
+# shellcheck shell=bash disable=SC2034
+# What app/run and tests/run share; sourced by both: the packages, the configuration, the build.
+# Both set -euo pipefail; `root` is the checkout, whatever the working directory.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+build_packages=(
+  g++ cmake ninja-build ccache
+  libeigen3-dev nlohmann-json3-dev libcli11-dev libtinyobjloader-dev
+  qt6-base-dev libqt6opengl6-dev qt6-charts-dev
+)
+# What a bare machine lacks to show a window: a driver that draws in software, and letters.
+window_packages=(libgl1-mesa-dri fonts-dejavu-core)
+test_packages=(librapidcheck-dev xvfb xauth clang-format)
+check_packages=(clang-tidy)
+
+# Another checkout's build, or one that was here before, fills the cache for this one.
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+
+say() { printf '%s\n' "$*"; }
+fail() {
+  printf '%s: %s\n' "${program:-setup}" "$*" >&2
+  exit 1
+}
+
+# Installs those of the packages named that are missing.
+need_packages() {
+  local installed package missing=()
+  installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null) || true
+  for package in "$@"; do
+    [[ $'\n'$installed$'\n' == *$'\n'"$package installed"$'\n'* ]] || missing+=("$package")
+  done
+  [[ ${#missing[@]} -gt 0 ]] || return 0
+  if ! command -v apt-get >/dev/null; then
+    [[ -z ${CHAINMAIL_PACKAGES_PRESENT:-} ]] || return 0
+    fail "apt-get is not here; install what these Debian packages hold, then start again with" \
+      "CHAINMAIL_PACKAGES_PRESENT=1: ${missing[*]}"
+  fi
+  install_packages "${missing[@]}"
+}
+
+install_packages() {
+  local log=$root/build/setup.log apt=(env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300)
+  if [[ $EUID -ne 0 ]]; then
+    command -v sudo >/dev/null || fail "packages are missing and sudo is not here; as root, run: apt-get install $*"
+    apt=(sudo "${apt[@]}")
+  fi
+  mkdir -p "$root/build"
+  say "Installing $# packages, which may take a few minutes: $*"
+  # A source of packages that does not answer matters only if what is missing comes from there.
+  "${apt[@]}" update >"$log" 2>&1 || true
+  "${apt[@]}" install -y --no-install-recommends "$@" >>"$log" 2>&1 </dev/null || {
+    grep '^E:' "$log" >&2 || tail -n 5 "$log" >&2
+    fail "the packages could not be installed; see $log"
+  }
+}
+
+# configure PRESET OPTION…: configures build/PRESET unless it stands configured with these options.
+# An OPTION that begins with ? is for a new build folder: one configured otherwise does as well.
+configure() {
+  local preset=$1 folder=$root/build/$1 wanted=$root$'\n' present='' option options=() fresh=()
+  shift
+  for option in "$@"; do
+    options+=("${option#\?}")
+    [[ $option == \?* ]] || wanted+=" $option"
+  done
+  if [[ -e $folder/build.ninja && $root/CMakePresets.json -ot $folder/configured ]]; then
+    present=$(<"$folder/configured")
+    [[ "$present " != "$wanted "* ]] || return 0
+    [[ $present == "$root"$'\n'* ]] || fresh=(--fresh) # the checkout was moved
+  fi
+  mkdir -p "$folder"
+  rm -f "$folder/configured"
+  say "Configuring $preset"
+  (cd "$root" && cmake --preset "$preset" "${fresh[@]}" "${options[@]}") >"$folder/configure.log" 2>&1 || {
+    grep -A 8 'CMake Error' "$folder/configure.log" >&2 || tail -n 8 "$folder/configure.log" >&2
+    fail "$preset could not be configured; see $folder/configure.log"
+  }
+  printf '%s\n' "$root" " ${options[*]}" >"$folder/configured"
+}
+
+# build PRESET [TARGET…]: shows its progress on a terminal, else only what goes wrong.
+build() {
+  local preset=$1 targets=() quiet=()
+  shift
+  [[ $# -eq 0 ]] || targets=(--target "$@")
+  [[ -t 1 ]] || quiet=(-- --quiet)
+  [[ -e $root/build/$preset/.ninja_log ]] || say "Building $preset, which takes a few minutes the first time"
+  (cd "$root" && cmake --build --preset "$preset" "${targets[@]}" "${quiet[@]}") ||
+    fail "$preset could not be built; the compiler says why above"
+}

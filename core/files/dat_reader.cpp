@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "files/dat.h"
+#include "files/dat_rows.h"
+#include "files/space.h"
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+class DatReader {
+ public:
+  DatReader(DatRows file, const std::filesystem::path& path, const ReadOptions& options)
+      : file_(std::move(file)), path_(path), options_(options) {}
+
+  MeshPointer read();
+
+ private:
+  using Row = DatRows::Row;
+
+  [[noreturn]] void fail(std::size_t line, const std::string& problem, const std::string& remedy) const {
+    throw Error(shown(path_, line), problem, remedy);
+  }
+  void choose_size();
+  void choose_lattice();
+  std::vector<const Row*> rows_by_id() const;
+  void place_rows();
+  void check_rows(std::vector<ElementId>& sorted) const;
+  void check_links() const;
+
+  const DatRows file_;
+  const std::filesystem::path& path_;
+  const ReadOptions& options_;
+  Lattice lattice_;
+  MeshParts parts_;
+};
+
+std::string size_text(const Lattice& lattice) {
+  const auto& [width, height, depth] = lattice.size;
+  return std::to_string(width) + "x" + std::to_string(height) + (depth > 1 ? "x" + std::to_string(depth) : "");
+}
+
+void DatReader::choose_size() {
+  if (options_.size) {
+    lattice_.size = *options_.size;
+  } else if (file_.size) {
+    lattice_.size = file_.size->value;
+  } else if (const auto named = parse_size(path_.stem().string()); named && path_.extension() == ".dat") {
+    lattice_.size = *named;
+  } else {
+    throw Error(shown(path_), "the size of its lattice is not known",
+                "give --size WxH[xD], write '# size W [H [D]]' into the file, or name it WxH[xD].dat");
+  }
+}
+
+void DatReader::choose_lattice() {
+  choose_size();
+  lattice_.spacing = options_.spacing ? *options_.spacing : file_.spacing ? file_.spacing->value : 1;
+  const auto& size = lattice_.size;
+  const std::string where = !options_.size && file_.size ? shown(path_, file_.size->line) : shown(path_);
+  if (double(size[0]) * size[1] * size[2] > double(element_limit)) {
+    throw Error(where,
+                "the size " + size_text(lattice_) + " is more than " + std::to_string(element_limit) + " elements",
+                "use a smaller mesh");
+  }
+  if (!(lattice_.spacing * *std::max_element(size.begin(), size.end()) < largest_coordinate)) {
+    throw Error(file_.spacing ? shown(path_, file_.spacing->line) : shown(path_), "the spacing is too large",
+                "scale the mesh down");
+  }
+}
+
+/// The row of each element: none without one, none with two.
+std::vector<const DatRows::Row*> DatReader::rows_by_id() const {
+  const std::uint64_t count = lattice_.element_count();
+  // Not more than the file has rows, whatever size it claims.
+  std::vector<const Row*> of(std::min<std::uint64_t>(count, file_.rows.size()), nullptr);
+  for (const Row& row : file_.rows) {
+    const std::string element = "element " + std::to_string(row.id);
+    if (row.id >= count) {
+      fail(row.line, element + " lies outside the size " + size_text(lattice_),
+           "ids run from 0 to " + std::to_string(count - 1));
+    }
+    if (row.id < of.size()) {
+      if (of[row.id] != nullptr) {
+        fail(row.line, element + " has a row in line " + std::to_string(of[row.id]->line), "give each element one row");
+      }
+      of[row.id] = &row;
+    }
+  }
+  const auto missing = std::find(of.begin(), of.end(), nullptr);
+  if (missing != of.end() || of.size() < count) {
+    fail(file_.last_line,
+         "the file ends without a row for element " + std::to_string(missing - of.begin()) + " (" +
+             std::to_string(file_.rows.size()) + " rows, and the size is " + size_text(lattice_) + ")",
+         "add the row or correct the size");
+  }
+  return of;
+}
+
+void DatReader::place_rows() {
+  const auto& listed = file_.neighbours;
+  parts_.first_entry.push_back(0);
+  parts_.neighbours.reserve(listed.size());
+  for (const Row* row : rows_by_id()) {
+    parts_.neighbours.insert(parts_.neighbours.end(), listed.begin() + static_cast<std::ptrdiff_t>(row->first),
+                             listed.begin() + static_cast<std::ptrdiff_t>(row->last));
+    parts_.first_entry.push_back(static_cast<EntryId>(parts_.neighbours.size()));
+  }
+}
+
+/// Sorts each row on the way.
+void DatReader::check_rows(std::vector<ElementId>& sorted) const {
+  for (const Row& row : file_.rows) {
+    const auto begin = sorted.begin() + parts_.first_entry[row.id];
+    const auto end = sorted.begin() + parts_.first_entry[row.id + 1];
+    std::sort(begin, end);
+    const std::string element = "element " + std::to_string(row.id);
+    if (begin != end && *(end - 1) >= file_.rows.size()) {
+      fail(row.line, element + " lists the neighbour " + std::to_string(*(end - 1)) + ", which is out of range",
+           "ids run from 0 to " + std::to_string(file_.rows.size() - 1));
+    }
+    if (const auto twice = std::adjacent_find(begin, end); twice != end) {
+      fail(row.line, element + " lists the neighbour " + std::to_string(*twice) + " twice", "list it once");
+    }
+  }
+}
+
+void DatReader::check_links() const {
+  std::vector<ElementId> sorted = parts_.neighbours;
+  check_rows(sorted);
+  const auto begin = [&](ElementId id) { return sorted.begin() + parts_.first_entry[id]; };
+  for (const Row& row : file_.rows) {
+    for (auto neighbour = begin(row.id); neighbour != begin(row.id + 1); ++neighbour) {
+      if (!std::binary_search(begin(*neighbour), begin(*neighbour + 1), row.id)) {
+        const std::string a = std::to_string(row.id), b = std::to_string(*neighbour);
+        fail(row.line, "element " + a + " lists " + b + ", but " + b + " does not list " + a,
+             "list a link in both rows or in neither");
+      }
+    }
+  }
+}
+
+MeshPointer DatReader::read() {
+  if (file_.rows.empty()) {
+    throw Error(shown(path_), "it holds no rows", "write a row 'id count neighbour…' for each element");
+  }
+  choose_lattice();
+  place_rows();
+  check_links();
+  parts_.rest.reserve(file_.rows.size());
+  for (ElementId element = 0; element < file_.rows.size(); ++element) {
+    parts_.rest.push_back(lattice_.position(element));
+  }
+  parts_.lattice = lattice_;
+  parts_.space_dimension = chosen_space(parts_, options_.space_dimension, file_.space, path_);
+  return build_mesh(std::move(parts_));
+}
+
+}  // namespace
+
+MeshPointer read_dat(std::string_view text, const std::filesystem::path& path, const ReadOptions& options) {
+  return DatReader(parse_dat(text, path), path, options).read();
+}
+
+}  // namespace chainmail

@@ -1,0 +1,79 @@
+#include "files/mesh_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "files/dat.h"
+#include "files/obj.h"
+#include "files/outputs.h"
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+
+MeshFormat mesh_format(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".dat") {
+    return MeshFormat::dat;
+  }
+  if (ending == ".obj") {
+    return MeshFormat::obj;
+  }
+  throw Error(shown(path),
+              ending.empty() ? "its name has no ending" : "the ending " + printable(ending) + " is not known",
+              "meshes are .dat or .obj");
+}
+
+MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+  require_file(path);
+  const MeshFormat format = mesh_format(path);
+  if (format == MeshFormat::obj && (options.size || options.spacing)) {
+    throw Error(shown(path), "a .obj file holds its own positions", "leave size and spacing out");
+  }
+  const std::string text = read_text(path);
+  return format == MeshFormat::dat ? read_dat(text, path, options) : read_obj(text, path, options);
+}
+
+std::optional<std::array<std::uint32_t, 3>> parse_size(std::string_view text, int sizes) {
+  std::array<std::uint32_t, 3> size{1, 1, 1};
+  int count = 0;
+  for (;;) {
+    const std::size_t end = std::min(text.find('x'), text.size());
+    const auto number = parse_count(text.substr(0, end));
+    if (!number || *number == 0 || count == 3) {
+      return std::nullopt;
+    }
+    size[count++] = *number;
+    if (end == text.size()) {
+      break;
+    }
+    text.remove_prefix(end + 1);
+  }
+  return (sizes == 0 ? count > 1 : count == sizes) ? std::optional(size) : std::nullopt;
+}
+
+PositionView rest_positions(const Mesh& mesh) {
+  return {mesh.rest.data(), sizeof(double) * mesh.space_dimension, Precision::double_precision};
+}
+
+void write_mesh(std::ostream& out, MeshFormat format, const Mesh& mesh, const Cuts& cuts,
+                const PositionView& positions) {
+  if (format == MeshFormat::dat) {
+    write_dat(out, mesh, cuts);
+  } else {
+    write_obj(out, mesh, cuts, positions);
+  }
+}
+
+void save_mesh(const std::filesystem::path& path, const Mesh& mesh, const Cuts& cuts, const PositionView& positions) {
+  const MeshFormat format = mesh_format(path);
+  if (format == MeshFormat::dat && !mesh.lattice) {
+    throw Error(shown(path), "a .dat file holds lattices alone, and this mesh stands in none", "save it as .obj");
+  }
+  write_file(path, [&](std::ostream& out) { write_mesh(out, format, mesh, cuts, positions); });
+}
+
+}  // namespace chainmail

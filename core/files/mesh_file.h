@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <ostream>
+#include <string_view>
+
+#include "mesh/cuts.h"
+#include "mesh/mesh.h"
+#include "solve/solver.h"
+
+namespace chainmail {
+
+/// What a reader takes from outside the file.
+struct ReadOptions {
+  /// The lattice of a .dat file and its spacing (mesh units), before what the file or its name says.
+  std::optional<std::array<std::uint32_t, 3>> size;
+  std::optional<double> spacing;
+  /// By default what the file says, else the axes on which the mesh is not constant.
+  std::optional<int> space_dimension;
+};
+
+enum class MeshFormat { dat, obj };
+
+/// The format that a file's ending names, in any case of letters. Throws Error for all others.
+MeshFormat mesh_format(const std::filesystem::path& path);
+
+/// Reads a mesh, in the format that its ending names. Throws Error, with the line where there is one.
+MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// W x H x D of a text `WxH` or `WxHxD`, each 1 or more; `sizes` says how many there must be (0: two or
+/// three). The sizes left out are 1.
+std::optional<std::array<std::uint32_t, 3>> parse_size(std::string_view text, int sizes = 0);
+
+/// The rest positions as they are read in place; valid as long as the mesh.
+PositionView rest_positions(const Mesh& mesh);
+
+/// Writes the object as it is cut and stands; .dat holds no positions and takes those of its lattice.
+/// Throws Error where the format cannot hold the mesh.
+void write_mesh(std::ostream& out, MeshFormat format, const Mesh& mesh, const Cuts& cuts,
+                const PositionView& positions);
+
+/// The same into a file, in the format that its ending names, whole or not at all.
+void save_mesh(const std::filesystem::path& path, const Mesh& mesh, const Cuts& cuts, const PositionView& positions);
+
+}  // namespace chainmail

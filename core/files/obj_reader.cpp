@@ -1,0 +1,80 @@
+#include <tiny_obj_loader.h>
+
+#include <istream>
+#include <streambuf>
+#include <string>
+#include <vector>
+
+#include "files/obj.h"
+#include "files/obj_scanner.h"
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+/// Reads a string in place: std::istringstream would copy it.
+class StringBuffer : public std::streambuf {
+ public:
+  explicit StringBuffer(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
+};
+
+std::vector<tinyobj::shape_t> load_shapes(std::string& text, const std::filesystem::path& path) {
+  StringBuffer buffer(text);
+  std::istream stream(&buffer);
+  tinyobj::attrib_t vertices;
+  std::vector<tinyobj::shape_t> shapes;
+  std::vector<tinyobj::material_t> materials;
+  std::string warning, error;
+  const bool triangulate = false;
+  if (!tinyobj::LoadObj(&vertices, &shapes, &materials, &warning, &error, &stream, nullptr, triangulate)) {
+    throw Error(shown(path), "tinyobjloader refuses it (" + printable(error) + ")", "export it anew as plain OBJ");
+  }
+  return shapes;
+}
+
+void add_face(MeshParts& parts, const tinyobj::index_t* corner, std::size_t count) {
+  const auto id = [&](std::size_t i) { return static_cast<ElementId>(corner[i % count].vertex_index); };
+  for (std::size_t i = 0; i < count; ++i) {
+    parts.links.push_back({id(i), id(i + 1)});
+  }
+  if (count == 3) {
+    parts.triangles.push_back({id(0), id(1), id(2)});
+    return;
+  }
+  parts.polygons.push_back(static_cast<ElementId>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    parts.polygons.push_back(id(i));
+  }
+}
+
+void add_shape(MeshParts& parts, const tinyobj::shape_t& shape) {
+  const auto* corner = shape.mesh.indices.data();
+  for (const std::size_t count : shape.mesh.num_face_vertices) {
+    add_face(parts, corner, count);
+    corner += count;
+  }
+  corner = shape.lines.indices.data();
+  for (const int count : shape.lines.num_line_vertices) {
+    for (int i = 1; i < count; ++i) {
+      parts.links.push_back(
+          {static_cast<ElementId>(corner[i - 1].vertex_index), static_cast<ElementId>(corner[i].vertex_index)});
+    }
+    corner += count;
+  }
+}
+
+}  // namespace
+
+MeshPointer read_obj(std::string_view text, const std::filesystem::path& path, const ReadOptions& options) {
+  ObjText file = scan_obj(text, path);
+  MeshParts parts;
+  parts.rest = std::move(file.vertices);
+  for (const auto& shape : load_shapes(file.faces_and_lines, path)) {
+    add_shape(parts, shape);
+  }
+  parts.space_dimension = chosen_space(parts, options.space_dimension, file.space, path);
+  return build_mesh(std::move(parts));
+}
+
+}  // namespace chainmail

@@ -1,0 +1,86 @@
+#include "files/summary.h"
+
+#include <nlohmann/json.hpp>
+
+namespace chainmail {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Point& point) { return {point.x(), point.y(), point.z()}; }
+
+std::uint64_t count_components(const Mesh& mesh) {
+  std::vector<bool> seen(mesh.element_count(), false);
+  std::vector<ElementId> open;
+  std::uint64_t count = 0;
+  for (ElementId first = 0; first < mesh.element_count(); ++first) {
+    if (seen[first]) {
+      continue;
+    }
+    ++count;
+    seen[first] = true;
+    open.push_back(first);
+    while (!open.empty()) {
+      const ElementId element = open.back();
+      open.pop_back();
+      for (const ElementId neighbour : mesh.neighbours_of(element)) {
+        if (!seen[neighbour]) {
+          seen[neighbour] = true;
+          open.push_back(neighbour);
+        }
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+MeshSummary summarize(const Mesh& mesh) {
+  MeshSummary summary;
+  summary.elements = mesh.element_count();
+  summary.links = mesh.link_count();
+  summary.triangles = mesh.triangles.size();
+  summary.tetrahedra = mesh.tetrahedra.size();
+  summary.object_dimension = mesh.object_dimension;
+  summary.space_dimension = mesh.space_dimension;
+  summary.components = count_components(mesh);
+  summary.bounds = bounds(mesh);
+  summary.mean_link_length = mesh.mean_link_length;
+  return summary;
+}
+
+void write_json(std::ostream& out, const MeshSummary& summary) {
+  const Json json{{"elements", summary.elements},
+                  {"links", summary.links},
+                  {"triangles", summary.triangles},
+                  {"tetrahedra", summary.tetrahedra},
+                  {"object_dimension", summary.object_dimension},
+                  {"space_dimension", summary.space_dimension},
+                  {"components", summary.components},
+                  {"bounds", {to_json(summary.bounds[0]), to_json(summary.bounds[1])}},
+                  {"mean_link_length", summary.mean_link_length}};
+  out << json.dump(2) << '\n';
+}
+
+void write_json(std::ostream& out, const DeformSummary& summary) {
+  Json passes = Json::array();
+  for (const auto& pass : summary.passes) {
+    passes.push_back({{"element", pass.element},
+                      {"target", to_json(pass.target)},
+                      {"checked", pass.checked},
+                      {"moved", pass.moved},
+                      {"milliseconds", pass.milliseconds}});
+  }
+  const auto& violation = summary.violation;
+  const Json json{{"algorithm", summary.algorithm},
+                  {"elements", summary.elements},
+                  {"links", summary.links},
+                  {"passes", std::move(passes)},
+                  {"violation", {{"max", violation.max}, {"rms", violation.rms}, {"fraction", violation.fraction}}},
+                  {"energy", summary.energy},
+                  {"displacement", {{"max", summary.displacement.max}, {"rms", summary.displacement.rms}}}};
+  out << json.dump(2) << '\n';
+}
+
+}  // namespace chainmail

@@ -1,0 +1,41 @@
+#include "files/tables.h"
+
+#include <string>
+
+#include "files/space.h"
+#include "files/text.h"
+
+namespace chainmail {
+
+void write_positions_csv(std::ostream& out, const Mesh& mesh, const PositionView& positions) {
+  out << "id,x,y,z\n";
+  std::string row;
+  for (ElementId element = 0; element < mesh.element_count(); ++element) {
+    row.clear();
+    append_number(row, std::uint64_t{element});
+    for (const double coordinate : point_of(mesh, positions, element)) {
+      row += ',';
+      append_number(row, coordinate);
+    }
+    out << (row += '\n');
+  }
+}
+
+void write_trace_csv(std::ostream& out, const std::vector<Trace>& passes) {
+  out << "pass,order,element,sponsor,moved\n";
+  std::string row;
+  for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+    std::uint64_t order = 0;
+    for (const TraceRow& candidate : passes[pass]) {
+      row.clear();
+      for (const std::uint64_t number :
+           {std::uint64_t{pass}, order++, std::uint64_t{candidate.element}, std::uint64_t{candidate.sponsor}}) {
+        append_number(row, number);
+        row += ',';
+      }
+      out << (row += candidate.moved ? "1\n" : "0\n");
+    }
+  }
+}
+
+}  // namespace chainmail

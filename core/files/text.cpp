@@ -1,0 +1,209 @@
+#include "files/text.h"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+// Ten times what the largest mesh allowed takes; an endless source (a device, a pipe) ends here.
+constexpr std::size_t largest_text = std::size_t{4} << 30;
+constexpr std::size_t longest_quote = 40;
+
+/// The length of the UTF-8 sequence at the start of a text, 0 where there is none.
+std::size_t sequence_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) < 0xc2 ? 0 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
+  if (length == 0 || length > text.size() || byte(0) > 0xf4) {
+    return 0;
+  }
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) {
+      return 0;
+    }
+  }
+  // Overlong forms, surrogates, and what lies beyond Unicode.
+  const bool wrong = length > 2 && ((byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xed && byte(1) > 0x9f) ||
+                                    (byte(0) == 0xf0 && byte(1) < 0x90) || (byte(0) == 0xf4 && byte(1) > 0x8f));
+  return wrong ? 0 : length;
+}
+
+bool is_control(std::string_view sequence) {
+  const auto first = static_cast<unsigned char>(sequence[0]);
+  return first < 0x20 || first == 0x7f || (first == 0xc2 && static_cast<unsigned char>(sequence[1]) < 0xa0);
+}
+
+std::string reason() { return std::generic_category().message(errno); }
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  static constexpr std::string_view digits = "0123456789abcdef";
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = sequence_length(text);
+    if (length != 0 && !is_control(text.substr(0, length))) {
+      result += text.substr(0, length);
+    } else {
+      for (const char c : text.substr(0, std::max<std::size_t>(length, 1))) {
+        const auto byte = static_cast<unsigned char>(c);
+        result += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
+      }
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return result;
+}
+
+std::string in_quotes(std::string_view word) {
+  const bool is_long = word.size() > longest_quote;
+  return "'" + printable(word.substr(0, longest_quote)) + (is_long ? "…'" : "'");
+}
+
+std::string shown(const std::filesystem::path& path) { return path.empty() ? "''" : printable(path.string()); }
+
+std::string shown(const std::filesystem::path& path, std::size_t line) {
+  return shown(path) + ":" + std::to_string(line);
+}
+
+void require_file(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    throw Error(shown(path), "there is no such file", "check the path");
+  }
+  if (std::filesystem::is_directory(status)) {
+    throw Error(shown(path), "it is a folder", "give a file");
+  }
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  require_file(path);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw Error(shown(path), "it cannot be read (" + reason() + ")", "check its permissions");
+  }
+  std::string text;
+  std::vector<char> part(std::size_t{1} << 20);
+  while (file.read(part.data(), static_cast<std::streamsize>(part.size())), file.gcount() > 0) {
+    text.append(part.data(), static_cast<std::size_t>(file.gcount()));
+    if (text.find('\0', text.size() - static_cast<std::size_t>(file.gcount())) != std::string::npos) {
+      throw Error(shown(path), "it is not a text file", "give a mesh as text");
+    }
+    if (text.size() > largest_text) {
+      throw Error(shown(path), "it is larger than 4 GiB", "give a smaller mesh");
+    }
+  }
+  if (file.bad()) {
+    throw Error(shown(path), "it cannot be read to its end (" + reason() + ")", "check the disk");
+  }
+  if (text.empty()) {
+    throw Error(shown(path), "it is empty", "give a file that holds a mesh");
+  }
+  return text;
+}
+
+Lines::Lines(std::string_view text) : rest_(text) {
+  static constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (rest_.starts_with(byte_order_mark)) {
+    rest_.remove_prefix(byte_order_mark.size());
+  }
+}
+
+bool Lines::next() {
+  if (rest_.empty()) {
+    return false;
+  }
+  const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+  line_ = rest_.substr(0, end);
+  rest_.remove_prefix(end);
+  rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : rest_.empty() ? 0 : 1);
+  ++number_;
+  return true;
+}
+
+std::string_view take_word(std::string_view& rest) {
+  std::size_t first = 0;
+  while (first < rest.size() && is_blank(rest[first])) {
+    ++first;
+  }
+  std::size_t last = first;
+  while (last < rest.size() && !is_blank(rest[last])) {
+    ++last;
+  }
+  const std::string_view word = rest.substr(first, last - first);
+  rest.remove_prefix(last);
+  return word;
+}
+
+std::optional<double> parse_number(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') {
+    word.remove_prefix(1);  // from_chars does not know it, files do
+  }
+  double number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number)) {
+    return std::nullopt;
+  }
+  return number;
+}
+
+std::optional<std::uint32_t> parse_count(std::string_view word) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size()) {
+    return std::nullopt;
+  }
+  return number;
+}
+
+void append_number(std::string& text, double number) {
+  std::array<char, 32> digits;
+  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+}
+
+void append_number(std::string& text, std::uint64_t number) {
+  std::array<char, 32> digits;
+  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+}
+
+std::optional<std::string_view> stated(std::string_view line, std::string_view word) {
+  std::string_view rest = line;
+  std::string_view first = take_word(rest);
+  if (first == "#") {
+    first = take_word(rest);
+  } else if (first.starts_with('#')) {
+    first.remove_prefix(1);
+  } else {
+    return std::nullopt;
+  }
+  std::string_view behind = rest;
+  if (const auto value = take_word(behind);
+      first != word || value.empty() || std::string_view("0123456789+-.").find(value[0]) == std::string_view::npos) {
+    return std::nullopt;
+  }
+  return rest;
+}
+
+std::optional<int> stated_space(std::string_view line, const std::string& where) {
+  auto rest = stated(line, "space");
+  if (!rest) {
+    return std::nullopt;
+  }
+  const auto number = parse_count(take_word(*rest));
+  if (!number || *number < 1 || *number > 3 || !take_word(*rest).empty()) {
+    throw Error(where, "the space dimension is no 1, 2 or 3", "write '# space N' with one of these");
+  }
+  return static_cast<int>(*number);
+}
+
+}  // namespace chainmail

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <QFile>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QtTest>
+
+namespace chainmail::test {
+
+/// What a run of the program came to.
+struct Outcome {
+  int code = -1;
+  QByteArray out;
+  QByteArray error;
+};
+
+/// The program, run in a folder of its own.
+class Program {
+ public:
+  Outcome run(const QStringList& arguments) const {
+    QProcess process;
+    process.setWorkingDirectory(folder_.path());
+    process.start(QStringLiteral(CHAINMAIL_PROGRAM), arguments);
+    process.waitForFinished(60'000);
+    const bool ended = process.exitStatus() == QProcess::NormalExit && process.state() == QProcess::NotRunning;
+    return {ended ? process.exitCode() : -1, process.readAllStandardOutput(), process.readAllStandardError()};
+  }
+  /// The same from one line, parted at blanks.
+  Outcome run(const char* line) const { return run(QString(line).split(' ', Qt::SkipEmptyParts)); }
+
+  QString path(const QString& name) const { return folder_.filePath(name); }
+  QByteArray read(const QString& name) const {
+    QFile file(path(name));
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray("no such file");
+  }
+  void write(const QString& name, const QByteArray& text) const {
+    QFile file(path(name));
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write(text) == text.size());
+  }
+  QJsonObject json(const QString& name) const { return QJsonDocument::fromJson(read(name)).object(); }
+  QStringList files() const {
+    return QDir(folder_.path()).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot);
+  }
+
+ private:
+  QTemporaryDir folder_;
+};
+
+/// One line on standard error that begins `chainmail: WHERE` and says what to do, and nothing else.
+inline bool is_one_sentence(const Outcome& outcome) {
+  return outcome.out.isEmpty() && outcome.error.startsWith("chainmail: ") && outcome.error.endsWith('\n') &&
+         outcome.error.count('\n') == 1 && outcome.error.contains("; ");
+}
+
+/// The rows of a CSV below its header.
+inline QList<QList<QByteArray>> rows_of(const QByteArray& csv) {
+  QList<QList<QByteArray>> rows;
+  for (const QByteArray& line : csv.trimmed().split('\n')) {
+    rows.append(line.split(','));
+  }
+  rows.removeFirst();
+  return rows;
+}
+
+}  // namespace chainmail::test

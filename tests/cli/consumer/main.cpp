@@ -1,0 +1,17 @@
+#include <iostream>
+
+#include "mesh/generate.h"
+#include "simulate/simulation.h"
+
+// Pulls the corner of a 3x3 grid two units to the left: a program that uses the installed library.
+int main() {
+  using namespace chainmail;
+  Simulation simulation(generate({MeshKind::grid, {3, 3, 1}}), Algorithm::natural_queue, Precision::double_precision);
+  for (const Command& command :
+       {Command(commands::Grab{0}), Command(commands::Drag{Point(-2, 0, 0)}), Command(commands::Release{})}) {
+    simulation.apply(command);
+  }
+  simulation.refresh_statistics(true);
+  std::cout << simulation.statistics().last_pass.moved << " moved\n";
+  return simulation.statistics().violation.max < 1e-12 ? 0 : 1;
+}

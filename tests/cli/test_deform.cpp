@@ -1,0 +1,190 @@
+#include "cli/chainmail_program.h"
+
+using namespace chainmail::test;
+
+/// `chainmail deform`: acts in their order, steps, relaxation, precision. Figures by hand on a chain, on
+/// which a link of length 1 may be 0.8 to 1.2 long.
+class DeformCommandTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    program_ = std::make_unique<Program>();
+    QCOMPARE(program_->run("generate line 4 -o line.dat").code, 0);
+    QCOMPARE(program_->run("generate grid 5x4 -o grid.dat").code, 0);
+  }
+  void a_chain_follows();
+  void every_algorithm_runs_data();
+  void every_algorithm_runs();
+  void acts_are_carried_out_in_their_order();
+  void coordinates_left_out_stay();
+  void coordinates_that_do_not_exist_must_be_0();
+  void steps_are_equal_and_end_at_the_target();
+  void relaxation_goes_to_the_equilibrium();
+  void softness_is_taken();
+  void float_rounds_to_float();
+  void more_space_may_be_given();
+  void acts_that_do_not_fit_are_refused_data();
+  void acts_that_do_not_fit_are_refused();
+
+ private:
+  /// The positions that a deformation ends in, by rows x, y, z.
+  QList<QList<double>> deform(const QByteArray& options, const char* mesh = "line.dat") {
+    const auto outcome =
+        program_->run("deform " + options + " --positions out.csv --json out.json " + QByteArray(mesh));
+    if (outcome.code != 0) {
+      qWarning("%s", outcome.error.constData());
+    }
+    QList<QList<double>> positions;
+    for (const auto& row : rows_of(program_->read("out.csv"))) {
+      positions.append({row[1].toDouble(), row[2].toDouble(), row[3].toDouble()});
+    }
+    return positions;
+  }
+  QList<double> xs(const QByteArray& options, const char* mesh = "line.dat") {
+    QList<double> result;
+    for (const auto& position : deform("--algorithm natural-queue " + options, mesh)) {
+      result.append(position[0]);
+    }
+    return result;
+  }
+
+  std::unique_ptr<Program> program_;
+};
+
+void DeformCommandTest::a_chain_follows() {
+  // Element 0 goes to -1: 1 may be 1.2 behind, so do 2 and 3, which is within reach.
+  QCOMPARE(xs("--move 0:-1"), (QList<double>{-1, -1 + 1.2, -1 + 1.2 + 1.2, -1 + 1.2 + 1.2 + 1.2}));
+  QCOMPARE(xs("--by 3:-0.5"), (QList<double>{0, 2.5 - 0.8 - 0.8, 2.5 - 0.8, 2.5}));
+  const auto json = program_->json("out.json");
+  QCOMPARE(json["passes"][0]["element"].toInt(), 3);
+  QCOMPARE(json["passes"][0]["moved"].toInt(), 2);
+  QCOMPARE(json["passes"][0]["checked"].toInt(), 3);  // 0 is near enough to stay
+  QVERIFY(json["violation"]["max"].toDouble() < 1e-12);
+  // The links, of rest length 1, are 0.9, 0.8 and 0.8 long.
+  QVERIFY(std::abs(json["energy"].toDouble() - (0.1 * 0.1 + 0.2 * 0.2 + 0.2 * 0.2) / 2) < 1e-12);
+}
+
+void DeformCommandTest::every_algorithm_runs_data() {
+  QTest::addColumn<QString>("name");
+  for (const char* name : {"generalized", "spiral", "natural-queue"}) {
+    QTest::newRow(name) << name;
+  }
+}
+
+void DeformCommandTest::every_algorithm_runs() {
+  QFETCH(QString, name);
+  const auto positions = deform("--by 12:7,5 --algorithm " + name.toUtf8(), "grid.dat");
+  QCOMPARE(positions[12], (QList<double>{9, 7, 0}));
+  const auto json = program_->json("out.json");
+  QCOMPARE(json["algorithm"].toString(), name);
+  QCOMPARE(json["passes"][0]["checked"].toInt(), 19);  // far enough for everything to follow
+  QCOMPARE(json["passes"][0]["moved"].toInt(), 19);
+}
+
+void DeformCommandTest::acts_are_carried_out_in_their_order() {
+  QCOMPARE(xs("--cut 0-1 --move 0:-5"), (QList<double>{-5, 1, 2, 3}));
+  QCOMPARE(xs("--cut 1-0 --move 0:-5"), (QList<double>{-5, 1, 2, 3}));
+  const double far = -5 + 1.2;
+  QCOMPARE(xs("--move 0:-5 --cut 0-1"), (QList<double>{-5, far, far + 1.2, far + 1.2 + 1.2}));
+  QCOMPARE(xs("--by 0:-5 --cut 0-1 --move 0:0 --by 0:1 --cut 2-3")[0], 1.0);
+  QCOMPARE(xs("--by 0:-5 --cut 0-1 --move 0:0 --by 0:1 --cut 2-3")[1], far);
+  QCOMPARE(xs("--by 0:1 --move 0:7")[0], 7.0);
+  QCOMPARE(xs("--move 0:7 --by 0:1")[0], 8.0);
+  QCOMPARE(program_->json("out.json")["passes"].toArray().size(), 2);
+}
+
+void DeformCommandTest::coordinates_left_out_stay() {
+  const auto positions = deform("--algorithm spiral --move 7:9 --by 7:0,0.25", "grid.dat");
+  QCOMPARE(positions[7], (QList<double>{9, 1.25, 0}));
+  QCOMPARE(program_->json("out.json")["passes"][0]["target"].toArray(), (QJsonArray{9, 1, 0}));
+}
+
+void DeformCommandTest::coordinates_that_do_not_exist_must_be_0() {
+  QCOMPARE(xs("--move 0:-1,0,0")[0], -1.0);
+  // A plane at z = 5: that is where its elements are.
+  program_->write("plane.obj", "v 0 0 5\nv 1 0 5\nv 0 1 5\nf 1 2 3\n");
+  for (const char* options : {"--move 0:1,1,5", "--move 0:1,1,0", "--by 0:1,1,0"}) {
+    const auto positions = deform("--algorithm spiral " + QByteArray(options), "plane.obj");
+    QCOMPARE(positions[0], (QList<double>{1, 1, 5}));
+  }
+  const auto outcome = program_->run("deform plane.obj --algorithm spiral --by 0:1,1,5");
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome) && outcome.error.startsWith("chainmail: --by 0:1,1,5: "), outcome.error);
+}
+
+void DeformCommandTest::steps_are_equal_and_end_at_the_target() {
+  QCOMPARE(xs("--steps 4 --move 0:-1 --by 0:0.3")[0], -1 + 0.3);
+  const auto passes = program_->json("out.json")["passes"].toArray();
+  QCOMPARE(passes.size(), 8);
+  QCOMPARE(passes[0]["target"][0].toDouble(), -0.25);
+  QCOMPARE(passes[1]["target"][0].toDouble(), -0.5);
+  QCOMPARE(passes[2]["target"][0].toDouble(), -0.75);
+  QVERIFY(passes[3]["target"][0].toDouble() == -1.0);
+  QVERIFY(passes[7]["target"][0].toDouble() == -1 + 0.3);
+  QVERIFY(xs("--steps 3 --move 0:0.1")[0] == 0.1);
+}
+
+void DeformCommandTest::relaxation_goes_to_the_equilibrium() {
+  // One sweep, in the order 1, 2, 3, each to the mean over its neighbours of their place less the rest
+  // vector: 1 between 0 at -0.3 and 2 at 2 goes to ((-0.3 + 1) + (2 - 1)) / 2, and so on.
+  const double first = (-0.3 + 1 + 1) / 2;
+  const auto once = xs("--move 0:-0.3 --relax 1");
+  QVERIFY(std::abs(once[1] - first) < 1e-12);
+  QVERIFY(std::abs(once[2] - (first + 1 + 2) / 2) < 1e-12);
+  QVERIFY(std::abs(once[3] - (once[2] + 1)) < 1e-12);
+  // Half the way.
+  QVERIFY(std::abs(xs("--move 0:-0.3 --relax 1 --relax-step 0.5")[1] - (0.9 + first) / 2) < 1e-12);
+  // At length the whole chain has moved by -0.3.
+  const auto at_rest = xs("--move 0:-0.3 --relax 1000 --relaxation mean");
+  QCOMPARE(at_rest[0], -0.3);
+  QVERIFY(std::abs(at_rest[3] - 2.7) < 1e-3);
+}
+
+void DeformCommandTest::softness_is_taken() {
+  QCOMPARE(xs("--move 0:-1 --stretch 1 --compression 1"), (QList<double>{-1, 0, 1, 2}));
+  QCOMPARE(xs("--move 0:2 --compression 0"), (QList<double>{2, 2, 2, 3}));
+  const auto positions = deform("--algorithm spiral --space 2 --shear 0 --move 0:0,1");
+  QCOMPARE(positions[3], (QList<double>{3, 1, 0}));
+}
+
+void DeformCommandTest::float_rounds_to_float() {
+  QVERIFY(xs("--move 0:-0.1 --precision float")[0] == double(-0.1F));
+  QVERIFY(xs("--move 0:-0.1 --precision double")[0] == -0.1);
+}
+
+void DeformCommandTest::more_space_may_be_given() {
+  const auto positions = deform("--algorithm spiral --space 3 --by 0:0,0,-2");
+  QCOMPARE(positions[0], (QList<double>{0, 0, -2}));
+  QCOMPARE(positions[1], (QList<double>{1, 0, -2 + 0.1}));  // it may lean by 0.1
+}
+
+void DeformCommandTest::acts_that_do_not_fit_are_refused_data() {
+  QTest::addColumn<QString>("where");
+  const auto row = [](const char* options, const char* where) { QTest::newRow(options) << where; };
+  for (const char* act :
+       {"--move 20:1", "--move -1:1",  "--move 3",         "--move 3:",      "--move :1",    "--move x:1",
+        "--move 3:1,", "--move 3:,1",  "--move 3:1,2,0,0", "--move 3:1,2,3", "--move 3:nan", "--by 3:1e999",
+        "--by 3:1x",   "--by 3:0,0,1", "--cut 0",          "--cut 0-2",      "--cut 0-0",    "--cut 0-20",
+        "--cut 0-1-2", "--cut -",      "--cut 0:1"}) {
+    row(act, act);
+  }
+  row("--by 3:1e308 --by 3:1e308", "element 3");
+  row("--precision float --by 3:1e39", "element 3");
+  row("--space 1 --by 3:1", "--space 1");
+}
+
+void DeformCommandTest::acts_that_do_not_fit_are_refused() {
+  QFETCH(QString, where);
+  const auto options = QString(QTest::currentDataTag()).split(' ');
+  const auto before = program_->files();
+  const auto outcome = program_->run(
+      QStringList{"deform", "grid.dat", "--algorithm", "spiral", "--positions", "a.csv", "--by", "0:1"} + options);
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where + ": "), outcome.error);
+  QCOMPARE(program_->files(), before);
+}
+
+QTEST_GUILESS_MAIN(DeformCommandTest)
+#include "test_deform.moc"

@@ -1,0 +1,166 @@
+#include "cli/chainmail_program.h"
+#include "files/mesh_file.h"
+#include "simulate/simulation.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// What `chainmail deform` writes, and that it writes all of it or nothing.
+class OutputsCommandTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    program_ = std::make_unique<Program>();
+    QCOMPARE(program_->run("generate cloth 6x5 -o cloth.obj").code, 0);
+  }
+  void json_has_the_keys_of_the_contract();
+  void the_trace_has_a_row_for_each_candidate();
+  void positions_read_back_bit_for_bit();
+  void deformed_obj_holds_links_and_cuts();
+  void a_dash_is_standard_output();
+  void without_outputs_there_is_a_summary();
+  void one_failing_output_leaves_all();
+  void a_full_device_is_status_1();
+  void options_stand_anywhere();
+
+ private:
+  std::unique_ptr<Program> program_;
+};
+
+void OutputsCommandTest::json_has_the_keys_of_the_contract() {
+  QCOMPARE(program_->run("deform cloth.obj --algorithm spiral --by 14:2,1 --json a.json").code, 0);
+  const QByteArray text = program_->read("a.json");
+  qsizetype last = -1;
+  for (const char* key : {"algorithm", "elements", "links", "passes", "element", "target", "checked", "moved",
+                          "milliseconds", "violation", "max", "rms", "fraction", "energy", "displacement"}) {
+    const auto at = text.indexOf('"' + QByteArray(key) + '"');
+    QVERIFY2(at > last, key);
+    last = at;
+  }
+  const auto json = program_->json("a.json");
+  QCOMPARE(json.keys().size(), 7);
+  QCOMPARE(json["passes"][0].toObject().keys().size(), 5);
+  QCOMPARE(json["violation"].toObject().keys(), (QStringList{"fraction", "max", "rms"}));
+  QCOMPARE(json["displacement"].toObject().keys(), (QStringList{"max", "rms"}));
+  QCOMPARE(json["elements"].toInt(), 30);
+  QCOMPARE(json["links"].toInt(), 69);  // 25 + 24 + 20
+  QCOMPARE(json["passes"][0]["target"].toArray(), (QJsonArray{4, 3, 0}));
+  QVERIFY(json["passes"][0]["milliseconds"].toDouble() > 0);
+  QCOMPARE(json["displacement"]["max"].toDouble(), std::sqrt(5.0));
+}
+
+void OutputsCommandTest::the_trace_has_a_row_for_each_candidate() {
+  const auto outcome = program_->run(
+      "deform cloth.obj --algorithm generalized --by 14:2,1 --by 3:-4 --steps 2 --relax 3 --trace a.csv --json a.json");
+  QCOMPARE(outcome.code, 0);
+  QVERIFY(program_->read("a.csv").startsWith("pass,order,element,sponsor,moved\n"));
+  const auto passes = program_->json("a.json")["passes"].toArray();
+  QCOMPARE(passes.size(), 4);
+  QList<int> checked(4, 0), moved(4, 0);
+  for (const auto& row : rows_of(program_->read("a.csv"))) {
+    const int pass = row[0].toInt();
+    QCOMPARE(row[1].toInt(), checked[pass]);  // the order, from 0
+    ++checked[pass];
+    moved[pass] += row[4].toInt();
+    QVERIFY(row[2] != row[3]);
+  }
+  for (int i = 0; i < 4; ++i) {
+    QCOMPARE(passes[i]["checked"].toInt(), checked[i]);
+    QCOMPARE(passes[i]["moved"].toInt(), moved[i]);
+  }
+}
+
+void OutputsCommandTest::positions_read_back_bit_for_bit() {
+  QCOMPARE(program_->run("generate grid 6x5 --spacing 0.1 -o grid.dat").code, 0);
+  const auto mesh = read_mesh(program_->path("grid.dat").toStdString());
+  for (const auto precision : {Precision::double_precision, Precision::single_precision}) {
+    const QByteArray option = precision == Precision::double_precision ? "double" : "float";
+    const auto outcome = program_->run(
+        "deform grid.dat --algorithm natural-queue --by 14:0.7,0.3 --relax 5 --positions a.csv --precision " + option);
+    QCOMPARE(outcome.code, 0);
+    // The same move through the library.
+    Simulation simulation(mesh, Algorithm::natural_queue, precision);
+    const auto at = simulation.solver().positions();
+    const Point target(at(14, 0) + 0.7, at(14, 1) + 0.3, 0);
+    simulation.apply(Command(commands::Grab{14}));
+    simulation.apply(Command(commands::Drag{target}));
+    simulation.relax(5, 1);
+    const auto rows = rows_of(program_->read("a.csv"));
+    QCOMPARE(rows.size(), 30);
+    for (ElementId e = 0; e < 30; ++e) {
+      QCOMPARE(rows[e][0].toUInt(), e);
+      QVERIFY(rows[e][1].toDouble() == at(e, 0) && rows[e][2].toDouble() == at(e, 1));
+      QCOMPARE(rows[e][3], QByteArray("0"));
+    }
+  }
+}
+
+void OutputsCommandTest::deformed_obj_holds_links_and_cuts() {
+  QCOMPARE(program_->run("deform cloth.obj --algorithm spiral --cut 0-1 --by 14:2,1 --positions a.obj").code, 0);
+  QCOMPARE(program_->run("deform cloth.obj --algorithm spiral --cut 0-1 --by 14:2,1 --positions a.csv").code, 0);
+  program_->run("info a.obj --json a.json");
+  const auto info = program_->json("a.json");
+  QCOMPARE(info["links"].toInt(), 68);
+  QCOMPARE(info["triangles"].toInt(), 39);  // 40 less the one that had the link
+  const auto rows = rows_of(program_->read("a.csv"));
+  const auto lines = program_->read("a.obj").split('\n');
+  for (int i = 0; i < rows.size(); ++i) {
+    QCOMPARE(lines[i], "v " + rows[i][1] + " " + rows[i][2] + " " + rows[i][3]);
+  }
+}
+
+void OutputsCommandTest::a_dash_is_standard_output() {
+  const auto trace = program_->run("deform cloth.obj --algorithm spiral --by 0:-1 --trace - --json a.json");
+  QCOMPARE(trace.code, 0);
+  QVERIFY(trace.out.startsWith("pass,order,element,sponsor,moved\n0,0,"));
+  QVERIFY(program_->run("deform cloth.obj --algorithm spiral --positions -").out.startsWith("id,x,y,z\n0,0,0,0\n"));
+  const auto json = program_->run("deform cloth.obj --algorithm spiral --json -");
+  QCOMPARE(QJsonDocument::fromJson(json.out).object()["passes"].toArray().size(), 0);
+  const auto twice = program_->run("deform cloth.obj --algorithm spiral --json - --trace -");
+  QCOMPARE(twice.code, 2);
+  QVERIFY2(is_one_sentence(twice), twice.error);
+}
+
+void OutputsCommandTest::without_outputs_there_is_a_summary() {
+  const auto outcome = program_->run("deform cloth.obj --algorithm spiral --by 14:2,1 --steps 2");
+  QCOMPARE(outcome.code, 0);
+  QVERIFY(outcome.error.isEmpty());
+  QVERIFY(outcome.out.startsWith("spiral on 30 elements, 69 links\npass 0: element 14 to (3, 2.5, 0), "));
+  QVERIFY(outcome.out.contains("\npass 1: element 14 to (4, 3, 0), ") && outcome.out.contains("\nviolation: max "));
+}
+
+void OutputsCommandTest::one_failing_output_leaves_all() {
+  program_->write("a.csv", "old");
+  const auto before = program_->files();
+  for (const char* outputs : {"--positions a.csv --json none/a.json", "--trace none/a.csv --positions a.csv",
+                              "--positions a.csv --trace ./a.csv", "--positions a.csv --json ."}) {
+    const auto outcome = program_->run("deform cloth.obj --algorithm spiral --by 14:2,1 " + QByteArray(outputs));
+    QCOMPARE(outcome.code, 2);
+    QVERIFY2(is_one_sentence(outcome), outcome.error);
+    QCOMPARE(program_->read("a.csv"), QByteArray("old"));
+    QCOMPARE(program_->files(), before);
+  }
+}
+
+void OutputsCommandTest::a_full_device_is_status_1() {
+  if (!QFile::exists("/dev/full")) {
+    QSKIP("there is no device that is full");
+  }
+  const auto before = program_->files();
+  const auto outcome =
+      program_->run("deform cloth.obj --algorithm spiral --by 14:2,1 --positions a.csv --json /dev/full");
+  QCOMPARE(outcome.code, 1);
+  QVERIFY2(is_one_sentence(outcome) && outcome.error.startsWith("chainmail: /dev/full: "), outcome.error);
+  QCOMPARE(program_->files(), before);
+}
+
+void OutputsCommandTest::options_stand_anywhere() {
+  const auto before = program_->run("deform --algorithm spiral --by 14:2,1 --positions - cloth.obj");
+  const auto after = program_->run("deform cloth.obj --positions=- --by=14:2,1 --algorithm=spiral");
+  QCOMPARE(before.code, 0);
+  QCOMPARE(before.out, after.out);
+}
+
+QTEST_GUILESS_MAIN(OutputsCommandTest)
+#include "test_outputs.moc"

@@ -1,0 +1,133 @@
+#include "cli/chainmail_program.h"
+
+using namespace chainmail::test;
+
+/// Help, version, and what is said of arguments that make no sense.
+class UsageTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    program_ = std::make_unique<Program>();
+    QCOMPARE(program_->run("generate grid 4x3 -o grid.dat").code, 0);
+  }
+  void help_shows_an_example_data();
+  void help_shows_an_example();
+  void version();
+  void wrong_arguments_data();
+  void wrong_arguments();
+  void later_work_is_refused_data();
+  void later_work_is_refused();
+  void odd_names_stay_one_line();
+
+ private:
+  std::unique_ptr<Program> program_;
+};
+
+void UsageTest::help_shows_an_example_data() {
+  QTest::addColumn<QString>("line");
+  QTest::addColumn<QString>("example");
+  QTest::newRow("root") << "--help"
+                        << "chainmail generate grid";
+  QTest::newRow("generate") << "generate --help"
+                            << "chainmail generate ";
+  QTest::newRow("info") << "info --help"
+                        << "chainmail info ";
+  QTest::newRow("deform") << "deform --help"
+                          << "chainmail deform ";
+  QTest::newRow("short") << "deform -h"
+                         << "chainmail deform ";
+}
+
+void UsageTest::help_shows_an_example() {
+  QFETCH(QString, line);
+  QFETCH(QString, example);
+  const auto outcome = program_->run(line.toUtf8().constData());
+  QCOMPARE(outcome.code, 0);
+  QVERIFY(outcome.error.isEmpty());
+  const QString text = QString::fromUtf8(outcome.out);
+  QVERIFY(text.contains("Example:\n  " + example));
+}
+
+void UsageTest::version() {
+  const auto outcome = program_->run("--version");
+  QCOMPARE(outcome.code, 0);
+  QVERIFY(QRegularExpression("^chainmail \\d+\\.\\d+\\.\\d+\n$").match(outcome.out).hasMatch());
+}
+
+void UsageTest::wrong_arguments_data() {
+  QTest::addColumn<QString>("where");
+  const auto row = [](const char* line, const char* where) { QTest::newRow(line) << where; };
+  row("", "command: ");
+  row("foo", "foo: there is no such command; ");
+  row("--foo", "--foo: there is no such option; ");
+  row("generate", "KIND: it is missing; ");
+  row("generate grid", "SIZE: it is missing; ");
+  row("generate grid 3x3", "-o: it is missing; ");
+  row("generate grid 3x3 -o", "-o: its value is missing; ");
+  row("generate grid 3x3 4 -o a.dat", "4: it is one argument too many; ");
+  row("generate grid 3x3 --foo -o a.dat", "--foo: there is no such option; ");
+  row("info", "MESH: it is missing; ");
+  row("info grid.dat grid.dat", "grid.dat: it is one argument too many; ");
+  row("info grid.dat --json", "--json: its value is missing; ");
+  row("deform", "MESH: it is missing; ");
+  row("deform grid.dat", "--algorithm: it is missing; ");
+  row("deform grid.dat --algorithm best", "--algorithm: 'best' is not known; use generalized, spiral or natural-queue");
+  row("deform grid.dat --algorithm spiral --algorithm spiral", "--algorithm: it is given 2 times; ");
+  row("deform grid.dat --algorithm spiral --json --trace a.csv", "--json: its value is missing; ");
+  for (const char* option : {"--compression 1.1", "--compression -0.1", "--stretch 0.9", "--shear -1", "--relax-step 0",
+                             "--relax-step 1.5", "--spacing 0"}) {
+    const QByteArray text = option;
+    row("deform grid.dat --algorithm spiral " + text, text.left(text.indexOf(' ')) + ": ");
+  }
+  for (const char* option : {"--compression nan", "--stretch inf", "--shear 1e999", "--shear 0.1x", "--stretch 1,5"}) {
+    const QByteArray text = option;
+    row("deform grid.dat --algorithm spiral " + text, text.left(text.indexOf(' ')) + ": '");
+  }
+  for (const char* option :
+       {"--steps 0", "--steps 1.5", "--steps -1", "--steps 1e3", "--relax -1", "--relax x", "--space 0", "--space 4",
+        "--precision half", "--relaxation none", "--size 4", "--size 4x0", "--size 4x3x1x1"}) {
+    const QByteArray text = option;
+    row("deform grid.dat --algorithm spiral " + text, text.left(text.indexOf(' ')) + ": '");
+  }
+}
+
+void UsageTest::wrong_arguments() {
+  QFETCH(QString, where);
+  const auto outcome = program_->run(QTest::currentDataTag());
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where), outcome.error);
+  QCOMPARE(program_->files(), QStringList{"grid.dat"});
+}
+
+void UsageTest::later_work_is_refused_data() {
+  QTest::addColumn<QString>("line");
+  for (const char* line :
+       {"compare", "compare grid.dat -o folder", "ramp --json -", "deform grid.dat --algorithm enhanced",
+        "deform grid.dat --algorithm exact", "deform grid.dat --algorithm original",
+        "deform grid.dat --algorithm spiral --pin 3", "deform grid.dat --algorithm spiral --softness a.csv",
+        "deform grid.dat --algorithm spiral --relaxation link",
+        "deform grid.dat --algorithm spiral --positions a.vtu"}) {
+    QTest::newRow(line) << line;
+  }
+}
+
+void UsageTest::later_work_is_refused() {
+  QFETCH(QString, line);
+  const auto outcome = program_->run(line.toUtf8().constData());
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome) && outcome.error.contains("it is not built yet; "), outcome.error);
+  QCOMPARE(program_->files(), QStringList{"grid.dat"});
+}
+
+void UsageTest::odd_names_stay_one_line() {
+  for (const char* name : {"a\nb.dat", "\x1b[31m.obj", "", " ", "-"}) {
+    const auto outcome = program_->run(QStringList{"info", name});
+    QCOMPARE(outcome.code, 2);
+    QVERIFY2(is_one_sentence(outcome) && !outcome.error.contains('\x1b'), outcome.error);
+  }
+}
+
+QTEST_GUILESS_MAIN(UsageTest)
+#include "test_usage.moc"

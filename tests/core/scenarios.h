@@ -1,0 +1,94 @@
+#pragma once
+
+#include <rapidcheck.h>
+
+#include <ostream>
+#include <vector>
+
+#include "core/families.h"
+
+namespace chainmail {
+
+inline void showValue(const TraceRow& row, std::ostream& out) {
+  out << row.element << " by " << row.sponsor << (row.moved ? " moved" : " stayed");
+}
+inline void showValue(const LinkSoftness& softness, std::ostream& out) {
+  out << softness.compression << '/' << softness.stretch << '/' << softness.shear;
+}
+
+namespace test {
+
+/// A move of the hand from where the element is, in quarters of a mesh unit: whole numbers shrink well.
+struct Hand {
+  std::uint32_t element;  // modulo the number of elements
+  int x, y, z;
+
+  ElementId of(const Mesh& mesh) const { return element % mesh.element_count(); }
+  Point by() const { return Point(x, y, z) / 4; }
+};
+
+inline void showValue(const Hand& hand, std::ostream& out) {
+  out << '#' << hand.element << " by " << hand.by().transpose();
+}
+
+inline PassCount move_by(Solver& solver, const Mesh& mesh, ElementId element, const Point& by, Trace* trace = nullptr) {
+  return solver.move(element, position_of(solver, mesh, element) + by, trace);
+}
+
+/// Up to `reach` quarters of a mesh unit along each axis.
+inline rc::Gen<Hand> any_hand(int reach = 20) {
+  const auto quarters = rc::gen::inRange(-reach, reach + 1);
+  return rc::gen::construct<Hand>(rc::gen::inRange<std::uint32_t>(0, 1000), quarters, quarters, quarters);
+}
+inline rc::Gen<std::vector<Hand>> any_hands(int reach = 20) {
+  return rc::gen::container<std::vector<Hand>>(any_hand(reach));
+}
+
+/// Softness in hundredths, over all that is admitted and useful.
+inline rc::Gen<LinkSoftness> any_link_softness() {
+  return rc::gen::map(rc::gen::tuple(rc::gen::inRange(0, 101), rc::gen::inRange(100, 301), rc::gen::inRange(0, 101)),
+                      [](const auto& hundredths) {
+                        const auto [compression, stretch, shear] = hundredths;
+                        return LinkSoftness{compression / 100.0, stretch / 100.0, shear / 100.0};
+                      });
+}
+
+inline rc::Gen<Algorithm> any_algorithm() {
+  return rc::gen::element(Algorithm::generalized, Algorithm::spiral, Algorithm::natural_queue);
+}
+inline rc::Gen<Precision> any_precision() {
+  return rc::gen::element(Precision::single_precision, Precision::double_precision);
+}
+
+inline const Family& draw_family() {
+  static const std::vector<Family> all = families();
+  const Family& family = all[*rc::gen::inRange<std::size_t>(0, all.size())];
+  RC_LOG() << "mesh: " << family.name << '\n';
+  return family;
+}
+
+/// Uncut lattices without diagonals, in each space dimension that holds them.
+inline MeshPointer draw_grid() {
+  static const std::vector<MeshPointer> grids{
+      make_mesh(MeshKind::line, {20, 1, 1}),   make_mesh(MeshKind::line, {20, 1, 1}, 3),
+      make_mesh(MeshKind::grid, {9, 7, 1}),    make_mesh(MeshKind::grid, {12, 12, 1}, {}, 0.1),
+      make_mesh(MeshKind::grid, {8, 8, 1}, 3), make_mesh(MeshKind::block, {5, 4, 4}),
+  };
+  return grids[*rc::gen::inRange<std::size_t>(0, grids.size())];
+}
+
+/// Any softness for all links, and others for some of them.
+inline Softness draw_softness(const Mesh& mesh) {
+  Softness softness{*any_link_softness(), {}};
+  const auto some = *rc::gen::container<std::vector<std::pair<LinkId, LinkSoftness>>>(
+      rc::gen::pair(rc::gen::inRange<LinkId>(0, mesh.link_count()), any_link_softness()));
+  softness.links = {some.begin(), some.end()};
+  return softness;
+}
+
+inline std::vector<LinkId> draw_links(const Mesh& mesh) {
+  return *rc::gen::container<std::vector<LinkId>>(rc::gen::inRange<LinkId>(0, mesh.link_count()));
+}
+
+}  // namespace test
+}  // namespace chainmail

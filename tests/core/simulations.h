@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "core/families.h"
+#include "simulate/simulation.h"
+
+namespace chainmail::test {
+
+inline void carry_out(Simulation& simulation, const Command& command) { simulation.apply(command); }
+
+inline std::vector<double> positions_of(const Simulation& simulation) {
+  return positions_of(simulation.solver(), simulation.mesh());
+}
+
+inline Point position_of(const Simulation& simulation, ElementId element) {
+  return position_of(simulation.solver(), simulation.mesh(), element);
+}
+
+/// Grabs an element and drags it from where it is.
+inline void drag_by(Simulation& simulation, ElementId element, const Point& by) {
+  carry_out(simulation, commands::Grab{element});
+  carry_out(simulation, commands::Drag{position_of(simulation, element) + by});
+}
+
+/// All that a command may change and a user may see of it.
+struct Snapshot {
+  explicit Snapshot(const Simulation& simulation)
+      : mesh(simulation.mesh_pointer()),
+        positions(positions_of(simulation)),
+        cuts(simulation.solver().cuts().links()),
+        softness(simulation.softness()),
+        grabbed(simulation.grabbed()),
+        algorithm(simulation.statistics().algorithm),
+        passes(simulation.statistics().passes),
+        relaxing(simulation.statistics().relaxing),
+        valid(simulation.valid()) {}
+
+  /// The same object: mesh, positions to the bit, cuts and softness.
+  bool same_object(const Snapshot& other) const {
+    return mesh == other.mesh && same_bits(positions, other.positions) && cuts == other.cuts &&
+           softness == other.softness;
+  }
+  bool operator==(const Snapshot& other) const {
+    return same_object(other) && grabbed == other.grabbed && algorithm == other.algorithm && passes == other.passes &&
+           relaxing == other.relaxing && valid == other.valid;
+  }
+
+  MeshPointer mesh;
+  std::vector<double> positions;
+  std::vector<LinkId> cuts;
+  Softness softness;
+  std::optional<ElementId> grabbed;
+  Algorithm algorithm;
+  std::uint64_t passes;
+  bool relaxing;
+  bool valid;
+};
+
+}  // namespace chainmail::test

@@ -1,0 +1,248 @@
+#include <QtTest>
+
+#include "core/scenarios.h"
+#include "measure/violation.h"
+#include "mesh/error.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// What must hold in motion, whatever the mesh: no skew on the first deformation, no element that
+/// outruns the hand.
+class MotionTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void at_rest_a_zero_move_moves_nothing();
+  void from_a_valid_state_a_zero_move_moves_nothing();
+  void after_a_drag_a_zero_move_anywhere_moves_nothing();
+  void a_move_inside_every_region_moves_the_grabbed_element_alone();
+  void from_a_valid_state_nothing_outruns_the_hand();
+  void on_uncut_grids_natural_queue_never_outruns_the_hand();
+  void on_uncut_grids_natural_queue_stays_valid();
+  void the_mirror_image_of_a_drag_gives_the_mirror_image();
+  void a_translated_object_deforms_alike();
+  void nothing_moves_on_an_axis_without_motion_in_1d();
+  void a_target_that_is_no_number_is_refused();
+};
+
+namespace {
+
+/// A solver in a random valid state of a random mesh; `reach` says how near the edge of validity.
+struct ValidState {
+  explicit ValidState(double reach)
+      : mesh(draw_family().mesh),
+        precision(*any_precision()),
+        softness(draw_softness(*mesh)),
+        solver(make_solver(mesh, *any_algorithm(), precision)) {
+    std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+    solver->set_softness(softness);
+    solver->set_positions(random_valid_state(*mesh, softness, reach, random));
+  }
+
+  MeshPointer mesh;
+  Precision precision;
+  Softness softness;
+  std::unique_ptr<Solver> solver;
+};
+
+/// Unit in the last place of the precision, relative to 1.
+double ulp(Precision precision) { return precision == Precision::single_precision ? 0x1p-23 : 0x1p-52; }
+
+/// Rounding of a pass: at most an ulp of the largest coordinate a link, and none of the meshes here has a
+/// path of more than 40.
+double rounding_of_a_pass(Precision precision, const std::vector<double>& positions) {
+  return 40 * ulp(precision) * (1 + largest_coordinate(positions));
+}
+
+}  // namespace
+
+void MotionTest::at_rest_a_zero_move_moves_nothing() {
+  const auto holds = [] {
+    const auto& mesh = draw_family().mesh;
+    const auto solver = make_solver(mesh, *any_algorithm(), Precision::double_precision);
+    // However soft, but not rigid: there the rest shape has no slack to take up rounding.
+    solver->set_softness({{*rc::gen::inRange(0, 100) / 100.0, *rc::gen::inRange(101, 300) / 100.0, 0.01}, {}});
+    const ElementId element = (*any_hand()).of(*mesh);
+    const auto before = positions_of(*solver, *mesh);
+    const PassCount count = move_by(*solver, *mesh, element, Point(0, 0, 0));
+    RC_ASSERT(count.moved == 0u);
+    RC_ASSERT(count.checked == mesh->neighbours_of(element).size());
+    RC_ASSERT(before == positions_of(*solver, *mesh));  // but for the sign of a zero
+  };
+  QVERIFY(rc::check("at rest a zero move looks at the neighbours and moves none", holds));
+}
+
+void MotionTest::from_a_valid_state_a_zero_move_moves_nothing() {
+  const auto holds = [] {
+    const ValidState state(0.9);
+    const auto before = positions_of(*state.solver, *state.mesh);
+    move_by(*state.solver, *state.mesh, (*any_hand()).of(*state.mesh), Point(0, 0, 0));
+    const auto after = positions_of(*state.solver, *state.mesh);
+    // A rigid link leaves no room, so there the state itself is valid up to rounding only.
+    RC_ASSERT(largest_step(before, after) <= rounding_of_a_pass(state.precision, before));
+  };
+  QVERIFY(rc::check("from a valid state a zero move moves nothing", holds));
+}
+
+void MotionTest::after_a_drag_a_zero_move_anywhere_moves_nothing() {
+  // Softness and moves in eighths: every sum is exact, so nothing at all may move.
+  const auto holds = [] {
+    const auto mesh = make_mesh(MeshKind::grid, {9, 7, 1});
+    const auto solver = make_solver(mesh, Algorithm::natural_queue, *any_precision());
+    solver->set_softness({{0.75, 1.25, 0.125}, {}});
+    for (const Hand& hand : *any_hands()) {
+      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    }
+    const auto before = positions_of(*solver, *mesh);
+    move_by(*solver, *mesh, (*any_hand()).of(*mesh), Point(0, 0, 0));
+    RC_ASSERT(same_bits(before, positions_of(*solver, *mesh)));
+  };
+  QVERIFY(rc::check("after drags of a grid a zero move of any element moves nothing", holds));
+}
+
+void MotionTest::a_move_inside_every_region_moves_the_grabbed_element_alone() {
+  const auto holds = [] {
+    const ValidState state(0.5);
+    const Mesh& mesh = *state.mesh;
+    const auto before = positions_of(*state.solver, mesh);
+    const ElementId element = (*any_hand()).of(mesh);
+    Point target = position_of(*state.solver, mesh, element);
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      const auto [low, high] = valid_interval(mesh, state.softness, before, element, k);
+      // Anywhere inside, but for rounding at the edges; in the middle where there is no inside.
+      const double share = *rc::gen::inRange(1, 100) / 100.0;
+      target[mesh.axes[k]] = low + share * (high - low);
+      RC_PRE(high - low > 1000 * ulp(state.precision) * (1 + largest_coordinate(before)));
+    }
+    const PassCount count = state.solver->move(element, target);
+    RC_ASSERT(count.moved == 0u);
+    const auto after = positions_of(*state.solver, mesh);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      RC_ASSERT(before[i] == after[i] || i / mesh.space_dimension == element);
+    }
+  };
+  QVERIFY(rc::check("a move inside every neighbour's region moves the grabbed element alone", holds));
+}
+
+void MotionTest::from_a_valid_state_nothing_outruns_the_hand() {
+  // On any mesh, by any algorithm, cuts and all: a valid link hands on at most its sponsor's step.
+  const auto holds = [] {
+    const ValidState state(0.9);
+    state.solver->cut(draw_links(*state.mesh));
+    const auto before = positions_of(*state.solver, *state.mesh);
+    const auto hand = *any_hand();
+    move_by(*state.solver, *state.mesh, hand.of(*state.mesh), hand.by());
+    const auto after = positions_of(*state.solver, *state.mesh);
+    const int n = state.mesh->space_dimension;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      const double of_hand = std::abs(hand.by()[state.mesh->axes[i % n]]);
+      RC_ASSERT(std::abs(after[i] - before[i]) <= of_hand + rounding_of_a_pass(state.precision, after));
+    }
+  };
+  QVERIFY(rc::check("from a valid state no element moves further than the hand on any axis", holds));
+}
+
+void MotionTest::on_uncut_grids_natural_queue_never_outruns_the_hand() {
+  const auto holds = [] {
+    const auto mesh = draw_grid();
+    const auto precision = *any_precision();
+    const auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
+    solver->set_softness({*any_link_softness(), {}});
+    double rounding = 0;  // an earlier pass leaves its own in the state
+    for (const Hand& hand : *any_hands()) {
+      const auto before = positions_of(*solver, *mesh);
+      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+      const auto after = positions_of(*solver, *mesh);
+      rounding += rounding_of_a_pass(precision, after);
+      for (std::size_t i = 0; i < after.size(); ++i) {
+        const double of_hand = std::abs(hand.by()[mesh->axes[i % mesh->space_dimension]]);
+        RC_ASSERT(std::abs(after[i] - before[i]) <= of_hand + rounding);
+      }
+    }
+  };
+  QVERIFY(rc::check("on uncut grids Natural Queue moves no element further than the hand", holds));
+}
+
+void MotionTest::on_uncut_grids_natural_queue_stays_valid() {
+  const auto holds = [] {
+    const auto mesh = draw_grid();
+    const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+    const Softness softness{*any_link_softness(), {}};
+    solver->set_softness(softness);
+    for (const Hand& hand : *any_hands()) {
+      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+      // Rounding, in rest lengths: 1e-9 is far above it and far below what could be seen.
+      RC_ASSERT(measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max <= 1e-9);
+    }
+  };
+  QVERIFY(rc::check("on uncut grids Natural Queue leaves every link valid", holds));
+}
+
+void MotionTest::the_mirror_image_of_a_drag_gives_the_mirror_image() {
+  // Mirrored in all axes, about the origin: each sum and comparison has its exact mirror image.
+  const auto holds = [] {
+    const auto& family = draw_family();
+    const Mesh& mesh = *family.mesh;
+    MeshParts parts = placed(mesh, [](const Point& p) { return Point(-p); });
+    parts.first_entry = mesh.first_entry;
+    parts.neighbours = mesh.neighbours;
+    parts.space_dimension = mesh.space_dimension;
+    const auto image = build_mesh(std::move(parts));
+    const auto algorithm = *any_algorithm();
+    const auto precision = *any_precision();
+    const auto one = make_solver(family.mesh, algorithm, precision);
+    const auto other = make_solver(image, algorithm, precision);
+    for (const Hand& hand : *any_hands()) {
+      move_by(*one, mesh, hand.of(mesh), hand.by());
+      move_by(*other, *image, hand.of(mesh), -hand.by());
+    }
+    const auto there = positions_of(*one, mesh), back = positions_of(*other, *image);
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      RC_ASSERT(there[i] == -back[i]);
+    }
+  };
+  QVERIFY(rc::check("a mirrored object under a mirrored hand is the mirror image", holds));
+}
+
+void MotionTest::a_translated_object_deforms_alike() {
+  // Softness, moves and the way are in eighths, so the sums are exact.
+  const auto grid = make_mesh(MeshKind::grid, {8, 8, 1});
+  const Point way(64, -32, 0);
+  const auto moved = build_mesh(placed(*grid, [&](const Point& p) { return p + way; }));
+  for (const AlgorithmInfo& info : algorithms()) {
+    const auto here = make_solver(grid, info.algorithm, Precision::single_precision);
+    const auto there = make_solver(moved, info.algorithm, Precision::single_precision);
+    for (Solver* solver : {here.get(), there.get()}) {
+      solver->set_softness({{0.75, 1.25, 0.125}, {}});
+    }
+    move_by(*here, *grid, 27, Point(3.5, -2.25, 0));
+    move_by(*there, *moved, 27, Point(3.5, -2.25, 0));
+    for (ElementId e = 0; e < grid->element_count(); ++e) {
+      QVERIFY(position_of(*here, *grid, e) + way == position_of(*there, *moved, e));
+    }
+  }
+}
+
+void MotionTest::nothing_moves_on_an_axis_without_motion_in_1d() {
+  const auto mesh = make_mesh(MeshKind::line, {9, 1, 1}, 2);
+  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  move_by(*solver, *mesh, 4, Point(5, 0, 0));
+  for (ElementId e = 0; e < 9; ++e) {
+    QCOMPARE(solver->positions()(e, 1), 0.0);
+  }
+}
+
+void MotionTest::a_target_that_is_no_number_is_refused() {
+  const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
+  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
+  const auto before = positions_of(*solver, *mesh);
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e300}) {  // the last is endless in float
+    QVERIFY_EXCEPTION_THROWN(solver->move(5, Point(1, bad, 0)), Error);
+    QVERIFY(same_bits(before, positions_of(*solver, *mesh)));
+  }
+  solver->move(5, Point(1, 1, std::nan("")));  // a coordinate that does not exist here is not looked at
+}
+
+QTEST_APPLESS_MAIN(MotionTest)
+#include "test_motion.moc"

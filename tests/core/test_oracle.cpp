@@ -1,0 +1,193 @@
+#include <QtTest>
+
+#include "core/families.h"
+#include "reference/chainmail.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+Q_DECLARE_METATYPE(chainmail::test::Family)
+
+namespace {
+
+constexpr int passes = 20;
+
+/// Half of the links as soft as by default, the others each of a softness of its own.
+Softness mixed_softness(const Mesh& mesh, std::mt19937_64& random) {
+  Softness softness;
+  for (LinkId link = 0; link < mesh.link_count(); ++link) {
+    if (random() % 2 == 0) {
+      softness.links[link] = {uniform(random, 0, 1), uniform(random, 1, 2), uniform(random, 0, 0.5)};
+    }
+  }
+  return softness;
+}
+
+reference::FactorsOfLink factors_of(const MeshPointer& mesh, const Softness& softness) {
+  return [mesh, softness](ElementId a, ElementId b) {
+    const LinkSoftness& link = softness.of(*find_link(*mesh, a, b));
+    return reference::Factors{link.compression, link.stretch, link.shear};
+  };
+}
+
+template <class Scalar>
+constexpr Precision precision_of = sizeof(Scalar) == sizeof(float) ? Precision::single_precision
+                                                                   : Precision::double_precision;
+
+/// The project's solver and the thesis' lists, side by side on one object.
+template <class Scalar>
+class SideBySide {
+ public:
+  SideBySide(const MeshPointer& mesh, Algorithm algorithm, std::uint64_t seed)
+      : mesh_(mesh),
+        random_(seed),
+        softness_(mixed_softness(*mesh, random_)),
+        algorithm_(algorithm),
+        solver_(make_solver(mesh, algorithm, precision_of<Scalar>)),
+        object_(mesh, factors_of(mesh, softness_)) {
+    solver_->set_softness(softness_);
+  }
+
+  void cut_or_uncut_a_link() {
+    const LinkId link = random_() % mesh_->link_count();
+    const auto [a, b] = mesh_->links[link];
+    if (solver_->cuts().is_cut(link)) {
+      solver_->uncut(std::span(&link, 1));
+      object_.uncut(a, b);
+    } else {
+      solver_->cut(std::span(&link, 1));
+      object_.cut(a, b);
+    }
+  }
+
+  /// A move of a random element by up to `reach`, in both; they must agree in all that can be seen.
+  void move(double reach) {
+    const ElementId element = random_() % mesh_->element_count();
+    const auto target = random_target(element, reach);
+    Point point = mesh_->origin;
+    for (int k = 0; k < mesh_->space_dimension; ++k) {
+      point[mesh_->axes[k]] = target[k];
+    }
+    Trace trace;
+    const PassCount count = solver_->move(element, point, &trace);
+    compare(count, trace, move_reference(element, target));
+  }
+
+ private:
+  std::array<double, 3> random_target(ElementId element, double reach) {
+    std::array<double, 3> target{};
+    for (int k = 0; k < mesh_->space_dimension; ++k) {
+      target[k] = solver_->positions()(element, k) + uniform(random_, -reach, reach);
+    }
+    return target;
+  }
+
+  std::vector<reference::Processed> move_reference(ElementId element, const std::array<double, 3>& target) {
+    switch (algorithm_) {
+      case Algorithm::generalized:
+        return reference::move<reference::GeneralizedChainMail>(object_, element, target);
+      case Algorithm::spiral:
+        return reference::move<reference::Spiral>(object_, element, target);
+      case Algorithm::natural_queue:
+        return reference::move<reference::NaturalQueueChainMail>(object_, element, target);
+    }
+    return {};
+  }
+
+  void compare(const PassCount& count, const Trace& trace, const std::vector<reference::Processed>& processed) {
+    const auto moved = std::count_if(processed.begin(), processed.end(), [](const auto& one) { return one.moved; });
+    QCOMPARE(count.checked, std::uint64_t(processed.size()));
+    QCOMPARE(count.moved, std::uint64_t(moved));
+    QVERIFY(std::equal(trace.begin(), trace.end(), processed.begin(), processed.end(),
+                       [](const TraceRow& row, const reference::Processed& other) {
+                         return row == TraceRow{other.element, other.sponsor, other.moved};
+                       }));
+    std::vector<double> expected;
+    for (const auto& element : object_.elements) {
+      expected.insert(expected.end(), element.current_position.begin(),
+                      element.current_position.begin() + mesh_->space_dimension);
+    }
+    QVERIFY(same_bits(positions_of(*solver_, *mesh_), expected));
+  }
+
+  MeshPointer mesh_;
+  std::mt19937_64 random_;
+  Softness softness_;
+  Algorithm algorithm_;
+  std::unique_ptr<Solver> solver_;
+  reference::Object<Scalar> object_;
+};
+
+template <class Scalar>
+void run_side_by_side(const MeshPointer& mesh, Algorithm algorithm, std::uint64_t seed) {
+  SideBySide<Scalar> both(mesh, algorithm, seed);
+  for (int pass = 0; pass < passes; ++pass) {
+    if (seed % 2 == 1) {
+      both.cut_or_uncut_a_link();
+    }
+    // A small move that stays near, a large one that goes through the object, and none at all.
+    both.move(pass % 5 == 4 ? 0 : pass % 2 == 0 ? 4 : 0.4);
+    if (QTest::currentTestFailed()) {
+      qWarning("seed %llu, pass %d", static_cast<unsigned long long>(seed), pass);
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+/// The solver against the algorithms as the thesis writes them: after every pass the same bits, the same
+/// candidates in the same order.
+class OracleTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void agrees_with_the_thesis_data();
+  void agrees_with_the_thesis();
+  void spiral_ends_where_natural_queue_does();
+};
+
+void OracleTest::agrees_with_the_thesis_data() {
+  QTest::addColumn<Family>("family");
+  QTest::addColumn<int>("algorithm");
+  for (const Family& family : families()) {
+    for (const AlgorithmInfo& one : algorithms()) {
+      QTest::newRow((family.name + ", " + std::string(one.label)).c_str()) << family << static_cast<int>(one.algorithm);
+    }
+  }
+}
+
+void OracleTest::agrees_with_the_thesis() {
+  QFETCH(Family, family);
+  QFETCH(int, algorithm);
+  for (std::uint64_t seed = 0; seed < 10 && !QTest::currentTestFailed(); ++seed) {
+    run_side_by_side<double>(family.mesh, static_cast<Algorithm>(algorithm), seed);
+    run_side_by_side<float>(family.mesh, static_cast<Algorithm>(algorithm), seed);
+  }
+}
+
+void OracleTest::spiral_ends_where_natural_queue_does() {
+  std::mt19937_64 random(5);
+  for (const Family& family : families()) {
+    for (const Precision precision : precisions) {
+      const auto spiral = make_solver(family.mesh, Algorithm::spiral, precision);
+      const auto queue = make_solver(family.mesh, Algorithm::natural_queue, precision);
+      const Softness softness = mixed_softness(*family.mesh, random);
+      spiral->set_softness(softness);
+      queue->set_softness(softness);
+      for (int pass = 0; pass < 2 * passes; ++pass) {
+        const ElementId element = random() % family.mesh->element_count();
+        const Point target = position_of(*queue, *family.mesh, element) +
+                             Point(uniform(random, -3, 3), uniform(random, -3, 3), uniform(random, -3, 3));
+        const PassCount one = spiral->move(element, target);
+        const PassCount other = queue->move(element, target);
+        QCOMPARE(one.checked, other.checked);
+        QVERIFY2(same_bits(positions_of(*spiral, *family.mesh), positions_of(*queue, *family.mesh)),
+                 family.name.c_str());
+      }
+    }
+  }
+}
+
+QTEST_APPLESS_MAIN(OracleTest)
+#include "test_oracle.moc"

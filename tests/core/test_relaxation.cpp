@@ -1,0 +1,245 @@
+#include <QtTest>
+#include <cmath>
+#include <numeric>
+
+#include "core/scenarios.h"
+#include "measure/violation.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Relaxation `mean`, clamped to the neighbours' valid regions.
+class RelaxationTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void one_free_element_by_hand();
+  void a_step_of_a_half_goes_half_the_way();
+  void the_clamp_keeps_it_inside_the_intersection();
+  void where_the_intersection_is_empty_it_stays_on_that_axis();
+  void a_cut_link_does_not_pull();
+  void the_held_element_stays();
+  void the_rest_shape_stays();
+  void from_a_valid_state_every_link_stays_valid();
+  void from_a_valid_state_the_energy_never_rises();
+  void it_ends_at_the_rest_shape_about_the_held_element();
+  void a_local_move_wakes_few();
+  void it_sleeps_when_nothing_moves();
+  void a_slice_goes_on_where_the_last_one_stopped();
+};
+
+namespace {
+
+constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+
+void wake_all(Solver& solver, const Mesh& mesh) {
+  std::vector<ElementId> all(mesh.element_count());
+  std::iota(all.begin(), all.end(), ElementId{0});
+  solver.wake(all);
+}
+
+/// One sweep over all elements of a chain along x, in double, from given positions.
+std::vector<double> sweep_chain(const MeshPointer& mesh, const Softness& softness, const std::vector<double>& positions,
+                                double step, ElementId held) {
+  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  solver->set_softness(softness);
+  solver->set_positions(positions);
+  wake_all(*solver, *mesh);
+  solver->relax(step, no_limit, held);
+  return positions_of(*solver, *mesh);
+}
+
+/// A random valid state of a random mesh, all of it active; and a random step.
+struct ActiveState {
+  ActiveState() : mesh(draw_family().mesh), softness(draw_softness(*mesh)), step(*rc::gen::inRange(1, 101) / 100.0) {
+    std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+    solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+    solver->set_softness(softness);
+    solver->set_positions(random_valid_state(*mesh, softness, 0.99, random));
+    wake_all(*solver, *mesh);
+    held = *rc::gen::inRange<ElementId>(0, mesh->element_count());
+  }
+
+  double violation() const { return measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max; }
+  double energy() const { return elastic_energy(*mesh, solver->cuts(), solver->positions()); }
+
+  MeshPointer mesh;
+  Softness softness;
+  double step;
+  ElementId held = 0;
+  std::unique_ptr<Solver> solver;
+};
+
+const LinkSoftness soft{0.5, 1.5, 0.5};
+
+}  // namespace
+
+void RelaxationTest::one_free_element_by_hand() {
+  // 0 is where its one neighbour wants it. 1 goes to the mean of 0 + 1 and 2.5 − 1; 2 is held.
+  const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
+  QCOMPARE(sweep_chain(mesh, {soft, {}}, {0, 1, 2.5}, 1, 2), (std::vector<double>{0, 1.25, 2.5}));
+  // In ascending id, each from where the one before it went: 1 to the mean of 0.5 + 1 and 2 − 1, and then
+  // 2 to 1.25 + 1.
+  QCOMPARE(sweep_chain(mesh, {soft, {}}, {0.5, 1, 2}, 1, 0), (std::vector<double>{0.5, 1.25, 2.25}));
+}
+
+void RelaxationTest::a_step_of_a_half_goes_half_the_way() {
+  const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
+  QCOMPARE(sweep_chain(mesh, {soft, {}}, {0, 1, 2.5}, 0.5, 2), (std::vector<double>{0, 1.125, 2.5}));
+}
+
+void RelaxationTest::the_clamp_keeps_it_inside_the_intersection() {
+  // The mean of 0 + 1 and 3 − 1 is 1.5, but the link to 0 stretches to 1.0625 and no further.
+  const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
+  const Softness stiff_on_the_left{{0, 3, 0}, {{0, {1, 1.0625, 0}}}};
+  QCOMPARE(sweep_chain(mesh, stiff_on_the_left, {0, 1, 3}, 1, 2), (std::vector<double>{0, 1.0625, 3}));
+  const Softness stiff_on_the_right{{0, 3, 0}, {{1, {1, 1.75, 0}}}};
+  QCOMPARE(sweep_chain(mesh, stiff_on_the_right, {0, 1.25, 3}, 1, 2), (std::vector<double>{0.25, 1.625, 3}));
+  // 0 goes 0.25 to 1.25 − 1; then the mean for 1 is 1.625, inside both regions. A tighter link binds:
+  const Softness tight_on_the_right{{0, 3, 0}, {{1, {1, 1.25, 0}}}};
+  QCOMPARE(sweep_chain(mesh, tight_on_the_right, {0, 1.75, 3}, 1, 2), (std::vector<double>{0.75, 1.875, 3}));
+}
+
+void RelaxationTest::where_the_intersection_is_empty_it_stays_on_that_axis() {
+  // The ends are 5 apart, the links reach 1.5: on x there is no valid place. On y there is.
+  const auto mesh = make_mesh(MeshKind::line, {3, 1, 1}, 2);
+  const auto after = sweep_chain(mesh, {soft, {}}, {0, 0, 1.25, 0.25, 5, 0}, 1, 2);
+  QCOMPARE(after[2], 1.25);
+  QCOMPARE(after[3], (0.25 + 0) / 2);  // 0 came to 0.25 − 0 on y before, 2 is at 0
+}
+
+void RelaxationTest::a_cut_link_does_not_pull() {
+  const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
+  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const LinkId right = *find_link(*mesh, 1, 2);
+  solver->cut(std::span(&right, 1));
+  solver->set_positions(std::vector<double>{0, 1.25, 9});
+  wake_all(*solver, *mesh);
+  solver->relax(1, no_limit, 0);
+  QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{0, 1, 9}));
+}
+
+void RelaxationTest::the_held_element_stays() {
+  const auto holds = [] {
+    const ActiveState state;
+    const Point before = position_of(*state.solver, *state.mesh, state.held);
+    for (int sweep = 0; sweep < 5; ++sweep) {
+      state.solver->relax(state.step, no_limit, state.held);
+    }
+    RC_ASSERT(position_of(*state.solver, *state.mesh, state.held) == before);
+  };
+  QVERIFY(rc::check("the held element stays", holds));
+}
+
+void RelaxationTest::the_rest_shape_stays() {
+  for (const Family& family : families()) {
+    for (const Precision precision : precisions) {
+      const auto solver = make_solver(family.mesh, Algorithm::natural_queue, precision);
+      const auto before = positions_of(*solver, *family.mesh);
+      wake_all(*solver, *family.mesh);
+      const RelaxationResult result = solver->relax(1, no_limit, {});
+      QVERIFY(result.sweep_ended);
+      QCOMPARE(result.visited, std::uint64_t{family.mesh->element_count()});
+      QCOMPARE(result.largest_step, 0.0);
+      QVERIFY(same_bits(before, positions_of(*solver, *family.mesh)));
+      QCOMPARE(solver->relax(1, no_limit, {}).visited, std::uint64_t{0});
+    }
+  }
+}
+
+void RelaxationTest::from_a_valid_state_every_link_stays_valid() {
+  const auto holds = [] {
+    const ActiveState state;
+    // In rest lengths of the link. The shortest links are 0.05 long and coordinates stay below 100, so
+    // rounding is below 1e-11 a sweep.
+    RC_ASSERT(state.violation() <= 1e-10);
+    for (int sweep = 0; sweep < 10; ++sweep) {
+      state.solver->relax(state.step, no_limit, state.held);
+      RC_ASSERT(state.violation() <= 1e-10);
+    }
+  };
+  QVERIFY(rc::check("from a valid state every link stays valid", holds));
+}
+
+void RelaxationTest::from_a_valid_state_the_energy_never_rises() {
+  const auto holds = [] {
+    const ActiveState state;
+    double before = state.energy();
+    for (int sweep = 0; sweep < 10; ++sweep) {
+      state.solver->relax(state.step, no_limit, state.held);
+      const double after = state.energy();
+      // E is a sum of some 100 squares of differences; each is off by an ulp of a coordinate (1e-14),
+      // which shows in E by that times a deflection: 1e-12 of E, and less than 1e-20 near none.
+      RC_ASSERT(after <= before * (1 + 1e-12) + 1e-20);
+      before = after;
+    }
+  };
+  QVERIFY(rc::check("from a valid state the energy never rises", holds));
+}
+
+void RelaxationTest::it_ends_at_the_rest_shape_about_the_held_element() {
+  // Where no region binds the equilibrium about one held element is the rest shape, carried along.
+  for (const auto& mesh : {make_mesh(MeshKind::cloth, {5, 5, 1}), make_mesh(MeshKind::tetra, {3, 3, 3})}) {
+    const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+    const Point way(0.125, -0.0625, mesh->space_dimension == 3 ? 0.125 : 0);
+    move_by(*solver, *mesh, 7, way);
+    wake_all(*solver, *mesh);
+    int sweeps = 0;
+    while (solver->relax(1, no_limit, 7).visited != 0 && ++sweeps < 10'000) {
+    }
+    QVERIFY(sweeps < 10'000);
+    for (ElementId e = 0; e < mesh->element_count(); ++e) {
+      // Steps below 1e-6 are not taken; what a hundred sweeps of them would add is below 1e-3.
+      QVERIFY((position_of(*solver, *mesh, e) - mesh->rest_position(e) - way).norm() < 1e-3);
+    }
+  }
+}
+
+void RelaxationTest::a_local_move_wakes_few() {
+  const auto mesh = make_mesh(MeshKind::grid, {200, 200, 1});
+  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
+  const ElementId centre = 100 * 200 + 100;
+  QCOMPARE(move_by(*solver, *mesh, centre, Point(0.05, 0, 0)).moved, std::uint64_t{0});
+  solver->wake(std::span(&centre, 1));
+  const RelaxationResult first = solver->relax(1, no_limit, centre);
+  QVERIFY(first.visited >= 5);    // the element and its four neighbours
+  QVERIFY(first.visited <= 400);  // of 40,000
+}
+
+void RelaxationTest::it_sleeps_when_nothing_moves() {
+  const auto mesh = make_mesh(MeshKind::grid, {5, 5, 1});
+  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  QCOMPARE(solver->relax(1, no_limit, {}).visited, std::uint64_t{0});  // nothing is active at first
+  move_by(*solver, *mesh, 0, Point(-3, -2, 0));
+  wake_all(*solver, *mesh);
+  solver->sleep();
+  const RelaxationResult asleep = solver->relax(1, no_limit, {});
+  QCOMPARE(asleep.visited, std::uint64_t{0});
+  QVERIFY(asleep.sweep_ended);
+}
+
+void RelaxationTest::a_slice_goes_on_where_the_last_one_stopped() {
+  const auto mesh = jittered_triangles(8, 8, 6);
+  const auto whole = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto sliced = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  for (Solver* solver : {whole.get(), sliced.get()}) {
+    move_by(*solver, *mesh, 20, Point(3, 1, 0));
+    wake_all(*solver, *mesh);
+  }
+  for (int sweep = 0; sweep < 10; ++sweep) {
+    const RelaxationResult at_once = whole->relax(0.7, no_limit, 20);
+    RelaxationResult slice = sliced->relax(0.7, 7, 20);
+    std::uint64_t visited = slice.visited;
+    while (!slice.sweep_ended) {
+      QVERIFY(slice.visited <= 7);
+      slice = sliced->relax(0.7, 7, 20);
+      visited += slice.visited;
+    }
+    QCOMPARE(visited, at_once.visited);
+    QCOMPARE(slice.largest_step, at_once.largest_step);
+    QVERIFY(same_bits(positions_of(*whole, *mesh), positions_of(*sliced, *mesh)));
+  }
+}
+
+QTEST_APPLESS_MAIN(RelaxationTest)
+#include "test_relaxation.moc"

@@ -1,0 +1,32 @@
+#include <QElapsedTimer>
+#include <QtTest>
+
+#include "core/simulations.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Relaxation gives up after 10 s: a large object would take minutes to come to rest.
+class RelaxationDeadlineTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void relaxation_sleeps_after_ten_seconds();
+};
+
+void RelaxationDeadlineTest::relaxation_sleeps_after_ten_seconds() {
+  Simulation simulation(make_mesh(MeshKind::grid, {512, 512, 1}), Algorithm::natural_queue,
+                        Precision::single_precision);
+  carry_out(simulation, commands::SetRelaxation{true, 1});
+  drag_by(simulation, 0, Point(-200, -100, 0));
+  QElapsedTimer timer;
+  timer.start();
+  // A slice is some milliseconds, also with a sanitizer; a minute is for a machine with much else to do.
+  while (simulation.step() && timer.elapsed() < 60'000) {
+  }
+  QVERIFY(!simulation.statistics().relaxing);
+  QVERIFY2(timer.elapsed() >= 9'900, "it came to rest of itself: the object is too small for this test");
+}
+
+QTEST_APPLESS_MAIN(RelaxationDeadlineTest)
+#include "test_relaxation_deadline.moc"

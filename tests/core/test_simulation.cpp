@@ -1,0 +1,243 @@
+#include <QtTest>
+
+#include "core/simulations.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// What each command does to an object in time.
+class SimulationTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void grabbing_moves_nothing();
+  void a_drag_is_one_pass();
+  void after_release_a_drag_has_nothing_to_move();
+  void new_softness_acts_at_once_under_load();
+  void new_softness_at_rest_moves_nothing();
+  void the_algorithm_may_change_in_midway();
+  void cut_and_uncut();
+  void reset_keeps_cuts_and_softness();
+  void another_mesh_is_uncut_and_at_rest();
+  void relaxation_runs_in_idle_time_and_sleeps();
+  void relaxation_stops_when_switched_off();
+  void a_cut_under_tension_is_felt();
+  void sweeps_at_once_need_no_switch();
+  void statistics_say_what_happened();
+  void valid_is_what_the_whole_mesh_says();
+};
+
+namespace {
+
+Simulation grid_simulation(Algorithm algorithm = Algorithm::natural_queue) {
+  return {make_mesh(MeshKind::grid, {6, 5, 1}), algorithm, Precision::double_precision};
+}
+
+/// Steps until it sleeps; false where it has not after so many slices.
+bool comes_to_rest(Simulation& simulation, int slices = 100'000) {
+  for (int i = 0; i < slices; ++i) {
+    if (!simulation.step()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+void SimulationTest::grabbing_moves_nothing() {
+  auto simulation = grid_simulation();
+  const auto before = positions_of(simulation);
+  carry_out(simulation, commands::Grab{7});
+  QVERIFY(simulation.grabbed() == 7u);
+  QVERIFY(same_bits(before, positions_of(simulation)));
+  QCOMPARE(simulation.statistics().passes, std::uint64_t{0});
+  carry_out(simulation, commands::Grab{8});  // another hand takes over
+  QVERIFY(simulation.grabbed() == 8u);
+}
+
+void SimulationTest::a_drag_is_one_pass() {
+  auto simulation = grid_simulation();
+  Trace trace, expected;
+  simulation.set_trace(&trace);
+  const auto solver = make_solver(simulation.mesh_pointer(), Algorithm::natural_queue, Precision::double_precision);
+  drag_by(simulation, 7, Point(2, 1, 0));
+  drag_by(simulation, 7, Point(-1, 3, 0));
+  solver->move(7, Point(3, 2, 0), &expected);
+  const PassCount count = solver->move(7, Point(2, 5, 0), &expected);
+  QVERIFY(same_bits(positions_of(*solver, simulation.mesh()), positions_of(simulation)));
+  QVERIFY(trace == expected);
+  QCOMPARE(simulation.statistics().passes, std::uint64_t{2});
+  QCOMPARE(simulation.statistics().last_pass.checked, count.checked);
+  QCOMPARE(simulation.statistics().last_pass.moved, count.moved);
+}
+
+void SimulationTest::after_release_a_drag_has_nothing_to_move() {
+  auto simulation = grid_simulation();
+  drag_by(simulation, 7, Point(2, 1, 0));
+  carry_out(simulation, commands::Release{});
+  QVERIFY(!simulation.grabbed());
+  carry_out(simulation, commands::Release{});  // does no harm
+  const Snapshot before(simulation);
+  QVERIFY_EXCEPTION_THROWN(carry_out(simulation, commands::Drag{Point(9, 9, 0)}), std::runtime_error);
+  QVERIFY(Snapshot(simulation) == before);
+}
+
+void SimulationTest::new_softness_acts_at_once_under_load() {
+  Simulation simulation(make_mesh(MeshKind::line, {4, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
+  carry_out(simulation, commands::SetSoftness{{{0.5, 2, 0}, {}}});
+  drag_by(simulation, 0, Point(-6, 0, 0));
+  QCOMPARE(positions_of(simulation), (std::vector<double>{-6, -4, -2, 0}));
+  carry_out(simulation, commands::SetSoftness{{{0.5, 1.5, 0}, {}}});
+  QCOMPARE(positions_of(simulation), (std::vector<double>{-6, -4.5, -3, -1.5}));
+  carry_out(simulation, commands::SetSoftness{{{0.5, 1.5, 0}, {{0, {1, 1, 0}}}}});
+  QCOMPARE(positions_of(simulation), (std::vector<double>{-6, -5, -3.5, -2}));
+}
+
+void SimulationTest::new_softness_at_rest_moves_nothing() {
+  auto simulation = grid_simulation();
+  const auto before = positions_of(simulation);
+  carry_out(simulation, commands::SetSoftness{{{1, 1, 0}, {}}});
+  QVERIFY(same_bits(before, positions_of(simulation)));
+  QVERIFY(simulation.softness() == (Softness{{1, 1, 0}, {}}));
+}
+
+void SimulationTest::the_algorithm_may_change_in_midway() {
+  auto simulation = grid_simulation(Algorithm::generalized);
+  drag_by(simulation, 7, Point(2, 1, 0));
+  const auto before = positions_of(simulation);
+  carry_out(simulation, commands::SetAlgorithm{Algorithm::natural_queue});
+  QVERIFY(same_bits(before, positions_of(simulation)));
+  QVERIFY(simulation.statistics().algorithm == Algorithm::natural_queue);
+  const auto solver = make_solver(simulation.mesh_pointer(), Algorithm::natural_queue, Precision::double_precision);
+  solver->set_positions(before);
+  drag_by(simulation, 7, Point(1, 1, 0));
+  solver->move(7, position_of(simulation, 7));
+  QVERIFY(same_bits(positions_of(*solver, simulation.mesh()), positions_of(simulation)));
+}
+
+void SimulationTest::cut_and_uncut() {
+  auto simulation = grid_simulation();
+  const auto before = positions_of(simulation);
+  carry_out(simulation, commands::Cut{{3, 1, 4, 1}});
+  QCOMPARE(simulation.solver().cuts().links(), (std::vector<LinkId>{1, 3, 4}));
+  carry_out(simulation, commands::Uncut{{1, 4}});
+  QCOMPARE(simulation.solver().cuts().links(), (std::vector<LinkId>{3}));
+  QVERIFY(same_bits(before, positions_of(simulation)));
+}
+
+void SimulationTest::reset_keeps_cuts_and_softness() {
+  auto simulation = grid_simulation();
+  const Softness softness{{0.5, 1.5, 0.25}, {{4, {1, 1, 0}}}};
+  carry_out(simulation, commands::SetSoftness{softness});
+  carry_out(simulation, commands::Cut{{5}});
+  drag_by(simulation, 7, Point(4, 0, 0));
+  carry_out(simulation, commands::Reset{});
+  QVERIFY(positions_of(simulation) == simulation.mesh().rest);
+  QCOMPARE(simulation.solver().cuts().links(), (std::vector<LinkId>{5}));
+  QVERIFY(simulation.softness() == softness);
+  QVERIFY(simulation.valid());
+  carry_out(simulation, commands::Drag{Point(2, 2, 0)});  // the hand still holds it
+  QVERIFY(position_of(simulation, 7) == Point(2, 2, 0));
+}
+
+void SimulationTest::another_mesh_is_uncut_and_at_rest() {
+  auto simulation = grid_simulation();
+  const LinkSoftness global{0.5, 1.5, 0.25};
+  carry_out(simulation, commands::SetSoftness{{global, {{4, {1, 1, 0}}}}});
+  carry_out(simulation, commands::Cut{{5}});
+  drag_by(simulation, 7, Point(4, 0, 0));
+  const auto tetra = make_mesh(MeshKind::tetra, {3, 3, 3});
+  carry_out(simulation, commands::ReplaceMesh{tetra});
+  QVERIFY(simulation.mesh_pointer() == tetra);
+  QVERIFY(positions_of(simulation) == tetra->rest);
+  QVERIFY(simulation.solver().cuts().links().empty());
+  QVERIFY(simulation.softness() == (Softness{global, {}}));  // softness per link belongs to the old one
+  QVERIFY(!simulation.grabbed());
+  // The global softness is in force in the new one: a chain of three, stretched by 1.5.
+  drag_by(simulation, 0, Point(-8, 0, 0));
+  QCOMPARE(position_of(simulation, 1)[0], -8 + 1.5);
+}
+
+void SimulationTest::relaxation_runs_in_idle_time_and_sleeps() {
+  auto simulation = grid_simulation();
+  QVERIFY(!simulation.step());  // off
+  carry_out(simulation, commands::SetRelaxation{true, 1});
+  QVERIFY(comes_to_rest(simulation));  // at rest there is nothing to relax
+  QVERIFY(positions_of(simulation) == simulation.mesh().rest);
+  drag_by(simulation, 0, Point(-2, -1, 0));
+  QVERIFY(simulation.statistics().relaxing);
+  const double before = elastic_energy(simulation.mesh(), simulation.solver().cuts(), simulation.solver().positions());
+  QVERIFY(simulation.step());
+  QVERIFY(comes_to_rest(simulation));
+  QVERIFY(!simulation.statistics().relaxing);
+  QVERIFY(!simulation.step());
+  QVERIFY(position_of(simulation, 0) == Point(-2, -1, 0));  // the hand holds it
+  const double after = elastic_energy(simulation.mesh(), simulation.solver().cuts(), simulation.solver().positions());
+  QVERIFY(after < before / 10);
+}
+
+void SimulationTest::relaxation_stops_when_switched_off() {
+  auto simulation = grid_simulation();
+  carry_out(simulation, commands::SetRelaxation{true, 1});
+  drag_by(simulation, 0, Point(-2, -1, 0));
+  QVERIFY(simulation.step());
+  carry_out(simulation, commands::SetRelaxation{false, 1});
+  const auto before = positions_of(simulation);
+  QVERIFY(!simulation.step());
+  drag_by(simulation, 0, Point(0, 0, 0));
+  QVERIFY(!simulation.step());
+  QVERIFY(same_bits(before, positions_of(simulation)));
+}
+
+void SimulationTest::a_cut_under_tension_is_felt() {
+  // A chain held out at one end, its middle hindered by a stiff link; cut there, the rest relaxes.
+  Simulation simulation(make_mesh(MeshKind::line, {3, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
+  carry_out(simulation, commands::SetSoftness{{{0.5, 2, 0}, {{0, {1, 1, 0}}}}});
+  drag_by(simulation, 0, Point(-2, 0, 0));
+  QCOMPARE(positions_of(simulation), (std::vector<double>{-2, -1, 1}));
+  carry_out(simulation, commands::SetRelaxation{true, 1});
+  carry_out(simulation, commands::Cut{{0}});
+  QVERIFY(comes_to_rest(simulation));
+  QCOMPARE(positions_of(simulation)[0], -2.0);
+  QVERIFY(std::abs(positions_of(simulation)[2] - positions_of(simulation)[1] - 1) < 1e-3);
+}
+
+void SimulationTest::sweeps_at_once_need_no_switch() {
+  Simulation simulation(make_mesh(MeshKind::line, {3, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
+  carry_out(simulation, commands::SetSoftness{{{0.5, 1.5, 0}, {}}});
+  drag_by(simulation, 0, Point(-2, 0, 0));
+  QCOMPARE(positions_of(simulation), (std::vector<double>{-2, -0.5, 1}));
+  // 1 goes to the mean of −2 + 1 and 1 − 1, which is where it is; 2 to −0.5 + 1. Then 1 to −0.75, 2 to 0.25.
+  simulation.relax(2, 1);
+  QCOMPARE(positions_of(simulation), (std::vector<double>{-2, -0.75, 0.25}));
+  QVERIFY(!simulation.statistics().relaxing);
+}
+
+void SimulationTest::statistics_say_what_happened() {
+  auto simulation = grid_simulation();
+  QCOMPARE(simulation.statistics().violation.links, std::uint64_t{simulation.mesh().link_count()});
+  QVERIFY(simulation.statistics().violation_of_whole_mesh);
+  drag_by(simulation, 0, Point(0.05, 0, 0));  // moves nobody else
+  simulation.refresh_statistics(false);
+  QVERIFY(!simulation.statistics().violation_of_whole_mesh);
+  QCOMPARE(simulation.statistics().violation.links, std::uint64_t{2});  // the corner's
+  QCOMPARE(simulation.statistics().last_second.passes, 1);
+  QVERIFY(simulation.statistics().last_pass_ms >= 0);
+  simulation.refresh_statistics(true);
+  QCOMPARE(simulation.statistics().violation.links, std::uint64_t{simulation.mesh().link_count()});
+}
+
+void SimulationTest::valid_is_what_the_whole_mesh_says() {
+  Simulation simulation(sphere(12, 6), Algorithm::generalized, Precision::double_precision);
+  QVERIFY(simulation.valid());
+  drag_by(simulation, 0, Point(0, 0, 9));
+  simulation.refresh_statistics(true);
+  QVERIFY(simulation.statistics().violation.fraction > 0);  // what Generalized is known for
+  QVERIFY(!simulation.valid());
+  carry_out(simulation, commands::Reset{});
+  QVERIFY(simulation.valid());
+}
+
+QTEST_APPLESS_MAIN(SimulationTest)
+#include "test_simulation.moc"

@@ -1,0 +1,185 @@
+#include <QtTest>
+#include <ctime>
+
+#include "core/threads.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// A simulation on a thread of its own: commands in order, frames handed over, asleep at rest.
+class SolverThreadTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_frame_is_there_from_the_start();
+  void commands_give_what_a_simulation_gives();
+  void a_refused_command_leaves_a_sentence();
+  void the_frame_shows_another_mesh();
+  void it_sleeps_when_nothing_is_to_do_data();
+  void it_sleeps_when_nothing_is_to_do();
+  void frames_come_at_most_60_times_a_second();
+  void it_ends_without_finishing_the_commands();
+  void a_triple_buffer_hands_over_the_newest_frame();
+  void a_triple_buffer_never_mixes_two_frames();
+};
+
+namespace {
+
+MeshPointer small_grid() { return make_mesh(MeshKind::grid, {8, 8, 1}); }
+
+}  // namespace
+
+void SolverThreadTest::a_frame_is_there_from_the_start() {
+  std::atomic<int> frames = 0;
+  const auto mesh = small_grid();
+  SolverThread solver(mesh, Algorithm::generalized, [&] { ++frames; });
+  QVERIFY(solver.idle());
+  QVERIFY(wait_until([&] { return frames > 0; }));
+  const Frame& frame = solver.latest_frame();
+  QVERIFY(frame.mesh == mesh);
+  QVERIFY(std::equal(frame.positions.begin(), frame.positions.end(), mesh->rest.begin(), mesh->rest.end()));
+  QVERIFY(frame.statistics.algorithm == Algorithm::generalized);
+  QVERIFY(frame.number > 0);
+}
+
+void SolverThreadTest::commands_give_what_a_simulation_gives() {
+  std::mt19937_64 random(11);
+  const auto mesh = jittered_triangles(12, 12, 7);
+  for (const AlgorithmInfo& one : algorithms()) {
+    SolverThread solver(mesh, one.algorithm, [] {});
+    Simulation simulation(mesh, one.algorithm, Precision::single_precision);
+    const auto both = [&](const Command& command) {
+      simulation.apply(command);
+      solver.post(command);
+    };
+    for (int i = 0; i < 200; ++i) {
+      const auto link = static_cast<LinkId>(random() % mesh->link_count());
+      both(i % 3 == 0 ? Command(commands::Cut{{link}}) : Command(commands::Uncut{{link}}));
+      both(commands::Grab{static_cast<ElementId>(random() % mesh->element_count())});
+      both(commands::Drag{Point(uniform(random, -5, 15), uniform(random, -5, 15), 0)});
+    }
+    QVERIFY(wait_for_passes(solver, simulation.statistics().passes));
+    QVERIFY(solver.latest_frame().positions == floats_of(simulation));
+  }
+}
+
+void SolverThreadTest::a_refused_command_leaves_a_sentence() {
+  SolverThread solver(small_grid(), Algorithm::natural_queue, [] {});
+  QVERIFY(solver.take_error().empty());
+  solver.post(commands::Grab{64});
+  solver.post(commands::Grab{63});
+  solver.post(commands::Drag{Point(9, 9, 0)});
+  QVERIFY(wait_for_passes(solver, 1));  // it goes on
+  QVERIFY(QString::fromStdString(solver.take_error()).startsWith("element 64: "));
+  QVERIFY(solver.take_error().empty());  // told once
+}
+
+void SolverThreadTest::the_frame_shows_another_mesh() {
+  SolverThread solver(small_grid(), Algorithm::natural_queue, [] {});
+  const auto tetra = make_mesh(MeshKind::tetra, {3, 3, 3});
+  solver.post(commands::ReplaceMesh{tetra});
+  QVERIFY(wait_until([&] { return solver.latest_frame().mesh == tetra; }));
+  QCOMPARE(solver.latest_frame().positions.size(), tetra->rest.size());
+}
+
+void SolverThreadTest::it_sleeps_when_nothing_is_to_do_data() {
+  QTest::addColumn<bool>("relaxed");
+  QTest::newRow("after a drag") << false;
+  QTest::newRow("after a drag and its relaxation") << true;
+}
+
+void SolverThreadTest::it_sleeps_when_nothing_is_to_do() {
+  QFETCH(bool, relaxed);
+  std::atomic<int> frames = 0;
+  SolverThread solver(small_grid(), Algorithm::natural_queue, [&] { ++frames; });
+  solver.post(commands::SetRelaxation{relaxed, 1});
+  solver.post(commands::Grab{0});
+  solver.post(commands::Drag{Point(-3, -2, 0)});
+  QVERIFY(wait_for_passes(solver, 1));
+  // It comes to rest, and then there is neither a frame nor work for 300 ms. How long that takes is not
+  // asked; a solver that never sleeps never gets there.
+  const auto asleep = [&] {
+    const int before = frames;
+    const std::clock_t spent = std::clock();
+    std::this_thread::sleep_for(300ms);
+    return frames == before && std::clock() - spent < CLOCKS_PER_SEC / 10;
+  };
+  QVERIFY(wait_until([&] { return asleep() && asleep(); }));
+  QVERIFY(!solver.latest_frame().statistics.relaxing);
+  QVERIFY(solver.latest_frame().statistics.violation_of_whole_mesh);
+  solver.post(commands::Drag{Point(1, 1, 0)});  // and it wakes
+  QVERIFY(wait_for_passes(solver, 2));
+}
+
+void SolverThreadTest::frames_come_at_most_60_times_a_second() {
+  std::atomic<int> frames = 0;
+  SolverThread solver(small_grid(), Algorithm::natural_queue, [&] { ++frames; });
+  solver.post(commands::Grab{0});
+  QVERIFY(wait_until([&] { return solver.idle(); }));
+  frames = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 300; ++i) {
+    solver.post(commands::Drag{Point(-0.01 * i, 0, 0)});
+    std::this_thread::sleep_for(1ms);
+  }
+  const int counted = frames;
+  const auto elapsed = std::chrono::steady_clock::now() - start;
+  // One every 16 ms, and a frame of rest at either end.
+  QVERIFY2(counted <= elapsed / 16ms + 3, qPrintable(QString("%1 frames").arg(counted)));
+}
+
+void SolverThreadTest::it_ends_without_finishing_the_commands() {
+  // A pass over this chain moves 20,000 elements: all of them would take some ten seconds.
+  auto solver =
+      std::make_unique<SolverThread>(make_mesh(MeshKind::line, {20'000, 1, 1}), Algorithm::natural_queue, [] {});
+  solver->post(commands::Grab{0});
+  for (int i = 0; i < 50'000; ++i) {
+    solver->post(commands::Drag{Point(i % 2 == 0 ? -10'000 : 40'000, 0, 0)});
+  }
+  const auto start = std::chrono::steady_clock::now();
+  solver.reset();
+  QVERIFY(std::chrono::steady_clock::now() - start < 2s);
+}
+
+void SolverThreadTest::a_triple_buffer_hands_over_the_newest_frame() {
+  TripleBuffer frames;
+  const auto publish = [&](std::uint64_t number) {
+    frames.back().number = number;
+    frames.publish();
+  };
+  QCOMPARE(frames.latest().number, std::uint64_t{0});
+  publish(1);
+  QCOMPARE(frames.latest().number, std::uint64_t{1});
+  QCOMPARE(frames.latest().number, std::uint64_t{1});  // stays
+  publish(2);
+  publish(3);
+  publish(4);
+  QCOMPARE(frames.latest().number, std::uint64_t{4});
+  const Frame& held = frames.latest();
+  publish(5);
+  publish(6);
+  QCOMPARE(held.number, std::uint64_t{4});  // as long as the reader asks for no other
+  QCOMPARE(frames.latest().number, std::uint64_t{6});
+}
+
+void SolverThreadTest::a_triple_buffer_never_mixes_two_frames() {
+  constexpr std::uint64_t count = 20'000;
+  TripleBuffer frames;
+  std::jthread writer([&] {
+    for (std::uint64_t number = 1; number <= count; ++number) {
+      frames.back().number = number;
+      frames.back().positions.assign(16, static_cast<float>(number));
+      frames.publish();
+    }
+  });
+  for (std::uint64_t last = 0; last != count;) {
+    const Frame& frame = frames.latest();
+    QVERIFY(frame.number >= last);
+    last = frame.number;
+    QVERIFY(std::all_of(frame.positions.begin(), frame.positions.end(),
+                        [last](float x) { return x == static_cast<float>(last); }));
+  }
+}
+
+QTEST_APPLESS_MAIN(SolverThreadTest)
+#include "test_solver_thread.moc"

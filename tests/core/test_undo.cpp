@@ -1,0 +1,161 @@
+#include <QtTest>
+
+#include "core/scenarios.h"
+#include "core/simulations.h"
+#include "mesh/error.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Keeping and swapping states: undo and redo, exact to the bit.
+class UndoTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void swapping_brings_the_object_back_and_forth();
+  void later_moves_come_out_as_if_nothing_had_been();
+  void another_mesh_comes_back_with_its_cuts_and_softness();
+  void any_change_is_undone();
+  void states_have_names_of_their_own();
+  void a_dropped_state_is_gone();
+  void the_hand_lets_go_and_relaxation_sleeps();
+};
+
+namespace {
+
+Simulation worked_simulation(Algorithm algorithm, Precision precision) {
+  Simulation simulation(shuffled_neighbours(*jittered_triangles(6, 6, 3), 8), algorithm, precision);
+  carry_out(simulation, commands::SetSoftness{{{0.7, 1.3, 0.2}, {{2, {1, 1, 0}}}}});
+  carry_out(simulation, commands::Cut{{8, 9, 30}});
+  drag_by(simulation, 7, Point(2, 1, 0));
+  return simulation;
+}
+
+void change_everything(Simulation& simulation) {
+  carry_out(simulation, commands::Uncut{{9}});
+  carry_out(simulation, commands::Cut{{11, 12}});
+  carry_out(simulation, commands::SetSoftness{{{0.9, 1.1, 0}, {{5, {0, 3, 1}}}}});
+  drag_by(simulation, 20, Point(-3, 2, 0));
+}
+
+/// A few drags, all of whose candidates are recorded.
+Trace trace_of_drags(Simulation& simulation) {
+  Trace trace;
+  simulation.set_trace(&trace);
+  for (const ElementId element : {0u, 17u, 35u}) {
+    drag_by(simulation, element, Point(1.5, -2.5, 0));
+  }
+  simulation.set_trace(nullptr);
+  return trace;
+}
+
+}  // namespace
+
+void UndoTest::swapping_brings_the_object_back_and_forth() {
+  for (const Precision precision : precisions) {
+    auto simulation = worked_simulation(Algorithm::natural_queue, precision);
+    const Snapshot before(simulation);
+    carry_out(simulation, commands::KeepState{1});
+    QVERIFY(Snapshot(simulation) == before);
+    change_everything(simulation);
+    const Snapshot after(simulation);
+    QVERIFY(!after.same_object(before));
+    for (int i = 0; i < 3; ++i) {
+      carry_out(simulation, commands::SwapState{1});  // undo
+      QVERIFY(Snapshot(simulation).same_object(before));
+      carry_out(simulation, commands::SwapState{1});  // redo
+      QVERIFY(Snapshot(simulation).same_object(after));
+    }
+  }
+}
+
+void UndoTest::later_moves_come_out_as_if_nothing_had_been() {
+  for (const AlgorithmInfo& one : algorithms()) {
+    auto untouched = worked_simulation(one.algorithm, Precision::single_precision);
+    auto simulation = worked_simulation(one.algorithm, Precision::single_precision);
+    carry_out(simulation, commands::KeepState{1});
+    change_everything(simulation);
+    carry_out(simulation, commands::SwapState{1});
+    QVERIFY(trace_of_drags(simulation) == trace_of_drags(untouched));
+    QVERIFY(same_bits(positions_of(simulation), positions_of(untouched)));
+  }
+}
+
+void UndoTest::another_mesh_comes_back_with_its_cuts_and_softness() {
+  auto simulation = worked_simulation(Algorithm::natural_queue, Precision::double_precision);
+  const Snapshot before(simulation);
+  carry_out(simulation, commands::KeepState{1});
+  carry_out(simulation, commands::ReplaceMesh{make_mesh(MeshKind::block, {3, 3, 3})});
+  drag_by(simulation, 0, Point(-1, -2, -3));
+  const Snapshot after(simulation);
+  carry_out(simulation, commands::SwapState{1});
+  QVERIFY(Snapshot(simulation).same_object(before));
+  carry_out(simulation, commands::SwapState{1});
+  QVERIFY(Snapshot(simulation).same_object(after));
+}
+
+void UndoTest::any_change_is_undone() {
+  const auto holds = [] {
+    Simulation simulation(draw_family().mesh, *any_algorithm(), *any_precision());
+    const auto work = [&] {
+      carry_out(simulation, commands::SetSoftness{draw_softness(simulation.mesh())});
+      carry_out(simulation, commands::Cut{draw_links(simulation.mesh())});
+      carry_out(simulation, commands::Uncut{draw_links(simulation.mesh())});
+      const auto hand = *any_hand();
+      drag_by(simulation, hand.of(simulation.mesh()), hand.by());
+      simulation.relax(*rc::gen::inRange(0, 3), 1);
+    };
+    work();
+    const Snapshot before(simulation);
+    carry_out(simulation, commands::KeepState{1});
+    work();
+    const Snapshot after(simulation);
+    carry_out(simulation, commands::SwapState{1});
+    RC_ASSERT(Snapshot(simulation).same_object(before));
+    RC_ASSERT(simulation.valid() == before.valid);
+    carry_out(simulation, commands::SwapState{1});
+    RC_ASSERT(Snapshot(simulation).same_object(after));
+  };
+  QVERIFY(rc::check("undo and redo of cuts, softness, drags and relaxation are exact", holds));
+}
+
+void UndoTest::states_have_names_of_their_own() {
+  auto simulation = worked_simulation(Algorithm::natural_queue, Precision::double_precision);
+  const Snapshot first(simulation);
+  carry_out(simulation, commands::KeepState{1});
+  drag_by(simulation, 3, Point(1, 1, 0));
+  const Snapshot second(simulation);
+  carry_out(simulation, commands::KeepState{2});
+  drag_by(simulation, 9, Point(-1, 1, 0));
+  carry_out(simulation, commands::SwapState{2});  // undo the second step, then the first
+  QVERIFY(Snapshot(simulation).same_object(second));
+  carry_out(simulation, commands::SwapState{1});
+  QVERIFY(Snapshot(simulation).same_object(first));
+  carry_out(simulation, commands::SwapState{1});  // and redo the first
+  QVERIFY(Snapshot(simulation).same_object(second));
+}
+
+void UndoTest::a_dropped_state_is_gone() {
+  auto simulation = worked_simulation(Algorithm::natural_queue, Precision::double_precision);
+  carry_out(simulation, commands::KeepState{1});
+  carry_out(simulation, commands::DropState{1});
+  carry_out(simulation, commands::DropState{1});  // does no harm
+  const Snapshot before(simulation);
+  QVERIFY_EXCEPTION_THROWN(carry_out(simulation, commands::SwapState{1}), Error);
+  QVERIFY(Snapshot(simulation) == before);
+}
+
+void UndoTest::the_hand_lets_go_and_relaxation_sleeps() {
+  auto simulation = worked_simulation(Algorithm::natural_queue, Precision::double_precision);
+  carry_out(simulation, commands::KeepState{1});
+  const Snapshot kept(simulation);
+  carry_out(simulation, commands::SetRelaxation{true, 1});
+  drag_by(simulation, 20, Point(-3, 2, 0));
+  carry_out(simulation, commands::SwapState{1});
+  QVERIFY(!simulation.grabbed());
+  QVERIFY(!simulation.step());  // or the state that undo brought back would creep away
+  QVERIFY(Snapshot(simulation).same_object(kept));
+}
+
+QTEST_APPLESS_MAIN(UndoTest)
+#include "test_undo.moc"

@@ -1,0 +1,137 @@
+#include <QtTest>
+#include <cmath>
+
+#include "core/support.h"
+#include "measure/violation.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Violation, energy and displacement, by hand.
+class ViolationTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void of_a_stretched_and_of_a_compressed_link();
+  void is_the_norm_over_the_axes();
+  void is_in_rest_lengths_of_the_link();
+  void over_the_whole_mesh();
+  void cut_links_do_not_count();
+  void over_some_elements();
+  void of_a_link_without_length();
+  void counts_from_1e_4_on();
+  void energy_by_hand();
+  void displacement_by_hand();
+};
+
+namespace {
+
+// Positions and regions are short decimals below 10: a few roundings.
+constexpr double rounding = 1e-14;
+
+/// A solver at given positions.
+std::unique_ptr<Solver> at(const MeshPointer& mesh, const std::vector<double>& positions) {
+  auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  solver->set_positions(positions);
+  return solver;
+}
+
+bool close(double value, double expected) { return std::abs(value - expected) <= rounding; }
+
+}  // namespace
+
+void ViolationTest::of_a_stretched_and_of_a_compressed_link() {
+  const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
+  const auto solver = at(mesh, {0, 1.5, 2});
+  QVERIFY(close(link_violation(*mesh, {}, solver->positions(), 0), 0.3));  // 1.5 − 1.2
+  QVERIFY(close(link_violation(*mesh, {}, solver->positions(), 1), 0.3));  // 0.8 − 0.5
+  QCOMPARE(link_violation(*mesh, {{0.5, 1.5, 0}, {}}, solver->positions(), 0), 0.0);
+  QVERIFY(close(link_violation(*mesh, {{}, {{1, {1, 1, 0}}}}, solver->positions(), 1), 0.5));
+}
+
+void ViolationTest::is_the_norm_over_the_axes() {
+  const auto mesh = make_mesh(MeshKind::line, {2, 1, 1}, 2);
+  // 0.3 too far on x, 0.4 too far on y, where 0.1 is allowed.
+  const auto solver = at(mesh, {0, 0, 1.5, -0.5});
+  QVERIFY(close(link_violation(*mesh, {}, solver->positions(), 0), 0.5));
+}
+
+void ViolationTest::is_in_rest_lengths_of_the_link() {
+  const auto mesh = make_mesh(MeshKind::line, {2, 1, 1}, {}, 4);
+  const auto solver = at(mesh, {0, 6.8});  // 4.8 is allowed
+  QVERIFY(close(link_violation(*mesh, {}, solver->positions(), 0), 0.5));
+}
+
+void ViolationTest::over_the_whole_mesh() {
+  const auto mesh = make_mesh(MeshKind::line, {5, 1, 1});
+  const auto solver = at(mesh, {0, 1.5, 2.5, 4.1, 5.1});  // violations 0.3, 0, 0.4, 0
+  const Violation violation = measure_violation(*mesh, {}, solver->cuts(), solver->positions());
+  QCOMPARE(violation.links, std::uint64_t{4});
+  QVERIFY(close(violation.max, 0.4));
+  QVERIFY(close(violation.rms, std::sqrt((0.09 + 0.16) / 4)));
+  QCOMPARE(violation.fraction, 0.5);
+  const auto rest = at(mesh, mesh->rest);
+  QVERIFY(measure_violation(*mesh, {{1, 1, 0}, {}}, rest->cuts(), rest->positions()) == (Violation{0, 0, 0, 4}));
+}
+
+void ViolationTest::cut_links_do_not_count() {
+  const auto mesh = make_mesh(MeshKind::line, {5, 1, 1});
+  const auto solver = at(mesh, {0, 1.5, 2.5, 4.1, 5.1});
+  const LinkId worst = 2;
+  solver->cut(std::span(&worst, 1));
+  const Violation violation = measure_violation(*mesh, {}, solver->cuts(), solver->positions());
+  QCOMPARE(violation.links, std::uint64_t{3});
+  QVERIFY(close(violation.max, 0.3));
+  const LinkId rest[] = {0, 1, 3};
+  solver->cut(rest);
+  QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()) == Violation{});
+  QCOMPARE(elastic_energy(*mesh, solver->cuts(), solver->positions()), 0.0);
+}
+
+void ViolationTest::over_some_elements() {
+  const auto mesh = make_mesh(MeshKind::line, {5, 1, 1});
+  const auto solver = at(mesh, {0, 1.5, 2.5, 4.1, 5.1});
+  const ElementId some[] = {1, 4};  // links 0, 1 and 3
+  const Violation violation = measure_violation(*mesh, {}, solver->cuts(), solver->positions(), some);
+  QCOMPARE(violation.links, std::uint64_t{3});
+  QVERIFY(close(violation.max, 0.3));
+}
+
+void ViolationTest::of_a_link_without_length() {
+  // Two elements in one place, and a third 2 away: the mean rest length is 1.
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {0, 0, 0}, {2, 0, 0}};
+  parts.links = {{0, 1}, {1, 2}};
+  const auto mesh = build_mesh(std::move(parts));
+  const auto solver = at(mesh, {0, 0.5, 2.5});
+  QVERIFY(close(link_violation(*mesh, {}, solver->positions(), 0), 0.5));
+}
+
+void ViolationTest::counts_from_1e_4_on() {
+  const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
+  const auto solver = at(mesh, {0, 1.2 + 0.5e-4, 2.4 + 2e-4});  // beyond by 0.5e-4 and by 1.5e-4
+  const Violation violation = measure_violation(*mesh, {}, solver->cuts(), solver->positions());
+  QCOMPARE(violation.fraction, 0.5);
+  QVERIFY(violation.max > 1.4e-4 && violation.max < 1.6e-4);
+}
+
+void ViolationTest::energy_by_hand() {
+  const auto line = make_mesh(MeshKind::line, {3, 1, 1}, 2);
+  const auto solver = at(line, {0, 0, 1.5, 0.5, 2.5, 0.25});
+  // Deflections (0.5, 0.5) and (0, −0.25).
+  QCOMPARE(elastic_energy(*line, solver->cuts(), solver->positions()), (0.25 + 0.25 + 0.0625) / 2);
+  // Carried along without any deformation it holds none.
+  const auto carried = at(line, {8, 4, 9, 4, 10, 4});
+  QCOMPARE(elastic_energy(*line, carried->cuts(), carried->positions()), 0.0);
+}
+
+void ViolationTest::displacement_by_hand() {
+  const auto mesh = make_mesh(MeshKind::line, {4, 1, 1}, 2);
+  const auto solver = at(mesh, {0, 0, 1, 0, 2, 0, 6, 4});  // the last one by (3, 4)
+  const Displacement displacement = measure_displacement(*mesh, solver->positions());
+  QCOMPARE(displacement.max, 5.0);
+  QCOMPARE(displacement.rms, 2.5);
+}
+
+QTEST_APPLESS_MAIN(ViolationTest)
+#include "test_violation.moc"

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <QString>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+#include "files/dat.h"
+#include "files/obj.h"
+#include "mesh/error.h"
+#include "mesh/generate.h"
+
+namespace chainmail::test {
+
+/// The sentence of the Error that a function throws; empty where it throws none.
+inline QString error_of(const std::function<void()>& function) {
+  try {
+    function();
+  } catch (const Error& error) {
+    return QString::fromStdString(error.what());
+  }
+  return {};
+}
+
+inline MeshPointer made(MeshKind kind, std::array<std::uint32_t, 3> size, double spacing = 1,
+                        std::optional<int> space = {}) {
+  return generate({kind, size, spacing, space});
+}
+
+inline MeshPointer dat(const std::string& text, const std::string& name = "mesh.dat", const ReadOptions& options = {}) {
+  return read_dat(text, name, options);
+}
+
+inline MeshPointer obj(const std::string& text, const ReadOptions& options = {}) {
+  return read_obj(text, "mesh.obj", options);
+}
+
+inline std::string dat_text(const Mesh& mesh, const Cuts& cuts = {}) {
+  std::ostringstream out;
+  write_dat(out, mesh, cuts);
+  return out.str();
+}
+
+inline std::string obj_text(const Mesh& mesh, const Cuts& cuts = {}) {
+  std::ostringstream out;
+  write_obj(out, mesh, cuts, rest_positions(mesh));
+  return out.str();
+}
+
+inline std::string file_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void put_file(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+/// How many entries a folder has, hidden ones too.
+inline std::ptrdiff_t files_in(const std::filesystem::path& folder) {
+  return std::distance(std::filesystem::directory_iterator(folder), {});
+}
+
+}  // namespace chainmail::test

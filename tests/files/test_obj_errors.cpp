@@ -1,0 +1,76 @@
+#include <QtTest>
+
+#include "files/support.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// What is wrong in an OBJ file is told with its line, and nothing is read as 0.
+class ObjErrorsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void wrong_files_data();
+  void wrong_files();
+  void the_largest_face_is_read();
+};
+
+void ObjErrorsTest::wrong_files_data() {
+  QTest::addColumn<QString>("lines");
+  QTest::addColumn<QString>("message");
+  const auto row = [](const char* name, const char* lines, const char* message) {
+    QTest::newRow(name) << lines << message;
+  };
+  row("word for a number", "v 0 zero 0", "mesh.obj:4: 'zero' is not a number that a coordinate can be; ");
+  row("nan", "v 0 0 nan", "mesh.obj:4: 'nan' is not a number that a coordinate can be; ");
+  row("infinite", "v inf 0 0", "mesh.obj:4: 'inf' is not a number that a coordinate can be; ");
+  row("out of range", "v 1e999 0 0", "mesh.obj:4: '1e999' is not a number that a coordinate can be; ");
+  row("absurd", "v -1e200 0 0", "mesh.obj:4: '-1e200' is not a number that a coordinate can be; ");
+  row("rubbish behind", "v 1.0.0 0 0", "mesh.obj:4: '1.0.0' is not a number that a coordinate can be; ");
+  row("two coordinates", "v 0 0", "mesh.obj:4: a vertex has 2 of its 3 coordinates; ");
+  row("no coordinates", "v", "mesh.obj:4: a vertex has 0 of its 3 coordinates; ");
+  row("eight numbers", "v 1 2 3 4 5 6 7 8", "mesh.obj:4: a vertex has more than 7 numbers; ");
+  row("index 0", "f 0 1 2", "mesh.obj:4: '0' is not the index of a vertex; ");
+  row("index no number", "f 1 2 x", "mesh.obj:4: 'x' is not the index of a vertex; ");
+  row("index broken", "f 1 2 3.5", "mesh.obj:4: '3.5' is not the index of a vertex; ");
+  row("texture no number", "f 1/a 2/b 3/c", "mesh.obj:4: '1/a' is not the index of a vertex; ");
+  row("slash alone", "f 1/ 2/ 3/", "mesh.obj:4: '1/' is not the index of a vertex; ");
+  row("texture 0", "f 1/0 2/1 3/1", "mesh.obj:4: '1/0' is not the index of a vertex; ");
+  row("four parts", "f 1/1/1/1 2 3", "mesh.obj:4: '1/1/1/1' is not the index of a vertex; ");
+  row("index too large", "f 1 2 4", "mesh.obj:4: there is no vertex 4; ");
+  row("index far too large", "f 1 2 99999999999999", "mesh.obj:4: there is no vertex 99999999999999; ");
+  row("index beyond numbers", "f 1 2 99999999999999999999", "mesh.obj:4: '99999999999999999999' is not the index");
+  row("index too far back", "l -1 -4", "mesh.obj:4: there is no vertex -4; ");
+  row("two corners", "f 1 2", "mesh.obj:4: a face needs 3 corners and has 2; ");
+  row("no corners", "f", "mesh.obj:4: a face needs 3 corners and has 0; ");
+  row("one end", "l 1", "mesh.obj:4: a line needs 2 corners and has 1; ");
+  row("face corner twice", "f 1 2 2 3", "mesh.obj:4: vertex 2 is linked to itself; ");
+  row("face closed twice", "f 1 2 3 1", "mesh.obj:4: vertex 1 is linked to itself; ");
+  row("face corner twice, counted back", "f 1 2 -2 3", "mesh.obj:4: vertex 2 is linked to itself; ");
+  row("line to itself", "l 3 3", "mesh.obj:4: vertex 3 is linked to itself; ");
+  row("unknown statement", "vertex 1 2 3", "mesh.obj:4: 'vertex' begins no OBJ statement; ");
+  row("number alone", "1 2 3", "mesh.obj:4: '1' begins no OBJ statement; ");
+  row("a line that goes on", "f 1 2 \\\n3", "mesh.obj:4: '\\' is not the index of a vertex; ");
+}
+
+void ObjErrorsTest::wrong_files() {
+  QFETCH(QString, lines);
+  QFETCH(QString, message);
+  const auto error = error_of([&] { obj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + lines.toStdString() + "\n"); });
+  QVERIFY2(error.startsWith(message), qPrintable("said: " + error));
+  QVERIFY(error.contains("; ") && !error.contains('\n'));
+}
+
+void ObjErrorsTest::the_largest_face_is_read() {
+  std::string vertices, face = "f";
+  for (int i = 1; i <= 256; ++i) {
+    vertices += "v " + std::to_string(i) + " " + std::to_string(i * i) + " 0\n";
+    face += i < 256 ? " " + std::to_string(i) : "";
+  }
+  QCOMPARE(obj(vertices + face + "\n")->link_count(), 255U);
+  QVERIFY(
+      error_of([&] { obj(vertices + face + " 256\n"); }).startsWith("mesh.obj:257: a face has more than 255 corners"));
+}
+
+QTEST_APPLESS_MAIN(ObjErrorsTest)
+#include "test_obj_errors.moc"

@@ -1,0 +1,137 @@
+#include <sys/stat.h>
+
+#include <QtTest>
+#include <stdexcept>
+
+#include "files/outputs.h"
+#include "files/support.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace fs = std::filesystem;
+
+/// Files are written whole or not at all.
+class OutputsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+  void a_file_is_written_and_replaced();
+  void nothing_is_touched_before_commit();
+  void a_failing_writer_leaves_the_target();
+  void a_failing_device_leaves_the_other_files();
+  void wrong_targets_are_refused();
+  void one_target_twice_is_refused();
+  void a_link_stays_a_link_and_permissions_stay();
+  void a_long_name_is_written();
+  void a_mesh_is_saved_by_its_ending();
+
+ private:
+  fs::path path(const std::string& name) const { return fs::path(folder_->path().toStdString()) / name; }
+
+  std::unique_ptr<QTemporaryDir> folder_;
+};
+
+namespace {
+
+Outputs::Writer text(const std::string& written) {
+  return [written](std::ostream& out) { out << written; };
+}
+
+}  // namespace
+
+void OutputsTest::a_file_is_written_and_replaced() {
+  write_file(path("a"), text("one"));
+  write_file(path("a"), text("two\r\n"));
+  QCOMPARE(file_text(path("a")), std::string("two\r\n"));
+  QCOMPARE(files_in(path(".")), 1);
+}
+
+void OutputsTest::nothing_is_touched_before_commit() {
+  put_file(path("a"), "old");
+  {
+    Outputs outputs;
+    outputs.add(path("a"), text("new"));
+    outputs.add(path("b"), text("new"));
+    QCOMPARE(file_text(path("a")), std::string("old"));
+    QVERIFY(!fs::exists(path("b")));
+  }
+  QCOMPARE(file_text(path("a")), std::string("old"));
+  QCOMPARE(files_in(path(".")), 1);
+}
+
+void OutputsTest::a_failing_writer_leaves_the_target() {
+  put_file(path("a"), "old");
+  QVERIFY_EXCEPTION_THROWN(write_file(path("a"),
+                                      [](std::ostream& out) {
+                                        out << "half";
+                                        throw std::runtime_error("");
+                                      }),
+                           std::runtime_error);
+  QVERIFY_EXCEPTION_THROWN(write_file(path("a"), [](std::ostream& out) { out.setstate(std::ios::failbit); }),
+                           WriteFailure);
+  QCOMPARE(file_text(path("a")), std::string("old"));
+  QCOMPARE(files_in(path(".")), 1);
+}
+
+void OutputsTest::a_failing_device_leaves_the_other_files() {
+  if (!fs::exists("/dev/full")) {
+    QSKIP("there is no device that is full");
+  }
+  put_file(path("a"), "old");
+  Outputs outputs;
+  outputs.add(path("a"), text("new"));
+  outputs.add("/dev/full", text("new"));
+  QVERIFY_EXCEPTION_THROWN(outputs.commit(), WriteFailure);
+  QCOMPARE(file_text(path("a")), std::string("old"));
+  QVERIFY(fs::is_character_file("/dev/full"));
+}
+
+void OutputsTest::wrong_targets_are_refused() {
+  const auto error = [&](const fs::path& target) { return error_of([&] { write_file(target, text("")); }); };
+  fs::create_directory(path("folder"));
+  QVERIFY(error(path("folder")).contains("folder: it is a folder; "));
+  QVERIFY(error(path("none/a")).contains("none/a: its folder is not there; "));
+  put_file(path("file"), "");
+  QVERIFY(error(path("file/a")).contains("file/a: its folder is not there; "));
+  QVERIFY(error("").contains("it is empty; "));
+  QVERIFY(error(path(std::string(300, 'a'))).contains("it cannot be"));
+  QCOMPARE(files_in(path(".")), 2);
+}
+
+void OutputsTest::one_target_twice_is_refused() {
+  Outputs outputs;
+  outputs.add(path("a"), text(""));
+  QVERIFY(error_of([&] { outputs.add(path("./a"), text("")); }).contains("./a: two outputs would go there; "));
+  outputs.add("-", text(""));
+  QVERIFY(error_of([&] { outputs.add("-", text("")); }).startsWith("standard output: two outputs would go there; "));
+}
+
+void OutputsTest::a_link_stays_a_link_and_permissions_stay() {
+  put_file(path("a"), "old");
+  fs::permissions(path("a"), fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink("a", path("link"));
+  write_file(path("link"), text("new"));
+  QVERIFY(fs::is_symlink(path("link")));
+  QCOMPARE(file_text(path("a")), std::string("new"));
+  QVERIFY(fs::status(path("a")).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+}
+
+void OutputsTest::a_long_name_is_written() {
+  const fs::path target = path(std::string(255, 'n'));
+  write_file(target, text("x"));
+  QCOMPARE(file_text(target), std::string("x"));
+}
+
+void OutputsTest::a_mesh_is_saved_by_its_ending() {
+  const auto mesh = made(MeshKind::grid, {3, 2, 1});
+  for (const char* name : {"a.dat", "a.OBJ"}) {
+    save_mesh(path(name), *mesh, {}, rest_positions(*mesh));
+    QCOMPARE(read_mesh(path(name))->links, mesh->links);
+  }
+  QVERIFY(error_of([&] { save_mesh(path("a.vtk"), *mesh, {}, rest_positions(*mesh)); }).contains("the ending .vtk"));
+}
+
+QTEST_APPLESS_MAIN(OutputsTest)
+#include "test_outputs.moc"

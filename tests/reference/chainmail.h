@@ -1,0 +1,104 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <list>
+#include <vector>
+
+#include "reference/object.h"
+
+namespace reference {
+
+/// Thesis 4.2: Waiting_List_Data = { element, sponsor }.
+struct WaitingListData {
+  ElementId element;
+  ElementId sponsor;
+};
+
+/// A candidate that was taken from the waiting list and not dropped.
+struct Processed {
+  ElementId element;
+  ElementId sponsor;
+  bool moved;
+
+  bool operator==(const Processed&) const = default;
+};
+
+/// Generalized ChainMail (thesis 3.1): each neighbour is added to the front of the waiting list.
+struct GeneralizedChainMail {
+  template <class Scalar>
+  static void add_neighbours(Object<Scalar>& object, ElementId sponsor, std::list<WaitingListData>& waiting_list) {
+    for (const ElementId neighbour : object.element(sponsor).neighbours) {
+      waiting_list.push_front({neighbour, sponsor});
+    }
+  }
+};
+
+/// Spiral (thesis 3.2, first alteration): to the back.
+struct Spiral {
+  template <class Scalar>
+  static void add_neighbours(Object<Scalar>& object, ElementId sponsor, std::list<WaitingListData>& waiting_list) {
+    for (const ElementId neighbour : object.element(sponsor).neighbours) {
+      waiting_list.push_back({neighbour, sponsor});
+    }
+  }
+};
+
+/// Natural Queue ChainMail (thesis 4.1): to the back, and only where the processing state is not 'updated'.
+struct NaturalQueueChainMail {
+  template <class Scalar>
+  static void add_neighbours(Object<Scalar>& object, ElementId sponsor, std::list<WaitingListData>& waiting_list) {
+    for (const ElementId neighbour : object.element(sponsor).neighbours) {
+      if (!object.element(neighbour).updated) {
+        waiting_list.push_back({neighbour, sponsor});
+      }
+    }
+  }
+};
+
+/// Puts an element into its valid region R about its sponsor; says whether that changed its position.
+template <class Scalar>
+bool move_into_valid_region(Object<Scalar>& object, Element<Scalar>& element, ElementId sponsor) {
+  const auto& about = object.element(sponsor).current_position;
+  const auto& region = object.softness_of(sponsor, element.identifier);
+  const auto before = element.current_position;
+  for (int k = 0; k < object.space_dimension; ++k) {
+    Scalar& x = element.current_position[k];
+    x = std::min(std::max(x, about[k] + region.low[k]), about[k] + region.high[k]);
+  }
+  return element.current_position != before;
+}
+
+/// One move and the pass that answers it; returns the candidates that were processed, in order.
+template <class Algorithm, class Scalar>
+std::vector<Processed> move(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
+  std::vector<Processed> processed;
+  for (Element<Scalar>& element : object.elements) {
+    element.updated = false;
+  }
+  Element<Scalar>& held = object.element(grabbed);
+  for (int k = 0; k < object.space_dimension; ++k) {
+    held.current_position[k] = static_cast<Scalar>(target[k]);
+  }
+  held.updated = true;
+
+  std::list<WaitingListData> waiting_list;
+  Algorithm::add_neighbours(object, grabbed, waiting_list);
+  while (!waiting_list.empty()) {
+    const WaitingListData next = waiting_list.front();
+    waiting_list.pop_front();
+    Element<Scalar>& element = object.element(next.element);
+    if (element.updated) {
+      continue;
+    }
+    const bool moved = move_into_valid_region(object, element, next.sponsor);
+    element.updated = true;
+    processed.push_back({next.element, next.sponsor, moved});
+    if (moved) {
+      Algorithm::add_neighbours(object, next.element, waiting_list);
+    }
+  }
+  return processed;
+}
+
+}  // namespace reference
