@@ -163,6 +163,10 @@ void ObjectPainter::fillCoarse() {
 }
 
 void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dimension) {
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  glEnable(GL_BLEND);
+  // The picture stays opaque, whatever is blended into it.
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   program_.bind();
   program_.setUniformValue("to_view", scene.toView * placement(*mesh_));
   program_.setUniformValue("to_clip", scene.toClip);
@@ -177,9 +181,6 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
 
 void ObjectPainter::drawObject(const Scene& scene, QColor colour, double pixelsPerUnit) {
   chooseStep(pixelsPerUnit);
-  glEnable(GL_PROGRAM_POINT_SIZE);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   drawFaces(scene, colour);
   drawWires(scene, colour);
   if (step_ == 1 && mesh_->element_count() <= elementsMarked &&
@@ -261,8 +262,6 @@ void ObjectPainter::drawOwn(const Scene& scene, std::span<const float> positions
     return;
   }
   glDisable(GL_DEPTH_TEST);
-  glEnable(GL_BLEND);
-  glEnable(GL_PROGRAM_POINT_SIZE);
   scratch_.bind();
   scratch_.allocate(positions.data(), int(positions.size_bytes()));
   Scene over = scene;
