@@ -105,7 +105,7 @@ bool positions_as_obj(const std::string& path) {
 }
 
 Targets read_targets(const Options& options) {
-  const Targets targets{value_of(options.positions), value_of(options.trace), value_of(options.json)};
+  Targets targets{value_of(options.positions), value_of(options.trace), value_of(options.json)};
   if (targets.positions) {
     positions_as_obj(*targets.positions);
   }

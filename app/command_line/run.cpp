@@ -1,8 +1,8 @@
-#include <iostream>
+#include <sstream>
 #include <vector>
 
 #include "command_line/common.h"
-#include "files/text.h"
+#include "files/outputs.h"
 #include "mesh/error.h"
 
 namespace chainmail::command_line {
@@ -46,7 +46,7 @@ void refuse_extras(const CLI::App& root) {
     if (extras.empty()) {
       continue;
     }
-    const std::string word = extras.front();
+    const std::string& word = extras.front();
     if (word.size() > 1 && word.front() == '-') {
       throw Error(word, "there is no such option", help_hint(app));
     }
@@ -88,7 +88,9 @@ void run(int argc, char** argv) {
   try {
     root.parse(argc, argv);
   } catch (const CLI::Success& asked) {
-    root.exit(asked);
+    std::ostringstream text;
+    root.exit(asked, text, text);
+    write_file("-", [&](std::ostream& out) { out << text.str(); });
     return;
   } catch (const CLI::ParseError& error) {
     throw usage_error(root, error);

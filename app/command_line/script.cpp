@@ -83,7 +83,7 @@ class Runner {
 
   void carry_out(const Act& act) {
     if (act.kind == Act::Kind::cut) {
-      simulation_.apply(chainmail::Command(commands::Cut{{*find_link(simulation_.mesh(), act.element, act.other)}}));
+      simulation_.apply(commands::Cut{{*find_link(simulation_.mesh(), act.element, act.other)}});
     } else {
       move(act);
     }
@@ -115,7 +115,7 @@ Point Runner::target_of(const Act& act, const Point& start) const {
 void Runner::move(const Act& act) {
   const Point start = point_of(simulation_.mesh(), simulation_.solver().positions(), act.element);
   const Point target = target_of(act, start);
-  simulation_.apply(chainmail::Command(commands::Grab{act.element}));
+  simulation_.apply(commands::Grab{act.element});
   for (std::uint32_t step = 1; step <= schedule_.steps; ++step) {
     Point between;
     for (int k = 0; k < 3; ++k) {
@@ -124,13 +124,13 @@ void Runner::move(const Act& act) {
     }
     pass(act.element, between);
   }
-  simulation_.apply(chainmail::Command(commands::Release{}));
+  simulation_.apply(commands::Release{});
 }
 
 void Runner::pass(ElementId element, const Point& target) {
   Trace trace;
   simulation_.set_trace(schedule_.trace ? &trace : nullptr);
-  simulation_.apply(chainmail::Command(commands::Drag{target}));
+  simulation_.apply(commands::Drag{target});
   simulation_.set_trace(nullptr);
   const Statistics& statistics = simulation_.statistics();
   run_.passes.push_back(

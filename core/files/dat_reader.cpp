@@ -38,6 +38,8 @@ class DatReader {
   MeshParts parts_;
 };
 
+std::string named(ElementId id) { return "element " + std::to_string(id); }
+
 std::string size_text(const Lattice& lattice) {
   const auto& [width, height, depth] = lattice.size;
   return std::to_string(width) + "x" + std::to_string(height) + (depth > 1 ? "x" + std::to_string(depth) : "");
@@ -78,14 +80,14 @@ std::vector<const DatRows::Row*> DatReader::rows_by_id() const {
   // Not more than the file has rows, whatever size it claims.
   std::vector<const Row*> of(std::min<std::uint64_t>(count, file_.rows.size()), nullptr);
   for (const Row& row : file_.rows) {
-    const std::string element = "element " + std::to_string(row.id);
     if (row.id >= count) {
-      fail(row.line, element + " lies outside the size " + size_text(lattice_),
+      fail(row.line, named(row.id) + " lies outside the size " + size_text(lattice_),
            "ids run from 0 to " + std::to_string(count - 1));
     }
     if (row.id < of.size()) {
       if (of[row.id] != nullptr) {
-        fail(row.line, element + " has a row in line " + std::to_string(of[row.id]->line), "give each element one row");
+        fail(row.line, named(row.id) + " has a row in line " + std::to_string(of[row.id]->line),
+             "give each element one row");
       }
       of[row.id] = &row;
     }
@@ -117,13 +119,12 @@ void DatReader::check_rows(std::vector<ElementId>& sorted) const {
     const auto begin = sorted.begin() + parts_.first_entry[row.id];
     const auto end = sorted.begin() + parts_.first_entry[row.id + 1];
     std::sort(begin, end);
-    const std::string element = "element " + std::to_string(row.id);
     if (begin != end && *(end - 1) >= file_.rows.size()) {
-      fail(row.line, element + " lists the neighbour " + std::to_string(*(end - 1)) + ", which is out of range",
+      fail(row.line, named(row.id) + " lists the neighbour " + std::to_string(*(end - 1)) + ", which is out of range",
            "ids run from 0 to " + std::to_string(file_.rows.size() - 1));
     }
     if (const auto twice = std::adjacent_find(begin, end); twice != end) {
-      fail(row.line, element + " lists the neighbour " + std::to_string(*twice) + " twice", "list it once");
+      fail(row.line, named(row.id) + " lists the neighbour " + std::to_string(*twice) + " twice", "list it once");
     }
   }
 }
@@ -135,9 +136,10 @@ void DatReader::check_links() const {
   for (const Row& row : file_.rows) {
     for (auto neighbour = begin(row.id); neighbour != begin(row.id + 1); ++neighbour) {
       if (!std::binary_search(begin(*neighbour), begin(*neighbour + 1), row.id)) {
-        const std::string a = std::to_string(row.id), b = std::to_string(*neighbour);
-        fail(row.line, "element " + a + " lists " + b + ", but " + b + " does not list " + a,
-             "list a link in both rows or in neither");
+        const std::string other = std::to_string(*neighbour);
+        std::string problem = named(row.id) + " lists " + other;
+        problem += ", but " + other + " does not list " + std::to_string(row.id);
+        fail(row.line, problem, "list a link in both rows or in neither");
       }
     }
   }

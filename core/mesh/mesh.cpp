@@ -94,6 +94,9 @@ void choose_axes(Mesh& mesh, const std::vector<Point>& rest, std::optional<int> 
     carried[k] = std::any_of(rest.begin(), rest.end(), [&](const Point& p) { return p[k] != rest.front()[k]; });
   }
   const auto needed = static_cast<int>(std::count(carried.begin(), carried.end(), true));
+  if (asked && (*asked < 1 || *asked > 3)) {
+    throw Error("space dimension " + std::to_string(*asked), "there is no such space", "use 1, 2 or 3");
+  }
   if (asked && *asked < needed) {
     throw Error("space dimension " + std::to_string(*asked),
                 "the object extends along " + std::to_string(needed) + " axes",

@@ -29,10 +29,10 @@ Simulation::Simulation(MeshPointer mesh, Algorithm algorithm, Precision precisio
 }
 
 void Simulation::apply(const Command& command) {
-  std::visit([this](const auto& one) { apply(one); }, command);
+  std::visit([this](const auto& one) { carry_out(one); }, command);
 }
 
-void Simulation::apply(const commands::Grab& command) {
+void Simulation::carry_out(const commands::Grab& command) {
   if (command.element >= mesh_->element_count()) {
     throw Error("element " + std::to_string(command.element), "there is no such element",
                 "use an id below " + std::to_string(mesh_->element_count()));
@@ -40,16 +40,21 @@ void Simulation::apply(const commands::Grab& command) {
   grabbed_ = command.element;
 }
 
-void Simulation::apply(const commands::Drag& command) {
+void Simulation::carry_out(const commands::Drag& command) {
   if (!grabbed_) {
     throw Error("drag", "no element is grabbed", "grab one first");
   }
   pass(*grabbed_, command.target);
 }
 
-void Simulation::apply(const commands::Release&) { grabbed_.reset(); }
+void Simulation::carry_out(const commands::Release&) {
+  if (grabbed_ && statistics_.passes != 0) {
+    wake(std::span(&*grabbed_, 1));  // it was held; now it may follow its neighbours
+  }
+  grabbed_.reset();
+}
 
-void Simulation::apply(const commands::SetSoftness& command) {
+void Simulation::carry_out(const commands::SetSoftness& command) {
   check(command.softness.global);
   for (const auto& [link, softness] : command.softness.links) {
     check_links({link});
@@ -58,7 +63,8 @@ void Simulation::apply(const commands::SetSoftness& command) {
   softness_ = command.softness;
   solver_->set_softness(softness_);
   // Under load the object may now violate its links: a pass about the element that was moved last
-  // answers the new softness at once. From a valid state it moves nothing.
+  // answers the new softness at once, as far as its propagation reaches. From a valid state it moves
+  // nothing.
   valid_ = false;
   if (last_moved_) {
     const auto position = solver_->positions();
@@ -70,53 +76,58 @@ void Simulation::apply(const commands::SetSoftness& command) {
   }
 }
 
-void Simulation::apply(const commands::SetRelaxation& command) {
+void Simulation::carry_out(const commands::SetRelaxation& command) {
   if (!(command.step > 0 && command.step <= 1)) {
     throw Error("relax-step", "it must lie above 0 and up to 1", "1 goes all the way to the mean");
   }
   relaxation_on_ = command.on;
   relaxation_step_ = command.step;
   if (relaxation_on_) {
-    wake_all();
+    std::vector<ElementId> all(mesh_->element_count());
+    std::iota(all.begin(), all.end(), ElementId{0});
+    wake(all);
   } else {
     fall_asleep();
   }
 }
 
-void Simulation::apply(const commands::SetAlgorithm& command) {
+void Simulation::carry_out(const commands::SetAlgorithm& command) {
   algorithm_ = statistics_.algorithm = command.algorithm;
   solver_->set_algorithm(command.algorithm);
 }
 
-void Simulation::apply(const commands::Cut& command) {
+void Simulation::carry_out(const commands::Cut& command) {
   check_links(command.links);
   solver_->cut(command.links);
-  wake_all();
+  wake_ends(command.links);
 }
 
-void Simulation::apply(const commands::Uncut& command) {
+void Simulation::carry_out(const commands::Uncut& command) {
   check_links(command.links);
   solver_->uncut(command.links);
   valid_ = false;  // the ends may have gone apart
-  wake_all();
+  wake_ends(command.links);
 }
 
-void Simulation::apply(const commands::Reset&) {
+void Simulation::carry_out(const commands::Reset&) {
   solver_->reset();
   last_moved_.reset();
   valid_ = true;
   fall_asleep();
 }
 
-void Simulation::apply(const commands::ReplaceMesh& command) {
+void Simulation::carry_out(const commands::ReplaceMesh& command) {
+  if (!command.mesh) {
+    throw Error("replace mesh", "no mesh is given", "give one");
+  }
   take_mesh(command.mesh);
   softness_.links.clear();
   solver_->set_softness(softness_);
 }
 
-void Simulation::apply(const commands::KeepState& command) { kept_[command.state] = current_state(); }
+void Simulation::carry_out(const commands::KeepState& command) { kept_[command.state] = current_state(); }
 
-void Simulation::apply(const commands::SwapState& command) {
+void Simulation::carry_out(const commands::SwapState& command) {
   const auto kept = kept_.find(command.state);
   if (kept == kept_.end()) {
     throw Error("state " + std::to_string(command.state), "no such state is kept", "keep it first");
@@ -138,7 +149,7 @@ void Simulation::apply(const commands::SwapState& command) {
   fall_asleep();
 }
 
-void Simulation::apply(const commands::DropState& command) { kept_.erase(command.state); }
+void Simulation::carry_out(const commands::DropState& command) { kept_.erase(command.state); }
 
 void Simulation::pass(ElementId element, const Point& target) {
   const auto start = Clock::now();
@@ -149,13 +160,8 @@ void Simulation::pass(ElementId element, const Point& target) {
   ++statistics_.passes;
   last_moved_ = element;
   valid_ = false;
-  if (relaxation_on_) {
-    solver_->wake(std::span(&element, 1));
-    solver_->wake(solver_->moved());
-    relaxation_deadline_ = end + relaxation_time;
-    statistics_.relaxing = true;
-    statistics_.sweeps = 0;
-  }
+  wake(std::span(&element, 1));
+  wake(solver_->moved());
 }
 
 bool Simulation::step() {
@@ -225,16 +231,21 @@ void Simulation::take_mesh(MeshPointer mesh) {
   fall_asleep();
 }
 
-void Simulation::wake_all() {
-  if (!relaxation_on_) {
-    return;
+void Simulation::wake(std::span<const ElementId> elements) {
+  if (relaxation_on_) {
+    solver_->wake(elements);
+    relaxation_deadline_ = Clock::now() + relaxation_time;
+    statistics_.relaxing = true;
+    statistics_.sweeps = 0;
   }
-  std::vector<ElementId> all(mesh_->element_count());
-  std::iota(all.begin(), all.end(), ElementId{0});
-  solver_->wake(all);
-  relaxation_deadline_ = Clock::now() + relaxation_time;
-  statistics_.relaxing = true;
-  statistics_.sweeps = 0;
+}
+
+void Simulation::wake_ends(const std::vector<LinkId>& links) {
+  // Also where relaxation is off in idle time: sweeps may be asked for.
+  for (const LinkId link : links) {
+    solver_->wake(mesh_->links[link]);
+  }
+  wake({});
 }
 
 void Simulation::fall_asleep() {

@@ -65,24 +65,25 @@ class Simulation {
     bool valid = true;
   };
 
-  void apply(const commands::Grab& command);
-  void apply(const commands::Drag& command);
-  void apply(const commands::Release& command);
-  void apply(const commands::SetSoftness& command);
-  void apply(const commands::SetRelaxation& command);
-  void apply(const commands::SetAlgorithm& command);
-  void apply(const commands::Cut& command);
-  void apply(const commands::Uncut& command);
-  void apply(const commands::Reset& command);
-  void apply(const commands::ReplaceMesh& command);
-  void apply(const commands::KeepState& command);
-  void apply(const commands::SwapState& command);
-  void apply(const commands::DropState& command);
+  void carry_out(const commands::Grab& command);
+  void carry_out(const commands::Drag& command);
+  void carry_out(const commands::Release& command);
+  void carry_out(const commands::SetSoftness& command);
+  void carry_out(const commands::SetRelaxation& command);
+  void carry_out(const commands::SetAlgorithm& command);
+  void carry_out(const commands::Cut& command);
+  void carry_out(const commands::Uncut& command);
+  void carry_out(const commands::Reset& command);
+  void carry_out(const commands::ReplaceMesh& command);
+  void carry_out(const commands::KeepState& command);
+  void carry_out(const commands::SwapState& command);
+  void carry_out(const commands::DropState& command);
 
   void pass(ElementId element, const Point& target);
   void check_links(const std::vector<LinkId>& links) const;
   void take_mesh(MeshPointer mesh);
-  void wake_all();
+  void wake(std::span<const ElementId> elements);
+  void wake_ends(const std::vector<LinkId>& links);
   void fall_asleep();
   State current_state() const;
 

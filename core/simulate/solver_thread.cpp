@@ -76,14 +76,14 @@ void SolverThread::run(const std::stop_token& stop) {
     }
 
     const auto due = last_frame_ + frame_time;
-    if (unseen && (Clock::now() >= due || (idle() && !simulation_.statistics().relaxing))) {
+    if (unseen && Clock::now() >= due) {
       publish(false);
       unseen = false;
     }
     lock.lock();
-    if (simulation_.statistics().relaxing) {
+    if (unseen || simulation_.statistics().relaxing) {
       changed_.wait_until(lock, stop, last_frame_ + frame_time, [this] { return !commands_.empty(); });
-    } else if (!measured && commands_.empty() &&
+    } else if (!measured && commands_.empty() && !stop.stop_requested() &&
                !changed_.wait_for(lock, stop, violation_time, [this] { return !commands_.empty(); })) {
       // Nothing came for a while: the object is at rest.
       lock.unlock();
@@ -96,7 +96,8 @@ void SolverThread::run(const std::stop_token& stop) {
 
 void SolverThread::publish(bool at_rest) {
   const auto now = Clock::now();
-  if (at_rest || now - last_violation_ >= violation_time) {
+  // The first frame after a rest must not show the figure of the whole mesh as it was.
+  if (at_rest || simulation_.statistics().violation_of_whole_mesh || now - last_violation_ >= violation_time) {
     simulation_.refresh_statistics(at_rest);
     last_violation_ = Clock::now();
   }

@@ -17,7 +17,8 @@ namespace chainmail {
 /// time, and hands over a frame when something changed, at most 60 times a second.
 class SolverThread {
  public:
-  /// `frame_ready` is called on the solver's thread after a frame was handed over; it must not wait.
+  /// `frame_ready` is called after a frame was handed over, for the first frame here and from then on
+  /// by the solver's thread; it must not wait.
   SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready);
   /// Leaves the commands not yet begun undone.
   ~SolverThread();

@@ -9,15 +9,9 @@
 #include <vector>
 
 #include "solve/body.h"
+#include "solve/relaxation_result.h"
 
 namespace chainmail {
-
-/// What a slice of relaxation did.
-struct RelaxationResult {
-  std::uint64_t visited = 0;  // elements looked at
-  bool sweep_ended = false;   // the slice reached the end of a sweep
-  double largest_step = 0;    // of the sweep so far, Euclidean (mesh units)
-};
 
 /// A set of elements that is walked in ascending order; it costs nothing outside the range in use.
 class ActiveSet {

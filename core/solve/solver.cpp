@@ -6,6 +6,7 @@
 
 #include "mesh/error.h"
 #include "solve/propagate.h"
+#include "solve/relaxation.h"
 
 namespace chainmail {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
-#include "solve/relaxation.h"
+#include "solve/relaxation_result.h"
 #include "solve/softness.h"
 
 namespace chainmail {

@@ -15,7 +15,7 @@ class SimulationTest : public QObject {
   void after_release_a_drag_has_nothing_to_move();
   void new_softness_acts_at_once_under_load();
   void new_softness_at_rest_moves_nothing();
-  void the_algorithm_may_change_in_midway();
+  void the_algorithm_may_change_midway();
   void cut_and_uncut();
   void reset_keeps_cuts_and_softness();
   void another_mesh_is_uncut_and_at_rest();
@@ -102,7 +102,7 @@ void SimulationTest::new_softness_at_rest_moves_nothing() {
   QVERIFY(simulation.softness() == (Softness{{1, 1, 0}, {}}));
 }
 
-void SimulationTest::the_algorithm_may_change_in_midway() {
+void SimulationTest::the_algorithm_may_change_midway() {
   auto simulation = grid_simulation(Algorithm::generalized);
   drag_by(simulation, 7, Point(2, 1, 0));
   const auto before = positions_of(simulation);
@@ -154,7 +154,7 @@ void SimulationTest::another_mesh_is_uncut_and_at_rest() {
   QVERIFY(simulation.solver().cuts().links().empty());
   QVERIFY(simulation.softness() == (Softness{global, {}}));  // softness per link belongs to the old one
   QVERIFY(!simulation.grabbed());
-  // The global softness is in force in the new one: a chain of three, stretched by 1.5.
+  // The global softness is in force in the new one: the link along the drag stretches by 1.5.
   drag_by(simulation, 0, Point(-8, 0, 0));
   QCOMPARE(position_of(simulation, 1)[0], -8 + 1.5);
 }
@@ -191,7 +191,7 @@ void SimulationTest::relaxation_stops_when_switched_off() {
 }
 
 void SimulationTest::a_cut_under_tension_is_felt() {
-  // A chain held out at one end, its middle hindered by a stiff link; cut there, the rest relaxes.
+  // Cut off from the hand, the other two go back to their rest length.
   Simulation simulation(make_mesh(MeshKind::line, {3, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
   carry_out(simulation, commands::SetSoftness{{{0.5, 2, 0}, {{0, {1, 1, 0}}}}});
   drag_by(simulation, 0, Point(-2, 0, 0));

@@ -16,6 +16,7 @@ class UndoTest : public QObject {
   void later_moves_come_out_as_if_nothing_had_been();
   void another_mesh_comes_back_with_its_cuts_and_softness();
   void any_change_is_undone();
+  void whether_the_object_is_valid_comes_back_too();
   void states_have_names_of_their_own();
   void a_dropped_state_is_gone();
   void the_hand_lets_go_and_relaxation_sleeps();
@@ -119,6 +120,18 @@ void UndoTest::any_change_is_undone() {
   QVERIFY(rc::check("undo and redo of cuts, softness, drags and relaxation are exact", holds));
 }
 
+void UndoTest::whether_the_object_is_valid_comes_back_too() {
+  Simulation simulation(sphere(12, 6), Algorithm::generalized, Precision::double_precision);
+  carry_out(simulation, commands::KeepState{1});
+  drag_by(simulation, 0, Point(0, 0, 9));  // Generalized leaves links of it invalid
+  simulation.refresh_statistics(true);
+  QVERIFY(!simulation.valid());
+  carry_out(simulation, commands::SwapState{1});
+  QVERIFY(simulation.valid());
+  carry_out(simulation, commands::SwapState{1});
+  QVERIFY(!simulation.valid());
+}
+
 void UndoTest::states_have_names_of_their_own() {
   auto simulation = worked_simulation(Algorithm::natural_queue, Precision::double_precision);
   const Snapshot first(simulation);
@@ -153,6 +166,7 @@ void UndoTest::the_hand_lets_go_and_relaxation_sleeps() {
   drag_by(simulation, 20, Point(-3, 2, 0));
   carry_out(simulation, commands::SwapState{1});
   QVERIFY(!simulation.grabbed());
+  QVERIFY(!simulation.statistics().relaxing);
   QVERIFY(!simulation.step());  // or the state that undo brought back would creep away
   QVERIFY(Snapshot(simulation).same_object(kept));
 }
