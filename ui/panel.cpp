@@ -38,6 +38,7 @@ Panel::Panel(Document& document, int panel, std::shared_ptr<Camera> camera, QCol
 
   auto* head = new QHBoxLayout;
   head->setContentsMargins(8, 6, 8, 6);
+  head->setSpacing(8);
   head->addWidget(swatch);
   head->addWidget(selector_);
   head->addStretch();

@@ -158,7 +158,7 @@ void deform(const Options& options) {
   std::for_each(acts.begin(), acts.end(), [&](const Act& act) { check_act(act, *mesh); });
 
   Simulation simulation(mesh, algorithm, precision);
-  simulation.apply(chainmail::Command(commands::SetSoftness{{softness, {}}}));
+  simulation.apply(commands::SetSoftness{{softness, {}}});
   const Run run = carry_out(simulation, acts, schedule);
   const DeformSummary summary = summarize(simulation, run);
 
