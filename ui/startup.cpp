@@ -1,6 +1,7 @@
 #include "startup.h"
 
 #include <QApplication>
+#include <QIcon>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QPalette>
@@ -28,6 +29,8 @@ void prepareApplication() {
 }
 
 void styleApplication() {
+  QGuiApplication::setDesktopFileName(QStringLiteral("org.chainmail.workbench"));
+  QApplication::setWindowIcon(QIcon(QStringLiteral(":/org.chainmail.workbench.png")));
   QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
   QPalette palette;
   const QColor window(0x24, 0x29, 0x30), base(0x1b, 0x1f, 0x25), text(0xe4, 0xe7, 0xeb), faint(0x7d, 0x85, 0x90);

@@ -163,7 +163,8 @@ double mean_link_length(const Mesh& mesh) {
 
 Point Lattice::position(ElementId element) const {
   const std::uint64_t layer = std::uint64_t{size[0]} * size[1];
-  return Point(element % size[0], element / size[0] % size[1], static_cast<double>(element / layer)) * spacing;
+  const std::uint64_t row = element / size[0] % size[1], column = element % size[0];
+  return Point(double(column), double(row), double(element / layer)) * spacing;
 }
 
 Point Mesh::to_point(const double* carried) const {
