@@ -54,30 +54,47 @@ MeshDock::MeshDock(Document& document)
     kind_->setItemData(kind_->count() - 1, text(info.help), Qt::ToolTipRole);
   }
   kind_->setCurrentText(capitalised(text(infoOf(sampleRecipe().kind).name)));
-  auto* sizes = new QHBoxLayout;
-  for (int k = 0; k < 3; ++k) {
-    sizes_[k] = new QSpinBox;
-    sizes_[k]->setObjectName(QStringLiteral("size%1").arg(QLatin1String(axisNames[k])));
-    sizes_[k]->setAccessibleName(QStringLiteral("Elements along %1").arg(QLatin1Char("xyz"[k])));
-    sizes_[k]->setToolTip(QStringLiteral("Elements along %1").arg(QLatin1Char("xyz"[k])));
-    sizes_[k]->setKeyboardTracking(false);
-    sizes_[k]->setRange(2, largestSize[0]);
-    sizes_[k]->setValue(k == 2 ? 16 : int(sampleRecipe().size[k]));
-    sizes->addWidget(sizes_[k]);
-  }
   space_->setObjectName(QStringLiteral("spaceDimension"));
   space_->setToolTip(QStringLiteral("How many coordinates exist: a plane scene carries no third"));
   build_->setObjectName(QStringLiteral("buildMesh"));
   description_->setObjectName(QStringLiteral("meshDescription"));
   description_->setWordWrap(true);
+  arrange();
+
+  connect(kind_, &QComboBox::currentIndexChanged, this, &MeshDock::adaptToKind);
+  connect(build_, &QPushButton::clicked, this, &MeshDock::build);
+  connect(&document, &Document::meshChanged, this, &MeshDock::describe);
+  connect(&document, &Document::cutsChanged, this, &MeshDock::describe);
+  adaptToKind();
+  describe();
+}
+
+QLayout* MeshDock::makeSizes() {
+  auto* row = new QHBoxLayout;
+  for (int k = 0; k < 3; ++k) {
+    sizes_[k] = new QSpinBox;
+    sizes_[k]->setObjectName(QStringLiteral("size%1").arg(QLatin1String(axisNames[k])));
+    sizes_[k]->setAccessibleName(QStringLiteral("Elements along %1").arg(QLatin1Char("xyz"[k])));
+    sizes_[k]->setToolTip(sizes_[k]->accessibleName());
+    sizes_[k]->setKeyboardTracking(false);
+    sizes_[k]->setRange(2, largestSize[0]);
+    sizes_[k]->setValue(k == 2 ? 16 : int(sampleRecipe().size[k]));
+    row->addWidget(sizes_[k]);
+  }
+  return row;
+}
+
+void MeshDock::arrange() {
   auto* open = new QPushButton(QStringLiteral("Open…"));
   auto* save = new QPushButton(QStringLiteral("Save…"));
-
+  connect(open, &QPushButton::clicked, this, &MeshDock::openRequested);
+  connect(save, &QPushButton::clicked, this, &MeshDock::saveRequested);
   auto* content = new QWidget;
+  content->setMinimumWidth(dockWidth);
   auto* column = new QVBoxLayout(content);
   auto* form = new QFormLayout;
   form->addRow(QStringLiteral("Kind"), kind_);
-  form->addRow(QStringLiteral("Size"), sizes);
+  form->addRow(QStringLiteral("Size"), makeSizes());
   form->addRow(QStringLiteral("Space"), space_);
   column->addLayout(form);
   column->addWidget(spacing_);
@@ -88,17 +105,7 @@ MeshDock::MeshDock(Document& document)
   files->addWidget(save);
   column->addLayout(files);
   column->addStretch();
-  content->setMinimumWidth(dockWidth);
   setWidget(content);
-
-  connect(kind_, &QComboBox::currentIndexChanged, this, &MeshDock::adaptToKind);
-  connect(build_, &QPushButton::clicked, this, &MeshDock::build);
-  connect(open, &QPushButton::clicked, this, &MeshDock::openRequested);
-  connect(save, &QPushButton::clicked, this, &MeshDock::saveRequested);
-  connect(&document, &Document::meshChanged, this, &MeshDock::describe);
-  connect(&document, &Document::cutsChanged, this, &MeshDock::describe);
-  adaptToKind();
-  describe();
 }
 
 void MeshDock::adaptToKind() {

@@ -37,6 +37,8 @@ class MeshDock : public QDockWidget {
 
  private:
   const MeshKindInfo& kind() const { return mesh_kinds()[std::size_t(kind_->currentIndex())]; }
+  QLayout* makeSizes();
+  void arrange();
   void adaptToKind();
   MeshRecipe recipe() const;
   void build();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drawn_indices.h"
 #include "mesh/error.h"
 #include "picking.h"
 
@@ -22,10 +23,12 @@ constexpr float litWidth = 3;  // pixels, where the driver draws wide lines
 
 QVector4D asVector(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
 
-template <class Index>
-void upload(QOpenGLBuffer& buffer, const std::vector<Index>& data) {
+/// Sends data to the graphics card; returns how many there are.
+template <class Datum>
+GLsizei upload(QOpenGLBuffer& buffer, const std::vector<Datum>& data) {
   buffer.bind();
-  buffer.allocate(data.data(), int(data.size() * sizeof(Index)));
+  buffer.allocate(data.data(), int(data.size() * sizeof(Datum)));
+  return GLsizei(data.size());
 }
 
 }  // namespace
@@ -69,47 +72,14 @@ void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
 void ObjectPainter::setCuts(const Cuts& cuts) {
   cuts_ = cuts;
   coarseStep_ = 0;
-  fillLinks(cuts);
-  fillFaces(cuts);
+  linkIndices_ = upload(links_, uncutLinks(*mesh_, cuts));
+  faceIndices_ = upload(faces_, uncutFaces(*mesh_, cuts));
 }
 
 void ObjectPainter::setMesh(const MeshPointer& mesh, const Cuts& cuts) {
   mesh_ = mesh;
   frameNumber_ = 0;
   setCuts(cuts);
-}
-
-void ObjectPainter::fillLinks(const Cuts& cuts) {
-  std::vector<ElementId> indices;
-  indices.reserve(2 * mesh_->links.size());
-  for (LinkId link = 0; link < mesh_->link_count(); ++link) {
-    if (!cuts.is_cut(link)) {
-      indices.insert(indices.end(), mesh_->links[link].begin(), mesh_->links[link].end());
-    }
-  }
-  linkIndices_ = GLsizei(indices.size());
-  upload(links_, indices);
-}
-
-void ObjectPainter::fillFaces(const Cuts& cuts) {
-  std::vector<ElementId> indices;
-  for (const auto& triangle : mesh_->triangles) {
-    const bool whole =
-        std::none_of(triangle.begin(), triangle.end(), [&](ElementId e) { return cuts.touches(e); }) || [&] {
-          for (int i = 0; i < 3; ++i) {
-            const auto link = find_link(*mesh_, triangle[i], triangle[(i + 1) % 3]);
-            if (link && cuts.is_cut(*link)) {
-              return false;
-            }
-          }
-          return true;
-        }();
-    if (whole) {
-      indices.insert(indices.end(), triangle.begin(), triangle.end());
-    }
-  }
-  faceIndices_ = GLsizei(indices.size());
-  upload(faces_, indices);
 }
 
 void ObjectPainter::chooseStep(double pixelsPerUnit) {
@@ -122,44 +92,9 @@ void ObjectPainter::chooseStep(double pixelsPerUnit) {
     step_ *= 2;
   }
   if (step_ > 1 && step_ != coarseStep_) {
-    fillCoarse();
+    coarseStep_ = step_;
+    coarseIndices_ = upload(coarse_, mesh_->lattice ? coarseLinks(*mesh_, cuts_, step_) : scattered(*mesh_, step_));
   }
-}
-
-/// On a lattice the links of every step-th row, joined where no link between is cut; elsewhere elements
-/// scattered evenly by a multiplicative hash, drawn as points.
-void ObjectPainter::fillCoarse() {
-  coarseStep_ = step_;
-  std::vector<ElementId> indices;
-  if (!mesh_->lattice) {
-    for (ElementId e = 0; e < mesh_->element_count(); ++e) {
-      if ((e * 2654435761U >> 16) % (step_ * step_) == 0) {
-        indices.push_back(e);
-      }
-    }
-  } else {
-    const auto& size = mesh_->lattice->size;
-    const std::array<ElementId, 3> stride{1, size[0], size[0] * size[1]};
-    for (ElementId e = 0; e < mesh_->element_count(); ++e) {
-      const std::array<ElementId, 3> at{e % size[0], e / size[0] % size[1], e / stride[2]};
-      if (std::any_of(at.begin(), at.end(), [this](ElementId i) { return i % step_ != 0; })) {
-        continue;
-      }
-      for (int k = 0; k < 3; ++k) {
-        const ElementId steps = std::min<ElementId>(step_, size[k] - 1 - at[k]);
-        bool whole = steps > 0;
-        for (ElementId i = 0; whole && cuts_.count() != 0 && i < steps; ++i) {
-          const auto link = find_link(*mesh_, e + i * stride[k], e + (i + 1) * stride[k]);
-          whole = link && !cuts_.is_cut(*link);
-        }
-        if (whole) {
-          indices.insert(indices.end(), {e, e + steps * stride[k]});
-        }
-      }
-    }
-  }
-  coarseIndices_ = GLsizei(indices.size());
-  upload(coarse_, indices);
 }
 
 void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dimension) {

@@ -49,10 +49,7 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
 
  private:
   void setMesh(const MeshPointer& mesh, const Cuts& cuts);
-  void fillLinks(const Cuts& cuts);
-  void fillFaces(const Cuts& cuts);
   void chooseStep(double pixelsPerUnit);
-  void fillCoarse();
   void use(const Scene& scene, QColor colour, int shading, int dimension);
   void drawFaces(const Scene& scene, QColor colour);
   void drawWires(const Scene& scene, QColor colour);

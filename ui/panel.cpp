@@ -11,31 +11,52 @@ constexpr int refreshMilliseconds = 100;
 }  // namespace
 
 Panel::Panel(Document& document, int panel, std::shared_ptr<Camera> camera, QColor colour)
-    : document_(document), panel_(panel) {
-  auto* swatch = new QLabel;
-  swatch->setFixedSize(10, 10);
-  swatch->setStyleSheet(QStringLiteral("background:%1; border-radius:5px").arg(colour.name()));
-  selector_ = new QComboBox;
-  selector_->setObjectName(QStringLiteral("algorithm%1").arg(panel));
+    : document_(document),
+      panel_(panel),
+      selector_(new QComboBox),
+      state_(new QLabel),
+      statistics_(new QLabel),
+      view_(new View(document, panel, std::move(camera), colour)) {
+  view_->setObjectName(QStringLiteral("view%1").arg(panel));
+  fillSelector();
+  statistics_->setObjectName(QStringLiteral("statistics%1").arg(panel));
+  statistics_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  statistics_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  statistics_->setToolTip(
+      QStringLiteral("Violation: how far links lie outside their valid regions, in rest lengths; the last figure is "
+                     "the share of links above 1e-4.\nDuring a drag it covers the links that the pass touched, at rest "
+                     "all links."));
+  arrange(colour);
+
+  refresh_.setSingleShot(true);
+  refresh_.setInterval(refreshMilliseconds);
+  connect(&refresh_, &QTimer::timeout, this, &Panel::showStatistics);
+  connect(&document, &Document::frameReady, this, [this](int ready) {
+    if (ready == panel_ && !refresh_.isActive()) {
+      refresh_.start();
+    }
+  });
+  connect(view_, &View::drawnStepChanged, &refresh_, qOverload<>(&QTimer::start));
+  showStatistics();
+}
+
+void Panel::fillSelector() {
+  selector_->setObjectName(QStringLiteral("algorithm%1").arg(panel_));
   selector_->setAccessibleName(QStringLiteral("Algorithm of this panel"));
   selector_->setToolTip(QStringLiteral("The algorithm that deforms this panel's object"));
   for (const auto& info : algorithms()) {
     selector_->addItem(QString::fromUtf8(info.label.data(), qsizetype(info.label.size())), int(info.algorithm));
   }
-  selector_->setCurrentIndex(selector_->findData(int(document.algorithm(panel))));
+  selector_->setCurrentIndex(selector_->findData(int(document_.algorithm(panel_))));
   connect(selector_, &QComboBox::activated, this,
           [this] { document_.setAlgorithm(panel_, Algorithm(selector_->currentData().toInt())); });
-  state_ = new QLabel;
-  statistics_ = new QLabel;
-  statistics_->setObjectName(QStringLiteral("statistics%1").arg(panel));
-  statistics_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  statistics_->setToolTip(
-      QStringLiteral("Violation: how far links lie outside their valid regions, in rest lengths; the last figure is "
-                     "the share of links above 1e-4.\nDuring a drag it covers the links that the pass touched, at rest "
-                     "all links."));
-  view_ = new View(document, panel, std::move(camera), colour);
-  view_->setObjectName(QStringLiteral("view%1").arg(panel));
+}
 
+/// The selector above the view, the figures below it.
+void Panel::arrange(QColor colour) {
+  auto* swatch = new QLabel;
+  swatch->setFixedSize(10, 10);
+  swatch->setStyleSheet(QStringLiteral("background:%1; border-radius:5px").arg(colour.name()));
   auto* head = new QHBoxLayout;
   head->setContentsMargins(8, 6, 8, 6);
   head->setSpacing(8);
@@ -52,19 +73,6 @@ Panel::Panel(Document& document, int panel, std::shared_ptr<Camera> camera, QCol
   column->addLayout(head);
   column->addWidget(view_, 1);
   column->addLayout(foot);
-  statistics_->setMinimumWidth(0);
-  statistics_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-
-  refresh_.setSingleShot(true);
-  refresh_.setInterval(refreshMilliseconds);
-  connect(&refresh_, &QTimer::timeout, this, &Panel::showStatistics);
-  connect(&document, &Document::frameReady, this, [this](int ready) {
-    if (ready == panel_ && !refresh_.isActive()) {
-      refresh_.start();
-    }
-  });
-  connect(view_, &View::drawnStepChanged, &refresh_, qOverload<>(&QTimer::start));
-  showStatistics();
 }
 
 QString Panel::describe(const Statistics& statistics) const {

@@ -21,6 +21,8 @@ class Panel : public QFrame {
   QComboBox& selector() { return *selector_; }
 
  private:
+  void fillSelector();
+  void arrange(QColor colour);
   void showStatistics();
   QString describe(const Statistics& statistics) const;
 

@@ -27,15 +27,9 @@ ParameterRow::ParameterRow(const Parameter& parameter)
       slider_(new QSlider(Qt::Horizontal)),
       spin_(new QDoubleSpinBox),
       reset_(new QToolButton) {
-  const QString name = text(parameter.name);
-  const QString help =
-      QStringLiteral("%1 (%2): %3").arg(text(parameter.label), text(parameter.unit), text(parameter.help));
-  label_->setBuddy(spin_);
-  slider_->setObjectName(name + QStringLiteral("Slider"));
-  slider_->setAccessibleName(text(parameter.label));
+  describe();
   slider_->setRange(0, sliderSteps);
   slider_->setPageStep(sliderSteps / 20);
-  spin_->setObjectName(name + QStringLiteral("Spin"));
   spin_->setKeyboardTracking(false);
   spin_->setDecimals(parameter.decimals);
   spin_->setRange(parameter.lowest, parameter.highest);
@@ -43,14 +37,8 @@ ParameterRow::ParameterRow(const Parameter& parameter)
   spin_->setStepType(parameter.highest > 1000 ? QAbstractSpinBox::AdaptiveDecimalStepType
                                               : QAbstractSpinBox::DefaultStepType);
   spin_->setFixedWidth(88);
-  reset_->setObjectName(name + QStringLiteral("Reset"));
   reset_->setText(QStringLiteral("↺"));
   reset_->setAutoRaise(true);
-  reset_->setToolTip(QStringLiteral("Back to %1").arg(parameter.standard));
-  reset_->setAccessibleName(QStringLiteral("Reset %1").arg(text(parameter.label)));
-  for (QWidget* widget : std::initializer_list<QWidget*>{label_, slider_, spin_}) {
-    widget->setToolTip(help);
-  }
   show(parameter.standard);
 
   auto* grid = new QGridLayout(this);
@@ -69,6 +57,22 @@ ParameterRow::ParameterRow(const Parameter& parameter)
   });
   connect(spin_, &QDoubleSpinBox::valueChanged, this, &ParameterRow::announce);
   connect(reset_, &QToolButton::clicked, this, [this] { announce(parameter_.standard); });
+}
+
+/// Names for tests and screen readers, and what the parameter does.
+void ParameterRow::describe() {
+  const QString name = text(parameter_.name), label = text(parameter_.label);
+  const QString help = QStringLiteral("%1 (%2): %3").arg(label, text(parameter_.unit), text(parameter_.help));
+  slider_->setObjectName(name + QStringLiteral("Slider"));
+  slider_->setAccessibleName(label);
+  spin_->setObjectName(name + QStringLiteral("Spin"));
+  label_->setBuddy(spin_);
+  reset_->setObjectName(name + QStringLiteral("Reset"));
+  reset_->setToolTip(QStringLiteral("Back to %1").arg(parameter_.standard));
+  reset_->setAccessibleName(QStringLiteral("Reset %1").arg(label));
+  for (QWidget* widget : std::initializer_list<QWidget*>{label_, slider_, spin_}) {
+    widget->setToolTip(help);
+  }
 }
 
 void ParameterRow::show(double value) {

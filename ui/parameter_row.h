@@ -31,6 +31,7 @@ class ParameterRow : public QWidget {
   void changed(double value, int gesture);
 
  private:
+  void describe();
   void announce(double value);
   int toSlider(double value) const;
 

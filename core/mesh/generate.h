@@ -28,7 +28,7 @@ struct MeshRecipe {
   MeshKind kind = MeshKind::grid;
   std::array<std::uint32_t, 3> size{16, 16, 1};
   double spacing = 1;
-  std::optional<int> space_dimension;
+  std::optional<int> space_dimension = {};
 };
 
 /// Builds a mesh; its elements are numbered along x, then y, then z.

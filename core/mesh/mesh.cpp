@@ -163,8 +163,8 @@ double mean_link_length(const Mesh& mesh) {
 
 Point Lattice::position(ElementId element) const {
   const std::uint64_t layer = std::uint64_t{size[0]} * size[1];
-  const std::uint64_t row = element / size[0] % size[1], column = element % size[0];
-  return Point(double(column), double(row), double(element / layer)) * spacing;
+  const std::uint64_t column = element % size[0], row = element / size[0] % size[1], plane = element / layer;
+  return Point(double(column), double(row), double(plane)) * spacing;
 }
 
 Point Mesh::to_point(const double* carried) const {

@@ -46,12 +46,12 @@ void SolverThread::carry_out(const Command& command) {
     const std::lock_guard lock(mutex_);
     error_ = error.what();
   }
+  unseen_ = true;
+  measured_ = false;
   waiting_.fetch_sub(1, std::memory_order_release);
 }
 
 void SolverThread::run(const std::stop_token& stop) {
-  bool unseen = false;   // something changed since the last frame
-  bool measured = true;  // the frame shows the violation of the whole mesh
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
     if (!commands_.empty()) {
@@ -59,38 +59,40 @@ void SolverThread::run(const std::stop_token& stop) {
       commands_.pop_front();
       lock.unlock();
       carry_out(command);
-      unseen = true;
-      measured = false;
     } else if (simulation_.statistics().relaxing) {
       lock.unlock();
-      const auto end = Clock::now() + relaxation_share;
-      while (idle() && Clock::now() < end && simulation_.step()) {
-      }
-      unseen = true;
-      measured = false;
-    } else if (!unseen && measured) {
+      relax();
+    } else if (!unseen_ && measured_) {
       changed_.wait(lock, stop, [this] { return !commands_.empty(); });
       continue;
     } else {
       lock.unlock();
     }
-
-    const auto due = last_frame_ + frame_time;
-    if (unseen && Clock::now() >= due) {
+    if (unseen_ && Clock::now() >= last_frame_ + frame_time) {
       publish(false);
-      unseen = false;
     }
     lock.lock();
-    if (unseen || simulation_.statistics().relaxing) {
-      changed_.wait_until(lock, stop, last_frame_ + frame_time, [this] { return !commands_.empty(); });
-    } else if (!measured && commands_.empty() && !stop.stop_requested() &&
-               !changed_.wait_for(lock, stop, violation_time, [this] { return !commands_.empty(); })) {
-      // Nothing came for a while: the object is at rest.
-      lock.unlock();
-      publish(true);
-      measured = true;
-      lock.lock();
-    }
+    rest(lock, stop);
+  }
+}
+
+void SolverThread::relax() {
+  const auto end = Clock::now() + relaxation_share;
+  while (idle() && Clock::now() < end && simulation_.step()) {
+  }
+  unseen_ = true;
+  measured_ = false;
+}
+
+void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+  const auto has_command = [this] { return !commands_.empty(); };
+  if (unseen_ || simulation_.statistics().relaxing) {
+    changed_.wait_until(lock, stop, last_frame_ + frame_time, has_command);
+  } else if (!measured_ && !changed_.wait_for(lock, stop, violation_time, has_command) && !stop.stop_requested()) {
+    // Nothing came for a while: the object is at rest.
+    lock.unlock();
+    publish(true);
+    lock.lock();
   }
 }
 
@@ -109,6 +111,8 @@ void SolverThread::publish(bool at_rest) {
   frame.number = ++frame_number_;
   frames_.publish();
   last_frame_ = now;
+  unseen_ = false;
+  measured_ = at_rest;
   frame_ready_();
 }
 

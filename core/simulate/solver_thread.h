@@ -35,6 +35,8 @@ class SolverThread {
  private:
   void run(const std::stop_token& stop);
   void carry_out(const Command& command);
+  void relax();
+  void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void publish(bool at_rest);
 
   Simulation simulation_;
@@ -43,6 +45,8 @@ class SolverThread {
   std::uint64_t frame_number_ = 0;
   PassTimes::Clock::time_point last_frame_{};
   PassTimes::Clock::time_point last_violation_{};
+  bool unseen_ = false;   // something changed since the last frame
+  bool measured_ = true;  // the last frame shows the violation of the whole mesh
 
   std::mutex mutex_;  // guards commands_ and error_
   std::condition_variable_any changed_;
