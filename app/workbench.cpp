@@ -2,7 +2,9 @@
 
 #include <QApplication>
 #include <QCommandLineParser>
+#include <algorithm>
 #include <cstdio>
+#include <string_view>
 
 #include "main_window.h"
 #include "mesh_dock.h"
@@ -15,9 +17,21 @@ int fail(const QString& sentence) {
   return 2;
 }
 
+/// Qt ends the process where there is no display; this says so before.
+bool hasDisplay(int argc, char** argv) {
+  const auto namesPlatform = [](const char* argument) { return std::string_view(argument) == "-platform"; };
+  return !qEnvironmentVariableIsEmpty("DISPLAY") || !qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") ||
+         !qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") || std::any_of(argv, argv + argc, namesPlatform);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (!hasDisplay(argc, argv)) {
+    return fail(
+        QStringLiteral("there is no display; start it in a desktop session, or use the command line program "
+                       "chainmail"));
+  }
   chainmail::prepareApplication();
   QApplication application(argc, argv);
   QCoreApplication::setApplicationVersion(QStringLiteral(CHAINMAIL_VERSION));

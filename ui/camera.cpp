@@ -14,18 +14,22 @@ double eyeDistance(double height) { return height / 2 / std::tan(fieldOfView / 2
 
 }  // namespace
 
-void Camera::fit(const std::array<Point, 2>& box, bool spatial, QSizeF view) {
+void Camera::fit(const std::array<Point, 2>& box, std::span<const int> axes, QSizeF view) {
+  const auto carries = [axes](int k) { return std::find(axes.begin(), axes.end(), k) != axes.end(); };
   const Point centre = (box[0] + box[1]) / 2;
   const Point extent = box[1] - box[0];
   const double aspect = view.width() / std::max(view.height(), 1.0);
   centre_ = QVector3D(float(centre.x()), float(centre.y()), float(centre.z()));
   radius_ = std::max(extent.norm() / 2, 1e-9);
-  spatial_ = spatial;
-  yaw_ = spatial ? -30 : 0;
-  pitch_ = spatial ? 25 : 0;
-  const double flat = std::max(extent.y(), extent.x() / aspect);
+  spatial_ = axes.size() == 3;
+  // A plane of x and z is seen from above, one of y and z from the side.
+  const bool fromAbove = !spatial_ && carries(2) && carries(0), fromSide = !spatial_ && carries(2) && !carries(0);
+  yaw_ = spatial_ ? -30 : fromSide ? -90 : 0;
+  pitch_ = spatial_ ? 25 : fromAbove ? 90 : 0;
+  const double across = fromSide ? extent.z() : extent.x(), up = fromAbove ? extent.z() : extent.y();
+  const double flat = std::max(up, across / aspect);
   const double round = 2 * radius_ / std::min(aspect, 1.0) * 0.85;
-  height_ = margin * (spatial ? round : flat > 0 ? flat : 2 * radius_);
+  height_ = margin * (spatial_ ? round : flat > 0 ? flat : 2 * radius_);
 }
 
 void Camera::orbit(QPointF pixels) {

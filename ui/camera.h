@@ -4,6 +4,7 @@
 #include <QPointF>
 #include <QSizeF>
 #include <QVector3D>
+#include <span>
 
 #include "mesh/mesh.h"
 
@@ -13,8 +14,9 @@ namespace chainmail {
 /// centre in 3D. Lengths are in mesh units, places in the view in logical pixels from its top left.
 class Camera {
  public:
-  /// Shows the whole box, from the front, or obliquely from above where it is 3D.
-  void fit(const std::array<Point, 2>& box, bool spatial, QSizeF view);
+  /// Shows the whole box: straight down on the plane of the axes that the scene carries, or obliquely
+  /// from above where it carries all three.
+  void fit(const std::array<Point, 2>& box, std::span<const int> axes, QSizeF view);
   void orbit(QPointF pixels);
   void pan(QPointF pixels, QSizeF view);
   /// Brings the object nearer (factor > 1) about the place under the cursor.

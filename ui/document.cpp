@@ -8,7 +8,8 @@ namespace chainmail {
 namespace {
 
 constexpr int samplingMilliseconds = 16;
-constexpr int undoSteps = 100;
+// Some steps keep all positions, 16 MB a panel at a million elements.
+constexpr int undoSteps = 30;
 
 }  // namespace
 

@@ -10,9 +10,10 @@ QString DragTool::hint() const {
 }
 
 void DragTool::hover(View& view, QPointF place) {
-  if (!grabbed_) {
-    document_.setHighlight({view.elementAt(place), false, {}});
+  if (grabbed_) {
+    cancel();  // no button is down: its release went to someone else, a dialog say
   }
+  document_.setHighlight({view.elementAt(place), false, {}});
 }
 
 void DragTool::press(View& view, QPointF place) {

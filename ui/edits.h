@@ -6,7 +6,8 @@
 
 namespace chainmail {
 
-/// The steps of the undo stack. Each does, undoes and redoes itself exactly.
+/// The steps of the undo stack. Cuts, resets and meshes come back exactly; of softness the values do, and
+/// what they have moved since stays, as after a drag.
 
 class CutEdit : public QUndoCommand {
  public:

@@ -8,7 +8,7 @@
 #include <QSaveFile>
 #include <QSettings>
 #include <filesystem>
-#include <functional>
+#include <new>
 
 #include "files/mesh_file.h"
 #include "mesh/error.h"
@@ -42,15 +42,28 @@ void FileActions::fill(QMenu& menu) {
 void FileActions::addShapeActions(QMenu& menu) {
   auto* shapes = menu.addMenu(QStringLiteral("Save &deformed shape"));
   for (int panel = 0; panel < Document::panels; ++panel) {
-    shapes->addAction(
-        panel == 0 ? QStringLiteral("&Left panel…") : QStringLiteral("&Right panel…"), this, [this, panel] {
-          const QString path = QFileDialog::getSaveFileName(&window_, QStringLiteral("Save deformed shape"),
-                                                            startFolder(), QStringLiteral("Wavefront OBJ (*.obj)"));
-          if (!path.isEmpty()) {
-            saveShapePath(panel, path);
-          }
-        });
+    shapes->addAction(panel == 0 ? QStringLiteral("&Left panel…") : QStringLiteral("&Right panel…"), this,
+                      [this, panel] {
+                        const QString path =
+                            askWhere(QStringLiteral("Save deformed shape"), {QStringLiteral("Wavefront OBJ (*.obj)")});
+                        if (!path.isEmpty()) {
+                          saveShapePath(panel, path);
+                        }
+                      });
   }
+}
+
+/// Asks where to save; a name without an ending gets that of the filter chosen. Empty where given up.
+QString FileActions::askWhere(const QString& title, const QStringList& filters) {
+  QFileDialog dialog(&window_, title, startFolder());
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setNameFilters(filters);
+  const auto takeSuffix = [&dialog](const QString& filter) {
+    dialog.setDefaultSuffix(filter.section(QStringLiteral("*."), 1).chopped(1));
+  };
+  takeSuffix(filters.first());
+  connect(&dialog, &QFileDialog::filterSelected, &dialog, takeSuffix);
+  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().value(0) : QString();
 }
 
 void FileActions::open() {
@@ -69,15 +82,18 @@ void FileActions::openPath(const QString& path) {
     remember(path);
   } catch (const Error& error) {
     emit failed(QString::fromStdString(error.what()));
+  } catch (const std::bad_alloc&) {
+    emit failed(path + QStringLiteral(": there is not enough memory; open a smaller mesh"));
   }
   QGuiApplication::restoreOverrideCursor();
 }
 
 void FileActions::save() {
-  const QString path = QFileDialog::getSaveFileName(
-      &window_, QStringLiteral("Save mesh"), startFolder(),
-      document_.mesh()->lattice ? QStringLiteral("Links of a grid (*.dat);;Wavefront OBJ (*.obj)")
-                                : QStringLiteral("Wavefront OBJ (*.obj)"));
+  QStringList filters{QStringLiteral("Wavefront OBJ (*.obj)")};
+  if (document_.mesh()->lattice) {
+    filters << QStringLiteral("Links of a grid (*.dat)");
+  }
+  const QString path = askWhere(QStringLiteral("Save mesh"), filters);
   if (!path.isEmpty()) {
     savePath(path);
   }
@@ -86,7 +102,9 @@ void FileActions::save() {
 void FileActions::savePath(const QString& path) { write(path, rest_positions(*document_.mesh())); }
 
 void FileActions::saveShapePath(int panel, const QString& path) {
-  if (const Frame* frame = document_.frame(panel)) {
+  if (QFileInfo(path).suffix().compare(QStringLiteral("obj"), Qt::CaseInsensitive) != 0) {
+    emit failed(path + QStringLiteral(": a deformed shape is saved as OBJ; choose a name that ends in .obj"));
+  } else if (const Frame* frame = document_.frame(panel)) {
     write(path, {frame->positions.data(), frame->mesh->space_dimension * sizeof(float), Precision::single_precision});
   }
 }
@@ -95,6 +113,7 @@ void FileActions::write(const QString& path, const PositionView& positions) {
   try {
     save_mesh(asPath(path), *document_.mesh(), document_.cuts(), positions);
     remember(path);
+    emit saved(path);
   } catch (const Error& error) {
     emit failed(QString::fromStdString(error.what()));
   }
@@ -103,8 +122,7 @@ void FileActions::write(const QString& path, const PositionView& positions) {
 void FileActions::saveScreenshot() {
   // The window is taken before the dialog can cover it.
   const QPixmap picture = window_.grab();
-  const QString path = QFileDialog::getSaveFileName(&window_, QStringLiteral("Save screenshot"), startFolder(),
-                                                    QStringLiteral("PNG picture (*.png)"));
+  const QString path = askWhere(QStringLiteral("Save screenshot"), {QStringLiteral("PNG picture (*.png)")});
   if (!path.isEmpty()) {
     writePicture(picture, path);
   }
@@ -117,7 +135,9 @@ void FileActions::writePicture(const QPixmap& picture, const QString& path) {
   if (!file.open(QIODevice::WriteOnly) || !picture.save(&file, "PNG") || !file.commit()) {
     emit failed(QStringLiteral("%1: the picture could not be written (%2); choose another place")
                     .arg(path, file.errorString()));
+    return;
   }
+  emit saved(path);
 }
 
 void FileActions::fillRecent() {

@@ -27,6 +27,7 @@ class FileActions : public QObject {
 
  signals:
   void failed(const QString& sentence);
+  void saved(const QString& path);
 
  private:
   void addShapeActions(QMenu& menu);
@@ -35,6 +36,7 @@ class FileActions : public QObject {
   void writePicture(const QPixmap& picture, const QString& path);
   void fillRecent();
   void remember(const QString& path);
+  QString askWhere(const QString& title, const QStringList& filters);
   QString startFolder() const;
 
   QWidget& window_;

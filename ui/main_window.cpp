@@ -27,6 +27,7 @@ namespace {
 
 // To be raised when the docks change, so that an older layout is not restored over them.
 constexpr int layoutVersion = 1;
+constexpr int savedMilliseconds = 4000;
 
 }  // namespace
 
@@ -53,8 +54,18 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
 
   connect(&document_, &Document::refused, messages_, &MessageBar::say);
   connect(files_, &FileActions::failed, messages_, &MessageBar::say);
+  connect(files_, &FileActions::saved, this, [this](const QString& path) {
+    messages_->hide();
+    statusBar()->showMessage(QStringLiteral("Saved %1").arg(path), savedMilliseconds);
+  });
   connect(&document_, &Document::meshChanged, messages_, &QWidget::hide);
   connect(&document_, &Document::meshChanged, this, &MainWindow::showTitle);
+  // What a tool has begun may not fit the object after an edit, an undo or a redo.
+  connect(&document_.undoStack(), &QUndoStack::indexChanged, this, [this] {
+    if (tool_ != nullptr) {
+      tool_->cancel();
+    }
+  });
   makePanels();
   makeTools();
   makeMenus();

@@ -4,11 +4,12 @@
 #include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QLocale>
-#include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <new>
 
 #include "mesh/error.h"
+#include "text.h"
 
 namespace chainmail {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 /// The largest size offered along an axis, by the number of sizes of a kind.
 constexpr std::array largestSize{1'000'000, 1024, 100};
 constexpr std::array axisNames{"W", "H", "D"};
-
-QString text(std::string_view view) { return QString::fromUtf8(view.data(), qsizetype(view.size())); }
 
 QString capitalised(QString name) {
   name[0] = name[0].toUpper();
@@ -77,6 +76,7 @@ QLayout* MeshDock::makeSizes() {
     sizes_[k]->setAccessibleName(QStringLiteral("Elements along %1").arg(QLatin1Char("xyz"[k])));
     sizes_[k]->setToolTip(sizes_[k]->accessibleName());
     sizes_[k]->setKeyboardTracking(false);
+    connect(sizes_[k], &QSpinBox::editingFinished, sizes_[k], &QWidget::clearFocus);  // shortcuts work again
     sizes_[k]->setRange(2, largestSize[0]);
     sizes_[k]->setValue(k == 2 ? 16 : int(sampleRecipe().size[k]));
     row->addWidget(sizes_[k]);
@@ -138,6 +138,8 @@ void MeshDock::build() {
     document_.replaceMesh(generate(recipe()), name, QStringLiteral("build %1").arg(name));
   } catch (const Error& error) {
     emit failed(QString::fromStdString(error.what()));
+  } catch (const std::bad_alloc&) {
+    emit failed(name + QStringLiteral(": there is not enough memory; use a smaller size"));
   }
   QGuiApplication::restoreOverrideCursor();
 }

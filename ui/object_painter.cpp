@@ -13,6 +13,7 @@ namespace {
 // Above this many links an object is drawn more coarsely where its links fall below this many pixels.
 constexpr LinkId linksDrawnAlways = 60'000;
 constexpr double pixelsPerLink = 3;
+constexpr LinkId linksOfVolume = 200'000;
 // Elements are marked where there are few and they stand apart.
 constexpr ElementId elementsMarked = 20'000;
 constexpr double pixelsBetweenMarks = 9;
@@ -72,8 +73,7 @@ void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
 void ObjectPainter::setCuts(const Cuts& cuts) {
   cuts_ = cuts;
   coarseStep_ = 0;
-  linkIndices_ = upload(links_, uncutLinks(*mesh_, cuts));
-  faceIndices_ = upload(faces_, uncutFaces(*mesh_, cuts));
+  linksOutdated_ = facesOutdated_ = true;
 }
 
 void ObjectPainter::setMesh(const MeshPointer& mesh, const Cuts& cuts) {
@@ -88,7 +88,10 @@ void ObjectPainter::chooseStep(double pixelsPerUnit) {
   if (mesh_->link_count() <= linksDrawnAlways || !(pixels > 0)) {
     return;
   }
-  while (step_ < 64 && pixels * step_ < pixelsPerLink) {
+  // Inside a volume links hide each other: it is drawn coarsely before they become too small.
+  const bool volume = mesh_->object_dimension == 3 && mesh_->lattice;
+  const auto tooMany = [&] { return volume && mesh_->link_count() / (step_ * step_ * step_) > linksOfVolume; };
+  while (step_ < 64 && (pixels * step_ < pixelsPerLink || tooMany())) {
     step_ *= 2;
   }
   if (step_ > 1 && step_ != coarseStep_) {
@@ -130,6 +133,13 @@ void ObjectPainter::drawObject(const Scene& scene, QColor colour, double pixelsP
 
 void ObjectPainter::drawFaces(const Scene& scene, QColor colour) {
   const bool spatial = mesh_->space_dimension == 3;
+  if (step_ > 1 && !spatial) {
+    return;  // they only tint a plane, and there are many
+  }
+  if (facesOutdated_) {
+    faceIndices_ = upload(faces_, uncutFaces(*mesh_, cuts_));
+    facesOutdated_ = false;
+  }
   if (faceIndices_ == 0) {
     return;
   }
@@ -151,6 +161,10 @@ void ObjectPainter::drawFaces(const Scene& scene, QColor colour) {
 
 void ObjectPainter::drawWires(const Scene& scene, QColor colour) {
   const bool coarse = step_ > 1;
+  if (!coarse && linksOutdated_) {
+    linkIndices_ = upload(links_, uncutLinks(*mesh_, cuts_));
+    linksOutdated_ = false;
+  }
   const GLsizei count = coarse ? coarseIndices_ : linkIndices_;
   positions_.bind();
   use(scene, colour, 0, mesh_->space_dimension);

@@ -68,6 +68,8 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   const Frame* frame_ = nullptr;
   std::uint64_t frameNumber_ = 0;
   GLsizei linkIndices_ = 0, coarseIndices_ = 0, faceIndices_ = 0;
+  // Indices are made when they are first drawn.
+  bool linksOutdated_ = true, facesOutdated_ = true;
   unsigned step_ = 1;
   unsigned coarseStep_ = 0;  // the step that coarse_ was filled for; 0 none
 };

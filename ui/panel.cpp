@@ -3,6 +3,8 @@
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
+#include "text.h"
+
 namespace chainmail {
 namespace {
 
@@ -45,7 +47,7 @@ void Panel::fillSelector() {
   selector_->setAccessibleName(QStringLiteral("Algorithm of this panel"));
   selector_->setToolTip(QStringLiteral("The algorithm that deforms this panel's object"));
   for (const auto& info : algorithms()) {
-    selector_->addItem(QString::fromUtf8(info.label.data(), qsizetype(info.label.size())), int(info.algorithm));
+    selector_->addItem(text(info.label), int(info.algorithm));
   }
   selector_->setCurrentIndex(selector_->findData(int(document_.algorithm(panel_))));
   connect(selector_, &QComboBox::activated, this,

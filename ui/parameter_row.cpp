@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "text.h"
+
 namespace chainmail {
 namespace {
 
 constexpr int sliderSteps = 1000;
+constexpr double largestInField = 1e6;
 constexpr int gesturePauseMilliseconds = 700;
-
-QString text(std::string_view view) { return QString::fromUtf8(view.data(), qsizetype(view.size())); }
 
 /// Gestures are numbered through the whole window, so that two rows never share one.
 int nextGesture() {
@@ -32,7 +33,7 @@ ParameterRow::ParameterRow(const Parameter& parameter)
   slider_->setPageStep(sliderSteps / 20);
   spin_->setKeyboardTracking(false);
   spin_->setDecimals(parameter.decimals);
-  spin_->setRange(parameter.lowest, parameter.highest);
+  spin_->setRange(parameter.lowest, std::min(parameter.highest, largestInField));
   spin_->setSingleStep(parameter.step);
   spin_->setStepType(parameter.highest > 1000 ? QAbstractSpinBox::AdaptiveDecimalStepType
                                               : QAbstractSpinBox::DefaultStepType);
@@ -56,6 +57,7 @@ ParameterRow::ParameterRow(const Parameter& parameter)
     announce(parameter_.lowest + (parameter_.slider_highest - parameter_.lowest) * at / sliderSteps);
   });
   connect(spin_, &QDoubleSpinBox::valueChanged, this, &ParameterRow::announce);
+  connect(spin_, &QDoubleSpinBox::editingFinished, spin_, &QWidget::clearFocus);  // shortcuts work again
   connect(reset_, &QToolButton::clicked, this, [this] { announce(parameter_.standard); });
 }
 

@@ -14,7 +14,15 @@ double side(QLineF line, QPointF point) {
   return line.dx() * (point.y() - line.y1()) - line.dy() * (point.x() - line.x1());
 }
 
+/// Whether two segments have a point in common. Most do not come near each other: that is seen first, and
+/// it is what tells apart two segments on one line.
 bool cross(QLineF a, QLineF b) {
+  const auto apart = [](double p, double q, double r, double s) {
+    return std::max(p, q) < std::min(r, s) || std::max(r, s) < std::min(p, q);
+  };
+  if (apart(a.x1(), a.x2(), b.x1(), b.x2()) || apart(a.y1(), a.y2(), b.y1(), b.y2())) {
+    return false;
+  }
   return side(a, b.p1()) * side(a, b.p2()) <= 0 && side(b, a.p1()) * side(b, a.p2()) <= 0 && !a.isNull() && !b.isNull();
 }
 
@@ -49,9 +57,12 @@ Projection::Place Projection::operator()(const float* carried) const {
     }
   }
   const float w = clip[3];
-  // In perspective w is the distance from the eye, in a plane view it is 1 and all are equally deep.
-  return {(clip[0] / w + 1) / 2 * float(view_.width()), (1 - clip[1] / w) / 2 * float(view_.height()),
-          pixelsPerDepth_ * std::log(std::max(w, 1e-30F)), w > 0};
+  return {(clip[0] / w + 1) / 2 * float(view_.width()), (1 - clip[1] / w) / 2 * float(view_.height()), w};
+}
+
+float Projection::depth(const Place& place) const {
+  // At a distance w from the eye a unit of depth spans pixelsPerDepth_ / w pixels.
+  return pixelsPerDepth_ * std::log(place.distance);
 }
 
 std::optional<ElementId> nearestElement(const Frame& frame, const Projection& projection, QPointF place, double reach) {
@@ -60,9 +71,12 @@ std::optional<ElementId> nearestElement(const Frame& frame, const Projection& pr
   float bestScore = 0;
   for (ElementId e = 0; e < frame.mesh->element_count(); ++e) {
     const auto at = projection(frame.positions.data() + std::size_t{e} * dimension);
-    const float distance = std::hypot(at.x - float(place.x()), at.y - float(place.y()));
-    const float score = distance + depthWeight * at.depth;
-    if (at.visible && distance <= float(reach) && (!best || score < bestScore)) {
+    const float dx = at.x - float(place.x()), dy = at.y - float(place.y());
+    if (!(dx * dx + dy * dy <= float(reach * reach)) || !at.visible()) {
+      continue;
+    }
+    const float score = std::hypot(dx, dy) + depthWeight * projection.depth(at);
+    if (!best || score < bestScore) {
       best = e;
       bestScore = score;
     }
@@ -80,7 +94,7 @@ std::vector<LinkId> crossedLinks(const Frame& frame, const Cuts& cuts, const Pro
   for (LinkId link = 0; link < mesh.link_count(); ++link) {
     const auto& a = places[mesh.links[link][0]];
     const auto& b = places[mesh.links[link][1]];
-    if (a.visible && b.visible && cross(stroke, QLineF(a.x, a.y, b.x, b.y)) && !cuts.is_cut(link)) {
+    if (a.visible() && b.visible() && cross(stroke, QLineF(a.x, a.y, b.x, b.y)) && !cuts.is_cut(link)) {
       crossed.push_back(link);
     }
   }

@@ -15,17 +15,20 @@ namespace chainmail {
 /// Carried coordinates to the three of space: the axes in their places, the others constant.
 QMatrix4x4 placement(const Mesh& mesh);
 
-/// Where elements appear in a view (logical pixels), and how deep (pixels, growing away from the eye).
+/// Where elements appear in a view (logical pixels), and how deep.
 class Projection {
  public:
   Projection(const Mesh& mesh, const QMatrix4x4& toView, const QMatrix4x4& toClip, QSizeF view);
 
   struct Place {
-    float x, y, depth;
-    bool visible;  // in front of the eye
+    float x, y;
+    float distance;  // from the eye in perspective, 1 in a plane view, 0 or less behind the eye
+    bool visible() const { return distance > 0; }
   };
   /// `carried` points to the coordinates that the scene carries.
   Place operator()(const float* carried) const;
+  /// Depth in pixels, growing away from the eye.
+  float depth(const Place& place) const;
 
  private:
   QMatrix4x4 matrix_;

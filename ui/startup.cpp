@@ -2,7 +2,6 @@
 
 #include <QApplication>
 #include <QIcon>
-#include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QPalette>
 #include <QSettings>

@@ -20,6 +20,7 @@ constexpr double zoomPerNotch = 1.2;
 View::View(Document& document, int panel, std::shared_ptr<Camera> camera, QColor colour)
     : document_(document), panel_(panel), camera_(std::move(camera)), colour_(colour) {
   setMouseTracking(true);
+  setFocusPolicy(Qt::ClickFocus);  // a click here takes the keyboard from the field last typed in
   setMinimumSize(160, 120);
   hover_.setSingleShot(true);
   hover_.setInterval(hoverMilliseconds);
@@ -67,7 +68,8 @@ void View::setCamera(std::shared_ptr<Camera> camera) {
 }
 
 void View::fit() {
-  camera_->fit(bounds(*document_.mesh()), document_.mesh()->space_dimension == 3, size());
+  const Mesh& mesh = *document_.mesh();
+  camera_->fit(bounds(mesh), std::span(mesh.axes).first(std::size_t(mesh.space_dimension)), size());
   fitPending_ = false;
   emit cameraChanged();
   update();

@@ -70,7 +70,8 @@ double value_of(const CLI::Option* option, const Parameter& parameter) {
   const double number = parse_number_of(name_of(parameter), *text);
   if (!(number >= parameter.lowest && number <= parameter.highest)) {
     throw Error(name_of(parameter), *text + " lies out of its range",
-                "use " + digits(parameter.lowest) + " to " + digits(parameter.highest));
+                "use " + digits(parameter.lowest) +
+                    (parameter.highest == parameters::no_highest ? " or more" : " to " + digits(parameter.highest)));
   }
   return number;
 }
@@ -124,22 +125,17 @@ MeshPointer read_mesh(const MeshOptions& options) {
   }
   how.space_dimension = options.space == nullptr ? std::nullopt : space_of(options.space);
   const std::filesystem::path path = *value_of(options.path);
-  return in_options([&] { return chainmail::read_mesh(path, how); });
+  return in_options({{"space dimension", "--space"}}, [&] { return chainmail::read_mesh(path, how); });
 }
 
-MeshPointer in_options(const std::function<MeshPointer()>& make) {
-  static constexpr std::array<std::array<std::string_view, 2>, 3> names{
-      {{"size", "SIZE"}, {"spacing", "--spacing"}, {"space dimension", "--space"}}};
+MeshPointer in_options(const std::map<std::string, std::string>& options, const std::function<MeshPointer()>& make) {
   try {
     return make();
   } catch (const Error& error) {
-    const std::string text = error.what();
-    const std::size_t colon = text.find(": "), semicolon = text.rfind("; ");
-    for (const auto& [inside, option] : names) {
-      if (text.starts_with(inside) && (text[inside.size()] == ':' || text[inside.size()] == ' ')) {
-        throw Error(std::string(option) + text.substr(inside.size(), colon - inside.size()),
-                    text.substr(colon + 2, semicolon - colon - 2), text.substr(semicolon + 2));
-      }
+    // What the core says of a value, `size` or `space dimension 2`, stands without the number in the table.
+    const std::string what = error.where().substr(0, error.where().find_last_not_of(" 0123456789") + 1);
+    if (const auto option = options.find(what); option != options.end()) {
+      throw error.at(option->second + error.where().substr(what.size()));
     }
     throw;
   }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,7 +54,7 @@ MeshOptions add_mesh_options(CLI::App& app);
 MeshPointer read_mesh(const MeshOptions& options);
 
 /// Calls a function of the core and has its errors name the option that a value came from.
-MeshPointer in_options(const std::function<MeshPointer()>& make);
+MeshPointer in_options(const std::map<std::string, std::string>& options, const std::function<MeshPointer()>& make);
 
 /// Throws the error for what is planned and not there.
 [[noreturn]] void refuse_unbuilt(const std::string& where, const std::string& remedy);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <ostream>
 
@@ -94,7 +95,8 @@ std::vector<Act> read_acts(const Options& options) {
 }
 
 bool positions_as_obj(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   if (ending == ".vtu") {
     refuse_unbuilt("--positions " + path, "use .csv or .obj");
   }

@@ -54,7 +54,8 @@ void generate_to_file(const Options& options) {
   const MeshRecipe recipe = read_recipe(options);
   const std::filesystem::path path = *value_of(options.output);
   const MeshFormat format = path == "-" ? MeshFormat::dat : mesh_format(path);
-  const MeshPointer mesh = in_options([&] { return generate(recipe); });
+  const MeshPointer mesh = in_options({{"size", "SIZE"}, {"spacing", "--spacing"}, {"space dimension", "--space"}},
+                                      [&] { return generate(recipe); });
   write_file(path, [&](std::ostream& out) { write_mesh(out, format, *mesh, Cuts(mesh), rest_positions(*mesh)); });
 }
 

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace chainmail {
 
@@ -12,7 +13,15 @@ namespace chainmail {
 class Error : public std::runtime_error {
  public:
   Error(const std::string& where, const std::string& problem, const std::string& remedy)
-      : std::runtime_error(where + ": " + problem + "; " + remedy) {}
+      : std::runtime_error(where + ": " + problem + "; " + remedy), where_(where), rest_(problem, remedy) {}
+
+  const std::string& where() const { return where_; }
+  /// The same error, said of another place.
+  Error at(const std::string& where) const { return {where, rest_.first, rest_.second}; }
+
+ private:
+  std::string where_;
+  std::pair<std::string, std::string> rest_;  // what is wrong, what to do
 };
 
 }  // namespace chainmail

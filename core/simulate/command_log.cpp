@@ -18,8 +18,9 @@ void CommandLog::flush() {
 }
 
 void CommandLog::post(const Command& command) {
-  const bool sampled =
-      std::holds_alternative<commands::Drag>(command) || std::holds_alternative<commands::SetSoftness>(command);
+  const bool sampled = std::holds_alternative<commands::Drag>(command) ||
+                       std::holds_alternative<commands::SetSoftness>(command) ||
+                       std::holds_alternative<commands::SetRelaxation>(command);
   if (waiting_ && waiting_->index() != command.index()) {
     flush();
   }

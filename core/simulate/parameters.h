@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <limits>
 #include <string_view>
 
 namespace chainmail {
@@ -21,6 +21,9 @@ struct Parameter {
 
 namespace parameters {
 
+/// Any finite number from the lowest on.
+inline constexpr double no_highest = std::numeric_limits<double>::max();
+
 inline constexpr Parameter compression{"compression",
                                        "Compression",
                                        "of rest length",
@@ -37,7 +40,7 @@ inline constexpr Parameter stretch{
     "of rest length",
     1.2,
     1,
-    1e6,
+    no_highest,
     3,
     0.01,
     3,
@@ -47,7 +50,7 @@ inline constexpr Parameter shear{"shear",
                                  "of rest length",
                                  0.1,
                                  0,
-                                 1e6,
+                                 no_highest,
                                  1,
                                  0.01,
                                  3,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "mesh/error.h"
 
@@ -48,8 +49,10 @@ void Simulation::carry_out(const commands::Drag& command) {
 }
 
 void Simulation::carry_out(const commands::Release&) {
-  if (grabbed_ && statistics_.passes != 0) {
-    wake(std::span(&*grabbed_, 1));  // it was held; now it may follow its neighbours
+  if (grabbed_) {
+    // It was held; now it may follow its neighbours, in idle time or in sweeps that are asked for.
+    solver_->wake(std::span(&*grabbed_, 1));
+    wake({});
   }
   grabbed_.reset();
 }
@@ -80,13 +83,13 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
   if (!(command.step > 0 && command.step <= 1)) {
     throw Error("relax-step", "it must lie above 0 and up to 1", "1 goes all the way to the mean");
   }
-  relaxation_on_ = command.on;
+  const bool was_on = std::exchange(relaxation_on_, command.on);
   relaxation_step_ = command.step;
-  if (relaxation_on_) {
+  if (command.on && !was_on) {
     std::vector<ElementId> all(mesh_->element_count());
     std::iota(all.begin(), all.end(), ElementId{0});
     wake(all);
-  } else {
+  } else if (!command.on) {
     fall_asleep();
   }
 }
@@ -133,12 +136,12 @@ void Simulation::carry_out(const commands::SwapState& command) {
     throw Error("state " + std::to_string(command.state), "no such state is kept", "keep it first");
   }
   State now = current_state();
-  std::swap(now, kept->second);
-  if (now.mesh != mesh_) {
-    take_mesh(now.mesh);
+  if (kept->second.mesh != mesh_) {
+    take_mesh(kept->second.mesh);
   } else {
     solver_->uncut(solver_->cuts().links());
   }
+  std::swap(now, kept->second);
   softness_ = now.softness;
   solver_->set_softness(softness_);
   solver_->cut(now.cuts);
@@ -171,9 +174,11 @@ bool Simulation::step() {
   const auto slice = solver_->relax(relaxation_step_, elements_per_slice, grabbed_);
   if (slice.sweep_ended) {
     ++statistics_.sweeps;
-    if (slice.largest_step <= asleep_below * mesh_->mean_link_length) {
+    // What woke during the sweep has not been looked at yet.
+    if (!woken_ && slice.largest_step <= asleep_below * mesh_->mean_link_length) {
       fall_asleep();
     }
+    woken_ = false;
   }
   if (Clock::now() > relaxation_deadline_) {
     fall_asleep();
@@ -220,8 +225,8 @@ void Simulation::check_links(const std::vector<LinkId>& links) const {
 }
 
 void Simulation::take_mesh(MeshPointer mesh) {
+  solver_ = make_solver(mesh, algorithm_, precision_);  // may find no memory: nothing has changed yet
   mesh_ = std::move(mesh);
-  solver_ = make_solver(mesh_, algorithm_, precision_);
   grabbed_.reset();
   last_moved_.reset();
   valid_ = true;
@@ -234,6 +239,7 @@ void Simulation::take_mesh(MeshPointer mesh) {
 void Simulation::wake(std::span<const ElementId> elements) {
   if (relaxation_on_) {
     solver_->wake(elements);
+    woken_ = true;
     relaxation_deadline_ = Clock::now() + relaxation_time;
     statistics_.relaxing = true;
     statistics_.sweeps = 0;

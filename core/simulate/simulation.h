@@ -97,6 +97,7 @@ class Simulation {
   bool valid_ = true;
   bool relaxation_on_ = false;
   double relaxation_step_ = 1;
+  bool woken_ = false;  // since the last sweep ended
   PassTimes::Clock::time_point relaxation_deadline_{};
   std::map<commands::StateId, State> kept_;
   PassTimes times_;

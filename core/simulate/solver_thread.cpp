@@ -1,5 +1,6 @@
 #include "simulate/solver_thread.h"
 
+#include <new>
 #include <utility>
 
 #include "mesh/error.h"
@@ -12,7 +13,7 @@ using Clock = PassTimes::Clock;
 constexpr auto frame_time = std::chrono::milliseconds(16);
 // Relaxation takes this much of each frame's time, so that drawing and the other panel get the rest.
 constexpr auto relaxation_share = std::chrono::milliseconds(8);
-// A figure that is read by eye need not change more often; on large meshes it costs more than a pass.
+// A figure that is read by eye need not change more often.
 constexpr auto violation_time = std::chrono::milliseconds(250);
 
 }  // namespace
@@ -39,12 +40,18 @@ std::string SolverThread::take_error() {
   return std::exchange(error_, {});
 }
 
+void SolverThread::refuse(const std::string& sentence) {
+  const std::lock_guard lock(mutex_);
+  error_ = sentence;
+}
+
 void SolverThread::carry_out(const Command& command) {
   try {
     simulation_.apply(command);
   } catch (const Error& error) {
-    const std::lock_guard lock(mutex_);
-    error_ = error.what();
+    refuse(error.what());
+  } catch (const std::bad_alloc&) {
+    refuse("memory: there is not enough; use a smaller mesh");
   }
   unseen_ = true;
   measured_ = false;
@@ -87,7 +94,8 @@ void SolverThread::relax() {
 void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
   const auto has_command = [this] { return !commands_.empty(); };
   if (unseen_ || simulation_.statistics().relaxing) {
-    changed_.wait_until(lock, stop, last_frame_ + frame_time, has_command);
+    const auto share = simulation_.statistics().relaxing ? relaxation_share : frame_time.zero();
+    changed_.wait_until(lock, stop, last_frame_ + frame_time - share, has_command);
   } else if (!measured_ && !changed_.wait_for(lock, stop, violation_time, has_command) && !stop.stop_requested()) {
     // Nothing came for a while: the object is at rest.
     lock.unlock();
@@ -98,10 +106,14 @@ void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_toke
 
 void SolverThread::publish(bool at_rest) {
   const auto now = Clock::now();
-  // The first frame after a rest must not show the figure of the whole mesh as it was.
-  if (at_rest || simulation_.statistics().violation_of_whole_mesh || now - last_violation_ >= violation_time) {
+  const Statistics& statistics = simulation_.statistics();
+  // The first pass after a rest must not show the figure of the whole mesh as it was.
+  const bool outdated = statistics.violation_of_whole_mesh && statistics.passes != measured_passes_;
+  if (at_rest || outdated || now >= next_violation_) {
     simulation_.refresh_statistics(at_rest);
-    last_violation_ = Clock::now();
+    measured_passes_ = statistics.passes;
+    // On a large mesh it costs more than a pass: at most a tenth of the time goes there.
+    next_violation_ = now + std::max<Clock::duration>(violation_time, 10 * (Clock::now() - now));
   }
   Frame& frame = frames_.back();
   frame.mesh = simulation_.mesh_pointer();

@@ -34,6 +34,7 @@ class SolverThread {
 
  private:
   void run(const std::stop_token& stop);
+  void refuse(const std::string& sentence);
   void carry_out(const Command& command);
   void relax();
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
@@ -44,7 +45,8 @@ class SolverThread {
   TripleBuffer frames_;
   std::uint64_t frame_number_ = 0;
   PassTimes::Clock::time_point last_frame_{};
-  PassTimes::Clock::time_point last_violation_{};
+  PassTimes::Clock::time_point next_violation_{};
+  std::uint64_t measured_passes_ = 0;
   bool unseen_ = false;   // something changed since the last frame
   bool measured_ = true;  // the last frame shows the violation of the whole mesh
 

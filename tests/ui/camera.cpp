@@ -27,7 +27,7 @@ class CameraTest : public QObject {
     QFETCH(QSizeF, view);
     const auto mesh = generate({MeshKind(kind), {7, 5, 3}, 2, {}});
     Camera camera;
-    camera.fit(bounds(*mesh), mesh->space_dimension == 3, view);
+    camera.fit(bounds(*mesh), std::span(mesh->axes).first(std::size_t(mesh->space_dimension)), view);
     const Projection projection(*mesh, camera.toView(), camera.toClip(view), view);
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
       float carried[3]{};
@@ -35,8 +35,34 @@ class CameraTest : public QObject {
         carried[k] = float(mesh->rest[e * mesh->space_dimension + k]);
       }
       const auto at = projection(carried);
-      QVERIFY(at.visible);
+      QVERIFY(at.visible());
       QVERIFY(at.x > 0 && at.x < view.width() && at.y > 0 && at.y < view.height());
+    }
+  }
+
+  void aPlaneOfAnyTwoAxesIsSeenFlat_data() {
+    QTest::addColumn<int>("first");
+    QTest::addColumn<int>("second");
+    QTest::newRow("xy") << 0 << 1;
+    QTest::newRow("xz") << 0 << 2;
+    QTest::newRow("yz") << 1 << 2;
+  }
+  void aPlaneOfAnyTwoAxesIsSeenFlat() {
+    QFETCH(int, first);
+    QFETCH(int, second);
+    const QSizeF view(640, 480);
+    Point far = Point::Zero();
+    far[first] = 4;
+    far[second] = 3;
+    Camera camera;
+    camera.fit({Point::Zero(), far}, std::array{first, second}, view);
+    const QMatrix4x4 matrix = camera.toClip(view) * camera.toView();
+    const QVector3D corner = matrix.map(QVector3D(0, 0, 0)),
+                    opposite = matrix.map(QVector3D(far.x(), far.y(), far.z()));
+    QVERIFY(std::abs(corner.x() - opposite.x()) > 0.5F);
+    QVERIFY(std::abs(corner.y() - opposite.y()) > 0.5F);
+    for (const QVector3D& place : {corner, opposite}) {
+      QVERIFY(std::abs(place.x()) < 1 && std::abs(place.y()) < 1);
     }
   }
 
@@ -49,7 +75,8 @@ class CameraTest : public QObject {
     QFETCH(bool, spatial);
     const QSizeF view(640, 480);
     Camera camera;
-    camera.fit({Point(0, 0, 0), Point(6, 4, spatial ? 3 : 0)}, spatial, view);
+    const std::array axes{0, 1, 2};
+    camera.fit({Point(0, 0, 0), Point(6, 4, spatial ? 3 : 0)}, std::span(axes).first(spatial ? 3 : 2), view);
     camera.orbit({40, 25});
     camera.zoom(1.7, {200, 100}, view);
     camera.pan({-30, 12}, view);
@@ -64,7 +91,8 @@ class CameraTest : public QObject {
   void zoomKeepsThePlaceUnderTheCursor() {
     const QSizeF view(640, 480);
     Camera camera;
-    camera.fit({Point(0, 0, 0), Point(6, 4, 0)}, false, view);
+    const std::array axes{0, 1};
+    camera.fit({Point(0, 0, 0), Point(6, 4, 0)}, axes, view);
     const QVector3D before = camera.pointAt({500, 111}, {0, 0, 0}, view);
     const double units = camera.unitsPerPixel(view);
     camera.zoom(2, {500, 111}, view);

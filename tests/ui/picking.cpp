@@ -15,7 +15,7 @@ struct Scene {
   explicit Scene(const MeshRecipe& recipe) {
     frame.mesh = generate(recipe);
     frame.positions.assign(frame.mesh->rest.begin(), frame.mesh->rest.end());
-    camera.fit(bounds(*frame.mesh), frame.mesh->space_dimension == 3, view);
+    camera.fit(bounds(*frame.mesh), std::span(frame.mesh->axes).first(std::size_t(frame.mesh->space_dimension)), view);
   }
   Projection projection() const { return {*frame.mesh, camera.toView(), camera.toClip(view), view}; }
   QPointF place(ElementId e) const {
@@ -61,6 +61,9 @@ class Picking : public QObject {
     cut.cut(*link);
     QVERIFY(crossedLinks(scene.frame, cut, scene.projection(), stroke).empty());
     QVERIFY(crossedLinks(scene.frame, none, scene.projection(), QLineF(1, 1, 9, 1)).empty());
+    // In line with the first row, and beside it.
+    const double y = scene.place(0).y();
+    QVERIFY(crossedLinks(scene.frame, none, scene.projection(), QLineF(0, y, scene.place(0).x() - 5, y)).empty());
   }
 
   void coordinatesThatAreNotCarriedStayInPlace() {

@@ -1,5 +1,7 @@
 // The cut tool in a real window.
 
+#include <QDoubleSpinBox>
+
 #include "window.h"
 
 using namespace chainmail;
@@ -86,6 +88,33 @@ class WindowCut : public QObject {
     QCOMPARE(bench.view(1).cursor().shape(), Qt::CrossCursor);
     QTest::keyClick(&bench.window, Qt::Key_D);
     QVERIFY(bench.find<QAction>("toolDrag")->isChecked());
+  }
+
+  void undoInMidStrokeGivesTheStrokeUp() {
+    Workbench bench;
+    bench.document().replaceMesh(generate({MeshKind::grid, {40, 30, 1}, 1, {}}), QStringLiteral("large"),
+                                 QStringLiteral("build large"));
+    bench.settle();
+    bench.trigger("toolCut");
+    const QPoint from = bench.place(0, 700);
+    bench.stroke(0, {from + QPoint(-50, 3), from + QPoint(50, 3)}, false);
+    QVERIFY(!bench.document().highlight().links.empty());
+    bench.document().undoStack().undo();  // back to the small mesh, which has no such links
+    QVERIFY(bench.document().highlight().links.empty());
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
+    bench.settle();
+    QCOMPARE(bench.document().cuts().count(), 0U);
+  }
+
+  void aClickInAViewTakesTheKeysFromAField() {
+    Workbench bench;
+    auto* field = bench.find<QDoubleSpinBox>("shearSpin");
+    field->setFocus();
+    QTRY_COMPARE(QApplication::focusWidget(), field);
+    QTest::mouseClick(&bench.view(0), Qt::LeftButton, {}, QPoint(4, 4));
+    QCOMPARE(QApplication::focusWidget(), &bench.view(0));
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_K);
+    QVERIFY(bench.find<QAction>("toolCut")->isChecked());
   }
 
   void cuttingTwiceCutsNothingTwice() {

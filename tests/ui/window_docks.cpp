@@ -2,6 +2,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
@@ -107,6 +108,20 @@ class WindowDocks : public QObject {
     bench.document().undoStack().undo();
     bench.settle();
     QCOMPARE(bench.document().mesh(), before);
+  }
+
+  void theToolsDocksButtonsChooseTheTool() {
+    Workbench bench;
+    for (const char* tool : {"toolCut", "toolDrag"}) {
+      QToolButton* button = nullptr;
+      for (auto* one : bench.find<QDockWidget>("toolsDock")->findChildren<QToolButton*>()) {
+        button = one->defaultAction() == bench.find<QAction>(tool) ? one : button;
+      }
+      QVERIFY(button != nullptr);
+      QTest::mouseClick(button, Qt::LeftButton);
+      QVERIFY(bench.find<QAction>(tool)->isChecked());
+      QVERIFY(button->isChecked());
+    }
   }
 
   void aFlatMeshMayLieInSpace() {

@@ -91,6 +91,16 @@ class WindowFiles : public QObject {
     QCOMPARE(bench.document().mesh()->rest_position(31), shown);
   }
 
+  void aShapeIsNotSavedInAFormatThatHoldsNone() {
+    Workbench bench;
+    const QString path = folder_.filePath(QStringLiteral("shape.dat"));
+    files(bench).saveShapePath(0, path);
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("shape.dat: ")));
+    QVERIFY(!QFile::exists(path));
+    files(bench).savePath(path);  // what succeeds takes the old message away
+    QVERIFY(!bench.window.messages().isVisible());
+  }
+
   void aPlaceThatCannotBeWrittenGetsASentence() {
     Workbench bench;
     const QString nowhere = folder_.filePath(QStringLiteral("no/such/folder/x.obj"));
