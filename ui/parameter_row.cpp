@@ -33,7 +33,9 @@ ParameterRow::ParameterRow(const Parameter& parameter)
   slider_->setPageStep(sliderSteps / 20);
   spin_->setKeyboardTracking(false);
   spin_->setDecimals(parameter.decimals);
-  spin_->setRange(parameter.lowest, std::min(parameter.highest, largestInField));
+  // A field shows so many decimals: what lies nearer to 0 would read as 0.
+  const double least = parameter.lowest > 0 ? std::max(parameter.lowest, std::pow(10, -parameter.decimals)) : 0;
+  spin_->setRange(least, std::min(parameter.highest, largestInField));
   spin_->setSingleStep(parameter.step);
   spin_->setStepType(parameter.highest > 1000 ? QAbstractSpinBox::AdaptiveDecimalStepType
                                               : QAbstractSpinBox::DefaultStepType);

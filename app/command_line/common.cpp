@@ -28,6 +28,14 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string range_of(const Parameter& parameter) {
+  if (parameter.lowest == parameters::above_zero) {
+    return "a number above 0";
+  }
+  return digits(parameter.lowest) +
+         (parameter.highest == parameters::no_highest ? " or more" : " to " + digits(parameter.highest));
+}
+
 }  // namespace
 
 CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string& type, const std::string& help) {
@@ -69,9 +77,7 @@ double value_of(const CLI::Option* option, const Parameter& parameter) {
   }
   const double number = parse_number_of(name_of(parameter), *text);
   if (!(number >= parameter.lowest && number <= parameter.highest)) {
-    throw Error(name_of(parameter), *text + " lies out of its range",
-                "use " + digits(parameter.lowest) +
-                    (parameter.highest == parameters::no_highest ? " or more" : " to " + digits(parameter.highest)));
+    throw Error(name_of(parameter), *text + " lies out of its range", "use " + range_of(parameter));
   }
   return number;
 }

@@ -68,7 +68,7 @@ void DatReader::choose_lattice() {
                 "the size " + size_text(lattice_) + " is more than " + std::to_string(element_limit) + " elements",
                 "use a smaller mesh");
   }
-  if (!(lattice_.spacing * *std::max_element(size.begin(), size.end()) < largest_coordinate)) {
+  if (!(lattice_.spacing * *std::max_element(size.begin(), size.end()) < coordinate_limit)) {
     throw Error(file_.spacing ? shown(path_, file_.spacing->line) : shown(path_), "the spacing is too large",
                 "scale the mesh down");
   }

@@ -60,7 +60,7 @@ void ObjScanner::read_vertex(std::string_view rest) {
   std::size_t count = 0;
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
     const auto number = parse_number(word);
-    if (!number || std::abs(*number) > largest_coordinate) {
+    if (!number || std::abs(*number) > coordinate_limit) {
       fail(line_, in_quotes(word) + " is not a number that a coordinate can be", "write a finite decimal number");
     }
     if (count == numbers.size()) {

@@ -9,9 +9,6 @@
 
 namespace chainmail {
 
-/// Beyond this (mesh units) coordinates are refused: their squares and differences must stay finite.
-inline constexpr double largest_coordinate = 1e100;
-
 /// Something that a comment states, and the line that does.
 template <class Value>
 struct Stated {

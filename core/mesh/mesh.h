@@ -22,6 +22,9 @@ using Point = Eigen::Vector3d;
 /// More elements than this are refused before memory is taken.
 inline constexpr std::uint64_t element_limit = 20'000'000;
 
+/// Coordinates beyond this (mesh units) are refused: their differences and squares must stay finite.
+inline constexpr double coordinate_limit = 1e100;
+
 /// The regular arrangement an object stands in, where it has one: element i of W x H x D stands at
 /// (i mod W, i / W mod H, i / (W·H)) times the spacing (mesh units).
 struct Lattice {

@@ -23,6 +23,8 @@ namespace parameters {
 
 /// Any finite number from the lowest on.
 inline constexpr double no_highest = std::numeric_limits<double>::max();
+/// Any number that is not 0 or less.
+inline constexpr double above_zero = std::numeric_limits<double>::min();
 
 inline constexpr Parameter compression{"compression",
                                        "Compression",
@@ -65,8 +67,8 @@ inline constexpr Parameter relax_step{"relax-step",
                                       0.05,
                                       2,
                                       "how far one relaxation step moves an element toward the mean of its neighbours"};
-inline constexpr Parameter spacing{"spacing", "Spacing", "mesh units", 1, 1e-6,
-                                   1e6,       10,        0.1,          4, "distance between neighbouring elements"};
+inline constexpr Parameter spacing{"spacing",  "Spacing", "mesh units", 1, above_zero,
+                                   no_highest, 10,        0.1,          4, "distance between neighbouring elements"};
 
 }  // namespace parameters
 }  // namespace chainmail
