@@ -153,10 +153,11 @@ void MeshDock::describe() {
   if (document_.cuts().count() != 0) {
     what += QStringLiteral(", %1 cut").arg(locale.toString(document_.cuts().count()));
   }
-  what += QStringLiteral("<br>a %1 in %2D space")
-              .arg(QStringList{QStringLiteral("chain"), QStringLiteral("surface"),
-                               QStringLiteral("volume")}[mesh.object_dimension - 1])
-              .arg(mesh.space_dimension);
+  // A file that lists links alone, with no faces and no lattice, may hold anything.
+  const bool linksAlone = mesh.object_dimension == 1 && !mesh.lattice;
+  const QStringList kinds{linksAlone ? QStringLiteral("links") : QStringLiteral("a chain"), QStringLiteral("a surface"),
+                          QStringLiteral("a volume")};
+  what += QStringLiteral("<br>%1 in %2D space").arg(kinds[mesh.object_dimension - 1]).arg(mesh.space_dimension);
   description_->setText(what);
 }
 
