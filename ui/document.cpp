@@ -37,7 +37,10 @@ Document::Document(MeshPointer mesh, const QString& name) : mesh_(std::move(mesh
   });
 }
 
-Document::~Document() { undoStack_.clear(); }
+Document::~Document() {
+  undoStack_.blockSignals(true);  // who listened is half gone
+  undoStack_.clear();
+}
 
 bool Document::idle() const {
   return !log_->waits() && std::all_of(solvers_.begin(), solvers_.end(), [](auto& one) { return one->idle(); });
