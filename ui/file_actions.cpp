@@ -105,7 +105,7 @@ void FileActions::saveShapePath(int panel, const QString& path) {
   if (QFileInfo(path).suffix().compare(QStringLiteral("obj"), Qt::CaseInsensitive) != 0) {
     emit failed(path + QStringLiteral(": a deformed shape is saved as OBJ; choose a name that ends in .obj"));
   } else if (const Frame* frame = document_.frame(panel)) {
-    write(path, {frame->positions.data(), frame->mesh->space_dimension * sizeof(float), Precision::single_precision});
+    write(path, frame->view());
   }
 }
 

@@ -125,12 +125,12 @@ void MainWindow::activate(Tool& tool) {
 }
 
 void MainWindow::makeDocks() {
-  meshDock_ = new MeshDock(document_);
-  connect(meshDock_, &MeshDock::openRequested, files_, &FileActions::open);
-  connect(meshDock_, &MeshDock::saveRequested, files_, &FileActions::save);
-  connect(meshDock_, &MeshDock::failed, messages_, &MessageBar::say);
+  auto* meshDock = new MeshDock(document_);
+  connect(meshDock, &MeshDock::openRequested, files_, &FileActions::open);
+  connect(meshDock, &MeshDock::saveRequested, files_, &FileActions::save);
+  connect(meshDock, &MeshDock::failed, messages_, &MessageBar::say);
   addDockWidget(Qt::LeftDockWidgetArea, new ToolsDock(*toolActions_));
-  addDockWidget(Qt::LeftDockWidgetArea, meshDock_);
+  addDockWidget(Qt::LeftDockWidgetArea, meshDock);
   addDockWidget(Qt::RightDockWidgetArea, new StiffnessDock(document_));
   addDockWidget(Qt::RightDockWidgetArea, new RelaxationDock(document_));
   addDockWidget(Qt::RightDockWidgetArea, new FrameRateDock(document_, panels_, {colours::left, colours::right}));

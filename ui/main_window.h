@@ -15,7 +15,6 @@ class QSplitter;
 namespace chainmail {
 
 class FileActions;
-class MeshDock;
 class MessageBar;
 class Panel;
 
@@ -59,7 +58,6 @@ class MainWindow : public QMainWindow {
   QSplitter* splitter_;
   std::vector<Panel*> panels_;
   QActionGroup* toolActions_;
-  MeshDock* meshDock_ = nullptr;
   QAction* linkCameras_ = nullptr;
   QLabel* hint_;
 };

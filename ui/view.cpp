@@ -87,15 +87,7 @@ std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
 
 Point View::position(ElementId element) const {
   const Frame* frame = document_.frame(panel_);
-  const Mesh& mesh = *document_.mesh();
-  if (frame == nullptr) {
-    return mesh.rest_position(element);
-  }
-  double carried[3]{};
-  for (int k = 0; k < mesh.space_dimension; ++k) {
-    carried[k] = frame->positions[std::size_t{element} * mesh.space_dimension + k];
-  }
-  return mesh.to_point(carried);
+  return frame == nullptr ? document_.mesh()->rest_position(element) : point_of(*frame->mesh, frame->view(), element);
 }
 
 QVector3D View::pointAt(QPointF place, const Point& through) const {

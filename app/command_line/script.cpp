@@ -8,7 +8,6 @@
 #include <iostream>
 
 #include "command_line/common.h"
-#include "files/space.h"
 #include "files/text.h"
 #include "mesh/error.h"
 

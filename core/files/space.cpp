@@ -1,20 +1,11 @@
 #include "files/space.h"
 
 #include <algorithm>
-#include <array>
 
 #include "files/text.h"
 #include "mesh/error.h"
 
 namespace chainmail {
-
-Point point_of(const Mesh& mesh, const PositionView& positions, ElementId element) {
-  std::array<double, 3> carried{};
-  for (int k = 0; k < mesh.space_dimension; ++k) {
-    carried[k] = positions(element, k);
-  }
-  return mesh.to_point(carried.data());
-}
 
 int extent_dimension(const Mesh& mesh, const PositionView& positions) {
   int dimension = 0;

@@ -16,9 +16,6 @@ struct Stated {
   std::size_t line;
 };
 
-/// Where an element stands, with all three coordinates.
-Point point_of(const Mesh& mesh, const PositionView& positions, ElementId element);
-
 /// How many axes the positions are not constant on, at least one.
 int extent_dimension(const Mesh& mesh, const PositionView& positions);
 

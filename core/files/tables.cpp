@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "files/space.h"
 #include "files/text.h"
 
 namespace chainmail {

@@ -15,6 +15,11 @@ struct Frame {
   std::vector<float> positions;
   Statistics statistics;
   std::uint64_t number = 0;
+
+  /// The positions as they are read in place; valid as long as the frame stays as it is.
+  PositionView view() const {
+    return {positions.data(), mesh->space_dimension * sizeof(float), Precision::single_precision};
+  }
 };
 
 /// Hands frames from one writer to one reader without locks: three frames, of which each side owns one

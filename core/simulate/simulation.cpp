@@ -70,12 +70,7 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
   // nothing.
   valid_ = false;
   if (last_moved_) {
-    const auto position = solver_->positions();
-    double carried[3]{};
-    for (int k = 0; k < mesh_->space_dimension; ++k) {
-      carried[k] = position(*last_moved_, k);
-    }
-    pass(*last_moved_, mesh_->to_point(carried));
+    pass(*last_moved_, point_of(*mesh_, solver_->positions(), *last_moved_));
   }
 }
 

@@ -151,6 +151,14 @@ std::optional<Algorithm> find_algorithm(std::string_view name) {
   return found == infos.end() ? std::nullopt : std::optional(found->algorithm);
 }
 
+Point point_of(const Mesh& mesh, const PositionView& positions, ElementId element) {
+  std::array<double, 3> carried{};
+  for (int k = 0; k < mesh.space_dimension; ++k) {
+    carried[k] = positions(element, k);
+  }
+  return mesh.to_point(carried.data());
+}
+
 std::unique_ptr<Solver> make_solver(const MeshPointer& mesh, Algorithm algorithm, Precision precision) {
   return precision == Precision::single_precision ? make_typed<float>(mesh, algorithm)
                                                   : make_typed<double>(mesh, algorithm);

@@ -65,6 +65,9 @@ class PositionView {
   Precision precision_;
 };
 
+/// Where an element stands, with all three coordinates (mesh units).
+Point point_of(const Mesh& mesh, const PositionView& positions, ElementId element);
+
 /// Moves one object by one algorithm. The scalar and the space dimension are chosen once, at run time,
 /// by make_solver; the algorithm may change between passes and finds the positions as they are.
 class Solver {
