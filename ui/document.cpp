@@ -98,7 +98,8 @@ void Document::setAlgorithm(int panel, Algorithm algorithm) {
 
 void Document::setRelaxation(bool on, double step) {
   if (on != relaxation_.on || step != relaxation_.step) {
-    relaxation_ = {on, step};
+    relaxation_.on = on;
+    relaxation_.step = step;
     post(relaxation_);
     emit relaxationChanged();
   }

@@ -33,6 +33,9 @@ struct SetSoftness {
 struct SetRelaxation {
   bool on = false;
   double step = 1;
+  RelaxationScheme scheme = RelaxationScheme::mean;
+
+  bool operator==(const SetRelaxation&) const = default;
 };
 struct SetAlgorithm {
   Algorithm algorithm = Algorithm::natural_queue;
@@ -43,16 +46,24 @@ struct Cut {
 struct Uncut {
   std::vector<LinkId> links;
 };
-/// Back to the rest positions; cuts and softness stay.
+/// These elements may not move from where they are. The element in the hand cannot be pinned.
+struct Pin {
+  std::vector<ElementId> elements;
+};
+struct Unpin {
+  std::vector<ElementId> elements;
+};
+/// Back to the rest positions; cuts, pins and softness stay.
 struct Reset {};
-/// Another object, uncut, at rest; softness per link goes, the global one stays.
+/// Another object, uncut, unpinned, at rest, by Natural Queue where the algorithm does not work on it; softness per
+/// link goes, the global one stays.
 struct ReplaceMesh {
   MeshPointer mesh;
 };
 
 /// Names a state that a simulation keeps for undo.
 using StateId = std::uint64_t;
-/// Keeps the object as it is now (mesh, cuts, softness, positions) under a name.
+/// Keeps the object as it is now (mesh, cuts, pins, softness, positions) under a name.
 struct KeepState {
   StateId state = 0;
 };
@@ -69,7 +80,7 @@ struct DropState {
 
 using Command =
     std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness, commands::SetRelaxation,
-                 commands::SetAlgorithm, commands::Cut, commands::Uncut, commands::Reset, commands::ReplaceMesh,
-                 commands::KeepState, commands::SwapState, commands::DropState>;
+                 commands::SetAlgorithm, commands::Cut, commands::Uncut, commands::Pin, commands::Unpin,
+                 commands::Reset, commands::ReplaceMesh, commands::KeepState, commands::SwapState, commands::DropState>;
 
 }  // namespace chainmail

@@ -34,9 +34,10 @@ void Simulation::apply(const Command& command) {
 }
 
 void Simulation::carry_out(const commands::Grab& command) {
-  if (command.element >= mesh_->element_count()) {
-    throw Error("element " + std::to_string(command.element), "there is no such element",
-                "use an id below " + std::to_string(mesh_->element_count()));
+  check_element(command.element);
+  if (std::ranges::binary_search(solver_->pins(), command.element)) {
+    throw Error("element " + std::to_string(command.element), "it is pinned and may not move",
+                "unpin it, or take another element");
   }
   grabbed_ = command.element;
 }
@@ -69,7 +70,7 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
   // answers the new softness at once, as far as its propagation reaches. From a valid state it moves
   // nothing.
   valid_ = false;
-  if (last_moved_) {
+  if (last_moved_ && !std::ranges::binary_search(solver_->pins(), *last_moved_)) {
     pass(*last_moved_, point_of(*mesh_, solver_->positions(), *last_moved_));
   }
 }
@@ -80,6 +81,7 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
   }
   const bool was_on = std::exchange(relaxation_on_, command.on);
   relaxation_step_ = command.step;
+  solver_->set_relaxation(relaxation_scheme_ = command.scheme);
   if (command.on && !was_on) {
     std::vector<ElementId> all(mesh_->element_count());
     std::iota(all.begin(), all.end(), ElementId{0});
@@ -90,8 +92,8 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
 }
 
 void Simulation::carry_out(const commands::SetAlgorithm& command) {
-  algorithm_ = statistics_.algorithm = command.algorithm;
   solver_->set_algorithm(command.algorithm);
+  algorithm_ = statistics_.algorithm = command.algorithm;
 }
 
 void Simulation::carry_out(const commands::Cut& command) {
@@ -105,6 +107,25 @@ void Simulation::carry_out(const commands::Uncut& command) {
   solver_->uncut(command.links);
   valid_ = false;  // the ends may have gone apart
   wake_ends(command.links);
+}
+
+void Simulation::carry_out(const commands::Pin& command) {
+  for (const ElementId element : command.elements) {
+    check_element(element);
+    if (element == grabbed_) {
+      throw Error("element " + std::to_string(element), "it is in the hand", "let it go, then pin it");
+    }
+  }
+  solver_->pin(command.elements);
+}
+
+void Simulation::carry_out(const commands::Unpin& command) {
+  for (const ElementId element : command.elements) {
+    check_element(element);
+  }
+  solver_->unpin(command.elements);
+  solver_->wake(command.elements);
+  wake({});
 }
 
 void Simulation::carry_out(const commands::Reset&) {
@@ -135,12 +156,14 @@ void Simulation::carry_out(const commands::SwapState& command) {
     take_mesh(kept->second.mesh);
   } else {
     solver_->uncut(solver_->cuts().links());
+    solver_->unpin(std::vector<ElementId>(solver_->pins().begin(), solver_->pins().end()));
   }
   std::swap(now, kept->second);
   softness_ = now.softness;
   solver_->set_softness(softness_);
   solver_->cut(now.cuts);
-  solver_->set_positions(now.positions);
+  solver_->pin(now.pins);
+  solver_->restore(now.positions);
   valid_ = now.valid;
   grabbed_.reset();
   last_moved_.reset();
@@ -157,7 +180,7 @@ void Simulation::pass(ElementId element, const Point& target) {
   times_.add(end, statistics_.last_pass_ms);
   ++statistics_.passes;
   last_moved_ = element;
-  valid_ = false;
+  valid_ = algorithm_ == Algorithm::exact;
   wake(std::span(&element, 1));
   wake(solver_->moved());
 }
@@ -210,6 +233,13 @@ void Simulation::refresh_statistics(bool whole_mesh) {
   statistics_.violation_of_whole_mesh = whole_mesh || !last_moved_;
 }
 
+void Simulation::check_element(ElementId element) const {
+  if (element >= mesh_->element_count()) {
+    throw Error("element " + std::to_string(element), "there is no such element",
+                "use an id below " + std::to_string(mesh_->element_count()));
+  }
+}
+
 void Simulation::check_links(const std::vector<LinkId>& links) const {
   for (const LinkId link : links) {
     if (link >= mesh_->link_count()) {
@@ -220,7 +250,10 @@ void Simulation::check_links(const std::vector<LinkId>& links) const {
 }
 
 void Simulation::take_mesh(MeshPointer mesh) {
-  solver_ = make_solver(mesh, algorithm_, precision_);  // may find no memory: nothing has changed yet
+  const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
+  solver_ = make_solver(mesh, algorithm, precision_);  // may find no memory: nothing has changed yet
+  solver_->set_relaxation(relaxation_scheme_);
+  algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
   grabbed_.reset();
   last_moved_.reset();
@@ -255,10 +288,8 @@ void Simulation::fall_asleep() {
 }
 
 Simulation::State Simulation::current_state() const {
-  State state{mesh_, solver_->cuts().links(), softness_, {}, valid_};
-  state.positions.resize(mesh_->rest.size());
-  solver_->copy_positions(state.positions);
-  return state;
+  const auto pins = solver_->pins();
+  return {mesh_, solver_->cuts().links(), {pins.begin(), pins.end()}, softness_, solver_->keep_positions(), valid_};
 }
 
 }  // namespace chainmail

@@ -40,7 +40,8 @@ class Simulation {
 
   /// `trace`, where set, receives every candidate that a pass processes.
   void set_trace(Trace* trace) { trace_ = trace; }
-  /// Sweeps of relaxation at once, whatever is switched on: `count` of them, or until nothing moves.
+  /// Sweeps of relaxation at once, by the scheme last set, whether it is on or off: `count` of them, or until
+  /// nothing moves.
   void relax(int count, double step);
 
   const Mesh& mesh() const { return *mesh_; }
@@ -60,8 +61,9 @@ class Simulation {
   struct State {
     MeshPointer mesh;
     std::vector<LinkId> cuts;
+    std::vector<ElementId> pins;
     Softness softness;
-    std::vector<double> positions;
+    KeptPositions positions;
     bool valid = true;
   };
 
@@ -73,6 +75,8 @@ class Simulation {
   void carry_out(const commands::SetAlgorithm& command);
   void carry_out(const commands::Cut& command);
   void carry_out(const commands::Uncut& command);
+  void carry_out(const commands::Pin& command);
+  void carry_out(const commands::Unpin& command);
   void carry_out(const commands::Reset& command);
   void carry_out(const commands::ReplaceMesh& command);
   void carry_out(const commands::KeepState& command);
@@ -80,6 +84,7 @@ class Simulation {
   void carry_out(const commands::DropState& command);
 
   void pass(ElementId element, const Point& target);
+  void check_element(ElementId element) const;
   void check_links(const std::vector<LinkId>& links) const;
   void take_mesh(MeshPointer mesh);
   void wake(std::span<const ElementId> elements);
@@ -97,6 +102,7 @@ class Simulation {
   bool valid_ = true;
   bool relaxation_on_ = false;
   double relaxation_step_ = 1;
+  RelaxationScheme relaxation_scheme_ = RelaxationScheme::mean;
   bool woken_ = false;  // since the last sweep ended
   PassTimes::Clock::time_point relaxation_deadline_{};
   std::map<commands::StateId, State> kept_;

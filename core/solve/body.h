@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "mesh/cuts.h"
@@ -14,8 +16,8 @@ namespace chainmail {
 /// one, two and three dimensions.
 template <class Scalar, int Dimension>
 struct ElementState {
-  Scalar position[Dimension];  // absolute, mesh units
-  std::uint32_t updated;       // the last pass in which the element counted as updated
+  Scalar position[Dimension];  // mesh units: absolute, or from rest where the body says so
+  std::uint32_t updated;       // the last pass in which the element counted as updated; pinned: always
 };
 
 /// An object as the algorithms of one scalar and one space dimension see it.
@@ -29,10 +31,19 @@ struct Body {
     set_softness({});
   }
 
+  /// What the held positions of an element are measured from, on axis k (mesh units).
+  double origin(ElementId element, int k) const {
+    return from_rest ? mesh->rest[std::size_t{element} * Dimension + k] : 0;
+  }
+  double absolute(ElementId element, int k) const { return origin(element, k) + double(elements[element].position[k]); }
+  void place(ElementId element, int k, double absolute_position) {
+    elements[element].position[k] = static_cast<Scalar>(absolute_position - origin(element, k));
+  }
+
   void reset_positions() {
-    for (std::size_t e = 0; e < elements.size(); ++e) {
+    for (ElementId e = 0; e < mesh->element_count(); ++e) {
       for (int k = 0; k < Dimension; ++k) {
-        elements[e].position[k] = static_cast<Scalar>(mesh->rest[e * Dimension + k]);
+        place(e, k, mesh->rest[std::size_t{e} * Dimension + k]);
       }
     }
   }
@@ -41,23 +52,42 @@ struct Body {
     regions.resize(mesh->neighbours.size());
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
       for (EntryId entry = mesh->first_entry[e]; entry < mesh->first_entry[e + 1]; ++entry) {
-        regions[entry] =
-            valid_region<Scalar, Dimension>(*mesh, e, mesh->neighbours[entry], softness.of(mesh->entry_link[entry]));
+        regions[entry] = valid_region<Scalar, Dimension>(*mesh, e, mesh->neighbours[entry],
+                                                         softness.of(mesh->entry_link[entry]), from_rest);
       }
     }
   }
 
-  /// Begins a pass: no element counts as updated any more.
+  /// Holds positions as displacements from rest and regions about rest vectors, or both absolute.
+  void hold_from_rest(bool displacements, const Softness& softness) {
+    if (displacements == from_rest) {
+      return;
+    }
+    for (ElementId e = 0; e < mesh->element_count(); ++e) {
+      for (int k = 0; k < Dimension; ++k) {
+        const double rest = mesh->rest[std::size_t{e} * Dimension + k];
+        Scalar& x = elements[e].position[k];
+        x = static_cast<Scalar>(displacements ? double(x) - rest : double(x) + rest);
+      }
+    }
+    from_rest = displacements;
+    set_softness(softness);
+  }
+
+  /// Begins a pass: no element but the pinned ones counts as updated any more.
   void begin_pass() {
-    if (++pass == 0) {  // after 2³² passes
+    if (++pass == always) {
       for (auto& element : elements) {
-        element.updated = 0;
+        element.updated = element.updated == always ? always : 0;
       }
       pass = 1;
     }
   }
-  bool updated(ElementId element) const { return elements[element].updated == pass; }
+  bool updated(ElementId element) const { return elements[element].updated >= pass; }
   void mark_updated(ElementId element) { elements[element].updated = pass; }
+
+  bool pinned(ElementId element) const { return elements[element].updated == always; }
+  void set_pinned(ElementId element, bool is_pinned) { elements[element].updated = is_pinned ? always : 0; }
 
   /// Clamps the candidate's element into its valid region about its sponsor; says whether it moved.
   bool clamp(ElementId element, ElementId sponsor, EntryId entry) {
@@ -76,6 +106,29 @@ struct Body {
     return moved;
   }
 
+  /// How far the candidate's element lies outside its valid region about its sponsor, in rest lengths. In
+  /// double, like the metric; what a mesh without a mean length divides by makes no order.
+  double violation(ElementId element, ElementId sponsor, EntryId entry) const {
+    const Scalar* x = elements[element].position;
+    const Scalar* about = elements[sponsor].position;
+    double outside = 0, length = 0;
+    for (int k = 0; k < Dimension; ++k) {
+      const Scalar low = about[k] + regions[entry].low[k];
+      const Scalar high = about[k] + regions[entry].high[k];
+      const double excess = x[k] < low ? double(low) - double(x[k]) : high < x[k] ? double(x[k]) - double(high) : 0;
+      const double rest =
+          mesh->rest[std::size_t{element} * Dimension + k] - mesh->rest[std::size_t{sponsor} * Dimension + k];
+      outside += excess * excess;
+      length += rest * rest;
+    }
+    if (outside == 0) {
+      return 0;
+    }
+    return std::sqrt(outside) / (length > 0                   ? std::sqrt(length)
+                                 : mesh->mean_link_length > 0 ? mesh->mean_link_length
+                                                              : 1);
+  }
+
   /// Calls visit(neighbour, entry) for each neighbour to which the link is not cut, in the file's order.
   template <class Visit>
   void for_each_neighbour(ElementId element, Visit visit) const {
@@ -87,11 +140,14 @@ struct Body {
     }
   }
 
+  static constexpr std::uint32_t always = std::numeric_limits<std::uint32_t>::max();
+
   MeshPointer mesh;
   Cuts cuts;
   std::vector<ElementState<Scalar, Dimension>> elements;
   std::vector<Region<Scalar, Dimension>> regions;  // one an entry of the neighbour table
-  std::uint32_t pass = 0;
+  std::uint32_t pass = 1;
+  bool from_rest = false;
 };
 
 }  // namespace chainmail

@@ -18,7 +18,11 @@ std::uint64_t propagate(Body& body, List& list, ElementId grabbed, std::vector<E
   const auto admit_neighbours = [&](ElementId sponsor) {
     body.for_each_neighbour(sponsor, [&](ElementId neighbour, EntryId entry) {
       if (List::admits_updated || !body.updated(neighbour)) {
-        list.admit({entry, sponsor});
+        if constexpr (requires { List::by_violation; }) {
+          list.admit({entry, sponsor}, body.violation(neighbour, sponsor, entry));
+        } else {
+          list.admit({entry, sponsor});
+        }
       }
     });
   };

@@ -18,17 +18,20 @@ struct Region {
 /// The valid region of a link with this rest vector (thesis section 3.1, Li and Brodlie 2003).
 ///
 /// The minimum and maximum, which the thesis leaves out, keep the region of a link that runs left or
-/// down from being inside out. Bounds are computed in double and rounded once.
+/// down from being inside out. Bounds are computed in double and rounded once. About the rest vector, they
+/// bound the difference of two displacements: never above and never below 0, whatever is rounded.
 template <class Scalar, int Dimension>
-Region<Scalar, Dimension> valid_region(const double (&rest_vector)[Dimension], const LinkSoftness& softness) {
+Region<Scalar, Dimension> valid_region(const double (&rest_vector)[Dimension], const LinkSoftness& softness,
+                                       bool about_rest_vector = false) {
+  const double less = about_rest_vector ? 1 : 0;
   Region<Scalar, Dimension> region;
   for (int k = 0; k < Dimension; ++k) {
     double others = 0;
     for (int j = 0; j < Dimension; ++j) {
       others += j == k ? 0 : std::abs(rest_vector[j]);
     }
-    const double compressed = softness.compression * rest_vector[k];
-    const double stretched = softness.stretch * rest_vector[k];
+    const double compressed = (softness.compression - less) * rest_vector[k];
+    const double stretched = (softness.stretch - less) * rest_vector[k];
     region.low[k] = static_cast<Scalar>(std::min(compressed, stretched) - softness.shear * others);
     region.high[k] = static_cast<Scalar>(std::max(compressed, stretched) + softness.shear * others);
   }
@@ -37,12 +40,13 @@ Region<Scalar, Dimension> valid_region(const double (&rest_vector)[Dimension], c
 
 /// The valid region of element `to` relative to element `from`.
 template <class Scalar, int Dimension>
-Region<Scalar, Dimension> valid_region(const Mesh& mesh, ElementId from, ElementId to, const LinkSoftness& softness) {
+Region<Scalar, Dimension> valid_region(const Mesh& mesh, ElementId from, ElementId to, const LinkSoftness& softness,
+                                       bool about_rest_vector = false) {
   double rest_vector[Dimension];
   for (int k = 0; k < Dimension; ++k) {
     rest_vector[k] = mesh.rest[std::size_t{to} * Dimension + k] - mesh.rest[std::size_t{from} * Dimension + k];
   }
-  return valid_region<Scalar, Dimension>(rest_vector, softness);
+  return valid_region<Scalar, Dimension>(rest_vector, softness, about_rest_vector);
 }
 
 }  // namespace chainmail

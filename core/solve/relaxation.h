@@ -1,11 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "solve/body.h"
@@ -49,18 +51,20 @@ class ActiveSet {
   std::size_t last_ = 0;
 };
 
-/// Relaxation `mean`: element by element in ascending id toward the mean, over its neighbours, of their
-/// position less the rest vector to them (Frisken-Gibson 1999), each kept in the intersection of its
-/// neighbours' valid regions.
+/// Relaxation of the elastic energy, element by element in ascending id: by `mean` an element goes toward
+/// the mean, over its neighbours, of their position less the rest vector to them; by `link` an element and
+/// each neighbour of higher id go half the way each toward their rest vector. Each is kept in the
+/// intersection of its neighbours' valid regions, axis by axis; where that is empty it stays.
 ///
 /// The clamp is this project's: without it relaxation leaves links outside their regions, and the next
 /// pass yanks far elements (the jumps of thesis 4.4). From a valid state it keeps every link valid, and
-/// with a step in (0, 1] it never raises the energy.
+/// `mean` with a step in (0, 1] never raises the energy. `link` may, and where links contradict each other
+/// it may go round for ever.
 ///
 /// Only active elements are visited: those that moved, or a neighbour of theirs, since their last visit.
 /// Steps below `still` mean rest lengths are not taken and wake nobody, so a scene comes to rest.
 template <class Scalar, int Dimension>
-class MeanRelaxation {
+class Relaxation {
  public:
   using State = Body<Scalar, Dimension>;
   static constexpr double still = 1e-6;
@@ -79,8 +83,9 @@ class MeanRelaxation {
   }
 
   /// Goes on with the current sweep, or begins one, until it ends or `budget` elements were visited.
-  /// `held` stays where it is.
-  RelaxationResult sweep(State& body, double step, std::uint64_t budget, std::optional<ElementId> held) {
+  /// `held` and what is pinned stay where they are.
+  RelaxationResult sweep(State& body, RelaxationScheme scheme, double step, std::uint64_t budget,
+                         std::optional<ElementId> held) {
     if (!in_sweep_) {
       std::swap(current_, next_);
       in_sweep_ = true;
@@ -92,7 +97,11 @@ class MeanRelaxation {
         result.sweep_ended = true;
         break;
       }
-      visit(body, *element, step, held);
+      if (scheme == RelaxationScheme::mean) {
+        visit(body, *element, step, held);
+      } else {
+        visit_links(body, *element, step, held);
+      }
     }
     result.largest_step = largest_step_;
     if (result.sweep_ended) {
@@ -107,47 +116,100 @@ class MeanRelaxation {
     largest_step_ = 0;
   }
 
-  void visit(State& body, ElementId element, double step, std::optional<ElementId> held) {
-    const double taken = element == held ? 0 : relax(body, element, static_cast<Scalar>(step));
-    if (taken == 0) {
-      return;
+  using Place = std::array<Scalar, Dimension>;
+
+  /// A neighbour's position less the rest vector to it: where the link alone would have the element.
+  static Place place_by(const State& body, ElementId element, ElementId neighbour) {
+    const double* rest = body.mesh->rest.data();
+    Place place;
+    for (int k = 0; k < Dimension; ++k) {
+      const double rest_vector =
+          body.from_rest ? 0
+                         : rest[std::size_t{neighbour} * Dimension + k] - rest[std::size_t{element} * Dimension + k];
+      place[k] = body.elements[neighbour].position[k] - static_cast<Scalar>(rest_vector);
     }
-    largest_step_ = std::max(largest_step_, taken);
-    if (step < 1) {
-      next_.insert(element, body.elements.size());
-    }
-    // A neighbour with a larger id is still to come in this sweep, one with a smaller id in the next.
-    body.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
-      (neighbour > element ? current_ : next_).insert(neighbour, body.elements.size());
-    });
+    return place;
   }
 
-  /// Takes one element's step; returns its length (mesh units), 0 where it stayed.
-  double relax(State& body, ElementId element, Scalar step) const {
-    Scalar mean[Dimension]{}, low[Dimension], high[Dimension];
-    std::fill(std::begin(low), std::end(low), -std::numeric_limits<Scalar>::infinity());
-    std::fill(std::begin(high), std::end(high), std::numeric_limits<Scalar>::infinity());
+  static bool stays(const State& body, ElementId element, std::optional<ElementId> held) {
+    return element == held || body.pinned(element);
+  }
+
+  void visit(State& body, ElementId element, double step, std::optional<ElementId> held) {
+    if (stays(body, element, held)) {
+      return;
+    }
+    Place mean{};
     int count = 0;
-    const double* rest = body.mesh->rest.data();
-    body.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
-      const Scalar* about = body.elements[neighbour].position;
+    body.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
+      const Place place = place_by(body, element, neighbour);
       for (int k = 0; k < Dimension; ++k) {
-        const auto rest_vector = static_cast<Scalar>(rest[std::size_t{neighbour} * Dimension + k] -
-                                                     rest[std::size_t{element} * Dimension + k]);
-        mean[k] += about[k] - rest_vector;
-        low[k] = std::max(low[k], about[k] - body.regions[entry].high[k]);
-        high[k] = std::min(high[k], about[k] - body.regions[entry].low[k]);
+        mean[k] += place[k];
       }
       ++count;
     });
     if (count == 0) {
-      return 0;
+      return;
     }
+    for (Scalar& x : mean) {
+      x /= static_cast<Scalar>(count);
+    }
+    if (go(body, element, mean, static_cast<Scalar>(step), element) && step < 1) {
+      next_.insert(element, body.elements.size());
+    }
+  }
+
+  /// The links to neighbours of higher id: in a sweep each link comes once, in the links' order.
+  void visit_links(State& body, ElementId element, double step, std::optional<ElementId> held) {
+    body.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
+      if (neighbour < element) {
+        return;
+      }
+      const Place here = place_by(body, element, neighbour), there = place_by(body, neighbour, element);
+      const Scalar half = static_cast<Scalar>(step) / 2;
+      for (const auto& [one, place] : {std::pair(element, here), std::pair(neighbour, there)}) {
+        if (!stays(body, one, held) && go(body, one, place, half, element)) {
+          next_.insert(element, body.elements.size());
+        }
+      }
+    });
+  }
+
+  /// Takes an element's step toward a place, as far as its neighbours' regions let it, and wakes its
+  /// neighbours; says whether it moved. Those with a larger id than the visited one's are still to come in
+  /// this sweep, the others in the next.
+  bool go(State& body, ElementId element, const Place& place, Scalar step, ElementId visited) {
+    const double taken = take_step(body, element, place, step);
+    if (taken == 0) {
+      return false;
+    }
+    largest_step_ = std::max(largest_step_, taken);
+    body.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
+      (neighbour > visited ? current_ : next_).insert(neighbour, body.elements.size());
+    });
+    if (element > visited) {
+      current_.insert(element, body.elements.size());
+    }
+    return true;
+  }
+
+  /// Returns the length of the step (mesh units), 0 where the element stayed.
+  static double take_step(State& body, ElementId element, const Place& place, Scalar step) {
+    Place low, high;
+    low.fill(-std::numeric_limits<Scalar>::infinity());
+    high.fill(std::numeric_limits<Scalar>::infinity());
+    body.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
+      const Scalar* about = body.elements[neighbour].position;
+      for (int k = 0; k < Dimension; ++k) {
+        low[k] = std::max(low[k], about[k] - body.regions[entry].high[k]);
+        high[k] = std::min(high[k], about[k] - body.regions[entry].low[k]);
+      }
+    });
     Scalar* x = body.elements[element].position;
-    Scalar next[Dimension];
+    Place next;
     double square = 0;
     for (int k = 0; k < Dimension; ++k) {
-      next[k] = x[k] + step * (mean[k] / static_cast<Scalar>(count) - x[k]);
+      next[k] = x[k] + step * (place[k] - x[k]);
       next[k] = low[k] > high[k] ? x[k] : std::min(std::max(next[k], low[k]), high[k]);
       const double difference = double(next[k]) - double(x[k]);
       square += difference * difference;
@@ -156,7 +218,7 @@ class MeanRelaxation {
     if (!(square > threshold * threshold)) {
       return 0;
     }
-    std::copy(std::begin(next), std::end(next), x);
+    std::copy(next.begin(), next.end(), x);
     return std::sqrt(square);
   }
 

@@ -11,10 +11,11 @@
 #include "mesh/mesh.h"
 #include "solve/relaxation_result.h"
 #include "solve/softness.h"
+#include "solve/trace.h"
 
 namespace chainmail {
 
-enum class Algorithm { generalized, spiral, natural_queue };
+enum class Algorithm { generalized, spiral, natural_queue, enhanced, original, exact };
 
 /// How an algorithm is called: `name` on the command line, `label` in the window, and its source.
 struct AlgorithmInfo {
@@ -32,37 +33,48 @@ std::optional<Algorithm> find_algorithm(std::string_view name);
 
 enum class Precision { single_precision, double_precision };
 
-/// One processed candidate of a pass.
-struct TraceRow {
-  ElementId element;
-  ElementId sponsor;
-  bool moved;
-};
-using Trace = std::vector<TraceRow>;
+/// Whether an algorithm works on a mesh: 3D ChainMail does on grids alone.
+bool fits(Algorithm algorithm, const Mesh& mesh);
+/// Throws Error, saying why, where it does not.
+void check(Algorithm algorithm, const Mesh& mesh);
 
 /// What a pass did: candidates taken and not dropped, and elements moved without the grabbed one.
 struct PassCount {
   std::uint64_t checked = 0;
   std::uint64_t moved = 0;
+  bool stopped = false;      // Exact ChainMail: pins held the hand short of its target
+  std::uint64_t visits = 0;  // Exact ChainMail: of elements, as often as each was visited
 };
 
 /// The current positions of all elements, read in place; valid until the solver is next changed.
 class PositionView {
  public:
-  PositionView(const void* first, std::size_t stride, Precision precision)
-      : first_(static_cast<const std::byte*>(first)), stride_(stride), precision_(precision) {}
+  /// Where `from_rest` is given, the elements hold displacements from the rest positions of this mesh.
+  PositionView(const void* first, std::size_t stride, Precision precision, const Mesh* from_rest = nullptr)
+      : first_(static_cast<const std::byte*>(first)), stride_(stride), precision_(precision), from_rest_(from_rest) {}
 
   /// Coordinate k (of those the scene carries) of an element, in mesh units.
   double operator()(ElementId element, int k) const {
     const std::byte* at = first_ + element * stride_;
-    return precision_ == Precision::single_precision ? double(reinterpret_cast<const float*>(at)[k])
-                                                     : reinterpret_cast<const double*>(at)[k];
+    const double held = precision_ == Precision::single_precision ? double(reinterpret_cast<const float*>(at)[k])
+                                                                  : reinterpret_cast<const double*>(at)[k];
+    return from_rest_ == nullptr
+               ? held
+               : from_rest_->rest[std::size_t{element} * static_cast<std::size_t>(from_rest_->space_dimension) + k] +
+                     held;
   }
 
  private:
   const std::byte* first_;
   std::size_t stride_;
   Precision precision_;
+  const Mesh* from_rest_;
+};
+
+/// Positions as a solver holds them, element by element, to be given back to it to the bit.
+struct KeptPositions {
+  std::vector<double> held;
+  bool from_rest = false;
 };
 
 /// Where an element stands, with all three coordinates (mesh units).
@@ -74,22 +86,30 @@ class Solver {
  public:
   virtual ~Solver() = default;
 
+  /// Throws Error where the algorithm does not work on the mesh; nothing has changed then.
   virtual void set_algorithm(Algorithm algorithm) = 0;
   virtual void set_softness(const Softness& softness) = 0;
   virtual void cut(std::span<const LinkId> links) = 0;
   virtual void uncut(std::span<const LinkId> links) = 0;
-  /// Back to the rest positions; cuts and softness stay.
+  /// Pinned elements stay where they are; to move one is an error.
+  virtual void pin(std::span<const ElementId> elements) = 0;
+  virtual void unpin(std::span<const ElementId> elements) = 0;
+  /// The pinned elements, ascending.
+  virtual std::span<const ElementId> pins() const = 0;
+  /// Back to the rest positions; cuts, pins and softness stay.
   virtual void reset() = 0;
 
   /// Sets an element to a target (mesh units; the carried axes count) and propagates: one pass.
-  /// `trace`, where given, receives every candidate that was processed. Throws Error where the target
-  /// is not a finite number of the solver's scalar; nothing has moved then.
+  /// `trace`, where given, receives every candidate that was processed. Throws Error where the element is
+  /// pinned, where the target is not a finite number of the solver's scalar, and, with Exact ChainMail,
+  /// where pins contradict each other; nothing has moved then.
   virtual PassCount move(ElementId element, const Point& target, Trace* trace = nullptr) = 0;
   /// The elements that the last pass moved, in order of update, without the grabbed one.
   virtual std::span<const ElementId> moved() const = 0;
 
   /// Makes these elements and their neighbours active: relaxation will look at them.
   virtual void wake(std::span<const ElementId> elements) = 0;
+  virtual void set_relaxation(RelaxationScheme scheme) = 0;
   /// Goes on relaxing with a step in (0, 1] until a sweep ends or `budget` elements were visited;
   /// `held` stays. Sleeps where nothing is active (then visited is 0 and the sweep has ended).
   virtual RelaxationResult relax(double step, std::uint64_t budget, std::optional<ElementId> held) = 0;
@@ -103,8 +123,11 @@ class Solver {
   virtual void copy_positions(std::span<double> out) const = 0;
   /// Takes every carried coordinate from `in`, as copy_positions wrote it.
   virtual void set_positions(std::span<const double> in) = 0;
+  virtual KeptPositions keep_positions() const = 0;
+  virtual void restore(const KeptPositions& kept) = 0;
 };
 
+/// Throws Error where the algorithm does not work on the mesh.
 std::unique_ptr<Solver> make_solver(const MeshPointer& mesh, Algorithm algorithm, Precision precision);
 
 }  // namespace chainmail

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <bit>
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -66,6 +67,40 @@ struct SpiralList : BackList {
 /// Natural Queue ChainMail (thesis 4.1): candidates enter at the back; only those not yet updated.
 struct NaturalQueueList : BackList {
   static constexpr bool admits_updated = false;
+};
+
+/// Enhanced ChainMail (Schill et al. 1998): the largest violation is taken first, ties by entry; only
+/// those not yet updated are admitted. Until a candidate is taken its element stays, and its sponsor has
+/// been updated: the violation at entry is the violation when taken.
+class EnhancedList {
+ public:
+  static constexpr bool admits_updated = false;
+  static constexpr bool by_violation = true;
+
+  bool empty() const { return heap_.empty(); }
+  void admit(Candidate candidate, double violation) {
+    heap_.push_back({violation, entered_++, candidate});
+    std::push_heap(heap_.begin(), heap_.end(), later);
+  }
+  Candidate take() {
+    std::pop_heap(heap_.begin(), heap_.end(), later);
+    const Candidate candidate = heap_.back().candidate;
+    heap_.pop_back();
+    return candidate;
+  }
+
+ private:
+  struct Waiting {
+    double violation;  // rest lengths
+    std::uint64_t entry;
+    Candidate candidate;
+  };
+  static bool later(const Waiting& one, const Waiting& other) {
+    return one.violation != other.violation ? one.violation < other.violation : one.entry > other.entry;
+  }
+
+  std::vector<Waiting> heap_;
+  std::uint64_t entered_ = 0;
 };
 
 }  // namespace chainmail

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstdlib>
+
+#include "solve/waiting_list.h"
+
+namespace chainmail {
+
+/// Whether a mesh is rectangular: elements in a lattice, and links along its axes alone. A lattice with
+/// cuts is one still.
+bool is_grid(const Mesh& mesh);
+
+/// 3D ChainMail (Frisken-Gibson 1997; thesis 2.1), for rectangular meshes: a waiting list a direction.
+///
+/// The lists are worked in the order right, left, top, bottom, front, back (+x, −x, +y, −y, +z, −z). A
+/// list feeds itself and those of the axes after its own; the grabbed element feeds all. First in, first
+/// out, all admitted. Arguments and result as in propagate().
+class DirectionLists {
+ public:
+  template <class Body, class Observe>
+  std::uint64_t propagate(Body& body, ElementId grabbed, std::vector<ElementId>& moved, Observe observe) {
+    const Steps steps = steps_of(*body.mesh);
+    std::uint64_t checked = 0;
+    moved.clear();
+    body.begin_pass();
+    body.mark_updated(grabbed);
+    feed(body, steps, grabbed, all_lists);
+    for (int list = 0; list < list_count; ++list) {
+      while (!lists_[list].empty()) {
+        const Candidate candidate = lists_[list].take();
+        const ElementId element = body.mesh->neighbours[candidate.entry];
+        if (body.updated(element)) {
+          continue;
+        }
+        ++checked;
+        const bool has_moved = body.clamp(element, candidate.sponsor, candidate.entry);
+        body.mark_updated(element);
+        observe(element, candidate.sponsor, has_moved);
+        if (has_moved) {
+          moved.push_back(element);
+          feed(body, steps, element, list);
+        }
+      }
+    }
+    return checked;
+  }
+
+ private:
+  static constexpr int list_count = 6;
+  static constexpr int all_lists = -1;
+
+  /// How far apart the ids of neighbours along each axis are; 0 where the lattice is one element thick.
+  using Steps = std::array<std::int64_t, 3>;
+
+  static Steps steps_of(const Mesh& mesh) {
+    const auto& size = mesh.lattice->size;
+    return {size[0] > 1 ? 1 : 0, size[1] > 1 ? size[0] : 0, size[2] > 1 ? std::int64_t{size[0]} * size[1] : 0};
+  }
+
+  /// The list of a neighbour whose id is this much larger.
+  static int list_of(const Steps& steps, std::int64_t difference) {
+    int axis = 0;
+    while (steps[axis] != std::abs(difference)) {
+      ++axis;
+    }
+    return 2 * axis + (difference < 0 ? 1 : 0);
+  }
+
+  template <class Body>
+  void feed(const Body& body, const Steps& steps, ElementId sponsor, int from) {
+    body.for_each_neighbour(sponsor, [&](ElementId neighbour, EntryId entry) {
+      const int list = list_of(steps, std::int64_t{neighbour} - std::int64_t{sponsor});
+      if (from == all_lists || list == from || list / 2 > from / 2) {
+        lists_[list].admit({entry, sponsor});
+      }
+    });
+  }
+
+  std::array<BackList, list_count> lists_;
+};
+
+}  // namespace chainmail
