@@ -13,7 +13,8 @@ namespace chainmail {
 /// the result by a bit; they differ in how often an element is visited again. tests/bench has the table.
 ///
 /// A key is the largest displacement that grew since the element's last visit, above 0. An element whose
-/// key has grown meanwhile is admitted again; the caller drops what it takes of it later.
+/// key grows while it waits is admitted again, and the caller drops what it takes of it later; where the
+/// schedule says that it `keeps_place`, it is not.
 
 /// Largest key first, in a radix heap: with keys that never exceed the last one taken, an element is
 /// visited at most once a space dimension (label setting; Ahuja, Mehlhorn, Orlin and Tarjan 1990).
@@ -26,6 +27,7 @@ class RadixHeapSchedule {
     Scalar key;
     ElementId element;
   };
+  static constexpr bool keeps_place = false;
 
   bool empty() const { return size_ == 0; }
 

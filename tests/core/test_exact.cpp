@@ -33,6 +33,7 @@ class ShuffledSchedule {
     Scalar key;
     ElementId element;
   };
+  static constexpr bool keeps_place = false;
   static inline std::uint64_t seed = 0;
 
   bool empty() const { return entries_.empty(); }
