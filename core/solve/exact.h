@@ -23,7 +23,7 @@ namespace chainmail {
 ///
 /// The body holds displacements from rest. All axes go through one queue, mirrored where the hand goes
 /// down. `Schedule` is one of exact_schedule.h.
-template <class Scalar, int Dimension, class Schedule = RadixHeapSchedule<Scalar>>
+template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
 class ExactPropagation {
  public:
   using State = Body<Scalar, Dimension>;
@@ -85,7 +85,7 @@ class ExactPropagation {
     while (!schedule_.empty()) {
       const auto [key, element] = schedule_.take();
       // Visited since it was admitted, or admitted again with more.
-      const bool is_over = Schedule::keeps_place ? !(growth_[element].key > 0) : growth_[element].key != key;
+      const bool is_over = schedule_.keeps_place() ? !(growth_[element].key > 0) : growth_[element].key != key;
       if (is_over || !holds) {
         continue;
       }
@@ -96,6 +96,9 @@ class ExactPropagation {
           holds = !pulls(growth_[neighbour]) && holds;
         }
       });
+      if constexpr (requires { schedule_.visited(0, 0, nullptr); }) {
+        schedule_.visited(result.visits, reached_.size(), [this](ElementId e) { return growth_[e].key; });
+      }
     }
     return holds;
   }
@@ -160,7 +163,7 @@ class ExactPropagation {
       if (grown > to.key) {
         const bool waits = to.key > 0;
         to.key = grown;
-        if (!(Schedule::keeps_place && waits)) {
+        if (!(waits && schedule_.keeps_place())) {
           schedule_.admit(neighbour, grown);
         }
       }

@@ -106,7 +106,14 @@ void add(const Case& of) {
     benchmark::RegisterBenchmark((name + "/" + which).c_str(), function, of)->Unit(benchmark::kMillisecond);
   };
   add_one("natural_queue", [](benchmark::State& s, const Case& c) { natural_queue<Dimension>(s, c); });
+  add_one("adaptive", [](benchmark::State& s, const Case& c) { exact<Dimension, AdaptiveSchedule<float>>(s, c); });
   add_one("radix_heap", [](benchmark::State& s, const Case& c) { exact<Dimension, RadixHeapSchedule<float>>(s, c); });
+  for (const double width : {0.0003, 0.003}) {
+    add_one("steps_of_" + std::to_string(width).substr(0, 6), [width](benchmark::State& s, const Case& c) {
+      StepSchedule<float>::width = width;
+      exact<Dimension, StepSchedule<float>>(s, c);
+    });
+  }
   add_one("heap", [](benchmark::State& s, const Case& c) { exact<Dimension, HeapSchedule<float>>(s, c); });
   add_one("fifo", [](benchmark::State& s, const Case& c) { exact<Dimension, FifoSchedule<float>>(s, c); });
   add_one("buckets_1024",

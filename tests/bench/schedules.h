@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "solve/ring.h"
 
 namespace chainmail::bench {
 
@@ -21,31 +23,21 @@ struct Waiting {
 template <class Scalar>
 class FifoSchedule {
  public:
-  static constexpr bool keeps_place = true;
-  bool empty() const { return first_ == last_; }
+  bool keeps_place() const { return true; }
+  bool empty() const { return queue_.empty(); }
   void begin(Scalar) {}
-  void admit(ElementId element, Scalar key) {
-    if (last_ - first_ == ring_.size()) {
-      std::vector<Waiting<Scalar>> larger(2 * ring_.size());
-      for (std::size_t i = first_; i != last_; ++i) {
-        larger[i & (larger.size() - 1)] = ring_[i & (ring_.size() - 1)];
-      }
-      ring_.swap(larger);
-    }
-    ring_[last_++ & (ring_.size() - 1)] = {key, element};
-  }
-  Waiting<Scalar> take() { return ring_[first_++ & (ring_.size() - 1)]; }
+  void admit(ElementId element, Scalar) { queue_.admit(element); }
+  Waiting<Scalar> take() { return {0, queue_.take()}; }
 
  private:
-  std::vector<Waiting<Scalar>> ring_ = std::vector<Waiting<Scalar>>(64);
-  std::size_t first_ = 0, last_ = 0;
+  Ring<ElementId> queue_;
 };
 
 /// Label setting by a binary heap (Dijkstra).
 template <class Scalar>
 class HeapSchedule {
  public:
-  static constexpr bool keeps_place = false;
+  bool keeps_place() const { return false; }
   bool empty() const { return heap_.empty(); }
   void begin(Scalar) {}
   void admit(ElementId element, Scalar key) {
@@ -69,7 +61,7 @@ class HeapSchedule {
 template <class Scalar, int Count>
 class BucketSchedule {
  public:
-  static constexpr bool keeps_place = false;
+  bool keeps_place() const { return false; }
   bool empty() const { return size_ == 0; }
   void begin(Scalar largest) {
     largest_ = largest;
@@ -97,6 +89,59 @@ class BucketSchedule {
   Scalar largest_ = 0, scale_ = 0;
   int current_ = 0;
   std::size_t size_ = 0;
+};
+
+/// Delta-stepping over a radix heap: keys in steps of a width, within a step first in, first out.
+template <class Scalar>
+class StepSchedule {
+ public:
+  bool keeps_place() const { return false; }
+  static inline double width = 1;
+  bool empty() const { return size_ == 0; }
+  void begin(Scalar largest) {
+    largest_ = largest;
+    scale_ = static_cast<Scalar>(1 / width);
+    last_ = 0;
+  }
+  void admit(ElementId element, Scalar key) {
+    const Scalar steps = (largest_ - key) * scale_;
+    const auto step = std::max(last_, steps < 4e9 ? static_cast<std::uint32_t>(steps) : 4000000000u);
+    put({key, element, step});
+    ++size_;
+  }
+  Waiting<Scalar> take() {
+    if (first_ == buckets_[0].size()) {
+      buckets_[0].clear();
+      first_ = 0;
+      int from = 1;
+      while (buckets_[from].empty()) {
+        ++from;
+      }
+      last_ = buckets_[from][0].step;
+      for (const auto& e : buckets_[from]) {
+        last_ = std::min(last_, e.step);
+      }
+      for (const auto& e : buckets_[from]) {
+        put(e);
+      }
+      buckets_[from].clear();
+    }
+    const auto& e = buckets_[0][first_++];
+    --size_;
+    return {e.key, e.element};
+  }
+
+ private:
+  struct Entry {
+    Scalar key;
+    ElementId element;
+    std::uint32_t step;
+  };
+  void put(const Entry& e) { buckets_[std::bit_width(e.step ^ last_)].push_back(e); }
+  std::vector<Entry> buckets_[33];
+  Scalar largest_ = 0, scale_ = 0;
+  std::uint32_t last_ = 0;
+  std::size_t first_ = 0, size_ = 0;
 };
 
 }  // namespace chainmail::bench
