@@ -23,6 +23,7 @@ struct Command {
 Command add_generate(CLI::App& root);
 Command add_info(CLI::App& root);
 Command add_deform(CLI::App& root);
+Command add_ramp(CLI::App& root);
 
 /// Adds an option that takes one value, or a positional. Values are kept as text, so that every check
 /// and its sentence is our own.

@@ -69,7 +69,7 @@ void refuse_swallowed_options(const CLI::App& app) {
 void add_unbuilt(CLI::App& root, const std::string& name) {
   CLI::App* app = root.add_subcommand(name)->group("")->prefix_command();
   app->set_help_flag();
-  app->callback([name] { refuse_unbuilt(name, "use generate, info or deform"); });
+  app->callback([name] { refuse_unbuilt(name, "use generate, info, deform or ramp"); });
 }
 
 }  // namespace
@@ -79,12 +79,11 @@ void run(int argc, char** argv) {
   root.set_version_flag("--version", std::string("chainmail ") + CHAINMAIL_VERSION, "Print the version and exit");
   root.footer(footer);
   root.allow_extras()->require_subcommand(0, 1);
-  const std::vector<Command> commands{add_generate(root), add_info(root), add_deform(root)};
+  const std::vector<Command> commands{add_generate(root), add_info(root), add_deform(root), add_ramp(root)};
   for (const Command& command : commands) {
     command.app->allow_extras();
   }
   add_unbuilt(root, "compare");
-  add_unbuilt(root, "ramp");
   try {
     root.parse(argc, argv);
   } catch (const CLI::Success& asked) {
@@ -103,7 +102,7 @@ void run(int argc, char** argv) {
       return;
     }
   }
-  throw Error("command", "none is given", "use generate, info or deform; see chainmail --help");
+  throw Error("command", "none is given", "use generate, info, deform or ramp; see chainmail --help");
 }
 
 }  // namespace chainmail::command_line
