@@ -1,7 +1,6 @@
 #include "report/ramp.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 
 #include "mesh/generate.h"
@@ -9,8 +8,6 @@
 
 namespace chainmail::report {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t first_width = 4;
 constexpr double percentile_kept = 0.99;
@@ -69,7 +66,7 @@ class Run {
   }
 
   Ramp run() {
-    const auto start = Clock::now();
+    const double start = now();
     for (std::uint32_t width = first_width;
          !in_race_.empty() && std::uint64_t{width} * width <= result_.options.largest && !stop_.stop_requested();
          width = next_width(width)) {
@@ -79,12 +76,14 @@ class Run {
     for (const Algorithm algorithm : result_.options.algorithms) {
       result_.verdicts.push_back(verdict(algorithm));
     }
-    result_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    result_.seconds = now() - start;
     return std::move(result_);
   }
 
  private:
   using Measured = std::map<Algorithm, Passes>;
+
+  double now() const { return result_.options.clocks.wall(); }
 
   void measure(std::uint32_t width) {
     Size size(width, result_.options);
@@ -148,10 +147,8 @@ class Run {
       if (stop_.stop_requested()) {
         break;
       }
-      const auto start = Clock::now();
-      const PassCount count = solver.move(drag.element, target);
-      passes.ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-      passes.moved += count.moved;
+      const auto move = [&] { passes.moved += solver.move(drag.element, target).moved; };
+      passes.ms.push_back(1000 * seconds_of(result_.options.clocks, move));
     }
     return passes;
   }

@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "report/clocks.h"
 #include "report/growth.h"
 #include "solve/solver.h"
 
@@ -21,6 +22,7 @@ struct RampOptions {
   std::uint64_t largest = 4'000'000;  // elements
   int drags = 10;                     // at each size, beside one to warm up
   int moves = 30;                     // a drag
+  Clocks clocks = machine_clocks();
 };
 
 /// How one algorithm did at one size.
@@ -72,7 +74,7 @@ std::uint32_t next_width(std::uint32_t width);
 ///
 /// At each size all algorithms make the same drags, from rest each, in turns, drag by drag. One is out when
 /// the 99th percentile of its passes exceeds the budget, and does so again with fresh drags: a hiccup of the
-/// machine does not count. `stop` is looked at between passes.
+/// machine does not count, nor does the time that other programs take. `stop` is looked at between passes.
 Ramp ramp(const RampOptions& options, const std::function<void(const RampProgress&)>& progress = {},
           const std::stop_token& stop = {});
 

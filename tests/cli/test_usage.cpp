@@ -104,8 +104,8 @@ void UsageTest::wrong_arguments() {
 
 void UsageTest::later_work_is_refused_data() {
   QTest::addColumn<QString>("line");
-  for (const char* line : {"compare", "compare grid.dat -o folder", "ramp --json -",
-                           "deform grid.dat --algorithm spiral --positions a.vtu"}) {
+  for (const char* line :
+       {"compare", "compare grid.dat -o folder", "deform grid.dat --algorithm spiral --positions a.vtu"}) {
     QTest::newRow(line) << line;
   }
 }
