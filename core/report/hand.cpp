@@ -45,6 +45,7 @@ std::vector<HandDrag> hand_drags(const Mesh& mesh, std::uint64_t seed, int drags
   const double width = (high - low).maxCoeff();
   std::mt19937_64 random(seed);
   std::vector<HandDrag> result;
+  result.reserve(static_cast<std::size_t>(drags));
   for (int i = 0; i < drags; ++i) {
     result.push_back(draw(mesh, width, moves, random));
   }

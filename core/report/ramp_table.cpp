@@ -43,8 +43,8 @@ void write_conditions(std::ostream& out, const Ramp& ramp, const Machine& machin
   const RampOptions& options = ramp.options;
   out << "Square grids in real time: 99% of passes within " << figure(1000 * options.budget) << " ms\n"
       << (options.precision == Precision::single_precision ? "float" : "double") << ", compression "
-      << figure(options.softness.compression) << ", stretch " << figure(options.softness.stretch) << ", shear "
-      << figure(options.softness.shear) << "; " << options.drags << " drags of " << options.moves
+      << all_digits(options.softness.compression) << ", stretch " << all_digits(options.softness.stretch) << ", shear "
+      << all_digits(options.softness.shear) << "; " << options.drags << " drags of " << options.moves
       << " moves at each size, seed " << options.seed << '\n'
       << machine.processor << ", " << machine.cores << " cores; " << machine.compiler << ", " << machine.build << "; "
       << figure(ramp.seconds) << " s\n";
