@@ -30,7 +30,8 @@ struct Targets {
 };
 
 constexpr const char* example =
-    "Passes, orders and ids in the output count from 0. Links that are cut still count in \"links\".\n\n"
+    "Passes, orders and ids in the output count from 0; a sponsor of -1 is none. Links that are cut still count in\n"
+    "\"links\".\n\n"
     "Example:\n"
     "  chainmail deform grid.dat --algorithm natural-queue --cut 30-31 --by 31:3,2 --steps 10 \\\n"
     "      --relax 20 --positions moved.csv --json -";

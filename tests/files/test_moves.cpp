@@ -68,6 +68,11 @@ void MovesTest::commands_are_read() {
     simulation.apply(move);
   }
   QVERIFY(read(with_commands("")).empty());
+  // What was pinned may be taken again, and what was let go be pinned.
+  QCOMPARE(read(with_commands(R"({"do": "pin", "elements": [2]}, {"do": "unpin", "elements": [2]},
+                                 {"do": "grab", "element": 2}, {"do": "release"}, {"do": "pin", "elements": [2]})"))
+               .size(),
+           std::size_t{5});
 }
 
 void MovesTest::what_is_written_reads_back() {
