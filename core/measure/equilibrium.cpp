@@ -62,11 +62,14 @@ class System {
         elements_.push_back(e);
       }
     }
-    build();
   }
 
   bool solve(std::uint64_t limit) {
-    return elements_.empty() || (elements_.size() <= limit ? solve_directly() : solve_by_gradients());
+    if (elements_.empty()) {
+      return true;  // and Eigen cannot compress a matrix without columns
+    }
+    build();
+    return elements_.size() <= limit ? solve_directly() : solve_by_gradients();
   }
 
  private:
