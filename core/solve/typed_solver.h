@@ -87,7 +87,7 @@ class TypedSolver final : public Solver {
     for (int k = 0; k < Dimension; ++k) {
       const double to = target[body_.mesh->axes[k]];
       // A move to where the element is read to be is none, whatever the reading rounded.
-      const bool stays = to == body_.absolute(element, k);
+      const bool stays = body_.from_rest && to == body_.absolute(element, k);
       next[k] = stays ? body_.elements[element].position[k] : static_cast<Scalar>(to - body_.origin(element, k));
       if (!(std::abs(next[k]) <= limit)) {
         throw Error("element " + std::to_string(element), "its target is not a finite number",
