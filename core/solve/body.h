@@ -26,7 +26,8 @@ struct Body {
   using Scalar = Scalar_;
   static constexpr int Dimension = Dimension_;
 
-  explicit Body(MeshPointer of) : mesh(std::move(of)), cuts(mesh), elements(mesh->element_count()) {
+  explicit Body(MeshPointer of, bool held_from_rest = false)
+      : mesh(std::move(of)), cuts(mesh), elements(mesh->element_count()), from_rest(held_from_rest) {
     reset_positions();
     set_softness({});
   }
@@ -35,7 +36,10 @@ struct Body {
   double origin(ElementId element, int k) const {
     return from_rest ? mesh->rest[std::size_t{element} * Dimension + k] : 0;
   }
-  double absolute(ElementId element, int k) const { return origin(element, k) + double(elements[element].position[k]); }
+  double absolute(ElementId element, int k) const {
+    const double held = double(elements[element].position[k]);
+    return from_rest ? origin(element, k) + held : held;  // 0 + −0 would be 0
+  }
   void place(ElementId element, int k, double absolute_position) {
     elements[element].position[k] = static_cast<Scalar>(absolute_position - origin(element, k));
   }

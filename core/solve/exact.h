@@ -23,7 +23,7 @@ namespace chainmail {
 ///
 /// The body holds displacements from rest. All axes go through one queue, mirrored where the hand goes
 /// down. `Schedule` is one of exact_schedule.h.
-template <class Scalar, int Dimension, class Schedule = RadixHeapSchedule<Scalar>>
+template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
 class ExactPropagation {
  public:
   using State = Body<Scalar, Dimension>;
@@ -84,8 +84,10 @@ class ExactPropagation {
     bool holds = true;
     while (!schedule_.empty()) {
       const auto [key, element] = schedule_.take();
-      if (growth_[element].key != key || !holds) {
-        continue;  // visited since it was admitted, or admitted again with more
+      // Visited since it was admitted, or admitted again with more.
+      const bool is_over = schedule_.keeps_place() ? !(growth_[element].key > 0) : growth_[element].key != key;
+      if (is_over || !holds) {
+        continue;
       }
       growth_[element].key = 0;
       ++result.visits;
@@ -94,6 +96,9 @@ class ExactPropagation {
           holds = !pulls(growth_[neighbour]) && holds;
         }
       });
+      if constexpr (requires { schedule_.visited(0, 0, nullptr); }) {
+        schedule_.visited(result.visits, reached_.size(), [this](ElementId e) { return growth_[e].key; });
+      }
     }
     return holds;
   }
@@ -138,6 +143,13 @@ class ExactPropagation {
   bool push(const State& body, ElementId element, ElementId neighbour, EntryId entry) {
     const Growth& from = growth_[element];
     Growth& to = growth_[neighbour];
+    bool may_grow = false;
+    for (int k = 0; k < Dimension; ++k) {
+      may_grow |= from.by[k] > to.by[k];
+    }
+    if (!may_grow) {
+      return false;  // slack is never below 0; most neighbours behind the front end here
+    }
     Scalar grown = 0;
     for (int k = 0; k < Dimension; ++k) {
       const Scalar needed = from.by[k] - slack(body, element, neighbour, entry, k);
@@ -149,8 +161,11 @@ class ExactPropagation {
     if (grown > 0) {
       reach(neighbour);
       if (grown > to.key) {
+        const bool waits = to.key > 0;
         to.key = grown;
-        schedule_.admit(neighbour, grown);
+        if (!(waits && schedule_.keeps_place())) {
+          schedule_.admit(neighbour, grown);
+        }
       }
     }
     return grown > 0;
@@ -201,16 +216,24 @@ class ExactPropagation {
             std::vector<ElementId>& moved) {
     moved.clear();
     for (const ElementId element : reached_) {
-      if (element != grabbed && moves(body, element, excess)) {
+      Scalar* u = body.elements[element].position;
+      bool has_moved = false;
+      for (int k = 0; k < Dimension; ++k) {
+        const Scalar next = moved_to(body, element, excess, k);
+        has_moved |= next != u[k];
+        u[k] = next;
+      }
+      growth_[element] = {};
+      if (has_moved && element != grabbed) {
         moved.push_back(element);
       }
-      for (int k = 0; k < Dimension; ++k) {
-        // Where the hand arrives it stands at its target, which is no sum that was rounded.
-        const bool arrives = element == grabbed && !stopped_[k];
-        body.elements[element].position[k] = arrives ? target[k] : moved_to(body, element, excess, k);
+    }
+    for (int k = 0; k < Dimension; ++k) {
+      if (!stopped_[k]) {  // where the hand arrives it stands at its target, which is no sum that was rounded
+        body.elements[grabbed].position[k] = target[k];
       }
     }
-    forget();
+    reached_.clear();
   }
 
   /// The neighbour with the lowest id that made the element go as far as it does on the axis on which it

@@ -18,9 +18,8 @@ namespace chainmail {
 template <class Scalar, int Dimension>
 class TypedSolver final : public Solver {
  public:
-  TypedSolver(const MeshPointer& mesh, Algorithm algorithm) : body_(mesh), algorithm_(algorithm) {
-    body_.hold_from_rest(algorithm == Algorithm::exact, softness_);
-  }
+  TypedSolver(const MeshPointer& mesh, Algorithm algorithm)
+      : body_(mesh, algorithm == Algorithm::exact), algorithm_(algorithm) {}
 
   void set_algorithm(Algorithm algorithm) override {
     check(algorithm, *body_.mesh);
@@ -28,6 +27,9 @@ class TypedSolver final : public Solver {
     if (body_.from_rest != (algorithm == Algorithm::exact)) {
       body_.hold_from_rest(algorithm == Algorithm::exact, softness_);
       is_valid_ = at_rest_;
+      if (at_rest_) {
+        body_.reset_positions();  // what rounding to absolute positions took is known here
+      }
     }
   }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "solve/ring.h"
 
 namespace chainmail {
 
@@ -33,31 +34,8 @@ class FrontList {
   std::vector<Candidate> candidates_;
 };
 
-/// First in, first out, in a ring that only ever grows: after warm-up a pass takes no memory.
-class BackList {
- public:
-  bool empty() const { return first_ == last_; }
-  void admit(Candidate candidate) {
-    if (last_ - first_ == ring_.size()) {
-      grow();
-    }
-    ring_[last_++ & (ring_.size() - 1)] = candidate;
-  }
-  Candidate take() { return ring_[first_++ & (ring_.size() - 1)]; }
-
- private:
-  void grow() {
-    std::vector<Candidate> larger(2 * ring_.size());
-    for (std::size_t i = first_; i != last_; ++i) {
-      larger[i & (larger.size() - 1)] = ring_[i & (ring_.size() - 1)];
-    }
-    ring_.swap(larger);
-  }
-
-  std::vector<Candidate> ring_ = std::vector<Candidate>(64);  // a power of two
-  std::size_t first_ = 0;
-  std::size_t last_ = 0;
-};
+/// First in, first out.
+using BackList = Ring<Candidate>;
 
 /// Spiral (thesis 3.2, first alteration): candidates enter at the back; all are admitted.
 struct SpiralList : BackList {

@@ -53,8 +53,9 @@ inline rc::Gen<LinkSoftness> any_link_softness() {
                       });
 }
 
+/// Any of those that work on every mesh and take one candidate after another.
 inline rc::Gen<Algorithm> any_algorithm() {
-  return rc::gen::element(Algorithm::generalized, Algorithm::spiral, Algorithm::natural_queue);
+  return rc::gen::element(Algorithm::generalized, Algorithm::spiral, Algorithm::natural_queue, Algorithm::enhanced);
 }
 inline rc::Gen<Precision> any_precision() {
   return rc::gen::element(Precision::single_precision, Precision::double_precision);

@@ -65,6 +65,13 @@ inline double largest_coordinate(const std::vector<double>& positions) {
   return largest_step(std::vector<double>(positions.size()), positions);
 }
 
+/// Every algorithm that works on this mesh.
+inline std::vector<AlgorithmInfo> algorithms_for(const Mesh& mesh) {
+  std::vector<AlgorithmInfo> all(algorithms().begin(), algorithms().end());
+  std::erase_if(all, [&](const AlgorithmInfo& one) { return !fits(one.algorithm, mesh); });
+  return all;
+}
+
 /// A uniform number: the same on every machine, which the standard's distributions do not promise.
 inline double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;

@@ -99,7 +99,10 @@ void CutsTest::cut_and_uncut_is_the_identity() {
 
 void CutsTest::a_cut_link_carries_nothing() {
   const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
-  for (const AlgorithmInfo& one : algorithms()) {
+  for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
+    if (one.algorithm == Algorithm::exact) {
+      continue;  // uncut, it mends the link between the parts: a test of its own
+    }
     const auto solver = make_solver(mesh, one.algorithm, Precision::double_precision);
     const LinkId middle = *find_link(*mesh, 1, 2);
     solver->cut(std::span(&middle, 1));

@@ -210,7 +210,7 @@ void MotionTest::a_translated_object_deforms_alike() {
   const auto grid = make_mesh(MeshKind::grid, {8, 8, 1});
   const Point way(64, -32, 0);
   const auto moved = build_mesh(placed(*grid, [&](const Point& p) { return p + way; }));
-  for (const AlgorithmInfo& info : algorithms()) {
+  for (const AlgorithmInfo& info : algorithms_for(*moved)) {
     const auto here = make_solver(grid, info.algorithm, Precision::single_precision);
     const auto there = make_solver(moved, info.algorithm, Precision::single_precision);
     for (Solver* solver : {here.get(), there.get()}) {

@@ -45,7 +45,7 @@ void SolverThreadTest::a_frame_is_there_from_the_start() {
 void SolverThreadTest::commands_give_what_a_simulation_gives() {
   std::mt19937_64 random(11);
   const auto mesh = jittered_triangles(12, 12, 7);
-  for (const AlgorithmInfo& one : algorithms()) {
+  for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
     SolverThread solver(mesh, one.algorithm, [] {});
     Simulation simulation(mesh, one.algorithm, Precision::single_precision);
     const auto both = [&](const Command& command) {

@@ -33,7 +33,7 @@ class AnyCommand {
 
   Command draw() {
     using namespace commands;
-    switch (random_() % 24) {
+    switch (random_() % 26) {
       case 0:
         return Cut{{below(150), below(150)}};
       case 1:
@@ -41,9 +41,10 @@ class AnyCommand {
       case 2:
         return SetSoftness{{{between(-0.05, 1), between(1, 2), between(0, 1)}, {{below(150), {1, 1, 0}}}}};
       case 3:
-        return SetRelaxation{relaxed_ && below(4) != 0, between(0.1, 1)};
+        return SetRelaxation{relaxed_ && below(4) != 0, between(0.1, 1),
+                             below(2) == 0 ? RelaxationScheme::mean : RelaxationScheme::link};
       case 4:
-        return SetAlgorithm{algorithms()[below(3)].algorithm};
+        return SetAlgorithm{algorithms()[below(6)].algorithm};
       case 5:
         return below(3) == 0 ? Command(ReplaceMesh{meshes_[below(4)]}) : Command(Reset{});
       case 6:
@@ -52,6 +53,10 @@ class AnyCommand {
         return SwapState{below(4)};
       case 8:
         return below(3) == 0 ? Command(DropState{below(4)}) : Command(Release{});
+      case 12:
+        return Pin{{below(60)}};
+      case 13:
+        return Unpin{{below(60), below(60), below(60)}};
       case 9:
       case 10:
       case 11:

@@ -8,6 +8,13 @@ using namespace chainmail;
 using namespace chainmail::test;
 
 /// Keeping and swapping states: undo and redo, exact to the bit.
+namespace {
+
+const std::vector<Algorithm> on_any_mesh{Algorithm::generalized, Algorithm::spiral, Algorithm::natural_queue,
+                                         Algorithm::enhanced, Algorithm::exact};
+
+}  // namespace
+
 class UndoTest : public QObject {
   Q_OBJECT
 
@@ -71,9 +78,9 @@ void UndoTest::swapping_brings_the_object_back_and_forth() {
 }
 
 void UndoTest::later_moves_come_out_as_if_nothing_had_been() {
-  for (const AlgorithmInfo& one : algorithms()) {
-    auto untouched = worked_simulation(one.algorithm, Precision::single_precision);
-    auto simulation = worked_simulation(one.algorithm, Precision::single_precision);
+  for (const Algorithm algorithm : on_any_mesh) {
+    auto untouched = worked_simulation(algorithm, Precision::single_precision);
+    auto simulation = worked_simulation(algorithm, Precision::single_precision);
     carry_out(simulation, commands::KeepState{1});
     change_everything(simulation);
     carry_out(simulation, commands::SwapState{1});
@@ -97,7 +104,7 @@ void UndoTest::another_mesh_comes_back_with_its_cuts_and_softness() {
 
 void UndoTest::any_change_is_undone() {
   const auto holds = [] {
-    Simulation simulation(draw_family().mesh, *any_algorithm(), *any_precision());
+    Simulation simulation(draw_family().mesh, *rc::gen::elementOf(on_any_mesh), *any_precision());
     const auto work = [&] {
       carry_out(simulation, commands::SetSoftness{draw_softness(simulation.mesh())});
       carry_out(simulation, commands::Cut{draw_links(simulation.mesh())});

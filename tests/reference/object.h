@@ -98,6 +98,8 @@ class Object {
     list_again(b, a);
   }
 
+  const chainmail::Mesh& mesh() const { return *mesh_; }
+
   int space_dimension;
   std::list<Element<Scalar>> elements;
   std::list<SoftnessData<Scalar>> softness;

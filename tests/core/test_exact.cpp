@@ -1,0 +1,344 @@
+#include <QtTest>
+
+#include "core/scenarios.h"
+#include "measure/violation.h"
+#include "reference/exact.h"
+#include "solve/exact.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace {
+
+double half_ulp(Precision precision) { return precision == Precision::single_precision ? 0x1p-24 : 0x1p-53; }
+
+double largest_displacement(const Mesh& mesh, const std::vector<double>& positions) {
+  return largest_step(mesh.rest, positions);
+}
+
+reference::LeastAnswer oracle(const MeshPointer& mesh, const Softness& softness, const Cuts& cuts) {
+  const auto factors = [mesh, softness](ElementId a, ElementId b) {
+    const LinkSoftness& link = softness.of(*find_link(*mesh, a, b));
+    return reference::Factors{link.compression, link.stretch, link.shear};
+  };
+  const auto cut = [mesh, cuts](ElementId a, ElementId b) { return cuts.is_cut(*find_link(*mesh, a, b)); };
+  return {mesh, factors, cut};
+}
+
+/// Takes waiting elements in an order drawn at random.
+template <class Scalar>
+class ShuffledSchedule {
+ public:
+  struct Entry {
+    Scalar key;
+    ElementId element;
+  };
+  bool keeps_place() const { return false; }
+  static inline std::uint64_t seed = 0;
+
+  bool empty() const { return entries_.empty(); }
+  void begin(Scalar) {}
+  void admit(ElementId element, Scalar key) { entries_.push_back({key, element}); }
+  Entry take() {
+    std::swap(entries_[random_() % entries_.size()], entries_.back());
+    const Entry entry = entries_.back();
+    entries_.pop_back();
+    return entry;
+  }
+
+ private:
+  std::vector<Entry> entries_;
+  std::mt19937_64 random_{seed};
+};
+
+/// Drags by Exact with this schedule; returns where the elements end. No element may be visited more often
+/// than there are dimensions, where that is promised.
+template <class Scalar, int Dimension, class Schedule>
+std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, const std::vector<Hand>& hands,
+                         bool* visits_are_bounded = nullptr) {
+  Body<Scalar, Dimension> body(mesh);
+  body.hold_from_rest(true, softness);
+  body.set_softness(softness);
+  ExactPropagation<Scalar, Dimension, Schedule> exact;
+  std::vector<ElementId> moved;
+  for (const Hand& hand : hands) {
+    const ElementId element = hand.of(*mesh);
+    Scalar target[Dimension];
+    for (int k = 0; k < Dimension; ++k) {
+      target[k] = body.elements[element].position[k] + static_cast<Scalar>(hand.by()[k]);
+    }
+    const auto result = exact.propagate(body, {}, element, target, moved, nullptr);
+    if (visits_are_bounded != nullptr) {
+      *visits_are_bounded = *visits_are_bounded && result.visits <= (result.checked + 1) * Dimension;
+    }
+  }
+  std::vector<Scalar> positions;
+  for (const auto& element : body.elements) {
+    positions.insert(positions.end(), element.position, element.position + Dimension);
+  }
+  return positions;
+}
+
+template <class Scalar, int Dimension>
+bool schedules_agree(const MeshPointer& mesh, const Softness& softness, const std::vector<Hand>& hands) {
+  const auto one = drag<Scalar, Dimension, AdaptiveSchedule<Scalar>>(mesh, softness, hands);
+  const auto other = drag<Scalar, Dimension, ShuffledSchedule<Scalar>>(mesh, softness, hands);
+  const auto third = drag<Scalar, Dimension, RadixHeapSchedule<Scalar>>(mesh, softness, hands);
+  const std::size_t size = one.size() * sizeof(Scalar);
+  return std::memcmp(one.data(), other.data(), size) == 0 && std::memcmp(one.data(), third.data(), size) == 0;
+}
+
+bool visits_by_heap(const MeshPointer& mesh, const Softness& softness, const std::vector<Hand>& hands) {
+  using Heap = RadixHeapSchedule<double>;
+  bool bounded = true;
+  mesh->space_dimension == 1   ? drag<double, 1, Heap>(mesh, softness, hands, &bounded)
+  : mesh->space_dimension == 2 ? drag<double, 2, Heap>(mesh, softness, hands, &bounded)
+                               : drag<double, 3, Heap>(mesh, softness, hands, &bounded);
+  return bounded;
+}
+
+template <class Scalar>
+bool schedules_agree(const MeshPointer& mesh, const Softness& softness, const std::vector<Hand>& hands) {
+  return mesh->space_dimension == 1   ? schedules_agree<Scalar, 1>(mesh, softness, hands)
+         : mesh->space_dimension == 2 ? schedules_agree<Scalar, 2>(mesh, softness, hands)
+                                      : schedules_agree<Scalar, 3>(mesh, softness, hands);
+}
+
+}  // namespace
+
+/// Exact ChainMail: the least answer, whatever the order.
+class ExactTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void agrees_with_bellman_and_ford();
+  void links_hold();
+  void the_schedule_changes_no_bit();
+  void visits_are_bounded();
+  void from_its_own_states_a_zero_move_moves_nothing();
+  void the_trace_names_the_binding_neighbour();
+  void a_start_that_is_not_valid_is_repaired();
+  void a_repair_leaves_what_is_valid();
+  void an_uncut_link_is_mended();
+  void drags_there_and_back_do_not_drift();
+  void a_far_origin_costs_no_digits();
+};
+
+void ExactTest::agrees_with_bellman_and_ford() {
+  const auto holds = [] {
+    const auto& mesh = draw_family().mesh;
+    const auto precision = *any_precision();
+    const auto solver = make_solver(mesh, Algorithm::exact, precision);
+    const Softness softness = draw_softness(*mesh);
+    solver->set_softness(softness);
+    solver->cut(draw_links(*mesh));
+    const auto answer = oracle(mesh, softness, solver->cuts());
+    for (const Hand& hand : *any_hands(40)) {
+      const auto before = positions_of(*solver, *mesh);
+      const ElementId element = hand.of(*mesh);
+      const Point target = position_of(*solver, *mesh, element) + hand.by();
+      solver->move(element, target);
+      std::array<double, 3> carried{};
+      for (int k = 0; k < mesh->space_dimension; ++k) {
+        carried[k] = target[mesh->axes[k]];
+      }
+      const auto expected = answer.move(before, element, carried);
+      const auto after = positions_of(*solver, *mesh);
+      // Along a path each link rounds its slack (of positions and bounds) and a difference; paths are shorter
+      // than the object has elements. The violation that earlier rounding left is of the same size.
+      const double size = largest_displacement(*mesh, after) + largest_step(before, after) + 4;
+      RC_ASSERT(largest_step(expected, after) <= 4 * mesh->element_count() * half_ulp(precision) * size);
+    }
+  };
+  QVERIFY(rc::check("Exact gives the least answer, as Bellman and Ford find it", holds));
+}
+
+void ExactTest::links_hold() {
+  const auto holds = [] {
+    const auto& mesh = draw_family().mesh;
+    const auto precision = *any_precision();
+    const auto solver = make_solver(mesh, Algorithm::exact, precision);
+    const Softness softness = draw_softness(*mesh);
+    solver->set_softness(softness);
+    double size = 0;
+    for (const Hand& hand : *any_hands(40)) {
+      const auto before = positions_of(*solver, *mesh);
+      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+      const auto after = positions_of(*solver, *mesh);
+      size = std::max(size, largest_displacement(*mesh, after) + largest_step(before, after) + 1);
+      for (LinkId link = 0; link < mesh->link_count(); ++link) {
+        const double length = rest_length(*mesh, link) > 0 ? rest_length(*mesh, link) : mesh->mean_link_length;
+        const double outside = link_violation(*mesh, softness, solver->positions(), link) * length;
+        // 4 ulp an axis, as derived, of the largest displacement or move.
+        RC_ASSERT(outside <= std::sqrt(3) * 8 * half_ulp(precision) * size);
+      }
+    }
+  };
+  QVERIFY(rc::check("every link holds to 4 ulp", holds));
+}
+
+void ExactTest::the_schedule_changes_no_bit() {
+  const auto holds = [] {
+    const auto& mesh = draw_family().mesh;
+    const Softness softness = draw_softness(*mesh);
+    const auto hands = *any_hands(40);
+    ShuffledSchedule<float>::seed = ShuffledSchedule<double>::seed = *rc::gen::arbitrary<std::uint64_t>();
+    RC_ASSERT(schedules_agree<float>(mesh, softness, hands));
+    RC_ASSERT(schedules_agree<double>(mesh, softness, hands));
+  };
+  QVERIFY(rc::check("a shuffled schedule ends in the same bits", holds));
+}
+
+void ExactTest::visits_are_bounded() {
+  // A pass may go through the elements and a quarter of them again before it sets labels: then once a
+  // dimension. The heap alone does only that.
+  const auto holds = [] {
+    const auto& mesh = draw_family().mesh;
+    const Softness softness = draw_softness(*mesh);
+    const auto hands = *any_hands(40);
+    const auto solver = make_solver(mesh, Algorithm::exact, *any_precision());
+    solver->set_softness(softness);
+    for (const Hand& hand : hands) {
+      const PassCount count = move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+      const std::uint64_t reached = count.checked + 1;
+      RC_ASSERT(count.visits <= reached + reached / 4 + 65 + reached * static_cast<unsigned>(mesh->space_dimension));
+    }
+    RC_ASSERT(visits_by_heap(mesh, softness, hands));
+  };
+  QVERIFY(rc::check("visits are bounded by the elements reached and the space dimension", holds));
+}
+
+void ExactTest::from_its_own_states_a_zero_move_moves_nothing() {
+  const auto holds = [] {
+    const auto& mesh = draw_family().mesh;
+    const auto solver = make_solver(mesh, Algorithm::exact, *any_precision());
+    solver->set_softness(draw_softness(*mesh));
+    for (const Hand& hand : *any_hands(40)) {
+      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    }
+    const auto before = positions_of(*solver, *mesh);
+    const PassCount count = move_by(*solver, *mesh, (*any_hand()).of(*mesh), Point(0, 0, 0));
+    RC_ASSERT(count.checked <= mesh->element_count());
+    // The target is a sum of rest and displacement that is rounded in double: the zero move may be an ulp.
+    RC_ASSERT(largest_step(before, positions_of(*solver, *mesh)) <= 1e-14 * (20 + largest_coordinate(before)));
+  };
+  QVERIFY(rc::check("after any drags a zero move moves nothing", holds));
+}
+
+void ExactTest::the_trace_names_the_binding_neighbour() {
+  // A grid dragged to the right at its middle: 5 is pushed by 4, 3 pulled; the corners follow both their
+  // neighbours alike, and the one with the lower id is named.
+  const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
+  const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
+  solver->set_softness({{0.75, 1.25, 0.25}, {}});
+  Trace trace;
+  move_by(*solver, *mesh, 4, Point(1, 0, 0), &trace);
+  const std::vector<std::array<ElementId, 2>> expected{{1, 4}, {3, 4}, {5, 4}, {7, 4}, {0, 1}, {2, 1}, {6, 3}, {8, 5}};
+  QCOMPARE(trace.size(), expected.size());
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    QCOMPARE(trace[i].element, expected[i][0]);
+    QCOMPARE(trace[i].sponsor, expected[i][1]);
+    QVERIFY(trace[i].moved);
+  }
+}
+
+void ExactTest::a_start_that_is_not_valid_is_repaired() {
+  const auto holds = [] {
+    const auto& mesh = draw_family().mesh;
+    const auto precision = *any_precision();
+    const auto solver = make_solver(mesh, Algorithm::generalized, precision);
+    for (const Hand& hand : *any_hands()) {
+      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    }
+    const Softness softness = draw_softness(*mesh);
+    solver->set_softness(softness);
+    solver->set_algorithm(Algorithm::exact);
+    const auto hand = *any_hand();
+    const auto before = positions_of(*solver, *mesh);
+    move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    const auto after = positions_of(*solver, *mesh);
+    for (int k = 0; k < mesh->space_dimension; ++k) {
+      const std::size_t at = std::size_t{hand.of(*mesh)} * mesh->space_dimension + k;
+      const double target = before[at] + hand.by()[mesh->axes[k]];
+      RC_ASSERT(std::abs(after[at] - target) <= 8 * half_ulp(precision) * (10 + std::abs(target)));
+    }
+    // Rounded once for each envelope's path, the mean of both, and the pass.
+    const double size = 10 + largest_displacement(*mesh, after);
+    for (LinkId link = 0; link < mesh->link_count(); ++link) {
+      const double outside = link_violation(*mesh, softness, solver->positions(), link) * rest_length(*mesh, link);
+      RC_ASSERT(outside <= 64 * half_ulp(precision) * size);
+    }
+  };
+  QVERIFY(rc::check("Exact takes over from any state, and every link holds", holds));
+}
+
+void ExactTest::a_repair_leaves_what_is_valid() {
+  // Set from outside, a valid state is as unknown as any other; it must not change.
+  std::mt19937_64 random(3);
+  for (const Family& family : families()) {
+    const auto solver = make_solver(family.mesh, Algorithm::exact, Precision::double_precision);
+    const auto state = random_valid_state(*family.mesh, {}, 0.5, random);
+    solver->set_positions(state);
+    const PassCount count = move_by(*solver, *family.mesh, 0, Point(0, 0, 0));
+    QCOMPARE(count.moved, std::uint64_t{0});
+    // Held from rest and summed again: an ulp of the coordinates.
+    QVERIFY2(largest_step(state, positions_of(*solver, *family.mesh)) <= 1e-14, family.name.c_str());
+  }
+}
+
+void ExactTest::an_uncut_link_is_mended() {
+  const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
+  const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
+  solver->set_softness({{0.75, 1.25, 0}, {}});
+  const LinkId middle = *find_link(*mesh, 1, 2);
+  solver->cut(std::span(&middle, 1));
+  solver->move(0, Point(-5, 0, 0));
+  QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-5, -3.75, 2, 3}));
+  solver->uncut(std::span(&middle, 1));
+  Trace trace;
+  const PassCount count = solver->move(0, Point(-5, 0, 0), &trace);
+  // 0 is held at −5 and 1 at most 1.25 further, as it was: the others have to come.
+  QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-5, -3.75, -2.5, -1.25}));
+  QCOMPARE(count.moved, std::uint64_t{2});
+  QCOMPARE(trace.size(), std::size_t{2});
+  QVERIFY(trace[0].sponsor == no_element && trace[1].sponsor == no_element);
+}
+
+void ExactTest::drags_there_and_back_do_not_drift() {
+  // After the first round the object is as loose as it gets; every further one must be the same to 2 ulp.
+  const auto mesh = jittered_triangles(8, 8, 2);
+  const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
+  const ElementId middle = 27;
+  const Point home = position_of(*solver, *mesh, middle);
+  const auto round = [&] {
+    solver->move(middle, home + Point(2, 1, 0));
+    solver->move(middle, home + Point(-1, 2, 0));
+    solver->move(middle, home);
+  };
+  for (int i = 0; i < 10; ++i) {
+    round();
+  }
+  const auto first = positions_of(*solver, *mesh);
+  for (int i = 0; i < 10'000; ++i) {
+    round();
+  }
+  QVERIFY(largest_step(first, positions_of(*solver, *mesh)) <= 2 * 0x1p-23 * 2);
+}
+
+void ExactTest::a_far_origin_costs_no_digits() {
+  // At 2^24 mesh units float holds whole numbers alone; from rest it holds what it always does.
+  const auto grid = make_mesh(MeshKind::grid, {8, 8, 1});
+  const Point way(16777216, -16777216, 0);
+  const auto far = build_mesh(placed(*grid, [&](const Point& p) { return p + way; }));
+  const auto here = make_solver(grid, Algorithm::exact, Precision::single_precision);
+  const auto there = make_solver(far, Algorithm::exact, Precision::single_precision);
+  move_by(*here, *grid, 27, Point(3.5, -2.25, 0));
+  move_by(*there, *far, 27, Point(3.5, -2.25, 0));
+  for (ElementId e = 0; e < grid->element_count(); ++e) {
+    // Only reading them costs digits: an ulp of double at 2^24.
+    QVERIFY((position_of(*here, *grid, e) + way - position_of(*there, *far, e)).norm() <= 1e-8);
+  }
+}
+
+QTEST_APPLESS_MAIN(ExactTest)
+#include "test_exact.moc"

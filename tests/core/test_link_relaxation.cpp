@@ -1,0 +1,150 @@
+#include <QtTest>
+
+#include "core/scenarios.h"
+#include "core/simulations.h"
+#include "measure/violation.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace {
+
+constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
+constexpr LinkSoftness wide{0, 100, 100};  // no region binds
+
+std::unique_ptr<Solver> stretched_chain(std::uint32_t length, const std::vector<double>& positions) {
+  auto solver =
+      make_solver(make_mesh(MeshKind::line, {length, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
+  solver->set_softness({wide, {}});
+  solver->set_relaxation(RelaxationScheme::link);
+  solver->set_positions(positions);
+  std::vector<ElementId> all(length);
+  std::iota(all.begin(), all.end(), ElementId{0});
+  solver->wake(all);
+  return solver;
+}
+
+std::vector<double> positions_of_chain(const Solver& solver, std::uint32_t length) {
+  return positions_of(solver, *make_mesh(MeshKind::line, {length, 1, 1}));
+}
+
+}  // namespace
+
+/// Relaxation by links (Schill 2001): the two ends share each link's deflection.
+class LinkRelaxationTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void two_ends_share_the_deflection();
+  void a_step_is_that_share_of_the_way();
+  void a_held_end_leaves_its_half_to_the_next_sweep();
+  void links_come_in_their_order();
+  void a_free_chain_comes_to_rest_in_its_shape();
+  void a_chain_between_pins_ends_near_even();
+  void valid_links_stay_valid();
+  void displacements_relax_like_positions();
+};
+
+void LinkRelaxationTest::two_ends_share_the_deflection() {
+  const auto solver = stretched_chain(2, {0, 3});
+  solver->relax(1, no_limit, {});
+  QCOMPARE(positions_of_chain(*solver, 2), (std::vector<double>{1, 2}));
+}
+
+void LinkRelaxationTest::a_step_is_that_share_of_the_way() {
+  const auto solver = stretched_chain(2, {0, 3});
+  solver->relax(0.5, no_limit, {});
+  // A half of each half: the first end goes a quarter of the way to 2, the second a quarter of that to 1.
+  QCOMPARE(positions_of_chain(*solver, 2), (std::vector<double>{0.5, 2.5}));
+}
+
+void LinkRelaxationTest::a_held_end_leaves_its_half_to_the_next_sweep() {
+  const auto solver = stretched_chain(2, {0, 3});
+  solver->relax(1, no_limit, 0);
+  QCOMPARE(positions_of_chain(*solver, 2), (std::vector<double>{0, 2}));
+  solver->relax(1, no_limit, 0);
+  QCOMPARE(positions_of_chain(*solver, 2), (std::vector<double>{0, 1.5}));
+}
+
+void LinkRelaxationTest::links_come_in_their_order() {
+  const auto solver = stretched_chain(3, {0, 3, 4});
+  solver->relax(1, no_limit, {});
+  // 0-1: to 1 and 2; 1-2 is 2 long then: to 2.5 and 3.5.
+  QCOMPARE(positions_of_chain(*solver, 3), (std::vector<double>{1, 2.5, 3.5}));
+}
+
+void LinkRelaxationTest::a_free_chain_comes_to_rest_in_its_shape() {
+  const auto solver = stretched_chain(5, {0, 4, 4.5, 6, 9});
+  int sweeps = 0;
+  while (solver->relax(1, no_limit, {}).visited != 0 && ++sweeps < 10'000) {
+  }
+  QVERIFY(sweeps < 10'000);
+  const auto x = positions_of_chain(*solver, 5);
+  for (int i = 1; i < 5; ++i) {
+    QVERIFY(std::abs(x[i] - x[i - 1] - 1) < 1e-4);  // steps below 1e-6 are not taken; they add up
+  }
+  QVERIFY(std::abs(std::accumulate(x.begin(), x.end(), 0.0) / 5 - 4.7) < 1e-9);  // what one end gains the other loses
+}
+
+void LinkRelaxationTest::a_chain_between_pins_ends_near_even() {
+  const auto solver = stretched_chain(5, {0, 1, 2, 3, 8});
+  const std::vector<ElementId> ends{0, 4};
+  solver->pin(ends);
+  for (int i = 0; i < 2000; ++i) {
+    solver->relax(0.1, no_limit, {});
+  }
+  const auto x = positions_of_chain(*solver, 5);
+  QCOMPARE(x[0], 0.0);
+  QCOMPARE(x[4], 8.0);
+  for (int i = 1; i < 4; ++i) {
+    QVERIFY(std::abs(x[i] - 2 * i) < 0.2);  // links that cannot be satisfied pull it to and fro by the step
+  }
+}
+
+void LinkRelaxationTest::valid_links_stay_valid() {
+  const auto holds = [] {
+    const auto& mesh = draw_family().mesh;
+    const auto solver =
+        make_solver(mesh, *rc::gen::element(Algorithm::natural_queue, Algorithm::exact), Precision::double_precision);
+    const Softness softness = draw_softness(*mesh);
+    solver->set_softness(softness);
+    solver->set_relaxation(RelaxationScheme::link);
+    std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+    solver->set_positions(random_valid_state(*mesh, softness, 0.9, random));
+    std::vector<ElementId> all(mesh->element_count());
+    std::iota(all.begin(), all.end(), ElementId{0});
+    solver->wake(all);
+    for (int i = 0; i < 5; ++i) {
+      solver->relax(*rc::gen::inRange(1, 101) / 100.0, no_limit, (*any_hand()).of(*mesh));
+      // In rest lengths: rounding alone.
+      RC_ASSERT(measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max <= 1e-9);
+    }
+  };
+  QVERIFY(rc::check("from a valid state relaxation by links keeps every link valid", holds));
+}
+
+void LinkRelaxationTest::displacements_relax_like_positions() {
+  // Exact holds displacements: the same sweeps must lead to the same places, up to rounding.
+  for (const RelaxationScheme scheme : {RelaxationScheme::mean, RelaxationScheme::link}) {
+    const auto mesh = jittered_triangles(8, 8, 4);
+    std::mt19937_64 random(9);
+    const auto state = random_valid_state(*mesh, {}, 0.9, random);
+    const auto absolute = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+    const auto from_rest = make_solver(mesh, Algorithm::exact, Precision::double_precision);
+    std::vector<ElementId> all(mesh->element_count());
+    std::iota(all.begin(), all.end(), ElementId{0});
+    for (Solver* solver : {absolute.get(), from_rest.get()}) {
+      solver->set_relaxation(scheme);
+      solver->set_positions(state);
+      solver->wake(all);
+      for (int i = 0; i < 5; ++i) {
+        solver->relax(0.8, no_limit, 20);
+      }
+    }
+    QVERIFY(largest_step(state, positions_of(*absolute, *mesh)) > 0.01);
+    QVERIFY(largest_step(positions_of(*absolute, *mesh), positions_of(*from_rest, *mesh)) < 1e-12);
+  }
+}
+
+QTEST_APPLESS_MAIN(LinkRelaxationTest)
+#include "test_link_relaxation.moc"

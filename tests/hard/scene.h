@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/families.h"
+#include "core/simulations.h"
+#include "measure/violation.h"
+#include "simulate/simulation.h"
+
+namespace chainmail::hard {
+
+/// What held at the end of a hard case.
+struct Outcome {
+  bool finite = true;           // every position is a number
+  bool anchors = true;          // pins where they were, the hand at its target (Exact: or stopped by pins)
+  bool stopped = false;         // by pins
+  Violation violation;          // of the whole mesh, in rest lengths
+  double rounding = 0;          // the violation that rounding alone explains, in rest lengths
+  std::optional<double> drift;  // as the case defines it, in mean rest lengths
+};
+
+/// A simulation that keeps book of what must hold.
+class Scene {
+ public:
+  Scene(MeshPointer mesh, Algorithm algorithm, Precision precision, const Softness& softness);
+
+  void apply(const Command& command) { simulation_.apply(command); }
+  /// Grabs an element and drags it to a place, in equal steps from where it is.
+  void drag(ElementId element, const Point& target, int steps = 1);
+  void drag_by(ElementId element, const Point& by, int steps = 1);
+  void pin(const std::vector<ElementId>& elements);
+  void set_softness(const LinkSoftness& softness) { simulation_.apply(commands::SetSoftness{{softness, {}}}); }
+
+  std::vector<double> positions() const { return test::positions_of(simulation_); }
+  Outcome outcome();
+
+ private:
+  bool is_at(ElementId element, const Point& place, double ulps) const;
+  double shortest_link() const;
+
+  Simulation simulation_;
+  Precision precision_;
+  std::optional<ElementId> hand_;
+  Point target_ = Point::Zero();
+  bool stopped_ = false;
+  std::vector<std::pair<ElementId, Point>> pins_;
+  double largest_ = 0;  // displacement or move so far (mesh units)
+};
+
+/// Largest distance between two states, in mean rest lengths.
+double distance_between(const Mesh& mesh, const std::vector<double>& one, const std::vector<double>& other);
+
+struct Case {
+  std::string name;
+  MeshPointer mesh;
+  std::function<Outcome(Algorithm, Precision)> run;
+};
+
+/// Every hard case; those of a million moves or elements only where `large` asks for them.
+std::vector<Case> cases(bool large);
+
+}  // namespace chainmail::hard

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <stdexcept>
+
+#include "reference/chainmail.h"
+
+namespace reference {
+
+/// How far an element lies outside its valid region about its sponsor, in rest lengths.
+template <class Scalar>
+double violation(Object<Scalar>& object, ElementId identifier, ElementId sponsor) {
+  const Element<Scalar>& element = object.element(identifier);
+  const Element<Scalar>& about = object.element(sponsor);
+  const auto& region = object.softness_of(sponsor, identifier);
+  double outside = 0, length = 0;
+  for (int k = 0; k < object.space_dimension; ++k) {
+    const Scalar low = about.current_position[k] + region.low[k], high = about.current_position[k] + region.high[k];
+    const double x = element.current_position[k];
+    const double excess = std::max({double(low) - x, x - double(high), 0.0});
+    const double rest = element.original_position[k] - about.original_position[k];
+    outside += excess * excess;
+    length += rest * rest;
+  }
+  return std::sqrt(outside) / (length > 0 ? std::sqrt(length) : object.mesh().mean_link_length);
+}
+
+/// Puts the grabbed element at its target.
+template <class Scalar>
+void begin(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
+  for (Element<Scalar>& element : object.elements) {
+    element.updated = false;
+  }
+  Element<Scalar>& held = object.element(grabbed);
+  for (int k = 0; k < object.space_dimension; ++k) {
+    held.current_position[k] = static_cast<Scalar>(target[k]);
+  }
+  held.updated = true;
+}
+
+/// Updates a candidate that has not been updated; says whether it moved.
+template <class Scalar>
+bool update(Object<Scalar>& object, const WaitingListData& next, std::vector<Processed>& processed) {
+  Element<Scalar>& element = object.element(next.element);
+  const bool moved = move_into_valid_region(object, element, next.sponsor);
+  element.updated = true;
+  processed.push_back({next.element, next.sponsor, moved});
+  return moved;
+}
+
+/// Enhanced ChainMail (Schill et al. 1998): of all that wait, the candidate that violates its region most
+/// comes next, the first of equals; the whole list is searched.
+template <class Scalar>
+std::vector<Processed> move_enhanced(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
+  std::vector<Processed> processed;
+  begin(object, grabbed, target);
+  std::list<WaitingListData> waiting_list;
+  NaturalQueueChainMail::add_neighbours(object, grabbed, waiting_list);
+  while (!waiting_list.empty()) {
+    auto most = waiting_list.begin();
+    double largest = violation(object, most->element, most->sponsor);
+    for (auto one = std::next(most); one != waiting_list.end(); ++one) {
+      // An element that was updated meanwhile moved after its candidate came in; it is dropped anyway.
+      const double its = object.element(one->element).updated ? 0 : violation(object, one->element, one->sponsor);
+      if (its > largest) {
+        most = one;
+        largest = its;
+      }
+    }
+    const WaitingListData next = *most;
+    waiting_list.erase(most);
+    if (!object.element(next.element).updated && update(object, next, processed)) {
+      NaturalQueueChainMail::add_neighbours(object, next.element, waiting_list);
+    }
+  }
+  return processed;
+}
+
+/// 3D ChainMail (thesis 2.1): right, left, top, bottom, front, back.
+enum Direction { right, left, top, bottom, front, back };
+
+/// Where a grid's neighbour lies, by the places of both in the lattice.
+inline Direction direction_of(const chainmail::Lattice& lattice, ElementId from, ElementId to) {
+  const auto difference = (lattice.position(to) - lattice.position(from)).eval();
+  for (int k = 0; k < 3; ++k) {
+    if (difference[k] != 0) {
+      return static_cast<Direction>(2 * k + (difference[k] < 0 ? 1 : 0));
+    }
+  }
+  throw std::logic_error("not a neighbour in a grid");
+}
+
+/// Which lists an element from each list feeds, as the paper's figures have them.
+inline const std::array<std::list<Direction>, 6> feeds{std::list<Direction>{right, top, bottom, front, back},
+                                                       {left, top, bottom, front, back},
+                                                       {top, front, back},
+                                                       {bottom, front, back},
+                                                       {front},
+                                                       {back}};
+
+template <class Scalar>
+std::vector<Processed> move_3d_chainmail(Object<Scalar>& object, ElementId grabbed,
+                                         const std::array<double, 3>& target) {
+  std::vector<Processed> processed;
+  begin(object, grabbed, target);
+  std::array<std::list<WaitingListData>, 6> lists;
+  const auto feed = [&](ElementId sponsor, const std::list<Direction>& into) {
+    for (const ElementId neighbour : object.element(sponsor).neighbours) {
+      const Direction direction = direction_of(*object.mesh().lattice, sponsor, neighbour);
+      if (std::find(into.begin(), into.end(), direction) != into.end()) {
+        lists[direction].push_back({neighbour, sponsor});
+      }
+    }
+  };
+  feed(grabbed, {right, left, top, bottom, front, back});
+  for (const Direction direction : {right, left, top, bottom, front, back}) {
+    auto& list = lists[direction];
+    for (; !list.empty(); list.pop_front()) {
+      const WaitingListData next = list.front();
+      if (!object.element(next.element).updated && update(object, next, processed)) {
+        feed(next.element, feeds[direction]);
+      }
+    }
+  }
+  return processed;
+}
+
+}  // namespace reference
