@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "text.h"
+
 namespace chainmail {
 namespace {
 
@@ -44,6 +46,12 @@ const Look& lookOf(Algorithm algorithm) {
 }  // namespace
 
 QColor reportColour(Algorithm algorithm) { return lookOf(algorithm).colour; }
+
+QString reportName(const report::Contestant& contestant) {
+  const QString name = text(report::label(contestant));
+  // '3D' alone would say nothing.
+  return contestant.algorithm == Algorithm::original ? name : QString(name).remove(QStringLiteral(" ChainMail"));
+}
 
 QPixmap reportMark(const report::Contestant& contestant, int size, double devicePixelRatio) {
   constexpr double side = 3.2;  // of the square, in the shape's own units: room for the pen

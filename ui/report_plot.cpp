@@ -31,11 +31,14 @@ std::optional<double> rmsOf(const std::optional<Distance>& distance) {
   return distance ? std::optional(distance->rms) : std::nullopt;
 }
 
-constexpr std::array errors{
-    ReportError{"max violation", "rest lengths", [](auto& all) { return std::optional(all.violation.max); }},
-    ReportError{"RMS violation", "rest lengths", [](auto& all) { return std::optional(all.violation.rms); }},
-    ReportError{"max distance to Exact", "mean rest lengths", [](auto& all) { return maxOf(all.to_exact); }},
-    ReportError{"RMS distance to Exact", "mean rest lengths", [](auto& all) { return rmsOf(all.to_exact); }}};
+constexpr std::array errors{ReportError{"max violation", "rest lengths", "violation (rest lengths)",
+                                        [](auto& all) { return std::optional(all.violation.max); }},
+                            ReportError{"RMS violation", "rest lengths", "violation (rest lengths)",
+                                        [](auto& all) { return std::optional(all.violation.rms); }},
+                            ReportError{"max distance to Exact", "mean rest lengths", "distance (mean rest lengths)",
+                                        [](auto& all) { return maxOf(all.to_exact); }},
+                            ReportError{"RMS distance to Exact", "mean rest lengths", "distance (mean rest lengths)",
+                                        [](auto& all) { return rmsOf(all.to_exact); }}};
 
 /// A contestant's place in the plot.
 struct Mark {
@@ -100,9 +103,10 @@ void addAxis(QChart& chart, const report::LogAxis& scale, Qt::Alignment side, co
   axis->setTitleBrush(palette.color(QPalette::WindowText));
   axis->setLabelsColor(palette.color(QPalette::WindowText));
   axis->setGridLineColor(palette.color(QPalette::Mid));
-  QFont font = axis->titleFont();
-  font.setBold(false);
+  QFont font;
+  font.setPointSizeF(font.pointSizeF() - 1);  // decades that do not fit would be cut short
   axis->setTitleFont(font);
+  axis->setLabelsFont(font);
   chart.addAxis(axis, side);
 }
 
@@ -160,8 +164,7 @@ QChart* ReportPlot::makeChart(const report::DragResult& drag, const ReportError&
   chart->setMargins({});
   chart->layout()->setContentsMargins(0, 0, 0, 0);
   addAxis(*chart, axes.time, Qt::AlignBottom, QStringLiteral("ms a move"), palette());
-  addAxis(*chart, axes.error, Qt::AlignLeft,
-          QStringLiteral("%1, %2").arg(QLatin1String(error.label), QLatin1String(error.unit)), palette());
+  addAxis(*chart, axes.error, Qt::AlignLeft, QLatin1String(error.axis), palette());
   if (axes.error.has_zero()) {
     const double zero = axes.error.place(0);
     auto* line = addSeries<QLineSeries>(*chart, {{-margin, zero}, {1 + margin, zero}},
@@ -198,8 +201,7 @@ void ReportPlot::fillLegend(const report::DragResult& drag) {
   for (const report::Entry& entry : drag.entries) {
     const Algorithm algorithm = entry.contestant.algorithm;
     if (entry.measurement && seen.insert(algorithm).second) {
-      addLegend(text(info(algorithm).label).remove(QStringLiteral(" ChainMail")),
-                reportMark({algorithm, 0}, legendMarkSize, devicePixelRatioF()));
+      addLegend(reportName({algorithm, 0}), reportMark({algorithm, 0}, legendMarkSize, devicePixelRatioF()));
     }
     sweeps.insert(entry.contestant.sweeps);
   }

@@ -17,6 +17,7 @@ namespace chainmail {
 struct ReportError {
   const char* label;
   const char* unit;
+  const char* axis;  // what its axis says: there is no room for both
   std::optional<double> (*of)(const report::Errors& errors);
 };
 std::span<const ReportError> reportErrors();

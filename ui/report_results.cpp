@@ -63,8 +63,9 @@ ReportResults::ReportResults()
   split->setChildrenCollapsible(false);
   split->addWidget(plot_);
   split->addWidget(table_);
-  split->setStretchFactor(0, 1);
-  split->setStretchFactor(1, 1);
+  split->setStretchFactor(0, 2);
+  split->setStretchFactor(1, 3);
+  split->setSizes({330, 440});
   refusals_->setObjectName(QStringLiteral("reportRefusals"));
   refusals_->setAccessibleName(QStringLiteral("Who was refused, and why"));
   refusals_->setToolTip(refusals_->accessibleName());
@@ -126,6 +127,9 @@ void ReportResults::show(const ReportThread::Result& result) {
 }
 
 void ReportResults::showDrag() {
+  if (result_ == nullptr) {
+    return;
+  }
   const report::CaseResult& object = result_->cases.front();
   const report::DragResult& drag = object.drags[std::size_t(drag_->currentIndex())];
   const QLocale locale;

@@ -111,7 +111,7 @@ void ReportTable::show(const report::DragResult& drag) {
     const int row = rowCount();
     insertRow(row);
     auto* name = new QTableWidgetItem(QIcon(reportMark(entry.contestant, markSize, devicePixelRatioF())),
-                                      text(report::label(entry.contestant)));
+                                      reportName(entry.contestant));
     name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
     setItem(row, 0, name);
     for (std::size_t i = 0; i < columns.size(); ++i) {
