@@ -18,7 +18,7 @@ QString CutTool::hint() const {
 
 void CutTool::hover(View& /*view*/, QPointF /*place*/) { document_.setHighlight({}); }
 
-void CutTool::press(View& view, QPointF place) {
+void CutTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modifiers*/) {
   at_ = &view;
   stroke_ = {place};
   crossed_.clear();

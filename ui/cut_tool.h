@@ -18,7 +18,7 @@ class CutTool : public Tool {
   QCursor cursor() const override { return Qt::CrossCursor; }
 
   void hover(View& view, QPointF place) override;
-  void press(View& view, QPointF place) override;
+  void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
   void move(View& view, QPointF place) override;
   void release(View& view, QPointF place) override;
   void cancel() override;

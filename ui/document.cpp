@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "edits.h"
+#include "mesh/error.h"
+#include "text.h"
 
 namespace chainmail {
 namespace {
@@ -70,9 +72,41 @@ void Document::post(const Command& command) {
 
 void Document::release() { post(commands::Release{}); }
 
-void Document::setSoftness(const LinkSoftness& softness, const QString& text, int gesture) {
-  if (softness != softness_.global) {
-    undoStack_.push(new SoftnessEdit(*this, softness, text, gesture));
+void Document::setSoftness(const LinkSoftness& global, const QString& text, int gesture) {
+  if (global != softness_->global) {
+    pushSoftness({global, softness_->links}, text, gesture);
+  }
+}
+
+void Document::setSoftnessOf(const std::vector<LinkId>& links, const std::optional<LinkSoftness>& own) {
+  Softness softness = *softness_;
+  for (const LinkId link : links) {
+    if (own) {
+      softness.links.insert_or_assign(link, *own);
+    } else {
+      softness.links.erase(link);
+    }
+  }
+  if (softness.links != softness_->links) {
+    pushSoftness(std::move(softness), counted(QStringLiteral("stiffness of"), links.size(), QStringLiteral("link")), 0);
+  }
+}
+
+void Document::resetSoftness() {
+  if (*softness_ != Softness()) {
+    pushSoftness({}, QStringLiteral("reset stiffness"), 0);
+  }
+}
+
+void Document::pushSoftness(Softness softness, const QString& text, int gesture) {
+  undoStack_.push(new SoftnessEdit(*this, std::make_shared<const Softness>(std::move(softness)), text, gesture));
+}
+
+bool Document::isPinned(ElementId element) const { return std::binary_search(pins_.begin(), pins_.end(), element); }
+
+void Document::setPinned(const std::vector<ElementId>& elements, bool pinned) {
+  if (!elements.empty()) {
+    undoStack_.push(new PinEdit(*this, elements, pinned));
   }
 }
 
@@ -89,6 +123,13 @@ void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const Q
 }
 
 void Document::setAlgorithm(int panel, Algorithm algorithm) {
+  try {
+    check(algorithm, *mesh_);
+  } catch (const Error& error) {
+    emit refused(QString::fromStdString(error.what()));
+    emit algorithmChanged(panel);  // who asked shows what still runs
+    return;
+  }
   if (algorithms_[panel] != algorithm) {
     algorithms_[panel] = algorithm;
     solvers_[panel]->post(commands::SetAlgorithm{algorithm});
@@ -96,10 +137,28 @@ void Document::setAlgorithm(int panel, Algorithm algorithm) {
   }
 }
 
-void Document::setRelaxation(bool on, double step) {
-  if (on != relaxation_.on || step != relaxation_.step) {
-    relaxation_.on = on;
-    relaxation_.step = step;
+/// The solvers have gone on by Natural Queue where an algorithm does not work on the new mesh: so do the figures.
+void Document::followFallback() {
+  QStringList where;
+  QString from;
+  for (int panel = 0; panel < panels; ++panel) {
+    if (!fits(algorithms_[panel], *mesh_)) {
+      from = chainmail::text(info(algorithms_[panel]).label);
+      algorithms_[panel] = Algorithm::natural_queue;
+      where << (panel == 0 ? QStringLiteral("left") : QStringLiteral("right"));
+      emit algorithmChanged(panel);
+    }
+  }
+  if (!where.isEmpty()) {
+    emit noticed(
+        QStringLiteral("%1 does not work on this mesh: the %2 panel goes on by %3")
+            .arg(from, where.join(QStringLiteral(" and the ")), chainmail::text(info(Algorithm::natural_queue).label)));
+  }
+}
+
+void Document::setRelaxation(const commands::SetRelaxation& relaxation) {
+  if (relaxation != relaxation_) {
+    relaxation_ = relaxation;
     post(relaxation_);
     emit relaxationChanged();
   }
@@ -112,17 +171,35 @@ void Document::setHighlight(const Highlight& highlight) {
   }
 }
 
+void Document::select(std::vector<ElementId> elements) {
+  if (elements != selection_.elements) {
+    selection_.links = linksAmong(*mesh_, cuts_, elements);
+    selection_.elements = std::move(elements);
+    emit selectionChanged();
+  }
+}
+
 void Document::applyCuts(const std::vector<LinkId>& links, bool cut) {
   for (const LinkId link : links) {
     cut ? cuts_.cut(link) : cuts_.uncut(link);
   }
   post(cut ? Command(commands::Cut{links}) : Command(commands::Uncut{links}));
   emit cutsChanged();
+  if (!selection_.empty()) {
+    selection_.links = linksAmong(*mesh_, cuts_, selection_.elements);
+    emit selectionChanged();
+  }
 }
 
-void Document::applySoftness(const LinkSoftness& softness) {
-  softness_.global = softness;
-  post(commands::SetSoftness{softness_});
+void Document::applyPins(const std::vector<ElementId>& elements, bool pinned) {
+  pins_ = combined(pins_, elements, pinned ? SelectionMode::add : SelectionMode::remove);
+  post(pinned ? Command(commands::Pin{elements}) : Command(commands::Unpin{elements}));
+  emit pinsChanged();
+}
+
+void Document::applySoftness(std::shared_ptr<const Softness> softness) {
+  softness_ = std::move(softness);
+  post(commands::SetSoftness{*softness_});
   emit softnessChanged();
 }
 

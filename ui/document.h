@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "mesh/cuts.h"
+#include "selection.h"
 #include "simulate/command_log.h"
 #include "simulate/solver_thread.h"
 
@@ -40,9 +41,13 @@ class Document : public QObject {
   const MeshPointer& mesh() const { return mesh_; }
   const QString& name() const { return name_; }
   const Cuts& cuts() const { return cuts_; }
-  const LinkSoftness& softness() const { return softness_.global; }
-  bool relaxationOn() const { return relaxation_.on; }
-  double relaxationStep() const { return relaxation_.step; }
+  /// The pinned elements, ascending.
+  const std::vector<ElementId>& pins() const { return pins_; }
+  bool isPinned(ElementId element) const;
+  /// The softness of all links but those that have one of their own.
+  const LinkSoftness& softness() const { return softness_->global; }
+  const std::shared_ptr<const Softness>& wholeSoftness() const { return softness_; }
+  const commands::SetRelaxation& relaxation() const { return relaxation_; }
   Algorithm algorithm(int panel) const { return algorithms_[panel]; }
   QUndoStack& undoStack() { return undoStack_; }
 
@@ -58,16 +63,25 @@ class Document : public QObject {
   void release();
 
   /// Edits, each one step of undo. Softness changes of one gesture (not 0) become one step.
-  void setSoftness(const LinkSoftness& softness, const QString& text, int gesture = 0);
+  void setSoftness(const LinkSoftness& global, const QString& text, int gesture = 0);
+  /// Gives links a softness of their own, or, with none, back the global one.
+  void setSoftnessOf(const std::vector<LinkId>& links, const std::optional<LinkSoftness>& own);
+  /// All links back to the default, those with a softness of their own too.
+  void resetSoftness();
+  void setPinned(const std::vector<ElementId>& elements, bool pinned);
   void cut(const std::vector<LinkId>& links);
   void resetObject();
   void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text);
 
+  /// Refused where the algorithm does not work on the mesh.
   void setAlgorithm(int panel, Algorithm algorithm);
-  void setRelaxation(bool on, double step);
+  void setRelaxation(const commands::SetRelaxation& relaxation);
 
   const Highlight& highlight() const { return highlight_; }
   void setHighlight(const Highlight& highlight);
+  const Selection& selection() const { return selection_; }
+  /// Elements ascending; not an edit, as the object stays as it is.
+  void select(std::vector<ElementId> elements);
 
  signals:
   void frameReady(int panel);
@@ -77,28 +91,38 @@ class Document : public QObject {
   void relaxationChanged();
   void algorithmChanged(int panel);
   void highlightChanged();
+  void pinsChanged();
+  void selectionChanged();
   /// A command was refused: one sentence.
   void refused(const QString& sentence);
+  /// Something was done that was not asked for: one sentence.
+  void noticed(const QString& sentence);
 
  private:
   friend class CutEdit;
   friend class SoftnessEdit;
+  friend class PinEdit;
   friend class KeepingEdit;
   friend class ResetEdit;
   friend class MeshEdit;
 
   void applyCuts(const std::vector<LinkId>& links, bool cut);
-  void applySoftness(const LinkSoftness& softness);
+  void applyPins(const std::vector<ElementId>& elements, bool pinned);
+  void applySoftness(std::shared_ptr<const Softness> softness);
+  void pushSoftness(Softness softness, const QString& text, int gesture);
+  void followFallback();
   void post(const Command& command);
   void receiveFrame(int panel);
 
   MeshPointer mesh_;
   QString name_;
   Cuts cuts_;
-  Softness softness_;
+  std::vector<ElementId> pins_;
+  std::shared_ptr<const Softness> softness_ = std::make_shared<Softness>();  // shared with the edits
   commands::SetRelaxation relaxation_;
   std::array<Algorithm, panels> algorithms_{Algorithm::generalized, Algorithm::natural_queue};
   Highlight highlight_;
+  Selection selection_;
   commands::StateId nextState_ = 1;
 
   // The solver threads announce a frame at most once until it is received.

@@ -16,9 +16,13 @@ void DragTool::hover(View& view, QPointF place) {
   document_.setHighlight({view.elementAt(place), false, {}});
 }
 
-void DragTool::press(View& view, QPointF place) {
+void DragTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modifiers*/) {
   const auto element = view.elementAt(place);
   if (!element) {
+    return;
+  }
+  if (document_.isPinned(*element)) {
+    document_.grab(*element);  // refused, and the refusal says why
     return;
   }
   grabbed_ = element;

@@ -19,7 +19,7 @@ class DragTool : public Tool {
   QCursor cursor() const override { return Qt::ArrowCursor; }
 
   void hover(View& view, QPointF place) override;
-  void press(View& view, QPointF place) override;
+  void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
   void move(View& view, QPointF place) override;
   void release(View& view, QPointF place) override;
   void cancel() override;

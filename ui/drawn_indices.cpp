@@ -1,6 +1,7 @@
 #include "drawn_indices.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace chainmail {
 namespace {
@@ -27,6 +28,9 @@ bool isJoined(const Mesh& mesh, const Cuts& cuts, ElementId from, ElementId stri
   }
   return true;
 }
+
+/// A multiplicative hash (Knuth 1973): neighbouring ids go far apart.
+ElementId scatter(ElementId e) { return e * 2654435761U >> 16; }
 
 /// 0, step, 2 step, …, and the last.
 std::vector<ElementId> everyStepth(ElementId size, unsigned step) {
@@ -86,10 +90,21 @@ std::vector<ElementId> coarseLinks(const Mesh& mesh, const Cuts& cuts, unsigned 
 std::vector<ElementId> scattered(const Mesh& mesh, unsigned step) {
   std::vector<ElementId> indices;
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    if ((e * 2654435761U >> 16) % (step * step) == 0) {  // a multiplicative hash (Knuth 1973)
+    if (scatter(e) % (step * step) == 0) {
       indices.push_back(e);
     }
   }
+  return indices;
+}
+
+std::vector<ElementId> thinned(const std::vector<ElementId>& elements, std::size_t atMost) {
+  const std::size_t share = (elements.size() + atMost - 1) / atMost;
+  if (share <= 1) {
+    return elements;
+  }
+  std::vector<ElementId> indices;
+  std::copy_if(elements.begin(), elements.end(), std::back_inserter(indices),
+               [share](ElementId e) { return scatter(e) % share == 0; });
   return indices;
 }
 

@@ -20,4 +20,7 @@ std::vector<ElementId> coarseLinks(const Mesh& mesh, const Cuts& cuts, unsigned 
 /// One element in step², spread evenly whatever the order of the ids.
 std::vector<ElementId> scattered(const Mesh& mesh, unsigned step);
 
+/// All of the elements, or about `atMost` of them, spread evenly.
+std::vector<ElementId> thinned(const std::vector<ElementId>& elements, std::size_t atMost);
+
 }  // namespace chainmail

@@ -1,13 +1,26 @@
 #include "edits.h"
 
+#include "text.h"
+
 namespace chainmail {
 
 CutEdit::CutEdit(Document& document, std::vector<LinkId> links) : document_(document), links_(std::move(links)) {
-  setText(links_.size() == 1 ? QStringLiteral("cut 1 link") : QStringLiteral("cut %L1 links").arg(links_.size()));
+  setText(counted(QStringLiteral("cut"), links_.size(), QStringLiteral("link")));
 }
 
-SoftnessEdit::SoftnessEdit(Document& document, const LinkSoftness& softness, const QString& text, int gesture)
-    : QUndoCommand(text), document_(document), before_(document.softness()), after_(softness), gesture_(gesture) {}
+PinEdit::PinEdit(Document& document, std::vector<ElementId> elements, bool pinned)
+    : document_(document), elements_(std::move(elements)), pinned_(pinned) {
+  setText(
+      counted(pinned ? QStringLiteral("pin") : QStringLiteral("unpin"), elements_.size(), QStringLiteral("element")));
+}
+
+SoftnessEdit::SoftnessEdit(Document& document, std::shared_ptr<const Softness> softness, const QString& text,
+                           int gesture)
+    : QUndoCommand(text),
+      document_(document),
+      before_(document.softness_),
+      after_(std::move(softness)),
+      gesture_(gesture) {}
 
 bool SoftnessEdit::mergeWith(const QUndoCommand* later) {
   const auto* other = dynamic_cast<const SoftnessEdit*>(later);
@@ -56,8 +69,14 @@ void MeshEdit::exchange() {
   std::swap(mesh_, document_.mesh_);
   std::swap(name_, document_.name_);
   std::swap(cuts_, document_.cuts_);
+  std::swap(pins_, document_.pins_);
+  Softness softness = *document_.softness_;
+  std::swap(softness_, softness.links);  // the global one is no part of the object
+  document_.softness_ = std::make_shared<const Softness>(std::move(softness));
   document_.setHighlight({});
+  document_.select({});
   emit document_.meshChanged();
+  document_.followFallback();
 }
 
 }  // namespace chainmail

@@ -6,7 +6,7 @@
 
 namespace chainmail {
 
-/// The steps of the undo stack. Cuts, resets and meshes come back exactly; of softness the values do, and
+/// The steps of the undo stack. Cuts, pins, resets and meshes come back exactly; of softness the values do, and
 /// what they have moved since stays, as after a drag.
 
 class CutEdit : public QUndoCommand {
@@ -20,9 +20,23 @@ class CutEdit : public QUndoCommand {
   std::vector<LinkId> links_;
 };
 
+/// Pins elements, or unpins them.
+class PinEdit : public QUndoCommand {
+ public:
+  PinEdit(Document& document, std::vector<ElementId> elements, bool pinned);
+  void redo() override { document_.applyPins(elements_, pinned_); }
+  void undo() override { document_.applyPins(elements_, !pinned_); }
+
+ private:
+  Document& document_;
+  std::vector<ElementId> elements_;  // that change, ascending
+  bool pinned_;
+};
+
+/// Holds the whole softness, before and after, and shares it: the steps of a slider's gesture copy no links.
 class SoftnessEdit : public QUndoCommand {
  public:
-  SoftnessEdit(Document& document, const LinkSoftness& softness, const QString& text, int gesture);
+  SoftnessEdit(Document& document, std::shared_ptr<const Softness> softness, const QString& text, int gesture);
   int id() const override { return gesture_ == 0 ? -1 : gesture_; }
   bool mergeWith(const QUndoCommand* later) override;
   void redo() override { document_.applySoftness(after_); }
@@ -30,7 +44,7 @@ class SoftnessEdit : public QUndoCommand {
 
  private:
   Document& document_;
-  LinkSoftness before_, after_;
+  std::shared_ptr<const Softness> before_, after_;
   int gesture_;
 };
 
@@ -67,6 +81,8 @@ class MeshEdit : public KeepingEdit {
   MeshPointer mesh_;
   QString name_;
   Cuts cuts_;
+  std::vector<ElementId> pins_;
+  std::map<LinkId, LinkSoftness> softness_;  // of the links that have their own
   bool done_ = false;
 };
 

@@ -9,9 +9,9 @@
 #include <QSettings>
 #include <QSplitter>
 #include <QStatusBar>
-#include <QToolBar>
 #include <QVBoxLayout>
 
+#include "colour_selector.h"
 #include "colours.h"
 #include "file_actions.h"
 #include "frame_rate_dock.h"
@@ -20,6 +20,7 @@
 #include "panel.h"
 #include "relaxation_dock.h"
 #include "stiffness_dock.h"
+#include "tool_icons.h"
 #include "tools_dock.h"
 
 namespace chainmail {
@@ -33,12 +34,16 @@ constexpr int savedMilliseconds = 4000;
 
 MainWindow::MainWindow(MeshPointer mesh, const QString& name)
     : document_(std::move(mesh), name),
+      colouring_(document_),
       dragTool_(document_),
       cutTool_(document_),
+      pinTool_(document_),
+      selectTool_(document_),
       files_(new FileActions(*this, document_)),
       messages_(new MessageBar),
       splitter_(new QSplitter),
       toolActions_(new QActionGroup(this)),
+      colourBy_(new ColourSelector(colouring_)),
       hint_(new QLabel) {
   setAcceptDrops(true);
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
@@ -52,7 +57,19 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   hint_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   statusBar()->addWidget(hint_, 1);
 
+  listen();
+  makePanels();
+  makeTools();
+  makeMenus();
+  makeDocks();
+  showTitle();
+  restoreLayout();
+  activate(dragTool_);
+}
+
+void MainWindow::listen() {
   connect(&document_, &Document::refused, messages_, &MessageBar::say);
+  connect(&document_, &Document::noticed, messages_, &MessageBar::say);
   connect(files_, &FileActions::failed, messages_, &MessageBar::say);
   connect(files_, &FileActions::saved, this, [this](const QString& path) {
     messages_->hide();
@@ -66,13 +83,6 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       tool_->cancel();
     }
   });
-  makePanels();
-  makeTools();
-  makeMenus();
-  makeDocks();
-  showTitle();
-  restoreLayout();
-  activate(dragTool_);
 }
 
 MainWindow::~MainWindow() {
@@ -84,7 +94,7 @@ void MainWindow::makePanels() {
   auto camera = std::make_shared<Camera>();
   const std::array colour{colours::left, colours::right};
   for (int i = 0; i < Document::panels; ++i) {
-    panels_.push_back(new Panel(document_, i, camera, colour[std::size_t(i)]));
+    panels_.push_back(new Panel(document_, colouring_, i, camera, colour[std::size_t(i)]));
     splitter_->addWidget(panels_.back());
     connect(&panels_.back()->view(), &View::failed, messages_, &MessageBar::say);
     connect(&panels_.back()->view(), &View::cameraChanged, this, [this, i] {
@@ -99,8 +109,8 @@ void MainWindow::makePanels() {
 }
 
 void MainWindow::makeTools() {
-  const auto add = [this](Tool& tool, const QKeySequence& key) {
-    auto* action = toolActions_->addAction(tool.name());
+  const auto add = [this](Tool& tool, const QIcon& icon, const QKeySequence& key) {
+    auto* action = toolActions_->addAction(icon, tool.name());
     action->setObjectName(QStringLiteral("tool") + tool.name());
     action->setCheckable(true);
     action->setShortcut(key);
@@ -108,8 +118,10 @@ void MainWindow::makeTools() {
     action->setStatusTip(tool.hint());
     connect(action, &QAction::triggered, this, [this, &tool] { activate(tool); });
   };
-  add(dragTool_, Qt::Key_D);
-  add(cutTool_, Qt::Key_K);
+  add(dragTool_, tool_icons::drag(palette()), Qt::Key_D);
+  add(cutTool_, tool_icons::cut(palette()), Qt::Key_K);
+  add(pinTool_, tool_icons::pin(palette()), Qt::Key_P);
+  add(selectTool_, tool_icons::select(palette()), Qt::Key_S);
   toolActions_->actions().first()->setChecked(true);
 }
 
@@ -129,7 +141,7 @@ void MainWindow::makeDocks() {
   connect(meshDock, &MeshDock::openRequested, files_, &FileActions::open);
   connect(meshDock, &MeshDock::saveRequested, files_, &FileActions::save);
   connect(meshDock, &MeshDock::failed, messages_, &MessageBar::say);
-  addDockWidget(Qt::LeftDockWidgetArea, new ToolsDock(*toolActions_));
+  addDockWidget(Qt::LeftDockWidgetArea, new ToolsDock(*toolActions_, selectTool_, *toolActions_->actions().last()));
   addDockWidget(Qt::LeftDockWidgetArea, meshDock);
   addDockWidget(Qt::RightDockWidgetArea, new StiffnessDock(document_));
   addDockWidget(Qt::RightDockWidgetArea, new RelaxationDock(document_));
@@ -138,79 +150,6 @@ void MainWindow::makeDocks() {
   for (QDockWidget* dock : findChildren<QDockWidget*>()) {
     menu->addAction(dock->toggleViewAction());
   }
-}
-
-void MainWindow::makeMenus() {
-  auto* file = menuBar()->addMenu(QStringLiteral("&File"));
-  files_->fill(*file);
-  file->addSeparator();
-  file->addAction(QStringLiteral("&Quit"), QKeySequence::Quit, this, &QWidget::close);
-
-  auto* edit = menuBar()->addMenu(QStringLiteral("&Edit"));
-  auto* undo = document_.undoStack().createUndoAction(this, QStringLiteral("&Undo"));
-  auto* redo = document_.undoStack().createRedoAction(this, QStringLiteral("&Redo"));
-  undo->setShortcut(QKeySequence::Undo);
-  redo->setShortcut(QKeySequence::Redo);
-  edit->addActions({undo, redo});
-  edit->addSeparator();
-  edit->addActions(toolActions_->actions());
-  auto* giveUp = edit->addAction(QStringLiteral("&Give up stroke or drag"), this, [this] {
-    tool_->cancel();
-    messages_->hide();
-    for (Panel* panel : panels_) {
-      panel->view().update();
-    }
-  });
-  giveUp->setShortcut(Qt::Key_Escape);
-  makeObjectMenu();
-  makeViewMenu();
-}
-
-void MainWindow::makeObjectMenu() {
-  auto* menu = menuBar()->addMenu(QStringLiteral("&Object"));
-  auto* object = menu->addAction(QStringLiteral("Reset &object"), this, [this] { document_.resetObject(); });
-  object->setObjectName(QStringLiteral("resetObject"));
-  object->setShortcut(Qt::Key_R);
-  object->setStatusTip(QStringLiteral("Every element back to its rest position; cuts and stiffness stay"));
-  auto* stiffness = menu->addAction(QStringLiteral("Reset &stiffness"), this,
-                                    [this] { document_.setSoftness({}, QStringLiteral("reset stiffness")); });
-  stiffness->setObjectName(QStringLiteral("resetStiffness"));
-  stiffness->setStatusTip(QStringLiteral("Compression, stretch and shear back to their defaults"));
-}
-
-void MainWindow::makeViewMenu() {
-  auto* menu = menuBar()->addMenu(QStringLiteral("&View"));
-  auto* fit = menu->addAction(QStringLiteral("Reset &view (fit)"), this, [this] {
-    for (Panel* panel : panels_) {
-      panel->view().fit();
-    }
-  });
-  fit->setObjectName(QStringLiteral("fitView"));
-  fit->setShortcut(Qt::Key_F);
-  linkCameras_ = menu->addAction(QStringLiteral("&Link cameras"));
-  linkCameras_->setObjectName(QStringLiteral("linkCameras"));
-  linkCameras_->setCheckable(true);
-  linkCameras_->setChecked(true);
-  linkCameras_->setStatusTip(QStringLiteral("Both panels look at the object from the same side"));
-  connect(linkCameras_, &QAction::toggled, this, &MainWindow::linkCameras);
-
-  auto* bar = addToolBar(QStringLiteral("Main"));
-  bar->setObjectName(QStringLiteral("mainToolBar"));
-  bar->setMovable(false);
-  for (const char* name : {"openFile", "saveFile"}) {
-    bar->addAction(findChild<QAction*>(QLatin1String(name)));
-  }
-  bar->addSeparator();
-  auto* undo = document_.undoStack().createUndoAction(bar, QStringLiteral("Undo"));
-  auto* redo = document_.undoStack().createRedoAction(bar, QStringLiteral("Redo"));
-  // The names of the steps stand in the tool tips: the bar does not change its width with them.
-  undo->setIconText(QStringLiteral("Undo"));
-  redo->setIconText(QStringLiteral("Redo"));
-  bar->addActions({undo, redo});
-  bar->addSeparator();
-  bar->addAction(findChild<QAction*>(QStringLiteral("resetObject")));
-  bar->addAction(fit);
-  bar->addAction(linkCameras_);
 }
 
 void MainWindow::linkCameras(bool linked) {

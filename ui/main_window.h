@@ -4,16 +4,21 @@
 #include <memory>
 #include <vector>
 
+#include "colouring.h"
 #include "cut_tool.h"
 #include "document.h"
 #include "drag_tool.h"
+#include "pin_tool.h"
+#include "select_tool.h"
 
 class QActionGroup;
 class QLabel;
+class QMenu;
 class QSplitter;
 
 namespace chainmail {
 
+class ColourSelector;
 class FileActions;
 class MessageBar;
 class Panel;
@@ -28,6 +33,7 @@ class MainWindow : public QMainWindow {
 
   Document& document() { return document_; }
   Panel& panel(int which) { return *panels_[which]; }
+  Colouring& colouring() { return colouring_; }
   MessageBar& messages() { return *messages_; }
   /// Opens a mesh file as one step of undo; a bad file gets a sentence and changes nothing.
   void openFile(const QString& path);
@@ -38,27 +44,33 @@ class MainWindow : public QMainWindow {
   void dropEvent(QDropEvent* event) override;
 
  private:
+  void listen();
   void makePanels();
   void makeTools();
   void makeDocks();
   void makeMenus();
-  void makeObjectMenu();
-  void makeViewMenu();
+  void fillEditMenu(QMenu& menu);
+  void fillObjectMenu(QMenu& menu);
+  void fillViewMenu(QMenu& menu);
+  void makeToolBar();
   void activate(Tool& tool);
   void linkCameras(bool linked);
   void showTitle();
   void restoreLayout();
 
   Document document_;
+  Colouring colouring_;
   DragTool dragTool_;
   CutTool cutTool_;
+  PinTool pinTool_;
+  SelectTool selectTool_;
   Tool* tool_ = nullptr;
   FileActions* files_;
   MessageBar* messages_;
   QSplitter* splitter_;
   std::vector<Panel*> panels_;
   QActionGroup* toolActions_;
-  QAction* linkCameras_ = nullptr;
+  ColourSelector* colourBy_;
   QLabel* hint_;
 };
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "colour_map.h"
 #include "drawn_indices.h"
 #include "mesh/error.h"
 #include "picking.h"
+#include "upload.h"
 
 namespace chainmail {
 namespace {
@@ -20,17 +22,7 @@ constexpr double pixelsBetweenMarks = 9;
 // Smooth lines cost about twice as much; beyond this many links nobody sees the difference.
 constexpr GLsizei indicesSmoothed = 60'000;
 
-constexpr float litWidth = 3;  // pixels, where the driver draws wide lines
-
 QVector4D asVector(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
-
-/// Sends data to the graphics card; returns how many there are.
-template <class Datum>
-GLsizei upload(QOpenGLBuffer& buffer, const std::vector<Datum>& data) {
-  buffer.bind();
-  buffer.allocate(data.data(), int(data.size() * sizeof(Datum)));
-  return GLsizei(data.size());
-}
 
 }  // namespace
 
@@ -43,20 +35,25 @@ void ObjectPainter::initialize() {
     throw Error("OpenGL", program_.log().simplified().toStdString(), "update the graphics driver");
   }
   vertexArray_.create();
-  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &coarse_, &faces_}) {
+  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &coarse_, &faces_, &selected_, &values_}) {
     buffer->create();
     buffer->setUsagePattern(QOpenGLBuffer::DynamicDraw);
   }
+  glGenTextures(1, &valuesTexture_);
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largestTexture_);
 }
 
 void ObjectPainter::destroy() {
   program_.removeAllShaders();
   vertexArray_.destroy();
-  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &coarse_, &faces_}) {
+  glDeleteTextures(1, &valuesTexture_);
+  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &coarse_, &faces_, &selected_, &values_}) {
     buffer->destroy();
   }
   mesh_.reset();
   frameNumber_ = 0;
+  valuesNumber_ = 0;
+  selectedIndices_ = 0;
 }
 
 void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
@@ -74,11 +71,13 @@ void ObjectPainter::setCuts(const Cuts& cuts) {
   cuts_ = cuts;
   coarseStep_ = 0;
   linksOutdated_ = facesOutdated_ = true;
+  valuesNumber_ = 0;
 }
 
 void ObjectPainter::setMesh(const MeshPointer& mesh, const Cuts& cuts) {
   mesh_ = mesh;
   frameNumber_ = 0;
+  selectedIndices_ = 0;
   setCuts(cuts);
 }
 
@@ -94,6 +93,9 @@ void ObjectPainter::chooseStep(double pixelsPerUnit) {
   while (step_ < 64 && (pixels * step_ < pixelsPerLink || tooMany())) {
     step_ *= 2;
   }
+}
+
+void ObjectPainter::makeCoarse() {
   if (step_ > 1 && step_ != coarseStep_) {
     coarseStep_ = step_;
     coarseIndices_ = upload(coarse_, mesh_->lattice ? coarseLinks(*mesh_, cuts_, step_) : scattered(*mesh_, step_));
@@ -112,26 +114,83 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
   program_.setUniformValue("background", asVector(scene.background));
   program_.setUniformValue("fog", scene.fog);
   program_.setUniformValue("shading", shading);
+  program_.setUniformValue("coloured_by", 0);
   vertexArray_.bind();
   program_.enableAttributeArray(0);
   program_.setAttributeBuffer(0, GL_FLOAT, 0, dimension);
+  program_.disableAttributeArray(1);
 }
 
-void ObjectPainter::drawObject(const Scene& scene, QColor colour, double pixelsPerUnit) {
+void ObjectPainter::useValues(const Paint& paint, bool ofLinks) {
+  if (paint.values->number != valuesNumber_ || ofLinks != valuesOfLinks_) {
+    uploadValues(*paint.values, ofLinks);
+  }
+  std::array<QVector3D, colour_map::stops.size()> stops;
+  std::transform(colour_map::stops.begin(), colour_map::stops.end(), stops.begin(),
+                 [](const auto& stop) { return QVector3D(float(stop[0]), float(stop[1]), float(stop[2])) / 255; });
+  program_.setUniformValueArray("stops", stops.data(), int(stops.size()));
+  program_.setUniformValue("range", QVector2D(paint.scale.lowest, paint.scale.highest));
+  program_.setUniformValue("threshold", paint.scale.threshold);
+  program_.setUniformValue("neutral", asVector(colour_map::neutral));
+  program_.setUniformValue("coloured_by", ofLinks ? 2 : 1);
+  if (ofLinks) {
+    glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
+  } else {
+    values_.bind();
+    program_.enableAttributeArray(1);
+    program_.setAttributeBuffer(1, GL_FLOAT, 0, 1);
+  }
+}
+
+/// The links' values as the links are drawn, one after the other, or a value for each element.
+void ObjectPainter::uploadValues(const ColourValues& values, bool ofLinks) {
+  valuesNumber_ = values.number;
+  valuesOfLinks_ = ofLinks;
+  if (!ofLinks) {
+    upload(values_, values.ofLinks ? largestOfLinks(*mesh_, values.values) : values.values);
+    return;
+  }
+  std::vector<float> drawn;
+  drawn.reserve(values.values.size());
+  for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+    if (!cuts_.is_cut(link)) {
+      drawn.push_back(values.values[link]);
+    }
+  }
+  upload(values_, drawn);
+  glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
+  glTexBuffer(GL_TEXTURE_BUFFER, GL_R32F, values_.bufferId());
+}
+
+/// Where links are drawn coarsely, or are too many for a texture, the values stand at their ends.
+bool ObjectPainter::linksKeepValues(const Paint& paint) const {
+  return paint.values->ofLinks && step_ == 1 && mesh_->link_count() <= LinkId(largestTexture_);
+}
+
+void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
   chooseStep(pixelsPerUnit);
-  drawFaces(scene, colour);
-  drawWires(scene, colour);
+  makeCoarse();
+  drawFaces(scene, paint);
+  drawWires(scene, paint);
   if (step_ == 1 && mesh_->element_count() <= elementsMarked &&
       mesh_->mean_link_length * pixelsPerUnit >= pixelsBetweenMarks * scene.pixelRatio) {
-    positions_.bind();
-    use(scene, colour.lighter(125), 2, mesh_->space_dimension);
-    program_.setUniformValue("point_size", 4.5F * scene.pixelRatio);
-    glDrawArrays(GL_POINTS, 0, GLsizei(mesh_->element_count()));
+    drawEveryElement(scene, paint);
   }
   vertexArray_.release();
 }
 
-void ObjectPainter::drawFaces(const Scene& scene, QColor colour) {
+void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
+  const bool byValues = valuesFit(paint);
+  positions_.bind();
+  use(scene, byValues ? colour_map::neutral : paint.colour.lighter(125), 2, mesh_->space_dimension);
+  if (byValues && !paint.values->ofLinks) {
+    useValues(paint, false);
+  }
+  program_.setUniformValue("point_size", 4.5F * scene.pixelRatio);
+  glDrawArrays(GL_POINTS, 0, GLsizei(mesh_->element_count()));
+}
+
+void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
   const bool spatial = mesh_->space_dimension == 3;
   if (step_ > 1 && !spatial) {
     return;  // they only tint a plane, and there are many
@@ -151,7 +210,8 @@ void ObjectPainter::drawFaces(const Scene& scene, QColor colour) {
   }
   positions_.bind();
   // A plane object's faces are only hinted at; in space they hide what lies behind them.
-  QColor face = colour.darker(spatial ? 320 : 100);
+  // Beside the colour map they stay grey.
+  QColor face = (valuesFit(paint) ? colour_map::neutral : paint.colour).darker(spatial ? 320 : 100);
   face.setAlphaF(spatial ? 1.0F : 0.08F);
   use(scene, face, spatial ? 1 : 0, mesh_->space_dimension);
   faces_.bind();
@@ -159,7 +219,7 @@ void ObjectPainter::drawFaces(const Scene& scene, QColor colour) {
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-void ObjectPainter::drawWires(const Scene& scene, QColor colour) {
+void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
   const bool coarse = step_ > 1;
   if (!coarse && linksOutdated_) {
     linkIndices_ = upload(links_, uncutLinks(*mesh_, cuts_));
@@ -167,7 +227,10 @@ void ObjectPainter::drawWires(const Scene& scene, QColor colour) {
   }
   const GLsizei count = coarse ? coarseIndices_ : linkIndices_;
   positions_.bind();
-  use(scene, colour, 0, mesh_->space_dimension);
+  use(scene, paint.colour, 0, mesh_->space_dimension);
+  if (valuesFit(paint)) {
+    useValues(paint, linksKeepValues(paint));
+  }
   (coarse ? coarse_ : links_).bind();
   if (coarse && !mesh_->lattice) {
     program_.setUniformValue("point_size", scene.pixelRatio);
@@ -179,65 +242,6 @@ void ObjectPainter::drawWires(const Scene& scene, QColor colour) {
   }
   glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_LINE_SMOOTH);
-}
-
-void ObjectPainter::drawElements(const Scene& scene, std::span<const ElementId> elements, QColor colour,
-                                 float diameter) {
-  std::vector<float> places;
-  for (const ElementId e : elements) {
-    const float* at = frame_->positions.data() + std::size_t{e} * mesh_->space_dimension;
-    places.insert(places.end(), at, at + mesh_->space_dimension);
-  }
-  drawOwn(scene, places, GL_POINTS, colour, 2, diameter);
-}
-
-void ObjectPainter::drawLinks(const Scene& scene, std::span<const LinkId> links, QColor colour) {
-  std::vector<float> places;
-  for (const LinkId link : links) {
-    for (const ElementId e : mesh_->links[link]) {
-      const float* at = frame_->positions.data() + std::size_t{e} * mesh_->space_dimension;
-      places.insert(places.end(), at, at + mesh_->space_dimension);
-    }
-  }
-  glLineWidth(litWidth * scene.pixelRatio);
-  drawOwn(scene, places, GL_LINES, colour, 0, 1);
-  glLineWidth(1);
-}
-
-/// Draws positions that are not the object's buffer, over everything else.
-void ObjectPainter::drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour,
-                            int shading, float diameter) {
-  if (positions.empty()) {
-    return;
-  }
-  glDisable(GL_DEPTH_TEST);
-  scratch_.bind();
-  scratch_.allocate(positions.data(), int(positions.size_bytes()));
-  Scene over = scene;
-  over.fog = {};
-  use(over, colour, shading, mesh_->space_dimension);
-  program_.setUniformValue("point_size", diameter * scene.pixelRatio);
-  glDrawArrays(mode, 0, GLsizei(positions.size() / mesh_->space_dimension));
-  vertexArray_.release();
-}
-
-void ObjectPainter::drawStroke(const Scene& scene, std::span<const QPointF> places, QColor colour) {
-  if (places.size() < 2) {
-    return;
-  }
-  std::vector<float> device;
-  for (const QPointF& place : places) {
-    device.push_back(float(2 * place.x() * scene.pixelRatio / scene.size.width() - 1));
-    device.push_back(float(1 - 2 * place.y() * scene.pixelRatio / scene.size.height()));
-  }
-  glDisable(GL_DEPTH_TEST);
-  scratch_.bind();
-  scratch_.allocate(device.data(), int(device.size() * sizeof(float)));
-  use(scene, colour, 0, 2);
-  program_.setUniformValue("to_view", QMatrix4x4());
-  program_.setUniformValue("to_clip", QMatrix4x4());
-  glDrawArrays(GL_LINE_STRIP, 0, GLsizei(places.size()));
-  vertexArray_.release();
 }
 
 }  // namespace chainmail

@@ -11,6 +11,7 @@
 #include <array>
 #include <span>
 
+#include "colour_values.h"
 #include "mesh/cuts.h"
 #include "simulate/frame.h"
 
@@ -27,6 +28,14 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
     QColor background;
     float pixelRatio = 1;
   };
+  /// What colours the object: one colour or, where there are values of its mesh, the colour map.
+  struct Paint {
+    QColor colour;
+    const ColourValues* values = nullptr;
+    ColourScale scale;
+  };
+  /// Marks are told apart by shape, not by colour alone.
+  enum class Mark { disc = 2, diamond = 3, ring = 4 };
 
   /// Compiles the shaders; throws Error with the driver's words where they do not compile.
   void initialize();
@@ -37,9 +46,13 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   /// Links were cut or uncut.
   void setCuts(const Cuts& cuts);
 
-  /// The object itself in one colour. `pixelsPerUnit` decides how finely it is drawn.
-  void drawObject(const Scene& scene, QColor colour, double pixelsPerUnit);
-  void drawElements(const Scene& scene, std::span<const ElementId> elements, QColor colour, float diameter);
+  /// The object itself. `pixelsPerUnit` decides how finely it is drawn.
+  void drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit);
+  void drawElements(const Scene& scene, std::span<const ElementId> elements, QColor colour, float diameter,
+                    Mark mark = Mark::disc);
+  /// Elements to be marked by drawSelection, with rings of up to this diameter (logical pixels).
+  void setSelection(const std::vector<ElementId>& elements);
+  void drawSelection(const Scene& scene, QColor colour, float diameter);
   void drawLinks(const Scene& scene, std::span<const LinkId> links, QColor colour);
   /// A line through places of the view (logical pixels).
   void drawStroke(const Scene& scene, std::span<const QPointF> places, QColor colour);
@@ -50,9 +63,16 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
  private:
   void setMesh(const MeshPointer& mesh, const Cuts& cuts);
   void chooseStep(double pixelsPerUnit);
+  void makeCoarse();
   void use(const Scene& scene, QColor colour, int shading, int dimension);
-  void drawFaces(const Scene& scene, QColor colour);
-  void drawWires(const Scene& scene, QColor colour);
+  /// After use(): what is drawn next takes its colours from the values.
+  void useValues(const Paint& paint, bool ofLinks);
+  void uploadValues(const ColourValues& values, bool ofLinks);
+  bool valuesFit(const Paint& paint) const { return paint.values != nullptr && paint.values->mesh == mesh_; }
+  bool linksKeepValues(const Paint& paint) const;
+  void drawFaces(const Scene& scene, const Paint& paint);
+  void drawWires(const Scene& scene, const Paint& paint);
+  void drawEveryElement(const Scene& scene, const Paint& paint);
   void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour, int shading,
                float diameter);
 
@@ -63,15 +83,21 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   QOpenGLBuffer links_{QOpenGLBuffer::IndexBuffer};
   QOpenGLBuffer coarse_{QOpenGLBuffer::IndexBuffer};
   QOpenGLBuffer faces_{QOpenGLBuffer::IndexBuffer};
+  QOpenGLBuffer selected_{QOpenGLBuffer::IndexBuffer};
+  QOpenGLBuffer values_{QOpenGLBuffer::VertexBuffer};
+  GLuint valuesTexture_ = 0;  // values_ as the fragment shader reads it
+  GLint largestTexture_ = 0;  // values
   MeshPointer mesh_;
   Cuts cuts_;
   const Frame* frame_ = nullptr;
   std::uint64_t frameNumber_ = 0;
-  GLsizei linkIndices_ = 0, coarseIndices_ = 0, faceIndices_ = 0;
+  GLsizei linkIndices_ = 0, coarseIndices_ = 0, faceIndices_ = 0, selectedIndices_ = 0;
   // Indices are made when they are first drawn.
   bool linksOutdated_ = true, facesOutdated_ = true;
   unsigned step_ = 1;
   unsigned coarseStep_ = 0;  // the step that coarse_ was filled for; 0 none
+  std::uint64_t valuesNumber_ = 0;
+  bool valuesOfLinks_ = false;  // what values_ was filled with
 };
 
 }  // namespace chainmail

@@ -1,8 +1,10 @@
 #include "panel.h"
 
 #include <QHBoxLayout>
+#include <QStandardItemModel>
 #include <QVBoxLayout>
 
+#include "mesh/error.h"
 #include "text.h"
 
 namespace chainmail {
@@ -12,14 +14,18 @@ constexpr int refreshMilliseconds = 100;
 
 }  // namespace
 
-Panel::Panel(Document& document, int panel, std::shared_ptr<Camera> camera, QColor colour)
+Panel::Panel(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera, QColor colour)
     : document_(document),
+      colouring_(colouring),
       panel_(panel),
       selector_(new QComboBox),
       state_(new QLabel),
       statistics_(new QLabel),
-      view_(new View(document, panel, std::move(camera), colour)) {
+      view_(new View(document, colouring, panel, std::move(camera), colour)),
+      legend_(new Legend) {
   view_->setObjectName(QStringLiteral("view%1").arg(panel));
+  state_->setObjectName(QStringLiteral("state%1").arg(panel));
+  legend_->setObjectName(QStringLiteral("legend%1").arg(panel));
   fillSelector();
   statistics_->setObjectName(QStringLiteral("statistics%1").arg(panel));
   statistics_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -39,6 +45,13 @@ Panel::Panel(Document& document, int panel, std::shared_ptr<Camera> camera, QCol
     }
   });
   connect(view_, &View::drawnStepChanged, &refresh_, qOverload<>(&QTimer::start));
+  connect(&document, &Document::pinsChanged, &refresh_, qOverload<>(&QTimer::start));
+  connect(&colouring, &Colouring::modeChanged, this, &Panel::showStatistics);
+  connect(&colouring, &Colouring::changed, this, [this] {
+    if (!refresh_.isActive()) {
+      refresh_.start();
+    }
+  });
   showStatistics();
 }
 
@@ -49,9 +62,33 @@ void Panel::fillSelector() {
   for (const auto& info : algorithms()) {
     selector_->addItem(text(info.label), int(info.algorithm));
   }
-  selector_->setCurrentIndex(selector_->findData(int(document_.algorithm(panel_))));
   connect(selector_, &QComboBox::activated, this,
           [this] { document_.setAlgorithm(panel_, Algorithm(selector_->currentData().toInt())); });
+  connect(&document_, &Document::algorithmChanged, this, [this](int panel) {
+    if (panel == panel_) {
+      showAlgorithm();
+    }
+  });
+  connect(&document_, &Document::meshChanged, this, &Panel::showAlgorithm);
+  showAlgorithm();
+}
+
+/// What runs, and what does not work on this mesh, with the reason.
+void Panel::showAlgorithm() {
+  const auto* items = qobject_cast<QStandardItemModel*>(selector_->model());
+  for (int i = 0; i < selector_->count(); ++i) {
+    const auto algorithm = Algorithm(selector_->itemData(i).toInt());
+    QString help = text(info(algorithm).source);
+    try {
+      check(algorithm, *document_.mesh());
+      items->item(i)->setEnabled(true);
+    } catch (const Error& error) {
+      items->item(i)->setEnabled(false);
+      help = QString::fromStdString(error.what());
+    }
+    items->item(i)->setToolTip(help);
+  }
+  selector_->setCurrentIndex(selector_->findData(int(document_.algorithm(panel_))));
 }
 
 /// The selector above the view, the figures below it.
@@ -73,6 +110,7 @@ void Panel::arrange(QColor colour) {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addLayout(head);
+  column->addWidget(legend_);
   column->addWidget(view_, 1);
   column->addLayout(foot);
 }
@@ -90,20 +128,29 @@ QString Panel::describe(const Statistics& statistics) const {
            locale.toString(100 * violation.fraction, 'f', 1));
 }
 
-void Panel::showStatistics() {
-  const Frame* frame = document_.frame(panel_);
-  if (frame == nullptr) {
-    return;
-  }
-  statistics_->setText(describe(frame->statistics));
+QStringList Panel::states(const Statistics& statistics) const {
   QStringList states;
-  if (frame->statistics.relaxing) {
-    states << QStringLiteral("relaxing, sweep %L1").arg(frame->statistics.sweeps);
+  if (statistics.last_pass.stopped) {
+    states << QStringLiteral("taut: pins hold the hand");
+  }
+  if (!document_.pins().empty()) {
+    states << QStringLiteral("%L1 pinned").arg(document_.pins().size());
+  }
+  if (statistics.relaxing) {
+    states << QStringLiteral("relaxing, sweep %L1").arg(statistics.sweeps);
   }
   if (view_->drawnStep() > 1) {
     states << QStringLiteral("drawn coarsely, 1 in %1").arg(view_->drawnStep());
   }
-  state_->setText(states.join(QStringLiteral(" · ")));
+  return states;
+}
+
+void Panel::showStatistics() {
+  legend_->showScale(colouring_.mode(), colouring_.scale());
+  if (const Frame* frame = document_.frame(panel_)) {
+    statistics_->setText(describe(frame->statistics));
+    state_->setText(states(frame->statistics).join(QStringLiteral(" · ")));
+  }
 }
 
 }  // namespace chainmail

@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QTimer>
 
+#include "legend.h"
 #include "view.h"
 
 namespace chainmail {
@@ -14,23 +15,28 @@ class Panel : public QFrame {
   Q_OBJECT
 
  public:
-  Panel(Document& document, int panel, std::shared_ptr<Camera> camera, QColor colour);
+  Panel(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera, QColor colour);
 
   View& view() { return *view_; }
   QComboBox& selector() { return *selector_; }
+  Legend& legend() { return *legend_; }
 
  private:
   void fillSelector();
+  void showAlgorithm();
   void arrange(QColor colour);
   void showStatistics();
   QString describe(const Statistics& statistics) const;
+  QStringList states(const Statistics& statistics) const;
 
   Document& document_;
+  Colouring& colouring_;
   int panel_;
   QComboBox* selector_;
   QLabel* state_;
   QLabel* statistics_;
   View* view_;
+  Legend* legend_;
   QTimer refresh_;  // figures change at a rate that can be read, and only when there is something new
 };
 

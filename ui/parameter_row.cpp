@@ -22,13 +22,13 @@ int nextGesture() {
 
 }  // namespace
 
-ParameterRow::ParameterRow(const Parameter& parameter)
+ParameterRow::ParameterRow(const Parameter& parameter, const QString& prefix)
     : parameter_(parameter),
       label_(new QLabel(text(parameter.label))),
       slider_(new QSlider(Qt::Horizontal)),
       spin_(new QDoubleSpinBox),
       reset_(new QToolButton) {
-  describe();
+  describe(prefix);
   slider_->setRange(0, sliderSteps);
   slider_->setPageStep(sliderSteps / 20);
   spin_->setKeyboardTracking(false);
@@ -64,8 +64,8 @@ ParameterRow::ParameterRow(const Parameter& parameter)
 }
 
 /// Names for tests and screen readers, and what the parameter does.
-void ParameterRow::describe() {
-  const QString name = text(parameter_.name), label = text(parameter_.label);
+void ParameterRow::describe(const QString& prefix) {
+  const QString name = prefix + text(parameter_.name), label = text(parameter_.label);
   const QString help = QStringLiteral("%1 (%2): %3").arg(label, text(parameter_.unit), text(parameter_.help));
   slider_->setObjectName(name + QStringLiteral("Slider"));
   slider_->setAccessibleName(label);

@@ -19,7 +19,8 @@ class ParameterRow : public QWidget {
   Q_OBJECT
 
  public:
-  explicit ParameterRow(const Parameter& parameter);
+  /// `prefix` goes before the names that its parts are found by.
+  explicit ParameterRow(const Parameter& parameter, const QString& prefix = {});
 
   double value() const { return spin_->value(); }
   QString label() const { return label_->text(); }
@@ -31,7 +32,7 @@ class ParameterRow : public QWidget {
   void changed(double value, int gesture);
 
  private:
-  void describe();
+  void describe(const QString& prefix);
   void announce(double value);
   int toSlider(double value) const;
 

@@ -84,6 +84,25 @@ std::optional<ElementId> nearestElement(const Frame& frame, const Projection& pr
   return best;
 }
 
+std::vector<ElementId> elementsWhere(const Frame& frame, const Projection& projection,
+                                     const std::function<bool(QPointF)>& inside) {
+  std::vector<ElementId> found;
+  for (ElementId e = 0; e < frame.mesh->element_count(); ++e) {
+    const auto at = projection(frame.positions.data() + std::size_t{e} * frame.mesh->space_dimension);
+    if (at.visible() && inside(QPointF(at.x, at.y))) {
+      found.push_back(e);
+    }
+  }
+  return found;
+}
+
+double distanceFrom(QLineF segment, QPointF place) {
+  const QPointF along = segment.p2() - segment.p1(), from = place - segment.p1();
+  const double squared = QPointF::dotProduct(along, along);
+  const double share = squared > 0 ? std::clamp(QPointF::dotProduct(from, along) / squared, 0.0, 1.0) : 0;
+  return QLineF(segment.p1() + share * along, place).length();
+}
+
 std::vector<LinkId> crossedLinks(const Frame& frame, const Cuts& cuts, const Projection& projection, QLineF stroke) {
   const Mesh& mesh = *frame.mesh;
   std::vector<Projection::Place> places(mesh.element_count());

@@ -4,6 +4,7 @@
 #include <QMatrix4x4>
 #include <QPointF>
 #include <QSizeF>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -40,6 +41,13 @@ class Projection {
 /// The element nearest to a place of the view within `reach` pixels, where one in front is preferred to
 /// one behind.
 std::optional<ElementId> nearestElement(const Frame& frame, const Projection& projection, QPointF place, double reach);
+
+/// The elements, ascending, that appear at places for which `inside` holds, those behind others too.
+std::vector<ElementId> elementsWhere(const Frame& frame, const Projection& projection,
+                                     const std::function<bool(QPointF)>& inside);
+
+/// The distance of a place from a segment, which may be a point (pixels).
+double distanceFrom(QLineF segment, QPointF place);
 
 /// The links, not yet cut, that a stroke crosses in the view.
 std::vector<LinkId> crossedLinks(const Frame& frame, const Cuts& cuts, const Projection& projection, QLineF stroke);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDockWidget>
 
 #include "document.h"
@@ -8,7 +9,7 @@
 
 namespace chainmail {
 
-/// Relaxation in idle time: on or off, and its step.
+/// Relaxation in idle time: on or off, its scheme and its step.
 class RelaxationDock : public QDockWidget {
   Q_OBJECT
 
@@ -16,8 +17,13 @@ class RelaxationDock : public QDockWidget {
   explicit RelaxationDock(Document& document);
 
  private:
+  void fillSchemes();
+  commands::SetRelaxation chosen() const;
+  void showRelaxation();
+
   Document& document_;
   QCheckBox* on_;
+  QComboBox* scheme_;
   ParameterRow* step_;
 };
 

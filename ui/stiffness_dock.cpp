@@ -1,32 +1,41 @@
 #include "stiffness_dock.h"
 
-#include <QPushButton>
-#include <QVBoxLayout>
+#include <QScrollArea>
+
+#include "selected_links.h"
 
 namespace chainmail {
 
 StiffnessDock::StiffnessDock(Document& document)
     : QDockWidget(QStringLiteral("Stiffness")),
       document_(document),
+      column_(new QVBoxLayout),
       compression_(new ParameterRow(parameters::compression)),
       stretch_(new ParameterRow(parameters::stretch)),
       shear_(new ParameterRow(parameters::shear)) {
   setObjectName(QStringLiteral("stiffnessDock"));
-  auto* content = new QWidget;
-  auto* column = new QVBoxLayout(content);
-  content->setMinimumWidth(dockWidth);
-  setWidget(content);
   addRow(compression_, &LinkSoftness::compression);
   addRow(stretch_, &LinkSoftness::stretch);
   addRow(shear_, &LinkSoftness::shear);
-  column->setSpacing(10);
-  column->addStretch();
+  column_->addWidget(new SelectedLinks(document));
+  column_->setSpacing(10);
+  column_->addStretch();
+  // A low window scrolls: the docks must not make it taller than a screen.
+  auto* content = new QWidget;
+  content->setLayout(column_);
+  auto* scroll = new QScrollArea;
+  scroll->setWidget(content);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setMinimumWidth(dockWidth);
+  setWidget(scroll);
   connect(&document, &Document::softnessChanged, this, &StiffnessDock::showSoftness);
   showSoftness();
 }
 
 void StiffnessDock::addRow(ParameterRow* row, double LinkSoftness::*member) {
-  widget()->layout()->addWidget(row);
+  column_->addWidget(row);
   connect(row, &ParameterRow::changed, this, [this, row, member](double value, int gesture) {
     LinkSoftness softness = document_.softness();
     softness.*member = value;

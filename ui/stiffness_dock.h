@@ -1,13 +1,14 @@
 #pragma once
 
 #include <QDockWidget>
+#include <QVBoxLayout>
 
 #include "document.h"
 #include "parameter_row.h"
 
 namespace chainmail {
 
-/// Compression, stretch and shear of all links: live, undoable, each with its way back.
+/// Compression, stretch and shear of all links, live, undoable, each with its way back; below, of the selected ones.
 class StiffnessDock : public QDockWidget {
   Q_OBJECT
 
@@ -19,6 +20,7 @@ class StiffnessDock : public QDockWidget {
   void addRow(ParameterRow* row, double LinkSoftness::*member);
 
   Document& document_;
+  QVBoxLayout* column_;
   ParameterRow* compression_;
   ParameterRow* stretch_;
   ParameterRow* shear_;

@@ -21,11 +21,15 @@ class Tool {
 
   /// Places are in logical pixels from the view's top left. `hover` is a move without a button.
   virtual void hover(View& view, QPointF place) = 0;
-  virtual void press(View& view, QPointF place) = 0;
+  virtual void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) = 0;
   virtual void move(View& view, QPointF place) = 0;
   virtual void release(View& view, QPointF place) = 0;
-  /// Esc, or another tool: gives up what was begun and leaves nothing behind.
+  /// The cursor has left the view.
+  virtual void leave(View& /*view*/) {}
+  /// Esc, another tool, an undo: gives up what was begun and leaves nothing behind.
   virtual void cancel() = 0;
+  /// Esc where there may be nothing to give up.
+  virtual void escape() { cancel(); }
 
   /// A line to draw in the view where the tool is at work (logical pixels).
   virtual std::span<const QPointF> stroke(const View& view) const = 0;

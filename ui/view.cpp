@@ -1,9 +1,7 @@
 #include "view.h"
 
-#include <QMouseEvent>
 #include <QOpenGLContext>
-#include <QWheelEvent>
-#include <cmath>
+#include <algorithm>
 
 #include "colours.h"
 #include "mesh/error.h"
@@ -13,12 +11,14 @@ namespace {
 
 constexpr double reach = 14;  // pixels from the cursor in which an element is found
 constexpr int hoverMilliseconds = 16;
-constexpr double zoomPerNotch = 1.2;
+constexpr float pinSize = 13;       // pixels
+constexpr double largestRing = 12;  // pixels
+constexpr double smallestMark = 2;
 
 }  // namespace
 
-View::View(Document& document, int panel, std::shared_ptr<Camera> camera, QColor colour)
-    : document_(document), panel_(panel), camera_(std::move(camera)), colour_(colour) {
+View::View(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera, QColor colour)
+    : document_(document), colouring_(colouring), panel_(panel), camera_(std::move(camera)), colour_(colour) {
   setMouseTracking(true);
   setFocusPolicy(Qt::ClickFocus);  // a click here takes the keyboard from the field last typed in
   setMinimumSize(160, 120);
@@ -29,14 +29,24 @@ View::View(Document& document, int panel, std::shared_ptr<Camera> camera, QColor
       tool_->hover(*this, cursor_);
     }
   });
-  connect(&document, &Document::frameReady, this, [this](int ready) {
+  listen();
+}
+
+void View::listen() {
+  connect(&document_, &Document::frameReady, this, [this](int ready) {
     if (ready == panel_) {
       update();
     }
   });
-  connect(&document, &Document::highlightChanged, this, qOverload<>(&View::update));
-  connect(&document, &Document::meshChanged, this, &View::fit);
-  connect(&document, &Document::cutsChanged, this, [this] {
+  connect(&document_, &Document::highlightChanged, this, qOverload<>(&View::update));
+  connect(&document_, &Document::pinsChanged, this, qOverload<>(&View::update));
+  connect(&document_, &Document::selectionChanged, this, [this] {
+    selectionOutdated_ = true;
+    update();
+  });
+  connect(&colouring_, &Colouring::changed, this, qOverload<>(&View::update));
+  connect(&document_, &Document::meshChanged, this, &View::fit);
+  connect(&document_, &Document::cutsChanged, this, [this] {
     if (painterReady_ && document_.frame(panel_) != nullptr) {
       makeCurrent();
       painter_.setFrame(*document_.frame(panel_), document_.cuts());
@@ -85,6 +95,11 @@ std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
   return frame == nullptr ? std::vector<LinkId>() : crossedLinks(*frame, document_.cuts(), projection(), stroke);
 }
 
+std::vector<ElementId> View::elementsWhere(const std::function<bool(QPointF)>& inside) const {
+  const Frame* frame = document_.frame(panel_);
+  return frame == nullptr ? std::vector<ElementId>() : chainmail::elementsWhere(*frame, projection(), inside);
+}
+
 Point View::position(ElementId element) const {
   const Frame* frame = document_.frame(panel_);
   return frame == nullptr ? document_.mesh()->rest_position(element) : point_of(*frame->mesh, frame->view(), element);
@@ -129,6 +144,7 @@ void View::initializeGL() {
   });
   try {
     painter_.initialize();
+    selectionOutdated_ = true;
     painterReady_ = true;
   } catch (const Error& error) {
     emit failed(QString::fromStdString(error.what()));
@@ -148,11 +164,27 @@ void View::paintGL() {
   painter_.setFrame(*frame, document_.cuts());
   const unsigned stepBefore = painter_.step();
   const auto in = scene();
-  painter_.drawObject(in, colour_, 1 / camera_->unitsPerPixel(size()));
+  const ColourValues* values = colouring_.follow(panel_);
+  painter_.drawObject(in, {colour_, values, colouring_.scale()}, 1 / camera_->unitsPerPixel(size()));
+  drawMarks(in);
   drawHighlight(in);
   if (painter_.step() != stepBefore) {
     emit drawnStepChanged();
   }
+}
+
+double View::pixelsPerLink() const { return document_.mesh()->mean_link_length / camera_->unitsPerPixel(size()); }
+
+/// What stays marked: the selection, and the pins over it.
+void View::drawMarks(const ObjectPainter::Scene& in) {
+  if (selectionOutdated_) {
+    painter_.setSelection(document_.selection().elements);
+    selectionOutdated_ = false;
+  }
+  const double room = pixelsPerLink() * 0.7;
+  painter_.drawSelection(in, colours::selected, float(std::clamp(room, smallestMark, largestRing)));
+  painter_.drawElements(in, document_.pins(), colours::background, pinSize + 5, ObjectPainter::Mark::diamond);
+  painter_.drawElements(in, document_.pins(), colours::pinned, pinSize, ObjectPainter::Mark::diamond);
 }
 
 void View::drawHighlight(const ObjectPainter::Scene& in) {
@@ -173,60 +205,6 @@ void View::resizeEvent(QResizeEvent* event) {
   if (fitPending_ && isVisible()) {
     fit();
   }
-}
-
-void View::mousePressEvent(QMouseEvent* event) {
-  cursor_ = event->position();
-  if (event->button() == Qt::LeftButton && tool_ != nullptr) {
-    hover_.stop();
-    tool_->press(*this, cursor_);
-  }
-}
-
-void View::mouseMoveEvent(QMouseEvent* event) {
-  const QPointF travel = event->position() - cursor_;
-  cursor_ = event->position();
-  if (event->buttons() == Qt::NoButton) {
-    if (!hover_.isActive()) {
-      hover_.start();
-    }
-  } else if ((event->buttons() & Qt::LeftButton) != 0) {
-    if (tool_ != nullptr) {
-      tool_->move(*this, cursor_);
-    }
-  } else {
-    moveCamera(travel, event->buttons());
-  }
-}
-
-void View::moveCamera(QPointF travel, Qt::MouseButtons buttons) {
-  if ((buttons & Qt::RightButton) != 0 && camera_->spatial()) {
-    camera_->orbit(travel);
-  } else {
-    camera_->pan(travel, size());
-  }
-  emit cameraChanged();
-  update();
-}
-
-void View::mouseReleaseEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton && tool_ != nullptr) {
-    tool_->release(*this, event->position());
-  }
-}
-
-void View::leaveEvent(QEvent* event) {
-  QOpenGLWidget::leaveEvent(event);
-  hover_.stop();
-  if (!document_.highlight().grabbed && document_.highlight().links.empty()) {
-    document_.setHighlight({});
-  }
-}
-
-void View::wheelEvent(QWheelEvent* event) {
-  camera_->zoom(std::pow(zoomPerNotch, event->angleDelta().y() / 120.0), event->position(), size());
-  emit cameraChanged();
-  update();
 }
 
 }  // namespace chainmail

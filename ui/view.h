@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "camera.h"
+#include "colouring.h"
 #include "document.h"
 #include "frame_meter.h"
 #include "object_painter.h"
@@ -18,7 +19,7 @@ class View : public QOpenGLWidget {
   Q_OBJECT
 
  public:
-  View(Document& document, int panel, std::shared_ptr<Camera> camera, QColor colour);
+  View(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera, QColor colour);
   ~View() override;
 
   void setTool(Tool* tool);
@@ -30,6 +31,7 @@ class View : public QOpenGLWidget {
   /// For tools: what is under a place of this view, and where an element is.
   std::optional<ElementId> elementAt(QPointF place) const;
   std::vector<LinkId> linksCrossing(QLineF stroke) const;
+  std::vector<ElementId> elementsWhere(const std::function<bool(QPointF)>& inside) const;
   Point position(ElementId element) const;
   QVector3D pointAt(QPointF place, const Point& through) const;
 
@@ -58,10 +60,14 @@ class View : public QOpenGLWidget {
  private:
   ObjectPainter::Scene scene() const;
   Projection projection() const;
+  void listen();
+  double pixelsPerLink() const;
+  void drawMarks(const ObjectPainter::Scene& scene);
   void drawHighlight(const ObjectPainter::Scene& scene);
   void moveCamera(QPointF travel, Qt::MouseButtons buttons);
 
   Document& document_;
+  Colouring& colouring_;
   int panel_;
   std::shared_ptr<Camera> camera_;
   QColor colour_;
@@ -72,6 +78,7 @@ class View : public QOpenGLWidget {
   QPointF cursor_;
   bool fitPending_ = true;
   bool painterReady_ = false;
+  bool selectionOutdated_ = true;  // on the graphics card
 };
 
 }  // namespace chainmail

@@ -150,9 +150,9 @@ class WindowDocks : public QObject {
     Workbench bench;
     auto* on = bench.find<QCheckBox>("relaxationOn");
     on->click();
-    QVERIFY(bench.document().relaxationOn());
+    QVERIFY(bench.document().relaxation().on);
     bench.find<QDoubleSpinBox>("relax-stepSpin")->setValue(0.5);
-    QCOMPARE(bench.document().relaxationStep(), 0.5);
+    QCOMPARE(bench.document().relaxation().step, 0.5);
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(150, -150)}, false);
     QTRY_VERIFY(bench.document().frame(1)->statistics.sweeps > 0);
@@ -161,7 +161,7 @@ class WindowDocks : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(
         !bench.document().frame(0)->statistics.relaxing && !bench.document().frame(1)->statistics.relaxing, 12'000);
     on->click();
-    QVERIFY(!bench.document().relaxationOn());
+    QVERIFY(!bench.document().relaxation().on);
   }
 
   void frameRatesAreShownAndRest() {

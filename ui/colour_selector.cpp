@@ -1,0 +1,30 @@
+#include "colour_selector.h"
+
+#include "text.h"
+
+namespace chainmail {
+
+ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), actions_(new QActionGroup(this)) {
+  setObjectName(QStringLiteral("colourBy"));
+  setAccessibleName(QStringLiteral("Colour by"));
+  setToolTip(QStringLiteral("What the colours of both panels show"));
+  setFocusPolicy(Qt::TabFocus);  // a choice by mouse leaves the keys to the tools
+  for (const ColourModeInfo& info : colourModes()) {
+    addItem(text(info.label), int(info.mode));
+    auto* action = actions_->addAction(text(info.label));
+    action->setObjectName(QStringLiteral("colourBy-") + text(info.name));
+    action->setCheckable(true);
+    connect(action, &QAction::triggered, this, [this, mode = info.mode] { colouring_.setMode(mode); });
+  }
+  connect(this, &QComboBox::activated, this, [this] { colouring_.setMode(ColourMode(currentData().toInt())); });
+  connect(&colouring, &Colouring::modeChanged, this, &ColourSelector::showMode);
+  showMode();
+}
+
+void ColourSelector::showMode() {
+  const int index = findData(int(colouring_.mode()));
+  setCurrentIndex(index);
+  actions_->actions().at(index)->setChecked(true);
+}
+
+}  // namespace chainmail

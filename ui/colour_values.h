@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// What an object is coloured by: a number for each of its links or of its elements.
+struct ColourValues {
+  MeshPointer mesh;
+  bool ofLinks = true;
+  std::vector<float> values;
+  /// Of those that count; lowest above highest where none does.
+  float lowest = 0, highest = 0;
+  /// Others have another number; never 0.
+  std::uint64_t number = 0;
+};
+
+/// The values at the two ends of the colour map. What is at or below the threshold is neutral.
+struct ColourScale {
+  float lowest = 0, highest = 0;
+  float threshold = -1;  // values are never negative: none is
+
+  bool operator==(const ColourScale&) const = default;
+};
+
+/// For each element the largest value among its links: what stands for them where single links are not drawn.
+std::vector<float> largestOfLinks(const Mesh& mesh, const std::vector<float>& ofLinks);
+
+}  // namespace chainmail

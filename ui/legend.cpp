@@ -1,0 +1,101 @@
+#include "legend.h"
+
+#include <QLinearGradient>
+#include <QLocale>
+#include <QPainter>
+
+#include "colour_map.h"
+#include "text.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int margin = 8;  // pixels, as of the panel's other lines
+constexpr int gap = 6;     // between the bar and its numbers
+constexpr int barHeight = 10;
+constexpr int widestBar = 280;
+
+QString number(float value) { return QLocale().toString(double(value), 'g', 3); }
+
+/// Draws a text at the left of a line and takes its place away.
+void place(QPainter& painter, QRect& line, const QString& text) {
+  painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, text);
+  line.setLeft(line.left() + painter.fontMetrics().horizontalAdvance(text) + gap);
+}
+
+QRect bar(QRect line, int width) { return {line.left(), line.center().y() - barHeight / 2, width, barHeight}; }
+
+}  // namespace
+
+Legend::Legend() {
+  setFixedHeight(2 * fontMetrics().height() + 6);
+  setToolTip(QStringLiteral("One scale for both panels: a colour means the same in both"));
+  hide();
+}
+
+void Legend::showScale(ColourMode mode, const ColourScale& scale) {
+  setVisible(mode != ColourMode::plain);
+  if (mode != mode_ || scale != scale_) {
+    mode_ = mode;
+    scale_ = scale;
+    setAccessibleName(QStringLiteral("%1, from %2 to %3").arg(title(), lowest(), highest()));
+    update();
+  }
+}
+
+QString Legend::title() const {
+  const auto& mode = info(mode_);
+  return QStringLiteral("%1 (%2)").arg(text(mode.title), text(mode.unit));
+}
+
+QString Legend::lowest() const { return number(scale_.lowest); }
+QString Legend::highest() const { return number(scale_.highest); }
+
+void Legend::paintEvent(QPaintEvent* /*event*/) {
+  QPainter painter(this);
+  painter.setPen(palette().color(QPalette::WindowText));
+  QRect line(margin, 0, width() - 2 * margin, fontMetrics().height());
+  painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
+                   fontMetrics().elidedText(title(), Qt::ElideRight, line.width()));
+  line.translate(0, fontMetrics().height() + 2);
+  if (scale_.threshold >= 0) {
+    drawNeutral(painter, line);
+  }
+  if (!showsOne()) {
+    drawMap(painter, line);
+  } else if (scale_.threshold < 0) {
+    painter.fillRect(bar(line, barHeight), colour_map::at(0));
+    line.setLeft(line.left() + barHeight + gap);
+    place(painter, line, QStringLiteral("%1 everywhere").arg(lowest()));
+  }
+}
+
+/// The colour of what is too small to count.
+void Legend::drawNeutral(QPainter& painter, QRect& line) const {
+  painter.fillRect(bar(line, barHeight), colour_map::neutral);
+  line.setLeft(line.left() + barHeight + gap);
+  const QString bound = QStringLiteral("up to %1").arg(number(scale_.threshold));
+  place(painter, line, showsOne() ? bound + QStringLiteral(", everywhere") : bound);
+  line.setLeft(line.left() + gap);
+}
+
+void Legend::drawMap(QPainter& painter, QRect line) const {
+  if (scale_.threshold < 0) {
+    place(painter, line, lowest());
+  }
+  const int width = std::min(widestBar, line.width() - gap - painter.fontMetrics().horizontalAdvance(highest()));
+  if (width <= 0) {
+    return;
+  }
+  const QRect map = bar(line, width);
+  QLinearGradient gradient(map.topLeft(), map.topRight());
+  for (std::size_t i = 0; i < colour_map::stops.size(); ++i) {
+    const double share = double(i) / (colour_map::stops.size() - 1);
+    gradient.setColorAt(share, colour_map::at(share));
+  }
+  painter.fillRect(map, gradient);
+  line.setLeft(map.right() + gap);
+  place(painter, line, highest());
+}
+
+}  // namespace chainmail

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <QWidget>
+
+#include "colouring.h"
+
+namespace chainmail {
+
+/// Says what the colours of a panel mean: title, unit, the colour map, and the values at its ends. It stands above
+/// the view and not on it, so that it never hides the object.
+class Legend : public QWidget {
+  Q_OBJECT
+
+ public:
+  Legend();
+  void showScale(ColourMode mode, const ColourScale& scale);
+  /// What it says, for tests and screen readers.
+  QString title() const;
+  QString lowest() const;
+  QString highest() const;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  bool showsOne() const { return scale_.highest <= scale_.lowest; }
+  void drawNeutral(QPainter& painter, QRect& line) const;
+  void drawMap(QPainter& painter, QRect line) const;
+
+  ColourMode mode_ = ColourMode::plain;
+  ColourScale scale_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,104 @@
+// The main window's named actions, in its menus and its tool bar.
+
+#include <QActionGroup>
+#include <QLabel>
+#include <QMenuBar>
+#include <QToolBar>
+
+#include "colour_selector.h"
+#include "file_actions.h"
+#include "main_window.h"
+#include "message_bar.h"
+#include "panel.h"
+
+namespace chainmail {
+
+void MainWindow::makeMenus() {
+  auto* file = menuBar()->addMenu(QStringLiteral("&File"));
+  files_->fill(*file);
+  file->addSeparator();
+  file->addAction(QStringLiteral("&Quit"), QKeySequence::Quit, this, &QWidget::close);
+  fillEditMenu(*menuBar()->addMenu(QStringLiteral("&Edit")));
+  fillObjectMenu(*menuBar()->addMenu(QStringLiteral("&Object")));
+  fillViewMenu(*menuBar()->addMenu(QStringLiteral("&View")));
+  makeToolBar();
+}
+
+void MainWindow::fillEditMenu(QMenu& menu) {
+  auto* undo = document_.undoStack().createUndoAction(this, QStringLiteral("&Undo"));
+  auto* redo = document_.undoStack().createRedoAction(this, QStringLiteral("&Redo"));
+  undo->setShortcut(QKeySequence::Undo);
+  redo->setShortcut(QKeySequence::Redo);
+  menu.addActions({undo, redo});
+  menu.addSeparator();
+  menu.addActions(toolActions_->actions());
+  auto* giveUp = menu.addAction(QStringLiteral("&Give up stroke, drag or selection"), this, [this] {
+    tool_->escape();
+    messages_->hide();
+    for (Panel* panel : panels_) {
+      panel->view().update();
+    }
+  });
+  giveUp->setShortcut(Qt::Key_Escape);
+}
+
+void MainWindow::fillObjectMenu(QMenu& menu) {
+  auto* object = menu.addAction(QStringLiteral("Reset &object"), this, [this] { document_.resetObject(); });
+  object->setObjectName(QStringLiteral("resetObject"));
+  object->setShortcut(Qt::Key_R);
+  object->setStatusTip(QStringLiteral("Every element back to its rest position; cuts, pins and stiffness stay"));
+  auto* stiffness = menu.addAction(QStringLiteral("Reset &stiffness"), this, [this] { document_.resetSoftness(); });
+  stiffness->setObjectName(QStringLiteral("resetStiffness"));
+  stiffness->setStatusTip(QStringLiteral(
+      "Compression, stretch and shear of all links back to their defaults, also where links have their own"));
+  auto* unpin =
+      menu.addAction(QStringLiteral("&Unpin all"), this, [this] { document_.setPinned(document_.pins(), false); });
+  unpin->setObjectName(QStringLiteral("unpinAll"));
+  unpin->setStatusTip(QStringLiteral("Every pinned element may move again"));
+  const auto adapt = [this, unpin] { unpin->setEnabled(!document_.pins().empty()); };
+  connect(&document_, &Document::pinsChanged, unpin, adapt);
+  connect(&document_, &Document::meshChanged, unpin, adapt);
+  adapt();
+}
+
+void MainWindow::fillViewMenu(QMenu& menu) {
+  auto* fit = menu.addAction(QStringLiteral("Reset &view (fit)"), this, [this] {
+    for (Panel* panel : panels_) {
+      panel->view().fit();
+    }
+  });
+  fit->setObjectName(QStringLiteral("fitView"));
+  fit->setShortcut(Qt::Key_F);
+  auto* link = menu.addAction(QStringLiteral("&Link cameras"));
+  link->setObjectName(QStringLiteral("linkCameras"));
+  link->setCheckable(true);
+  link->setChecked(true);
+  link->setStatusTip(QStringLiteral("Both panels look at the object from the same side"));
+  connect(link, &QAction::toggled, this, &MainWindow::linkCameras);
+  menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
+}
+
+void MainWindow::makeToolBar() {
+  auto* bar = addToolBar(QStringLiteral("Main"));
+  bar->setObjectName(QStringLiteral("mainToolBar"));
+  bar->setMovable(false);
+  const auto add = [this, bar](const char* name) { bar->addAction(findChild<QAction*>(QLatin1String(name))); };
+  add("openFile");
+  add("saveFile");
+  bar->addSeparator();
+  auto* undo = document_.undoStack().createUndoAction(bar, QStringLiteral("Undo"));
+  auto* redo = document_.undoStack().createRedoAction(bar, QStringLiteral("Redo"));
+  // The names of the steps stand in the tool tips: the bar does not change its width with them.
+  undo->setIconText(QStringLiteral("Undo"));
+  redo->setIconText(QStringLiteral("Redo"));
+  bar->addActions({undo, redo});
+  bar->addSeparator();
+  for (const char* name : {"resetObject", "unpinAll", "fitView", "linkCameras"}) {
+    add(name);
+  }
+  bar->addSeparator();
+  bar->addWidget(new QLabel(QStringLiteral(" Colour by ")));
+  bar->addWidget(colourBy_);
+}
+
+}  // namespace chainmail

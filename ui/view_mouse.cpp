@@ -1,0 +1,73 @@
+// The mouse in a view: the left button is the tool's, the others move the camera.
+
+#include <QMouseEvent>
+#include <QWheelEvent>
+#include <cmath>
+
+#include "view.h"
+
+namespace chainmail {
+namespace {
+
+constexpr double zoomPerNotch = 1.2;
+
+}  // namespace
+
+void View::mousePressEvent(QMouseEvent* event) {
+  cursor_ = event->position();
+  if (event->button() == Qt::LeftButton && tool_ != nullptr) {
+    hover_.stop();
+    tool_->press(*this, cursor_, event->modifiers());
+  }
+}
+
+void View::mouseMoveEvent(QMouseEvent* event) {
+  const QPointF travel = event->position() - cursor_;
+  cursor_ = event->position();
+  if (event->buttons() == Qt::NoButton) {
+    if (!hover_.isActive()) {
+      hover_.start();
+    }
+  } else if ((event->buttons() & Qt::LeftButton) != 0) {
+    if (tool_ != nullptr) {
+      tool_->move(*this, cursor_);
+    }
+  } else {
+    moveCamera(travel, event->buttons());
+  }
+}
+
+void View::moveCamera(QPointF travel, Qt::MouseButtons buttons) {
+  if ((buttons & Qt::RightButton) != 0 && camera_->spatial()) {
+    camera_->orbit(travel);
+  } else {
+    camera_->pan(travel, size());
+  }
+  emit cameraChanged();
+  update();
+}
+
+void View::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && tool_ != nullptr) {
+    tool_->release(*this, event->position());
+  }
+}
+
+void View::leaveEvent(QEvent* event) {
+  QOpenGLWidget::leaveEvent(event);
+  hover_.stop();
+  if (tool_ != nullptr) {
+    tool_->leave(*this);
+  }
+  if (!document_.highlight().grabbed && document_.highlight().links.empty()) {
+    document_.setHighlight({});
+  }
+}
+
+void View::wheelEvent(QWheelEvent* event) {
+  camera_->zoom(std::pow(zoomPerNotch, event->angleDelta().y() / 120.0), event->position(), size());
+  emit cameraChanged();
+  update();
+}
+
+}  // namespace chainmail
