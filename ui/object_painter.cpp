@@ -21,6 +21,8 @@ constexpr ElementId elementsMarked = 20'000;
 constexpr double pixelsBetweenMarks = 9;
 // Smooth lines cost about twice as much; beyond this many links nobody sees the difference.
 constexpr GLsizei indicesSmoothed = 60'000;
+// A thinner line is blended with its background all over, and is no colour of the map any more (pixels).
+constexpr float valuedWidth = 2;
 
 QVector4D asVector(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
 
@@ -230,6 +232,7 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
   use(scene, paint.colour, 0, mesh_->space_dimension);
   if (valuesFit(paint)) {
     useValues(paint, linksKeepValues(paint));
+    glLineWidth(count <= indicesSmoothed ? valuedWidth * scene.pixelRatio : 1);
   }
   (coarse ? coarse_ : links_).bind();
   if (coarse && !mesh_->lattice) {
@@ -242,6 +245,7 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
   }
   glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_LINE_SMOOTH);
+  glLineWidth(1);
 }
 
 }  // namespace chainmail
