@@ -213,7 +213,9 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
   positions_.bind();
   // A plane object's faces are only hinted at; in space they hide what lies behind them.
   // Beside the colour map they stay grey.
-  QColor face = (valuesFit(paint) ? colour_map::neutral : paint.colour).darker(spatial ? 320 : 100);
+  const bool grey = valuesFit(paint);
+  QColor face = grey ? colour_map::neutral : paint.colour;
+  face = spatial ? face.darker(grey ? 200 : 320) : face;
   face.setAlphaF(spatial ? 1.0F : 0.08F);
   use(scene, face, spatial ? 1 : 0, mesh_->space_dimension);
   faces_.bind();

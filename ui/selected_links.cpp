@@ -97,7 +97,8 @@ QString SelectedLinks::describe(const Common& all) const {
   if (selection.empty()) {
     return QStringLiteral("Nothing selected: use Select (S).");
   }
-  const auto figures = QStringLiteral("Elements: <b>%L1</b> · links: <b>%L2</b>");
+  // Non-breaking spaces: where the line is too short it breaks between the two.
+  const auto figures = QStringLiteral("<b>%L1</b>\u00a0elements, <b>%L2</b>\u00a0links");
   QString description = figures.arg(selection.elements.size()).arg(selection.links.size());
   if (selection.links.empty()) {
     description += QStringLiteral("<br>A link counts with both its ends.");

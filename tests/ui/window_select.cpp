@@ -69,6 +69,18 @@ class WindowSelect : public QObject {
     QVERIFY(bench.document().selection().empty());
   }
 
+  void escapeInAFieldKeepsTheSelection() {
+    Workbench bench;
+    bench.document().select(square);
+    auto& selector = bench.window.panel(0).selector();
+    selector.setFocus();
+    QTRY_COMPARE(QApplication::focusWidget(), &selector);
+    QTest::keyClick(&selector, Qt::Key_Escape);
+    QCOMPARE(bench.document().selection().elements, square);
+    QTest::keyClick(&bench.window, Qt::Key_Escape);
+    QVERIFY(bench.document().selection().empty());
+  }
+
   void aClickSelectsTheNearestOrNone() {
     Workbench bench;
     bench.trigger("toolSelect");
