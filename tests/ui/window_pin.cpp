@@ -40,7 +40,7 @@ class WindowPin : public QObject {
       QCOMPARE(bench.position(p, pinned), rest);
       QVERIFY(bench.position(p, dragged) != bench.document().mesh()->rest_position(dragged));
     }
-    QVERIFY(bench.find<QLabel>("state0")->text().contains(QStringLiteral("1 pinned")));
+    QVERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("1 pinned")));
 
     QTest::keyClick(&bench.window, Qt::Key_Z, Qt::ControlModifier);
     QVERIFY(bench.document().pins().empty());

@@ -71,6 +71,7 @@ class WindowSelect : public QObject {
 
   void escapeInAFieldKeepsTheSelection() {
     Workbench bench;
+    bench.trigger("toolSelect");
     bench.document().select(square);
     auto& selector = bench.window.panel(0).selector();
     selector.setFocus();
