@@ -8,7 +8,6 @@ ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), ac
   setObjectName(QStringLiteral("colourBy"));
   setAccessibleName(QStringLiteral("Colour by"));
   setToolTip(QStringLiteral("What the colours of both panels show"));
-  setFocusPolicy(Qt::TabFocus);  // a choice by mouse leaves the keys to the tools
   for (const ColourModeInfo& info : colourModes()) {
     addItem(text(info.label), int(info.mode));
     auto* action = actions_->addAction(text(info.label));
@@ -16,7 +15,10 @@ ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), ac
     action->setCheckable(true);
     connect(action, &QAction::triggered, this, [this, mode = info.mode] { colouring_.setMode(mode); });
   }
-  connect(this, &QComboBox::activated, this, [this] { colouring_.setMode(ColourMode(currentData().toInt())); });
+  connect(this, &QComboBox::activated, this, [this] {
+    colouring_.setMode(ColourMode(currentData().toInt()));
+    clearFocus();  // shortcuts work again
+  });
   connect(&colouring, &Colouring::modeChanged, this, &ColourSelector::showMode);
   showMode();
 }

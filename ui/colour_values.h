@@ -20,9 +20,11 @@ struct ColourValues {
 
 /// The values at the two ends of the colour map. What is at or below the threshold is neutral.
 struct ColourScale {
-  float lowest = 0, highest = 0;
+  float lowest = 0, highest = -1;
   float threshold = -1;  // values are never negative: none is
 
+  /// Whether there are values; they are worked out when a panel is painted.
+  bool known() const { return lowest <= highest; }
   bool operator==(const ColourScale&) const = default;
 };
 

@@ -52,15 +52,7 @@ std::vector<float> largestOfLinks(const Mesh& mesh, const std::vector<float>& of
 Colouring::Colouring(const Document& document) : document_(document) {
   timer_.setInterval(intervalMilliseconds);
   connect(&timer_, &QTimer::timeout, this, &Colouring::goOn);
-  connect(&document, &Document::frameReady, this, [this](int panel) {
-    const bool both = mode_ == ColourMode::distance;
-    for (int i = 0; i < Document::panels; ++i) {
-      works_[i].outdated = works_[i].outdated || ((both || i == panel) && !isOfSoftness(mode_));
-    }
-    if (both) {
-      emit changed();
-    }
-  });
+  connect(&document, &Document::frameReady, this, &Colouring::receiveFrame);
   const auto outdate = [this] {
     for (Work& work : works_) {
       work.outdated = true;
@@ -72,6 +64,17 @@ Colouring::Colouring(const Document& document) : document_(document) {
   connect(&document, &Document::softnessChanged, this, outdate);
   connect(&document, &Document::cutsChanged, this, outdate);
   connect(&document, &Document::meshChanged, this, &Colouring::startOver);
+}
+
+void Colouring::receiveFrame(int panel) {
+  if (mode_ == ColourMode::violation) {
+    works_[panel].outdated = true;
+  } else if (mode_ == ColourMode::distance) {
+    for (Work& work : works_) {
+      work.outdated = true;
+    }
+    emit changed();  // the other panel's colours follow from this frame too
+  }
 }
 
 void Colouring::setMode(ColourMode mode) {
@@ -202,19 +205,19 @@ void Colouring::goOn() {
 }
 
 void Colouring::updateScale() {
-  ColourScale scale{std::numeric_limits<float>::max(), 0, -1};
+  ColourScale scale;
   for (const Work& work : works_) {
-    if (work.shown.number != 0) {
-      scale.lowest = std::min(scale.lowest, work.shown.lowest);
+    if (work.shown.number != 0 && work.shown.lowest <= work.shown.highest) {
+      scale.lowest = scale.known() ? std::min(scale.lowest, work.shown.lowest) : work.shown.lowest;
       scale.highest = std::max(scale.highest, work.shown.highest);
     }
   }
   if (mode_ == ColourMode::violation) {
     scale.lowest = scale.threshold = violationThreshold;
+    scale.highest = std::max(scale.highest, violationThreshold);
   } else if (mode_ == ColourMode::distance) {
     scale.lowest = 0;
   }
-  scale.highest = std::max(scale.highest, scale.lowest);
   if (scale != scale_) {
     scale_ = scale;
     emit changed();  // the other panel is painted by it too

@@ -55,6 +55,7 @@ class Colouring : public QObject {
     std::shared_ptr<const Softness> softness;
   };
 
+  void receiveFrame(int panel);
   void startOver();
   bool start(int panel);
   void advance(Work& work);

@@ -48,8 +48,8 @@ QString Legend::title() const {
   return QStringLiteral("%1 (%2)").arg(text(mode.title), text(mode.unit));
 }
 
-QString Legend::lowest() const { return number(scale_.lowest); }
-QString Legend::highest() const { return number(scale_.highest); }
+QString Legend::lowest() const { return scale_.known() ? number(scale_.lowest) : QString(); }
+QString Legend::highest() const { return scale_.known() ? number(scale_.highest) : QString(); }
 
 void Legend::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
@@ -58,6 +58,9 @@ void Legend::paintEvent(QPaintEvent* /*event*/) {
   painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
                    fontMetrics().elidedText(title(), Qt::ElideRight, line.width()));
   line.translate(0, fontMetrics().height() + 2);
+  if (!scale_.known()) {
+    return;
+  }
   if (scale_.threshold >= 0) {
     drawNeutral(painter, line);
   }

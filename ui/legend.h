@@ -14,7 +14,7 @@ class Legend : public QWidget {
  public:
   Legend();
   void showScale(ColourMode mode, const ColourScale& scale);
-  /// What it says, for tests and screen readers.
+  /// What it says; the numbers are empty as long as there are none.
   QString title() const;
   QString lowest() const;
   QString highest() const;

@@ -1,6 +1,7 @@
 // The main window's named actions, in its menus and its tool bar.
 
 #include <QActionGroup>
+#include <QApplication>
 #include <QLabel>
 #include <QMenuBar>
 #include <QToolBar>
@@ -33,7 +34,13 @@ void MainWindow::fillEditMenu(QMenu& menu) {
   menu.addSeparator();
   menu.addActions(toolActions_->actions());
   auto* giveUp = menu.addAction(QStringLiteral("&Give up stroke, drag or selection"), this, [this] {
-    tool_->escape();
+    // The key that closes a field's list arrives here too: it must not cost the selection.
+    if (auto* field = qobject_cast<QComboBox*>(QApplication::focusWidget())) {
+      field->clearFocus();
+      tool_->cancel();
+    } else {
+      tool_->escape();
+    }
     messages_->hide();
     for (Panel* panel : panels_) {
       panel->view().update();

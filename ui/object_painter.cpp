@@ -21,6 +21,8 @@ constexpr ElementId elementsMarked = 20'000;
 constexpr double pixelsBetweenMarks = 9;
 // Smooth lines cost about twice as much; beyond this many links nobody sees the difference.
 constexpr GLsizei indicesSmoothed = 60'000;
+// A thinner line is blended with its background all over, and is no colour of the map any more (pixels).
+constexpr float valuedWidth = 2;
 
 QVector4D asVector(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
 
@@ -121,52 +123,6 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
   program_.disableAttributeArray(1);
 }
 
-void ObjectPainter::useValues(const Paint& paint, bool ofLinks) {
-  if (paint.values->number != valuesNumber_ || ofLinks != valuesOfLinks_) {
-    uploadValues(*paint.values, ofLinks);
-  }
-  std::array<QVector3D, colour_map::stops.size()> stops;
-  std::transform(colour_map::stops.begin(), colour_map::stops.end(), stops.begin(),
-                 [](const auto& stop) { return QVector3D(float(stop[0]), float(stop[1]), float(stop[2])) / 255; });
-  program_.setUniformValueArray("stops", stops.data(), int(stops.size()));
-  program_.setUniformValue("range", QVector2D(paint.scale.lowest, paint.scale.highest));
-  program_.setUniformValue("threshold", paint.scale.threshold);
-  program_.setUniformValue("neutral", asVector(colour_map::neutral));
-  program_.setUniformValue("coloured_by", ofLinks ? 2 : 1);
-  if (ofLinks) {
-    glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
-  } else {
-    values_.bind();
-    program_.enableAttributeArray(1);
-    program_.setAttributeBuffer(1, GL_FLOAT, 0, 1);
-  }
-}
-
-/// The links' values as the links are drawn, one after the other, or a value for each element.
-void ObjectPainter::uploadValues(const ColourValues& values, bool ofLinks) {
-  valuesNumber_ = values.number;
-  valuesOfLinks_ = ofLinks;
-  if (!ofLinks) {
-    upload(values_, values.ofLinks ? largestOfLinks(*mesh_, values.values) : values.values);
-    return;
-  }
-  std::vector<float> drawn;
-  drawn.reserve(values.values.size());
-  for (LinkId link = 0; link < mesh_->link_count(); ++link) {
-    if (!cuts_.is_cut(link)) {
-      drawn.push_back(values.values[link]);
-    }
-  }
-  upload(values_, drawn);
-  glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
-  glTexBuffer(GL_TEXTURE_BUFFER, GL_R32F, values_.bufferId());
-}
-
-/// Where links are drawn coarsely, or are too many for a texture, the values stand at their ends.
-bool ObjectPainter::linksKeepValues(const Paint& paint) const {
-  return paint.values->ofLinks && step_ == 1 && mesh_->link_count() <= LinkId(largestTexture_);
-}
-
 void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
   chooseStep(pixelsPerUnit);
   makeCoarse();
@@ -211,7 +167,9 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
   positions_.bind();
   // A plane object's faces are only hinted at; in space they hide what lies behind them.
   // Beside the colour map they stay grey.
-  QColor face = (valuesFit(paint) ? colour_map::neutral : paint.colour).darker(spatial ? 320 : 100);
+  const bool grey = valuesFit(paint);
+  QColor face = grey ? colour_map::neutral : paint.colour;
+  face = spatial ? face.darker(grey ? 200 : 320) : face;
   face.setAlphaF(spatial ? 1.0F : 0.08F);
   use(scene, face, spatial ? 1 : 0, mesh_->space_dimension);
   faces_.bind();
@@ -230,6 +188,7 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
   use(scene, paint.colour, 0, mesh_->space_dimension);
   if (valuesFit(paint)) {
     useValues(paint, linksKeepValues(paint));
+    glLineWidth(count <= indicesSmoothed ? valuedWidth * scene.pixelRatio : 1);
   }
   (coarse ? coarse_ : links_).bind();
   if (coarse && !mesh_->lattice) {
@@ -242,6 +201,7 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
   }
   glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_LINE_SMOOTH);
+  glLineWidth(1);
 }
 
 }  // namespace chainmail

@@ -25,6 +25,9 @@ Panel::Panel(Document& document, Colouring& colouring, int panel, std::shared_pt
       legend_(new Legend) {
   view_->setObjectName(QStringLiteral("view%1").arg(panel));
   state_->setObjectName(QStringLiteral("state%1").arg(panel));
+  state_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  // What it says comes and goes during a drag: the view must not change its size with it.
+  state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   legend_->setObjectName(QStringLiteral("legend%1").arg(panel));
   fillSelector();
   statistics_->setObjectName(QStringLiteral("statistics%1").arg(panel));
@@ -101,8 +104,7 @@ void Panel::arrange(QColor colour) {
   head->setSpacing(8);
   head->addWidget(swatch);
   head->addWidget(selector_);
-  head->addStretch();
-  head->addWidget(state_);
+  head->addWidget(state_, 1);
   auto* foot = new QHBoxLayout;
   foot->setContentsMargins(8, 4, 8, 6);
   foot->addWidget(statistics_);
@@ -149,7 +151,9 @@ void Panel::showStatistics() {
   legend_->showScale(colouring_.mode(), colouring_.scale());
   if (const Frame* frame = document_.frame(panel_)) {
     statistics_->setText(describe(frame->statistics));
-    state_->setText(states(frame->statistics).join(QStringLiteral(" · ")));
+    const QString state = states(frame->statistics).join(QStringLiteral(" · "));
+    state_->setText(state_->fontMetrics().elidedText(state, Qt::ElideRight, state_->width()));
+    state_->setToolTip(state);
   }
 }
 

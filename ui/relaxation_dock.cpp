@@ -1,6 +1,6 @@
 #include "relaxation_dock.h"
 
-#include <QFormLayout>
+#include <QHBoxLayout>
 #include <QVBoxLayout>
 
 namespace chainmail {
@@ -18,11 +18,12 @@ RelaxationDock::RelaxationDock(Document& document)
                      "never out of a valid region"));
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
-  column->addWidget(on_);
   fillSchemes();
-  auto* form = new QFormLayout;
-  form->addRow(QStringLiteral("By"), scheme_);
-  column->addLayout(form);
+  auto* row = new QHBoxLayout;
+  row->addWidget(on_, 1);
+  row->addWidget(new QLabel(QStringLiteral("by")));
+  row->addWidget(scheme_);
+  column->addLayout(row);
   column->addWidget(step_);
   column->addStretch();
   setWidget(content);

@@ -41,10 +41,13 @@ void SelectedLinks::arrange() {
   back_->setObjectName(QStringLiteral("selectedToGlobal"));
   back_->setToolTip(QStringLiteral("The selected links take the softness of all links again"));
   auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(8, 4, 8, 6);
+  column->setSpacing(4);
   column->addWidget(description_);
   column->addWidget(rows_);
   auto* rows = new QVBoxLayout(rows_);
   rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(4);
   for (ParameterRow* row : {compression_, stretch_, shear_}) {
     rows->addWidget(row);
   }
@@ -92,9 +95,10 @@ SelectedLinks::Common SelectedLinks::common() const {
 QString SelectedLinks::describe(const Common& all) const {
   const Selection& selection = document_.selection();
   if (selection.empty()) {
-    return QStringLiteral("Nothing is selected: use the Select tool (S).");
+    return QStringLiteral("Nothing selected: use Select (S).");
   }
-  const auto figures = QStringLiteral("Elements: <b>%L1</b> · links: <b>%L2</b>");
+  // Non-breaking spaces: where the line is too short it breaks between the two.
+  const auto figures = QStringLiteral("<b>%L1</b>\u00a0elements, <b>%L2</b>\u00a0links");
   QString description = figures.arg(selection.elements.size()).arg(selection.links.size());
   if (selection.links.empty()) {
     description += QStringLiteral("<br>A link counts with both its ends.");

@@ -20,6 +20,7 @@ void prepareApplication() {
   QSurfaceFormat format;
   format.setVersion(3, 3);
   format.setProfile(QSurfaceFormat::CoreProfile);
+  format.setOption(QSurfaceFormat::DeprecatedFunctions);  // lines wider than a pixel: marks, and colours with a meaning
   format.setDepthBufferSize(24);
   QSurfaceFormat::setDefaultFormat(format);
   QCoreApplication::setOrganizationName(QStringLiteral("ChainMail"));

@@ -18,7 +18,8 @@ StiffnessDock::StiffnessDock(Document& document)
   addRow(stretch_, &LinkSoftness::stretch);
   addRow(shear_, &LinkSoftness::shear);
   column_->addWidget(new SelectedLinks(document));
-  column_->setSpacing(10);
+  column_->setSpacing(6);
+  column_->setContentsMargins(9, 4, 9, 4);
   column_->addStretch();
   // A low window scrolls: the docks must not make it taller than a screen.
   auto* content = new QWidget;

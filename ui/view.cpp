@@ -167,7 +167,6 @@ void View::paintGL() {
   const ColourValues* values = colouring_.follow(panel_);
   painter_.drawObject(in, {colour_, values, colouring_.scale()}, 1 / camera_->unitsPerPixel(size()));
   drawMarks(in);
-  drawHighlight(in);
   if (painter_.step() != stepBefore) {
     emit drawnStepChanged();
   }
@@ -175,7 +174,7 @@ void View::paintGL() {
 
 double View::pixelsPerLink() const { return document_.mesh()->mean_link_length / camera_->unitsPerPixel(size()); }
 
-/// What stays marked: the selection, and the pins over it.
+/// The selection, what the cursor is at, and the pins, which a cursor must not hide.
 void View::drawMarks(const ObjectPainter::Scene& in) {
   if (selectionOutdated_) {
     painter_.setSelection(document_.selection().elements);
@@ -183,8 +182,12 @@ void View::drawMarks(const ObjectPainter::Scene& in) {
   }
   const double room = pixelsPerLink() * 0.7;
   painter_.drawSelection(in, colours::selected, float(std::clamp(room, smallestMark, largestRing)));
+  drawHighlight(in);
   painter_.drawElements(in, document_.pins(), colours::background, pinSize + 5, ObjectPainter::Mark::diamond);
   painter_.drawElements(in, document_.pins(), colours::pinned, pinSize, ObjectPainter::Mark::diamond);
+  if (tool_ != nullptr) {
+    painter_.drawStroke(in, tool_->stroke(*this), colours::marked);
+  }
 }
 
 void View::drawHighlight(const ObjectPainter::Scene& in) {
@@ -194,9 +197,6 @@ void View::drawHighlight(const ObjectPainter::Scene& in) {
     const ElementId element = *highlight.element;
     painter_.drawElements(in, std::span(&element, 1), colours::background, 17);
     painter_.drawElements(in, std::span(&element, 1), highlight.grabbed ? colours::lit : colours::marked, 13);
-  }
-  if (tool_ != nullptr) {
-    painter_.drawStroke(in, tool_->stroke(*this), colours::marked);
   }
 }
 

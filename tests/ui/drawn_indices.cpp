@@ -3,6 +3,8 @@
 #include "drawn_indices.h"
 
 #include <QTest>
+#include <algorithm>
+#include <numeric>
 
 #include "mesh/generate.h"
 
@@ -46,6 +48,16 @@ class DrawnIndices : public QObject {
     const auto mesh = generate({MeshKind::line, {10'000, 1, 1}, 1, {}});
     const auto count = scattered(*mesh, 4).size();
     QVERIFY(count > 500 && count < 750);  // 625 on the mean; the hash is even to a few percent
+  }
+
+  void fewElementsAreAllKeptAndManyThinnedEvenly() {
+    std::vector<ElementId> elements(10'000);
+    std::iota(elements.begin(), elements.end(), ElementId{500});
+    QCOMPARE(thinned(elements, 10'000), elements);
+    const auto few = thinned(elements, 1'000);
+    QVERIFY(few.size() > 800 && few.size() < 1'200);
+    const auto half = std::lower_bound(few.begin(), few.end(), ElementId{5'500}) - few.begin();
+    QVERIFY(half > std::ptrdiff_t(few.size()) * 4 / 10 && half < std::ptrdiff_t(few.size()) * 6 / 10);
   }
 };
 

@@ -34,6 +34,24 @@ class Picking : public QObject {
   Q_OBJECT
 
  private slots:
+  void allElementsInAShape() {
+    const Scene scene({MeshKind::block, {3, 3, 3}, 1, {}});
+    const auto all = elementsWhere(scene.frame, scene.projection(), [](QPointF) { return true; });
+    QCOMPARE(all.size(), 27U);  // those behind others too
+    const QPointF at = scene.place(13);
+    const auto one = elementsWhere(scene.frame, scene.projection(),
+                                   [at](QPointF place) { return QLineF(at, place).length() < 1e-3; });
+    QCOMPARE(one, std::vector<ElementId>{13});
+  }
+
+  void theDistanceFromASegment() {
+    const QLineF segment(0, 0, 10, 0);
+    QCOMPARE(distanceFrom(segment, {4, 3}), 3.0);
+    QCOMPARE(distanceFrom(segment, {13, 4}), 5.0);  // from its end
+    QCOMPARE(distanceFrom(segment, {-3, -4}), 5.0);
+    QCOMPARE(distanceFrom({2, 2, 2, 2}, {2, 7}), 5.0);  // a point
+  }
+
   void theNearestWithinReach() {
     const Scene scene({MeshKind::grid, {5, 4, 1}, 1, {}});
     const QPointF at = scene.place(7);

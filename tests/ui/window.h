@@ -4,6 +4,8 @@
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QTest>
+#include <algorithm>
+#include <cstdlib>
 #include <memory>
 
 #include "main_window.h"
@@ -38,14 +40,14 @@ struct Workbench {
   QPoint place(int panel, ElementId element) { return view(panel).placeOf(element).toPoint(); }
 
   /// Moves with the left button down, in steps as a hand does; `release` ends the stroke.
-  void stroke(int panel, const QList<QPoint>& places, bool release = true) {
+  void stroke(int panel, const QList<QPoint>& places, bool release = true, Qt::KeyboardModifiers modifiers = {}) {
     View& at = view(panel);
-    QTest::mousePress(&at, Qt::LeftButton, {}, places.first());
+    QTest::mousePress(&at, Qt::LeftButton, modifiers, places.first());
     for (qsizetype i = 1; i < places.size(); ++i) {
       for (int step = 1; step <= 5; ++step) {
         QMouseEvent move(QEvent::MouseMove, QPointF(places[i - 1] + (places[i] - places[i - 1]) * step / 5),
                          at.mapToGlobal(QPointF(places[i - 1] + (places[i] - places[i - 1]) * step / 5)), Qt::NoButton,
-                         Qt::LeftButton, Qt::NoModifier);
+                         Qt::LeftButton, modifiers);
         QApplication::sendEvent(&at, &move);
         QTest::qWait(5);
       }
@@ -54,6 +56,36 @@ struct Workbench {
       QTest::mouseRelease(&at, Qt::LeftButton, {}, places.last());
       settle();
     }
+  }
+
+  void click(int panel, ElementId element) {
+    QTest::mouseClick(&view(panel), Qt::LeftButton, {}, place(panel, element));
+    settle();
+  }
+
+  /// As a user does: by its label in the panel's selector.
+  void choose(int panel, const char* label) {
+    auto& selector = window.panel(panel).selector();
+    selector.setCurrentIndex(selector.findText(QLatin1String(label)));
+    emit selector.activated(selector.currentIndex());
+    settle();
+  }
+
+  /// How near the picture comes to a colour within a few pixels of a place: 0 is the colour itself, in steps of the
+  /// channel that is furthest off.
+  int distanceFromColour(int panel, QPointF at, QColor colour) {
+    const QImage picture = view(panel).grabFramebuffer();
+    const QPoint centre = (at * view(panel).devicePixelRatioF()).toPoint();
+    int nearest = 255;
+    for (int dx = -2; dx <= 2; ++dx) {
+      for (int dy = -2; dy <= 2; ++dy) {
+        const QColor there = picture.pixelColor(centre + QPoint(dx, dy));
+        nearest =
+            std::min(nearest, std::max({std::abs(there.red() - colour.red()), std::abs(there.green() - colour.green()),
+                                        std::abs(there.blue() - colour.blue())}));
+      }
+    }
+    return nearest;
   }
 
   void trigger(const char* action) { window.findChild<QAction*>(QLatin1String(action))->trigger(); }

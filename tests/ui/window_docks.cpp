@@ -164,6 +164,18 @@ class WindowDocks : public QObject {
     QVERIFY(!bench.document().relaxation().on);
   }
 
+  void theSchemeOfRelaxationIsChosen() {
+    Workbench bench;
+    auto* scheme = bench.find<QComboBox>("relaxationScheme");
+    QVERIFY(bench.document().relaxation().scheme == RelaxationScheme::mean);
+    scheme->setCurrentText(QStringLiteral("link"));
+    QVERIFY(bench.document().relaxation().scheme == RelaxationScheme::link);
+    bench.find<QCheckBox>("relaxationOn")->click();
+    QVERIFY(bench.document().relaxation().on);
+    QVERIFY(bench.document().relaxation().scheme == RelaxationScheme::link);
+    QVERIFY(!bench.document().undoStack().canUndo());
+  }
+
   void frameRatesAreShownAndRest() {
     Workbench bench;
     const QPoint from = bench.place(0, 31);

@@ -1,0 +1,105 @@
+// The panels' algorithms in a real window: which may be chosen, and what they say of themselves.
+
+#include <QLabel>
+#include <QStandardItemModel>
+
+#include "message_bar.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+const QStandardItem& item(Workbench& bench, int panel, const char* label) {
+  auto& selector = bench.window.panel(panel).selector();
+  return *qobject_cast<QStandardItemModel*>(selector.model())->item(selector.findText(QLatin1String(label)));
+}
+
+MeshPointer cloth() { return generate({MeshKind::cloth, {9, 7, 1}, 1, {}}); }
+
+}  // namespace
+
+class WindowAlgorithm : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void originalIsOfferedWhereItWorks() {
+    Workbench bench;
+    QVERIFY(item(bench, 0, "3D ChainMail").isEnabled());
+    bench.document().replaceMesh(cloth(), QStringLiteral("cloth"), QStringLiteral("build cloth"));
+    for (int p = 0; p < 2; ++p) {
+      QVERIFY(!item(bench, p, "3D ChainMail").isEnabled());
+      QVERIFY(item(bench, p, "3D ChainMail").toolTip().contains(QStringLiteral("grids alone")));
+      QVERIFY(item(bench, p, "Exact ChainMail").isEnabled());
+    }
+    bench.document().undoStack().undo();
+    QVERIFY(item(bench, 0, "3D ChainMail").isEnabled());
+  }
+
+  void whereItDoesNotWorkItIsRefused() {
+    Workbench bench(cloth());
+    bench.document().setAlgorithm(0, Algorithm::original);
+    QCOMPARE(bench.document().algorithm(0), Algorithm::generalized);
+    QVERIFY(bench.window.messages().isVisible());
+    QCOMPARE(bench.window.panel(0).selector().currentText(), QStringLiteral("Generalized ChainMail"));
+  }
+
+  void theSelectorFollowsWhatRunsOnAnotherMesh() {
+    Workbench bench;
+    bench.choose(0, "3D ChainMail");
+    QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::original);
+    bench.document().replaceMesh(cloth(), QStringLiteral("cloth"), QStringLiteral("build cloth"));
+    bench.settle();
+    QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::natural_queue);
+    QCOMPARE(bench.document().algorithm(0), Algorithm::natural_queue);
+    QCOMPARE(bench.window.panel(0).selector().currentText(), QStringLiteral("Natural Queue ChainMail"));
+    QVERIFY(bench.window.messages().isVisible());
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("the left panel goes on by Natural Queue")));
+    bench.document().undoStack().undo();
+    bench.settle();
+    // What the selector says is what runs, whichever mesh is there.
+    QCOMPARE(bench.document().frame(0)->statistics.algorithm, bench.document().algorithm(0));
+  }
+
+  void everyAlgorithmDeformsAGrid_data() {
+    QTest::addColumn<QByteArray>("label");
+    for (const auto& info : algorithms()) {
+      QTest::newRow(info.name.data()) << QByteArray(info.label.data());
+    }
+  }
+  void everyAlgorithmDeformsAGrid() {
+    QFETCH(QByteArray, label);
+    Workbench bench;
+    bench.choose(1, label.constData());
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(150, -150)});
+    QVERIFY(bench.position(1, 32) != bench.document().mesh()->rest_position(32));
+  }
+
+  void exactStopsWhereThePinsHoldTheHandAndSaysSo() {
+    Workbench bench(generate({MeshKind::line, {5, 1, 1}, 1, {}}));
+    bench.choose(1, "Exact ChainMail");
+    bench.document().setPinned({0}, true);
+    auto* state = bench.find<QLabel>("state1");
+    const QPoint from = bench.place(0, 4);
+    const int link = bench.place(0, 1).x() - bench.place(0, 0).x();
+    bench.stroke(0, {from, from + QPoint(3 * link, 0)}, false);
+    bench.settle();
+    // Four links of length 1, none longer than 1.2.
+    QVERIFY(std::abs(bench.position(1, 4).x() - 4.8) < 1e-5);
+    QVERIFY(bench.position(0, 4).x() > 6);
+    QTRY_VERIFY(state->toolTip().contains(QStringLiteral("taut: pins hold the hand")));
+    QVERIFY(!bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("taut")));
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
+    bench.settle();
+    // The hand goes back to where the chain is slack.
+    const QPoint there = bench.place(1, 4);
+    bench.stroke(1, {there, there - QPoint(link / 2, 0)});
+    QTRY_VERIFY(!state->toolTip().contains(QStringLiteral("taut")));
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowAlgorithm>(argc, argv); }
+#include "window_algorithm.moc"

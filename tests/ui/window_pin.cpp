@@ -1,0 +1,125 @@
+// The pin tool in a real window.
+
+#include <QLabel>
+
+#include "colours.h"
+#include "message_bar.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+constexpr ElementId pinned = 31, dragged = 33;  // in the middle row of 9 x 7
+
+/// Far enough for every element of the grid to move.
+void dragFar(Workbench& bench) {
+  const QPoint from = bench.place(0, dragged);
+  bench.stroke(0, {from, from + QPoint(60, -220)});
+}
+
+}  // namespace
+
+class WindowPin : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void aPinHoldsUnderADragAndIsUndone() {
+    Workbench bench;
+    const Point rest = bench.document().mesh()->rest_position(pinned);
+    QTest::keyClick(&bench.window, Qt::Key_P);
+    QVERIFY(bench.find<QAction>("toolPin")->isChecked());
+    bench.click(1, pinned);
+    QCOMPARE(bench.document().pins(), std::vector<ElementId>{pinned});
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("pin 1 element"));
+    bench.trigger("toolDrag");
+    dragFar(bench);
+    for (int p = 0; p < 2; ++p) {
+      QCOMPARE(bench.position(p, pinned), rest);
+      QVERIFY(bench.position(p, dragged) != bench.document().mesh()->rest_position(dragged));
+    }
+    QVERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("1 pinned")));
+
+    QTest::keyClick(&bench.window, Qt::Key_Z, Qt::ControlModifier);
+    QVERIFY(bench.document().pins().empty());
+    bench.trigger("resetObject");
+    bench.settle();
+    dragFar(bench);
+    QVERIFY(bench.position(1, pinned) != rest);  // it was the pin that held it
+  }
+
+  void aSecondClickUnpins() {
+    Workbench bench;
+    bench.trigger("toolPin");
+    bench.click(0, pinned);
+    bench.click(0, 12);
+    QCOMPARE(bench.document().pins(), (std::vector<ElementId>{12, pinned}));
+    bench.click(0, pinned);
+    QCOMPARE(bench.document().pins(), std::vector<ElementId>{12});
+    bench.document().undoStack().undo();
+    QCOMPARE(bench.document().pins(), (std::vector<ElementId>{12, pinned}));
+  }
+
+  void unpinAllIsOneStep() {
+    Workbench bench;
+    auto* unpin = bench.find<QAction>("unpinAll");
+    QVERIFY(!unpin->isEnabled());
+    bench.document().setPinned({3, 5, 7}, true);
+    QVERIFY(unpin->isEnabled());
+    unpin->trigger();
+    QVERIFY(bench.document().pins().empty());
+    QVERIFY(!unpin->isEnabled());
+    bench.document().undoStack().undo();
+    QCOMPARE(bench.document().pins(), (std::vector<ElementId>{3, 5, 7}));
+    QVERIFY(unpin->isEnabled());
+  }
+
+  void pinsAreMarkedInBothPanels() {
+    Workbench bench;
+    for (int p = 0; p < 2; ++p) {
+      QVERIFY(bench.distanceFromColour(p, bench.place(p, pinned), colours::pinned) > 40);
+    }
+    bench.document().setPinned({pinned}, true);
+    bench.settle();
+    for (int p = 0; p < 2; ++p) {
+      QCOMPARE(bench.distanceFromColour(p, bench.place(p, pinned), colours::pinned), 0);
+    }
+  }
+
+  void aPinnedElementIsNotGrabbed() {
+    Workbench bench;
+    bench.document().setPinned({pinned}, true);
+    const QPoint from = bench.place(0, pinned);
+    bench.stroke(0, {from, from + QPoint(80, -80)}, false);
+    QVERIFY(!bench.document().highlight().grabbed);
+    QTRY_VERIFY(bench.window.messages().isVisible());
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("it is pinned and may not move")));
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from + QPoint(80, -80));
+    bench.settle();
+    QCOMPARE(bench.document().frame(0)->statistics.passes, 0U);
+    dragFar(bench);  // the next drag is as any other
+    QVERIFY(bench.document().frame(0)->statistics.passes > 0);
+  }
+
+  void pinsGoWithTheMeshAndComeBack() {
+    Workbench bench;
+    bench.document().setPinned({pinned}, true);
+    bench.document().replaceMesh(generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("small"),
+                                 QStringLiteral("build small"));
+    bench.settle();
+    QVERIFY(bench.document().pins().empty());
+    QVERIFY(!bench.find<QAction>("unpinAll")->isEnabled());
+    bench.document().undoStack().undo();
+    bench.settle();
+    QCOMPARE(bench.document().pins(), std::vector<ElementId>{pinned});
+    dragFar(bench);
+    for (int p = 0; p < 2; ++p) {
+      QCOMPARE(bench.position(p, pinned), bench.document().mesh()->rest_position(pinned));
+    }
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowPin>(argc, argv); }
+#include "window_pin.moc"

@@ -1,0 +1,57 @@
+// The values that colour an object, on the graphics card: a texture for links, an attribute for elements.
+
+#include <algorithm>
+
+#include "colour_map.h"
+#include "object_painter.h"
+#include "upload.h"
+
+namespace chainmail {
+
+void ObjectPainter::useValues(const Paint& paint, bool ofLinks) {
+  if (paint.values->number != valuesNumber_ || ofLinks != valuesOfLinks_) {
+    uploadValues(*paint.values, ofLinks);
+  }
+  std::array<QVector3D, colour_map::stops.size()> stops;
+  std::transform(colour_map::stops.begin(), colour_map::stops.end(), stops.begin(),
+                 [](const auto& stop) { return QVector3D(float(stop[0]), float(stop[1]), float(stop[2])) / 255; });
+  program_.setUniformValueArray("stops", stops.data(), int(stops.size()));
+  program_.setUniformValue("range", QVector2D(paint.scale.lowest, paint.scale.highest));
+  program_.setUniformValue("threshold", paint.scale.threshold);
+  program_.setUniformValue("neutral", colour_map::neutral);
+  program_.setUniformValue("coloured_by", ofLinks ? 2 : 1);
+  if (ofLinks) {
+    glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
+  } else {
+    values_.bind();
+    program_.enableAttributeArray(1);
+    program_.setAttributeBuffer(1, GL_FLOAT, 0, 1);
+  }
+}
+
+/// The links' values as the links are drawn, one after the other, or a value for each element.
+void ObjectPainter::uploadValues(const ColourValues& values, bool ofLinks) {
+  valuesNumber_ = values.number;
+  valuesOfLinks_ = ofLinks;
+  if (!ofLinks) {
+    upload(values_, values.ofLinks ? largestOfLinks(*mesh_, values.values) : values.values);
+    return;
+  }
+  std::vector<float> drawn;
+  drawn.reserve(values.values.size());
+  for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+    if (!cuts_.is_cut(link)) {
+      drawn.push_back(values.values[link]);
+    }
+  }
+  upload(values_, drawn);
+  glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
+  glTexBuffer(GL_TEXTURE_BUFFER, GL_R32F, values_.bufferId());
+}
+
+/// Where links are drawn coarsely, or are too many for a texture, the values stand at their ends.
+bool ObjectPainter::linksKeepValues(const Paint& paint) const {
+  return paint.values->ofLinks && step_ == 1 && mesh_->link_count() <= LinkId(largestTexture_);
+}
+
+}  // namespace chainmail
