@@ -204,7 +204,7 @@ bool Simulation::step() {
   return statistics_.relaxing;
 }
 
-void Simulation::relax(int count, double step) {
+void Simulation::relax(int count, double step, const std::stop_token& stop) {
   if (count == 0) {
     return;
   }
@@ -212,7 +212,7 @@ void Simulation::relax(int count, double step) {
     solver_->wake(std::span(&*last_moved_, 1));
     solver_->wake(solver_->moved());
   }
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count && !stop.stop_requested(); ++i) {
     if (solver_->relax(step, std::numeric_limits<std::uint64_t>::max(), grabbed_).visited == 0) {
       break;
     }

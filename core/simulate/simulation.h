@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "measure/pass_times.h"
@@ -41,8 +42,8 @@ class Simulation {
   /// `trace`, where set, receives every candidate that a pass processes.
   void set_trace(Trace* trace) { trace_ = trace; }
   /// Sweeps of relaxation at once, by the scheme last set, whether it is on or off: `count` of them, or until
-  /// nothing moves.
-  void relax(int count, double step);
+  /// nothing moves or `stop` is asked for.
+  void relax(int count, double step, const std::stop_token& stop = {});
 
   const Mesh& mesh() const { return *mesh_; }
   const MeshPointer& mesh_pointer() const { return mesh_; }

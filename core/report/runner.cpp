@@ -1,0 +1,108 @@
+#include "report/runner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <type_traits>
+
+#include "mesh/error.h"
+
+namespace chainmail::report {
+namespace {
+
+template <class Item>
+std::vector<Item> sorted(std::vector<Item> items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+  return items;
+}
+
+template <class... Kinds>
+bool is_one_of(const Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Runner::Runner(const Case& object, Algorithm algorithm, Precision precision, const CompareOptions& options)
+    : object_(object),
+      cuts_(sorted(object.cuts)),
+      pins_(sorted(object.pins)),
+      relax_step_(options.relax_step),
+      simulation_(object.mesh, algorithm, precision) {
+  simulation_.apply(commands::SetRelaxation{false, options.relax_step, options.scheme});
+}
+
+void Runner::go_to_rest() {
+  simulation_.apply(commands::Release{});
+  simulation_.apply(commands::Reset{});
+  if (simulation_.softness() != object_.softness) {
+    simulation_.apply(commands::SetSoftness{object_.softness});
+  }
+  if (auto cut = simulation_.solver().cuts().links(); cut != cuts_) {
+    simulation_.apply(commands::Uncut{std::move(cut)});
+    simulation_.apply(commands::Cut{cuts_});
+  }
+  if (const auto pinned = simulation_.solver().pins(); !std::ranges::equal(pinned, pins_)) {
+    simulation_.apply(commands::Unpin{{pinned.begin(), pinned.end()}});
+    simulation_.apply(commands::Pin{pins_});
+  }
+  simulation_.apply(commands::Reset{});  // what was changed has woken elements
+  hand_.reset();
+}
+
+Runner::Run Runner::run(const RecordedMoves& moves, int sweeps, const std::stop_token& stop) {
+  Run run;
+  go_to_rest();
+  for (const Command& command : moves.commands) {
+    if (stop.stop_requested()) {
+      run.stopped = true;
+      break;
+    }
+    carry_out(command, sweeps, stop, run);
+  }
+  run.stopped = run.stopped || stop.stop_requested();
+  return run;
+}
+
+void Runner::carry_out(const Command& command, int sweeps, const std::stop_token& stop, Run& run) {
+  using namespace commands;
+  if (is_one_of<SetAlgorithm, SetRelaxation, KeepState, DropState>(command)) {
+    return;
+  }
+  simulation_.apply(command);
+  if (const auto* grab = std::get_if<Grab>(&command)) {
+    hand_ = grab->element;
+  }
+  if (!std::holds_alternative<Drag>(command)) {
+    return;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  simulation_.relax(sweeps, relax_step_, stop);
+  const double relaxing = sweeps == 0 ? 0 : milliseconds_since(start);
+  const Statistics& statistics = simulation_.statistics();
+  run.ms.push_back(statistics.last_pass_ms + relaxing);
+  run.checked += statistics.last_pass.checked;
+  run.moved += statistics.last_pass.moved;
+}
+
+void check(const RecordedMoves& moves) {
+  for (const Command& command : moves.commands) {
+    if (is_one_of<commands::ReplaceMesh, commands::SwapState>(command)) {
+      throw Error(moves.name, "these moves exchange the object, or undo", "record moves of one object, without undo");
+    }
+  }
+  if (count_moves(moves) == 0) {
+    throw Error(moves.name, "there is no move in it", "record a drag");
+  }
+}
+
+int count_moves(const RecordedMoves& moves) {
+  return static_cast<int>(std::ranges::count_if(
+      moves.commands, [](const Command& command) { return std::holds_alternative<commands::Drag>(command); }));
+}
+
+}  // namespace chainmail::report

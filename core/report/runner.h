@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "report/compare.h"
+#include "simulate/simulation.h"
+
+namespace chainmail::report {
+
+/// Carries recorded moves out on a case, each time from rest, by one algorithm in one precision.
+class Runner {
+ public:
+  Runner(const Case& object, Algorithm algorithm, Precision precision, const CompareOptions& options);
+
+  /// What a run did, move by move.
+  struct Run {
+    std::vector<double> ms;  // each move: its pass and its sweeps
+    std::uint64_t checked = 0;
+    std::uint64_t moved = 0;
+    bool stopped = false;
+  };
+  Run run(const RecordedMoves& moves, int sweeps, const std::stop_token& stop);
+
+  const Simulation& simulation() const { return simulation_; }
+  /// The element that was last in the hand.
+  std::optional<ElementId> hand() const { return hand_; }
+
+ private:
+  void go_to_rest();
+  void carry_out(const Command& command, int sweeps, const std::stop_token& stop, Run& run);
+
+  const Case& object_;
+  std::vector<LinkId> cuts_;     // ascending, as the solver tells them
+  std::vector<ElementId> pins_;  // ascending
+  double relax_step_;
+  Simulation simulation_;
+  std::optional<ElementId> hand_;
+};
+
+/// Throws Error where moves cannot be repeated from rest, or are none.
+void check(const RecordedMoves& moves);
+
+/// How many passes the commands ask for.
+int count_moves(const RecordedMoves& moves);
+
+}  // namespace chainmail::report
