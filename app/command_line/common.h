@@ -23,6 +23,8 @@ struct Command {
 Command add_generate(CLI::App& root);
 Command add_info(CLI::App& root);
 Command add_deform(CLI::App& root);
+/// `command_line` is what a report says of its own making.
+Command add_compare(CLI::App& root, const std::string& command_line);
 
 /// Adds an option that takes one value, or a positional. Values are kept as text, so that every check
 /// and its sentence is our own.

@@ -69,7 +69,26 @@ void refuse_swallowed_options(const CLI::App& app) {
 void add_unbuilt(CLI::App& root, const std::string& name) {
   CLI::App* app = root.add_subcommand(name)->group("")->prefix_command();
   app->set_help_flag();
-  app->callback([name] { refuse_unbuilt(name, "use generate, info or deform"); });
+  app->callback([name] { refuse_unbuilt(name, "use generate, info, deform or compare"); });
+}
+
+/// The arguments as a shell would take them again.
+std::string as_typed(int argc, char** argv) {
+  std::string line = "chainmail";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,:=+@%";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+      line += ' ' + word;
+      continue;
+    }
+    line += " '";
+    for (const char character : word) {
+      line += character == '\'' ? "'\\''" : std::string(1, character);
+    }
+    line += '\'';
+  }
+  return line;
 }
 
 }  // namespace
@@ -79,11 +98,11 @@ void run(int argc, char** argv) {
   root.set_version_flag("--version", std::string("chainmail ") + CHAINMAIL_VERSION, "Print the version and exit");
   root.footer(footer);
   root.allow_extras()->require_subcommand(0, 1);
-  const std::vector<Command> commands{add_generate(root), add_info(root), add_deform(root)};
+  const std::vector<Command> commands{add_generate(root), add_info(root), add_deform(root),
+                                      add_compare(root, as_typed(argc, argv))};
   for (const Command& command : commands) {
     command.app->allow_extras();
   }
-  add_unbuilt(root, "compare");
   add_unbuilt(root, "ramp");
   try {
     root.parse(argc, argv);
@@ -103,7 +122,7 @@ void run(int argc, char** argv) {
       return;
     }
   }
-  throw Error("command", "none is given", "use generate, info or deform; see chainmail --help");
+  throw Error("command", "none is given", "use generate, info, deform or compare; see chainmail --help");
 }
 
 }  // namespace chainmail::command_line

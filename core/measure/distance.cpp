@@ -6,6 +6,15 @@
 #include "measure/violation.h"
 
 namespace chainmail {
+namespace {
+
+// A hand that went and came back is off by its scalar's rounding: a ratio to that says nothing.
+constexpr double counts_as_moved = 1e-4;
+
+/// Mean rest length, or mesh units where there is none.
+double unit_of(const Mesh& mesh) { return mesh.mean_link_length > 0 ? mesh.mean_link_length : 1; }
+
+}  // namespace
 
 Distance measure_distance(const Mesh& mesh, const PositionView& one, const PositionView& other) {
   Distance result;
@@ -19,7 +28,7 @@ Distance measure_distance(const Mesh& mesh, const PositionView& one, const Posit
     result.max = std::max(result.max, square);
     sum += square;
   }
-  const double unit = mesh.mean_link_length > 0 ? mesh.mean_link_length : 1;
+  const double unit = unit_of(mesh);
   result.max = std::sqrt(result.max) / unit;
   result.rms = mesh.element_count() == 0 ? 0 : std::sqrt(sum / mesh.element_count()) / unit;
   return result;
@@ -35,7 +44,9 @@ std::optional<double> largest_over_hand(const Mesh& mesh, const PositionView& po
     const double moved = positions(hand, k) - mesh.rest[std::size_t{hand} * mesh.space_dimension + k];
     square += moved * moved;
   }
-  return square > 0 ? std::optional(measure_displacement(mesh, positions).max / std::sqrt(square)) : std::nullopt;
+  const double of_hand = std::sqrt(square);
+  return of_hand > counts_as_moved * unit_of(mesh) ? std::optional(measure_displacement(mesh, positions).max / of_hand)
+                                                   : std::nullopt;
 }
 
 }  // namespace chainmail

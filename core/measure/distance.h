@@ -20,8 +20,8 @@ Distance measure_distance(const Mesh& mesh, const PositionView& one, const Posit
 /// Elastic energy over that of a reference; none where the reference holds none.
 std::optional<double> energy_ratio(double energy, double of_reference);
 
-/// The largest displacement of any element over that of the hand's element; none where the hand is where
-/// the element was at rest. Above 1, something went further than it was pulled.
+/// The largest displacement of any element over that of the hand's element; none where the hand is back where
+/// the element was at rest, to 1e-4 mean rest lengths. Above 1, something went further than it was pulled.
 std::optional<double> largest_over_hand(const Mesh& mesh, const PositionView& positions, ElementId hand);
 
 }  // namespace chainmail

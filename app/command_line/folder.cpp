@@ -1,0 +1,62 @@
+#include "command_line/folder.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace chainmail::command_line {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason() { return std::generic_category().message(errno); }
+
+}  // namespace
+
+OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
+  if (path_.empty()) {
+    throw Error("-o", "the folder's name is empty", "give a folder");
+  }
+  std::error_code error;
+  fs::path there = fs::absolute(path_, error);
+  while (!fs::exists(there, error) && there.has_relative_path()) {
+    there = there.parent_path();
+  }
+  if (!fs::is_directory(there, error)) {
+    throw Error("-o", shown(there) + " is not a folder", "give a folder");
+  }
+  errno = 0;
+  if (access(there.c_str(), W_OK | X_OK) != 0) {
+    throw Error("-o", shown(there) + " cannot be written to (" + reason() + ")", "check its permissions");
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) {
+    fs::remove(*folder, ignored);  // where somebody put something into it, it stays
+  }
+}
+
+void OutputFolder::make() {
+  std::error_code error;
+  std::vector<fs::path> missing;
+  for (fs::path folder = fs::absolute(path_, error); !fs::exists(folder, error) && folder.has_relative_path();
+       folder = folder.parent_path()) {
+    missing.insert(missing.begin(), folder);
+  }
+  for (const fs::path& folder : missing) {
+    if (fs::create_directory(folder, error)) {
+      made_.push_back(folder);
+    }
+    if (error) {
+      throw Error("-o", shown(folder) + " cannot be made (" + error.message() + ")", "check the name and permissions");
+    }
+  }
+}
+
+}  // namespace chainmail::command_line
