@@ -101,7 +101,7 @@ std::vector<Case> default_cases(const LinkSoftness& softness) {
   const auto grid = generate({MeshKind::grid, {32, 32, 1}});
   const Softness same{softness, {}};
   std::vector<Case> cases{
-      {"grid", "32 x 32 elements, links along x and y", grid, {}, {}, same, {}},
+      {"grid", "32 × 32 elements, links along x and y", grid, {}, {}, same, {}},
       {"cut grid",
        "the grid with a slit to its middle, and 8% of the other links cut at random",
        grid,
@@ -110,7 +110,7 @@ std::vector<Case> default_cases(const LinkSoftness& softness) {
        same,
        {}},
       {"jittered cloth",
-       "32 x 32 elements off their places by up to 0.3, triangles on either diagonal",
+       "32 × 32 elements off their places by up to 0.3, triangles on either diagonal",
        jittered_cloth(32, 32),
        {},
        {},
@@ -124,7 +124,7 @@ std::vector<Case> default_cases(const LinkSoftness& softness) {
        same,
        {}},
       {"tetra block",
-       "10 x 10 x 10 elements, each cube split into six tetrahedra",
+       "10 × 10 × 10 elements, each cube split into six tetrahedra",
        generate({MeshKind::tetra, {10, 10, 10}}),
        {},
        {},

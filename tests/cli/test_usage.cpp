@@ -35,6 +35,8 @@ void UsageTest::help_shows_an_example_data() {
                         << "chainmail info ";
   QTest::newRow("deform") << "deform --help"
                           << "chainmail deform ";
+  QTest::newRow("compare") << "compare --help"
+                           << "chainmail compare ";
   QTest::newRow("short") << "deform -h"
                          << "chainmail deform ";
 }
@@ -104,10 +106,9 @@ void UsageTest::wrong_arguments() {
 void UsageTest::later_work_is_refused_data() {
   QTest::addColumn<QString>("line");
   for (const char* line :
-       {"compare", "compare grid.dat -o folder", "ramp --json -", "deform grid.dat --algorithm enhanced",
-        "deform grid.dat --algorithm exact", "deform grid.dat --algorithm original",
-        "deform grid.dat --algorithm spiral --pin 3", "deform grid.dat --algorithm spiral --softness a.csv",
-        "deform grid.dat --algorithm spiral --relaxation link",
+       {"ramp --json -", "deform grid.dat --algorithm enhanced", "deform grid.dat --algorithm exact",
+        "deform grid.dat --algorithm original", "deform grid.dat --algorithm spiral --pin 3",
+        "deform grid.dat --algorithm spiral --softness a.csv", "deform grid.dat --algorithm spiral --relaxation link",
         "deform grid.dat --algorithm spiral --positions a.vtu"}) {
     QTest::newRow(line) << line;
   }
