@@ -125,8 +125,8 @@ void CompareCommandTest::wrong_usage_data() {
   row("compare grid.dat", "-o: it is missing; ");
   row("compare grid.dat -o", "-o: its value is missing; ");
   row("compare grid.dat none.dat -o out", "none.dat: ");
-  row("compare grid.dat -o grid.dat", "-o: 'grid.dat' ");
-  row("compare grid.dat -o grid.dat/out", "-o: ");
+  row("compare grid.dat -o grid.dat", "-o: grid.dat is not a folder; ");
+  row("compare grid.dat -o grid.dat/out", "-o: grid.dat is not a folder; ");
   row("compare grid.dat --algorithms best -o out", "--algorithms: 'best' is not known; use generalized, ");
   row("compare grid.dat --algorithms exact,,spiral -o out", "--algorithms: '' ");
   row("compare grid.dat --algorithms exact,exact -o out", "--algorithms: 'exact' stands there twice; ");
