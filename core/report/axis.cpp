@@ -21,7 +21,7 @@ std::string superscript(int number) {
 }
 
 std::string label_of(int decade) {
-  return decade < -3 || decade > 3 ? "10" + superscript(decade) : figure(std::pow(10, decade));
+  return decade < -3 || decade > 2 ? "10" + superscript(decade) : figure(std::pow(10, decade));
 }
 
 }  // namespace

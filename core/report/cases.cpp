@@ -24,10 +24,12 @@ void add_triangle(MeshParts& parts, ElementId a, ElementId b, ElementId c) {
 MeshPointer jittered_cloth(std::uint32_t width, std::uint32_t height) {
   std::mt19937_64 random(2004);
   MeshParts parts;
-  for (std::uint32_t i = 0; i < width * height; ++i) {
-    const double across = uniform(random, -0.3, 0.3);
-    const double up = uniform(random, -0.3, 0.3);
-    parts.rest.emplace_back(i % width + across, i / width + up, 0);
+  for (std::uint32_t y = 0; y < height; ++y) {
+    for (std::uint32_t x = 0; x < width; ++x) {
+      const double across = uniform(random, -0.3, 0.3);
+      const double up = uniform(random, -0.3, 0.3);
+      parts.rest.emplace_back(x + across, y + up, 0);
+    }
   }
   for (std::uint32_t y = 0; y + 1 < height; ++y) {
     for (std::uint32_t x = 0; x + 1 < width; ++x) {
@@ -45,8 +47,9 @@ MeshPointer sphere(std::uint32_t segments, std::uint32_t rings, double radius) {
   MeshParts parts;
   parts.rest.emplace_back(0, 0, radius);
   for (std::uint32_t i = 0; i < segments * rings; ++i) {
-    const double down = std::numbers::pi * (1 + i / segments) / (rings + 1);
-    const double around = 2 * std::numbers::pi * (i % segments) / segments;
+    const std::uint32_t ring = i / segments, segment = i % segments;
+    const double down = std::numbers::pi * (ring + 1) / (rings + 1);
+    const double around = 2 * std::numbers::pi * segment / segments;
     parts.rest.push_back(radius *
                          Point(std::sin(down) * std::cos(around), std::sin(down) * std::sin(around), std::cos(down)));
   }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <numeric>
+#include <set>
 
 #include "mesh/error.h"
 #include "report/errors.h"
@@ -189,7 +190,7 @@ Comparison compare(const std::vector<Case>& cases, const CompareOptions& options
     result = {object.name,
               object.description,
               object.mesh->element_count(),
-              object.mesh->link_count() - object.cuts.size(),
+              object.mesh->link_count() - std::set(object.cuts.begin(), object.cuts.end()).size(),
               {}};
     for (const RecordedMoves& moves : object.drags) {
       const auto tell = [&](double share) {

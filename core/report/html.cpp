@@ -87,10 +87,9 @@ void write_main_row(std::ostream& out, const MainRow& row) {
 }
 
 void write_main_table(std::ostream& out, const MainTable& table) {
-  const auto colon = table.heading.find(": ");
-  out << "<div class=\"wide\"><table class=\"main\">\n<caption>" << escaped(table.heading.substr(0, colon))
-      << " <span class=\"faint\">" << escaped(table.heading.substr(colon + 2))
-      << "</span></caption>\n<thead><tr><th></th><th class=\"group\" colspan=\"" << table.drags.size()
+  out << "<div class=\"wide\"><table class=\"main\">\n<caption>" << escaped(table.object) << " <span class=\"faint\">"
+      << escaped(table.about) << "</span></caption>\n<thead><tr><th></th><th class=\"group\" colspan=\""
+      << table.drags.size()
       << "\">ms a move</th><th class=\"group\" colspan=\"3\">violation, worst of the drags</th>"
          "<th class=\"group\" colspan=\"2\">distance to Exact, worst</th></tr>\n<tr><th scope=\"col\">contestant</th>";
   for (const std::string& drag : table.drags) {

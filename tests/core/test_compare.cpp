@@ -1,5 +1,7 @@
 #include <QtTest>
+#include <chrono>
 #include <set>
+#include <thread>
 
 #include "core/families.h"
 #include "mesh/error.h"
@@ -28,6 +30,7 @@ class CompareTest : public QObject {
   void repetitions_are_counted();
   void stops_at_once();
   void stops_between_repetitions();
+  void stops_between_sweeps();
   void progress_goes_from_0_to_1();
   void contradicting_pins_are_told();
   void wrong_moves_and_numbers_are_refused();
@@ -151,7 +154,7 @@ void CompareTest::cuts_pins_and_softness_are_taken() {
   Case one = object(line, drag(*line, 0, {-1, 0, 0}));
   const auto moved = [&] { return compare_one(one, quick({Algorithm::natural_queue})).entries[0].measurement.value(); };
   QVERIFY(moved().moved > 0);
-  one.cuts = {0};
+  one.cuts = {0, 0};
   QCOMPARE(moved().moved, std::uint64_t{0});
   QCOMPARE(compare({one}, quick()).cases[0].links, std::uint64_t{2});
   one.cuts = {};
@@ -235,6 +238,24 @@ void CompareTest::stops_between_repetitions() {
   QVERIFY(comparison.stopped);
   QCOMPARE(told, 10);
   QVERIFY(comparison.cases.at(0).drags.empty());
+}
+
+void CompareTest::stops_between_sweeps() {
+  using Clock = std::chrono::steady_clock;
+  const auto grid = make_mesh(MeshKind::grid, {64, 64, 1});
+  const Case one = object(grid, drag(*grid, 2080, {40, 20, 0}));
+  std::stop_source stop;
+  Clock::time_point asked;
+  const std::jthread hand([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    asked = Clock::now();
+    stop.request_stop();
+  });
+  // So many sweeps would take hours.
+  const auto comparison = compare({one}, quick({Algorithm::exact}, {100'000'000}), {}, stop.get_token());
+  QVERIFY(comparison.stopped);
+  // What a user still takes for at once; a sweep takes a hundredth of it.
+  QVERIFY(Clock::now() - asked < std::chrono::milliseconds(100));
 }
 
 void CompareTest::progress_goes_from_0_to_1() {
