@@ -51,7 +51,8 @@ code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: .85e
 constexpr const char* how_to_read = R"(<h2>How to read it</h2>
 <p>Every contestant carries out the same recorded moves, in turns within one process and one thread, each repetition from
 rest after one that does not count. <b>ms a move</b> is the time of a pass and of the sweeps of relaxation that follow it,
-averaged over the moves of a drag: the median over the repetitions. The <b>violation</b> is how far a link lies outside its
+averaged over the moves of a drag: the median over the repetitions. What other programs took meanwhile does not
+count. The <b>violation</b> is how far a link lies outside its
 valid region, in its rest lengths; a link counts as violated above 10⁻⁴. The <b>distance to Exact</b> is measured from the
 positions in which Exact ChainMail ends, run in double precision on the same moves and without relaxation, in mean rest
 lengths: Exact moves every element as little as a valid object allows. Relaxation moves elements on purpose, toward the
