@@ -181,7 +181,8 @@ Command add_compare(CLI::App& root, const std::string& command_line) {
   options.app = app;
   options.meshes = app->add_option("MESH", "meshes, .dat or .obj files")
                        ->type_name("")
-                       ->expected(1, std::numeric_limits<int>::max())
+                       ->expected(-1)
+                       ->allow_extra_args(true)
                        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_contest(*app, options);
   options.compression = add_parameter(*app, parameters::compression);

@@ -22,9 +22,9 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
     throw Error("-o", "the folder's name is empty", "give a folder");
   }
   std::error_code error;
-  fs::path there = fs::absolute(path_, error);
-  while (!fs::exists(there, error) && there.has_relative_path()) {
-    there = there.parent_path();
+  fs::path there = path_;
+  while (!fs::exists(there, error) && there != there.root_path()) {
+    there = there.has_parent_path() ? there.parent_path() : fs::path(".");
   }
   if (!fs::is_directory(there, error)) {
     throw Error("-o", shown(there) + " is not a folder", "give a folder");

@@ -21,7 +21,7 @@ std::string superscript(int number) {
 }
 
 std::string label_of(int decade) {
-  return decade < -3 || decade > 3 ? "10" + superscript(decade) : figure(std::pow(10, decade));
+  return decade < -3 || decade > 2 ? "10" + superscript(decade) : figure(std::pow(10, decade));
 }
 
 }  // namespace
@@ -39,12 +39,14 @@ LogAxis::LogAxis(const std::vector<double>& values, double smallest) : smallest_
   if (most > 0) {
     low_ = static_cast<int>(std::floor(std::log10(least)));
     high_ = std::max(low_ + 1, static_cast<int>(std::ceil(std::log10(most))));
+    step_ = (high_ - low_) / most_ticks + 1;
+    high_ += (step_ - (high_ - low_) % step_) % step_;  // so that the last decade has its tick
   }
 }
 
 double LogAxis::place(double value) const {
   if (!(value >= smallest_)) {
-    return 0;
+    return has_zero_ ? of_zero : 0;
   }
   const double share = (std::log10(value) - low_) / (high_ - low_);
   return first_decade() + (1 - first_decade()) * std::clamp(share, 0.0, 1.0);
@@ -53,10 +55,9 @@ double LogAxis::place(double value) const {
 std::vector<LogAxis::Tick> LogAxis::ticks() const {
   std::vector<Tick> ticks;
   if (has_zero_) {
-    ticks.push_back({0, "0"});
+    ticks.push_back({of_zero, "0"});
   }
-  const int step = (high_ - low_) / most_ticks + 1;
-  for (int decade = low_; decade <= high_; decade += step) {
+  for (int decade = low_; decade <= high_; decade += step_) {
     ticks.push_back({place(std::pow(10, decade)), label_of(decade)});
   }
   return ticks;

@@ -24,10 +24,12 @@ void add_triangle(MeshParts& parts, ElementId a, ElementId b, ElementId c) {
 MeshPointer jittered_cloth(std::uint32_t width, std::uint32_t height) {
   std::mt19937_64 random(2004);
   MeshParts parts;
-  for (std::uint32_t i = 0; i < width * height; ++i) {
-    const double across = uniform(random, -0.3, 0.3);
-    const double up = uniform(random, -0.3, 0.3);
-    parts.rest.emplace_back(i % width + across, i / width + up, 0);
+  for (std::uint32_t y = 0; y < height; ++y) {
+    for (std::uint32_t x = 0; x < width; ++x) {
+      const double across = uniform(random, -0.3, 0.3);
+      const double up = uniform(random, -0.3, 0.3);
+      parts.rest.emplace_back(x + across, y + up, 0);
+    }
   }
   for (std::uint32_t y = 0; y + 1 < height; ++y) {
     for (std::uint32_t x = 0; x + 1 < width; ++x) {
@@ -45,8 +47,9 @@ MeshPointer sphere(std::uint32_t segments, std::uint32_t rings, double radius) {
   MeshParts parts;
   parts.rest.emplace_back(0, 0, radius);
   for (std::uint32_t i = 0; i < segments * rings; ++i) {
-    const double down = std::numbers::pi * (1 + i / segments) / (rings + 1);
-    const double around = 2 * std::numbers::pi * (i % segments) / segments;
+    const std::uint32_t ring = i / segments, segment = i % segments;
+    const double down = std::numbers::pi * (ring + 1) / (rings + 1);
+    const double around = 2 * std::numbers::pi * segment / segments;
     parts.rest.push_back(radius *
                          Point(std::sin(down) * std::cos(around), std::sin(down) * std::sin(around), std::cos(down)));
   }
@@ -101,7 +104,7 @@ std::vector<Case> default_cases(const LinkSoftness& softness) {
   const auto grid = generate({MeshKind::grid, {32, 32, 1}});
   const Softness same{softness, {}};
   std::vector<Case> cases{
-      {"grid", "32 x 32 elements, links along x and y", grid, {}, {}, same, {}},
+      {"grid", "32 × 32 elements, links along x and y", grid, {}, {}, same, {}},
       {"cut grid",
        "the grid with a slit to its middle, and 8% of the other links cut at random",
        grid,
@@ -110,7 +113,7 @@ std::vector<Case> default_cases(const LinkSoftness& softness) {
        same,
        {}},
       {"jittered cloth",
-       "32 x 32 elements off their places by up to 0.3, triangles on either diagonal",
+       "32 × 32 elements off their places by up to 0.3, triangles on either diagonal",
        jittered_cloth(32, 32),
        {},
        {},
@@ -124,7 +127,7 @@ std::vector<Case> default_cases(const LinkSoftness& softness) {
        same,
        {}},
       {"tetra block",
-       "10 x 10 x 10 elements, each cube split into six tetrahedra",
+       "10 × 10 × 10 elements, each cube split into six tetrahedra",
        generate({MeshKind::tetra, {10, 10, 10}}),
        {},
        {},

@@ -34,7 +34,8 @@ std::vector<Case> default_cases(const LinkSoftness& softness);
 /// Three drags for an object: local (the element nearest the middle goes as far as makes about an eighth of
 /// the object follow), whole body (an element of the boundary is pulled outward until all follow, and as far
 /// again) and back and forth (the middle goes until all follow, and back to where it was). Distances are
-/// found with Exact ChainMail, so they do not depend on who is compared. Where `stop` is requested, they are cut short.
+/// found with Exact ChainMail, so they do not depend on who is compared.
+/// Where `stop` is requested they are cut short.
 std::vector<RecordedMoves> three_drags(const Case& object, const std::stop_token& stop = {});
 
 }  // namespace chainmail::report

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <numeric>
+#include <set>
 
 #include "mesh/error.h"
 #include "report/errors.h"
@@ -156,6 +157,9 @@ CompareOptions checked(const std::vector<Case>& cases, CompareOptions options) {
   if (options.sweeps.empty() || *std::ranges::min_element(options.sweeps) < 0) {
     throw Error("relax", "there is no number of sweeps, or one below 0", "give numbers from 0");
   }
+  if (!(options.relax_step > 0 && options.relax_step <= 1)) {
+    throw Error("relax-step", "it must lie above 0 and up to 1", "1 goes all the way to the mean");
+  }
   if (options.repetitions && *options.repetitions < 1) {
     throw Error("repetitions", "there would be none", "use 1 or more");
   }
@@ -186,7 +190,7 @@ Comparison compare(const std::vector<Case>& cases, const CompareOptions& options
     result = {object.name,
               object.description,
               object.mesh->element_count(),
-              object.mesh->link_count() - object.cuts.size(),
+              object.mesh->link_count() - std::set(object.cuts.begin(), object.cuts.end()).size(),
               {}};
     for (const RecordedMoves& moves : object.drags) {
       const auto tell = [&](double share) {

@@ -52,7 +52,7 @@ struct Errors {
 
 /// How a contestant did on one drag.
 struct Measurement {
-  TimeSpread ms_per_move;     // over the repetitions: a pass and its sweeps
+  TimeSpread ms_per_move;     // over the repetitions: a pass and its sweeps, as the thread ran
   double worst_move_ms = 0;   // of the moves, the one with the largest median over the repetitions
   std::uint64_t checked = 0;  // in all moves together
   std::uint64_t moved = 0;    // in all moves together; the hand's element does not count

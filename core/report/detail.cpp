@@ -48,8 +48,8 @@ std::vector<Column> columns_for(const DragResult& drag) {
       {"elements a move", "moved", moved_cell}, {"violation", "max", max_cell},
       {"violation", "RMS", rms_cell},           {"violation", "links", links_cell},
       {"distance to Exact", "max", exact_max},  {"distance to Exact", "RMS", exact_rms},
-      {"energy", "over Exact’s", energy_cell},  {"float to double", "max", float_max},
-      {"float to double", "RMS", float_rms},    {"largest way", "over the hand’s", hand_cell},
+      {"energy", "/ Exact’s", energy_cell},     {"float to double", "max", float_max},
+      {"float to double", "RMS", float_rms},    {"farthest", "/ hand", hand_cell},
   };
   const bool has_equilibrium = std::ranges::any_of(
       drag.entries, [](const Entry& entry) { return entry.measurement && entry.measurement->errors.to_equilibrium; });
@@ -87,7 +87,7 @@ int repetitions_of(const DragResult& drag) {
 
 void write_drag(std::ostream& out, const CaseResult& object, const DragResult& drag) {
   const std::vector<Column> columns = columns_for(drag);
-  out << "<div class=\"wide\"><table>\n<caption>" << escaped(object.name) << ", " << escaped(drag.name)
+  out << "<div class=\"wide\"><table class=\"detail\">\n<caption>" << escaped(object.name) << ", " << escaped(drag.name)
       << " <span class=\"faint\">" << escaped(drag.description) << "; " << drag.moves << " moves, "
       << repetitions_of(drag) << " repetitions"
       << (drag.no_exact.empty() ? "" : "; no distance to Exact: " + escaped(drag.no_exact)) << "</span></caption>\n";

@@ -19,7 +19,7 @@ double size_of(const Mesh& mesh) {
 
 /// Oblique, so that no axis is spared, along the axes that the scene carries.
 Point direction_in(const Mesh& mesh) {
-  constexpr double parts[3] = {2, 1, 0.5};
+  const Point parts(2, 1, 0.5);
   Point direction = Point::Zero();
   for (int k = 0; k < mesh.space_dimension; ++k) {
     direction[mesh.axes[k]] = parts[k];

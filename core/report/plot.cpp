@@ -55,8 +55,8 @@ void add_legend_notes(Plot& plot, const std::set<int>& sweeps) {
   }
   if (sweeps.size() > sweeps.count(0)) {
     const bool one = sweeps.size() - sweeps.count(0) == 1;
-    plot.legend_notes.push_back(one ? "hollow: " + std::to_string(*sweeps.rbegin()) + " sweeps of relaxation a move"
-                                    : std::string("hollow: sweeps of relaxation a move, as marked"));
+    plot.legend_notes.push_back(one ? "hollow: " + std::to_string(*sweeps.rbegin()) + " sweeps a move"
+                                    : std::string("hollow: so many sweeps a move"));
   }
   plot.legend_notes.emplace_back("bars: quartiles of the time");
 }

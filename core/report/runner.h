@@ -4,6 +4,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "report/clocks.h"
 #include "report/compare.h"
 #include "simulate/simulation.h"
 
@@ -16,7 +17,7 @@ class Runner {
 
   /// What a run did, move by move.
   struct Run {
-    std::vector<double> ms;  // each move: its pass and its sweeps
+    std::vector<double> ms;  // each move: its pass and its sweeps, without what other programs took
     std::uint64_t checked = 0;
     std::uint64_t moved = 0;
     bool stopped = false;
@@ -35,6 +36,7 @@ class Runner {
   std::vector<LinkId> cuts_;     // ascending, as the solver tells them
   std::vector<ElementId> pins_;  // ascending
   double relax_step_;
+  Clocks clocks_ = machine_clocks();
   Simulation simulation_;
   std::optional<ElementId> hand_;
 };

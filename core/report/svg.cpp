@@ -11,8 +11,8 @@ namespace {
 
 // In the drawing's own units: CSS pixels at its natural size.
 constexpr double panel_width = 250, panel_height = 210;
-constexpr double left = 62, between = 22, top = 26, bottom = 46, right = 8;
-constexpr double legend_width = 230, legend_row = 19;
+constexpr double left = 62, between = 34, top = 26, bottom = 46, right = 8;
+constexpr double legend_width = 235, legend_row = 19;
 constexpr double mark_size = 4.6;
 constexpr int panels_a_row = 3;
 
@@ -102,7 +102,8 @@ class Drawing {
       const double y = at_y(*plot_.good_below);
       out_ << "<rect x=\"0\" y=\"" << place(y) << "\" width=\"" << place(panel_width) << "\" height=\""
            << place(panel_height - y) << "\" fill=\"" << ink_ << "\" fill-opacity=\"0.07\"/>\n";
-      text(panel_width - 5, panel_height - 6, "end", plot_.good_label, " fill-opacity=\"0.65\" font-style=\"italic\"");
+      text(6, std::min(y + 14, panel_height - 4), "start", plot_.good_label,
+           " fill-opacity=\"0.65\" font-style=\"italic\"");
     }
     text(0, -9, "start", panel.title, " font-weight=\"bold\"");
     draw_axes(first);
@@ -120,7 +121,7 @@ class Drawing {
   void draw_axes(bool first) {
     for (const auto& [share, label] : y_.ticks()) {
       const double y = (1 - share) * panel_height;
-      const bool zero = y_.has_zero() && share == 0;
+      const bool zero = label == "0";
       line(0, y, panel_width, y,
            zero ? " stroke-opacity=\"0.6\" stroke-dasharray=\"4 3\"" : " stroke-opacity=\"0.18\"");
       if (first) {
@@ -142,6 +143,9 @@ class Drawing {
 
   void draw_bar(const PlotMark& mark) {
     const double y = at_y(mark.y), low = at_x(mark.x_low), high = at_x(mark.x_high);
+    if (high - low < 2.5 * mark_size) {
+      return;  // the mark would hide it
+    }
     line(low, y, high, y, " stroke-opacity=\"0.8\"");
     line(low, y - 3, low, y + 3, " stroke-opacity=\"0.8\"");
     line(high, y - 3, high, y + 3, " stroke-opacity=\"0.8\"");

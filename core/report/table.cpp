@@ -81,8 +81,9 @@ std::vector<MainTable> main_tables(const Comparison& comparison) {
       continue;
     }
     MainTable& table = tables.emplace_back();
-    table.heading = object.name + ": " + object.description + "; " + std::to_string(object.elements) + " elements, " +
-                    std::to_string(object.links) + " links";
+    table.object = object.name;
+    table.about = object.description + "; " + std::to_string(object.elements) + " elements, " +
+                  std::to_string(object.links) + " links";
     for (const DragResult& drag : object.drags) {
       table.drags.push_back(drag.name);
     }
@@ -103,7 +104,7 @@ void write_text(std::ostream& out, const Comparison& comparison) {
     for (const MainRow& row : table.rows) {
       rows.push_back(cells_of(row));
     }
-    out << '\n' << table.heading << '\n';
+    out << '\n' << table.object << ": " << table.about << '\n';
     write_columns(out, rows);
   }
 }

@@ -20,7 +20,8 @@ struct MainRow {
 
 /// The main table of one object.
 struct MainTable {
-  std::string heading;  // the object, its elements and links
+  std::string object;
+  std::string about;  // the object in words, its elements and links
   std::vector<std::string> drags;
   std::vector<MainRow> rows;
 };

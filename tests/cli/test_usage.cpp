@@ -35,6 +35,8 @@ void UsageTest::help_shows_an_example_data() {
                         << "chainmail info ";
   QTest::newRow("deform") << "deform --help"
                           << "chainmail deform ";
+  QTest::newRow("compare") << "compare --help"
+                           << "chainmail compare ";
   QTest::newRow("short") << "deform -h"
                          << "chainmail deform ";
 }
@@ -72,7 +74,8 @@ void UsageTest::wrong_arguments_data() {
   row("info grid.dat --json", "--json: its value is missing; ");
   row("deform", "MESH: it is missing; ");
   row("deform grid.dat", "--algorithm: it is missing; ");
-  row("deform grid.dat --algorithm best", "--algorithm: 'best' is not known; use generalized, spiral or natural-queue");
+  row("deform grid.dat --algorithm best",
+      "--algorithm: 'best' is not known; use generalized, spiral, natural-queue, enhanced, original or exact");
   row("deform grid.dat --algorithm spiral --algorithm spiral", "--algorithm: it is given 2 times; ");
   row("deform grid.dat --algorithm spiral --json --trace a.csv", "--json: its value is missing; ");
   for (const char* option : {"--compression 1.1", "--compression -0.1", "--stretch 0.9", "--shear -1", "--relax-step 0",
@@ -104,10 +107,9 @@ void UsageTest::wrong_arguments() {
 void UsageTest::later_work_is_refused_data() {
   QTest::addColumn<QString>("line");
   for (const char* line :
-       {"compare", "compare grid.dat -o folder", "ramp --json -", "deform grid.dat --algorithm enhanced",
-        "deform grid.dat --algorithm exact", "deform grid.dat --algorithm original",
-        "deform grid.dat --algorithm spiral --pin 3", "deform grid.dat --algorithm spiral --softness a.csv",
-        "deform grid.dat --algorithm spiral --relaxation link",
+       {"ramp --json -", "deform grid.dat --algorithm enhanced", "deform grid.dat --algorithm exact",
+        "deform grid.dat --algorithm original", "deform grid.dat --algorithm spiral --pin 3",
+        "deform grid.dat --algorithm spiral --softness a.csv", "deform grid.dat --algorithm spiral --relaxation link",
         "deform grid.dat --algorithm spiral --positions a.vtu"}) {
     QTest::newRow(line) << line;
   }

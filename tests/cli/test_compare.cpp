@@ -1,0 +1,176 @@
+#include <QXmlStreamReader>
+
+#include "cli/chainmail_program.h"
+
+using namespace chainmail::test;
+
+/// `chainmail compare`: the three files, what is printed, and that it is all or nothing.
+class CompareCommandTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    program_ = std::make_unique<Program>();
+    QCOMPARE(program_->run("generate grid 6x5 -o grid.dat").code, 0);
+    QCOMPARE(program_->run("generate cloth 6x5 -o cloth.obj").code, 0);
+  }
+  void writes_the_report();
+  void options_are_taken();
+  void the_page_names_the_command();
+  void prints_the_main_table();
+  void replaces_an_older_report();
+  void the_default_set_is_compared();
+  void wrong_usage_data();
+  void wrong_usage();
+  void folders_that_cannot_be_are_refused();
+  void nothing_is_left_where_a_file_cannot_be_written();
+
+ private:
+  static constexpr const char* short_run = " --repetitions 1 --algorithms natural-queue,original,exact -o out";
+
+  QStringList report_files() const {
+    return QDir(program_->path("out")).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot);
+  }
+
+  /// What report.json says; constant, so that it can be asked by names on and on.
+  const QJsonObject report(const QString& folder = "out") const { return program_->json(folder + "/report.json"); }
+
+  std::unique_ptr<Program> program_;
+};
+
+void CompareCommandTest::writes_the_report() {
+  const auto outcome = program_->run("compare grid.dat cloth.obj" + QByteArray(short_run));
+  QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
+  QCOMPARE(report_files(), (QStringList{"report.csv", "report.html", "report.json"}));
+  // Two meshes, three drags each, three algorithms without and with sweeps.
+  QCOMPARE(program_->read("out/report.csv").count('\n'), 1 + 2 * 3 * 3 * 2);
+  const auto objects = report()["objects"].toArray();
+  QCOMPARE(objects.size(), 2);
+  QCOMPARE(objects[1]["name"].toString(), QString("cloth.obj"));
+  const auto contestants = objects[1]["drags"][0]["contestants"].toArray();
+  QVERIFY(contestants[2]["refusal"].toString().contains("grids alone"));
+  QVERIFY(contestants[4]["distance_to_exact"]["max"].toDouble() < 1e-5);  // Exact itself, in float
+  QXmlStreamReader page(program_->read("out/report.html"));
+  while (!page.atEnd()) {
+    page.readNext();
+  }
+  QVERIFY2(!page.hasError(), qPrintable(page.errorString()));
+}
+
+void CompareCommandTest::options_are_taken() {
+  const auto contestants = [&](const char* options) -> const QJsonArray {
+    const auto outcome = program_->run("compare grid.dat --repetitions 3 -o out " + QByteArray(options));
+    if (outcome.code != 0) {
+      qWarning("%s", outcome.error.constData());
+    }
+    return report()["objects"][0]["drags"][1]["contestants"].toArray();
+  };
+  const auto two = contestants("--algorithms exact,spiral --relax 5 --precision double --relaxation link");
+  QCOMPARE(two.size(), 2);
+  QCOMPARE(two[1]["algorithm"].toString(), QString("spiral"));
+  QCOMPARE(two[1]["sweeps"].toInt(), 5);
+  QCOMPARE(two[1]["ms_per_move"]["repetitions"].toInt(), 3);
+  const auto options = report()["options"];
+  QCOMPARE(options["precision"].toString(), QString("double"));
+  QCOMPARE(options["relaxation"].toString(), QString("link"));
+  QVERIFY(contestants("--algorithms exact --relax 0 --precision double")[0]["distance_to_exact"]["max"].toDouble() ==
+          0);
+  // Links that cannot stretch carry everything along at once.
+  const auto soft = contestants("--algorithms exact --relax 0")[0]["moved"].toInt();
+  const auto stiff =
+      contestants("--algorithms exact --relax 0 --stretch 1 --compression 1 --shear 0")[0]["moved"].toInt();
+  QCOMPARE(stiff, 24 * 29);
+  QVERIFY(soft < stiff);
+}
+
+void CompareCommandTest::the_page_names_the_command() {
+  const auto outcome =
+      program_->run(QStringList{"compare", "grid.dat", "--repetitions", "1", "--algorithms", "exact", "-o", "it's"});
+  QVERIFY2(outcome.code == 0, outcome.error);
+  QCOMPARE(report("it's")["origin"]["command_line"].toString(),
+           QString("chainmail compare grid.dat --repetitions 1 --algorithms exact -o 'it'\\''s'"));
+}
+
+void CompareCommandTest::prints_the_main_table() {
+  const auto outcome = program_->run("compare cloth.obj" + QByteArray(short_run));
+  QCOMPARE(outcome.code, 0);
+  QVERIFY(outcome.out.contains("\ncloth.obj: as the file has it; 30 elements, 69 links\n"));
+  QVERIFY(outcome.out.contains("\n  Natural Queue ChainMail, 10 sweeps  "));
+  QVERIFY(outcome.out.contains("  local  whole body  back and forth  violation"));
+}
+
+void CompareCommandTest::replaces_an_older_report() {
+  QVERIFY(QDir(program_->path("")).mkdir("out"));
+  program_->write("out/report.csv", "old");
+  program_->write("out/note.txt", "mine");
+  QCOMPARE(program_->run("compare grid.dat" + QByteArray(short_run)).code, 0);
+  QVERIFY(program_->read("out/report.csv").startsWith("object,elements,"));
+  QCOMPARE(program_->read("out/note.txt"), QByteArray("mine"));
+}
+
+void CompareCommandTest::the_default_set_is_compared() {
+  const auto outcome = program_->run("compare --algorithms natural-queue --relax 0 --repetitions 1 -o deep/out");
+  QVERIFY2(outcome.code == 0, outcome.error);
+  const auto objects = report("deep/out")["objects"].toArray();
+  QCOMPARE(objects.size(), 6);
+  // On the whole grid Natural Queue ChainMail violates nothing; on the sphere it does.
+  QCOMPARE(objects[0]["drags"][1]["contestants"][0]["violation"]["fraction"].toDouble(-1), 0.0);
+  QCOMPARE(objects[3]["name"].toString(), QString("sphere"));
+  QVERIFY(objects[3]["drags"][1]["contestants"][0]["violation"]["max"].toDouble() > 0.1);
+}
+
+void CompareCommandTest::wrong_usage_data() {
+  QTest::addColumn<QString>("where");
+  const auto row = [](const char* line, const char* where) { QTest::newRow(line) << where; };
+  row("compare grid.dat", "-o: it is missing; ");
+  row("compare grid.dat -o", "-o: its value is missing; ");
+  row("compare grid.dat none.dat -o out", "none.dat: ");
+  row("compare grid.dat -o grid.dat", "-o: grid.dat is not a folder; ");
+  row("compare grid.dat -o grid.dat/out", "-o: grid.dat is not a folder; ");
+  row("compare grid.dat --algorithms best -o out", "--algorithms: 'best' is not known; use generalized, ");
+  row("compare grid.dat --algorithms exact,,spiral -o out", "--algorithms: '' ");
+  row("compare grid.dat --algorithms exact,exact -o out", "--algorithms: 'exact' stands there twice; ");
+  row("compare grid.dat --relax 0,-1 -o out", "--relax: '-1' ");
+  row("compare grid.dat --relax 1e3 -o out", "--relax: '1e3' ");
+  row("compare grid.dat --relax 2000000 -o out", "--relax: '2000000' ");
+  row("compare grid.dat --relaxation none -o out", "--relaxation: 'none' is not known; ");
+  row("compare grid.dat --relax-step 0 -o out", "--relax-step: ");
+  row("compare grid.dat --precision half -o out", "--precision: 'half' is not known; ");
+  row("compare grid.dat --repetitions 0 -o out", "--repetitions: '0' ");
+  row("compare grid.dat --stretch 0.5 -o out", "--stretch: ");
+  row("compare grid.dat --moves moves.json -o out", "--moves: it is not built yet; ");
+  row("compare grid.dat --pin 3 -o out", "--pin: there is no such option; ");
+}
+
+void CompareCommandTest::wrong_usage() {
+  QFETCH(QString, where);
+  const auto before = program_->files();
+  const auto outcome = program_->run(QTest::currentDataTag());
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where), outcome.error);
+  QCOMPARE(program_->files(), before);
+}
+
+void CompareCommandTest::folders_that_cannot_be_are_refused() {
+  const auto outcome = program_->run(QStringList{"compare", "grid.dat", "-o", ""});
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  if (!QFile::exists("/proc/version")) {
+    QSKIP("there is no folder that nobody can write to");
+  }
+  const auto closed = program_->run("compare grid.dat -o /proc/none");
+  QCOMPARE(closed.code, 2);
+  QVERIFY2(is_one_sentence(closed) && closed.error.startsWith("chainmail: -o: "), closed.error);
+}
+
+void CompareCommandTest::nothing_is_left_where_a_file_cannot_be_written() {
+  QVERIFY(QDir(program_->path("")).mkpath("out/report.csv"));  // a folder where a file shall go
+  const auto outcome = program_->run("compare grid.dat" + QByteArray(short_run));
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  QCOMPARE(report_files(), QStringList{"report.csv"});
+}
+
+QTEST_GUILESS_MAIN(CompareCommandTest)
+#include "test_compare.moc"

@@ -1,0 +1,283 @@
+#include <QXmlStreamReader>
+#include <QtTest>
+#include <sstream>
+
+#include "core/support.h"
+#include "report/axis.h"
+#include "report/format.h"
+#include "report/html.h"
+#include "report/plot.h"
+#include "report/table.h"
+
+using namespace chainmail;
+using namespace chainmail::report;
+
+/// How a comparison is written: numbers, axes, plots, page and tables.
+class ReportTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void figures_have_three_digits();
+  void text_is_escaped();
+  void an_axis_spans_whole_decades();
+  void zero_has_a_place_of_its_own();
+  void ticks_do_not_crowd();
+  void an_axis_of_nothing_stands();
+  void a_plot_has_every_contestant_on_it();
+  void a_plot_is_well_formed();
+  void marks_stand_where_their_values_are();
+  void a_page_is_well_formed_and_needs_nothing_else();
+  void a_page_says_where_it_comes_from();
+  void the_main_table_takes_the_worst();
+  void a_refusal_is_listed();
+  void csv_has_a_row_for_each();
+};
+
+namespace {
+
+const std::string nasty = "a<b & \"c\" 'd' ]]> \x01\xff \xc3\xa9";
+
+Measurement measured(double ms, double violation, double distance) {
+  Measurement measurement;
+  measurement.ms_per_move = {ms, ms / 2, 2 * ms, ms / 4, 4 * ms, 5};
+  measurement.checked = 12;
+  measurement.moved = 8;
+  measurement.errors.violation = {violation, violation / 2, violation / 4, 100};
+  measurement.errors.to_exact = Distance{distance, distance / 2};
+  return measurement;
+}
+
+/// Two drags on one object: Natural Queue with and without sweeps, 3D ChainMail refused, Exact.
+Comparison comparison() {
+  const auto entries = [](double scale) {
+    return std::vector<Entry>{
+        {{Algorithm::natural_queue, 0}, measured(0.01 * scale, 0.5, 0.25 / scale), ""},
+        {{Algorithm::natural_queue, 10}, measured(0.1 * scale, 0.25 * scale, 1), ""},
+        {{Algorithm::original, 0}, std::nullopt, "it works, on grids, alone"},
+        {{Algorithm::exact, 0}, measured(0.02 * scale, 0, 0), ""},
+    };
+  };
+  return {{},
+          {{nasty, "an object", 9, 12, {{"one", "first", 4, entries(1), ""}, {nasty, "second", 4, entries(2), ""}}}},
+          false};
+}
+
+Origin origin() { return {{nasty, 2, "a compiler", "Release"}, "chainmail compare '" + nasty + "'", "today", "v"}; }
+
+std::string page() {
+  std::ostringstream out;
+  write_html(out, comparison(), origin());
+  return out.str();
+}
+
+std::string drawn(const Plot& plot) {
+  std::ostringstream out;
+  write_svg(out, plot);
+  return out.str();
+}
+
+/// The elements by their names; empty where the text is not well-formed XML.
+QStringList elements_of(const std::string& text, QString* all_text = nullptr) {
+  QXmlStreamReader reader(QByteArray::fromStdString(text));
+  QStringList names;
+  while (!reader.atEnd()) {
+    reader.readNext();
+    if (reader.isStartElement()) {
+      names << reader.name().toString();
+    } else if (reader.isCharacters() && all_text != nullptr) {
+      *all_text += reader.text();
+    }
+  }
+  if (reader.hasError()) {
+    qWarning("line %lld: %s", reader.lineNumber(), qPrintable(reader.errorString()));
+    return {};
+  }
+  return names;
+}
+
+}  // namespace
+
+void ReportTest::figures_have_three_digits() {
+  QCOMPARE(figure(0), std::string("0"));
+  QCOMPARE(figure(1.0 / 3), std::string("0.333"));
+  QCOMPARE(figure(1234567), std::string("1.23e6"));
+  QCOMPARE(figure(2.5e-7), std::string("2.5e-7"));
+  QCOMPARE(figure(1e-10), std::string("1e-10"));
+  QCOMPARE(figure(std::optional<double>()), std::string("n/a"));
+  QCOMPARE(percent(0.0625), std::string("6.25%"));
+  QCOMPARE(all_digits(0.1), std::string("0.1"));
+  QCOMPARE(all_digits(std::optional<double>()), std::string());
+}
+
+void ReportTest::text_is_escaped() {
+  QCOMPARE(escaped(nasty), std::string("a&lt;b &amp; &quot;c&quot; &#39;d&#39; ]]&gt; ?? \xc3\xa9"));
+  // A character cut short, a surrogate, an overlong form, one beyond the last; and real ones of each length.
+  QCOMPARE(escaped("\xc3"), std::string("?"));
+  QCOMPARE(escaped("\xed\xa0\x80|\xc0\xaf|\xf4\x90\x80\x80"), std::string("???|??|????"));
+  QCOMPARE(escaped("é€𝄞"), std::string("é€𝄞"));
+}
+
+void ReportTest::an_axis_spans_whole_decades() {
+  const LogAxis axis({0.02, 7}, 1e-9);
+  QVERIFY(!axis.has_zero());
+  // From 0.01 to 10.
+  QCOMPARE(axis.place(0.01), 0.0);
+  QCOMPARE(axis.place(10), 1.0);
+  QVERIFY(std::abs(axis.place(0.1) - 1.0 / 3) < 1e-12);
+  QVERIFY(std::abs(axis.place(std::sqrt(10.0)) - 2.5 / 3) < 1e-12);
+  QCOMPARE(axis.place(1000), 1.0);
+  QCOMPARE(axis.place(0.0001), 0.0);
+  QCOMPARE(axis.ticks().size(), std::size_t{4});
+  QCOMPARE(axis.ticks().front().label, std::string("0.01"));
+  QCOMPARE(axis.ticks().back().label, std::string("10"));
+}
+
+void ReportTest::zero_has_a_place_of_its_own() {
+  const LogAxis axis({0, 1e-20, 0.02, 7}, 1e-12);
+  QVERIFY(axis.has_zero());
+  QVERIFY(0 < axis.place(0) && axis.place(0) < axis.first_decade());
+  QCOMPARE(axis.place(1e-20), axis.place(0));
+  QCOMPARE(axis.place(0.01), axis.first_decade());
+  QCOMPARE(axis.place(10), 1.0);
+  QCOMPARE(axis.ticks().front().label, std::string("0"));
+  QCOMPARE(axis.ticks().front().place, axis.place(0));
+}
+
+void ReportTest::ticks_do_not_crowd() {
+  const LogAxis axis({1e-8, 50}, 1e-12);
+  const auto ticks = axis.ticks();
+  QVERIFY(ticks.size() >= 4 && ticks.size() <= 7);
+  QCOMPARE(ticks.front().label, std::string("10⁻⁸"));
+  QCOMPARE(ticks.back().place, 1.0);
+  for (std::size_t i = 1; i < ticks.size(); ++i) {
+    QVERIFY(ticks[i].place - ticks[i - 1].place > 0.1);
+  }
+}
+
+void ReportTest::an_axis_of_nothing_stands() {
+  for (const auto& values : {std::vector<double>{}, {0.0}, {1.0}, {std::nan(""), HUGE_VAL}}) {
+    const LogAxis axis(values, 1e-12);
+    for (const double value : {0.0, 1.0, 1e9, HUGE_VAL, std::nan("")}) {
+      QVERIFY(axis.place(value) >= 0 && axis.place(value) <= 1);
+    }
+    QVERIFY(axis.ticks().size() >= 2);
+  }
+}
+
+void ReportTest::a_plot_has_every_contestant_on_it() {
+  const Plot plot = violation_plot(comparison().cases[0]);
+  QCOMPARE(plot.panels.size(), std::size_t{2});
+  QCOMPARE(plot.series.size(), std::size_t{2});  // the refused one has no place
+  QVERIFY(plot.series[0].look != plot.series[1].look);
+  const auto& marks = plot.panels[1].marks;
+  QCOMPARE(marks.size(), std::size_t{3});
+  QVERIFY(!marks[0].hollow && marks[1].hollow && !marks[2].hollow);
+  QCOMPARE(marks[0].series, marks[1].series);
+  QCOMPARE(marks[0].x, 0.02);
+  QCOMPARE(marks[0].x_low, 0.01);
+  QCOMPARE(marks[0].x_high, 0.04);
+  QCOMPARE(marks[1].y, 0.5);
+  QCOMPARE(distance_plot(comparison().cases[0]).panels[0].marks[0].y, 0.125);  // RMS
+}
+
+void ReportTest::a_plot_is_well_formed() {
+  for (const Plot& plot : {violation_plot(comparison().cases[0]), distance_plot(comparison().cases[0]), Plot{}}) {
+    const QStringList elements = elements_of(drawn(plot));
+    QVERIFY(!elements.isEmpty());
+    QCOMPARE(elements.first(), QString("svg"));
+    // A mark each, and one for each line of the legend.
+    const std::size_t marks = plot.panels.empty() ? 0 : 6 + plot.series.size();
+    QCOMPARE(std::size_t(elements.count("path")), marks);
+  }
+}
+
+void ReportTest::marks_stand_where_their_values_are() {
+  Plot plot;
+  plot.series = {{"one", 0}};
+  plot.panels = {{"", {{0.1, 0.1, 0.1, 1, 0, false, "", ""}, {10, 10, 10, 100, 0, false, "", ""}}}};
+  QXmlStreamReader reader(QByteArray::fromStdString(drawn(plot)));
+  QList<QPointF> places;
+  while (!reader.atEnd()) {
+    if (reader.readNext() == QXmlStreamReader::StartElement && reader.name() == QString("path")) {
+      const auto numbers =
+          reader.attributes().value("transform").toString().section('(', 1).section(')', 0, 0).split(' ');
+      places << QPointF(numbers[0].toDouble(), numbers[1].toDouble());
+    }
+  }
+  QCOMPARE(places.size(), 3);
+  // The first at the origin, the second at the far ends of both axes.
+  QCOMPARE(places[0], QPointF(0, 210));
+  QCOMPARE(places[1], QPointF(250, 0));
+}
+
+void ReportTest::a_page_is_well_formed_and_needs_nothing_else() {
+  const std::string text = page();
+  QString words;
+  const QStringList elements = elements_of(text, &words);
+  QCOMPARE(elements.count("svg"), 2);
+  QCOMPARE(elements.count("table"), 3);
+  for (const char* foreign : {"script", "link", "img", "iframe", "object"}) {
+    QVERIFY2(!elements.contains(foreign), foreign);
+  }
+  QString without_namespace = QString::fromStdString(text);
+  without_namespace.remove("http://www.w3.org/2000/svg");
+  QVERIFY(!without_namespace.contains("http") && !without_namespace.contains("url(") &&
+          !without_namespace.contains("@import"));
+  QVERIFY(words.contains("How to read it"));
+}
+
+void ReportTest::a_page_says_where_it_comes_from() {
+  QString words;
+  QVERIFY(!elements_of(page(), &words).isEmpty());
+  const QString shown = "a<b & \"c\" 'd' ]]> ?? é";
+  for (const QString& what : {"chainmail compare '" + shown + "'", shown + ", 2 cores", QString("a compiler"),
+                              QString("Release"), QString("today"), QString("float")}) {
+    QVERIFY2(words.contains(what), qPrintable(what));
+  }
+}
+
+void ReportTest::the_main_table_takes_the_worst() {
+  const auto tables = main_tables(comparison());
+  QCOMPARE(tables.size(), std::size_t{1});
+  QCOMPARE(tables[0].drags.size(), std::size_t{2});
+  QCOMPARE(tables[0].rows.size(), std::size_t{4});
+  const MainRow& plain = tables[0].rows[0];
+  QCOMPARE(plain.contestant, std::string("Natural Queue ChainMail"));
+  QVERIFY(plain.ms_per_move == (std::vector<std::optional<double>>{0.01, 0.02}));
+  QCOMPARE(plain.to_exact->max, 0.25);             // of the first drag
+  QCOMPARE(tables[0].rows[1].violation.max, 0.5);  // of the second
+  QCOMPARE(tables[0].rows[1].violation.fraction, 0.125);
+}
+
+void ReportTest::a_refusal_is_listed() {
+  QCOMPARE(main_tables(comparison())[0].rows[2].refusal, std::string("it works, on grids, alone"));
+  QString words;
+  elements_of(page(), &words);
+  QCOMPARE(words.count("it works, on grids, alone"), 3);  // main table, and each drag's
+  std::ostringstream out;
+  write_text(out, comparison());
+  // As wide as the widest name, `Natural Queue ChainMail, 10 sweeps`.
+  QVERIFY(QString::fromStdString(out.str()).contains("\n  " + QString("3D ChainMail").leftJustified(34) +
+                                                     "  it works, on grids, alone\n"));
+}
+
+void ReportTest::csv_has_a_row_for_each() {
+  Comparison plain = comparison();
+  plain.cases[0].name = "a \"b\", c";
+  std::ostringstream out;
+  write_csv(out, plain);
+  const auto lines = QString::fromStdString(out.str()).trimmed().split('\n');
+  QCOMPARE(lines.size(), 9);
+  const auto columns = lines[0].split(',').size();
+  for (int i = 1; i < lines.size(); ++i) {
+    const QString start = "\"a \"\"b\"\", c\",9,12,";
+    QVERIFY2(lines[i].startsWith(start), qPrintable(lines[i]));
+    // The name holds a comma of its own, and so do the refusal's two.
+    QCOMPARE(lines[i].split(',').size(), columns + 1 + (lines[i].contains("original") ? 2 : 0));
+  }
+  QVERIFY(lines[1].contains(",one,4,natural-queue,0,,5,0.01,0.005,0.02,0.0025,0.04,0,12,8,0.5,0.25,0.125,0.25,0.125,"));
+  QVERIFY(lines[3].endsWith(",original,0,\"it works, on grids, alone\"" + QString(20, ',')));
+}
+
+QTEST_APPLESS_MAIN(ReportTest)
+#include "test_report.moc"
