@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QDockWidget>
+#include <QElapsedTimer>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QStackedWidget>
@@ -30,6 +31,7 @@ class ReportDock : public QDockWidget {
   void cancel();
   void showState();
   void showProgress(double fraction, const QString& text);
+  void fillBar(int value, const QString& format);
 
   ReportChoices* choices_;
   ReportResults* results_;
@@ -38,6 +40,8 @@ class ReportDock : public QDockWidget {
   QPushButton* cancel_;
   QProgressBar* progress_;
   QStackedWidget* pages_;
+  QElapsedTimer sinceShown_;  // since the last progress
+  QString textShown_;
 };
 
 }  // namespace chainmail

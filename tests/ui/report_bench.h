@@ -34,6 +34,12 @@ struct ReportBench : Workbench {
     QTRY_VERIFY_WITH_TIMEOUT(!thread().running(), 60'000);
     QVERIFY2(results().isVisible(), qPrintable(window.messages().sentence()));
   }
+  void isReady() {
+    QVERIFY(!thread().running());
+    QVERIFY(find<QPushButton>("reportRun")->isEnabled());
+    QVERIFY(!find<QPushButton>("reportCancel")->isEnabled());
+    QCOMPARE(progress(), QStringLiteral("ready"));
+  }
   /// A run that would last for minutes, well under way.
   void runForLong() {
     effort(60);
