@@ -22,6 +22,7 @@ namespace {
 
 constexpr double smallestTime = 1e-9, smallestError = 1e-12;  // what is less stands at 0
 constexpr int markSize = 15, legendMarkSize = 13;             // pixels
+constexpr std::size_t mostTicksAcross = 5;                    // labels beside each other need their width
 constexpr double margin = 0.05;                               // of an axis, so that no mark is cut off
 
 std::optional<double> maxOf(const std::optional<Distance>& distance) {
@@ -95,16 +96,19 @@ void addAxis(QChart& chart, const report::LogAxis& scale, Qt::Alignment side, co
   auto* axis = new QCategoryAxis;
   axis->setLabelsPosition(QCategoryAxis::AxisLabelsPositionOnValue);
   axis->setStartValue(-margin);
-  for (const auto& tick : scale.ticks()) {
-    axis->append(text(tick.label), tick.place);
+  const auto ticks = scale.ticks();
+  const std::size_t step = side == Qt::AlignBottom && ticks.size() > mostTicksAcross ? 2 : 1;
+  for (std::size_t i = 0; i < ticks.size(); i += step) {
+    axis->append(text(ticks[i].label), ticks[i].place);
   }
+  axis->setTruncateLabels(false);
   axis->setRange(-margin, 1 + margin);
   axis->setTitleText(title);
   axis->setTitleBrush(palette.color(QPalette::WindowText));
   axis->setLabelsColor(palette.color(QPalette::WindowText));
   axis->setGridLineColor(palette.color(QPalette::Mid));
   QFont font;
-  font.setPointSizeF(font.pointSizeF() - 1);  // decades that do not fit would be cut short
+  font.setPointSizeF(font.pointSizeF() - 1);
   axis->setTitleFont(font);
   axis->setLabelsFont(font);
   chart.addAxis(axis, side);
@@ -150,8 +154,9 @@ ReportPlot::ReportPlot() : view_(new QChartView), legend_(new QVBoxLayout) {
 void ReportPlot::show(const report::DragResult& drag, const ReportError& error) {
   const std::unique_ptr<QChart> before(view_->chart());
   view_->setChart(makeChart(drag, error));
-  view_->setToolTip(QStringLiteral("Time per move against %1: left is faster, down is better; hover a mark for figures")
-                        .arg(QLatin1String(error.label)));
+  help_ = QStringLiteral("Time per move against %1: left is faster, down is better; hover a mark for figures")
+              .arg(QLatin1String(error.label));
+  view_->setToolTip(help_);
   fillLegend(drag);
 }
 
@@ -186,8 +191,10 @@ void ReportPlot::addMark(QChart& chart, const report::Contestant& contestant, QP
   series->setMarkerShape(QScatterSeries::MarkerShapeRectangle);
   series->setMarkerSize(markSize);
   series->setBrush(QBrush(reportMark(contestant, markSize, devicePixelRatioF())));
-  connect(series, &QScatterSeries::hovered, this,
-          [words](const QPointF&, bool on) { on ? QToolTip::showText(QCursor::pos(), words) : QToolTip::hideText(); });
+  connect(series, &QScatterSeries::hovered, this, [this, words](const QPointF&, bool on) {
+    view_->setToolTip(on ? words : help_);  // otherwise the plot's own would soon replace it
+    on ? QToolTip::showText(QCursor::pos(), words) : QToolTip::hideText();
+  });
 }
 
 /// A line an algorithm that takes part, and what filled and hollow marks mean.

@@ -39,6 +39,7 @@ class ReportPlot : public QWidget {
 
   QChartView* view_;
   QVBoxLayout* legend_;
+  QString help_;
 };
 
 }  // namespace chainmail
