@@ -83,20 +83,6 @@ class WindowReport : public QObject {
     QCOMPARE(bench.marks<QScatterSeries>().size(), 6);
   }
 
-  void aMarkUnderTheCursorSaysItsFigures() {
-    ReportBench bench;
-    bench.run();
-    bench.settle();  // the chart lays itself out
-    auto* plot = bench.find<QChartView>("reportPlot");
-    QScatterSeries* exact = bench.marks<QScatterSeries>().last();
-    const QPoint at = plot->mapFromScene(plot->chart()->mapToScene(plot->chart()->mapToPosition(exact->at(0), exact)));
-    QTest::mouseMove(plot->viewport(), QPoint(2, 2));
-    QTest::mouseMove(plot->viewport(), at);
-    QTRY_VERIFY2(plot->toolTip().contains(QStringLiteral("quartiles")), qPrintable(plot->toolTip()));
-    QTest::mouseMove(plot->viewport(), QPoint(2, 2));
-    QTRY_VERIFY(!plot->toolTip().contains(QStringLiteral("quartiles")));
-  }
-
   void theTableSortsByNumbers() {
     ReportBench bench;
     bench.run();
