@@ -152,6 +152,9 @@ void View::initializeGL() {
 }
 
 void View::paintGL() {
+  if (fitPending_) {
+    fit();  // no resize came once it could be seen
+  }
   auto* gl = context()->functions();
   gl->glClearColor(colours::background.redF(), colours::background.greenF(), colours::background.blueF(), 1);
   gl->glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

@@ -25,6 +25,7 @@ Command add_info(CLI::App& root);
 Command add_deform(CLI::App& root);
 /// `command_line` is what a report says of its own making.
 Command add_compare(CLI::App& root, const std::string& command_line);
+Command add_ramp(CLI::App& root);
 
 /// Adds an option that takes one value, or a positional. Values are kept as text, so that every check
 /// and its sentence is our own.

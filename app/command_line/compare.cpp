@@ -9,6 +9,7 @@
 
 #include "command_line/common.h"
 #include "command_line/folder.h"
+#include "files/moves.h"
 #include "files/outputs.h"
 #include "files/report_json.h"
 #include "files/text.h"
@@ -23,7 +24,7 @@ struct Options {
   CLI::App* app = nullptr;
   CLI::Option *meshes, *output;
   CLI::Option *algorithms, *relax, *relaxation, *relax_step, *precision, *repetitions;
-  CLI::Option *compression, *stretch, *shear;
+  CLI::Option *compression, *stretch, *shear, *moves;
 };
 
 constexpr const char* footer =
@@ -93,10 +94,23 @@ report::CompareOptions read_options(const Options& options) {
   return result;
 }
 
+/// The drags of an object: those recorded in a file, or the three that are made for it.
+std::vector<report::RecordedMoves> drags_of(const report::Case& object, const std::optional<std::string>& recorded) {
+  if (!recorded) {
+    return report::three_drags(object);
+  }
+  const std::filesystem::path path = *recorded;
+  return {{"recorded", "as " + printable(path.filename().string()) + " has it", read_moves(path, *object.mesh)}};
+}
+
 std::vector<report::Case> read_cases(const Options& options) {
   const LinkSoftness softness{value_of(options.compression, parameters::compression),
                               value_of(options.stretch, parameters::stretch),
                               value_of(options.shear, parameters::shear)};
+  const auto recorded = value_of(options.moves);
+  if (options.meshes->count() == 0 && recorded) {
+    throw Error("--moves", "the mesh that they were recorded on is missing", "name it, a .dat or .obj file");
+  }
   if (options.meshes->count() == 0) {
     return report::default_cases(softness);
   }
@@ -110,7 +124,7 @@ std::vector<report::Case> read_cases(const Options& options) {
                         {},
                         {softness, {}},
                         {}};
-    object.drags = report::three_drags(object);
+    object.drags = drags_of(object, recorded);
     cases.push_back(std::move(object));
   }
   return cases;
@@ -142,9 +156,6 @@ std::string now_in_words() {
 }
 
 void compare(const Options& options, const std::string& command_line) {
-  if (options.app->count("--moves") > 0) {
-    refuse_unbuilt("--moves", "leave it out");
-  }
   const report::CompareOptions how = read_options(options);
   OutputFolder folder(*value_of(options.output));
   const std::vector<report::Case> cases = read_cases(options);
@@ -188,7 +199,7 @@ Command add_compare(CLI::App& root, const std::string& command_line) {
   options.compression = add_parameter(*app, parameters::compression);
   options.stretch = add_parameter(*app, parameters::stretch);
   options.shear = add_parameter(*app, parameters::shear);
-  add_value(*app, "--moves", "FILE", "later work")->group("");
+  options.moves = add_value(*app, "--moves", "FILE", "drag as recorded in this JSON script, from rest");
   options.output = add_value(*app, "-o", "FOLDER", "where the report goes; made where it is missing")->required();
   app->footer(footer);
   return {app, [options, command_line] { compare(options, command_line); }};

@@ -6,6 +6,7 @@
 #include "command_line/common.h"
 #include "command_line/script.h"
 #include "files/outputs.h"
+#include "files/softness_csv.h"
 #include "files/tables.h"
 #include "files/text.h"
 #include "mesh/error.h"
@@ -16,8 +17,8 @@ namespace {
 struct Options {
   CLI::App* app = nullptr;
   MeshOptions mesh;
-  CLI::Option *algorithm, *precision, *compression, *stretch, *shear;
-  CLI::Option *move, *by, *cut;
+  CLI::Option *algorithm, *precision, *compression, *stretch, *shear, *softness;
+  CLI::Option *move, *by, *cut, *pin;
   CLI::Option *steps, *relax, *relaxation, *relax_step;
   CLI::Option *positions, *trace, *json;
 };
@@ -29,7 +30,8 @@ struct Targets {
 };
 
 constexpr const char* example =
-    "Passes, orders and ids in the output count from 0. Links that are cut still count in \"links\".\n\n"
+    "Passes, orders and ids in the output count from 0; a sponsor of -1 is none. Links that are cut still count in\n"
+    "\"links\".\n\n"
     "Example:\n"
     "  chainmail deform grid.dat --algorithm natural-queue --cut 30-31 --by 31:3,2 --steps 10 \\\n"
     "      --relax 20 --positions moved.csv --json -";
@@ -42,25 +44,19 @@ std::vector<std::string> algorithm_names() {
   return names;
 }
 
-void refuse_later_work(const Options& options, const std::string& algorithm) {
-  for (const auto* name : {"--pin", "--softness"}) {
-    if (options.app->count(name) > 0) {
-      refuse_unbuilt(name, "leave it out");
-    }
-  }
-  if (algorithm == "enhanced" || algorithm == "exact" || algorithm == "original") {
-    refuse_unbuilt("--algorithm " + algorithm, "use generalized, spiral or natural-queue");
-  }
-  if (value_of(options.relaxation) == "link") {
-    refuse_unbuilt("--relaxation link", "use mean");
-  }
-}
-
 Algorithm read_algorithm(const Options& options) {
   const std::string name = *value_of(options.algorithm);
-  refuse_later_work(options, name);
   check_word("--algorithm", name, algorithm_names());
   return *find_algorithm(name);
+}
+
+/// Has what the core says of an algorithm that does not work on the mesh name the option.
+void check_algorithm(Algorithm algorithm, const Mesh& mesh) {
+  try {
+    check(algorithm, mesh);
+  } catch (const Error& error) {
+    throw error.at("--algorithm " + std::string(info(algorithm).name));
+  }
 }
 
 Precision read_precision(const Options& options) {
@@ -69,21 +65,28 @@ Precision read_precision(const Options& options) {
   return word == "float" ? Precision::single_precision : Precision::double_precision;
 }
 
-LinkSoftness read_softness(const Options& options) {
+LinkSoftness read_global_softness(const Options& options) {
   return {value_of(options.compression, parameters::compression), value_of(options.stretch, parameters::stretch),
           value_of(options.shear, parameters::shear)};
 }
 
+RelaxationScheme read_relaxation(const Options& options) {
+  const std::string word = value_of(options.relaxation).value_or("mean");
+  check_word("--relaxation", word, {"mean", "link"});
+  return word == "link" ? RelaxationScheme::link : RelaxationScheme::mean;
+}
+
 Schedule read_schedule(const Options& options, const Targets& targets) {
-  check_word("--relaxation", value_of(options.relaxation).value_or("mean"), {"mean"});
   return {whole_number_of(options.steps, 1, 1), whole_number_of(options.relax, 0, 0),
           value_of(options.relax_step, parameters::relax_step), targets.trace.has_value()};
 }
 
 /// The acts in the order in which their options stand on the command line.
 std::vector<Act> read_acts(const Options& options) {
-  const std::map<const CLI::Option*, Act::Kind> kinds{
-      {options.move, Act::Kind::move}, {options.by, Act::Kind::by}, {options.cut, Act::Kind::cut}};
+  const std::map<const CLI::Option*, Act::Kind> kinds{{options.move, Act::Kind::move},
+                                                      {options.by, Act::Kind::by},
+                                                      {options.cut, Act::Kind::cut},
+                                                      {options.pin, Act::Kind::pin}};
   std::map<const CLI::Option*, std::size_t> taken;
   std::vector<Act> acts;
   for (const CLI::Option* option : options.app->parse_order()) {
@@ -143,27 +146,17 @@ void write_text(std::ostream& out, const DeformSummary& summary) {
     const auto& pass = summary.passes[i];
     out << "pass " << i << ": element " << pass.element << " to (" << pass.target.x() << ", " << pass.target.y() << ", "
         << pass.target.z() << "), " << pass.checked << " checked, " << pass.moved << " moved, " << pass.milliseconds
-        << " ms\n";
+        << " ms";
+    if (const auto& at = pass.stopped_at) {
+      out << ", stopped by pins at (" << at->x() << ", " << at->y() << ", " << at->z() << ")";
+    }
+    out << '\n';
   }
   out << "violation: max " << summary.violation.max << ", rms " << summary.violation.rms << ", "
       << 100 * summary.violation.fraction << "% of links\n";
 }
 
-void deform(const Options& options) {
-  const Algorithm algorithm = read_algorithm(options);
-  const Precision precision = read_precision(options);
-  const LinkSoftness softness = read_softness(options);
-  const Targets targets = read_targets(options);
-  const Schedule schedule = read_schedule(options, targets);
-  const std::vector<Act> acts = read_acts(options);
-  const MeshPointer mesh = read_mesh(options.mesh);
-  std::for_each(acts.begin(), acts.end(), [&](const Act& act) { check_act(act, *mesh); });
-
-  Simulation simulation(mesh, algorithm, precision);
-  simulation.apply(commands::SetSoftness{{softness, {}}});
-  const Run run = carry_out(simulation, acts, schedule);
-  const DeformSummary summary = summarize(simulation, run);
-
+void write_results(const Targets& targets, const Simulation& simulation, const Run& run, const DeformSummary& summary) {
   Outputs outputs;
   if (targets.positions) {
     outputs.add(*targets.positions, [&](std::ostream& out) { write_positions(out, *targets.positions, simulation); });
@@ -180,11 +173,34 @@ void deform(const Options& options) {
   outputs.commit();
 }
 
+void deform(const Options& options) {
+  const Algorithm algorithm = read_algorithm(options);
+  const Precision precision = read_precision(options);
+  const RelaxationScheme relaxation = read_relaxation(options);
+  Softness softness{read_global_softness(options), {}};
+  const Targets targets = read_targets(options);
+  const Schedule schedule = read_schedule(options, targets);
+  const std::vector<Act> acts = read_acts(options);
+  const MeshPointer mesh = read_mesh(options.mesh);
+  check_algorithm(algorithm, *mesh);
+  check_acts(acts, *mesh);
+  if (const auto file = value_of(options.softness)) {
+    softness.links = read_softness(std::filesystem::path(*file), *mesh);
+  }
+
+  Simulation simulation(mesh, algorithm, precision);
+  simulation.apply(commands::SetSoftness{softness});
+  simulation.apply(commands::SetRelaxation{false, schedule.relax_step, relaxation});
+  const Run run = carry_out(simulation, acts, schedule);
+  write_results(targets, simulation, run, summarize(simulation, run));
+}
+
 void add_acts(CLI::App& app, Options& options) {
   options.move = add_value(app, "--move", "ID:X[,Y[,Z]]", "drag an element to a position; what is left out stays");
   options.by = add_value(app, "--by", "ID:DX[,DY[,DZ]]", "drag an element from where it is");
   options.cut = add_value(app, "--cut", "A-B", "cut the link of two elements");
-  for (CLI::Option* option : {options.move, options.by, options.cut}) {
+  options.pin = add_value(app, "--pin", "ID", "keep an element where it then is");
+  for (CLI::Option* option : {options.move, options.by, options.cut, options.pin}) {
     option->group("Acts, repeated at will and carried out in the order given");
   }
   options.steps = add_value(app, "--steps", "N", "passes of equal steps a move [1]");
@@ -199,8 +215,11 @@ void add_model(CLI::App& app, Options& options) {
   options.compression = add_parameter(app, parameters::compression);
   options.stretch = add_parameter(app, parameters::stretch);
   options.shear = add_parameter(app, parameters::shear);
+  options.softness =
+      add_value(app, "--softness", "FILE", "other softness for single links: CSV rows a,b,compression,stretch,shear");
   options.relax = add_value(app, "--relax", "N", "sweeps of relaxation after each pass [0]");
-  options.relaxation = add_value(app, "--relaxation", "mean", "how an element relaxes [mean]");
+  options.relaxation =
+      add_value(app, "--relaxation", "mean|link", "toward its neighbours' mean, or link by link [mean]");
   options.relax_step = add_parameter(app, parameters::relax_step);
   options.precision = add_value(app, "--precision", "double|float", "the numbers to compute in [double]");
   options.mesh.space = add_value(app, "--space", "1|2|3", "space dimension [what the mesh states or extends along]");
@@ -216,16 +235,13 @@ void add_outputs(CLI::App& app, Options& options) {
 }  // namespace
 
 Command add_deform(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("deform", "Drag elements and cut links of a mesh");
+  CLI::App* app = root.add_subcommand("deform", "Drag and pin elements and cut links of a mesh");
   Options options{};
   options.app = app;
   options.mesh = add_mesh_options(*app);
   add_model(*app, options);
   add_acts(*app, options);
   add_outputs(*app, options);
-  for (const auto* name : {"--pin", "--softness"}) {
-    add_value(*app, name, "VALUE", "later work")->group("");
-  }
   app->footer(example);
   return {app, [options] { deform(options); }};
 }

@@ -66,12 +66,6 @@ void refuse_swallowed_options(const CLI::App& app) {
   }
 }
 
-void add_unbuilt(CLI::App& root, const std::string& name) {
-  CLI::App* app = root.add_subcommand(name)->group("")->prefix_command();
-  app->set_help_flag();
-  app->callback([name] { refuse_unbuilt(name, "use generate, info, deform or compare"); });
-}
-
 /// The arguments as a shell would take them again.
 std::string as_typed(int argc, char** argv) {
   std::string line = "chainmail";
@@ -99,11 +93,10 @@ void run(int argc, char** argv) {
   root.footer(footer);
   root.allow_extras()->require_subcommand(0, 1);
   const std::vector<Command> commands{add_generate(root), add_info(root), add_deform(root),
-                                      add_compare(root, as_typed(argc, argv))};
+                                      add_compare(root, as_typed(argc, argv)), add_ramp(root)};
   for (const Command& command : commands) {
     command.app->allow_extras();
   }
-  add_unbuilt(root, "ramp");
   try {
     root.parse(argc, argv);
   } catch (const CLI::Success& asked) {
@@ -122,7 +115,7 @@ void run(int argc, char** argv) {
       return;
     }
   }
-  throw Error("command", "none is given", "use generate, info, deform or compare; see chainmail --help");
+  throw Error("command", "none is given", "use generate, info, deform, compare or ramp; see chainmail --help");
 }
 
 }  // namespace chainmail::command_line

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <set>
 
 #include "command_line/common.h"
 #include "files/text.h"
@@ -75,6 +76,30 @@ void check_axes(const Act& act, const Mesh& mesh) {
   }
 }
 
+void check_link(const Act& act, const Mesh& mesh) {
+  check_element(act, act.other, mesh);
+  if (!find_link(mesh, act.element, act.other)) {
+    throw Error(act.where, "these elements are not linked", "give the two ends of a link");
+  }
+}
+
+std::vector<double> parse_coordinates(const std::string& where, std::string_view text) {
+  std::vector<double> coordinates;
+  for (;;) {
+    const std::size_t end = std::min(text.find(','), text.size());
+    coordinates.push_back(parse_number_of(where, text.substr(0, end)));
+    if (coordinates.size() > 3) {
+      throw Error(where, "it has more than three coordinates", "write ID:X[,Y[,Z]]");
+    }
+    if (end == text.size()) {
+      return coordinates;
+    }
+    text.remove_prefix(end + 1);
+  }
+}
+
+bool is_move(const Act& act) { return act.kind == Act::Kind::move || act.kind == Act::Kind::by; }
+
 class Runner {
  public:
   Runner(Simulation& simulation, const Schedule& schedule, std::uint64_t moves)
@@ -83,6 +108,8 @@ class Runner {
   void carry_out(const Act& act) {
     if (act.kind == Act::Kind::cut) {
       simulation_.apply(commands::Cut{{*find_link(simulation_.mesh(), act.element, act.other)}});
+    } else if (act.kind == Act::Kind::pin) {
+      simulation_.apply(commands::Pin{{act.element}});
     } else {
       move(act);
     }
@@ -134,6 +161,9 @@ void Runner::pass(ElementId element, const Point& target) {
   const Statistics& statistics = simulation_.statistics();
   run_.passes.push_back(
       {element, target, statistics.last_pass.checked, statistics.last_pass.moved, statistics.last_pass_ms});
+  if (statistics.last_pass.stopped) {
+    run_.passes.back().stopped_at = point_of(simulation_.mesh(), simulation_.solver().positions(), element);
+  }
   if (schedule_.trace) {
     run_.traces.push_back(std::move(trace));
   }
@@ -145,6 +175,10 @@ void Runner::pass(ElementId element, const Point& target) {
 
 Act parse_act(Act::Kind kind, const std::string& option, const std::string& text) {
   Act act{kind, option + " " + text, 0, 0, {}};
+  if (kind == Act::Kind::pin) {
+    act.element = parse_id(act.where, text);
+    return act;
+  }
   const bool is_cut = kind == Act::Kind::cut;
   const std::size_t mark = text.find(is_cut ? '-' : ':');
   if (mark == std::string::npos) {
@@ -152,40 +186,40 @@ Act parse_act(Act::Kind kind, const std::string& option, const std::string& text
                 is_cut ? "write A-B with the ids of a link's ends" : "write ID:X[,Y[,Z]]");
   }
   act.element = parse_id(act.where, std::string_view(text).substr(0, mark));
-  std::string_view rest = std::string_view(text).substr(mark + 1);
+  const std::string_view rest = std::string_view(text).substr(mark + 1);
   if (is_cut) {
     act.other = parse_id(act.where, rest);
-    return act;
-  }
-  for (;;) {
-    const std::size_t end = std::min(rest.find(','), rest.size());
-    act.coordinates.push_back(parse_number_of(act.where, rest.substr(0, end)));
-    if (end == rest.size()) {
-      break;
-    }
-    rest.remove_prefix(end + 1);
-  }
-  if (act.coordinates.size() > 3) {
-    throw Error(act.where, "it has more than three coordinates", "write ID:X[,Y[,Z]]");
+  } else {
+    act.coordinates = parse_coordinates(act.where, rest);
   }
   return act;
 }
 
-void check_act(const Act& act, const Mesh& mesh) {
-  check_element(act, act.element, mesh);
-  if (act.kind != Act::Kind::cut) {
-    check_axes(act, mesh);
-    return;
-  }
-  check_element(act, act.other, mesh);
-  if (!find_link(mesh, act.element, act.other)) {
-    throw Error(act.where, "these elements are not linked", "give the two ends of a link");
+void check_acts(const std::vector<Act>& acts, const Mesh& mesh) {
+  std::set<ElementId> pinned;
+  for (const Act& act : acts) {
+    check_element(act, act.element, mesh);
+    switch (act.kind) {
+      case Act::Kind::cut:
+        check_link(act, mesh);
+        break;
+      case Act::Kind::pin:
+        pinned.insert(act.element);
+        break;
+      case Act::Kind::move:
+      case Act::Kind::by:
+        check_axes(act, mesh);
+        if (pinned.contains(act.element)) {
+          throw Error(act.where, "element " + std::to_string(act.element) + " is pinned by then and may not move",
+                      "move another element, or pin it later");
+        }
+        break;
+    }
   }
 }
 
 Run carry_out(Simulation& simulation, const std::vector<Act>& acts, const Schedule& schedule) {
-  const auto moves = static_cast<std::uint64_t>(
-      std::count_if(acts.begin(), acts.end(), [](const Act& act) { return act.kind != Act::Kind::cut; }));
+  const auto moves = static_cast<std::uint64_t>(std::count_if(acts.begin(), acts.end(), is_move));
   Runner runner(simulation, schedule, moves);
   for (const Act& act : acts) {
     runner.carry_out(act);

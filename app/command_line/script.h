@@ -11,7 +11,7 @@ namespace chainmail::command_line {
 
 /// One of the options that act in the order given.
 struct Act {
-  enum class Kind { move, by, cut };
+  enum class Kind { move, by, cut, pin };
 
   Kind kind = Kind::move;
   std::string where;  // the option and its value, for errors
@@ -20,12 +20,12 @@ struct Act {
   std::vector<double> coordinates;  // move, by: x, y, z as far as given
 };
 
-/// Reads `ID:X[,Y[,Z]]` for a move, `A-B` for a cut. Throws Error naming the option.
+/// Reads `ID:X[,Y[,Z]]` for a move, `A-B` for a cut, `ID` for a pin. Throws Error naming the option.
 Act parse_act(Act::Kind kind, const std::string& option, const std::string& text);
 
-/// Throws Error where an act does not fit the mesh: an element or link that is not there, a coordinate on
-/// an axis that does not exist.
-void check_act(const Act& act, const Mesh& mesh);
+/// Throws Error where an act does not fit the mesh or the acts before it: an element or link that is not
+/// there, a coordinate on an axis that does not exist, a move of an element that is pinned by then.
+void check_acts(const std::vector<Act>& acts, const Mesh& mesh);
 
 /// How each move is made.
 struct Schedule {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct DeformSummary {
     std::uint64_t checked = 0;
     std::uint64_t moved = 0;
     double milliseconds = 0;
+    std::optional<Point> stopped_at = {};  // where pins held the hand short of its target
   };
 
   std::string algorithm;

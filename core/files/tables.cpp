@@ -27,12 +27,16 @@ void write_trace_csv(std::ostream& out, const std::vector<Trace>& passes) {
     std::uint64_t order = 0;
     for (const TraceRow& candidate : passes[pass]) {
       row.clear();
-      for (const std::uint64_t number :
-           {std::uint64_t{pass}, order++, std::uint64_t{candidate.element}, std::uint64_t{candidate.sponsor}}) {
+      for (const std::uint64_t number : {std::uint64_t{pass}, order++, std::uint64_t{candidate.element}}) {
         append_number(row, number);
         row += ',';
       }
-      out << (row += candidate.moved ? "1\n" : "0\n");
+      if (candidate.sponsor == no_element) {
+        row += "-1";
+      } else {
+        append_number(row, std::uint64_t{candidate.sponsor});
+      }
+      out << (row += candidate.moved ? ",1\n" : ",0\n");
     }
   }
 }

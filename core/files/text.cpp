@@ -86,7 +86,7 @@ void require_file(const std::filesystem::path& path) {
   }
 }
 
-std::string read_text(const std::filesystem::path& path) {
+std::string read_text(const std::filesystem::path& path, const std::string& content) {
   require_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) {
@@ -97,17 +97,17 @@ std::string read_text(const std::filesystem::path& path) {
   while (file.read(part.data(), static_cast<std::streamsize>(part.size())), file.gcount() > 0) {
     text.append(part.data(), static_cast<std::size_t>(file.gcount()));
     if (text.find('\0', text.size() - static_cast<std::size_t>(file.gcount())) != std::string::npos) {
-      throw Error(shown(path), "it is not a text file", "give a mesh as text");
+      throw Error(shown(path), "it is not a text file", "give " + content + " as text");
     }
     if (text.size() > largest_text) {
-      throw Error(shown(path), "it is larger than 4 GiB", "give a smaller mesh");
+      throw Error(shown(path), "it is larger than 4 GiB", "give a smaller file");
     }
   }
   if (file.bad()) {
     throw Error(shown(path), "it cannot be read to its end (" + reason() + ")", "check the disk");
   }
   if (text.empty()) {
-    throw Error(shown(path), "it is empty", "give a file that holds a mesh");
+    throw Error(shown(path), "it is empty", "give a file that holds " + content);
   }
   return text;
 }

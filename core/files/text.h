@@ -22,8 +22,8 @@ std::string shown(const std::filesystem::path& path, std::size_t line);
 void require_file(const std::filesystem::path& path);
 
 /// The whole of a text file. Throws Error where there is none, where it is a folder, empty, too large or
-/// not text.
-std::string read_text(const std::filesystem::path& path);
+/// not text; `content` is what the file should hold.
+std::string read_text(const std::filesystem::path& path, const std::string& content = "a mesh");
 
 /// Walks through a text line by line; lines end in \n, \r\n or \r and count from 1.
 class Lines {

@@ -8,8 +8,6 @@
 namespace chainmail {
 namespace {
 
-constexpr double counts_as_violated = 1e-4;
-
 template <int Dimension>
 double excess(const Mesh& mesh, const LinkSoftness& softness, const PositionView& position, ElementId a, ElementId b) {
   const auto region = valid_region<double, Dimension>(mesh, a, b, softness);

@@ -10,12 +10,15 @@
 
 namespace chainmail {
 
+/// A link violated by more than this (rest lengths) counts as such; below it is rounding.
+inline constexpr double counts_as_violated = 1e-4;
+
 /// How far links lie outside their valid regions, in rest lengths of the link (a link of zero length:
 /// in the mesh's mean rest length). Cut links do not count.
 struct Violation {
   double max = 0;
   double rms = 0;
-  double fraction = 0;      // of the links looked at, those above 1e-4
+  double fraction = 0;      // of the links looked at, those that count as violated
   std::uint64_t links = 0;  // looked at
 
   bool operator==(const Violation&) const = default;

@@ -1,9 +1,14 @@
 #include "report/errors.h"
 
+#include <algorithm>
+
 #include "mesh/error.h"
 
 namespace chainmail::report {
 namespace {
+
+// Beyond this the reference would take longer than all that is compared with it.
+constexpr ElementId equilibrium_limit = 131'072;
 
 double energy_of(const Simulation& simulation) {
   return elastic_energy(simulation.mesh(), simulation.solver().cuts(), simulation.solver().positions());
@@ -23,9 +28,31 @@ References::References(const Case& object, const RecordedMoves& moves, const Com
     exact_ = std::make_unique<Runner>(object, Algorithm::exact, Precision::double_precision, options);
     exact_->run(moves, 0, stop);
     energy_of_exact_ = energy_of(exact_->simulation());
+    find_equilibrium();
   } catch (const Error& error) {
     exact_.reset();
     no_exact_ = error.what();
+  }
+}
+
+/// Where full relaxation would end with the hand and the pins where Exact ChainMail has them.
+void References::find_equilibrium() {
+  const Simulation& simulation = exact_->simulation();
+  const auto pins = simulation.solver().pins();
+  std::vector<ElementId> fixed(pins.begin(), pins.end());
+  if (exact_->hand()) {
+    fixed.push_back(*exact_->hand());
+  }
+  if (simulation.mesh().element_count() > equilibrium_limit) {
+    return;
+  }
+  equilibrium_ = equilibrium(simulation.mesh(), simulation.softness(), simulation.solver().cuts(), fixed,
+                             simulation.solver().positions());
+  const bool is_reference =
+      equilibrium_ && !equilibrium_->binds &&
+      std::find(equilibrium_->defined.begin(), equilibrium_->defined.end(), false) == equilibrium_->defined.end();
+  if (!is_reference) {
+    equilibrium_.reset();
   }
 }
 
@@ -37,6 +64,9 @@ Errors References::errors_of(const Runner& runner, const Contestant& contestant)
   if (exact_) {
     errors.to_exact = between(runner, *exact_);
     errors.energy_over_exact = energy_ratio(energy_of(simulation), energy_of_exact_);
+  }
+  if (equilibrium_) {
+    errors.to_equilibrium = measure_distance(simulation.mesh(), positions, equilibrium_->positions(simulation.mesh()));
   }
   errors.float_to_double = float_to_double(runner, contestant);
   if (runner.hand()) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 
+#include "measure/equilibrium.h"
 #include "report/runner.h"
 
 namespace chainmail::report {
@@ -22,6 +23,7 @@ class References {
 
  private:
   Distance float_to_double(const Runner& runner, const Contestant& contestant);
+  void find_equilibrium();
 
   const Case& object_;
   const RecordedMoves& moves_;
@@ -29,6 +31,7 @@ class References {
   const std::stop_token& stop_;
   std::unique_ptr<Runner> exact_;
   double energy_of_exact_ = 0;
+  std::optional<Equilibrium> equilibrium_;  // where it is a reference for all elements
   std::string no_exact_;
   std::unique_ptr<Runner> other_;  // of the last contestant's algorithm, in the other precision
 };

@@ -66,12 +66,25 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
   }
   softness_ = command.softness;
   solver_->set_softness(softness_);
-  // Under load the object may now violate its links: a pass about the element that was moved last
-  // answers the new softness at once, as far as its propagation reaches. From a valid state it moves
-  // nothing.
   valid_ = false;
-  if (last_moved_ && !std::ranges::binary_search(solver_->pins(), *last_moved_)) {
-    pass(*last_moved_, point_of(*mesh_, solver_->positions(), *last_moved_));
+  answer_softness();
+}
+
+/// Under load the object may now violate its links: a pass about the hand, or the element that was moved
+/// last, answers the new softness at once, as far as its propagation reaches. From a valid state it moves
+/// nothing.
+void Simulation::answer_softness() {
+  if (!last_moved_) {
+    return;  // it is at rest
+  }
+  const auto about = grabbed_ ? grabbed_ : last_moved_;
+  if (std::ranges::binary_search(solver_->pins(), *about)) {
+    return;
+  }
+  try {
+    pass(*about, point_of(*mesh_, solver_->positions(), *about));
+  } catch (const Error&) {
+    // Pins that contradict each other now: the softness stands, and the next drag says so.
   }
 }
 

@@ -84,6 +84,7 @@ class Simulation {
   void carry_out(const commands::SwapState& command);
   void carry_out(const commands::DropState& command);
 
+  void answer_softness();
   void pass(ElementId element, const Point& target);
   void check_element(ElementId element) const;
   void check_links(const std::vector<LinkId>& links) const;

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
+#include <span>
 #include <utility>
 
 #include "solve/body.h"
 #include "solve/exact_schedule.h"
-#include "solve/feasible.h"
+#include "solve/path_search.h"
 #include "solve/trace.h"
 
 namespace chainmail {
@@ -30,7 +30,7 @@ class ExactPropagation {
 
   struct Result {
     std::uint64_t checked = 0;  // elements that the pass reached
-    std::uint64_t visits = 0;   // of elements, on all axes together
+    std::uint64_t visits = 0;   // of elements, on all axes together, with those before the hand was held back
     bool stopped = false;       // by pins, short of its target
   };
 
@@ -40,6 +40,7 @@ class ExactPropagation {
   Result propagate(State& body, std::span<const ElementId> pins, ElementId grabbed, const Scalar (&target)[Dimension],
                    std::vector<ElementId>& moved, Trace* trace) {
     growth_.resize(body.elements.size());
+    reached_.clear();
     for (int k = 0; k < Dimension; ++k) {
       const Scalar by = target[k] - body.elements[grabbed].position[k];
       is_down_[k] = by < 0;
@@ -51,8 +52,8 @@ class ExactPropagation {
       hold_back(body, grabbed);
       forget();
     }
-    const Excess excess = excess_at(pins);
     result.stopped = std::any_of(std::begin(stopped_), std::end(stopped_), [](bool one) { return one; });
+    const Excess excess = result.stopped ? excess_at(pins) : Excess{};
     result.checked = reached_.size() - 1;
     if (trace != nullptr) {
       write_trace(body, grabbed, excess, *trace);
@@ -60,6 +61,9 @@ class ExactPropagation {
     move(body, grabbed, target, excess, moved);
     return result;
   }
+
+  /// The elements that the last pass reached, the grabbed one first.
+  std::span<const ElementId> reached() const { return reached_; }
 
  private:
   struct Growth {
@@ -82,6 +86,7 @@ class ExactPropagation {
       schedule_.admit(grabbed, hand.key);
     }
     bool holds = true;
+    std::uint64_t visits = 0;
     while (!schedule_.empty()) {
       const auto [key, element] = schedule_.take();
       // Visited since it was admitted, or admitted again with more.
@@ -90,16 +95,17 @@ class ExactPropagation {
         continue;
       }
       growth_[element].key = 0;
-      ++result.visits;
+      ++visits;
       body.for_each_neighbour(element, [&, from = element](ElementId neighbour, EntryId entry) {
         if (push(body, from, neighbour, entry) && body.pinned(neighbour)) {
           holds = !pulls(growth_[neighbour]) && holds;
         }
       });
-      if constexpr (requires { schedule_.visited(0, 0, nullptr); }) {
-        schedule_.visited(result.visits, reached_.size(), [this](ElementId e) { return growth_[e].key; });
+      if constexpr (Schedule::adapts) {
+        schedule_.visited(visits, reached_.size(), [this](ElementId e) { return growth_[e].key; });
       }
     }
+    result.visits += visits;
     return holds;
   }
 
@@ -121,12 +127,14 @@ class ExactPropagation {
       if (!std::exchange(ends_at_pin_[k], false)) {
         continue;
       }
-      std::vector<Scalar> way(body.elements.size(), std::numeric_limits<Scalar>::infinity());
-      way[grabbed] = 0;
-      const auto pin = shorten_paths(
-          body, way, [&](ElementId i, ElementId j, EntryId entry) { return slack(body, i, j, entry, k); },
+      search_.begin(body.mesh->element_count());
+      search_.add_source(grabbed, 0);
+      const auto pin = search_.run(
+          body, [&](ElementId i, ElementId j, EntryId entry) { return double(slack(body, i, j, entry, k)); },
           [&](ElementId e) { return body.pinned(e); });
-      distance_[k] = std::min(distance_[k], way[*pin]);
+      if (pin) {
+        distance_[k] = std::min(distance_[k], static_cast<Scalar>(search_.label(*pin)));
+      }
       stopped_[k] = true;
     }
   }
@@ -215,6 +223,7 @@ class ExactPropagation {
   void move(State& body, ElementId grabbed, const Scalar (&target)[Dimension], const Excess& excess,
             std::vector<ElementId>& moved) {
     moved.clear();
+    moved.reserve(reached_.size());
     for (const ElementId element : reached_) {
       Scalar* u = body.elements[element].position;
       bool has_moved = false;
@@ -233,7 +242,6 @@ class ExactPropagation {
         body.elements[grabbed].position[k] = target[k];
       }
     }
-    reached_.clear();
   }
 
   /// The neighbour with the lowest id that made the element go as far as it does on the axis on which it
@@ -265,8 +273,9 @@ class ExactPropagation {
   }
 
   std::vector<Growth> growth_;
-  std::vector<ElementId> reached_;  // the grabbed one first
+  std::vector<ElementId> reached_;  // by the last pass, the grabbed one first
   Schedule schedule_;
+  PathSearch search_;
   // Along each axis: the hand goes down it, how far it goes, and whether pins hold it back.
   bool is_down_[Dimension]{};
   Scalar distance_[Dimension]{};

@@ -15,7 +15,7 @@ namespace chainmail {
 ///
 /// A key is the largest displacement that grew since the element's last visit, above 0. An element whose
 /// key grows while it waits is admitted again, and the caller drops what it takes of it later; while the
-/// schedule says that it `keeps_place()`, it is not.
+/// schedule says that it `keeps_place()`, it is not. One that `adapts` is told after each visit how it goes.
 
 /// Largest key first, in a radix heap: with keys that never exceed the last one taken, an element is
 /// visited at most once a space dimension (label setting; Ahuja, Mehlhorn, Orlin and Tarjan 1990).
@@ -24,6 +24,7 @@ namespace chainmail {
 template <class Scalar>
 class RadixHeapSchedule {
  public:
+  static constexpr bool adapts = false;
   struct Entry {
     Scalar key;
     ElementId element;
@@ -88,6 +89,7 @@ class RadixHeapSchedule {
 template <class Scalar>
 class AdaptiveSchedule {
  public:
+  static constexpr bool adapts = true;
   using Entry = typename RadixHeapSchedule<Scalar>::Entry;
 
   bool keeps_place() const { return !sets_labels_; }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <new>
 #include <string>
 #include <type_traits>
 
@@ -10,6 +13,7 @@
 #include "solve/original.h"
 #include "solve/propagate.h"
 #include "solve/relaxation.h"
+#include "solve/repair.h"
 #include "solve/solver.h"
 
 namespace chainmail {
@@ -53,23 +57,17 @@ class TypedSolver final : public Solver {
   }
 
   void pin(std::span<const ElementId> elements) override {
-    for (const ElementId element : elements) {
-      const auto place = std::lower_bound(pins_.begin(), pins_.end(), element);
-      if (place == pins_.end() || *place != element) {
-        pins_.insert(place, element);
-        body_.set_pinned(element, true);
-      }
-    }
+    std::vector<ElementId> all;
+    const auto added = sorted(elements);
+    std::set_union(pins_.begin(), pins_.end(), added.begin(), added.end(), std::back_inserter(all));
+    set_pins(std::move(all));
   }
 
   void unpin(std::span<const ElementId> elements) override {
-    for (const ElementId element : elements) {
-      const auto place = std::lower_bound(pins_.begin(), pins_.end(), element);
-      if (place != pins_.end() && *place == element) {
-        pins_.erase(place);
-        body_.set_pinned(element, false);
-      }
-    }
+    std::vector<ElementId> rest;
+    const auto removed = sorted(elements);
+    std::set_difference(pins_.begin(), pins_.end(), removed.begin(), removed.end(), std::back_inserter(rest));
+    set_pins(std::move(rest));
   }
 
   std::span<const ElementId> pins() const override { return pins_; }
@@ -87,16 +85,24 @@ class TypedSolver final : public Solver {
     }
     Scalar next[Dimension];
     for (int k = 0; k < Dimension; ++k) {
-      next[k] = static_cast<Scalar>(target[body_.mesh->axes[k]] - body_.origin(element, k));
-      if (!std::isfinite(next[k]) || !std::isfinite(next[k] - body_.elements[element].position[k])) {
+      const double to = target[body_.mesh->axes[k]];
+      // A move to where the element is read to be is none, whatever the reading rounded.
+      const bool stays = to == body_.absolute(element, k);
+      next[k] = stays ? body_.elements[element].position[k] : static_cast<Scalar>(to - body_.origin(element, k));
+      if (!(std::abs(next[k]) <= limit)) {
         throw Error("element " + std::to_string(element), "its target is not a finite number",
                     "give coordinates that fit the precision");
       }
     }
-    const PassCount count =
-        algorithm_ == Algorithm::exact ? move_exactly(element, next, trace) : move_by_lists(element, next, trace);
-    at_rest_ = false;
-    return count;
+    try {
+      const PassCount count =
+          algorithm_ == Algorithm::exact ? move_exactly(element, next, trace) : move_by_lists(element, next, trace);
+      at_rest_ = false;
+      return count;
+    } catch (const std::bad_alloc&) {
+      drop_pass();
+      throw;
+    }
   }
 
   std::span<const ElementId> moved() const override { return moved_; }
@@ -110,8 +116,9 @@ class TypedSolver final : public Solver {
   void set_relaxation(RelaxationScheme scheme) override { scheme_ = scheme; }
 
   RelaxationResult relax(double step, std::uint64_t budget, std::optional<ElementId> held) override {
-    at_rest_ = false;
-    return relaxation_.sweep(body_, scheme_, step, budget, held);
+    const RelaxationResult result = relaxation_.sweep(body_, scheme_, step, budget, held);
+    at_rest_ = at_rest_ && result.largest_step == 0;
+    return result;
   }
 
   void sleep() override { relaxation_.sleep(); }
@@ -151,6 +158,26 @@ class TypedSolver final : public Solver {
   }
 
  private:
+  /// Positions stay below this share of what the scalar holds, so that sums of a few of them are finite.
+  static constexpr Scalar limit = std::numeric_limits<Scalar>::max() / 16;
+
+  static std::vector<ElementId> sorted(std::span<const ElementId> elements) {
+    std::vector<ElementId> all(elements.begin(), elements.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
+
+  void set_pins(std::vector<ElementId> pins) {
+    for (const ElementId pin : pins_) {
+      body_.set_pinned(pin, false);
+    }
+    pins_ = std::move(pins);
+    for (const ElementId pin : pins_) {
+      body_.set_pinned(pin, true);
+    }
+  }
+
   void take_positions() {
     relaxation_.sleep();
     at_rest_ = is_valid_ = false;
@@ -191,7 +218,8 @@ class TypedSolver final : public Solver {
   }
 
   PassCount move_exactly(ElementId element, const Scalar (&target)[Dimension], Trace* trace) {
-    Repair repair(body_);
+    note_reach(element, target);
+    Repair repair(body_, search_);
     if (is_valid_ || repair.is_valid()) {
       is_valid_ = true;
       return count_of(exact_.propagate(body_, pins_, element, target, moved_, trace));
@@ -200,25 +228,53 @@ class TypedSolver final : public Solver {
     repair.run(pins_, element);
     is_valid_ = true;
     PassCount count = count_of(exact_.propagate(body_, pins_, element, target, moved_, trace));
-    add_repaired(before, element, count, trace);
+    add_repaired(before, count, trace);
     return count;
+  }
+
+  /// Numbers as large as this leave links with the rounding of their size; once the hand is back among small
+  /// ones, the object must be looked at again.
+  void note_reach(ElementId element, const Scalar (&target)[Dimension]) {
+    double reach = 0;
+    for (int k = 0; k < Dimension; ++k) {
+      const double from = double(body_.elements[element].position[k]);
+      reach = std::max({reach, std::abs(double(target[k])), std::abs(from)});
+    }
+    const double rounding = std::numeric_limits<Scalar>::epsilon() * furthest_;
+    if (64 * reach < furthest_ && rounding > 1e-6 * body_.mesh->mean_link_length) {
+      is_valid_ = false;
+      furthest_ = 0;
+    }
+    furthest_ = std::max(furthest_, reach);
   }
 
   PassCount count_of(const typename ExactPropagation<Scalar, Dimension>::Result& result) const {
     return {result.checked, moved_.size(), result.stopped, result.visits};
   }
 
-  /// What the repair moved, and the pass did not, has moved without a sponsor.
-  void add_repaired(const std::vector<ElementState<Scalar, Dimension>>& before, ElementId grabbed, PassCount& count,
-                    Trace* trace) {
-    std::vector<bool> known(before.size());
-    known[grabbed] = true;
-    for (const ElementId element : moved_) {
-      known[element] = true;
+  /// A repair and the pass after it count as one: what moved is what stands elsewhere than before. What the
+  /// pass did not reach has moved without a sponsor.
+  void add_repaired(const std::vector<ElementState<Scalar, Dimension>>& before, PassCount& count, Trace* trace) {
+    const ElementId grabbed = exact_.reached().front();
+    const auto has_moved = [&](ElementId e) {
+      return !std::equal(before[e].position, before[e].position + Dimension, body_.elements[e].position);
+    };
+    std::vector<bool> reached(before.size());
+    for (const ElementId element : exact_.reached()) {
+      reached[element] = true;
     }
+    if (trace != nullptr) {
+      for (auto row = trace->end() - static_cast<std::ptrdiff_t>(count.checked); row != trace->end(); ++row) {
+        row->moved = has_moved(row->element);
+      }
+    }
+    moved_.clear();
     for (ElementId e = 0; e < before.size(); ++e) {
-      if (!known[e] && !std::equal(before[e].position, before[e].position + Dimension, body_.elements[e].position)) {
-        moved_.push_back(e);
+      if (e == grabbed || !has_moved(e)) {
+        continue;
+      }
+      moved_.push_back(e);
+      if (!reached[e]) {
         ++count.checked;
         if (trace != nullptr) {
           trace->push_back({e, no_element, true});
@@ -226,6 +282,18 @@ class TypedSolver final : public Solver {
       }
     }
     count.moved = moved_.size();
+  }
+
+  /// There was no memory in the middle of a pass: nothing of it may come up in the next one.
+  void drop_pass() {
+    exact_ = {};
+    front_ = {};
+    spiral_ = {};
+    natural_queue_ = {};
+    enhanced_ = {};
+    directions_ = {};
+    moved_.clear();
+    at_rest_ = is_valid_ = false;
   }
 
   template <class Out>
@@ -247,6 +315,7 @@ class TypedSolver final : public Solver {
   EnhancedList enhanced_;
   DirectionLists directions_;
   ExactPropagation<Scalar, Dimension> exact_;
+  PathSearch search_;  // for repairs
   std::vector<ElementId> moved_;
   Relaxation<Scalar, Dimension> relaxation_;
   RelaxationScheme scheme_ = RelaxationScheme::mean;
@@ -254,6 +323,7 @@ class TypedSolver final : public Solver {
   // all hold.
   bool at_rest_ = true;
   bool is_valid_ = true;
+  double furthest_ = 0;  // displacement or move since the links were last looked at (mesh units)
 };
 
 }  // namespace chainmail

@@ -23,6 +23,7 @@ struct Waiting {
 template <class Scalar>
 class FifoSchedule {
  public:
+  static constexpr bool adapts = false;
   bool keeps_place() const { return true; }
   bool empty() const { return queue_.empty(); }
   void begin(Scalar) {}
@@ -37,6 +38,7 @@ class FifoSchedule {
 template <class Scalar>
 class HeapSchedule {
  public:
+  static constexpr bool adapts = false;
   bool keeps_place() const { return false; }
   bool empty() const { return heap_.empty(); }
   void begin(Scalar) {}
@@ -61,6 +63,7 @@ class HeapSchedule {
 template <class Scalar, int Count>
 class BucketSchedule {
  public:
+  static constexpr bool adapts = false;
   bool keeps_place() const { return false; }
   bool empty() const { return size_ == 0; }
   void begin(Scalar largest) {
@@ -95,6 +98,7 @@ class BucketSchedule {
 template <class Scalar>
 class StepSchedule {
  public:
+  static constexpr bool adapts = false;
   bool keeps_place() const { return false; }
   static inline double width = 1;
   bool empty() const { return size_ == 0; }

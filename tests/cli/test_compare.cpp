@@ -16,6 +16,7 @@ class CompareCommandTest : public QObject {
   }
   void writes_the_report();
   void options_are_taken();
+  void recorded_moves_are_carried_out();
   void the_page_names_the_command();
   void prints_the_main_table();
   void replaces_an_older_report();
@@ -83,6 +84,17 @@ void CompareCommandTest::options_are_taken() {
   QVERIFY(soft < stiff);
 }
 
+void CompareCommandTest::recorded_moves_are_carried_out() {
+  program_->write("moves.json", R"({"version": 1, "commands": [{"do": "pin", "elements": [0]},
+    {"do": "grab", "element": 29}, {"do": "drag", "target": [6, 5, 0]}, {"do": "drag", "target": [4, 3, 0]}]})");
+  const auto outcome = program_->run("compare grid.dat --moves moves.json --relax 0,200" + QByteArray(short_run));
+  QVERIFY2(outcome.code == 0, outcome.error);
+  const auto drags = report()["objects"][0]["drags"].toArray();
+  QCOMPARE(drags.size(), 1);
+  QCOMPARE(drags[0]["name"].toString(), QString("recorded"));
+  QCOMPARE(drags[0]["moves"].toInt(), 2);
+}
+
 void CompareCommandTest::the_page_names_the_command() {
   const auto outcome =
       program_->run(QStringList{"compare", "grid.dat", "--repetitions", "1", "--algorithms", "exact", "-o", "it's"});
@@ -138,7 +150,9 @@ void CompareCommandTest::wrong_usage_data() {
   row("compare grid.dat --precision half -o out", "--precision: 'half' is not known; ");
   row("compare grid.dat --repetitions 0 -o out", "--repetitions: '0' ");
   row("compare grid.dat --stretch 0.5 -o out", "--stretch: ");
-  row("compare grid.dat --moves moves.json -o out", "--moves: it is not built yet; ");
+  row("compare grid.dat --moves none.json -o out", "none.json: there is no such file; ");
+  row("compare grid.dat --moves grid.dat -o out", "grid.dat:1: it is not JSON; ");
+  row("compare --moves none.json -o out", "--moves: the mesh that they were recorded on is missing; ");
   row("compare grid.dat --pin 3 -o out", "--pin: there is no such option; ");
 }
 

@@ -67,7 +67,7 @@ void DeformCommandTest::a_chain_follows() {
 
 void DeformCommandTest::every_algorithm_runs_data() {
   QTest::addColumn<QString>("name");
-  for (const char* name : {"generalized", "spiral", "natural-queue"}) {
+  for (const char* name : {"generalized", "spiral", "natural-queue", "enhanced", "original", "exact"}) {
     QTest::newRow(name) << name;
   }
 }

@@ -52,10 +52,15 @@ class PinsTest : public QObject {
   void everything_pinned();
   void exact_holds_every_link_between_pins();
   void pins_that_contradict_are_named();
+  void the_pair_that_contradicts_is_named();
+  void rounding_is_no_contradiction();
+  void a_hand_pushed_through_comes_back();
   void a_hand_beyond_the_pins_reach_comes_back();
   void a_pinned_element_is_not_moved();
   void a_pin_is_taken_out_again();
   void pins_come_back_with_undo();
+  void softness_never_moves_the_hand();
+  void softness_that_pins_contradict_stands();
   void the_hand_is_not_pinned();
 };
 
@@ -216,6 +221,54 @@ void PinsTest::pins_that_contradict_are_named() {
   }
 }
 
+void PinsTest::the_pair_that_contradicts_is_named() {
+  // Four pins, of which the last two alone are too far apart.
+  const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
+  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const std::vector<ElementId> first{0, 3, 8};
+  solver->pin(first);
+  solver->move(11, Point(15, 0, 0));
+  const ElementId last = 11;
+  solver->pin(std::span(&last, 1));
+  solver->set_algorithm(Algorithm::exact);
+  const auto before = positions_of(*solver, *mesh);
+  const std::string sentence = refusal([&] { solver->move(5, Point(5, 0, 0)); });
+  QVERIFY2(sentence.starts_with("pins 8 and 11"), sentence.c_str());
+  QVERIFY(same_bits(before, positions_of(*solver, *mesh)));
+}
+
+void PinsTest::rounding_is_no_contradiction() {
+  // The solver itself put the end where the chain is taut, rounded along 500 links; pinned there, it holds.
+  const auto mesh = make_mesh(MeshKind::line, {500, 1, 1}, {}, 0.1);
+  for (const double far : {-1e3, 1e3}) {
+    for (const Precision precision : precisions) {
+      const auto solver = make_solver(mesh, Algorithm::exact, precision);
+      solver->set_softness({{0.9, 1.2, 0}, {}});
+      const std::vector<ElementId> ends{0, 499};
+      solver->pin(std::span(ends).first(1));
+      QVERIFY(solver->move(499, Point(far, 0, 0)).stopped);
+      solver->pin(std::span(ends).last(1));
+      solver->set_algorithm(Algorithm::natural_queue);
+      solver->set_algorithm(Algorithm::exact);
+      solver->move(250, position_of(*solver, *mesh, 250) + Point(0.01, 0, 0));
+      // Float: half an ulp of 60 for each of 500 links, over a link's 0.1.
+      const double rounding = precision == Precision::single_precision ? 500 * 2e-6 / 0.1 : 1e-10;
+      QVERIFY(measure_violation(*mesh, {{0.9, 1.2, 0}, {}}, solver->cuts(), solver->positions()).max <= rounding);
+    }
+  }
+}
+
+void PinsTest::a_hand_pushed_through_comes_back() {
+  // Pushed by Natural Queue onto its pin; Exact brings it to where links are as short as they get.
+  const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
+  const auto solver = pinned_chain(Precision::double_precision, {0});
+  solver->set_algorithm(Algorithm::natural_queue);
+  solver->move(11, Point(-100, 0, 0));
+  solver->set_algorithm(Algorithm::exact);
+  QVERIFY(solver->move(11, Point(-100, 0, 0)).stopped);
+  QCOMPARE(positions_of(*solver, *mesh), chain_of(0, 0.75));
+}
+
 void PinsTest::a_hand_beyond_the_pins_reach_comes_back() {
   // Pulled by Natural Queue to where the chain tears, then held by Exact: the hand is no second pin.
   const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
@@ -269,6 +322,31 @@ void PinsTest::pins_come_back_with_undo() {
   carry_out(simulation, commands::SwapState{2});
   QCOMPARE(pins(), (std::vector<ElementId>{3, 7}));
   QVERIFY(refusal([&] { simulation.apply(commands::Drag{Point(0, 0, 0)}); }).starts_with("drag"));
+}
+
+void PinsTest::softness_never_moves_the_hand() {
+  Simulation simulation(make_mesh(MeshKind::line, {12, 1, 1}), Algorithm::exact, Precision::double_precision);
+  carry_out(simulation, commands::SetSoftness{{{0.5, 2, 0.1}, {}}});
+  drag_by(simulation, 0, Point(-20, 0, 0));
+  carry_out(simulation, commands::Release{});
+  carry_out(simulation, commands::Grab{11});
+  const Point hand = position_of(simulation, 11);
+  carry_out(simulation, commands::SetSoftness{{{0.9, 1.1, 0.1}, {}}});
+  QCOMPARE(position_of(simulation, 11)[0], hand[0]);
+  simulation.refresh_statistics(true);
+  QVERIFY(simulation.statistics().violation.max < 1e-12);
+}
+
+void PinsTest::softness_that_pins_contradict_stands() {
+  Simulation simulation(make_mesh(MeshKind::line, {12, 1, 1}), Algorithm::exact, Precision::double_precision);
+  carry_out(simulation, commands::SetSoftness{{{0.5, 2, 0.1}, {}}});
+  drag_by(simulation, 11, Point(9, 0, 0));
+  carry_out(simulation, commands::Release{});
+  carry_out(simulation, commands::Pin{{0, 11}});
+  drag_by(simulation, 5, Point(1, 0, 0));
+  carry_out(simulation, commands::SetSoftness{{{0.9, 1.05, 0.1}, {}}});
+  QCOMPARE(simulation.softness().global.stretch, 1.05);
+  QVERIFY(refusal([&] { simulation.apply(commands::Drag{Point(6, 0, 0)}); }).starts_with("pins 0 and 11"));
 }
 
 void PinsTest::the_hand_is_not_pinned() {

@@ -46,8 +46,8 @@ void TablesTest::axes_not_carried_print_their_constant() {
 
 void TablesTest::traces() {
   std::ostringstream out;
-  write_trace_csv(out, {{{3, 1, true}, {4, 3, false}}, {}, {{1, 0, false}}});
-  QCOMPARE(out.str(), std::string("pass,order,element,sponsor,moved\n0,0,3,1,1\n0,1,4,3,0\n2,0,1,0,0\n"));
+  write_trace_csv(out, {{{3, 1, true}, {4, 3, false}}, {}, {{1, 0, false}, {2, no_element, true}}});
+  QCOMPARE(out.str(), std::string("pass,order,element,sponsor,moved\n0,0,3,1,1\n0,1,4,3,0\n2,0,1,0,0\n2,1,2,-1,1\n"));
 }
 
 QTEST_APPLESS_MAIN(TablesTest)

@@ -53,7 +53,8 @@ class WindowDrag : public QObject {
   void aMoveInsideTheRegionsMovesTheGrabbedElementAlone() {
     Workbench bench;
     const QPoint from = bench.place(0, 31);
-    bench.stroke(0, {from, from + QPoint(5, 0)});
+    const int link = bench.place(0, 32).x() - from.x();
+    bench.stroke(0, {from, from + QPoint(link / 10, 0)});
     for (int p = 0; p < 2; ++p) {
       QVERIFY(bench.document().frame(p)->statistics.passes > 0);
       QCOMPARE(bench.document().frame(p)->statistics.last_pass.moved, 0U);

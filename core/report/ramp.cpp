@@ -1,0 +1,200 @@
+#include "report/ramp.h"
+
+#include <algorithm>
+#include <map>
+
+#include "mesh/generate.h"
+#include "report/hand.h"
+
+namespace chainmail::report {
+namespace {
+
+constexpr std::uint32_t first_width = 4;
+constexpr double percentile_kept = 0.99;
+
+/// Drags of their own for each size and each attempt: the seed's bits spread (Steele et al. 2014, SplitMix).
+std::uint64_t seed_of(std::uint64_t seed, std::uint32_t width, int attempt) {
+  std::uint64_t z = seed + 0x9e3779b97f4a7c15 * (2 * std::uint64_t{width} + static_cast<std::uint64_t>(attempt));
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return z ^ (z >> 31);
+}
+
+/// One size: its mesh, and solvers on it. The algorithms that work on lists share one, for memory's sake.
+class Size {
+ public:
+  Size(std::uint32_t width, const RampOptions& options)
+      : options_(options), mesh_(generate({MeshKind::grid, {width, width, 1}, 1, {}})) {}
+
+  const MeshPointer& mesh() const { return mesh_; }
+
+  /// At rest, under this algorithm.
+  Solver& solver(Algorithm algorithm) {
+    auto& solver = algorithm == Algorithm::exact ? exact_ : by_lists_;
+    if (!solver) {
+      solver = make_solver(mesh_, algorithm, options_.precision);
+      solver->set_softness({options_.softness, {}});
+    }
+    solver->set_algorithm(algorithm);
+    solver->reset();
+    return *solver;
+  }
+
+ private:
+  const RampOptions& options_;
+  MeshPointer mesh_;
+  std::unique_ptr<Solver> by_lists_, exact_;
+};
+
+/// The passes of one algorithm at one size.
+struct Passes {
+  std::vector<double> ms;
+  std::uint64_t moved = 0;
+};
+
+class Run {
+ public:
+  Run(const RampOptions& options, const std::function<void(const RampProgress&)>& progress, const std::stop_token& stop)
+      : progress_(progress), stop_(stop) {
+    result_.options = options;
+    if (options.algorithms.empty()) {
+      for (const AlgorithmInfo& one : algorithms()) {
+        result_.options.algorithms.push_back(one.algorithm);
+      }
+    }
+    in_race_ = result_.options.algorithms;
+  }
+
+  Ramp run() {
+    const double start = now();
+    for (std::uint32_t width = first_width;
+         !in_race_.empty() && std::uint64_t{width} * width <= result_.options.largest && !stop_.stop_requested();
+         width = next_width(width)) {
+      measure(width);
+    }
+    result_.stopped = stop_.stop_requested();
+    for (const Algorithm algorithm : result_.options.algorithms) {
+      result_.verdicts.push_back(verdict(algorithm));
+    }
+    result_.seconds = now() - start;
+    return std::move(result_);
+  }
+
+ private:
+  using Measured = std::map<Algorithm, Passes>;
+
+  double now() const { return result_.options.clocks.wall(); }
+
+  void measure(std::uint32_t width) {
+    Size size(width, result_.options);
+    std::vector<RampRow> rows;
+    for (const auto& [algorithm, passes] : attempt(size, width, in_race_, 0)) {
+      rows.push_back(row(*size.mesh(), width, algorithm, passes));
+    }
+    std::vector<Algorithm> missed;
+    for (const RampRow& one : rows) {
+      if (!one.in_real_time) {
+        missed.push_back(one.algorithm);
+      }
+    }
+    const Measured again = attempt(size, width, missed, 1);
+    if (stop_.stop_requested()) {
+      return;
+    }
+    for (RampRow& one : rows) {
+      if (const auto found = again.find(one.algorithm); found != again.end()) {
+        one = row(*size.mesh(), width, one.algorithm, found->second);
+        one.repeated = true;
+      }
+    }
+    take(rows);
+  }
+
+  void take(const std::vector<RampRow>& rows) {
+    result_.rows.insert(result_.rows.end(), rows.begin(), rows.end());
+    for (const RampRow& one : rows) {
+      if (!one.in_real_time) {
+        std::erase(in_race_, one.algorithm);
+      }
+    }
+  }
+
+  Measured attempt(Size& size, std::uint32_t width, const std::vector<Algorithm>& contestants, int number) {
+    const RampOptions& options = result_.options;
+    const auto drags = hand_drags(*size.mesh(), seed_of(options.seed, width, number), options.drags + 1, options.moves);
+    Measured measured;
+    for (std::size_t i = 0; i < drags.size() && !contestants.empty() && !stop_.stop_requested(); ++i) {
+      if (progress_) {
+        progress_({width, static_cast<int>(i), static_cast<int>(drags.size()), number > 0, in_race_, result_.rows});
+      }
+      for (std::size_t turn = 0; turn < contestants.size(); ++turn) {
+        // Another one begins each time.
+        const Algorithm algorithm = contestants[(turn + i) % contestants.size()];
+        const Passes passes = make(size.solver(algorithm), drags[i]);
+        // The first drag takes the memory that the others then find.
+        if (Passes& all = measured[algorithm]; i > 0) {
+          all.ms.insert(all.ms.end(), passes.ms.begin(), passes.ms.end());
+          all.moved += passes.moved;
+        }
+      }
+    }
+    return measured;
+  }
+
+  Passes make(Solver& solver, const HandDrag& drag) const {
+    Passes passes;
+    for (const Point& target : drag.targets) {
+      if (stop_.stop_requested()) {
+        break;
+      }
+      const auto move = [&] { passes.moved += solver.move(drag.element, target).moved; };
+      passes.ms.push_back(1000 * seconds_of(result_.options.clocks, move));
+    }
+    return passes;
+  }
+
+  RampRow row(const Mesh& mesh, std::uint32_t width, Algorithm algorithm, const Passes& passes) const {
+    RampRow row{width, mesh.element_count(), mesh.link_count(), algorithm, static_cast<int>(passes.ms.size())};
+    if (row.passes > 0) {
+      row.median_ms = percentile(passes.ms, 0.5);
+      row.p99_ms = percentile(passes.ms, percentile_kept);
+      row.mean_moved = double(passes.moved) / row.passes;
+      row.in_real_time = row.p99_ms <= 1000 * result_.options.budget;
+    }
+    return row;
+  }
+
+  RampVerdict verdict(Algorithm algorithm) const {
+    RampVerdict verdict;
+    verdict.algorithm = algorithm;
+    std::vector<SizedTime> medians;
+    for (const RampRow& one : result_.rows) {
+      if (one.algorithm != algorithm) {
+        continue;
+      }
+      medians.push_back({double(one.elements), one.median_ms});
+      verdict.lost = !one.in_real_time;
+      if (one.in_real_time) {
+        verdict.largest_width = one.width;
+      }
+    }
+    verdict.growth = growth_of(medians, growth_from);
+    return verdict;
+  }
+
+  const std::function<void(const RampProgress&)>& progress_;
+  const std::stop_token& stop_;
+  Ramp result_;
+  std::vector<Algorithm> in_race_;
+};
+
+}  // namespace
+
+std::uint32_t next_width(std::uint32_t width) { return width + std::max(1U, (width + 5) / 10); }
+
+Ramp ramp(const RampOptions& options, const std::function<void(const RampProgress&)>& progress,
+          const std::stop_token& stop) {
+  return Run(options, progress, stop).run();
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// Shortest paths along links (Dijkstra 1959), in double whatever the solver uses. A search costs what it
+/// touches; the memory stays for the next one.
+class PathSearch {
+ public:
+  static constexpr double unreached = std::numeric_limits<double>::infinity();
+
+  void begin(ElementId element_count) {
+    if (labels_.size() != element_count) {
+      labels_.assign(element_count, unreached);
+      hops_.assign(element_count, 0);
+    } else {
+      for (const ElementId element : touched_) {
+        labels_[element] = unreached;
+      }
+    }
+    touched_.clear();
+    heap_.clear();
+  }
+
+  void add_source(ElementId element, double label) { lower(element, label, 0); }
+
+  /// Lowers labels until label_j ≤ label_i + weight(i, j, entry) on every link that is not cut; weights are
+  /// not below 0. Stops early at the first element, nearest first, for which `is_end` says so, and returns
+  /// it.
+  template <class Body, class Weight, class IsEnd>
+  std::optional<ElementId> run(const Body& body, Weight weight, IsEnd is_end) {
+    while (!heap_.empty()) {
+      std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+      const auto [label, element] = heap_.back();
+      heap_.pop_back();
+      if (label > labels_[element]) {
+        continue;
+      }
+      if (is_end(element)) {
+        return element;
+      }
+      body.for_each_neighbour(element, [&, from = label, sponsor = element](ElementId neighbour, EntryId entry) {
+        const double through = from + weight(sponsor, neighbour, entry);
+        if (through < labels_[neighbour]) {
+          lower(neighbour, through, hops_[sponsor] + 1);
+        }
+      });
+    }
+    return std::nullopt;
+  }
+
+  /// Of the shortest path to an element: its length with the source's label, and its number of links.
+  double label(ElementId element) const { return labels_[element]; }
+  std::uint32_t hops(ElementId element) const { return hops_[element]; }
+
+ private:
+  void lower(ElementId element, double label, std::uint32_t hops) {
+    if (labels_[element] == unreached) {
+      touched_.push_back(element);
+    }
+    labels_[element] = label;
+    hops_[element] = hops;
+    heap_.emplace_back(label, element);
+    std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+  }
+
+  std::vector<double> labels_;
+  std::vector<std::uint32_t> hops_;
+  std::vector<ElementId> touched_;
+  std::vector<std::pair<double, ElementId>> heap_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,171 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/error.h"
+#include "solve/body.h"
+#include "solve/path_search.h"
+
+namespace chainmail {
+
+/// Makes a body that holds displacements from rest valid, whatever state it is in: the start that Exact
+/// ChainMail needs after softness was edited under load or another algorithm left its state.
+///
+/// Anchors, the pins and the grabbed element, stay. Every displacement is clamped to what the anchors
+/// allow; then the least and the greatest valid answer about the result are taken and halved between, so
+/// that no order of elements or links matters. An axis at a time; links are difference constraints, their
+/// shortest paths distances over the bounds, and the rest shape makes every weight non-negative. In double.
+template <class Scalar, int Dimension>
+class Repair {
+ public:
+  using State = Body<Scalar, Dimension>;
+
+  Repair(State& body, PathSearch& search) : body_(body), search_(search) {}
+
+  /// Whether every link holds, up to what rounding does to displacements of this size.
+  bool is_valid() const {
+    for (ElementId e = 0; e < body_.mesh->element_count(); ++e) {
+      bool holds = true;
+      body_.for_each_neighbour(
+          e, [&](ElementId n, EntryId entry) { holds = holds && (n < e || link_holds(e, n, entry)); });
+      if (!holds) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// Throws Error, naming them, where two pins are further apart than links allow; nothing has moved then.
+  void run(std::span<const ElementId> pins, ElementId grabbed) {
+    Labels result[Dimension];
+    for (int k = 0; k < Dimension; ++k) {
+      result[k] = axis(pins, grabbed, k);
+    }
+    for (ElementId e = 0; e < body_.mesh->element_count(); ++e) {
+      for (int k = 0; k < Dimension && !body_.pinned(e); ++k) {
+        body_.elements[e].position[k] = static_cast<Scalar>(result[k][e]);
+      }
+    }
+  }
+
+ private:
+  using Labels = std::vector<double>;
+  enum class Way { up, down };
+
+  bool link_holds(ElementId a, ElementId b, EntryId entry) const {
+    for (int k = 0; k < Dimension; ++k) {
+      const Scalar from = body_.elements[a].position[k], to = body_.elements[b].position[k];
+      const Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon() * std::max(std::abs(from), std::abs(to));
+      const auto& region = body_.regions[entry];
+      // What is no number holds nothing.
+      if (!(to - from >= region.low[k] - rounding && to - from <= region.high[k] + rounding)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// From each source's place, how far up its links let every element stand; or how far down, negated.
+  template <class Sources>
+  void search(const Labels& u, const Sources& sources, Way way, int k) {
+    search_.begin(body_.mesh->element_count());
+    for (const ElementId source : sources) {
+      search_.add_source(source, way == Way::up ? u[source] : -u[source]);
+    }
+    search_.run(
+        body_,
+        [&](ElementId, ElementId, EntryId entry) {
+          const auto& region = body_.regions[entry];
+          return double(way == Way::up ? region.high[k] : -region.low[k]);
+        },
+        [](ElementId) { return false; });
+  }
+
+  /// Clamps to what the anchors allow.
+  void clamp(Labels& u, const std::vector<ElementId>& anchors, int k) {
+    const Labels places = u;
+    search(places, anchors, Way::down, k);
+    for (ElementId e = 0; e < u.size(); ++e) {
+      u[e] = std::max(u[e], -search_.label(e));
+    }
+    search(places, anchors, Way::up, k);
+    for (ElementId e = 0; e < u.size(); ++e) {
+      u[e] = std::min(u[e], search_.label(e));
+    }
+  }
+
+  Labels axis(std::span<const ElementId> pins, ElementId grabbed, int k) {
+    Labels u(body_.elements.size());
+    for (std::size_t e = 0; e < u.size(); ++e) {
+      u[e] = double(body_.elements[e].position[k]);
+    }
+    std::vector<ElementId> anchors(pins.begin(), pins.end());
+    if (!pins.empty()) {
+      const Labels before = u;
+      clamp(u, anchors, k);
+      check_pins(before, u, pins, k);
+      const double hand = u[grabbed];  // the hand's element goes to where the pins let it be
+      u = before;
+      u[grabbed] = hand;
+    }
+    anchors.push_back(grabbed);
+    clamp(u, anchors, k);
+    return between_envelopes(u, k);
+  }
+
+  Labels between_envelopes(const Labels& u, int k) {
+    std::vector<ElementId> all(u.size());
+    for (ElementId e = 0; e < u.size(); ++e) {
+      all[e] = e;
+    }
+    Labels between(u.size());
+    for (const Way way : {Way::up, Way::down}) {
+      search(u, all, way, k);
+      for (ElementId e = 0; e < u.size(); ++e) {
+        between[e] += search_.label(e) / (way == Way::up ? 2 : -2);
+      }
+    }
+    return between;
+  }
+
+  void check_pins(const Labels& before, const Labels& clamped, std::span<const ElementId> pins, int k) {
+    for (const ElementId pin : pins) {
+      if (clamped[pin] != before[pin]) {
+        check_pin(before, pins, pin, k);
+      }
+    }
+  }
+
+  /// Throws Error where another pin pulls or pushes this one away by more than rounding explains: a pass puts
+  /// an element half an ulp off its place for each link of the path that leads to it.
+  void check_pin(const Labels& u, std::span<const ElementId> pins, ElementId pin, int k) {
+    ElementId worst = pin;
+    double most = 0;
+    for (const Way way : {Way::up, Way::down}) {
+      search(u, std::span(&pin, 1), way, k);
+      for (const ElementId other : pins) {
+        const double size = std::max(std::abs(u[pin]), std::abs(u[other]));
+        const double rounding = std::numeric_limits<Scalar>::epsilon() * size * (search_.hops(other) + 8.0);
+        const double outside = (way == Way::up ? u[other] : -u[other]) - search_.label(other);
+        if (outside > std::max(rounding, most)) {
+          most = outside;
+          worst = other;
+        }
+      }
+    }
+    if (worst != pin) {
+      throw Error("pins " + std::to_string(std::min(pin, worst)) + " and " + std::to_string(std::max(pin, worst)),
+                  "they contradict each other: the links between them cannot span them where they are",
+                  "unpin one of them, or soften the object");
+    }
+  }
+
+  State& body_;
+  PathSearch& search_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,149 @@
+#include "cli/chainmail_program.h"
+
+using namespace chainmail::test;
+
+/// `chainmail deform`: algorithms, pins, softness of single links, ways to relax. Figures by hand on a
+/// chain, on which a link of length 1 may be 0.8 to 1.2 long.
+class DeformModelTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    program_ = std::make_unique<Program>();
+    QCOMPARE(program_->run("generate line 4 -o line.dat").code, 0);
+  }
+  void every_algorithm_runs_data();
+  void every_algorithm_runs();
+  void original_takes_grids_alone();
+  void the_trace_of_exact_names_who_binds();
+  void pinned_elements_stay();
+  void pins_act_in_their_order();
+  void a_hand_that_pins_stop();
+  void links_have_softness_of_their_own();
+  void relaxation_by_links();
+  void what_does_not_fit_is_refused_data();
+  void what_does_not_fit_is_refused();
+
+ private:
+  /// Where the chain's elements end, on x.
+  QList<double> xs(const QByteArray& options) {
+    const auto outcome = program_->run("deform line.dat --positions out.csv --json out.json " + options);
+    if (outcome.code != 0) {
+      qWarning("%s", outcome.error.constData());
+    }
+    QList<double> result;
+    for (const auto& row : rows_of(program_->read("out.csv"))) {
+      result.append(row[1].toDouble());
+    }
+    return result;
+  }
+  static bool close(const QList<double>& a, const QList<double>& b) {
+    // Sums of a few decimals below 10: a few roundings.
+    return a.size() == b.size() &&
+           std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::abs(x - y) < 1e-14; });
+  }
+
+  std::unique_ptr<Program> program_;
+};
+
+void DeformModelTest::every_algorithm_runs_data() {
+  QTest::addColumn<QString>("name");
+  for (const char* name : {"generalized", "spiral", "natural-queue", "enhanced", "original", "exact"}) {
+    QTest::newRow(name) << name;
+  }
+}
+
+void DeformModelTest::every_algorithm_runs() {
+  QFETCH(QString, name);
+  // On a chain every order comes to the same.
+  QVERIFY(close(xs("--move 0:-1 --algorithm " + name.toUtf8()), {-1, 0.2, 1.4, 2.6}));
+  const auto json = program_->json("out.json");
+  QCOMPARE(json["algorithm"].toString(), name);
+  QCOMPARE(json["passes"][0]["checked"].toInt(), 3);
+  QCOMPARE(json["passes"][0]["moved"].toInt(), 3);
+}
+
+void DeformModelTest::original_takes_grids_alone() {
+  QCOMPARE(program_->run("generate cloth 3x3 -o cloth.obj").code, 0);
+  const auto outcome = program_->run("deform cloth.obj --algorithm original --by 0:1 --json a.json");
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome) && outcome.error.startsWith("chainmail: --algorithm original: it works on grids "),
+           outcome.error);
+  QVERIFY(!program_->files().contains("a.json"));
+}
+
+void DeformModelTest::the_trace_of_exact_names_who_binds() {
+  QCOMPARE(program_->run("deform line.dat --algorithm exact --move 0:-1 --trace a.csv").code, 0);
+  QCOMPARE(program_->read("a.csv"), QByteArray("pass,order,element,sponsor,moved\n0,0,1,0,1\n0,1,2,1,1\n0,2,3,2,1\n"));
+}
+
+void DeformModelTest::pinned_elements_stay() {
+  // 1 stays, so the pass ends there.
+  QCOMPARE(xs("--algorithm natural-queue --pin 1 --move 0:-5"), (QList<double>{-5, 1, 2, 3}));
+  const auto json = program_->json("out.json");
+  QCOMPARE(json["passes"][0]["moved"].toInt(), 0);
+  // Relaxed about both, the one between goes to their middle.
+  QVERIFY(close(xs("--algorithm natural-queue --pin 2 --move 0:-0.3 --relax 100 --pin 3"), {-0.3, 0.85, 2, 3}));
+}
+
+void DeformModelTest::pins_act_in_their_order() {
+  QVERIFY(close(xs("--algorithm spiral --move 0:-1 --pin 1 --move 0:0.9"), {0.9, 0.2, 1.4, 2.6}));
+  QVERIFY(close(xs("--algorithm spiral --pin 1 --move 0:-1 --move 0:0.9"), {0.9, 1, 2, 3}));
+}
+
+void DeformModelTest::a_hand_that_pins_stop() {
+  const auto outcome = program_->run("deform line.dat --algorithm exact --pin 3 --move 0:-1 --move 0:0.5");
+  QCOMPARE(outcome.code, 0);
+  const auto lines = outcome.out.split('\n');
+  // Taut from 3 down: 3 - 3 * 1.2.
+  QVERIFY2(lines[1].startsWith("pass 0: ") && lines[1].endsWith(", stopped by pins at (-0.6, 0, 0)"), outcome.out);
+  QVERIFY2(lines[2].startsWith("pass 1: ") && !lines[2].contains("stopped"), outcome.out);
+  QVERIFY(close(xs("--algorithm exact --pin 3 --move 0:-1"), {-0.6, 0.6, 1.8, 3}));
+}
+
+void DeformModelTest::links_have_softness_of_their_own() {
+  program_->write("a.csv", "a,b,compression,stretch,shear\n2,1,1,1,0\n");
+  QVERIFY(close(xs("--algorithm natural-queue --softness a.csv --move 0:-1"), {-1, 0.2, 1.2, 2.4}));
+  const auto json = program_->json("out.json");
+  QVERIFY(json["violation"]["max"].toDouble() < 1e-14);
+  QVERIFY(close(xs("--algorithm exact --softness a.csv --stretch 1.5 --move 0:-1"), {-1, 0.5, 1.5, 3}));
+}
+
+void DeformModelTest::relaxation_by_links() {
+  // 0 is held at -0.1. Of its link, 1.1 long, 1 takes its half of the 0.1: 0.95. The next link, then 1.05
+  // long, shares 0.05 between its ends: 0.975 and 1.975; the last, 1.025 long, 0.025.
+  QVERIFY(
+      close(xs("--algorithm natural-queue --move 0:-0.1 --relax 1 --relaxation link"), {-0.1, 0.975, 1.9875, 2.9875}));
+}
+
+void DeformModelTest::what_does_not_fit_is_refused_data() {
+  QTest::addColumn<QString>("where");
+  const auto row = [](const char* options, const char* where) { QTest::newRow(options) << where; };
+  for (const char* act : {"--pin 4", "--pin -1", "--pin x", "--pin 1-2", "--pin 0.5", "--pin 0,1"}) {
+    row(act, act);
+  }
+  row("--pin", "--pin");
+  row("--pin 2 --by 2:1", "--by 2:1: element 2 is pinned");
+  row("--pin 2 --cut 0-1 --move 0:1 --move 2:2", "--move 2:2: element 2 is pinned");
+  row("--relaxation links", "--relaxation: 'links'");
+  row("--softness none.csv", "none.csv: there is no such file");
+  row("--softness bad.csv", "bad.csv:2: ");
+  row("--softness ok.csv --softness ok.csv", "--softness: it is given 2 times");
+}
+
+void DeformModelTest::what_does_not_fit_is_refused() {
+  QFETCH(QString, where);
+  program_->write("ok.csv", "0,1,1,1,0\n");
+  program_->write("bad.csv", "0,1,1,1,0\n0,1,1,1,0\n");
+  const auto before = program_->files();
+  const auto outcome =
+      program_->run(QStringList{"deform", "line.dat", "--algorithm", "exact", "--positions", "a.csv", "--by", "0:1"} +
+                    QString(QTest::currentDataTag()).split(' '));
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where), outcome.error);
+  QCOMPARE(program_->files(), before);
+}
+
+QTEST_GUILESS_MAIN(DeformModelTest)
+#include "test_deform_model.moc"

@@ -1,0 +1,126 @@
+#include "cli/chainmail_program.h"
+
+using namespace chainmail::test;
+
+/// `chainmail ramp`: what it writes and what it refuses. The grids are tiny, and the budget is an hour, so
+/// that no machine is too slow.
+class RampCommandTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { program_ = std::make_unique<Program>(); }
+  void a_table_for_people();
+  void json_and_csv();
+  void the_same_seed_makes_the_same_moves();
+  void a_budget_that_nobody_keeps();
+  void wrong_arguments_data();
+  void wrong_arguments();
+
+ private:
+  Outcome ramp(const char* options) const {
+    return program_->run("ramp --largest 36 --budget 3600 " + QByteArray(options));
+  }
+
+  std::unique_ptr<Program> program_;
+};
+
+void RampCommandTest::a_table_for_people() {
+  const auto outcome = ramp("");
+  QCOMPARE(outcome.code, 0);
+  QVERIFY2(outcome.error.isEmpty(), outcome.error);
+  for (const char* text : {"Generalized ChainMail", "Spiral", "Natural Queue ChainMail", "Enhanced ChainMail",
+                           "3D ChainMail", "Exact ChainMail", "6x6 or more", "\n4x4 ", "\n6x6 ", "float", "seed 1"}) {
+    QVERIFY2(outcome.out.contains(text), text);
+  }
+  QVERIFY(!outcome.out.contains("7x7"));
+}
+
+void RampCommandTest::json_and_csv() {
+  const auto outcome =
+      ramp("--algorithms spiral,exact --seed 7 --precision double --stretch 1.5 --json a.json --csv a.csv");
+  QCOMPARE(outcome.code, 0);
+  QVERIFY(outcome.out.contains("Exact ChainMail"));
+  const auto json = program_->json("a.json");
+  QCOMPARE(json["seed"].toInt(), 7);
+  QCOMPARE(json["budget"].toDouble(), 3600.0);
+  QCOMPARE(json["precision"].toString(), QString("double"));
+  QCOMPARE(json["softness"].toObject()["stretch"].toDouble(), 1.5);
+  QCOMPARE(json["machine"].toObject().keys(), (QStringList{"build", "compiler", "cores", "processor"}));
+  const auto sizes = json["sizes"].toArray();
+  QCOMPARE(sizes.size(), 6);
+  QCOMPARE(sizes[1].toObject()["algorithm"].toString(), QString("exact"));
+  QCOMPARE(sizes[5].toObject()["elements"].toInt(), 36);
+  QVERIFY(sizes[5].toObject()["p99_ms"].toDouble() >= sizes[5].toObject()["median_ms"].toDouble());
+  const auto algorithms = json["algorithms"].toArray();
+  QCOMPARE(algorithms.size(), 2);
+  QCOMPARE(algorithms[0].toObject()["largest_width"].toInt(), 6);
+  QVERIFY(algorithms[0].toObject()["growth"].isNull());
+  const auto rows = rows_of(program_->read("a.csv"));
+  QCOMPARE(rows.size(), 6);
+  QCOMPARE(rows[5][3], QByteArray("exact"));
+  QCOMPARE(rows[5][0], QByteArray("6"));
+
+  QVERIFY(ramp("--algorithms spiral --csv -").out.startsWith("width,elements,"));
+  QVERIFY(QJsonDocument::fromJson(ramp("--algorithms spiral --json -").out).isObject());
+}
+
+void RampCommandTest::the_same_seed_makes_the_same_moves() {
+  const auto moved = [&](const char* options) {
+    QList<QByteArray> result;
+    for (const auto& row : rows_of(ramp(options).out)) {
+      result.append(row[7]);
+    }
+    return result;
+  };
+  const auto once = moved("--algorithms exact --csv - --seed 3");
+  QCOMPARE(once.size(), 3);
+  QCOMPARE(moved("--algorithms exact --csv - --seed 3"), once);
+  QVERIFY(moved("--algorithms exact --csv - --seed 4") != once);
+}
+
+void RampCommandTest::a_budget_that_nobody_keeps() {
+  const auto outcome = program_->run("ramp --algorithms spiral,original --budget 1e-12");
+  QCOMPARE(outcome.code, 0);
+  QCOMPARE(outcome.out.count("never"), 2);
+  QVERIFY(!outcome.out.contains("5x5"));
+}
+
+void RampCommandTest::wrong_arguments_data() {
+  QTest::addColumn<QString>("where");
+  const auto row = [](const char* options, const char* where) { QTest::newRow(options) << where; };
+  row("--algorithms best", "--algorithms: 'best' is not known; use generalized, ");
+  row("--algorithms spiral,", "--algorithms: '' is not known; ");
+  row("--algorithms spiral,spiral", "--algorithms: 'spiral' stands there twice; ");
+  row("--algorithms", "--algorithms: its value is missing; ");
+  row("--seed -1", "--seed: '-1' ");
+  row("--seed 1.5", "--seed: '1.5' ");
+  row("--budget 0", "--budget: 0 leaves no time; ");
+  row("--budget -1", "--budget: -1 leaves no time; ");
+  row("--budget nan", "--budget: 'nan' is not a finite number; ");
+  row("--largest 15", "--largest: '15' ");
+  row("--largest x", "--largest: 'x' ");
+  row("--largest 20000001", "--largest: 20000001 is more than a mesh may have; ");
+  row("--precision half", "--precision: 'half' ");
+  row("--shear -1", "--shear: -1 ");
+  row("--json none/a.json", "none/a.json: ");
+  row("--json a --csv a", "a: ");
+  row("--json - --csv -", "standard output: ");
+  row("grid.dat", "grid.dat: it is one argument too many; ");
+  row("--steps 3", "--steps: there is no such option; ");
+}
+
+void RampCommandTest::wrong_arguments() {
+  QFETCH(QString, where);
+  QElapsedTimer timer;
+  timer.start();
+  const auto outcome = program_->run(QStringList{"ramp"} + QString(QTest::currentDataTag()).split(' '));
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where), outcome.error);
+  QVERIFY(program_->files().isEmpty());
+  // Before the minutes that a ramp takes.
+  QVERIFY(timer.elapsed() < 5000);
+}
+
+QTEST_GUILESS_MAIN(RampCommandTest)
+#include "test_ramp.moc"

@@ -1,0 +1,298 @@
+#include <QtTest>
+#include <cmath>
+
+#include "core/families.h"
+#include "report/growth.h"
+#include "report/hand.h"
+#include "report/ramp.h"
+#include "report/ramp_table.h"
+
+using namespace chainmail;
+using namespace chainmail::report;
+using namespace chainmail::test;
+
+/// The ramp: its figures, its drags, and when an algorithm is out. Times come from a clock of the test's own.
+class RampTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void percentiles();
+  void growth_of_a_power_law();
+  void growth_needs_three_sizes();
+  void drags_repeat_with_their_seed();
+  void drags_are_a_hands();
+  void drags_keep_to_the_scenes_axes();
+  void widths_grow();
+  void every_size_and_algorithm_has_a_row();
+  void all_make_the_same_moves();
+  void a_lost_algorithm_is_out();
+  void a_hiccup_does_not_count();
+  void what_others_take_does_not_count();
+  void it_stops();
+};
+
+namespace {
+
+/// Clocks on which every pass takes so long (ms).
+class Time {
+ public:
+  Clocks clocks() {
+    return {[this] { return read(wall_, wall_ms); }, [this] { return read(own_, own_ms); }};
+  }
+  void set(double ms) { wall_ms = own_ms = ms; }
+
+  double wall_ms = 1;
+  double own_ms = 1;
+
+ private:
+  /// Each reading is later than the last by a pass.
+  static double read(double& seconds, double ms) { return seconds += ms / 1000; }
+
+  double wall_ = 0, own_ = 0;
+};
+
+RampOptions options_of(Time& time, std::uint64_t largest, std::vector<Algorithm> algorithms = {}) {
+  RampOptions options;
+  options.algorithms = std::move(algorithms);
+  options.largest = largest;
+  options.drags = 3;
+  options.moves = 8;
+  options.clocks = time.clocks();
+  return options;
+}
+
+std::vector<std::uint32_t> widths_of(const Ramp& ramp) {
+  std::vector<std::uint32_t> widths;
+  for (const RampRow& row : ramp.rows) {
+    widths.push_back(row.width);
+  }
+  return widths;
+}
+
+bool same(const HandDrag& a, const HandDrag& b) { return a.element == b.element && a.targets == b.targets; }
+
+}  // namespace
+
+void RampTest::percentiles() {
+  std::vector<double> values;
+  for (int i = 100; i > 0; --i) {
+    values.push_back(i);
+  }
+  QCOMPARE(percentile(values, 0.99), 99.0);
+  QCOMPARE(percentile(values, 0.5), 50.0);
+  QCOMPARE(percentile(values, 1), 100.0);
+  QCOMPARE(percentile(values, 0.001), 1.0);
+  QCOMPARE(percentile({3, 1, 2}, 0.99), 3.0);
+  QCOMPARE(percentile({3, 1, 2}, 0.5), 2.0);
+  QCOMPARE(percentile({7}, 0.5), 7.0);
+}
+
+void RampTest::growth_of_a_power_law() {
+  std::vector<SizedTime> times{{100, 5}, {999, 7}};  // below where it begins
+  for (const double n : {1000.0, 3000.0, 10'000.0, 2e5}) {
+    times.push_back({n, 0.25 * std::pow(n, 1.5)});
+  }
+  const auto growth = growth_of(times, 1000);
+  QVERIFY(growth.has_value());
+  QVERIFY(std::abs(growth->exponent - 1.5) < 1e-12);  // a few roundings of logarithms
+  QCOMPARE(growth->from, 1000.0);
+  QCOMPARE(growth->to, 2e5);
+  QCOMPARE(growth->sizes, 4);
+  // By hand: (ln n, ln ms) = (0, 0), (1, 2), (2, 1) has the slope 1/2.
+  const double e = std::numbers::e;
+  QVERIFY(std::abs(growth_of(std::vector<SizedTime>{{1, 1}, {e, e * e}, {e * e, e}}, 0)->exponent - 0.5) < 1e-12);
+}
+
+void RampTest::growth_needs_three_sizes() {
+  const std::vector<SizedTime> times{{10, 1}, {100, 1}, {1000, 2}, {2000, 4}};
+  QVERIFY(!growth_of(times, 1000));
+  QVERIFY(growth_of(times, 100));
+  QVERIFY(!growth_of(std::vector<SizedTime>{{1000, 0}, {2000, 1}, {3000, 1}}, 1000));  // no logarithm of 0
+  QVERIFY(!growth_of(std::vector<SizedTime>{{1000, 1}, {1000, 2}, {1000, 3}}, 1000));
+  QVERIFY(!growth_of({}, 0));
+}
+
+void RampTest::drags_repeat_with_their_seed() {
+  const auto mesh = make_mesh(MeshKind::grid, {20, 20, 1});
+  const auto once = hand_drags(*mesh, 5, 4, 30), again = hand_drags(*mesh, 5, 4, 30),
+             other = hand_drags(*mesh, 6, 4, 30);
+  QCOMPARE(once.size(), std::size_t{4});
+  for (std::size_t i = 0; i < 4; ++i) {
+    QVERIFY(same(once[i], again[i]));
+    QVERIFY(!same(once[i], other[i]));
+    QVERIFY(i == 0 || !same(once[i], once[i - 1]));
+  }
+}
+
+void RampTest::drags_are_a_hands() {
+  const auto mesh = make_mesh(MeshKind::grid, {26, 26, 1}, {}, 2);
+  const double width = 50;
+  for (const HandDrag& drag : hand_drags(*mesh, 1, 200, 30)) {
+    QVERIFY(drag.element < mesh->element_count());
+    QCOMPARE(drag.targets.size(), std::size_t{30});
+    Point last = mesh->rest_position(drag.element), last_step = Point::Zero();
+    double path = 0;
+    for (const Point& target : drag.targets) {
+      QVERIFY(target.allFinite() && target.z() == 0);
+      const Point step = target - last;
+      path += step.norm();
+      // It turns by 0.15 at most more than it did, of which it keeps 0.8: 0.75 at most.
+      QVERIFY(last_step.isZero() || step.dot(last_step) >= std::cos(0.75) * step.norm() * last_step.norm());
+      last = target;
+      last_step = step;
+    }
+    // 2% of the width a move on average, half or twice that; the half sine's mean is 1 to 0.2% with 30 moves.
+    QVERIFY(path > 0.998 * 30 * 0.01 * width && path < 1.002 * 30 * 0.04 * width);
+  }
+}
+
+void RampTest::drags_keep_to_the_scenes_axes() {
+  const auto line = make_mesh(MeshKind::line, {9, 1, 1});
+  const auto upright =
+      build_mesh(placed(*make_mesh(MeshKind::grid, {5, 5, 1}), [](const Point& p) { return Point(p[0], 2.5, p[1]); }));
+  double moved = 0;
+  for (const HandDrag& drag : hand_drags(*line, 1, 5, 10)) {
+    for (const Point& target : drag.targets) {
+      QVERIFY(target.y() == 0 && target.z() == 0);
+    }
+  }
+  for (const HandDrag& drag : hand_drags(*upright, 1, 5, 10)) {
+    for (const Point& target : drag.targets) {
+      QCOMPARE(target.y(), 2.5);
+      moved = std::max(moved, std::abs(target.z() - upright->rest_position(drag.element).z()));
+    }
+  }
+  QVERIFY(moved > 0);
+}
+
+void RampTest::widths_grow() {
+  std::vector<std::uint32_t> widths{4};
+  while (widths.back() < 2000) {
+    widths.push_back(next_width(widths.back()));
+    const double ratio = double(widths.back()) / widths[widths.size() - 2];
+    QVERIFY(widths.back() <= 14 ? widths.back() == widths[widths.size() - 2] + 1 : ratio > 1.05 && ratio < 1.15);
+  }
+}
+
+void RampTest::every_size_and_algorithm_has_a_row() {
+  Time time;
+  const Ramp result = ramp(options_of(time, 49));
+  QCOMPARE(result.rows.size(), 4 * algorithms().size());  // 4x4 to 7x7
+  QVERIFY(!result.stopped);
+  for (const RampRow& row : result.rows) {
+    QCOMPARE(row.elements, std::uint64_t{row.width} * row.width);
+    QCOMPARE(row.links, std::uint64_t{2} * row.width * (row.width - 1));
+    QCOMPARE(row.passes, 3 * 8);
+    QVERIFY(std::abs(row.median_ms - 1) < 1e-9 && std::abs(row.p99_ms - 1) < 1e-9);  // of a clock near 1 s
+    QVERIFY(row.in_real_time && !row.repeated && row.mean_moved > 0);
+  }
+  QCOMPARE(result.verdicts.size(), algorithms().size());
+  for (const RampVerdict& verdict : result.verdicts) {
+    QCOMPARE(verdict.largest_width.value_or(0), 7U);
+    QVERIFY(!verdict.lost && !verdict.growth);
+  }
+  std::ostringstream csv, text;
+  write_csv(csv, result);
+  const std::string rows = csv.str();
+  QCOMPARE(std::count(rows.begin(), rows.end(), '\n'), std::ptrdiff_t(1 + result.rows.size()));
+  write_text(text, result, {"a processor", 2, "a compiler", "Release"});
+  QVERIFY(text.str().find("a processor, 2 cores") != std::string::npos);
+  QVERIFY(text.str().find("7x7 or more") != std::string::npos);
+}
+
+void RampTest::all_make_the_same_moves() {
+  // Spiral and Natural Queue end in the same positions, bit for bit: the same moves move as many.
+  Time time;
+  const auto two = ramp(options_of(time, 400, {Algorithm::natural_queue, Algorithm::spiral}));
+  for (std::size_t i = 0; i < two.rows.size(); i += 2) {
+    QCOMPARE(two.rows[i].width, two.rows[i + 1].width);
+    QCOMPARE(two.rows[i].mean_moved, two.rows[i + 1].mean_moved);
+  }
+  // Neither company nor order changes the moves; another seed does.
+  const auto alone = ramp(options_of(time, 400, {Algorithm::spiral}));
+  auto options = options_of(time, 400, {Algorithm::spiral});
+  options.seed = 2;
+  const auto other = ramp(options);
+  QCOMPARE(2 * alone.rows.size(), two.rows.size());
+  bool differs = false;
+  for (std::size_t i = 0; i < alone.rows.size(); ++i) {
+    QCOMPARE(alone.rows[i].mean_moved, two.rows[2 * i].mean_moved);
+    differs |= alone.rows[i].mean_moved != other.rows[i].mean_moved;
+  }
+  QVERIFY(differs);
+}
+
+void RampTest::a_lost_algorithm_is_out() {
+  Time time;
+  const auto slow_from_7 = [&](const RampProgress& progress) { time.set(progress.width < 7 ? 16 : 17); };
+  const auto result = ramp(options_of(time, 400, {Algorithm::spiral}), slow_from_7);
+  QCOMPARE(widths_of(result), (std::vector<std::uint32_t>{4, 5, 6, 7}));
+  QVERIFY(result.rows[3].repeated && !result.rows[3].in_real_time && !result.rows[2].repeated);
+  QVERIFY(result.verdicts[0].lost);
+  QCOMPARE(result.verdicts[0].largest_width.value_or(0), 6U);
+  std::ostringstream text;
+  write_text(text, result, {});
+  QVERIFY(text.str().find(" 6x6 ") != std::string::npos && text.str().find("17/17!") != std::string::npos);
+
+  time.set(17);
+  const auto never = ramp(options_of(time, 400, {Algorithm::spiral, Algorithm::exact}));
+  QCOMPARE(widths_of(never), (std::vector<std::uint32_t>{4, 4}));
+  QVERIFY(never.verdicts[0].lost && !never.verdicts[0].largest_width);
+  text.str("");
+  write_text(text, never, {});
+  QVERIFY(text.str().find("never") != std::string::npos);
+}
+
+void RampTest::a_hiccup_does_not_count() {
+  Time time;
+  const auto slow_once = [&](const RampProgress& progress) {
+    time.set(progress.width == 6 && !progress.repeated ? 1000 : 1);
+  };
+  const auto result = ramp(options_of(time, 64, {Algorithm::spiral}), slow_once);
+  QCOMPARE(widths_of(result), (std::vector<std::uint32_t>{4, 5, 6, 7, 8}));
+  QVERIFY(result.rows[2].repeated && result.rows[2].in_real_time && result.rows[2].p99_ms < 2);
+  QVERIFY(!result.verdicts[0].lost);
+}
+
+void RampTest::what_others_take_does_not_count() {
+  Time time;
+  time.wall_ms = 1000;
+  const auto waited = ramp(options_of(time, 16, {Algorithm::spiral}));
+  QVERIFY(waited.rows[0].p99_ms < 2 && !waited.rows[0].repeated);
+  // The thread's own clock is the slower one to ask: it must not make a pass longer.
+  time.wall_ms = 1;
+  time.own_ms = 1000;
+  QVERIFY(ramp(options_of(time, 16, {Algorithm::spiral})).rows[0].p99_ms < 2);
+  // The machine's run, and not backwards.
+  const Clocks clocks = machine_clocks();
+  volatile double sum = 0;
+  const double seconds = seconds_of(clocks, [&] {
+    for (int i = 0; i < 1'000'000; ++i) {
+      sum = sum + i;
+    }
+  });
+  QVERIFY(seconds > 1e-5 && seconds < 10);  // a million additions, on any machine
+}
+
+void RampTest::it_stops() {
+  Time time;
+  std::stop_source source;
+  const auto stop_at_6 = [&](const RampProgress& progress) {
+    if (progress.width == 6 && progress.drag == 2) {
+      source.request_stop();
+    }
+  };
+  const auto result = ramp(options_of(time, 400, {Algorithm::spiral}), stop_at_6, source.get_token());
+  QVERIFY(result.stopped);
+  QCOMPARE(widths_of(result), (std::vector<std::uint32_t>{4, 5}));
+  QCOMPARE(result.verdicts[0].largest_width.value_or(0), 5U);
+  const auto nothing = ramp(options_of(time, 400), {}, source.get_token());
+  QVERIFY(nothing.stopped && nothing.rows.empty());
+  QCOMPARE(nothing.verdicts.size(), algorithms().size());
+  std::ostringstream text;
+  write_text(text, nothing, {});
+  QVERIFY(text.str().find("not measured") != std::string::npos);
+}
+
+QTEST_APPLESS_MAIN(RampTest)
+#include "test_ramp.moc"

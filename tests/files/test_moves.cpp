@@ -1,0 +1,228 @@
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "files/moves.h"
+#include "files/support.h"
+#include "simulate/simulation.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Recorded moves as JSON. The grid of 3x2 has the links 0-1, 0-3, 1-2, 1-4, 2-5, 3-4, 4-5, in this order.
+class MovesTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void commands_are_read();
+  void what_is_written_reads_back();
+  void what_is_not_the_objects_is_left_out();
+  void a_change_of_mesh_is_not_written();
+  void other_files_are_refused_data();
+  void other_files_are_refused();
+  void other_commands_are_refused_data();
+  void other_commands_are_refused();
+  void deep_nesting_is_refused();
+  void damaged_files_never_do_worse();
+  void files();
+
+ private:
+  std::vector<Command> read(const std::string& text) const {
+    return read_moves(text, std::filesystem::path("m.json"), *mesh_);
+  }
+  std::string written(const std::vector<Command>& moves) const {
+    std::ostringstream out;
+    write_moves(out, moves, *mesh_);
+    return out.str();
+  }
+
+  MeshPointer mesh_ = made(MeshKind::grid, {3, 2, 1});
+};
+
+namespace {
+
+const std::string every_command = R"({"version": 1, "commands": [
+  {"do": "grab", "element": 5}, {"do": "drag", "target": [1, -2.5, 0]}, {"do": "release"},
+  {"do": "cut", "links": [[1, 0], [4, 5]]}, {"do": "uncut", "links": [[0, 1]]},
+  {"do": "pin", "elements": [3, 0]}, {"do": "unpin", "elements": [3]}, {"do": "reset"},
+  {"do": "softness", "compression": 0.5, "stretch": 2, "shear": 0, "links": [[3, 0, 1, 1, 0.25]]}]})";
+
+std::string with_commands(const std::string& commands) { return R"({"version": 1, "commands": [)" + commands + "]}"; }
+
+}  // namespace
+
+void MovesTest::commands_are_read() {
+  const auto moves = read(every_command);
+  QCOMPARE(moves.size(), std::size_t{9});
+  QCOMPARE(std::get<commands::Grab>(moves[0]).element, 5U);
+  QVERIFY(std::get<commands::Drag>(moves[1]).target == Point(1, -2.5, 0));
+  QVERIFY(std::holds_alternative<commands::Release>(moves[2]));
+  QCOMPARE(std::get<commands::Cut>(moves[3]).links, (std::vector<LinkId>{0, 6}));
+  QCOMPARE(std::get<commands::Uncut>(moves[4]).links, std::vector<LinkId>{0});
+  QCOMPARE(std::get<commands::Pin>(moves[5]).elements, (std::vector<ElementId>{3, 0}));
+  QCOMPARE(std::get<commands::Unpin>(moves[6]).elements, std::vector<ElementId>{3});
+  QVERIFY(std::holds_alternative<commands::Reset>(moves[7]));
+  QVERIFY((std::get<commands::SetSoftness>(moves[8]).softness == Softness{{0.5, 2, 0}, {{1, {1, 1, 0.25}}}}));
+  // A simulation takes what was read.
+  Simulation simulation(mesh_, Algorithm::exact, Precision::double_precision);
+  for (const Command& move : moves) {
+    simulation.apply(move);
+  }
+  QVERIFY(read(with_commands("")).empty());
+  // What was pinned may be taken again, and what was let go be pinned.
+  QCOMPARE(read(with_commands(R"({"do": "pin", "elements": [2]}, {"do": "unpin", "elements": [2]},
+                                 {"do": "grab", "element": 2}, {"do": "release"}, {"do": "pin", "elements": [2]})"))
+               .size(),
+           std::size_t{5});
+}
+
+void MovesTest::what_is_written_reads_back() {
+  // Numbers that no few digits hold.
+  const Point odd(0.1, 1.0 / 3, -1e-300), large(1e100, -0.0, 123456789.123456789);
+  const std::vector<Command> moves{commands::Grab{4},
+                                   commands::Drag{odd},
+                                   commands::Drag{large},
+                                   commands::Release{},
+                                   commands::Cut{{0, 6}},
+                                   commands::Uncut{{}},
+                                   commands::SetSoftness{{{1.0 / 3, 1.1, 0.7}, {{2, {0, 1e9, 0}}, {5, {1, 1, 0}}}}},
+                                   commands::SetSoftness{{{0, 1, 0}, {}}},
+                                   commands::Reset{}};
+  const std::string text = written(moves);
+  const auto again = read(text);
+  QCOMPARE(again.size(), moves.size());
+  QCOMPARE(written(again), text);
+  QVERIFY(std::get<commands::Drag>(again[1]).target == odd);
+  QVERIFY(std::get<commands::Drag>(again[2]).target == large);
+  QVERIFY(std::get<commands::SetSoftness>(again[6]).softness == std::get<commands::SetSoftness>(moves[6]).softness);
+  QVERIFY(std::get<commands::SetSoftness>(again[7]).softness == std::get<commands::SetSoftness>(moves[7]).softness);
+  QCOMPARE(written(read(written(read(every_command)))), written(read(every_command)));
+}
+
+void MovesTest::what_is_not_the_objects_is_left_out() {
+  const auto again = read(written({commands::SetAlgorithm{Algorithm::spiral}, commands::SetRelaxation{true, 1},
+                                   commands::KeepState{1}, commands::Grab{1}, commands::DropState{1}}));
+  QCOMPARE(again.size(), std::size_t{1});
+  QCOMPARE(std::get<commands::Grab>(again[0]).element, 1U);
+  QVERIFY(read(written({commands::KeepState{1}})).empty());
+}
+
+void MovesTest::a_change_of_mesh_is_not_written() {
+  QVERIFY(error_of([&] { written({commands::ReplaceMesh{mesh_}}); }).startsWith("moves: "));
+  QVERIFY(error_of([&] { written({commands::SwapState{1}}); }).startsWith("moves: "));
+}
+
+void MovesTest::other_files_are_refused_data() {
+  QTest::addColumn<QString>("text");
+  QTest::addColumn<QString>("said");
+  const auto row = [](const char* text, const char* said) { QTest::newRow(text) << QString(text) << QString(said); };
+  row("{\"version\": 1,\n\"commands\": [}", "m.json:2: it is not JSON; ");
+  row("0 2 1 3", "m.json:1: it is not JSON; ");
+  row(" ", "m.json:1: it is not JSON; ");
+  row(R"({"version": 1, "commands": []} x)", "m.json:1: it is not JSON; ");
+  row(R"({"version": 1, "commands": [NaN]})", "m.json:1: it is not JSON; ");
+  row(R"({"version": 1, "commands": [1e999]})", "m.json: a number in it is beyond ");
+  row("[]", "m.json: it holds no moves; ");
+  row("null", "m.json: it holds no moves; ");
+  row("{}", "m.json: 'version' is missing; ");
+  row(R"({"commands": []})", "m.json: 'version' is missing; ");
+  row(R"({"version": 2, "commands": []})", "m.json: its version is not 1; ");
+  row(R"({"version": "1", "commands": []})", "m.json: its version is not 1; ");
+  row(R"({"version": 1.5, "commands": []})", "m.json: its version is not 1; ");
+  row(R"({"version": -1, "commands": []})", "m.json: its version is not 1; ");
+  row(R"({"version": 1})", "m.json: 'commands' is missing; ");
+  row(R"({"version": 1, "commands": {}})", "m.json: 'commands' is not an array; ");
+  row(R"({"version": 1, "commands": [], "more": 1})", "m.json: 'more' is not known here; ");
+}
+
+void MovesTest::other_files_are_refused() {
+  QFETCH(QString, text);
+  QFETCH(QString, said);
+  const QString error = error_of([&] { read(text.toStdString()); });
+  QVERIFY2(error.startsWith(said), qPrintable(error));
+}
+
+void MovesTest::other_commands_are_refused_data() {
+  QTest::addColumn<QString>("commands");
+  QTest::addColumn<QString>("said");
+  const auto row = [](const char* text, const char* said) { QTest::newRow(text) << QString(text) << QString(said); };
+  row("5", "0: it is not an object; ");
+  row("{}", "0: 'do' is missing; ");
+  row(R"({"do": 1})", "0: 'do' names no command; ");
+  row(R"({"do": "Grab", "element": 1})", "0: 'do' names no command; ");
+  row(R"({"do": "grab"})", "0: 'element' is missing; ");
+  row(R"({"do": "grab", "element": 6})", "0: there is no element 6; ids run from 0 to 5");
+  row(R"({"do": "grab", "element": 4294967296})", "0: there is no element 4294967296; ");
+  row(R"({"do": "grab", "element": 18446744073709551616})", "0: '1.8446744073709552e+19' is not an element's id; ");
+  row(R"({"do": "grab", "element": -1})", "0: '-1' is not an element's id; ");
+  row(R"({"do": "grab", "element": 1.5})", "0: '1.5' is not an element's id; ");
+  row(R"({"do": "grab", "element": [1]})", "0: '[1]' is not an element's id; ");
+  row(R"({"do": "grab", "element": 1, "elemen": 2})", "0: 'elemen' is not known here; ");
+  row(R"({"do": "release"}, {"do": "drag", "target": [1, 2, 3]})", "1: no element is grabbed by then; ");
+  row(R"({"do": "grab", "element": 1}, {"do": "release"}, {"do": "drag", "target": [1, 2, 3]})", "2: no element is ");
+  row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, 2]})", "1: 'target' does not have three ");
+  row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": 1})", "1: 'target' is not an array; ");
+  row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, null, 2]})", "1: 'null' is not a number; ");
+  row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, "2", 2]})", "1: '\"2\"' is not a number; ");
+  row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, 1e101, 2]})", "1: '1e+101' is too large ");
+  row(R"({"do": "cut", "links": [[0, 1], [0, 2]]})", "0: the elements 0 and 2 are not linked; ");
+  row(R"({"do": "cut", "links": [[1, 1]]})", "0: the elements 1 and 1 are not linked; ");
+  row(R"({"do": "cut", "links": [0, 1]})", "0: a link is not an array of 2; ");
+  row(R"({"do": "uncut", "links": [[0, 1, 2]]})", "0: a link is not an array of 2; ");
+  row(R"({"do": "pin", "elements": 1})", "0: 'elements' is not an array; ");
+  row(R"({"do": "pin", "elements": [6]})", "0: there is no element 6; ");
+  row(R"({"do": "pin", "elements": [2]}, {"do": "grab", "element": 2})", "1: element 2 is pinned by then ");
+  row(R"({"do": "grab", "element": 2}, {"do": "pin", "elements": [1, 2]})", "1: element 2 is in the hand by then; ");
+  row(R"({"do": "softness", "compression": 1, "stretch": 1})", "0: 'shear' is missing; ");
+  row(R"({"do": "softness", "compression": 2, "stretch": 1, "shear": 0})", "0: compression: ");
+  const char* softness = R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "links": )";
+  const std::vector<std::pair<std::string, const char*>> links{
+      {"[[0, 1, 1, 1]]}", "0: a link is not an array of 5; "},
+      {"[[0, 1, 1, 0.5, 0]]}", "0: stretch: "},
+      {"[[0, 1, 1, 1, 0], [1, 0, 1, 1, 0]]}", "0: the link 1-0 is given twice; "},
+      {"3}", "0: 'links' is not an array; "}};
+  for (const auto& [text, said] : links) {
+    row((softness + text).c_str(), said);
+  }
+}
+
+void MovesTest::other_commands_are_refused() {
+  QFETCH(QString, commands);
+  QFETCH(QString, said);
+  const QString error = error_of([&] { read(with_commands(commands.toStdString())); });
+  QVERIFY2(error.startsWith("m.json: command " + said), qPrintable(error));
+}
+
+void MovesTest::deep_nesting_is_refused() {
+  for (const char* open : {"[", "{\"a\":"}) {
+    std::string text;
+    for (int i = 0; i < 200'000; ++i) {
+      text += open;
+    }
+    QVERIFY(error_of([&] { read(text); }).startsWith("m.json: it is nested too deeply; "));
+  }
+}
+
+void MovesTest::damaged_files_never_do_worse() {
+  // Cut off anywhere, or with any character replaced: moves or an Error, nothing else.
+  for (std::size_t i = 0; i < every_command.size(); ++i) {
+    QVERIFY(!error_of([&] { read(every_command.substr(0, i)); }).isEmpty());
+    for (const char other : {'0', '9', '"', '[', '}', '-', '\xff'}) {
+      std::string text = every_command;
+      text[i] = other;
+      error_of([&] { read(text); });
+    }
+  }
+}
+
+void MovesTest::files() {
+  const QTemporaryDir folder;
+  const std::filesystem::path path = folder.filePath("m.json").toStdString();
+  QVERIFY(error_of([&] { read_moves(path, *mesh_); }).contains(": there is no such file; "));
+  put_file(path, "");
+  QVERIFY(error_of([&] { read_moves(path, *mesh_); }).endsWith(": it is empty; give a file that holds recorded moves"));
+  put_file(path, "\xef\xbb\xbf" + every_command);
+  QCOMPARE(read_moves(path, *mesh_).size(), std::size_t{9});
+}
+
+QTEST_APPLESS_MAIN(MovesTest)
+#include "test_moves.moc"
