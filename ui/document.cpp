@@ -37,6 +37,11 @@ Document::Document(MeshPointer mesh, const QString& name) : mesh_(std::move(mesh
     }
     log_->sample();
   });
+  // Elements of another mesh are other elements.
+  connect(this, &Document::meshChanged, this, [this] {
+    recorder_.forget();
+    emit lastDragChanged();
+  });
 }
 
 Document::~Document() {
@@ -57,9 +62,15 @@ void Document::receiveFrame(int panel) {
   emit frameReady(panel);
 }
 
-void Document::grab(ElementId element) { post(commands::Grab{element}); }
+void Document::grab(ElementId element) {
+  recorder_.grab(element);
+  post(commands::Grab{element});
+}
 
-void Document::drag(const Point& target) { post(commands::Drag{target}); }
+void Document::drag(const Point& target) {
+  recorder_.drag(target);
+  post(commands::Drag{target});
+}
 
 void Document::post(const Command& command) {
   log_->post(command);
@@ -70,7 +81,12 @@ void Document::post(const Command& command) {
   }
 }
 
-void Document::release() { post(commands::Release{}); }
+void Document::release() {
+  post(commands::Release{});
+  if (recorder_.release()) {
+    emit lastDragChanged();
+  }
+}
 
 void Document::setSoftness(const LinkSoftness& global, const QString& text, int gesture) {
   if (global != softness_->global) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "drag_recorder.h"
 #include "mesh/cuts.h"
 #include "selection.h"
 #include "simulate/command_log.h"
@@ -61,6 +62,8 @@ class Document : public QObject {
   void grab(ElementId element);
   void drag(const Point& target);
   void release();
+  /// What the hand did last on this mesh, without the release; empty where it did nothing yet.
+  const std::vector<Command>& lastDrag() const { return recorder_.last(); }
 
   /// Edits, each one step of undo. Softness changes of one gesture (not 0) become one step.
   void setSoftness(const LinkSoftness& global, const QString& text, int gesture = 0);
@@ -93,6 +96,7 @@ class Document : public QObject {
   void highlightChanged();
   void pinsChanged();
   void selectionChanged();
+  void lastDragChanged();
   /// A command was refused: one sentence.
   void refused(const QString& sentence);
   /// Something was done that was not asked for: one sentence.
@@ -124,6 +128,7 @@ class Document : public QObject {
   Highlight highlight_;
   Selection selection_;
   commands::StateId nextState_ = 1;
+  DragRecorder recorder_;
 
   // The solver threads announce a frame at most once until it is received.
   std::array<std::atomic<bool>, panels> announced_{};

@@ -19,6 +19,7 @@
 #include "message_bar.h"
 #include "panel.h"
 #include "relaxation_dock.h"
+#include "report_dock.h"
 #include "stiffness_dock.h"
 #include "tool_icons.h"
 #include "tools_dock.h"
@@ -27,7 +28,7 @@ namespace chainmail {
 namespace {
 
 // To be raised when the docks change, so that an older layout is not restored over them.
-constexpr int layoutVersion = 1;
+constexpr int layoutVersion = 2;
 constexpr int savedMilliseconds = 4000;
 
 }  // namespace
@@ -146,10 +147,27 @@ void MainWindow::makeDocks() {
   addDockWidget(Qt::RightDockWidgetArea, new StiffnessDock(document_));
   addDockWidget(Qt::RightDockWidgetArea, new RelaxationDock(document_));
   addDockWidget(Qt::RightDockWidgetArea, new FrameRateDock(document_, panels_, {colours::left, colours::right}));
+  makeReportDock();
   auto* menu = menuBar()->addMenu(QStringLiteral("&Docks"));
   for (QDockWidget* dock : findChildren<QDockWidget*>()) {
     menu->addAction(dock->toggleViewAction());
   }
+}
+
+/// Under the panels, and out of sight until it is asked for.
+void MainWindow::makeReportDock() {
+  auto* dock = new ReportDock(document_);
+  connect(dock, &ReportDock::failed, messages_, &MessageBar::say);
+  connect(dock, &ReportDock::saved, files_, &FileActions::saved);
+  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);  // that column is the taller one
+  addDockWidget(Qt::BottomDockWidgetArea, dock);
+  dock->hide();
+  QAction* show = dock->toggleViewAction();
+  show->setObjectName(QStringLiteral("showReport"));
+  show->setText(QStringLiteral("&Report: speed against error"));
+  show->setShortcut(Qt::Key_E);
+  show->setStatusTip(QStringLiteral("Time per move and errors of the algorithms on this object"));
+  findChild<QMenu*>(QStringLiteral("viewMenu"))->addAction(show);
 }
 
 void MainWindow::linkCameras(bool linked) {

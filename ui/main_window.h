@@ -48,6 +48,7 @@ class MainWindow : public QMainWindow {
   void makePanels();
   void makeTools();
   void makeDocks();
+  void makeReportDock();
   void makeMenus();
   void fillEditMenu(QMenu& menu);
   void fillObjectMenu(QMenu& menu);

@@ -69,6 +69,7 @@ void MainWindow::fillObjectMenu(QMenu& menu) {
 }
 
 void MainWindow::fillViewMenu(QMenu& menu) {
+  menu.setObjectName(QStringLiteral("viewMenu"));
   auto* fit = menu.addAction(QStringLiteral("Reset &view (fit)"), this, [this] {
     for (Panel* panel : panels_) {
       panel->view().fit();

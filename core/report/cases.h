@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ std::vector<Case> default_cases(const LinkSoftness& softness);
 /// the object follow), whole body (an element of the boundary is pulled outward until all follow, and as far
 /// again) and back and forth (the middle goes until all follow, and back to where it was). Distances are
 /// found with Exact ChainMail, so they do not depend on who is compared.
-std::vector<RecordedMoves> three_drags(const Case& object);
+/// Where `stop` is requested they are cut short.
+std::vector<RecordedMoves> three_drags(const Case& object, const std::stop_token& stop = {});
 
 }  // namespace chainmail::report

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int fewest_repetitions = 5;
 constexpr int most_repetitions = 51;
+constexpr double warm_up_share = 0.25;  // of the progress: the references and both precisions take about that
 
 using Clock = std::chrono::steady_clock;
 
@@ -64,9 +65,9 @@ class Experiment {
   /// Calls `tell` with the share that is done. Nothing comes back where it was stopped.
   std::optional<DragResult> run(const std::function<void(double)>& tell) {
     make_runners();
-    measure_errors();
+    measure_errors(tell);
     for (int repetition = 0; repetition < repetitions_ && !stop_.stop_requested(); ++repetition) {
-      tell(double(repetition) / repetitions_);
+      tell(warm_up_share + (1 - warm_up_share) * repetition / repetitions_);
       repeat(static_cast<std::size_t>(repetition));
     }
     for (std::size_t i = 0; i < times_.size(); ++i) {
@@ -93,11 +94,12 @@ class Experiment {
   }
 
   /// The warm-up, which is not timed: errors are the same in every repetition.
-  void measure_errors() {
+  void measure_errors(const std::function<void(double)>& tell) {
     References references(object_, moves_, options_, stop_);
     result_.no_exact = references.no_exact();
     double seconds = 0;
     for (std::size_t i = 0; i < result_.entries.size() && !stop_.stop_requested(); ++i) {
+      tell(warm_up_share * double(i) / double(result_.entries.size()));
       Entry& entry = result_.entries[i];
       entry.refusal = participant_of(i).refusal;
       if (participant_of(i).runner) {

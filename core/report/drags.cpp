@@ -45,8 +45,8 @@ ElementId smallest(const Case& object, Measure measure) {
 /// Tries pulls on one element from rest, each by Exact ChainMail in one move.
 class Trial {
  public:
-  Trial(const Case& object, ElementId element)
-      : simulation_(object.mesh, Algorithm::exact, Precision::double_precision), element_(element) {
+  Trial(const Case& object, ElementId element, const std::stop_token& stop)
+      : simulation_(object.mesh, Algorithm::exact, Precision::double_precision), element_(element), stop_(stop) {
     simulation_.apply(commands::SetSoftness{object.softness});
     simulation_.apply(commands::Cut{object.cuts});
     simulation_.apply(commands::Pin{object.pins});
@@ -73,7 +73,7 @@ class Trial {
         most = moved;
         best = distance;
       }
-      if (moved >= wanted) {
+      if (moved >= wanted || stop_.stop_requested()) {
         break;
       }
     }
@@ -83,6 +83,7 @@ class Trial {
  private:
   Simulation simulation_;
   ElementId element_;
+  const std::stop_token& stop_;
 };
 
 /// Equal steps of the hand, from the share `from` of the way to the share `to`.
@@ -103,13 +104,13 @@ std::string hand(ElementId element) { return "element " + std::to_string(element
 
 }  // namespace
 
-std::vector<RecordedMoves> three_drags(const Case& object) {
+std::vector<RecordedMoves> three_drags(const Case& object, const std::stop_token& stop) {
   const Mesh& mesh = *object.mesh;
   const auto [low, high] = bounds(mesh);
   const Point centre = (low + high) / 2, outward = direction_in(mesh);
   const ElementId middle = smallest(object, [&](const Point& at) { return (at - centre).squaredNorm(); });
   const ElementId edge = smallest(object, [&](const Point& at) { return -at.dot(outward); });
-  Trial from_middle(object, middle), from_edge(object, edge);
+  Trial from_middle(object, middle, stop), from_edge(object, edge, stop);
   const std::uint64_t all = mesh.element_count() - 1;
 
   RecordedMoves local = drag_out(mesh, middle, from_middle.distance_for(std::clamp<std::uint64_t>(all / 8, 12, 300)));

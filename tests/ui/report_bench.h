@@ -1,0 +1,74 @@
+#pragma once
+
+#include <QChart>
+#include <QChartView>
+#include <QLineSeries>
+#include <QScatterSeries>
+
+#include "message_bar.h"
+#include "report_dock.h"
+#include "report_table.h"
+#include "window.h"
+
+namespace chainmail {
+
+/// The window with the dock open, and short runs.
+struct ReportBench : Workbench {
+  explicit ReportBench(const MeshPointer& mesh = generate({MeshKind::grid, {9, 7, 1}, 1, {}})) : Workbench(mesh) {
+    trigger("showReport");
+    settle();
+    effort(0.1);
+  }
+
+  void effort(double seconds) { find<QDoubleSpinBox>("reportSeconds")->setValue(seconds); }
+  void choose(const char* box, int row) { find<QComboBox>(box)->setCurrentIndex(row); }
+  void click(const char* button) { QTest::mouseClick(find<QPushButton>(button), Qt::LeftButton); }
+  ReportThread& thread() { return *window.findChild<ReportThread*>(); }
+  ReportTable& table() { return *find<ReportTable>("reportTable"); }
+  ReportResults& results() { return *window.findChild<ReportResults*>(); }
+  QString progress() { return find<QProgressBar>("reportProgress")->format(); }
+
+  void run() {
+    click("reportRun");
+    QVERIFY(thread().running());
+    QTRY_VERIFY_WITH_TIMEOUT(!thread().running(), 60'000);
+    QVERIFY2(results().isVisible(), qPrintable(window.messages().sentence()));
+  }
+  void isReady() {
+    QVERIFY(!thread().running());
+    QVERIFY(find<QPushButton>("reportRun")->isEnabled());
+    QVERIFY(!find<QPushButton>("reportCancel")->isEnabled());
+    QCOMPARE(progress(), QStringLiteral("ready"));
+  }
+  /// A run that would last for minutes, well under way.
+  void runForLong() {
+    effort(60);
+    click("reportRun");
+    QTRY_VERIFY(find<QProgressBar>("reportProgress")->value() > 0);
+    QVERIFY(thread().atWork());
+  }
+
+  template <class Series>
+  QList<Series*> marks() {
+    QList<Series*> found;
+    for (QAbstractSeries* one : find<QChartView>("reportPlot")->chart()->series()) {
+      if (auto* series = qobject_cast<Series*>(one)) {
+        found << series;
+      }
+    }
+    return found;
+  }
+  QString cell(const QString& contestant, int column) {
+    for (int row = 0; row < table().rowCount(); ++row) {
+      if (table().item(row, 0)->text() == contestant) {
+        return table().item(row, column)->text();
+      }
+    }
+    return {};
+  }
+};
+
+// Of the table.
+constexpr int msColumn = 1, violationColumn = 4, exactColumn = 7;
+
+}  // namespace chainmail

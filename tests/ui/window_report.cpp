@@ -1,0 +1,182 @@
+// What the report dock shows and saves, in a real window.
+
+#include <QClipboard>
+#include <QDir>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+
+#include "report_bench.h"
+
+using namespace chainmail;
+
+class WindowReport : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  void itIsHiddenUntilAskedForAndFits() {
+    Workbench bench;
+    auto* dock = bench.find<ReportDock>("reportDock");
+    QVERIFY(!dock->isVisible());
+    bench.window.resize(1280, 800);
+    bench.settle();
+    const int right = bench.find<QDockWidget>("stiffnessDock")->height();
+    QTest::keyClick(&bench.window, Qt::Key_E);
+    QTRY_VERIFY(dock->isVisible());
+    bench.settle();
+    QCOMPARE(bench.window.size(), QSize(1280, 800));
+    QVERIFY(bench.view(0).height() > 250 && bench.view(1).height() > 250);
+    QCOMPARE(bench.find<QDockWidget>("stiffnessDock")->height(), right);
+    QVERIFY(bench.find<QLabel>("reportEmpty")->isVisible());
+    QVERIFY(!bench.find<QPushButton>("reportCancel")->isEnabled());
+    QTest::keyClick(&bench.window, Qt::Key_E);
+    QTRY_VERIFY(!dock->isVisible());
+  }
+
+  void aRunFillsPlotAndTable() {
+    ReportBench bench;
+    bench.run();
+    QCOMPARE(bench.find<QComboBox>("reportDrag")->count(), 3);
+    for (int drag = 0; drag < 3; ++drag) {
+      bench.choose("reportDrag", drag);
+      QCOMPARE(bench.table().rowCount(), 12);  // six algorithms, with and without sweeps
+      QCOMPARE(bench.marks<QScatterSeries>().size(), 12);
+      for (int row = 0; row < bench.table().rowCount(); ++row) {
+        QVERIFY(bench.table().item(row, msColumn)->text().toDouble() > 0);
+      }
+    }
+    QVERIFY(bench.find<QLabel>("reportTimesNote")->isVisible());
+    QVERIFY(!bench.find<QLabel>("reportRefusals")->isVisible());
+    bench.click("reportCopy");
+    const QStringList lines = QApplication::clipboard()->text().split(QLatin1Char('\n'), Qt::SkipEmptyParts);
+    QCOMPARE(lines.size(), 13);
+    QCOMPARE(lines.last().count(QLatin1Char('\t')), bench.table().columnCount() - 1);
+  }
+
+  void errorsOfZeroStandOnALineOfTheirOwn() {
+    ReportBench bench;
+    bench.choose("reportPrecision", 1);
+    bench.choose("reportSweeps", 0);
+    bench.choose("reportError", 2);
+    bench.run();
+    QCOMPARE(bench.cell(QStringLiteral("Exact"), exactColumn), QStringLiteral("0"));
+    QLineSeries* zero = nullptr;
+    for (QLineSeries* one : bench.marks<QLineSeries>()) {
+      zero = one->name() == QStringLiteral("zero") ? one : zero;
+    }
+    QVERIFY(zero != nullptr);
+    int above = 0;
+    for (QScatterSeries* one : bench.marks<QScatterSeries>()) {
+      // What rounding leaves counts as 0, as in the report's files.
+      const QString name = QString(one->name()).remove(QStringLiteral(" ChainMail"));
+      const bool isZero = bench.cell(name, exactColumn).toDouble() < 1e-12;
+      QCOMPARE(one->at(0).y() == zero->at(0).y(), isZero);
+      above += isZero ? 0 : 1;
+    }
+    QVERIFY(above > 0);  // Generalized goes elsewhere
+    bench.choose("reportError", 0);
+    QCOMPARE(bench.marks<QScatterSeries>().size(), 6);
+  }
+
+  void theTableSortsByNumbers() {
+    ReportBench bench;
+    bench.run();
+    bench.table().sortByColumn(msColumn, Qt::DescendingOrder);
+    double last = 1e300;
+    for (int row = 0; row < bench.table().rowCount(); ++row) {
+      const double ms = bench.table().item(row, msColumn)->text().toDouble();
+      QVERIFY(ms <= last);
+      last = ms;
+    }
+  }
+
+  void whoIsRefusedIsListedWithTheReason() {
+    ReportBench bench;
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(70, -60)});
+    bench.document().setPinned({31}, true);
+    bench.choose("reportDrags", 1);
+    bench.run();
+    auto* refusals = bench.find<QLabel>("reportRefusals");
+    QVERIFY(refusals->isVisible());
+    QVERIFY2(refusals->text().contains(QStringLiteral("Natural Queue ChainMail")) &&
+                 refusals->text().contains(QStringLiteral("pinned")),
+             qPrintable(refusals->text()));
+    QCOMPARE(bench.table().rowCount(), 0);
+  }
+
+  void algorithmsThatDoNotFitCannotBeChosen() {
+    ReportBench bench;
+    auto* list = bench.find<QListWidget>("reportAlgorithms");
+    QListWidgetItem* original = list->findItems(QStringLiteral("3D ChainMail"), Qt::MatchExactly).value(0);
+    QVERIFY((original->flags() & Qt::ItemIsEnabled) != 0);
+    bench.document().replaceMesh(generate({MeshKind::cloth, {5, 4, 1}, 1, {}}), QStringLiteral("cloth"), {});
+    bench.settle();
+    QVERIFY((original->flags() & Qt::ItemIsEnabled) == 0);
+    QVERIFY(original->toolTip().contains(QStringLiteral("grid")));
+    bench.choose("reportSweeps", 1);
+    bench.run();
+    QCOMPARE(bench.table().rowCount(), 5);
+    for (int row = 0; row < list->count(); ++row) {
+      list->item(row)->setCheckState(Qt::Unchecked);
+    }
+    QVERIFY(!bench.find<QPushButton>("reportRun")->isEnabled());
+  }
+
+  void savingWritesThreeFilesThatParse() {
+    ReportBench bench;
+    bench.run();
+    QTemporaryDir folder;
+    bench.results().saveTo(folder.path());
+    QCOMPARE(QDir(folder.path()).entryList(QDir::Files),
+             (QStringList{QStringLiteral("report.csv"), QStringLiteral("report.html"), QStringLiteral("report.json")}));
+    const QJsonObject json = QJsonDocument::fromJson(read(folder, "report.json")).object();
+    const QJsonArray drags = json[QStringLiteral("objects")][0][QStringLiteral("drags")].toArray();
+    QVERIFY2(drags.size() == 3, read(folder, "report.json").left(600));
+    const QList<QByteArray> rows = read(folder, "report.csv").trimmed().split('\n');
+    QCOMPARE(rows.size(), 1 + 3 * 12);
+    for (const QByteArray& row : rows) {
+      QCOMPARE(row.count(','), rows.first().count(','));
+    }
+    QVERIFY(read(folder, "report.html").contains("</html>"));
+  }
+
+  void aReportThatCannotBeSavedIsNotSavedByHalves() {
+    ReportBench bench;
+    bench.run();
+    QTemporaryDir folder;
+    QVERIFY(QDir(folder.path()).mkdir(QStringLiteral("report.csv")));  // in the way
+    bench.results().saveTo(folder.path());
+    QVERIFY(bench.window.messages().isVisible());
+    QVERIFY(QDir(folder.path()).entryList(QDir::Files | QDir::Hidden).isEmpty());
+    bench.window.messages().hide();
+    bench.results().saveTo(folder.filePath(QStringLiteral("missing")));
+    QVERIFY(bench.window.messages().isVisible());
+  }
+
+  void everyWidgetIsNamed() {
+    ReportBench bench;
+    bench.run();
+    for (const char* name : {"reportDrags", "reportAlgorithms", "reportSweeps", "reportPrecision", "reportSeconds",
+                             "reportRun", "reportCancel", "reportProgress", "reportDrag", "reportError", "reportCopy",
+                             "reportSave", "reportPlot", "reportLegend", "reportTable", "reportHeading"}) {
+      auto* widget = bench.find<QWidget>(name);
+      QVERIFY2(widget != nullptr, name);
+      QVERIFY2(!widget->accessibleName().isEmpty() && !widget->toolTip().isEmpty(), name);
+    }
+  }
+
+ private:
+  static QByteArray read(const QTemporaryDir& folder, const char* name) {
+    QFile file(folder.filePath(QLatin1String(name)));
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowReport>(argc, argv); }
+#include "window_report.moc"

@@ -1,0 +1,161 @@
+// The runs of the report dock in a real window: what is compared, cancelling, and edits meanwhile.
+
+#include <QElapsedTimer>
+
+#include "report/format.h"
+#include "report_bench.h"
+
+using namespace chainmail;
+
+class WindowReportRun : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  // Passes over so large an object take longer than a tenth of a second, and between passes alone the thread looks
+  // at its stop token. What is measured is what the window does: it waits for no thread, takes a lock that is held
+  // for an assignment alone, and is ready before the click's handler returns; so it is quick however busy the
+  // machine is.
+  void cancelAnswersAtOnce() {
+    ReportBench bench;
+    bench.click("reportRun");
+    ReportThread::Order order{
+        {"large", "", generate({MeshKind::grid, {800, 800, 1}, 1, {}}), {}, {}, {}, {}}, false, {}};
+    order.object.drags = {{"far", "", {commands::Grab{0}, commands::Drag{Point(-900, -900, 0)}}}};
+    order.options.algorithms = {Algorithm::enhanced};
+    order.options.sweeps = {0};
+    order.options.seconds = 60;
+    bench.thread().start(std::move(order));
+    QTest::qWait(3000);
+    QVERIFY(bench.thread().atWork());
+    QElapsedTimer clock;
+    clock.start();
+    emit bench.find<QPushButton>("reportCancel")->clicked();  // click() would paint first
+    const qint64 answered = clock.elapsed();
+    bench.isReady();
+    QVERIFY2(answered < 100, qPrintable(QString::number(answered)));
+    while (bench.thread().atWork() && clock.elapsed() < 20'000) {
+      QTest::qWait(1);
+    }
+    qInfo("the window answered after %lld ms, the thread ended after %lld ms", answered, clock.elapsed());
+    QVERIFY(!bench.thread().atWork());
+  }
+
+  void theThreadOfACancelledRunEndsAndItsResultIsDropped() {
+    ReportBench bench(generate({MeshKind::grid, {64, 64, 1}, 1, {}}));
+    bench.runForLong();
+    bench.find<QPushButton>("reportCancel")->click();
+    bench.isReady();
+    QTRY_VERIFY(!bench.thread().atWork());  // the run would take minutes
+    QTest::qWait(100);
+    bench.isReady();
+    QVERIFY(bench.find<QLabel>("reportEmpty")->isVisible());
+  }
+
+  void aRunRightAfterACancelledOneCounts() {
+    ReportBench bench(generate({MeshKind::grid, {64, 64, 1}, 1, {}}));
+    bench.runForLong();
+    bench.click("reportCancel");
+    bench.effort(0.1);
+    bench.choose("reportSweeps", 0);
+    bench.run();
+    QCOMPARE(bench.table().rowCount(), 6);
+    QTRY_VERIFY(!bench.thread().atWork());
+  }
+
+  void theWindowStaysLiveDuringARun() {
+    ReportBench bench;
+    bench.runForLong();
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(40, -60)});
+    QVERIFY(bench.document().frame(0)->statistics.passes > 0);
+    QVERIFY(bench.thread().running());
+  }
+
+  void theLastDragIsUsed() {
+    ReportBench bench;
+    auto* drags = bench.find<QComboBox>("reportDrags");
+    const auto enabled = [drags] {
+      return (drags->model()->flags(drags->model()->index(1, 0)) & Qt::ItemIsEnabled) != 0;
+    };
+    const QPoint from = bench.place(0, 31), to = from + QPoint(70, -60);
+    bench.stroke(0, {from});
+    QVERIFY(!enabled());  // a press without a move is no drag
+    bench.stroke(0, {from, to});
+    QVERIFY(enabled());
+    const std::vector<Command> commands = bench.document().lastDrag();
+    QCOMPARE(std::get<commands::Grab>(commands.front()).element, ElementId(31));
+    // The panels hold floats.
+    QVERIFY((std::get<commands::Drag>(commands.back()).target - bench.position(1, 31)).norm() < 1e-5);
+    drags->setCurrentIndex(1);
+    bench.run();
+    QCOMPARE(bench.find<QComboBox>("reportDrag")->currentText(), QStringLiteral("my last drag"));
+    QVERIFY(bench.find<QLabel>("reportHeading")->text().endsWith(QStringLiteral("%1 moves").arg(commands.size() - 1)));
+
+    report::Case object{"", "", bench.document().mesh(), {}, {}, {}, {{"", "", commands}}};
+    report::CompareOptions options;
+    options.algorithms = {Algorithm::generalized};
+    options.sweeps = {0};
+    options.repetitions = 1;
+    const auto expected = report::compare({object}, options).cases[0].drags[0].entries[0].measurement->errors;
+    QVERIFY(expected.violation.max > 0);
+    QCOMPARE(bench.cell(QStringLiteral("Generalized"), violationColumn),
+             QString::fromStdString(report::figure(expected.violation.max)));
+  }
+
+  void theLastDragGoesWithItsMesh() {
+    ReportBench bench;
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(70, -60)});
+    bench.choose("reportDrags", 1);
+    bench.document().replaceMesh(generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("other"), {});
+    QVERIFY(bench.document().lastDrag().empty());
+    QCOMPARE(bench.find<QComboBox>("reportDrags")->currentIndex(), 0);
+  }
+
+  void theObjectIsComparedAsItIs() {
+    ReportBench bench;
+    bench.document().cut({0, 5, 9});
+    bench.document().setPinned({0, 62}, true);
+    bench.document().setSoftnessOf({20}, LinkSoftness{0.5, 2, 0.3});
+    const auto order = bench.window.findChild<ReportChoices*>()->order();
+    QCOMPARE(order.object.cuts, (std::vector<LinkId>{0, 5, 9}));
+    QCOMPARE(order.object.pins, (std::vector<ElementId>{0, 62}));
+    QVERIFY(order.object.softness == *bench.document().wholeSoftness());
+    QVERIFY(order.object.softness.links.contains(20));
+    bench.run();
+  }
+
+  void anotherMeshDuringARunIsHarmless() {
+    ReportBench bench;
+    bench.effort(1);
+    bench.click("reportRun");
+    bench.document().replaceMesh(generate({MeshKind::tetra, {4, 4, 4}, 1, {}}), QStringLiteral("other"), {});
+    bench.settle();
+    bench.document().undoStack().undo();
+    bench.document().undoStack().redo();
+    QVERIFY(bench.thread().running());
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.thread().running(), 60'000);
+    // The result is that of the object that was there, and says so.
+    QVERIFY(bench.find<QLabel>("reportHeading")->text().startsWith(QStringLiteral("sample, 63 elements")));
+    QCOMPARE(bench.table().rowCount(), 12);
+  }
+
+  void theWindowClosesDuringARun() {
+    QElapsedTimer clock;
+    {
+      ReportBench bench(generate({MeshKind::grid, {64, 64, 1}, 1, {}}));
+      bench.runForLong();
+      bench.window.close();
+      clock.start();
+    }
+    QVERIFY2(clock.elapsed() < 2000, qPrintable(QString::number(clock.elapsed())));  // the run would take minutes
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowReportRun>(argc, argv); }
+#include "window_report_run.moc"

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <QTableWidget>
+
+#include "report/compare.h"
+
+namespace chainmail {
+
+/// Every figure of a drag, a row a contestant; a click on a column's head sorts by it.
+class ReportTable : public QTableWidget {
+  Q_OBJECT
+
+ public:
+  ReportTable();
+  void show(const report::DragResult& drag);
+  /// The table as it stands, columns parted by tabs, under its heads.
+  QString asText() const;
+};
+
+}  // namespace chainmail
