@@ -13,7 +13,7 @@ double excess(const Mesh& mesh, const LinkSoftness& softness, const PositionView
   const auto region = valid_region<double, Dimension>(mesh, a, b, softness);
   double square = 0;
   for (int k = 0; k < Dimension; ++k) {
-    const double vector = position(b, k) - position(a, k);
+    const double vector = position.between(a, b, k);
     const double outside = std::max({region.low[k] - vector, vector - region.high[k], 0.0});
     square += outside * outside;
   }
@@ -89,7 +89,7 @@ double elastic_energy(const Mesh& mesh, const Cuts& cuts, const PositionView& po
     for (int k = 0; k < mesh.space_dimension; ++k) {
       const double rest =
           mesh.rest[std::size_t{b} * mesh.space_dimension + k] - mesh.rest[std::size_t{a} * mesh.space_dimension + k];
-      const double difference = position(b, k) - position(a, k) - rest;
+      const double difference = position.between(a, b, k) - rest;
       sum += difference * difference;
     }
   }

@@ -55,16 +55,27 @@ class PositionView {
 
   /// Coordinate k (of those the scene carries) of an element, in mesh units.
   double operator()(ElementId element, int k) const {
-    const std::byte* at = first_ + element * stride_;
-    const double held = precision_ == Precision::single_precision ? double(reinterpret_cast<const float*>(at)[k])
-                                                                  : reinterpret_cast<const double*>(at)[k];
-    return from_rest_ == nullptr
-               ? held
-               : from_rest_->rest[std::size_t{element} * static_cast<std::size_t>(from_rest_->space_dimension) + k] +
-                     held;
+    const double at = held(element, k);
+    return from_rest_ == nullptr ? at : rest(element, k) + at;
+  }
+
+  /// From one element to another along axis k (mesh units). Where displacements are held, it keeps their
+  /// digits, however far the object is from the origin or from rest.
+  double between(ElementId from, ElementId to, int k) const {
+    const double apart = held(to, k) - held(from, k);
+    return from_rest_ == nullptr ? apart : rest(to, k) - rest(from, k) + apart;
   }
 
  private:
+  double held(ElementId element, int k) const {
+    const std::byte* at = first_ + element * stride_;
+    return precision_ == Precision::single_precision ? double(reinterpret_cast<const float*>(at)[k])
+                                                     : reinterpret_cast<const double*>(at)[k];
+  }
+  double rest(ElementId element, int k) const {
+    return from_rest_->rest[std::size_t{element} * static_cast<std::size_t>(from_rest_->space_dimension) + k];
+  }
+
   const std::byte* first_;
   std::size_t stride_;
   Precision precision_;
