@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "solve/waiting_list.h"
+#include "solve/propagate.h"
 
 namespace chainmail {
 
@@ -34,11 +34,7 @@ class DirectionLists {
           continue;
         }
         ++checked;
-        const bool has_moved = body.clamp(element, candidate.sponsor, candidate.entry);
-        body.mark_updated(element);
-        observe(element, candidate.sponsor, has_moved);
-        if (has_moved) {
-          moved.push_back(element);
+        if (update(body, candidate, moved, observe)) {
           feed(body, steps, element, list);
         }
       }

@@ -7,6 +7,20 @@
 
 namespace chainmail {
 
+/// Takes a candidate whose element has not been updated: clamps the element into its valid region about its
+/// sponsor, and says whether that moved it. Updated it is in either case (thesis 3.1).
+template <class Body, class Observe>
+bool update(Body& body, Candidate candidate, std::vector<ElementId>& moved, Observe observe) {
+  const ElementId element = body.mesh->neighbours[candidate.entry];
+  const bool has_moved = body.clamp(element, candidate.sponsor, candidate.entry);
+  body.mark_updated(element);
+  observe(element, candidate.sponsor, has_moved);
+  if (has_moved) {
+    moved.push_back(element);
+  }
+  return has_moved;
+}
+
 /// The propagation that answers a move: one loop for all algorithms that differ in their waiting list.
 ///
 /// The grabbed element stands at its target already. `moved` receives the elements that moved, in order
@@ -38,11 +52,7 @@ std::uint64_t propagate(Body& body, List& list, ElementId grabbed, std::vector<E
       continue;
     }
     ++checked;
-    const bool has_moved = body.clamp(element, candidate.sponsor, candidate.entry);
-    body.mark_updated(element);
-    observe(element, candidate.sponsor, has_moved);
-    if (has_moved) {
-      moved.push_back(element);
+    if (update(body, candidate, moved, observe)) {
       admit_neighbours(element);
     }
   }

@@ -38,14 +38,6 @@ bool fits(Algorithm algorithm, const Mesh& mesh);
 /// Throws Error, saying why, where it does not.
 void check(Algorithm algorithm, const Mesh& mesh);
 
-/// What a pass did: candidates taken and not dropped, and elements moved without the grabbed one.
-struct PassCount {
-  std::uint64_t checked = 0;
-  std::uint64_t moved = 0;
-  bool stopped = false;      // Exact ChainMail: pins held the hand short of its target
-  std::uint64_t visits = 0;  // Exact ChainMail: of elements, as often as each was visited
-};
-
 /// The current positions of all elements, read in place; valid until the solver is next changed.
 class PositionView {
  public:

@@ -19,4 +19,12 @@ struct TraceRow {
 };
 using Trace = std::vector<TraceRow>;
 
+/// What a pass did: candidates taken and not dropped, and elements moved without the grabbed one.
+struct PassCount {
+  std::uint64_t checked = 0;
+  std::uint64_t moved = 0;
+  bool stopped = false;      // Exact ChainMail: pins held the hand short of its target
+  std::uint64_t visits = 0;  // Exact ChainMail: of elements, as often as each was visited
+};
+
 }  // namespace chainmail

@@ -9,11 +9,10 @@
 #include <type_traits>
 
 #include "mesh/error.h"
-#include "solve/exact.h"
+#include "solve/exact_solver.h"
 #include "solve/original.h"
 #include "solve/propagate.h"
 #include "solve/relaxation.h"
-#include "solve/repair.h"
 #include "solve/solver.h"
 
 namespace chainmail {
@@ -30,7 +29,7 @@ class TypedSolver final : public Solver {
     algorithm_ = algorithm;
     if (body_.from_rest != (algorithm == Algorithm::exact)) {
       body_.hold_from_rest(algorithm == Algorithm::exact, softness_);
-      is_valid_ = at_rest_;
+      exact_.set_valid(at_rest_);
       if (at_rest_) {
         body_.reset_positions();  // what rounding to absolute positions took is known here
       }
@@ -40,7 +39,7 @@ class TypedSolver final : public Solver {
   void set_softness(const Softness& softness) override {
     softness_ = softness;
     body_.set_softness(softness);
-    is_valid_ = at_rest_;
+    exact_.set_valid(at_rest_);
   }
 
   void cut(std::span<const LinkId> links) override {
@@ -53,7 +52,7 @@ class TypedSolver final : public Solver {
     for (const LinkId link : links) {
       body_.cuts.uncut(link);
     }
-    is_valid_ = at_rest_;
+    exact_.set_valid(at_rest_);
   }
 
   void pin(std::span<const ElementId> elements) override {
@@ -75,7 +74,8 @@ class TypedSolver final : public Solver {
   void reset() override {
     body_.reset_positions();
     relaxation_.sleep();
-    at_rest_ = is_valid_ = true;
+    at_rest_ = true;
+    exact_.set_valid(true);
   }
 
   PassCount move(ElementId element, const Point& target, Trace* trace) override {
@@ -95,8 +95,8 @@ class TypedSolver final : public Solver {
       }
     }
     try {
-      const PassCount count =
-          algorithm_ == Algorithm::exact ? move_exactly(element, next, trace) : move_by_lists(element, next, trace);
+      const PassCount count = algorithm_ == Algorithm::exact ? exact_.move(body_, pins_, element, next, moved_, trace)
+                                                             : move_by_lists(element, next, trace);
       at_rest_ = false;
       return count;
     } catch (const std::bad_alloc&) {
@@ -180,7 +180,8 @@ class TypedSolver final : public Solver {
 
   void take_positions() {
     relaxation_.sleep();
-    at_rest_ = is_valid_ = false;
+    at_rest_ = false;
+    exact_.set_valid(false);
   }
 
   PassCount move_by_lists(ElementId element, const Scalar (&target)[Dimension], Trace* trace) {
@@ -194,7 +195,7 @@ class TypedSolver final : public Solver {
       count.checked = propagate_with_list(element, [](ElementId, ElementId, bool) {});
     }
     count.moved = moved_.size();
-    is_valid_ = false;
+    exact_.set_valid(false);
     return count;
   }
 
@@ -217,73 +218,6 @@ class TypedSolver final : public Solver {
     return 0;
   }
 
-  PassCount move_exactly(ElementId element, const Scalar (&target)[Dimension], Trace* trace) {
-    note_reach(element, target);
-    Repair repair(body_, search_);
-    if (is_valid_ || repair.is_valid()) {
-      is_valid_ = true;
-      return count_of(exact_.propagate(body_, pins_, element, target, moved_, trace));
-    }
-    const auto before = body_.elements;
-    repair.run(pins_, element);
-    is_valid_ = true;
-    PassCount count = count_of(exact_.propagate(body_, pins_, element, target, moved_, trace));
-    add_repaired(before, count, trace);
-    return count;
-  }
-
-  /// Numbers as large as this leave links with the rounding of their size; once the hand is back among small
-  /// ones, the object must be looked at again.
-  void note_reach(ElementId element, const Scalar (&target)[Dimension]) {
-    double reach = 0;
-    for (int k = 0; k < Dimension; ++k) {
-      const double from = double(body_.elements[element].position[k]);
-      reach = std::max({reach, std::abs(double(target[k])), std::abs(from)});
-    }
-    const double rounding = std::numeric_limits<Scalar>::epsilon() * furthest_;
-    if (64 * reach < furthest_ && rounding > 1e-6 * body_.mesh->mean_link_length) {
-      is_valid_ = false;
-      furthest_ = 0;
-    }
-    furthest_ = std::max(furthest_, reach);
-  }
-
-  PassCount count_of(const typename ExactPropagation<Scalar, Dimension>::Result& result) const {
-    return {result.checked, moved_.size(), result.stopped, result.visits};
-  }
-
-  /// A repair and the pass after it count as one: what moved is what stands elsewhere than before. What the
-  /// pass did not reach has moved without a sponsor.
-  void add_repaired(const std::vector<ElementState<Scalar, Dimension>>& before, PassCount& count, Trace* trace) {
-    const ElementId grabbed = exact_.reached().front();
-    const auto has_moved = [&](ElementId e) {
-      return !std::equal(before[e].position, before[e].position + Dimension, body_.elements[e].position);
-    };
-    std::vector<bool> reached(before.size());
-    for (const ElementId element : exact_.reached()) {
-      reached[element] = true;
-    }
-    if (trace != nullptr) {
-      for (auto row = trace->end() - static_cast<std::ptrdiff_t>(count.checked); row != trace->end(); ++row) {
-        row->moved = has_moved(row->element);
-      }
-    }
-    moved_.clear();
-    for (ElementId e = 0; e < before.size(); ++e) {
-      if (e == grabbed || !has_moved(e)) {
-        continue;
-      }
-      moved_.push_back(e);
-      if (!reached[e]) {
-        ++count.checked;
-        if (trace != nullptr) {
-          trace->push_back({e, no_element, true});
-        }
-      }
-    }
-    count.moved = moved_.size();
-  }
-
   /// There was no memory in the middle of a pass: nothing of it may come up in the next one.
   void drop_pass() {
     exact_ = {};
@@ -293,7 +227,8 @@ class TypedSolver final : public Solver {
     enhanced_ = {};
     directions_ = {};
     moved_.clear();
-    at_rest_ = is_valid_ = false;
+    at_rest_ = false;
+    exact_.set_valid(false);
   }
 
   template <class Out>
@@ -314,16 +249,11 @@ class TypedSolver final : public Solver {
   NaturalQueueList natural_queue_;
   EnhancedList enhanced_;
   DirectionLists directions_;
-  ExactPropagation<Scalar, Dimension> exact_;
-  PathSearch search_;  // for repairs
+  ExactSolver<Scalar, Dimension> exact_;
   std::vector<ElementId> moved_;
   Relaxation<Scalar, Dimension> relaxation_;
   RelaxationScheme scheme_ = RelaxationScheme::mean;
-  // What is known of the links without looking at them: that the object is as it was built, and that they
-  // all hold.
-  bool at_rest_ = true;
-  bool is_valid_ = true;
-  double furthest_ = 0;  // displacement or move since the links were last looked at (mesh units)
+  bool at_rest_ = true;  // as it was built
 };
 
 }  // namespace chainmail

@@ -69,10 +69,9 @@ bool move_into_valid_region(Object<Scalar>& object, Element<Scalar>& element, El
   return element.current_position != before;
 }
 
-/// One move and the pass that answers it; returns the candidates that were processed, in order.
-template <class Algorithm, class Scalar>
-std::vector<Processed> move(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
-  std::vector<Processed> processed;
+/// Puts the grabbed element at its target.
+template <class Scalar>
+void begin(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
   for (Element<Scalar>& element : object.elements) {
     element.updated = false;
   }
@@ -81,20 +80,29 @@ std::vector<Processed> move(Object<Scalar>& object, ElementId grabbed, const std
     held.current_position[k] = static_cast<Scalar>(target[k]);
   }
   held.updated = true;
+}
 
+/// Updates a candidate that has not been updated; says whether it moved.
+template <class Scalar>
+bool update(Object<Scalar>& object, const WaitingListData& next, std::vector<Processed>& processed) {
+  Element<Scalar>& element = object.element(next.element);
+  const bool moved = move_into_valid_region(object, element, next.sponsor);
+  element.updated = true;
+  processed.push_back({next.element, next.sponsor, moved});
+  return moved;
+}
+
+/// One move and the pass that answers it; returns the candidates that were processed, in order.
+template <class Algorithm, class Scalar>
+std::vector<Processed> move(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
+  std::vector<Processed> processed;
+  begin(object, grabbed, target);
   std::list<WaitingListData> waiting_list;
   Algorithm::add_neighbours(object, grabbed, waiting_list);
   while (!waiting_list.empty()) {
     const WaitingListData next = waiting_list.front();
     waiting_list.pop_front();
-    Element<Scalar>& element = object.element(next.element);
-    if (element.updated) {
-      continue;
-    }
-    const bool moved = move_into_valid_region(object, element, next.sponsor);
-    element.updated = true;
-    processed.push_back({next.element, next.sponsor, moved});
-    if (moved) {
+    if (!object.element(next.element).updated && update(object, next, processed)) {
       Algorithm::add_neighbours(object, next.element, waiting_list);
     }
   }

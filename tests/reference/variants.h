@@ -24,29 +24,6 @@ double violation(Object<Scalar>& object, ElementId identifier, ElementId sponsor
   return std::sqrt(outside) / (length > 0 ? std::sqrt(length) : object.mesh().mean_link_length);
 }
 
-/// Puts the grabbed element at its target.
-template <class Scalar>
-void begin(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
-  for (Element<Scalar>& element : object.elements) {
-    element.updated = false;
-  }
-  Element<Scalar>& held = object.element(grabbed);
-  for (int k = 0; k < object.space_dimension; ++k) {
-    held.current_position[k] = static_cast<Scalar>(target[k]);
-  }
-  held.updated = true;
-}
-
-/// Updates a candidate that has not been updated; says whether it moved.
-template <class Scalar>
-bool update(Object<Scalar>& object, const WaitingListData& next, std::vector<Processed>& processed) {
-  Element<Scalar>& element = object.element(next.element);
-  const bool moved = move_into_valid_region(object, element, next.sponsor);
-  element.updated = true;
-  processed.push_back({next.element, next.sponsor, moved});
-  return moved;
-}
-
 /// Enhanced ChainMail (Schill et al. 1998): of all that wait, the candidate that violates its region most
 /// comes next, the first of equals; the whole list is searched.
 template <class Scalar>
