@@ -72,6 +72,13 @@ inline std::vector<AlgorithmInfo> algorithms_for(const Mesh& mesh) {
   return all;
 }
 
+inline double half_ulp(Precision precision) { return precision == Precision::single_precision ? 0x1p-24 : 0x1p-53; }
+
+/// Largest displacement from rest along an axis (mesh units).
+inline double largest_displacement(const Mesh& mesh, const std::vector<double>& positions) {
+  return largest_step(mesh.rest, positions);
+}
+
 /// A uniform number: the same on every machine, which the standard's distributions do not promise.
 inline double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;

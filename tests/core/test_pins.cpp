@@ -1,42 +1,11 @@
 #include <QtTest>
 
+#include "core/pinned.h"
 #include "core/scenarios.h"
 #include "core/simulations.h"
-#include "measure/violation.h"
-#include "mesh/error.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
-
-namespace {
-
-std::unique_ptr<Solver> pinned_chain(Precision precision, const std::vector<ElementId>& pins) {
-  auto solver = make_solver(make_mesh(MeshKind::line, {12, 1, 1}), Algorithm::exact, precision);
-  solver->set_softness({{0.75, 1.25, 0}, {}});
-  solver->pin(pins);
-  return solver;
-}
-
-std::vector<double> chain_of(double first, double spacing) {
-  std::vector<double> x(12);
-  for (int i = 0; i < 12; ++i) {
-    x[i] = first + spacing * i;
-  }
-  return x;
-}
-
-/// A sentence that an Error says, or nothing.
-template <class Act>
-std::string refusal(Act act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
-
-}  // namespace
 
 /// Pinned elements: they stay, whatever pulls.
 class PinsTest : public QObject {
@@ -45,17 +14,7 @@ class PinsTest : public QObject {
  private slots:
   void pins_stay();
   void lists_go_round_a_pin();
-  void the_hand_stops_where_the_chain_is_taut_data();
-  void the_hand_stops_where_the_chain_is_taut();
-  void a_taut_chain_stays_as_it_is();
-  void the_hand_is_free_along_the_other_axis();
   void everything_pinned();
-  void exact_holds_every_link_between_pins();
-  void pins_that_contradict_are_named();
-  void the_pair_that_contradicts_is_named();
-  void rounding_is_no_contradiction();
-  void a_hand_pushed_through_comes_back();
-  void a_hand_beyond_the_pins_reach_comes_back();
   void a_pinned_element_is_not_moved();
   void a_pin_is_taken_out_again();
   void pins_come_back_with_undo();
@@ -111,55 +70,6 @@ void PinsTest::lists_go_round_a_pin() {
   }
 }
 
-void PinsTest::the_hand_stops_where_the_chain_is_taut_data() {
-  QTest::addColumn<double>("target");
-  QTest::addColumn<double>("spacing");
-  // Eleven links between 0.75 and 1.25: every sum is exact.
-  QTest::newRow("just beyond") << 13.8 << 1.25;
-  QTest::newRow("far beyond") << 1e6 << 1.25;
-  QTest::newRow("beyond all bounds") << 1e30 << 1.25;
-  QTest::newRow("pushed together") << 0.0 << 0.75;
-  QTest::newRow("pushed through, far") << -1e30 << 0.75;
-}
-
-void PinsTest::the_hand_stops_where_the_chain_is_taut() {
-  QFETCH(double, target);
-  QFETCH(double, spacing);
-  for (const Precision precision : precisions) {
-    const auto solver = pinned_chain(precision, {0});
-    const PassCount count = solver->move(11, Point(target, 0, 0));
-    QVERIFY(count.stopped);
-    QCOMPARE(positions_of(*solver, *make_mesh(MeshKind::line, {12, 1, 1})), chain_of(0, spacing));
-  }
-}
-
-void PinsTest::a_taut_chain_stays_as_it_is() {
-  for (const Precision precision : precisions) {
-    const auto solver = pinned_chain(precision, {0});
-    solver->move(11, Point(20, 0, 0));
-    for (const double further : {20.0, 21.0, 1e9}) {
-      const PassCount count = solver->move(11, Point(further, 0, 0));
-      QVERIFY(count.stopped);
-      QCOMPARE(count.moved, std::uint64_t{0});
-    }
-    QVERIFY(!solver->move(11, Point(12, 0, 0)).stopped);
-    QCOMPARE(solver->positions()(11, 0), 12.0);
-  }
-}
-
-void PinsTest::the_hand_is_free_along_the_other_axis() {
-  // The left column of a grid is pinned; the hand, at the right end of the middle row, pulls right and up.
-  const auto mesh = make_mesh(MeshKind::grid, {5, 3, 1});
-  const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
-  const std::vector<ElementId> column{0, 5, 10};
-  solver->set_softness({{0.75, 1.25, 0.5}, {}});
-  solver->pin(column);
-  const PassCount count = solver->move(9, Point(50, 2, 0));
-  QVERIFY(count.stopped);
-  QCOMPARE(solver->positions()(9, 0), 5.0);  // four links at 1.25
-  QCOMPARE(solver->positions()(9, 1), 2.0);  // four links may lean by 0.5 each: 1 is within reach
-}
-
 void PinsTest::everything_pinned() {
   const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
   for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
@@ -173,111 +83,6 @@ void PinsTest::everything_pinned() {
     const double reached = one.algorithm == Algorithm::exact ? -0.1 : -3;
     QVERIFY(std::abs(solver->positions()(0, 0) - reached) < 1e-6);  // float
   }
-}
-
-void PinsTest::exact_holds_every_link_between_pins() {
-  const auto holds = [] {
-    const auto& mesh = draw_family().mesh;
-    const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
-    const Softness softness = draw_softness(*mesh);
-    solver->set_softness(softness);
-    const auto pins =
-        *rc::gen::container<std::vector<ElementId>>(rc::gen::inRange<ElementId>(0, mesh->element_count()));
-    solver->pin(pins);
-    for (const Hand& hand : *any_hands(80)) {
-      const ElementId element = hand.of(*mesh);
-      if (std::find(pins.begin(), pins.end(), element) != pins.end()) {
-        continue;
-      }
-      const Point target = position_of(*solver, *mesh, element) + hand.by();
-      const PassCount count = solver->move(element, target);
-      // In rest lengths; rounding along a path of up to 60 links, far below what could be seen.
-      RC_ASSERT(measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max <= 1e-11);
-      const Point off = position_of(*solver, *mesh, element) - target;
-      for (int k = 0; k < mesh->space_dimension; ++k) {
-        RC_ASSERT(count.stopped || std::abs(off[mesh->axes[k]]) <= 1e-12);
-      }
-    }
-  };
-  QVERIFY(rc::check("between pins every link holds, and the hand arrives unless it was stopped", holds));
-}
-
-void PinsTest::pins_that_contradict_are_named() {
-  const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
-  for (const Precision precision : precisions) {
-    const auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
-    solver->move(11, Point(13, 0, 0));
-    const std::vector<ElementId> pins{2, 11};
-    solver->pin(pins);
-    solver->set_softness({{1, 1.01, 0}, {}});
-    solver->set_algorithm(Algorithm::exact);
-    const auto before = positions_of(*solver, *mesh);
-    const std::string sentence = refusal([&] { solver->move(5, Point(6, 0, 0)); });
-    QVERIFY2(sentence.starts_with("pins 2 and 11: they contradict each other"), sentence.c_str());
-    QVERIFY(same_bits(before, positions_of(*solver, *mesh)));
-    solver->unpin(std::span(&pins[1], 1));
-    solver->move(5, Point(5.02, 0, 0));
-    QVERIFY(measure_violation(*mesh, {{1, 1.01, 0}, {}}, solver->cuts(), solver->positions()).max < 1e-5);
-  }
-}
-
-void PinsTest::the_pair_that_contradicts_is_named() {
-  // Four pins, of which the last two alone are too far apart.
-  const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
-  const std::vector<ElementId> first{0, 3, 8};
-  solver->pin(first);
-  solver->move(11, Point(15, 0, 0));
-  const ElementId last = 11;
-  solver->pin(std::span(&last, 1));
-  solver->set_algorithm(Algorithm::exact);
-  const auto before = positions_of(*solver, *mesh);
-  const std::string sentence = refusal([&] { solver->move(5, Point(5, 0, 0)); });
-  QVERIFY2(sentence.starts_with("pins 8 and 11"), sentence.c_str());
-  QVERIFY(same_bits(before, positions_of(*solver, *mesh)));
-}
-
-void PinsTest::rounding_is_no_contradiction() {
-  // The solver itself put the end where the chain is taut, rounded along 500 links; pinned there, it holds.
-  const auto mesh = make_mesh(MeshKind::line, {500, 1, 1}, {}, 0.1);
-  for (const double far : {-1e3, 1e3}) {
-    for (const Precision precision : precisions) {
-      const auto solver = make_solver(mesh, Algorithm::exact, precision);
-      solver->set_softness({{0.9, 1.2, 0}, {}});
-      const std::vector<ElementId> ends{0, 499};
-      solver->pin(std::span(ends).first(1));
-      QVERIFY(solver->move(499, Point(far, 0, 0)).stopped);
-      solver->pin(std::span(ends).last(1));
-      solver->set_algorithm(Algorithm::natural_queue);
-      solver->set_algorithm(Algorithm::exact);
-      solver->move(250, position_of(*solver, *mesh, 250) + Point(0.01, 0, 0));
-      // Float: half an ulp of 60 for each of 500 links, over a link's 0.1.
-      const double rounding = precision == Precision::single_precision ? 500 * 2e-6 / 0.1 : 1e-10;
-      QVERIFY(measure_violation(*mesh, {{0.9, 1.2, 0}, {}}, solver->cuts(), solver->positions()).max <= rounding);
-    }
-  }
-}
-
-void PinsTest::a_hand_pushed_through_comes_back() {
-  // Pushed by Natural Queue onto its pin; Exact brings it to where links are as short as they get.
-  const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
-  const auto solver = pinned_chain(Precision::double_precision, {0});
-  solver->set_algorithm(Algorithm::natural_queue);
-  solver->move(11, Point(-100, 0, 0));
-  solver->set_algorithm(Algorithm::exact);
-  QVERIFY(solver->move(11, Point(-100, 0, 0)).stopped);
-  QCOMPARE(positions_of(*solver, *mesh), chain_of(0, 0.75));
-}
-
-void PinsTest::a_hand_beyond_the_pins_reach_comes_back() {
-  // Pulled by Natural Queue to where the chain tears, then held by Exact: the hand is no second pin.
-  const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
-  const auto solver = pinned_chain(Precision::double_precision, {0});
-  solver->set_algorithm(Algorithm::natural_queue);
-  solver->move(11, Point(100, 0, 0));
-  solver->set_algorithm(Algorithm::exact);
-  QVERIFY(solver->move(11, Point(100, 0, 0)).stopped);
-  QCOMPARE(positions_of(*solver, *mesh), chain_of(0, 1.25));
 }
 
 void PinsTest::a_pinned_element_is_not_moved() {

@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "mesh/error.h"
+#include "simulate/simulation.h"
+
+// How each command is carried out.
+namespace chainmail {
+
+void Simulation::carry_out(const commands::Grab& command) {
+  check_element(command.element);
+  if (std::ranges::binary_search(solver_->pins(), command.element)) {
+    throw Error("element " + std::to_string(command.element), "it is pinned and may not move",
+                "unpin it, or take another element");
+  }
+  grabbed_ = command.element;
+}
+
+void Simulation::carry_out(const commands::Drag& command) {
+  if (!grabbed_) {
+    throw Error("drag", "no element is grabbed", "grab one first");
+  }
+  pass(*grabbed_, command.target);
+}
+
+void Simulation::carry_out(const commands::Release&) {
+  if (grabbed_) {
+    // It was held; now it may follow its neighbours, in idle time or in sweeps that are asked for.
+    solver_->wake(std::span(&*grabbed_, 1));
+    wake({});
+  }
+  grabbed_.reset();
+}
+
+void Simulation::carry_out(const commands::SetSoftness& command) {
+  check(command.softness.global);
+  for (const auto& [link, softness] : command.softness.links) {
+    check_links({link});
+    check(softness);
+  }
+  softness_ = command.softness;
+  solver_->set_softness(softness_);
+  valid_ = false;
+  answer_softness();
+}
+
+/// Under load the object may now violate its links: a pass about the hand, or the element that was moved
+/// last, answers the new softness at once, as far as its propagation reaches. From a valid state it moves
+/// nothing.
+void Simulation::answer_softness() {
+  if (!last_moved_) {
+    return;  // it is at rest
+  }
+  const auto about = grabbed_ ? grabbed_ : last_moved_;
+  if (std::ranges::binary_search(solver_->pins(), *about)) {
+    return;
+  }
+  try {
+    pass(*about, point_of(*mesh_, solver_->positions(), *about));
+  } catch (const Error&) {
+    // Pins that contradict each other now: the softness stands, and the next drag says so.
+  }
+}
+
+void Simulation::carry_out(const commands::SetRelaxation& command) {
+  if (!(command.step > 0 && command.step <= 1)) {
+    throw Error("relax-step", "it must lie above 0 and up to 1", "1 goes all the way to the mean");
+  }
+  const bool was_on = std::exchange(relaxation_on_, command.on);
+  relaxation_step_ = command.step;
+  solver_->set_relaxation(relaxation_scheme_ = command.scheme);
+  if (command.on && !was_on) {
+    std::vector<ElementId> all(mesh_->element_count());
+    std::iota(all.begin(), all.end(), ElementId{0});
+    wake(all);
+  } else if (!command.on) {
+    fall_asleep();
+  }
+}
+
+void Simulation::carry_out(const commands::SetAlgorithm& command) {
+  solver_->set_algorithm(command.algorithm);
+  algorithm_ = statistics_.algorithm = command.algorithm;
+}
+
+void Simulation::carry_out(const commands::Cut& command) {
+  check_links(command.links);
+  solver_->cut(command.links);
+  wake_ends(command.links);
+}
+
+void Simulation::carry_out(const commands::Uncut& command) {
+  check_links(command.links);
+  solver_->uncut(command.links);
+  valid_ = false;  // the ends may have gone apart
+  wake_ends(command.links);
+}
+
+void Simulation::carry_out(const commands::Pin& command) {
+  for (const ElementId element : command.elements) {
+    check_element(element);
+    if (element == grabbed_) {
+      throw Error("element " + std::to_string(element), "it is in the hand", "let it go, then pin it");
+    }
+  }
+  solver_->pin(command.elements);
+}
+
+void Simulation::carry_out(const commands::Unpin& command) {
+  for (const ElementId element : command.elements) {
+    check_element(element);
+  }
+  solver_->unpin(command.elements);
+  solver_->wake(command.elements);
+  wake({});
+}
+
+void Simulation::carry_out(const commands::Reset&) {
+  solver_->reset();
+  last_moved_.reset();
+  valid_ = true;
+  fall_asleep();
+}
+
+void Simulation::carry_out(const commands::ReplaceMesh& command) {
+  if (!command.mesh) {
+    throw Error("replace mesh", "no mesh is given", "give one");
+  }
+  take_mesh(command.mesh);
+  softness_.links.clear();
+  solver_->set_softness(softness_);
+}
+
+void Simulation::carry_out(const commands::KeepState& command) { kept_[command.state] = current_state(); }
+
+void Simulation::carry_out(const commands::SwapState& command) {
+  const auto kept = kept_.find(command.state);
+  if (kept == kept_.end()) {
+    throw Error("state " + std::to_string(command.state), "no such state is kept", "keep it first");
+  }
+  State now = current_state();
+  if (kept->second.mesh != mesh_) {
+    take_mesh(kept->second.mesh);
+  } else {
+    solver_->uncut(solver_->cuts().links());
+    solver_->unpin(std::vector<ElementId>(solver_->pins().begin(), solver_->pins().end()));
+  }
+  std::swap(now, kept->second);
+  softness_ = now.softness;
+  solver_->set_softness(softness_);
+  solver_->cut(now.cuts);
+  solver_->pin(now.pins);
+  solver_->restore(now.positions);
+  valid_ = now.valid;
+  grabbed_.reset();
+  last_moved_.reset();
+  fall_asleep();
+}
+
+void Simulation::carry_out(const commands::DropState& command) { kept_.erase(command.state); }
+
+}  // namespace chainmail

@@ -1,0 +1,187 @@
+#include <QtTest>
+#include <set>
+
+#include "core/scenarios.h"
+#include "measure/violation.h"
+#include "mesh/error.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Exact ChainMail takes over from any state: what is not valid is repaired.
+class RepairTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_start_that_is_not_valid_is_repaired();
+  void a_repair_leaves_what_is_valid();
+  void a_repair_halves_between_the_envelopes();
+  void states_from_outside_are_looked_at();
+  void a_repair_and_its_pass_count_once();
+  void a_repair_of_huge_displacements_stays_finite();
+  void back_from_far_away_every_link_holds();
+  void relaxation_that_moves_nothing_leaves_the_rest_shape();
+  void an_uncut_link_is_mended();
+};
+
+void RepairTest::a_start_that_is_not_valid_is_repaired() {
+  const auto holds = [] {
+    const auto& mesh = draw_family().mesh;
+    const auto precision = *any_precision();
+    const auto solver = make_solver(mesh, Algorithm::generalized, precision);
+    for (const Hand& hand : *any_hands()) {
+      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    }
+    const Softness softness = draw_softness(*mesh);
+    solver->set_softness(softness);
+    solver->set_algorithm(Algorithm::exact);
+    const auto hand = *any_hand();
+    const auto before = positions_of(*solver, *mesh);
+    move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    const auto after = positions_of(*solver, *mesh);
+    for (int k = 0; k < mesh->space_dimension; ++k) {
+      const std::size_t at = std::size_t{hand.of(*mesh)} * mesh->space_dimension + k;
+      const double target = before[at] + hand.by()[mesh->axes[k]];
+      RC_ASSERT(std::abs(after[at] - target) <= 8 * half_ulp(precision) * (10 + std::abs(target)));
+    }
+    // Rounded once for each envelope's path, the mean of both, and the pass.
+    const double size = 10 + largest_displacement(*mesh, after);
+    for (LinkId link = 0; link < mesh->link_count(); ++link) {
+      const double outside = link_violation(*mesh, softness, solver->positions(), link) * rest_length(*mesh, link);
+      RC_ASSERT(outside <= 64 * half_ulp(precision) * size);
+    }
+  };
+  QVERIFY(rc::check("Exact takes over from any state, and every link holds", holds));
+}
+
+void RepairTest::a_repair_leaves_what_is_valid() {
+  // Set from outside, a valid state is as unknown as any other; it must not change.
+  std::mt19937_64 random(3);
+  for (const Family& family : families()) {
+    const auto solver = make_solver(family.mesh, Algorithm::exact, Precision::double_precision);
+    const auto state = random_valid_state(*family.mesh, {}, 0.5, random);
+    solver->set_positions(state);
+    const PassCount count = move_by(*solver, *family.mesh, 0, Point(0, 0, 0));
+    QCOMPARE(count.moved, std::uint64_t{0});
+    // Held from rest and summed again: an ulp of the coordinates.
+    QVERIFY2(largest_step(state, positions_of(*solver, *family.mesh)) <= 1e-14, family.name.c_str());
+  }
+}
+
+void RepairTest::a_repair_halves_between_the_envelopes() {
+  // 0 is held; links are 0.75 to 1.25 long. Clamped to what the hand allows, 1 stays at 1 and 2 comes to 2.5.
+  // They are 1.5 apart: the greatest valid answer below has 2 at 2.25, the least above has 1 at 1.25.
+  const auto chain = make_mesh(MeshKind::line, {3, 1, 1});
+  const auto solver = make_solver(chain, Algorithm::exact, Precision::double_precision);
+  solver->set_softness({{0.75, 1.25, 0}, {}});
+  solver->set_positions(std::vector<double>{0, 1, 4});
+  solver->move(0, Point(0, 0, 0));
+  QCOMPARE(positions_of(*solver, *chain), (std::vector<double>{0, 1.125, 2.375}));
+  // Far from the hand nothing anchors: 10 and 11 are 2 apart where 1.5 is the most.
+  const auto longer = make_mesh(MeshKind::line, {12, 1, 1});
+  const auto free = make_solver(longer, Algorithm::exact, Precision::double_precision);
+  free->set_softness({{0.5, 1.5, 0}, {}});
+  auto state = longer->rest;
+  state[11] = 12;
+  free->set_positions(state);
+  free->move(0, Point(0, 0, 0));
+  // Least: 11 comes down to 11.5. Greatest: 10 goes up to 10.5. Between: 11.75 and 10.25.
+  QCOMPARE(free->positions()(11, 0), 11.75);
+  QCOMPARE(free->positions()(10, 0), 10.25);
+  QCOMPARE(free->positions()(9, 0), 9.0);
+}
+
+void RepairTest::states_from_outside_are_looked_at() {
+  const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
+  for (const bool kept : {false, true}) {
+    const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+    solver->set_positions(std::vector<double>{0, 5, 2, 3});
+    const auto positions = solver->keep_positions();
+    solver->reset();
+    solver->set_algorithm(Algorithm::exact);
+    kept ? solver->restore(positions) : solver->set_positions(std::vector<double>{0, 5, 2, 3});
+    solver->move(0, Point(0, 0, 0));
+    QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()).max < 1e-12);
+  }
+}
+
+void RepairTest::a_repair_and_its_pass_count_once() {
+  const auto mesh = make_mesh(MeshKind::line, {9, 1, 1});
+  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  solver->set_softness({{0.75, 1.3, 0}, {}});
+  const ElementId pin = 0;
+  solver->pin(std::span(&pin, 1));
+  solver->move(8, Point(27, 0, 0));
+  solver->set_algorithm(Algorithm::exact);
+  const auto before = positions_of(*solver, *mesh);
+  Trace trace;
+  const PassCount count = solver->move(8, Point(27, 0, 0), &trace);
+  const auto after = positions_of(*solver, *mesh);
+  std::set<ElementId> rows;
+  for (const TraceRow& row : trace) {
+    QVERIFY(rows.insert(row.element).second);
+    QCOMPARE(row.moved, before[row.element] != after[row.element]);
+  }
+  QCOMPARE(count.checked, std::uint64_t(trace.size()));
+  QCOMPARE(count.moved, std::uint64_t(solver->moved().size()));
+  for (const ElementId element : solver->moved()) {
+    QVERIFY(before[element] != after[element]);
+  }
+}
+
+void RepairTest::a_repair_of_huge_displacements_stays_finite() {
+  const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
+  for (const Precision precision : precisions) {
+    const double far = precision == Precision::single_precision ? 2e37 : 1e307;
+    const auto solver = make_solver(mesh, Algorithm::exact, precision);
+    const LinkId middle = *find_link(*mesh, 1, 2);
+    solver->cut(std::span(&middle, 1));
+    solver->move(0, Point(far, 0, 0));
+    solver->uncut(std::span(&middle, 1));
+    solver->move(0, Point(5, 0, 0));
+    solver->move(0, Point(4, 0, 0));
+    QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()).max < 1e-5);
+    QVERIFY_EXCEPTION_THROWN(solver->move(0, Point(100 * far, 0, 0)), Error);
+  }
+}
+
+void RepairTest::back_from_far_away_every_link_holds() {
+  // Far away links hold to the ulp of there; near again they must hold to that of here.
+  const auto mesh = make_mesh(MeshKind::grid, {20, 20, 1});
+  const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
+  solver->move(210, Point(1e7, 1e7, 0));
+  solver->move(210, Point(10, 10, 0));
+  solver->move(210, Point(11, 10, 0));
+  QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()).max < 1e-4);
+}
+
+void RepairTest::relaxation_that_moves_nothing_leaves_the_rest_shape() {
+  // 2^24 and multiples of 0.37 do not fit float: Exact must take the rest shape as the mesh has it.
+  const auto line = make_mesh(MeshKind::line, {9, 1, 1}, {}, 0.37);
+  const auto mesh = build_mesh(placed(*line, [](const Point& p) { return Point(p + Point(16777216, 0, 0)); }));
+  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
+  solver->relax(1, 1000, {});
+  solver->set_algorithm(Algorithm::exact);
+  QVERIFY(same_bits(positions_of(*solver, *mesh), mesh->rest));
+}
+
+void RepairTest::an_uncut_link_is_mended() {
+  const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
+  const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
+  solver->set_softness({{0.75, 1.25, 0}, {}});
+  const LinkId middle = *find_link(*mesh, 1, 2);
+  solver->cut(std::span(&middle, 1));
+  solver->move(0, Point(-5, 0, 0));
+  QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-5, -3.75, 2, 3}));
+  solver->uncut(std::span(&middle, 1));
+  Trace trace;
+  const PassCount count = solver->move(0, Point(-5, 0, 0), &trace);
+  // 0 is held at −5 and 1 at most 1.25 further, as it was: the others have to come.
+  QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-5, -3.75, -2.5, -1.25}));
+  QCOMPARE(count.moved, std::uint64_t{2});
+  QCOMPARE(trace.size(), std::size_t{2});
+  QVERIFY(trace[0].sponsor == no_element && trace[1].sponsor == no_element);
+}
+
+QTEST_APPLESS_MAIN(RepairTest)
+#include "test_repair.moc"
