@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <vector>
@@ -75,7 +76,7 @@ class RadixHeapSchedule {
     from.clear();
   }
 
-  std::vector<Entry> buckets_[bucket_count];
+  std::array<std::vector<Entry>, bucket_count> buckets_;
   Bits last_ = 0;  // the bits of the largest key there may be
   std::size_t size_ = 0;
 };
