@@ -123,18 +123,19 @@ class Run {
     const RampOptions& options = result_.options;
     const auto drags = hand_drags(*size.mesh(), seed_of(options.seed, width, number), options.drags + 1, options.moves);
     Measured measured;
-    for (std::size_t i = 0; i < drags.size() && !contestants.empty() && !stop_.stop_requested(); ++i) {
-      if (progress_) {
-        progress_({width, static_cast<int>(i), static_cast<int>(drags.size()), number > 0, in_race_, result_.rows});
-      }
-      for (std::size_t turn = 0; turn < contestants.size(); ++turn) {
-        // Another one begins each time.
-        const Algorithm algorithm = contestants[(turn + i) % contestants.size()];
+    const auto all = static_cast<int>(drags.size() * contestants.size());
+    int done = 0;
+    // One after another: in turns, each would find its memory driven from the cache by the one before.
+    for (const Algorithm algorithm : contestants) {
+      for (std::size_t i = 0; i < drags.size() && !stop_.stop_requested(); ++i, ++done) {
+        if (progress_) {
+          progress_({width, done, all, number > 0, in_race_, result_.rows});
+        }
         const Passes passes = make(size.solver(algorithm), drags[i]);
         // The first drag takes the memory that the others then find.
-        if (Passes& all = measured[algorithm]; i > 0) {
-          all.ms.insert(all.ms.end(), passes.ms.begin(), passes.ms.end());
-          all.moved += passes.moved;
+        if (Passes& of_all = measured[algorithm]; i > 0) {
+          of_all.ms.insert(of_all.ms.end(), passes.ms.begin(), passes.ms.end());
+          of_all.moved += passes.moved;
         }
       }
     }

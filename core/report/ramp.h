@@ -72,7 +72,7 @@ std::uint32_t next_width(std::uint32_t width);
 
 /// Dean 2004, chapter 6: square grids grow until an algorithm can no longer answer a move within the budget.
 ///
-/// At each size all algorithms make the same drags, from rest each, in turns, drag by drag. One is out when
+/// At each size all algorithms make the same drags, from rest each, one algorithm after another. One is out when
 /// the 99th percentile of its passes exceeds the budget, and does so again with fresh drags: a hiccup of the
 /// machine does not count, nor does the time that other programs take. `stop` is looked at between passes.
 Ramp ramp(const RampOptions& options, const std::function<void(const RampProgress&)>& progress = {},
