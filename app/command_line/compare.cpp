@@ -15,6 +15,7 @@
 #include "files/text.h"
 #include "mesh/error.h"
 #include "report/html.h"
+#include "report/runner.h"
 #include "report/table.h"
 
 namespace chainmail::command_line {
@@ -29,7 +30,10 @@ struct Options {
 
 constexpr const char* footer =
     "Without a MESH: six objects, a minute or two. Each object is dragged three times: locally, as a whole, and\n"
-    "back and forth. FOLDER receives report.html, report.json and report.csv; the main table is printed.\n\n"
+    "back and forth, from rest. FOLDER receives report.html, report.json and report.csv; the main table is printed.\n\n"
+    "A script of moves is JSON; pin, unpin, cut, uncut and softness are commands as well:\n"
+    "  {\"version\": 1, \"commands\": [{\"do\": \"pin\", \"elements\": [0]}, {\"do\": \"grab\", \"element\": 5},\n"
+    "    {\"do\": \"drag\", \"target\": [1, 2, 0]}, {\"do\": \"drag\", \"target\": [2, 3, 0]}]}\n\n"
     "Example:\n"
     "  chainmail compare cloth.obj --algorithms natural-queue,exact --relax 0,10 -o report";
 
@@ -100,7 +104,12 @@ std::vector<report::RecordedMoves> drags_of(const report::Case& object, const st
     return report::three_drags(object);
   }
   const std::filesystem::path path = *recorded;
-  return {{"recorded", "as " + printable(path.filename().string()) + " has it", read_moves(path, *object.mesh)}};
+  report::RecordedMoves moves{"recorded", "as " + printable(path.filename().string()) + " has it",
+                              read_moves(path, *object.mesh)};
+  if (report::count_moves(moves) == 0) {
+    throw Error(printable(*recorded), "there is no move in it", "write a grab and a drag, as compare --help has them");
+  }
+  return {std::move(moves)};
 }
 
 std::vector<report::Case> read_cases(const Options& options) {

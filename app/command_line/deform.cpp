@@ -26,6 +26,7 @@ struct Options {
 /// Where the results go; nothing is said twice of one place.
 struct Targets {
   std::optional<std::string> positions, trace, json;
+  std::vector<std::string> inputs;  // what was read, which no result replaces
   bool none() const { return !positions && !trace && !json; }
 };
 
@@ -110,7 +111,11 @@ bool positions_as_obj(const std::string& path) {
 }
 
 Targets read_targets(const Options& options) {
-  Targets targets{value_of(options.positions), value_of(options.trace), value_of(options.json)};
+  Targets targets{
+      value_of(options.positions), value_of(options.trace), value_of(options.json), {*value_of(options.mesh.path)}};
+  if (const auto file = value_of(options.softness)) {
+    targets.inputs.push_back(*file);
+  }
   if (targets.positions) {
     positions_as_obj(*targets.positions);
   }
@@ -152,12 +157,15 @@ void write_text(std::ostream& out, const DeformSummary& summary) {
     }
     out << '\n';
   }
-  out << "violation: max " << summary.violation.max << ", rms " << summary.violation.rms << ", "
+  out << "violation: max " << summary.violation.max << " rest lengths, rms " << summary.violation.rms << ", "
       << 100 * summary.violation.fraction << "% of links\n";
 }
 
 void write_results(const Targets& targets, const Simulation& simulation, const Run& run, const DeformSummary& summary) {
   Outputs outputs;
+  for (const std::string& input : targets.inputs) {
+    outputs.keep(input);
+  }
   if (targets.positions) {
     outputs.add(*targets.positions, [&](std::ostream& out) { write_positions(out, *targets.positions, simulation); });
   }

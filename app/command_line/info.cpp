@@ -40,7 +40,10 @@ Command add_info(CLI::App& root) {
   return {app, [mesh, json] {
             const MeshSummary summary = summarize(*read_mesh(mesh));
             if (const auto path = value_of(json)) {
-              write_file(*path, [&](std::ostream& out) { write_json(out, summary); });
+              Outputs outputs;
+              outputs.keep(*value_of(mesh.path));
+              outputs.add(*path, [&](std::ostream& out) { write_json(out, summary); });
+              outputs.commit();
             } else {
               write_file("-", [&](std::ostream& out) { write_text(out, summary); });
             }

@@ -111,7 +111,11 @@ class Runner {
     } else if (act.kind == Act::Kind::pin) {
       simulation_.apply(commands::Pin{{act.element}});
     } else {
-      move(act);
+      try {
+        move(act);
+      } catch (const Error& error) {
+        throw error.at(act.where + ": " + error.where());
+      }
     }
   }
   Run take() { return std::move(run_); }

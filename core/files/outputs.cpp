@@ -79,6 +79,8 @@ void Outputs::refuse_twice(const fs::path& path, const fs::path& target) const {
   }
 }
 
+void Outputs::keep(const fs::path& input) { inputs_.push_back(resolved(input)); }
+
 void Outputs::add(const fs::path& path, Writer writer) {
   if (path.empty()) {
     throw Error("file name", "it is empty", "give a file, or - for standard output");
@@ -87,6 +89,9 @@ void Outputs::add(const fs::path& path, Writer writer) {
   const fs::path target = resolved(path);
   const auto status = fs::status(path, error);
   refuse_twice(path, target);
+  if (path != "-" && std::find(inputs_.begin(), inputs_.end(), target) != inputs_.end()) {
+    throw Error(shown(path), "it was read, and would be replaced", "give the output a file of its own");
+  }
   if (path == "-" || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))) {
     streams_.push_back({path, std::move(writer)});
     return;

@@ -29,6 +29,8 @@ class Outputs {
   /// Removes the temporaries of what was not committed.
   ~Outputs();
 
+  /// Names a file that was read: no output may replace it. Before the outputs are added.
+  void keep(const std::filesystem::path& input);
   /// Writes a file's text aside. Throws Error where the target cannot be a file of ours.
   void add(const std::filesystem::path& path, Writer writer);
   void commit();
@@ -46,6 +48,7 @@ class Outputs {
 
   void refuse_twice(const std::filesystem::path& path, const std::filesystem::path& target) const;
 
+  std::vector<std::filesystem::path> inputs_;  // where they lead
   std::vector<File> files_;
   std::vector<Stream> streams_;
 };

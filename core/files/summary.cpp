@@ -66,11 +66,15 @@ void write_json(std::ostream& out, const MeshSummary& summary) {
 void write_json(std::ostream& out, const DeformSummary& summary) {
   Json passes = Json::array();
   for (const auto& pass : summary.passes) {
-    passes.push_back({{"element", pass.element},
-                      {"target", to_json(pass.target)},
-                      {"checked", pass.checked},
-                      {"moved", pass.moved},
-                      {"milliseconds", pass.milliseconds}});
+    Json one{{"element", pass.element},
+             {"target", to_json(pass.target)},
+             {"checked", pass.checked},
+             {"moved", pass.moved},
+             {"milliseconds", pass.milliseconds}};
+    if (pass.stopped_at) {
+      one["stopped_at"] = to_json(*pass.stopped_at);
+    }
+    passes.push_back(std::move(one));
   }
   const auto& violation = summary.violation;
   const Json json{{"algorithm", summary.algorithm},

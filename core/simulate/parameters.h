@@ -59,14 +59,14 @@ inline constexpr Parameter shear{"shear",
                                  "how far a link may lean, per length along the other axes: 0 not at all"};
 inline constexpr Parameter relax_step{"relax-step",
                                       "Step",
-                                      "of the way to the mean",
+                                      "of the way",
                                       1,
                                       0.01,
                                       1,
                                       1,
                                       0.05,
                                       2,
-                                      "how far one relaxation step moves an element toward the mean of its neighbours"};
+                                      "how far one relaxation step moves an element toward where its neighbours would have it"};
 inline constexpr Parameter spacing{"spacing",  "Spacing", "mesh units", 1, above_zero,
                                    no_highest, 10,        0.1,          4, "distance between neighbouring elements"};
 

@@ -118,10 +118,15 @@ void Simulation::take_mesh(MeshPointer mesh) {
   grabbed_.reset();
   last_moved_.reset();
   valid_ = true;
+  forget_passes();
+  fall_asleep();
+}
+
+/// What passes did to another object, or by another algorithm, is nothing to show beside this one.
+void Simulation::forget_passes() {
   statistics_.last_pass = {};
   statistics_.last_pass_ms = 0;
   times_ = {};
-  fall_asleep();
 }
 
 void Simulation::wake(std::span<const ElementId> elements) {

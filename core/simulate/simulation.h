@@ -84,7 +84,8 @@ class Simulation {
   void carry_out(const commands::SwapState& command);
   void carry_out(const commands::DropState& command);
 
-  void answer_softness();
+  void answer();
+  void forget_passes();
   void pass(ElementId element, const Point& target);
   void check_element(ElementId element) const;
   void check_links(const std::vector<LinkId>& links) const;

@@ -32,6 +32,7 @@ void Simulation::carry_out(const commands::Release&) {
     wake({});
   }
   grabbed_.reset();
+  statistics_.last_pass.stopped = false;  // nothing pulls any more
 }
 
 void Simulation::carry_out(const commands::SetSoftness& command) {
@@ -43,13 +44,13 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
   softness_ = command.softness;
   solver_->set_softness(softness_);
   valid_ = false;
-  answer_softness();
+  answer();
 }
 
 /// Under load the object may now violate its links: a pass about the hand, or the element that was moved
-/// last, answers the new softness at once, as far as its propagation reaches. From a valid state it moves
+/// last, answers what has changed at once, as far as its propagation reaches. From a valid state it moves
 /// nothing.
-void Simulation::answer_softness() {
+void Simulation::answer() {
   if (!last_moved_) {
     return;  // it is at rest
   }
@@ -60,7 +61,7 @@ void Simulation::answer_softness() {
   try {
     pass(*about, point_of(*mesh_, solver_->positions(), *about));
   } catch (const Error&) {
-    // Pins that contradict each other now: the softness stands, and the next drag says so.
+    // Pins that contradict each other now: what was set stands, and the next drag says so.
   }
 }
 
@@ -82,7 +83,14 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
 
 void Simulation::carry_out(const commands::SetAlgorithm& command) {
   solver_->set_algorithm(command.algorithm);
-  algorithm_ = statistics_.algorithm = command.algorithm;
+  if (std::exchange(algorithm_, command.algorithm) == command.algorithm) {
+    return;
+  }
+  statistics_.algorithm = algorithm_;
+  forget_passes();
+  if (algorithm_ == Algorithm::exact) {
+    answer();  // it holds every link, whatever state it takes over
+  }
 }
 
 void Simulation::carry_out(const commands::Cut& command) {
@@ -120,6 +128,7 @@ void Simulation::carry_out(const commands::Unpin& command) {
 void Simulation::carry_out(const commands::Reset&) {
   solver_->reset();
   last_moved_.reset();
+  forget_passes();
   valid_ = true;
   fall_asleep();
 }
@@ -154,6 +163,7 @@ void Simulation::carry_out(const commands::SwapState& command) {
   solver_->pin(now.pins);
   solver_->restore(now.positions);
   valid_ = now.valid;
+  forget_passes();
   grabbed_.reset();
   last_moved_.reset();
   fall_asleep();

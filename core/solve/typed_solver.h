@@ -90,8 +90,8 @@ class TypedSolver final : public Solver {
       const bool stays = body_.from_rest && to == body_.absolute(element, k);
       next[k] = stays ? body_.elements[element].position[k] : static_cast<Scalar>(to - body_.origin(element, k));
       if (!(std::abs(next[k]) <= limit)) {
-        throw Error("element " + std::to_string(element), "its target is not a finite number",
-                    "give coordinates that fit the precision");
+        throw Error("element " + std::to_string(element), "its target is no number that the precision holds",
+                    "give smaller coordinates, or compute in double");
       }
     }
     try {

@@ -21,6 +21,8 @@ class OutputsCommandTest : public QObject {
   void a_dash_is_standard_output();
   void without_outputs_there_is_a_summary();
   void one_failing_output_leaves_all();
+  void what_was_read_is_not_replaced();
+  void the_place_where_pins_stop_the_hand_is_told();
   void a_full_device_is_status_1();
   void options_stand_anywhere();
 
@@ -48,6 +50,31 @@ void OutputsCommandTest::json_has_the_keys_of_the_contract() {
   QCOMPARE(json["passes"][0]["target"].toArray(), (QJsonArray{4, 3, 0}));
   QVERIFY(json["passes"][0]["milliseconds"].toDouble() > 0);
   QCOMPARE(json["displacement"]["max"].toDouble(), std::sqrt(5.0));
+}
+
+void OutputsCommandTest::what_was_read_is_not_replaced() {
+  program_->write("soft.csv", "0,1,0.5,2,0.5\n");
+  const QByteArray mesh = program_->read("cloth.obj"), softness = program_->read("soft.csv");
+  for (const char* output : {"--json ./cloth.obj", "--positions cloth.obj", "--trace cloth.obj", "--json soft.csv"}) {
+    const auto outcome =
+        program_->run("deform cloth.obj --algorithm exact --softness soft.csv --by 14:1 " + QByteArray(output));
+    QCOMPARE(outcome.code, 2);
+    QVERIFY2(outcome.error.contains("it was read, and would be replaced; "), outcome.error);
+    QCOMPARE(program_->read("cloth.obj"), mesh);
+    QCOMPARE(program_->read("soft.csv"), softness);
+  }
+  QCOMPARE(program_->run("info cloth.obj --json cloth.obj").code, 2);
+  QCOMPARE(program_->read("cloth.obj"), mesh);
+}
+
+void OutputsCommandTest::the_place_where_pins_stop_the_hand_is_told() {
+  QCOMPARE(program_->run("generate line 5 -o line.dat").code, 0);
+  const QByteArray pull = "deform line.dat --algorithm exact --stretch 1.25 --pin 0 --json - --by 4:";
+  const auto place = [&](const char* by) {
+    return QJsonDocument::fromJson(program_->run(pull + by).out).object()["passes"][0]["stopped_at"];
+  };
+  QCOMPARE(place("90").toArray(), (QJsonArray{5, 0, 0}));
+  QVERIFY(place("0.5").isUndefined());
 }
 
 void OutputsCommandTest::the_trace_has_a_row_for_each_candidate() {

@@ -10,6 +10,8 @@ class SimulationTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void exact_takes_over_at_once();
+  void what_passes_did_goes_with_them();
   void grabbing_moves_nothing();
   void a_drag_is_one_pass();
   void after_release_a_drag_has_nothing_to_move();
@@ -237,6 +239,34 @@ void SimulationTest::valid_is_what_the_whole_mesh_says() {
   QVERIFY(!simulation.valid());
   carry_out(simulation, commands::Reset{});
   QVERIFY(simulation.valid());
+}
+
+void SimulationTest::exact_takes_over_at_once() {
+  Simulation simulation(sphere(16, 8), Algorithm::generalized, Precision::single_precision);
+  drag_by(simulation, 0, Point(0, 0, 6));
+  simulation.refresh_statistics(true);
+  QVERIFY(simulation.statistics().violation.max > 0.1);
+  carry_out(simulation, commands::SetAlgorithm{Algorithm::exact});
+  simulation.refresh_statistics(true);
+  QVERIFY(simulation.statistics().violation.max < 1e-4);
+  QCOMPARE(simulation.statistics().passes, std::uint64_t{2});
+}
+
+void SimulationTest::what_passes_did_goes_with_them() {
+  // Another algorithm, the rest shape or an undone state must not stand beside what an older pass did.
+  const std::vector<Command> changes{commands::SetAlgorithm{Algorithm::spiral}, commands::Reset{},
+                                     commands::SwapState{1}};
+  for (const Command& change : changes) {
+    Simulation simulation(make_mesh(MeshKind::line, {12, 1, 1}), Algorithm::exact, Precision::double_precision);
+    carry_out(simulation, commands::KeepState{1});
+    carry_out(simulation, commands::Pin{{0}});
+    drag_by(simulation, 11, Point(50, 0, 0));
+    QVERIFY(simulation.statistics().last_pass.stopped && simulation.statistics().last_pass.moved > 0);
+    simulation.apply(change);
+    QVERIFY(!simulation.statistics().last_pass.stopped);
+    QCOMPARE(simulation.statistics().last_pass.moved, std::uint64_t{0});
+    QCOMPARE(simulation.statistics().last_pass_ms, 0.0);
+  }
 }
 
 QTEST_APPLESS_MAIN(SimulationTest)
