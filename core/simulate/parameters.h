@@ -57,16 +57,17 @@ inline constexpr Parameter shear{"shear",
                                  0.01,
                                  3,
                                  "how far a link may lean, per length along the other axes: 0 not at all"};
-inline constexpr Parameter relax_step{"relax-step",
-                                      "Step",
-                                      "of the way",
-                                      1,
-                                      0.01,
-                                      1,
-                                      1,
-                                      0.05,
-                                      2,
-                                      "how far one relaxation step moves an element toward where its neighbours would have it"};
+inline constexpr Parameter relax_step{
+    "relax-step",
+    "Step",
+    "of the way",
+    1,
+    0.01,
+    1,
+    1,
+    0.05,
+    2,
+    "how far one relaxation step moves an element toward where its neighbours would have it"};
 inline constexpr Parameter spacing{"spacing",  "Spacing", "mesh units", 1, above_zero,
                                    no_highest, 10,        0.1,          4, "distance between neighbouring elements"};
 
