@@ -169,8 +169,8 @@ void DeformCommandTest::acts_that_do_not_fit_are_refused_data() {
         "--cut 0-1-2", "--cut -",      "--cut 0:1"}) {
     row(act, act);
   }
-  row("--by 3:1e308 --by 3:1e308", "element 3");
-  row("--precision float --by 3:1e39", "element 3");
+  row("--by 3:1e308 --by 3:1e308", "--by 3:1e308: element 3");
+  row("--precision float --by 3:1e39", "--by 3:1e39: element 3");
   row("--space 1 --by 3:1", "--space 1");
 }
 
