@@ -2,17 +2,12 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "mesh/generate.h"
+#include "report/random.h"
 
 namespace chainmail::report {
 namespace {
-
-/// A uniform number: the same on every machine, which the standard's distributions do not promise.
-double uniform(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 void add_triangle(MeshParts& parts, ElementId a, ElementId b, ElementId c) {
   parts.triangles.push_back({a, b, c});
@@ -102,45 +97,21 @@ Softness with_stiff_middle(const Mesh& mesh, const LinkSoftness& soft) {
 
 std::vector<Case> default_cases(const LinkSoftness& softness) {
   const auto grid = generate({MeshKind::grid, {32, 32, 1}});
-  const Softness same{softness, {}};
-  std::vector<Case> cases{
-      {"grid", "32 × 32 elements, links along x and y", grid, {}, {}, same, {}},
-      {"cut grid",
-       "the grid with a slit to its middle, and 8% of the other links cut at random",
-       grid,
-       slit_and_holes(*grid),
-       {},
-       same,
-       {}},
-      {"jittered cloth",
-       "32 × 32 elements off their places by up to 0.3, triangles on either diagonal",
-       jittered_cloth(32, 32),
-       {},
-       {},
-       same,
-       {}},
-      {"sphere",
-       "a closed surface of triangles: 20 rings of 32 elements and two poles",
-       sphere(32, 20, 6),
-       {},
-       {},
-       same,
-       {}},
-      {"tetra block",
-       "10 × 10 × 10 elements, each cube split into six tetrahedra",
-       generate({MeshKind::tetra, {10, 10, 10}}),
-       {},
-       {},
-       same,
-       {}},
-      {"stiff inclusion",
-       "the grid with links ten times as stiff in its middle",
-       grid,
-       {},
-       {},
-       with_stiff_middle(*grid, softness),
-       {}},
+  const auto made = [&](const char* name, const char* description, MeshPointer mesh) -> Case {
+    return {name, description, std::move(mesh), {}, {}, {softness, {}}, {}};
   };
+  std::vector<Case> cases{
+      made("grid", "32 × 32 elements, links along x and y", grid),
+      made("cut grid", "the grid with a slit to its middle, and 8% of the other links cut at random", grid),
+      made("jittered cloth", "32 × 32 elements off their places by up to 0.3, triangles on either diagonal",
+           jittered_cloth(32, 32)),
+      made("sphere", "a closed surface of triangles: 20 rings of 32 elements and two poles", sphere(32, 20, 6)),
+      made("tetra block", "10 × 10 × 10 elements, each cube split into six tetrahedra",
+           generate({MeshKind::tetra, {10, 10, 10}})),
+      made("stiff inclusion", "the grid with links ten times as stiff in its middle", grid),
+  };
+  cases[1].cuts = slit_and_holes(*grid);
+  cases[5].softness = with_stiff_middle(*grid, softness);
   for (Case& one : cases) {
     one.drags = three_drags(one);
   }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
+
+#include "report/random.h"
 
 namespace chainmail::report {
 namespace {
@@ -13,11 +14,6 @@ constexpr double mean_step = 0.02;
 // By how much the hand may turn from move to move (radians), and how much of its turning it keeps.
 constexpr double turn = 0.15;
 constexpr double turning_kept = 0.8;
-
-/// A uniform number: the same on every machine, which the standard's distributions do not promise.
-double uniform(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 HandDrag draw(const Mesh& mesh, double width, int moves, std::mt19937_64& random) {
   HandDrag drag{static_cast<ElementId>(random() % mesh.element_count()), {}};
