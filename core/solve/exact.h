@@ -18,29 +18,24 @@ class ExactPropagation {
  public:
   using State = Body<Scalar, Dimension>;
 
-  struct Result {
-    std::uint64_t checked = 0;  // elements that the pass reached
-    std::uint64_t visits = 0;   // of elements, on all axes together, with those before the hand was held back
-    bool stopped = false;       // by pins, short of its target
-  };
-
   /// Answers a move of the grabbed element to this displacement from rest. The state must be valid.
   /// `moved` receives the elements that moved, without the grabbed one; `trace`, where given, the reached
   /// ones, those that had to go furthest first, ties by id.
-  Result propagate(State& body, std::span<const ElementId> pins, ElementId grabbed, const Scalar (&target)[Dimension],
-                   std::vector<ElementId>& moved, Trace* trace) {
+  PassCount propagate(State& body, std::span<const ElementId> pins, ElementId grabbed,
+                      const Scalar (&target)[Dimension], std::vector<ElementId>& moved, Trace* trace) {
     growth_.forget();
     growth_.find(body, grabbed, target);
-    Result result{growth_.reached().size() - 1, growth_.visits(), false};
+    PassCount count{growth_.reached().size() - 1, 0, false, growth_.visits()};
     for (int k = 0; k < Dimension; ++k) {
-      result.stopped |= growth_.stopped(k);
+      count.stopped |= growth_.stopped(k);
     }
-    const Excess excess = result.stopped ? excess_at(pins) : Excess{};
+    const Excess excess = count.stopped ? excess_at(pins) : Excess{};
     if (trace != nullptr) {
       write_trace(body, excess, *trace);
     }
     move(body, grabbed, target, excess, moved);
-    return result;
+    count.moved = moved.size();
+    return count;
   }
 
   /// The elements that the last pass reached, the grabbed one first.

@@ -31,8 +31,7 @@ class ExactSolver {
       repair.run(pins, grabbed);
     }
     is_valid_ = true;
-    const auto result = propagation_.propagate(body, pins, grabbed, target, moved, trace);
-    PassCount count{result.checked, moved.size(), result.stopped, result.visits};
+    PassCount count = propagation_.propagate(body, pins, grabbed, target, moved, trace);
     if (!before.empty()) {
       add_repaired(body, before, moved, count, trace);
     }

@@ -24,7 +24,7 @@ struct PassCount {
   std::uint64_t checked = 0;
   std::uint64_t moved = 0;
   bool stopped = false;      // Exact ChainMail: pins held the hand short of its target
-  std::uint64_t visits = 0;  // Exact ChainMail: of elements, as often as each was visited
+  std::uint64_t visits = 0;  // Exact ChainMail: of elements, with those before pins held the hand back
 };
 
 }  // namespace chainmail
