@@ -24,6 +24,17 @@ bool hasDisplay(int argc, char** argv) {
          !qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") || std::any_of(argv, argv + argc, namesPlatform);
 }
 
+/// What the program takes, and its help.
+void describe(QCommandLineParser& parser) {
+  parser.setApplicationDescription(
+      QStringLiteral("Soft objects under the ChainMail family of algorithms, two of them side by side.\n"
+                     "Example: workbench meshes/sphere.obj"));
+  parser.addHelpOption();
+  parser.addVersionOption();
+  parser.addPositionalArgument(QStringLiteral("MESH"), QStringLiteral("a .dat or .obj file to open"),
+                               QStringLiteral("[MESH]"));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -38,15 +49,9 @@ int main(int argc, char** argv) {
   chainmail::styleApplication();
 
   QCommandLineParser parser;
-  parser.setApplicationDescription(
-      QStringLiteral("Soft objects under Generalized and Natural Queue ChainMail, side by side.\n"
-                     "Example: workbench meshes/sphere.obj"));
-  parser.addHelpOption();
-  parser.addVersionOption();
-  parser.addPositionalArgument(QStringLiteral("MESH"), QStringLiteral("a .dat or .obj file to open"),
-                               QStringLiteral("[MESH]"));
+  describe(parser);
   if (!parser.parse(QCoreApplication::arguments())) {
-    return fail(parser.errorText() + QStringLiteral("; see workbench --help"));
+    return fail(parser.errorText().remove(QLatin1Char('.')) + QStringLiteral("; see workbench --help"));
   }
   if (parser.isSet(QStringLiteral("help")) || parser.isSet(QStringLiteral("version"))) {
     parser.process(application);
