@@ -1,19 +1,16 @@
 #include <QtTest>
-#include <chrono>
 #include <set>
-#include <thread>
 
-#include "core/families.h"
+#include "core/comparisons.h"
 #include "mesh/error.h"
-#include "report/compare.h"
 #include "simulate/simulation.h"
 
 using namespace chainmail;
 using namespace chainmail::report;
-using chainmail::test::jittered_triangles;
+using namespace chainmail::report::test;
 using chainmail::test::make_mesh;
 
-/// The experiment: who takes part, what is measured, that it can be stopped and repeated.
+/// The experiment: who takes part, and what is measured.
 class CompareTest : public QObject {
   Q_OBJECT
 
@@ -27,59 +24,9 @@ class CompareTest : public QObject {
   void cuts_pins_and_softness_are_taken();
   void what_moves_change_is_undone_for_the_next_run();
   void errors_are_the_same_each_time();
-  void repetitions_are_counted();
-  void stops_at_once();
-  void stops_between_repetitions();
-  void stops_between_sweeps();
-  void progress_goes_from_0_to_1();
-  void contradicting_pins_are_told();
-  void wrong_moves_and_numbers_are_refused();
   void default_cases_are_what_they_say();
   void three_drags_reach_as_far_as_they_say();
 };
-
-namespace {
-
-/// Drags of one element by so many steps.
-RecordedMoves drag(const Mesh& mesh, ElementId element, const Point& by, int steps = 4) {
-  RecordedMoves moves{"drag", "", {commands::Grab{element}}};
-  for (int i = 1; i <= steps; ++i) {
-    moves.commands.emplace_back(commands::Drag{mesh.rest_position(element) + by * i / steps});
-  }
-  return moves;
-}
-
-Case object(const MeshPointer& mesh, RecordedMoves moves) {
-  return {"object", "", mesh, {}, {}, {}, {std::move(moves)}};
-}
-
-CompareOptions quick(std::vector<Algorithm> algorithms = {}, std::vector<int> sweeps = {0},
-                     Precision precision = Precision::double_precision) {
-  CompareOptions options;
-  options.algorithms = std::move(algorithms);
-  options.sweeps = std::move(sweeps);
-  options.precision = precision;
-  options.repetitions = 2;
-  return options;
-}
-
-DragResult compare_one(const Case& one, const CompareOptions& options) {
-  return compare({one}, options).cases.at(0).drags.at(0);
-}
-
-Errors errors_of(const Case& one, Algorithm algorithm, int sweeps = 0) {
-  return compare_one(one, quick({algorithm}, {sweeps})).entries.at(0).measurement.value().errors;
-}
-
-Case jittered() {
-  const auto mesh = jittered_triangles(8, 8, 1);
-  return object(mesh, drag(*mesh, 27, {4, 2, 0}));
-}
-
-// Positions below 10 and paths of some ten links, in double.
-constexpr double rounding = 1e-13;
-
-}  // namespace
 
 void CompareTest::everyone_takes_part_or_is_refused() {
   const auto result = compare_one(jittered(), quick({}, {0, 3}));
@@ -196,114 +143,6 @@ void CompareTest::errors_are_the_same_each_time() {
       QCOMPARE(one->moved, other->moved);
     }
   }
-}
-
-void CompareTest::repetitions_are_counted() {
-  auto options = quick({Algorithm::spiral});
-  const auto ms = [&] { return compare_one(jittered(), options).entries[0].measurement.value(); };
-  QCOMPARE(ms().ms_per_move.count, 2);
-  options.repetitions.reset();
-  options.seconds = 0;
-  const Measurement measurement = ms();
-  QCOMPARE(measurement.ms_per_move.count, 5);
-  const TimeSpread& spread = measurement.ms_per_move;
-  QVERIFY(0 < spread.min && spread.min <= spread.lower_quartile && spread.lower_quartile <= spread.median);
-  QVERIFY(spread.median <= spread.upper_quartile && spread.upper_quartile <= spread.max);
-  QVERIFY(measurement.worst_move_ms > 0);
-}
-
-void CompareTest::stops_at_once() {
-  std::stop_source stop;
-  stop.request_stop();
-  const auto comparison = compare({jittered()}, quick(), {}, stop.get_token());
-  QVERIFY(comparison.stopped);
-  QVERIFY(comparison.cases.at(0).drags.empty());
-}
-
-void CompareTest::stops_between_repetitions() {
-  std::stop_source stop;
-  Case one = jittered();
-  one.drags.push_back(one.drags[0]);
-  auto options = quick();
-  options.repetitions = 1'000'000'000;  // would not end in anybody's lifetime
-  int told = 0;
-  const auto comparison = compare(
-      {one}, options,
-      [&](double, const std::string&) {
-        if (++told == 10) {
-          stop.request_stop();
-        }
-      },
-      stop.get_token());
-  QVERIFY(comparison.stopped);
-  QCOMPARE(told, 10);
-  QVERIFY(comparison.cases.at(0).drags.empty());
-}
-
-void CompareTest::stops_between_sweeps() {
-  using Clock = std::chrono::steady_clock;
-  const auto grid = make_mesh(MeshKind::grid, {64, 64, 1});
-  const Case one = object(grid, drag(*grid, 2080, {40, 20, 0}));
-  std::stop_source stop;
-  Clock::time_point asked;
-  const std::jthread hand([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(30));
-    asked = Clock::now();
-    stop.request_stop();
-  });
-  // So many sweeps would take hours.
-  const auto comparison = compare({one}, quick({Algorithm::exact}, {100'000'000}), {}, stop.get_token());
-  QVERIFY(comparison.stopped);
-  // What a user still takes for at once; a sweep takes a hundredth of it.
-  QVERIFY(Clock::now() - asked < std::chrono::milliseconds(100));
-}
-
-void CompareTest::progress_goes_from_0_to_1() {
-  std::vector<double> told;
-  compare({jittered(), jittered()}, quick({Algorithm::spiral}), [&](double fraction, const std::string& text) {
-    told.push_back(fraction);
-    QVERIFY(fraction == 1 || text == "object, drag");
-  });
-  QVERIFY(told.size() > 4);
-  QCOMPARE(told.front(), 0.0);
-  QCOMPARE(told.back(), 1.0);
-  QVERIFY(std::is_sorted(told.begin(), told.end()));
-}
-
-void CompareTest::contradicting_pins_are_told() {
-  // Element 1 is pinned where it is dragged to; then 3 is pinned far off, in the same recording.
-  const auto line = make_mesh(MeshKind::line, {4, 1, 1});
-  RecordedMoves moves = drag(*line, 3, {9, 0, 0}, 1);
-  moves.commands.insert(moves.commands.end(), {commands::Release{}, commands::Pin{{0, 3}}, commands::Grab{1},
-                                               commands::Drag{Point(2, 0, 0)}, commands::Drag{Point(3, 0, 0)}});
-  Case one = object(line, moves);
-  one.pins = {1};
-  const auto result = compare_one(one, quick({Algorithm::natural_queue, Algorithm::exact}));
-  // Pinned elements cannot be grabbed, by anyone: all are listed with the reason.
-  for (const Entry& entry : result.entries) {
-    QVERIFY(!entry.measurement && QString::fromStdString(entry.refusal).contains("pinned"));
-  }
-  QVERIFY(!result.no_exact.empty());
-}
-
-void CompareTest::wrong_moves_and_numbers_are_refused() {
-  const auto line = make_mesh(MeshKind::line, {4, 1, 1});
-  const RecordedMoves good = drag(*line, 0, {-1, 0, 0});
-  RecordedMoves none{"none", "", {commands::Grab{0}}}, undo = good, other = good;
-  undo.commands.emplace_back(commands::SwapState{1});
-  other.commands.emplace_back(commands::ReplaceMesh{line});
-  for (const RecordedMoves& moves : {none, undo, other}) {
-    QVERIFY_EXCEPTION_THROWN(compare({object(line, moves)}, quick()), Error);
-  }
-  for (const std::vector<int>& sweeps : {std::vector<int>{}, {0, -1}}) {
-    QVERIFY_EXCEPTION_THROWN(compare({object(line, good)}, quick({}, sweeps)), Error);
-  }
-  auto options = quick();
-  options.repetitions = 0;
-  QVERIFY_EXCEPTION_THROWN(compare({object(line, good)}, options), Error);
-  options = quick();
-  options.relax_step = 0;
-  QVERIFY_EXCEPTION_THROWN(compare({object(line, good)}, options), Error);
 }
 
 void CompareTest::default_cases_are_what_they_say() {
