@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mesh/error.h"
+#include "mesh/shapes.h"
 
 namespace chainmail {
 namespace {
@@ -221,6 +222,7 @@ MeshPointer build_mesh(MeshParts parts) {
     mesh->neighbours = std::move(parts.neighbours);
   }
   number_links(*mesh);
+  number_shapes(*mesh);
   mesh->own_triangles = parts.triangles.size();
   mesh->triangles = std::move(parts.triangles);
   mesh->polygons = std::move(parts.polygons);

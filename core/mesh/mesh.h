@@ -71,6 +71,11 @@ struct Mesh {
   std::vector<ElementId> neighbours;
   /// The link of each entry of the neighbour table.
   std::vector<LinkId> entry_link;
+  /// The distinct rest vectors of entries, space_dimension coordinates each (mesh units), and the one of each
+  /// entry. Both empty where there are more than shape_limit: a jittered mesh has one a link.
+  std::vector<double> shapes;
+  std::vector<std::uint16_t> entry_shape;
+  static constexpr std::size_t shape_limit = 4096;
   /// The two elements of each link, the smaller id first.
   std::vector<std::array<ElementId, 2>> links;
 

@@ -7,17 +7,28 @@
 
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
-#include "solve/region.h"
+#include "solve/region_table.h"
 #include "solve/softness.h"
 
 namespace chainmail {
 
-/// What a pass reads and writes of one element. Bytes: 8, 12, 16 in float, 16, 24, 32 in double for
-/// one, two and three dimensions.
+/// Where an element stands (mesh units). In space it is padded, so that all axes move at once. Bytes: 4, 8, 16
+/// in float, 8, 16, 32 in double for one, two and three dimensions.
 template <class Scalar, int Dimension>
-struct ElementState {
-  Scalar position[Dimension];  // mesh units: absolute, or from rest where the body says so
-  std::uint32_t updated;       // the last pass in which the element counted as updated; pinned: always
+struct Place {
+  static constexpr int lanes = Dimension == 3 ? 4 : Dimension;
+
+  Scalar& operator[](int k) { return at[k]; }
+  const Scalar& operator[](int k) const { return at[k]; }
+  bool operator==(const Place& other) const {
+    bool equal = true;
+    for (int k = 0; k < Dimension; ++k) {
+      equal &= at[k] == other.at[k];
+    }
+    return equal;
+  }
+
+  alignas(lanes * sizeof(Scalar)) Scalar at[lanes];
 };
 
 /// An object as the algorithms of one scalar and one space dimension see it.
@@ -27,7 +38,11 @@ struct Body {
   static constexpr int Dimension = Dimension_;
 
   explicit Body(MeshPointer of, bool held_from_rest = false)
-      : mesh(std::move(of)), cuts(mesh), elements(mesh->element_count()), from_rest(held_from_rest) {
+      : mesh(std::move(of)),
+        cuts(mesh),
+        places(mesh->element_count()),
+        updates(mesh->element_count()),
+        from_rest(held_from_rest) {
     reset_positions();
     set_softness({});
   }
@@ -37,11 +52,11 @@ struct Body {
     return from_rest ? mesh->rest[std::size_t{element} * Dimension + k] : 0;
   }
   double absolute(ElementId element, int k) const {
-    const double held = double(elements[element].position[k]);
+    const double held = double(places[element][k]);
     return from_rest ? origin(element, k) + held : held;  // 0 + −0 would be 0
   }
   void place(ElementId element, int k, double absolute_position) {
-    elements[element].position[k] = static_cast<Scalar>(absolute_position - origin(element, k));
+    places[element][k] = static_cast<Scalar>(absolute_position - origin(element, k));
   }
 
   void reset_positions() {
@@ -52,15 +67,7 @@ struct Body {
     }
   }
 
-  void set_softness(const Softness& softness) {
-    regions.resize(mesh->neighbours.size());
-    for (ElementId e = 0; e < mesh->element_count(); ++e) {
-      for (EntryId entry = mesh->first_entry[e]; entry < mesh->first_entry[e + 1]; ++entry) {
-        regions[entry] = valid_region<Scalar, Dimension>(*mesh, e, mesh->neighbours[entry],
-                                                         softness.of(mesh->entry_link[entry]), from_rest);
-      }
-    }
-  }
+  void set_softness(const Softness& softness) { regions.set(*mesh, softness, from_rest); }
 
   /// Holds positions as displacements from rest and regions about rest vectors, or both absolute.
   void hold_from_rest(bool displacements, const Softness& softness) {
@@ -70,7 +77,7 @@ struct Body {
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
       for (int k = 0; k < Dimension; ++k) {
         const double rest = mesh->rest[std::size_t{e} * Dimension + k];
-        Scalar& x = elements[e].position[k];
+        Scalar& x = places[e][k];
         x = static_cast<Scalar>(displacements ? double(x) - rest : double(x) + rest);
       }
     }
@@ -81,40 +88,45 @@ struct Body {
   /// Begins a pass: no element but the pinned ones counts as updated any more.
   void begin_pass() {
     if (++pass == always) {
-      for (auto& element : elements) {
-        element.updated = element.updated == always ? always : 0;
+      for (auto& update : updates) {
+        update = update == always ? always : 0;
       }
       pass = 1;
     }
   }
-  bool updated(ElementId element) const { return elements[element].updated >= pass; }
-  void mark_updated(ElementId element) { elements[element].updated = pass; }
+  bool updated(ElementId element) const { return updates[element] >= pass; }
+  void mark_updated(ElementId element) { updates[element] = pass; }
 
-  bool pinned(ElementId element) const { return elements[element].updated == always; }
-  void set_pinned(ElementId element, bool is_pinned) { elements[element].updated = is_pinned ? always : 0; }
+  bool pinned(ElementId element) const { return updates[element] == always; }
+  void set_pinned(ElementId element, bool is_pinned) { updates[element] = is_pinned ? always : 0; }
 
-  /// Clamps the candidate's element into its valid region about its sponsor; says whether it moved.
-  bool clamp(ElementId element, ElementId sponsor, EntryId entry) {
-    Scalar* x = elements[element].position;
-    const Scalar* about = elements[sponsor].position;
-    const auto& region = regions[entry];
-    bool moved = false;
+  /// The place of an element clamped into its valid region about its sponsor.
+  Place<Scalar, Dimension> clamped(ElementId element, ElementId sponsor, std::uint32_t region_id) const {
+    const auto& about = places[sponsor];
+    const auto& region = regions.at(region_id);
+    Place<Scalar, Dimension> place = places[element];
     for (int k = 0; k < Dimension; ++k) {
       const Scalar low = about[k] + region.low[k];
       const Scalar high = about[k] + region.high[k];
-      Scalar clamped = x[k] < low ? low : x[k];
-      clamped = high < clamped ? high : clamped;
-      moved |= clamped != x[k];
-      x[k] = clamped;
+      place[k] = place[k] < low ? low : place[k];
+      place[k] = high < place[k] ? high : place[k];
     }
+    return place;
+  }
+
+  /// Clamps the candidate's element into its valid region about its sponsor; says whether it moved.
+  bool clamp(ElementId element, ElementId sponsor, EntryId entry) {
+    const auto place = clamped(element, sponsor, regions.id(entry));
+    const bool moved = place != places[element];
+    places[element] = place;
     return moved;
   }
 
   /// How far the candidate's element lies outside its valid region about its sponsor, in rest lengths. In
   /// double, like the metric; what a mesh without a mean length divides by makes no order.
   double violation(ElementId element, ElementId sponsor, EntryId entry) const {
-    const Scalar* x = elements[element].position;
-    const Scalar* about = elements[sponsor].position;
+    const Scalar* x = places[element].at;
+    const Scalar* about = places[sponsor].at;
     double outside = 0, length = 0;
     for (int k = 0; k < Dimension; ++k) {
       const Scalar low = about[k] + regions[entry].low[k];
@@ -148,8 +160,9 @@ struct Body {
 
   MeshPointer mesh;
   Cuts cuts;
-  std::vector<ElementState<Scalar, Dimension>> elements;
-  std::vector<Region<Scalar, Dimension>> regions;  // one an entry of the neighbour table
+  std::vector<Place<Scalar, Dimension>> places;
+  std::vector<std::uint32_t> updates;  // the last pass in which an element counted as updated; pinned: always
+  RegionTable<Scalar, Dimension> regions;
   std::uint32_t pass = 1;
   bool from_rest = false;
 };

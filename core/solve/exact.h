@@ -1,108 +1,124 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <iterator>
-#include <span>
+#include <cmath>
 #include <vector>
 
-#include "solve/least_growth.h"
+#include "solve/hand_regions.h"
 #include "solve/trace.h"
 
 namespace chainmail {
 
 /// Exact ChainMail: moves every element, on every axis, as little as any valid answer to the move can.
-/// LeastGrowth says how far each must go; here they go there.
+///
+/// HandRegions says in which region about the hand each element may lie; a pass clamps each into its own, like
+/// a neighbour of the hand. No element waits for another one: no order changes a bit of the answer, and no
+/// rounding adds up along the links.
 template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
 class ExactPropagation {
  public:
   using State = Body<Scalar, Dimension>;
+  using Reach = HandReach<Scalar, Dimension>;
 
-  /// Answers a move of the grabbed element to this displacement from rest. The state must be valid.
-  /// `moved` receives the elements that moved, without the grabbed one; `trace`, where given, the reached
-  /// ones, those that had to go furthest first, ties by id.
-  PassCount propagate(State& body, std::span<const ElementId> pins, ElementId grabbed,
-                      const Scalar (&target)[Dimension], std::vector<ElementId>& moved, Trace* trace) {
-    growth_.forget();
-    growth_.find(body, grabbed, target);
-    PassCount count{growth_.reached().size() - 1, 0, false, growth_.visits()};
-    for (int k = 0; k < Dimension; ++k) {
-      count.stopped |= growth_.stopped(k);
+  /// Answers a move of the grabbed element to this displacement from rest, or, along axes on which pins hold it,
+  /// as far as they let it. The state must be valid. `moved` receives the elements that moved, without the
+  /// grabbed one; `trace`, where given, the same, those that go furthest first, ties by id.
+  PassCount propagate(State& body, ElementId grabbed, const Scalar (&target)[Dimension], std::vector<ElementId>& moved,
+                      Trace* trace) {
+    if (grabbed != grabbed_) {
+      regions_.begin(body, grabbed);
+      grabbed_ = grabbed;
     }
-    const Excess excess = count.stopped ? excess_at(pins) : Excess{};
+    Reach reach(body.places[grabbed], target);
+    const std::uint64_t visits_before = regions_.visits();
+    regions_.extend(body, reach);
     if (trace != nullptr) {
-      write_trace(body, excess, *trace);
+      write_trace(body, reach, *trace);
     }
-    move(body, grabbed, target, excess, moved);
-    count.moved = moved.size();
-    return count;
+    move(body, reach, moved);
+    std::copy_n(reach.to, Dimension, body.places[grabbed].at);
+    const bool stopped = std::find(reach.stopped, reach.stopped + Dimension, true) != reach.stopped + Dimension;
+    return {moved.size(), moved.size(), stopped, regions_.visits() - visits_before};
   }
 
-  /// The elements that the last pass reached, the grabbed one first.
-  std::span<const ElementId> reached() const { return growth_.reached(); }
+  /// To be called where links, softness or pins were changed.
+  void forget() { grabbed_ = no_element; }
 
  private:
-  using Excess = std::array<Scalar, Dimension>;
+  static constexpr std::size_t ahead = 16;  // elements whose places are fetched before they are needed
 
-  /// By how much pins would still have to move: some ulps, from rounding along the paths. It is taken off
-  /// all displacements. Each is the larger of 0 and D less a length of path, so that this is the answer for
-  /// a hand that stops as much sooner.
-  Excess excess_at(std::span<const ElementId> pins) const {
-    Excess excess{};
-    for (const ElementId pin : pins) {
-      for (int k = 0; k < Dimension; ++k) {
-        excess[k] = std::max(excess[k], growth_.by(pin)[k]);
-      }
-    }
-    return excess;
-  }
-
-  Scalar moved_to(const State& body, ElementId element, const Excess& excess, int k) const {
-    const Scalar by = std::max(growth_.by(element)[k] - excess[k], Scalar{0});
-    const Scalar u = body.elements[element].position[k];
-    return growth_.is_down(k) ? u - by : u + by;
-  }
-
-  bool moves(const State& body, ElementId element, const Excess& excess) const {
-    bool moves = false;
+  static Place<Scalar, Dimension> clamped(const Place<Scalar, Dimension>& from, const Reach& reach,
+                                          const Region<Scalar, Dimension>& region) {
+    auto place = from;
     for (int k = 0; k < Dimension; ++k) {
-      moves |= moved_to(body, element, excess, k) != body.elements[element].position[k];
+      const Scalar low = reach.low[k] + region.low[k];
+      const Scalar high = reach.high[k] + region.high[k];
+      place[k] = place[k] < low ? low : place[k];
+      place[k] = high < place[k] ? high : place[k];
     }
-    return moves;
+    return place;
   }
 
-  void move(State& body, ElementId grabbed, const Scalar (&target)[Dimension], const Excess& excess,
-            std::vector<ElementId>& moved) {
-    moved.clear();
-    moved.reserve(growth_.reached().size());
-    for (const ElementId element : growth_.reached()) {
-      Scalar* u = body.elements[element].position;
-      bool has_moved = false;
+  void move(State& body, const Reach& reach, std::vector<ElementId>& moved) {
+    const auto elements = regions_.elements();
+    const auto regions = regions_.regions();
+    auto* places = body.places.data();
+    moved.resize(elements.size());
+    std::size_t count = 0;
+    for (std::size_t i = 1; i < elements.size(); ++i) {
+      __builtin_prefetch(&places[elements[std::min(i + ahead, elements.size() - 1)]], 1);
+      auto& place = places[elements[i]];
+      const auto next = clamped(place, reach, regions[i]);
+      if (next != place) {
+        place = next;
+        moved[count++] = elements[i];
+      }
+    }
+    moved.resize(count);
+  }
+
+  struct Row {
+    double way;
+    TraceRow row;
+  };
+
+  void write_trace(const State& body, const Reach& reach, Trace& trace) const {
+    std::vector<Row> rows;
+    for (std::size_t i = 1; i < regions_.elements().size(); ++i) {
+      const ElementId element = regions_.elements()[i];
+      const auto next = clamped(body.places[element], reach, regions_.regions()[i]);
+      double ways[Dimension];
       for (int k = 0; k < Dimension; ++k) {
-        const Scalar next = moved_to(body, element, excess, k);
-        has_moved |= next != u[k];
-        u[k] = next;
+        ways[k] = std::abs(double(next[k]) - double(body.places[element][k]));
       }
-      if (has_moved && element != grabbed) {
-        moved.push_back(element);
+      const double* furthest = std::max_element(ways, ways + Dimension);
+      if (*furthest > 0) {
+        const auto k = static_cast<int>(furthest - ways);
+        rows.push_back(
+            {*furthest, {element, binding_neighbour(body, element, k, next[k] > body.places[element][k]), true}});
       }
     }
-    for (int k = 0; k < Dimension; ++k) {
-      if (!growth_.stopped(k)) {  // where the hand arrives it stands at its target, which is no sum that was rounded
-        body.elements[grabbed].position[k] = target[k];
-      }
+    std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+      return a.way != b.way ? a.way > b.way : a.row.element < b.row.element;
+    });
+    for (const Row& row : rows) {
+      trace.push_back(row.row);
     }
   }
 
-  /// The neighbour with the lowest id that made the element go as far as it does on the axis on which it
-  /// goes furthest.
-  ElementId binding_neighbour(const State& body, ElementId element) const {
-    const auto& to = growth_.by(element);
-    const int k = static_cast<int>(std::max_element(std::begin(to), std::end(to)) - std::begin(to));
+  /// The neighbour with the lowest id that the shortest path comes from, along an axis, up or down.
+  ElementId binding_neighbour(const State& body, ElementId element, int k, bool up) const {
+    const auto& to = *regions_.find(element);
     ElementId binding = no_element;
     for (const ElementId neighbour : body.mesh->neighbours_of(element)) {
+      const auto* from = regions_.find(neighbour);
+      if (from == nullptr || body.pinned(neighbour)) {
+        continue;
+      }
       body.for_each_neighbour(neighbour, [&](ElementId back, EntryId entry) {
-        if (back == element && growth_.by(neighbour)[k] - growth_.slack(body, neighbour, element, entry, k) == to[k]) {
+        const auto& link = body.regions[entry];
+        const bool binds = up ? from->low[k] + link.low[k] == to.low[k] : from->high[k] + link.high[k] == to.high[k];
+        if (back == element && binds) {
           binding = std::min(binding, neighbour);
         }
       });
@@ -110,17 +126,8 @@ class ExactPropagation {
     return binding;
   }
 
-  void write_trace(const State& body, const Excess& excess, Trace& trace) const {
-    std::vector<ElementId> order(growth_.reached().begin() + 1, growth_.reached().end());
-    const auto furthest = [&](ElementId e) { return *std::max_element(growth_.by(e), growth_.by(e) + Dimension); };
-    std::sort(order.begin(), order.end(),
-              [&](ElementId a, ElementId b) { return furthest(a) != furthest(b) ? furthest(a) > furthest(b) : a < b; });
-    for (const ElementId element : order) {
-      trace.push_back({element, binding_neighbour(body, element), moves(body, element, excess)});
-    }
-  }
-
-  LeastGrowth<Scalar, Dimension, Schedule> growth_;
+  HandRegions<Scalar, Dimension, Schedule> regions_;
+  ElementId grabbed_ = no_element;
 };
 
 }  // namespace chainmail

@@ -11,34 +11,35 @@
 
 namespace chainmail {
 
-/// Schedules say in what order Exact ChainMail visits the elements whose displacement grew. None changes
-/// the result by a bit; they differ in how often an element is visited again. tests/bench has the table.
+/// Schedules say in what order Exact ChainMail visits the elements whose regions about the hand became narrower.
+/// None changes the result by a bit; they differ in how often an element is visited again.
 ///
-/// A key is the largest displacement that grew since the element's last visit, above 0. An element whose
-/// key grows while it waits is admitted again, and the caller drops what it takes of it later; while the
-/// schedule says that it `keeps_place()`, it is not. One that `adapts` is told after each visit how it goes.
+/// A key is the shortest path found since the element's last visit, not below 0. An element whose key shrinks
+/// while it waits is admitted again, and the caller drops what it takes of it later; while the schedule says that
+/// it `keeps_place()`, it is not. One that `adapts` is told after each visit how it goes. `begin_drag()` comes
+/// with another hand, `begin()` with each pass. Elements go by the order in which they became known.
 
-/// Largest key first, in a radix heap: with keys that never exceed the last one taken, an element is
-/// visited at most once a space dimension (label setting; Ahuja, Mehlhorn, Orlin and Tarjan 1990).
+/// Smallest key first, in a radix heap: with keys that never fall below the last one taken, an element is visited
+/// at most once a side of each axis (label setting; Ahuja, Mehlhorn, Orlin and Tarjan 1990).
 ///
-/// Keys are compared as the bits of a positive number, which are in the numbers' order.
+/// Keys are compared as the bits of a number that is not below 0, which are in the numbers' order.
 template <class Scalar>
 class RadixHeapSchedule {
  public:
   static constexpr bool adapts = false;
   struct Entry {
     Scalar key;
-    ElementId element;
+    std::uint32_t index;
   };
 
   bool keeps_place() const { return false; }
   bool empty() const { return size_ == 0; }
 
-  /// Begins a pass in which no key will exceed this one.
-  void begin(Scalar largest) { last_ = bits_of(largest); }
+  void begin_drag() {}
+  void begin() { last_ = 0; }
 
-  void admit(ElementId element, Scalar key) {
-    buckets_[bucket_of(bits_of(key))].push_back({key, element});
+  void admit(std::uint32_t index, Scalar key) {
+    buckets_[bucket_of(bits_of(key))].push_back({key, index});
     ++size_;
   }
 
@@ -56,7 +57,7 @@ class RadixHeapSchedule {
   using Bits = std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>;
   static constexpr int bucket_count = 8 * sizeof(Scalar) + 1;
 
-  static Bits bits_of(Scalar key) { return std::bit_cast<Bits>(key); }
+  static Bits bits_of(Scalar key) { return std::bit_cast<Bits>(key + Scalar{0}); }  // -0 is 0
   int bucket_of(Bits bits) const { return std::bit_width(static_cast<Bits>(bits ^ last_)); }
 
   /// Spreads the first bucket that holds any over those before it.
@@ -66,9 +67,9 @@ class RadixHeapSchedule {
       ++first;
     }
     auto& from = buckets_[first];
-    last_ = 0;
+    last_ = bits_of(from.front().key);
     for (const Entry& entry : from) {
-      last_ = std::max(last_, bits_of(entry.key));
+      last_ = std::min(last_, bits_of(entry.key));
     }
     for (const Entry& entry : from) {
       buckets_[bucket_of(bits_of(entry.key))].push_back(entry);
@@ -77,16 +78,16 @@ class RadixHeapSchedule {
   }
 
   std::array<std::vector<Entry>, bucket_count> buckets_;
-  Bits last_ = 0;  // the bits of the largest key there may be
+  Bits last_ = 0;  // the bits of the smallest key there may be
   std::size_t size_ = 0;
 };
 
-/// First in, first out, as long as hardly any element is visited again; then largest key first.
+/// First in, first out, as long as hardly any element is visited again; then smallest key first.
 ///
 /// On even softness the front runs outward once, and a queue that follows the links in space is the
 /// fastest. On mixed softness it would visit an element tens of times: once visits exceed the elements
-/// reached by a quarter, what waits goes to the heap, and from there on an element is visited at most once
-/// a space dimension.
+/// known by a quarter, what waits goes to the heap, and for the rest of the drag an element is visited at most
+/// once a side of each axis.
 template <class Scalar>
 class AdaptiveSchedule {
  public:
@@ -96,39 +97,36 @@ class AdaptiveSchedule {
   bool keeps_place() const { return !sets_labels_; }
   bool empty() const { return queue_.empty() && heap_.empty(); }
 
-  void begin(Scalar largest) {
-    largest_ = largest;
-    sets_labels_ = false;
-  }
+  void begin_drag() { sets_labels_ = false; }
+  void begin() { heap_.begin(); }
 
-  void admit(ElementId element, Scalar key) {
+  void admit(std::uint32_t index, Scalar key) {
     if (sets_labels_) {
-      heap_.admit(element, key);
+      heap_.admit(index, key);
     } else {
-      queue_.admit(element);
+      queue_.admit(index);
     }
   }
 
   Entry take() { return sets_labels_ ? heap_.take() : Entry{0, queue_.take()}; }
 
-  /// Told after a visit how many there were, and how many elements were reached.
+  /// Told after a visit how many there were in the drag, and how many elements are known.
   template <class KeyOf>
-  void visited(std::uint64_t visits, std::size_t reached, KeyOf key_of) {
-    if (sets_labels_ || visits <= reached + reached / 4 + 64) {
+  void visited(std::uint64_t visits, std::size_t known, KeyOf key_of) {
+    if (sets_labels_ || visits <= known + known / 4 + 64) {
       return;
     }
     sets_labels_ = true;
-    heap_.begin(largest_);
+    heap_.begin();
     while (!queue_.empty()) {
-      const ElementId element = queue_.take();
-      heap_.admit(element, key_of(element));
+      const std::uint32_t index = queue_.take();
+      heap_.admit(index, key_of(index));
     }
   }
 
  private:
-  Ring<ElementId> queue_;
+  Ring<std::uint32_t> queue_;
   RadixHeapSchedule<Scalar> heap_;
-  Scalar largest_ = 0;
   bool sets_labels_ = false;
 };
 

@@ -20,20 +20,23 @@ class ExactSolver {
   /// be valid is looked at before the next pass.
   void set_valid(bool is_valid) { is_valid_ = is_valid; }
 
+  /// To be called where links, softness or pins were changed.
+  void forget() { propagation_.forget(); }
+
   /// A pass as ExactPropagation has it, from any state.
   PassCount move(State& body, std::span<const ElementId> pins, ElementId grabbed, const Scalar (&target)[Dimension],
                  std::vector<ElementId>& moved, Trace* trace) {
     note_reach(body, grabbed, target);
     Repair repair(body, search_);
-    std::vector<ElementState<Scalar, Dimension>> before;
+    std::vector<Place<Scalar, Dimension>> before;
     if (!is_valid_ && !repair.is_valid()) {
-      before = body.elements;
+      before = body.places;
       repair.run(pins, grabbed);
     }
     is_valid_ = true;
-    PassCount count = propagation_.propagate(body, pins, grabbed, target, moved, trace);
+    PassCount count = propagation_.propagate(body, grabbed, target, moved, trace);
     if (!before.empty()) {
-      add_repaired(body, before, moved, count, trace);
+      add_repaired(body, before, grabbed, moved, count, trace);
     }
     return count;
   }
@@ -44,7 +47,7 @@ class ExactSolver {
   void note_reach(const State& body, ElementId grabbed, const Scalar (&target)[Dimension]) {
     double reach = 0;
     for (int k = 0; k < Dimension; ++k) {
-      const double from = double(body.elements[grabbed].position[k]);
+      const double from = double(body.places[grabbed][k]);
       reach = std::max({reach, std::abs(double(target[k])), std::abs(from)});
     }
     const double rounding = std::numeric_limits<Scalar>::epsilon() * furthest_;
@@ -57,14 +60,13 @@ class ExactSolver {
 
   /// A repair and the pass after it count as one: what moved is what stands elsewhere than before. What the
   /// pass did not reach has moved without a sponsor.
-  void add_repaired(const State& body, const std::vector<ElementState<Scalar, Dimension>>& before,
+  void add_repaired(const State& body, const std::vector<Place<Scalar, Dimension>>& before, ElementId grabbed,
                     std::vector<ElementId>& moved, PassCount& count, Trace* trace) const {
-    const ElementId grabbed = propagation_.reached().front();
     const auto has_moved = [&](ElementId e) {
-      return !std::equal(before[e].position, before[e].position + Dimension, body.elements[e].position);
+      return !std::equal(before[e].at, before[e].at + Dimension, body.places[e].at);
     };
     std::vector<bool> reached(before.size());
-    for (const ElementId element : propagation_.reached()) {
+    for (const ElementId element : moved) {
       reached[element] = true;
     }
     if (trace != nullptr) {

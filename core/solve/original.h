@@ -18,11 +18,12 @@ bool is_grid(const Mesh& mesh);
 /// out, all admitted. Arguments and result as in propagate().
 class DirectionLists {
  public:
-  template <class Body, class Observe>
-  std::uint64_t propagate(Body& body, ElementId grabbed, std::vector<ElementId>& moved, Observe observe) {
+  template <class Body>
+  void propagate(Body& body, PassRecord& record, ElementId grabbed, std::vector<ElementId>& moved) {
+    if (record.begin(body, grabbed, moved)) {
+      return;
+    }
     const Steps steps = steps_of(*body.mesh);
-    std::uint64_t checked = 0;
-    moved.clear();
     body.begin_pass();
     body.mark_updated(grabbed);
     feed(body, steps, grabbed, all_lists);
@@ -33,13 +34,12 @@ class DirectionLists {
         if (body.updated(element)) {
           continue;
         }
-        ++checked;
-        if (update(body, candidate, moved, observe)) {
+        if (record.update(body, candidate, moved)) {
           feed(body, steps, element, list);
         }
       }
     }
-    return checked;
+    record.end();
   }
 
  private:

@@ -71,9 +71,9 @@ class Relaxation {
 
   /// Makes an element and its neighbours active from the next sweep on.
   void wake(const State& body, ElementId element) {
-    next_.insert(element, body.elements.size());
+    next_.insert(element, body.places.size());
     body.for_each_neighbour(element,
-                            [&](ElementId neighbour, EntryId) { next_.insert(neighbour, body.elements.size()); });
+                            [&](ElementId neighbour, EntryId) { next_.insert(neighbour, body.places.size()); });
   }
 
   void sleep() {
@@ -126,7 +126,7 @@ class Relaxation {
       const double rest_vector =
           body.from_rest ? 0
                          : rest[std::size_t{neighbour} * Dimension + k] - rest[std::size_t{element} * Dimension + k];
-      place[k] = body.elements[neighbour].position[k] - static_cast<Scalar>(rest_vector);
+      place[k] = body.places[neighbour][k] - static_cast<Scalar>(rest_vector);
     }
     return place;
   }
@@ -155,7 +155,7 @@ class Relaxation {
       x /= static_cast<Scalar>(count);
     }
     if (go(body, element, mean, static_cast<Scalar>(step), element) && step < 1) {
-      next_.insert(element, body.elements.size());
+      next_.insert(element, body.places.size());
     }
   }
 
@@ -169,7 +169,7 @@ class Relaxation {
       const Scalar half = static_cast<Scalar>(step) / 2;
       for (const auto& [one, place] : {std::pair(element, here), std::pair(neighbour, there)}) {
         if (!stays(body, one, held) && go(body, one, place, half, element)) {
-          next_.insert(element, body.elements.size());
+          next_.insert(element, body.places.size());
         }
       }
     });
@@ -185,10 +185,10 @@ class Relaxation {
     }
     largest_step_ = std::max(largest_step_, taken);
     body.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
-      (neighbour > visited ? current_ : next_).insert(neighbour, body.elements.size());
+      (neighbour > visited ? current_ : next_).insert(neighbour, body.places.size());
     });
     if (element > visited) {
-      current_.insert(element, body.elements.size());
+      current_.insert(element, body.places.size());
     }
     return true;
   }
@@ -199,13 +199,13 @@ class Relaxation {
     low.fill(-std::numeric_limits<Scalar>::infinity());
     high.fill(std::numeric_limits<Scalar>::infinity());
     body.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
-      const Scalar* about = body.elements[neighbour].position;
+      const Scalar* about = body.places[neighbour].at;
       for (int k = 0; k < Dimension; ++k) {
         low[k] = std::max(low[k], about[k] - body.regions[entry].high[k]);
         high[k] = std::min(high[k], about[k] - body.regions[entry].low[k]);
       }
     });
-    Scalar* x = body.elements[element].position;
+    Scalar* x = body.places[element].at;
     Place next;
     double square = 0;
     for (int k = 0; k < Dimension; ++k) {

@@ -47,7 +47,7 @@ class Repair {
     }
     for (ElementId e = 0; e < body_.mesh->element_count(); ++e) {
       for (int k = 0; k < Dimension && !body_.pinned(e); ++k) {
-        body_.elements[e].position[k] = static_cast<Scalar>(result[k][e]);
+        body_.places[e][k] = static_cast<Scalar>(result[k][e]);
       }
     }
   }
@@ -58,7 +58,7 @@ class Repair {
 
   bool link_holds(ElementId a, ElementId b, EntryId entry) const {
     for (int k = 0; k < Dimension; ++k) {
-      const Scalar from = body_.elements[a].position[k], to = body_.elements[b].position[k];
+      const Scalar from = body_.places[a][k], to = body_.places[b][k];
       const Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon() * std::max(std::abs(from), std::abs(to));
       const auto& region = body_.regions[entry];
       // What is no number holds nothing.
@@ -99,9 +99,9 @@ class Repair {
   }
 
   Labels axis(std::span<const ElementId> pins, ElementId grabbed, int k) {
-    Labels u(body_.elements.size());
+    Labels u(body_.places.size());
     for (std::size_t e = 0; e < u.size(); ++e) {
-      u[e] = double(body_.elements[e].position[k]);
+      u[e] = double(body_.places[e][k]);
     }
     std::vector<ElementId> anchors(pins.begin(), pins.end());
     if (!pins.empty()) {

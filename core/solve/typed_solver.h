@@ -10,6 +10,7 @@
 
 #include "mesh/error.h"
 #include "solve/exact_solver.h"
+#include "solve/natural_queue.h"
 #include "solve/original.h"
 #include "solve/propagate.h"
 #include "solve/relaxation.h"
@@ -27,6 +28,7 @@ class TypedSolver final : public Solver {
   void set_algorithm(Algorithm algorithm) override {
     check(algorithm, *body_.mesh);
     algorithm_ = algorithm;
+    forget();
     if (body_.from_rest != (algorithm == Algorithm::exact)) {
       body_.hold_from_rest(algorithm == Algorithm::exact, softness_);
       exact_.set_valid(at_rest_);
@@ -39,6 +41,7 @@ class TypedSolver final : public Solver {
   void set_softness(const Softness& softness) override {
     softness_ = softness;
     body_.set_softness(softness);
+    forget();
     exact_.set_valid(at_rest_);
   }
 
@@ -46,12 +49,14 @@ class TypedSolver final : public Solver {
     for (const LinkId link : links) {
       body_.cuts.cut(link);
     }
+    forget();
   }
 
   void uncut(std::span<const LinkId> links) override {
     for (const LinkId link : links) {
       body_.cuts.uncut(link);
     }
+    forget();
     exact_.set_valid(at_rest_);
   }
 
@@ -88,7 +93,7 @@ class TypedSolver final : public Solver {
       const double to = target[body_.mesh->axes[k]];
       // A move to where the element is read to be is none, whatever the reading rounded.
       const bool stays = body_.from_rest && to == body_.absolute(element, k);
-      next[k] = stays ? body_.elements[element].position[k] : static_cast<Scalar>(to - body_.origin(element, k));
+      next[k] = stays ? body_.places[element][k] : static_cast<Scalar>(to - body_.origin(element, k));
       if (!(std::abs(next[k]) <= limit)) {
         throw Error("element " + std::to_string(element), "its target is no number that the precision holds",
                     "give smaller coordinates, or compute in double");
@@ -125,7 +130,7 @@ class TypedSolver final : public Solver {
 
   const Cuts& cuts() const override { return body_.cuts; }
   PositionView positions() const override {
-    return {body_.elements.data(), sizeof body_.elements[0],
+    return {body_.places.data(), sizeof body_.places[0],
             std::is_same_v<Scalar, float> ? Precision::single_precision : Precision::double_precision,
             body_.from_rest ? body_.mesh.get() : nullptr};
   }
@@ -140,9 +145,9 @@ class TypedSolver final : public Solver {
   }
 
   KeptPositions keep_positions() const override {
-    KeptPositions kept{std::vector<double>(body_.elements.size() * Dimension), body_.from_rest};
+    KeptPositions kept{std::vector<double>(body_.places.size() * Dimension), body_.from_rest};
     for (std::size_t i = 0; i < kept.held.size(); ++i) {
-      kept.held[i] = double(body_.elements[i / Dimension].position[i % Dimension]);
+      kept.held[i] = double(body_.places[i / Dimension][i % Dimension]);
     }
     return kept;
   }
@@ -151,7 +156,7 @@ class TypedSolver final : public Solver {
     const bool now = body_.from_rest;
     body_.from_rest = kept.from_rest;
     for (std::size_t i = 0; i < kept.held.size(); ++i) {
-      body_.elements[i / Dimension].position[i % Dimension] = static_cast<Scalar>(kept.held[i]);
+      body_.places[i / Dimension][i % Dimension] = static_cast<Scalar>(kept.held[i]);
     }
     body_.hold_from_rest(now, softness_);
     take_positions();
@@ -176,6 +181,7 @@ class TypedSolver final : public Solver {
     for (const ElementId pin : pins_) {
       body_.set_pinned(pin, true);
     }
+    forget();
   }
 
   void take_positions() {
@@ -185,42 +191,51 @@ class TypedSolver final : public Solver {
   }
 
   PassCount move_by_lists(ElementId element, const Scalar (&target)[Dimension], Trace* trace) {
-    std::copy(std::begin(target), std::end(target), body_.elements[element].position);
-    PassCount count;
+    std::copy(std::begin(target), std::end(target), body_.places[element].at);
+    const std::span<const Step> steps = propagate_by_lists(element);
     if (trace != nullptr) {
-      count.checked = propagate_with_list(element, [trace](ElementId e, ElementId sponsor, bool moved) {
-        trace->push_back({e, sponsor, moved});
-      });
-    } else {
-      count.checked = propagate_with_list(element, [](ElementId, ElementId, bool) {});
+      for (const Step& step : steps) {
+        trace->push_back({step.element(), step.sponsor, step.has_moved()});
+      }
     }
-    count.moved = moved_.size();
     exact_.set_valid(false);
-    return count;
+    return {steps.size(), moved_.size()};
   }
 
-  template <class Observe>
-  std::uint64_t propagate_with_list(ElementId grabbed, Observe observe) {
+  std::span<const Step> propagate_by_lists(ElementId grabbed) {
     switch (algorithm_) {
-      case Algorithm::generalized:
-        return propagate(body_, front_, grabbed, moved_, observe);
-      case Algorithm::spiral:
-        return propagate(body_, spiral_, grabbed, moved_, observe);
       case Algorithm::natural_queue:
-        return propagate(body_, natural_queue_, grabbed, moved_, observe);
+        natural_queue_.propagate(body_, grabbed, moved_);
+        return natural_queue_.steps();
+      case Algorithm::generalized:
+        propagate(body_, front_, record_, grabbed, moved_);
+        break;
+      case Algorithm::spiral:
+        propagate(body_, spiral_, record_, grabbed, moved_);
+        break;
       case Algorithm::enhanced:
-        return propagate(body_, enhanced_, grabbed, moved_, observe);
+        propagate(body_, enhanced_, record_, grabbed, moved_);
+        break;
       case Algorithm::original:
-        return directions_.propagate(body_, grabbed, moved_, observe);
+        directions_.propagate(body_, record_, grabbed, moved_);
+        break;
       case Algorithm::exact:
         break;
     }
-    return 0;
+    return record_.steps();
+  }
+
+  /// What the next pass would take over from the last one holds no more.
+  void forget() {
+    record_.forget();
+    natural_queue_.forget();
+    exact_.forget();
   }
 
   /// There was no memory in the middle of a pass: nothing of it may come up in the next one.
   void drop_pass() {
     exact_ = {};
+    record_ = {};
     front_ = {};
     spiral_ = {};
     natural_queue_ = {};
@@ -233,7 +248,7 @@ class TypedSolver final : public Solver {
 
   template <class Out>
   void copy(std::span<Out> out) const {
-    for (ElementId e = 0; e < body_.elements.size(); ++e) {
+    for (ElementId e = 0; e < body_.places.size(); ++e) {
       for (int k = 0; k < Dimension; ++k) {
         out[std::size_t{e} * Dimension + k] = static_cast<Out>(body_.absolute(e, k));
       }
@@ -244,11 +259,12 @@ class TypedSolver final : public Solver {
   Algorithm algorithm_;
   Softness softness_;
   std::vector<ElementId> pins_;  // ascending
+  PassRecord record_;            // of the algorithms below, up to 3D ChainMail
   FrontList front_;
   SpiralList spiral_;
-  NaturalQueueList natural_queue_;
   EnhancedList enhanced_;
   DirectionLists directions_;
+  NaturalQueue<Scalar, Dimension> natural_queue_;
   ExactSolver<Scalar, Dimension> exact_;
   std::vector<ElementId> moved_;
   Relaxation<Scalar, Dimension> relaxation_;

@@ -42,11 +42,6 @@ struct SpiralList : BackList {
   static constexpr bool admits_updated = true;
 };
 
-/// Natural Queue ChainMail (thesis 4.1): candidates enter at the back; only those not yet updated.
-struct NaturalQueueList : BackList {
-  static constexpr bool admits_updated = false;
-};
-
 /// Enhanced ChainMail (Schill et al. 1998): the largest violation is taken first, ties by entry; only
 /// those not yet updated are admitted. Until a candidate is taken its element stays, and its sponsor has
 /// been updated: the violation at entry is the violation when taken.

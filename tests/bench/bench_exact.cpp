@@ -94,7 +94,7 @@ template <int Dimension>
 void natural_queue(benchmark::State& state, const Case& of) {
   NaturalQueueList list;
   drag<Dimension>(state, of, false, [&](auto& body, ElementId grabbed, auto& target, auto& moved) {
-    std::copy(std::begin(target), std::end(target), body.elements[grabbed].position);
+    std::copy(std::begin(target), std::end(target), body.places[grabbed].at);
     return propagate(body, list, grabbed, moved, [](ElementId, ElementId, bool) {});
   });
 }

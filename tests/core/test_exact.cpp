@@ -25,15 +25,16 @@ class ShuffledSchedule {
  public:
   struct Entry {
     Scalar key;
-    ElementId element;
+    std::uint32_t index;
   };
   static constexpr bool adapts = false;
   bool keeps_place() const { return false; }
   static inline std::uint64_t seed = 0;
 
   bool empty() const { return entries_.empty(); }
-  void begin(Scalar) {}
-  void admit(ElementId element, Scalar key) { entries_.push_back({key, element}); }
+  void begin_drag() {}
+  void begin() {}
+  void admit(std::uint32_t index, Scalar key) { entries_.push_back({key, index}); }
   Entry take() {
     std::swap(entries_[random_() % entries_.size()], entries_.back());
     const Entry entry = entries_.back();
@@ -46,8 +47,8 @@ class ShuffledSchedule {
   std::mt19937_64 random_{seed};
 };
 
-/// Drags by Exact with this schedule; returns where the elements end. No element may be visited more often
-/// than there are dimensions, where that is promised.
+/// Drags by Exact with this schedule; returns where the elements end. No element may be visited more often in a
+/// pass than its region has sides, where that is promised.
 template <class Scalar, int Dimension, class Schedule>
 std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, const std::vector<Hand>& hands,
                          bool* visits_are_bounded = nullptr) {
@@ -60,16 +61,16 @@ std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, cons
     const ElementId element = hand.of(*mesh);
     Scalar target[Dimension];
     for (int k = 0; k < Dimension; ++k) {
-      target[k] = body.elements[element].position[k] + static_cast<Scalar>(hand.by()[k]);
+      target[k] = body.places[element][k] + static_cast<Scalar>(hand.by()[k]);
     }
-    const auto result = exact.propagate(body, {}, element, target, moved, nullptr);
+    const auto result = exact.propagate(body, element, target, moved, nullptr);
     if (visits_are_bounded != nullptr) {
-      *visits_are_bounded = *visits_are_bounded && result.visits <= (result.checked + 1) * Dimension;
+      *visits_are_bounded = *visits_are_bounded && result.visits <= (result.checked + 1) * 2 * Dimension;
     }
   }
   std::vector<Scalar> positions;
-  for (const auto& element : body.elements) {
-    positions.insert(positions.end(), element.position, element.position + Dimension);
+  for (const auto& place : body.places) {
+    positions.insert(positions.end(), place.at, place.at + Dimension);
   }
   return positions;
 }
@@ -182,8 +183,8 @@ void ExactTest::the_schedule_changes_no_bit() {
 }
 
 void ExactTest::visits_are_bounded() {
-  // A pass may go through the elements and a quarter of them again before it sets labels: then once a
-  // dimension. The heap alone does only that.
+  // A pass may go through the elements and a quarter of them again before it sets labels: then once a side of
+  // each axis. The heap alone does only that.
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const Softness softness = draw_softness(*mesh);
@@ -192,8 +193,8 @@ void ExactTest::visits_are_bounded() {
     solver->set_softness(softness);
     for (const Hand& hand : hands) {
       const PassCount count = move_by(*solver, *mesh, hand.of(*mesh), hand.by());
-      const std::uint64_t reached = count.checked + 1;
-      RC_ASSERT(count.visits <= reached + reached / 4 + 65 + reached * static_cast<unsigned>(mesh->space_dimension));
+      const std::uint64_t elements = mesh->element_count();
+      RC_ASSERT(count.visits <= elements + elements / 4 + 65 + 2 * elements * unsigned(mesh->space_dimension));
     }
     RC_ASSERT(visits_by_heap(mesh, softness, hands));
   };

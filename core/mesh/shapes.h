@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// Fills the table of rest vectors of a mesh that has few: the distinct ones, and which one each entry of the
+/// neighbour table has. A mesh with more than Mesh::shape_limit of them keeps both tables empty.
+void number_shapes(Mesh& mesh);
+
+}  // namespace chainmail

@@ -1,0 +1,237 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "solve/body.h"
+#include "solve/exact_schedule.h"
+
+namespace chainmail {
+
+/// Where the grabbed element goes, as bounds of displacements count from it: on an axis along which it goes up,
+/// `low` is where it goes and `high` is infinite; where it goes down the other way round; where it stays, both are.
+template <class Scalar, int Dimension>
+struct HandReach {
+  static constexpr Scalar infinite = std::numeric_limits<Scalar>::infinity();
+
+  HandReach(const Place<Scalar, Dimension>& from, const Scalar (&target)[Dimension]) {
+    for (int k = 0; k < Dimension; ++k) {
+      start[k] = from[k];
+      set(k, target[k]);
+    }
+  }
+
+  void set(int k, Scalar target) {
+    to[k] = target;
+    low[k] = target > start[k] ? target : -infinite;
+    high[k] = target < start[k] ? target : infinite;
+  }
+
+  /// Holds the hand back to where an element that cannot move, with this region about the hand, lets it be.
+  void hold(const Place<Scalar, Dimension>& pin, const Region<Scalar, Dimension>& region) {
+    for (int k = 0; k < Dimension; ++k) {
+      const Scalar furthest = std::max(start[k], pin[k] - region.low[k]);
+      const Scalar lowest = std::min(start[k], pin[k] - region.high[k]);
+      if (low[k] > furthest || high[k] < lowest) {
+        set(k, low[k] > furthest ? furthest : lowest);
+        stopped[k] = true;
+      }
+    }
+  }
+
+  Scalar start[Dimension], to[Dimension];
+  Scalar low[Dimension], high[Dimension];
+  bool stopped[Dimension]{};
+};
+
+/// The region about the grabbed element in which each element may lie, whatever the object's state: along each
+/// axis, up and down, the shortest path of links from the hand, a link being as long as its region reaches.
+///
+/// A link is two difference constraints an axis. In a valid state the slacks along a path, what its links still
+/// give, add up to the path's length less what its ends are apart: which path is shortest depends on the
+/// softness and the links alone, not on where anything is. So the regions hold for a whole drag. They are found
+/// as the drag needs them: an element's neighbours get theirs once it moves itself (as candidates are admitted
+/// in every ChainMail), and no schedule changes a bit of them. The derivation is this project's own.
+///
+/// The body holds displacements from rest. All axes go through one search.
+template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
+class HandRegions {
+ public:
+  using State = Body<Scalar, Dimension>;
+  using Reach = HandReach<Scalar, Dimension>;
+  using Bounds = Region<Scalar, Dimension>;
+
+  /// Another hand, or other links, softness or pins: all that is known is forgotten.
+  void begin(const State& body, ElementId grabbed) {
+    index_.resize(body.places.size());
+    elements_.clear();
+    regions_.clear();
+    searched_.clear();
+    pins_.clear();
+    frontier_.assign(1, add(grabbed));
+    regions_.front() = {};
+    searched_.front().state = waits;
+    schedule_.begin_drag();
+    visits_ = 0;
+  }
+
+  /// Finds the regions of all elements that a hand with this reach moves. Pins that it finds hold the hand back.
+  void extend(const State& body, Reach& reach) {
+    for (const Pin& pin : pins_) {
+      reach.hold(body.places[pin.element], pin.region);
+    }
+    schedule_.begin();
+    admit_frontier(body, reach);
+    while (!schedule_.empty()) {
+      const auto [key, index] = schedule_.take();
+      Searched& one = searched_[index];
+      if (one.state != queued || (one.key != key && !schedule_.keeps_place())) {
+        continue;  // visited since, or admitted again with less
+      }
+      one.state = done;
+      ++visits_;
+      visit(body, reach, index);
+      if constexpr (Schedule::adapts) {
+        schedule_.visited(visits_, elements_.size(), [this](Index i) { return searched_[i].key; });
+      }
+    }
+  }
+
+  /// The elements that have a region, the grabbed one first, and their regions.
+  std::span<const ElementId> elements() const { return elements_; }
+  std::span<const Bounds> regions() const { return regions_; }
+  /// The region of an element, or none where the drag has not come near it.
+  const Bounds* find(ElementId element) const {
+    const Index index = index_[element];
+    return is_known(element, index) ? &regions_[index] : nullptr;
+  }
+  /// Visits of elements in this drag, on all axes together.
+  std::uint64_t visits() const { return visits_; }
+
+ private:
+  using Index = std::uint32_t;  // in the order in which elements became known
+  enum SearchState : std::uint32_t { done, queued, waits };
+  struct Searched {
+    Scalar key = 0;  // the shortest path found since the last visit
+    SearchState state = done;
+  };
+  struct Pin {
+    ElementId element;
+    Bounds region;
+  };
+
+  bool is_known(ElementId element, Index index) const {
+    return index < elements_.size() && elements_[index] == element;  // a sparse set (Briggs and Torczon 1993)
+  }
+
+  Index add(ElementId element) {
+    const auto index = static_cast<Index>(elements_.size());
+    index_[element] = index;
+    elements_.push_back(element);
+    Bounds unknown;
+    std::fill_n(unknown.low, Dimension, -Reach::infinite);
+    std::fill_n(unknown.high, Dimension, Reach::infinite);
+    regions_.push_back(unknown);
+    searched_.emplace_back();
+    return index;
+  }
+
+  bool moves(const State& body, const Reach& reach, Index index) const {
+    const auto& place = body.places[elements_[index]];
+    const Bounds& region = regions_[index];
+    bool moves = false;
+    for (int k = 0; k < Dimension; ++k) {
+      moves |= reach.low[k] + region.low[k] > place[k] || reach.high[k] + region.high[k] < place[k];
+    }
+    return moves;
+  }
+
+  void admit_frontier(const State& body, const Reach& reach) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < frontier_.size(); ++i) {
+      const Index index = frontier_[i];
+      if (searched_[index].state != waits) {
+        continue;
+      }
+      if (moves(body, reach, index)) {
+        admit(index);
+      } else {
+        frontier_[kept++] = index;
+      }
+    }
+    frontier_.resize(kept);
+  }
+
+  void admit(Index index) {
+    searched_[index].state = queued;
+    schedule_.admit(index, searched_[index].key);
+  }
+
+  void visit(const State& body, Reach& reach, Index index) {
+    const Bounds from = regions_[index];
+    body.for_each_neighbour(elements_[index], [&](ElementId neighbour, EntryId entry) {
+      const Bounds& link = body.regions[entry];
+      Bounds through;
+      for (int k = 0; k < Dimension; ++k) {
+        through.low[k] = from.low[k] + link.low[k];
+        through.high[k] = from.high[k] + link.high[k];
+      }
+      if (body.pinned(neighbour)) {
+        pins_.push_back({neighbour, through});
+        reach.hold(body.places[neighbour], through);
+      } else {
+        narrow(body, reach, neighbour, through);
+      }
+    });
+  }
+
+  void narrow(const State& body, const Reach& reach, ElementId element, const Bounds& through) {
+    const Index known = index_[element];
+    const Index index = is_known(element, known) ? known : add(element);
+    Bounds& region = regions_[index];
+    Scalar key = Reach::infinite;
+    for (int k = 0; k < Dimension; ++k) {
+      if (through.low[k] > region.low[k]) {
+        region.low[k] = through.low[k];
+        key = std::min(key, -through.low[k]);
+      }
+      if (through.high[k] < region.high[k]) {
+        region.high[k] = through.high[k];
+        key = std::min(key, through.high[k]);
+      }
+    }
+    if (key < Reach::infinite) {
+      await(body, reach, index, key);
+    }
+  }
+
+  /// Its region became narrower: its neighbours' may, as soon as it moves.
+  void await(const State& body, const Reach& reach, Index index, Scalar key) {
+    Searched& one = searched_[index];
+    const bool is_smaller = one.state == done || key < one.key;
+    one.key = is_smaller ? key : one.key;
+    if (one.state == queued) {
+      if (is_smaller && !schedule_.keeps_place()) {
+        schedule_.admit(index, key);
+      }
+    } else if (moves(body, reach, index)) {
+      admit(index);
+    } else if (one.state == done) {
+      one.state = waits;
+      frontier_.push_back(index);
+    }
+  }
+
+  std::vector<Index> index_;  // of each element, where it is known; else anything
+  std::vector<ElementId> elements_;
+  std::vector<Bounds> regions_;
+  std::vector<Searched> searched_;
+  std::vector<Index> frontier_;  // of those that wait until they move, and of some that no longer do
+  std::vector<Pin> pins_;        // one may stand here several times
+  Schedule schedule_;
+  std::uint64_t visits_ = 0;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "solve/region.h"
+#include "solve/softness.h"
+
+namespace chainmail {
+
+/// The valid regions of an object. Where the mesh has few rest vectors and one softness holds for all links,
+/// there is one region a rest vector, which stays in the cache; else one an entry of the neighbour table.
+template <class Scalar, int Dimension>
+class RegionTable {
+ public:
+  using One = Region<Scalar, Dimension>;
+  /// Names a region: good as long as nothing but values of softness is set.
+  using Id = std::uint32_t;
+
+  void set(const Mesh& mesh, const Softness& softness, bool about_rest_vector) {
+    shape_of_ = softness.links.empty() && !mesh.entry_shape.empty() ? mesh.entry_shape.data() : nullptr;
+    regions_.resize(shape_of_ != nullptr ? mesh.shapes.size() / Dimension : mesh.neighbours.size());
+    if (shape_of_ != nullptr) {
+      set_shapes(mesh, softness.global, about_rest_vector);
+    } else {
+      set_entries(mesh, softness, about_rest_vector);
+    }
+    regions_.shrink_to_fit();  // one softness again after many: the table was large
+  }
+
+  Id id(EntryId entry) const { return shape_of_ != nullptr ? shape_of_[entry] : entry; }
+  const One& at(Id id) const { return regions_[id]; }
+  const One& operator[](EntryId entry) const { return regions_[id(entry)]; }
+  std::size_t size() const { return regions_.size(); }
+
+ private:
+  void set_shapes(const Mesh& mesh, const LinkSoftness& softness, bool about_rest_vector) {
+    for (std::size_t shape = 0; shape < regions_.size(); ++shape) {
+      double rest_vector[Dimension];
+      std::copy_n(mesh.shapes.data() + shape * Dimension, Dimension, rest_vector);
+      regions_[shape] = valid_region<Scalar, Dimension>(rest_vector, softness, about_rest_vector);
+    }
+  }
+
+  void set_entries(const Mesh& mesh, const Softness& softness, bool about_rest_vector) {
+    for (ElementId e = 0; e < mesh.element_count(); ++e) {
+      for (EntryId entry = mesh.first_entry[e]; entry < mesh.first_entry[e + 1]; ++entry) {
+        regions_[entry] = valid_region<Scalar, Dimension>(mesh, e, mesh.neighbours[entry],
+                                                          softness.of(mesh.entry_link[entry]), about_rest_vector);
+      }
+    }
+  }
+
+  std::vector<One> regions_;
+  const std::uint16_t* shape_of_ = nullptr;  // of the mesh, where there is one region a rest vector
+};
+
+}  // namespace chainmail
