@@ -98,7 +98,11 @@ struct Body {
   void mark_updated(ElementId element) { updates[element] = pass; }
 
   bool pinned(ElementId element) const { return updates[element] == always; }
-  void set_pinned(ElementId element, bool is_pinned) { updates[element] = is_pinned ? always : 0; }
+  void set_pinned(ElementId element, bool is_pinned) {
+    pin_count += is_pinned ? 1 : 0;
+    pin_count -= pinned(element) ? 1 : 0;
+    updates[element] = is_pinned ? always : 0;
+  }
 
   /// The place of an element clamped into its valid region about its sponsor.
   Place<Scalar, Dimension> clamped(ElementId element, ElementId sponsor, std::uint32_t region_id) const {
@@ -164,6 +168,7 @@ struct Body {
   std::vector<std::uint32_t> updates;  // the last pass in which an element counted as updated; pinned: always
   RegionTable<Scalar, Dimension> regions;
   std::uint32_t pass = 1;
+  ElementId pin_count = 0;
   bool from_rest = false;
 };
 

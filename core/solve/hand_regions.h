@@ -7,6 +7,7 @@
 
 #include "solve/body.h"
 #include "solve/exact_schedule.h"
+#include "solve/trace.h"
 
 namespace chainmail {
 
@@ -65,7 +66,10 @@ class HandRegions {
 
   /// Another hand, or other links, softness or pins: all that is known is forgotten.
   void begin(const State& body, ElementId grabbed) {
-    index_.resize(body.places.size());
+    index_.resize(body.places.size(), unknown);
+    for (const ElementId element : elements_) {
+      index_[element] = unknown;
+    }
     elements_.clear();
     regions_.clear();
     searched_.clear();
@@ -104,14 +108,14 @@ class HandRegions {
   std::span<const Bounds> regions() const { return regions_; }
   /// The region of an element, or none where the drag has not come near it.
   const Bounds* find(ElementId element) const {
-    const Index index = index_[element];
-    return is_known(element, index) ? &regions_[index] : nullptr;
+    return index_[element] == unknown ? nullptr : &regions_[index_[element]];
   }
   /// Visits of elements in this drag, on all axes together.
   std::uint64_t visits() const { return visits_; }
 
  private:
   using Index = std::uint32_t;  // in the order in which elements became known
+  static constexpr Index unknown = no_element;
   enum SearchState : std::uint32_t { done, queued, waits };
   struct Searched {
     Scalar key = 0;  // the shortest path found since the last visit
@@ -122,18 +126,14 @@ class HandRegions {
     Bounds region;
   };
 
-  bool is_known(ElementId element, Index index) const {
-    return index < elements_.size() && elements_[index] == element;  // a sparse set (Briggs and Torczon 1993)
-  }
-
   Index add(ElementId element) {
     const auto index = static_cast<Index>(elements_.size());
     index_[element] = index;
     elements_.push_back(element);
-    Bounds unknown;
-    std::fill_n(unknown.low, Dimension, -Reach::infinite);
-    std::fill_n(unknown.high, Dimension, Reach::infinite);
-    regions_.push_back(unknown);
+    Bounds anywhere;
+    std::fill_n(anywhere.low, Dimension, -Reach::infinite);
+    std::fill_n(anywhere.high, Dimension, Reach::infinite);
+    regions_.push_back(anywhere);
     searched_.emplace_back();
     return index;
   }
@@ -171,6 +171,7 @@ class HandRegions {
 
   void visit(const State& body, Reach& reach, Index index) {
     const Bounds from = regions_[index];
+    const bool has_pins = body.pin_count > 0;
     body.for_each_neighbour(elements_[index], [&](ElementId neighbour, EntryId entry) {
       const Bounds& link = body.regions[entry];
       Bounds through;
@@ -178,7 +179,7 @@ class HandRegions {
         through.low[k] = from.low[k] + link.low[k];
         through.high[k] = from.high[k] + link.high[k];
       }
-      if (body.pinned(neighbour)) {
+      if (has_pins && body.pinned(neighbour)) {
         pins_.push_back({neighbour, through});
         reach.hold(body.places[neighbour], through);
       } else {
@@ -188,8 +189,7 @@ class HandRegions {
   }
 
   void narrow(const State& body, const Reach& reach, ElementId element, const Bounds& through) {
-    const Index known = index_[element];
-    const Index index = is_known(element, known) ? known : add(element);
+    const Index index = index_[element] == unknown ? add(element) : index_[element];
     Bounds& region = regions_[index];
     Scalar key = Reach::infinite;
     for (int k = 0; k < Dimension; ++k) {
@@ -224,7 +224,7 @@ class HandRegions {
     }
   }
 
-  std::vector<Index> index_;  // of each element, where it is known; else anything
+  std::vector<Index> index_;  // of each element; unknown where the drag has not come near
   std::vector<ElementId> elements_;
   std::vector<Bounds> regions_;
   std::vector<Searched> searched_;
