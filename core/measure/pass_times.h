@@ -1,7 +1,8 @@
 #pragma once
 
 #include <chrono>
-#include <deque>
+#include <cstddef>
+#include <vector>
 
 namespace chainmail {
 
@@ -27,7 +28,10 @@ class PassTimes {
     Clock::time_point when;
     double milliseconds;
   };
-  std::deque<Entry> entries_;
+  // The entries from first_ on count. Both keep their memory: a pass takes none.
+  std::vector<Entry> entries_;
+  std::size_t first_ = 0;
+  std::vector<double> milliseconds_;
 };
 
 }  // namespace chainmail

@@ -17,6 +17,7 @@ constexpr double asleep_below = 1e-4;
 constexpr auto relaxation_time = std::chrono::seconds(10);
 // About 2 ms: a command never waits longer for a slice of relaxation to end.
 constexpr std::uint64_t elements_per_slice = 20'000;
+constexpr LinkId links_per_slice = 20'000;
 
 }  // namespace
 
@@ -29,10 +30,10 @@ Simulation::Simulation(MeshPointer mesh, Algorithm algorithm, Precision precisio
       away_(mesh_->element_count()) {
   changed_.insert_all();
   statistics_.algorithm = algorithm;
-  refresh_statistics(true);
 }
 
 void Simulation::apply(const Command& command) {
+  measure_.reset();
   std::visit([this](const auto& one) { carry_out(one); }, command);
 }
 
@@ -70,6 +71,7 @@ bool Simulation::step() {
   if (!statistics_.relaxing) {
     return false;
   }
+  measure_.reset();
   const auto slice = solver_->relax(relaxation_step_, elements_per_slice, grabbed_);
   mark(solver_->relaxed());
   if (slice.sweep_ended) {
@@ -90,6 +92,7 @@ void Simulation::relax(int count, double step, const std::stop_token& stop) {
   if (count == 0) {
     return;
   }
+  measure_.reset();
   if (last_moved_) {
     solver_->wake(std::span(&*last_moved_, 1));
     solver_->wake(solver_->moved());
@@ -104,17 +107,34 @@ void Simulation::relax(int count, double step, const std::stop_token& stop) {
 }
 
 void Simulation::refresh_statistics(bool whole_mesh) {
-  statistics_.last_second = times_.summary(Clock::now());
-  const auto position = solver_->positions();
-  if (whole_mesh || !last_moved_) {
-    statistics_.violation = measure_violation(*mesh_, softness_, solver_->cuts(), position);
-    valid_ = statistics_.violation.fraction == 0;
-  } else {
-    std::vector<ElementId> touched(solver_->moved().begin(), solver_->moved().end());
-    touched.push_back(*last_moved_);
-    statistics_.violation = measure_violation(*mesh_, softness_, solver_->cuts(), position, touched);
+  if (whole_mesh) {
+    while (measure()) {
+    }
+    return;
   }
-  statistics_.violation_of_whole_mesh = whole_mesh || !last_moved_;
+  statistics_.last_second = times_.summary(Clock::now());
+  statistics_.violation_of_whole_mesh = false;
+  if (last_moved_) {
+    statistics_.violation = touched_.measure(*mesh_, *softness_, solver_->cuts(), solver_->positions(),
+                                             {std::span(&*last_moved_, 1), solver_->moved()});
+  } else {
+    statistics_.violation = {};
+  }
+}
+
+bool Simulation::measure() {
+  if (!measure_) {
+    measure_.emplace();
+  }
+  if (measure_->go_on(*mesh_, *softness_, solver_->cuts(), solver_->positions(), links_per_slice)) {
+    return true;
+  }
+  statistics_.last_second = times_.summary(Clock::now());
+  statistics_.violation = measure_->result();
+  statistics_.violation_of_whole_mesh = true;
+  valid_ = statistics_.violation.fraction == 0;
+  measure_.reset();
+  return false;
 }
 
 void Simulation::check_element(ElementId element) const {
@@ -124,7 +144,7 @@ void Simulation::check_element(ElementId element) const {
   }
 }
 
-void Simulation::check_links(const std::vector<LinkId>& links) const {
+void Simulation::check_links(std::span<const LinkId> links) const {
   for (const LinkId link : links) {
     if (link >= mesh_->link_count()) {
       throw Error("link " + std::to_string(link), "there is no such link",
@@ -137,6 +157,7 @@ void Simulation::take_mesh(MeshPointer mesh) {
   const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
   solver_ = make_solver(mesh, algorithm, precision_);  // may find no memory: nothing has changed yet
   solver_->set_relaxation(relaxation_scheme_);
+  softness_ = std::make_shared<const Softness>();  // as every solver begins
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
   away_ = changed_ = ElementBlocks(mesh_->element_count());

@@ -37,13 +37,21 @@ void Simulation::carry_out(const commands::Release&) {
 void Simulation::carry_out(const commands::SetSoftness& command) {
   check(command.softness.global);
   for (const auto& [link, softness] : command.softness.links) {
-    check_links({link});
+    check_links(std::span(&link, 1));
     check(softness);
   }
-  softness_ = command.softness;
-  solver_->set_softness(softness_);
+  set_softness(std::make_shared<const Softness>(command.softness));
   valid_ = false;
   answer();
+}
+
+/// Softness that is the same leaves the regions of all links as they are.
+void Simulation::set_softness(std::shared_ptr<const Softness> softness) {
+  const bool same = softness == softness_ || *softness == *softness_;
+  softness_ = std::move(softness);
+  if (!same) {
+    solver_->set_softness(*softness_);
+  }
 }
 
 /// Under load the object may now violate its links: a pass about the hand, or the element that was moved
@@ -141,9 +149,9 @@ void Simulation::carry_out(const commands::ReplaceMesh& command) {
   if (!command.mesh) {
     throw Error("replace mesh", "no mesh is given", "give one");
   }
+  auto softness = std::make_shared<const Softness>(Softness{softness_->global, {}});
   take_mesh(command.mesh);
-  softness_.links.clear();
-  solver_->set_softness(softness_);
+  set_softness(std::move(softness));
 }
 
 void Simulation::carry_out(const commands::KeepState& command) { kept_[command.state] = current_state(); }
@@ -161,8 +169,7 @@ void Simulation::carry_out(const commands::SwapState& command) {
     solver_->unpin(std::vector<ElementId>(solver_->pins().begin(), solver_->pins().end()));
   }
   std::swap(now, kept->second);
-  softness_ = now.softness;
-  solver_->set_softness(softness_);
+  set_softness(now.softness);
   solver_->cut(now.cuts);
   solver_->pin(now.pins);
   solver_->restore(now.positions, away_);

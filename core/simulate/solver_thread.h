@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -9,8 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "simulate/frame.h"
-#include "simulate/simulation.h"
+#include "simulate/frame_writer.h"
 
 namespace chainmail {
 
@@ -39,23 +37,18 @@ class SolverThread {
   void carry_out(const Command& command);
   void relax();
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
-  void publish(bool at_rest);
-  void note_changes();
-  void fill(Frame& frame, ElementBlocks& pending);
+  bool measure(const std::stop_token& stop);
+  void refresh_figures();
+  void publish();
 
   Simulation simulation_;
   std::function<void()> frame_ready_;
   TripleBuffer frames_;
-  std::uint64_t frame_number_ = 0;
-  MeshPointer shown_;                  // by the newest frame
-  std::vector<std::uint64_t> stamps_;  // Frame::changed of the newest frame
-  /// For each frame of the buffer, the blocks that changed since it was last filled.
-  std::array<ElementBlocks, TripleBuffer::frame_count> pending_;
+  FrameWriter writer_{frames_};
   PassTimes::Clock::time_point last_frame_{};
   PassTimes::Clock::time_point next_violation_{};
-  std::uint64_t measured_passes_ = 0;
-  bool unseen_ = false;   // something changed since the last frame
-  bool measured_ = true;  // the last frame shows the violation of the whole mesh
+  bool unseen_ = false;    // something changed since the last frame
+  bool measured_ = false;  // the last frame shows the violation of the whole mesh
 
   std::mutex mutex_;  // guards commands_ and error_
   std::condition_variable_any changed_;
