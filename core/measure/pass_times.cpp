@@ -10,6 +10,16 @@ constexpr std::size_t entries_kept = 4096;
 
 }  // namespace
 
+PassTimes::PassTimes() {
+  entries_.reserve(2 * entries_kept + 2);  // as forget_before leaves it, and one more
+  milliseconds_.reserve(entries_kept);
+}
+
+void PassTimes::clear() {
+  entries_.clear();
+  first_ = 0;
+}
+
 void PassTimes::forget_before(Clock::time_point limit) {
   while (first_ < entries_.size() && (entries_[first_].when < limit || entries_.size() - first_ > entries_kept)) {
     ++first_;

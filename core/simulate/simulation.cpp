@@ -173,7 +173,7 @@ void Simulation::take_mesh(MeshPointer mesh) {
 void Simulation::forget_passes() {
   statistics_.last_pass = {};
   statistics_.last_pass_ms = 0;
-  times_ = {};
+  times_.clear();
 }
 
 void Simulation::wake(std::span<const ElementId> elements) {
