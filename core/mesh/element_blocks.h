@@ -12,7 +12,7 @@ namespace chainmail {
 
 /// A set of blocks of 64 elements, in id order. What happens to elements is noted by the block, so that copying
 /// what changed costs what changed: a bit a block makes 8 KiB for four million elements. Larger blocks copy more
-/// beside what moved, since a grid's rows are far apart: 256 cost a frame of 1,600 moved elements three times as much.
+/// beside what moved, since a grid's rows are far apart: 256 cost a frame of 1,600 moved elements twice as much.
 class ElementBlocks {
  public:
   static constexpr ElementId block_elements = 64;
