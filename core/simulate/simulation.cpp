@@ -51,10 +51,10 @@ void Simulation::pass(ElementId element, const Point& target) {
   ++statistics_.passes;
   last_moved_ = element;
   valid_ = algorithm_ == Algorithm::exact;
-  wake(std::span(&element, 1));
-  wake(solver_->moved());
-  mark(std::span(&element, 1));
-  mark(solver_->moved());
+  for (const auto& moved : {std::span<const ElementId>(&element, 1), solver_->moved()}) {
+    mark(moved);
+    wake(moved);
+  }
 }
 
 void Simulation::mark(std::span<const ElementId> moved) {

@@ -72,10 +72,9 @@ class TypedSolver final : public Solver {
   std::span<const ElementId> pins() const override { return pins_; }
 
   void reset() override {
-    body_.reset_positions();
-    relaxation_.sleep();
-    at_rest_ = true;
-    exact_.set_valid(true);
+    ElementBlocks all(body_.mesh->element_count());
+    all.insert_all();
+    reset(all);
   }
 
   void reset(const ElementBlocks& away) override {

@@ -69,8 +69,8 @@ void carry_out_if_it_fits(Simulation& simulation, const Command& command) {
 }  // namespace
 
 void FramesTest::whoever_copies_what_changed_has_it_all() {
-  // Several blocks each, the last of them not full.
-  const std::vector<MeshPointer> meshes{make_mesh(MeshKind::grid, {40, 40, 1}), jittered_triangles(30, 30, 5),
+  // From 11 blocks to more than a word of 64 has bits for; the last block is not full.
+  const std::vector<MeshPointer> meshes{make_mesh(MeshKind::grid, {70, 70, 1}), jittered_triangles(30, 30, 5),
                                         make_mesh(MeshKind::tetra, {9, 9, 9}),
                                         make_mesh(MeshKind::line, {700, 1, 1}, 3)};
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
