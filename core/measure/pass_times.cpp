@@ -1,7 +1,6 @@
 #include "measure/pass_times.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace chainmail {
 namespace {
@@ -11,9 +10,23 @@ constexpr std::size_t entries_kept = 4096;
 
 }  // namespace
 
+PassTimes::PassTimes() {
+  entries_.reserve(2 * entries_kept + 2);  // as forget_before leaves it, and one more
+  milliseconds_.reserve(entries_kept);
+}
+
+void PassTimes::clear() {
+  entries_.clear();
+  first_ = 0;
+}
+
 void PassTimes::forget_before(Clock::time_point limit) {
-  while (!entries_.empty() && (entries_.front().when < limit || entries_.size() > entries_kept)) {
-    entries_.pop_front();
+  while (first_ < entries_.size() && (entries_[first_].when < limit || entries_.size() - first_ > entries_kept)) {
+    ++first_;
+  }
+  if (2 * first_ > entries_.size()) {
+    entries_.erase(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(first_));
+    first_ = 0;
   }
 }
 
@@ -24,16 +37,17 @@ void PassTimes::add(Clock::time_point when, double milliseconds) {
 
 PassTimes::Summary PassTimes::summary(Clock::time_point now) {
   forget_before(now - std::chrono::seconds(1));
-  if (entries_.empty()) {
+  if (first_ == entries_.size()) {
     return {};
   }
-  std::vector<double> times;
-  for (const Entry& entry : entries_) {
-    times.push_back(entry.milliseconds);
+  milliseconds_.clear();
+  for (std::size_t i = first_; i < entries_.size(); ++i) {
+    milliseconds_.push_back(entries_[i].milliseconds);
   }
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return {*middle, *std::max_element(times.begin(), times.end()), static_cast<int>(times.size())};
+  const auto middle = milliseconds_.begin() + static_cast<std::ptrdiff_t>(milliseconds_.size() / 2);
+  std::nth_element(milliseconds_.begin(), middle, milliseconds_.end());
+  return {*middle, *std::max_element(milliseconds_.begin(), milliseconds_.end()),
+          static_cast<int>(milliseconds_.size())};
 }
 
 }  // namespace chainmail

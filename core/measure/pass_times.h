@@ -1,7 +1,8 @@
 #pragma once
 
 #include <chrono>
-#include <deque>
+#include <cstddef>
+#include <vector>
 
 namespace chainmail {
 
@@ -16,9 +17,11 @@ class PassTimes {
     int passes = 0;
   };
 
+  PassTimes();
   void add(Clock::time_point when, double milliseconds);
   /// What the second before `now` held.
   Summary summary(Clock::time_point now);
+  void clear();
 
  private:
   void forget_before(Clock::time_point limit);
@@ -27,7 +30,10 @@ class PassTimes {
     Clock::time_point when;
     double milliseconds;
   };
-  std::deque<Entry> entries_;
+  // The entries from first_ on count. All memory is taken at once: a pass takes none.
+  std::vector<Entry> entries_;
+  std::size_t first_ = 0;
+  std::vector<double> milliseconds_;
 };
 
 }  // namespace chainmail

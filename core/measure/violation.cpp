@@ -20,26 +20,6 @@ double excess(const Mesh& mesh, const LinkSoftness& softness, const PositionView
   return std::sqrt(square);
 }
 
-/// Gathers links one by one.
-struct Gather {
-  Violation result;
-  double squares = 0;
-
-  void add(double violation) {
-    ++result.links;
-    result.max = std::max(result.max, violation);
-    squares += violation * violation;
-    result.fraction += violation > counts_as_violated ? 1 : 0;
-  }
-  Violation finish() {
-    if (result.links != 0) {
-      result.rms = std::sqrt(squares / double(result.links));
-      result.fraction /= double(result.links);
-    }
-    return result;
-  }
-};
-
 }  // namespace
 
 double link_violation(const Mesh& mesh, const Softness& softness, const PositionView& position, LinkId link) {
@@ -55,28 +35,60 @@ double link_violation(const Mesh& mesh, const Softness& softness, const Position
   return outside / (length > 0 ? length : mesh.mean_link_length > 0 ? mesh.mean_link_length : 1);
 }
 
-Violation measure_violation(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
-                            const PositionView& position) {
-  Gather gather;
-  for (LinkId link = 0; link < mesh.link_count(); ++link) {
-    if (!cuts.is_cut(link)) {
-      gather.add(link_violation(mesh, softness, position, link));
-    }
-  }
-  return gather.finish();
+void ViolationSum::add(double violation) {
+  ++links_;
+  max_ = std::max(max_, violation);
+  squares_ += violation * violation;
+  violated_ += violation > counts_as_violated ? 1 : 0;
 }
 
-Violation measure_violation(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
-                            std::span<const ElementId> elements) {
-  Gather gather;
-  for (const ElementId element : elements) {
-    for (EntryId entry = mesh.first_entry[element]; entry < mesh.first_entry[element + 1]; ++entry) {
-      if (const LinkId link = mesh.entry_link[entry]; !cuts.is_cut(link)) {
-        gather.add(link_violation(mesh, softness, position, link));
-      }
+Violation ViolationSum::result() const {
+  if (links_ == 0) {
+    return {};
+  }
+  return {max_, std::sqrt(squares_ / double(links_)), double(violated_) / double(links_), links_};
+}
+
+bool WholeViolation::go_on(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
+                           LinkId count) {
+  const LinkId end = next_ + std::min(count, mesh.link_count() - next_);
+  for (; next_ < end; ++next_) {
+    if (!cuts.is_cut(next_)) {
+      sum_.add(link_violation(mesh, softness, position, next_));
     }
   }
-  return gather.finish();
+  return end < mesh.link_count();
+}
+
+Violation measure_violation(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
+                            const PositionView& position) {
+  WholeViolation whole;
+  whole.go_on(mesh, softness, cuts, position, mesh.link_count());
+  return whole.result();
+}
+
+Violation TouchedViolation::measure(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
+                                    const PositionView& position,
+                                    std::initializer_list<std::span<const ElementId>> elements) {
+  ViolationSum sum;
+  seen_.resize(mesh.element_count());
+  for (const auto& some : elements) {
+    for (const ElementId element : some) {
+      for (EntryId entry = mesh.first_entry[element]; entry < mesh.first_entry[element + 1]; ++entry) {
+        // A link to an element seen before was counted there.
+        if (const LinkId link = mesh.entry_link[entry]; !seen_[mesh.neighbours[entry]] && !cuts.is_cut(link)) {
+          sum.add(link_violation(mesh, softness, position, link));
+        }
+      }
+      seen_[element] = true;
+    }
+  }
+  for (const auto& some : elements) {
+    for (const ElementId element : some) {
+      seen_[element] = false;
+    }
+  }
+  return sum.result();
 }
 
 double elastic_energy(const Mesh& mesh, const Cuts& cuts, const PositionView& position) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
+#include <vector>
 
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
@@ -31,9 +33,41 @@ double link_violation(const Mesh& mesh, const Softness& softness, const Position
 /// The violation over the whole mesh.
 Violation measure_violation(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position);
 
-/// The violation over the links of these elements; a link between two of them counts twice.
-Violation measure_violation(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
-                            std::span<const ElementId> elements);
+/// Gathers the violations of links, one by one.
+class ViolationSum {
+ public:
+  void add(double violation);
+  Violation result() const;
+
+ private:
+  double max_ = 0;
+  double squares_ = 0;
+  std::uint64_t violated_ = 0;
+  std::uint64_t links_ = 0;
+};
+
+/// The violation over the whole mesh, measured in slices: the object must stay as it is meanwhile.
+class WholeViolation {
+ public:
+  /// Looks at the next links, so many of them; says whether there are more.
+  bool go_on(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position, LinkId count);
+  Violation result() const { return sum_.result(); }
+
+ private:
+  ViolationSum sum_;
+  LinkId next_ = 0;
+};
+
+/// The violation over the links of some elements, each link once.
+class TouchedViolation {
+ public:
+  /// Time: the number of these links. The memory that it takes the first time, a bit an element, it keeps.
+  Violation measure(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
+                    std::initializer_list<std::span<const ElementId>> elements);
+
+ private:
+  std::vector<bool> seen_;  // none between two calls
+};
 
 /// Elastic energy ½ Σ over links |(x_j − x_i) − r_ij|² (mesh units squared), in double.
 double elastic_energy(const Mesh& mesh, const Cuts& cuts, const PositionView& position);

@@ -19,20 +19,23 @@ class Cuts {
 
   bool is_cut(LinkId link) const { return count_ != 0 && (words_[link / 64] >> (link % 64) & 1) != 0; }
   /// Whether any link of the element is cut; spares the look at each of its links.
-  bool touches(ElementId element) const { return count_ != 0 && touched_[element] != 0; }
+  bool touches(ElementId element) const { return count_ != 0 && (touched_[element / 64] >> (element % 64) & 1) != 0; }
   /// Number of links cut.
   LinkId count() const { return count_; }
-  /// The links cut, ascending.
+  /// The links cut, ascending. Time: their number, and a word for each 4096 links of the mesh.
   std::vector<LinkId> links() const;
 
  private:
   void set(LinkId link, bool cut);
 
+  bool has_cut(ElementId element) const;
+
   MeshPointer mesh_;
   LinkId count_ = 0;
-  // Both are taken at the first cut: an uncut object pays nothing.
-  std::vector<std::uint64_t> words_;
-  std::vector<std::uint8_t> touched_;
+  // All are taken at the first cut: an uncut object pays nothing.
+  std::vector<std::uint64_t> words_;    // a bit a link
+  std::vector<std::uint64_t> filled_;   // a bit a word of these that is not 0
+  std::vector<std::uint64_t> touched_;  // a bit an element
 };
 
 }  // namespace chainmail

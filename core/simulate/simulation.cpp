@@ -1,6 +1,7 @@
 #include "simulate/simulation.h"
 
 #include <limits>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,7 @@ constexpr double asleep_below = 1e-4;
 constexpr auto relaxation_time = std::chrono::seconds(10);
 // About 2 ms: a command never waits longer for a slice of relaxation to end.
 constexpr std::uint64_t elements_per_slice = 20'000;
+constexpr LinkId links_per_slice = 20'000;
 
 }  // namespace
 
@@ -23,33 +25,55 @@ Simulation::Simulation(MeshPointer mesh, Algorithm algorithm, Precision precisio
     : mesh_(std::move(mesh)),
       algorithm_(algorithm),
       precision_(precision),
-      solver_(make_solver(mesh_, algorithm, precision)) {
+      solver_(make_solver(mesh_, algorithm, precision)),
+      changed_(mesh_->element_count()),
+      away_(mesh_->element_count()) {
+  changed_.insert_all();
   statistics_.algorithm = algorithm;
-  refresh_statistics(true);
 }
 
 void Simulation::apply(const Command& command) {
+  measure_.reset();
   std::visit([this](const auto& one) { carry_out(one); }, command);
 }
 
 void Simulation::pass(ElementId element, const Point& target) {
   const auto start = Clock::now();
-  statistics_.last_pass = solver_->move(element, target, trace_);
+  try {
+    statistics_.last_pass = solver_->move(element, target, trace_);
+  } catch (const std::bad_alloc&) {
+    mark_all();  // it may have ended in the middle
+    throw;
+  }
   const auto end = Clock::now();
   statistics_.last_pass_ms = std::chrono::duration<double, std::milli>(end - start).count();
   times_.add(end, statistics_.last_pass_ms);
   ++statistics_.passes;
   last_moved_ = element;
   valid_ = algorithm_ == Algorithm::exact;
-  wake(std::span(&element, 1));
-  wake(solver_->moved());
+  for (const auto& moved : {std::span<const ElementId>(&element, 1), solver_->moved()}) {
+    mark(moved);
+    wake(moved);
+  }
+}
+
+void Simulation::mark(std::span<const ElementId> moved) {
+  changed_.insert(moved);
+  away_.insert(moved);
+}
+
+void Simulation::mark_all() {
+  changed_.insert_all();
+  away_.insert_all();
 }
 
 bool Simulation::step() {
   if (!statistics_.relaxing) {
     return false;
   }
+  measure_.reset();
   const auto slice = solver_->relax(relaxation_step_, elements_per_slice, grabbed_);
+  mark(solver_->relaxed());
   if (slice.sweep_ended) {
     ++statistics_.sweeps;
     // What woke during the sweep has not been looked at yet.
@@ -68,29 +92,49 @@ void Simulation::relax(int count, double step, const std::stop_token& stop) {
   if (count == 0) {
     return;
   }
+  measure_.reset();
   if (last_moved_) {
     solver_->wake(std::span(&*last_moved_, 1));
     solver_->wake(solver_->moved());
   }
   for (int i = 0; i < count && !stop.stop_requested(); ++i) {
-    if (solver_->relax(step, std::numeric_limits<std::uint64_t>::max(), grabbed_).visited == 0) {
+    const auto sweep = solver_->relax(step, std::numeric_limits<std::uint64_t>::max(), grabbed_);
+    mark(solver_->relaxed());
+    if (sweep.visited == 0) {
       break;
     }
   }
 }
 
 void Simulation::refresh_statistics(bool whole_mesh) {
-  statistics_.last_second = times_.summary(Clock::now());
-  const auto position = solver_->positions();
-  if (whole_mesh || !last_moved_) {
-    statistics_.violation = measure_violation(*mesh_, softness_, solver_->cuts(), position);
-    valid_ = statistics_.violation.fraction == 0;
-  } else {
-    std::vector<ElementId> touched(solver_->moved().begin(), solver_->moved().end());
-    touched.push_back(*last_moved_);
-    statistics_.violation = measure_violation(*mesh_, softness_, solver_->cuts(), position, touched);
+  if (whole_mesh) {
+    while (measure()) {
+    }
+    return;
   }
-  statistics_.violation_of_whole_mesh = whole_mesh || !last_moved_;
+  statistics_.last_second = times_.summary(Clock::now());
+  statistics_.violation_of_whole_mesh = false;
+  if (last_moved_) {
+    statistics_.violation = touched_.measure(*mesh_, *softness_, solver_->cuts(), solver_->positions(),
+                                             {std::span(&*last_moved_, 1), solver_->moved()});
+  } else {
+    statistics_.violation = {};
+  }
+}
+
+bool Simulation::measure() {
+  if (!measure_) {
+    measure_.emplace();
+  }
+  if (measure_->go_on(*mesh_, *softness_, solver_->cuts(), solver_->positions(), links_per_slice)) {
+    return true;
+  }
+  statistics_.last_second = times_.summary(Clock::now());
+  statistics_.violation = measure_->result();
+  statistics_.violation_of_whole_mesh = true;
+  valid_ = statistics_.violation.fraction == 0;
+  measure_.reset();
+  return false;
 }
 
 void Simulation::check_element(ElementId element) const {
@@ -100,7 +144,7 @@ void Simulation::check_element(ElementId element) const {
   }
 }
 
-void Simulation::check_links(const std::vector<LinkId>& links) const {
+void Simulation::check_links(std::span<const LinkId> links) const {
   for (const LinkId link : links) {
     if (link >= mesh_->link_count()) {
       throw Error("link " + std::to_string(link), "there is no such link",
@@ -113,8 +157,11 @@ void Simulation::take_mesh(MeshPointer mesh) {
   const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
   solver_ = make_solver(mesh, algorithm, precision_);  // may find no memory: nothing has changed yet
   solver_->set_relaxation(relaxation_scheme_);
+  softness_ = std::make_shared<const Softness>();  // as every solver begins
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
+  away_ = changed_ = ElementBlocks(mesh_->element_count());
+  changed_.insert_all();
   grabbed_.reset();
   last_moved_.reset();
   valid_ = true;
@@ -126,7 +173,7 @@ void Simulation::take_mesh(MeshPointer mesh) {
 void Simulation::forget_passes() {
   statistics_.last_pass = {};
   statistics_.last_pass_ms = 0;
-  times_ = {};
+  times_.clear();
 }
 
 void Simulation::wake(std::span<const ElementId> elements) {
@@ -154,7 +201,8 @@ void Simulation::fall_asleep() {
 
 Simulation::State Simulation::current_state() const {
   const auto pins = solver_->pins();
-  return {mesh_, solver_->cuts().links(), {pins.begin(), pins.end()}, softness_, solver_->keep_positions(), valid_};
+  return {mesh_,     solver_->cuts().links(),        {pins.begin(), pins.end()},
+          softness_, solver_->keep_positions(away_), valid_};
 }
 
 }  // namespace chainmail

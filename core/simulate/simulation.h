@@ -22,7 +22,7 @@ struct Statistics {
   double last_pass_ms = 0;
   PassTimes::Summary last_second;
   Violation violation;
-  bool violation_of_whole_mesh = true;  // else of the links that the last pass touched
+  bool violation_of_whole_mesh = false;  // else of the links that the last pass touched
   bool relaxing = false;
   std::uint64_t sweeps = 0;  // since the last pass
 };
@@ -48,8 +48,11 @@ class Simulation {
   const Mesh& mesh() const { return *mesh_; }
   const MeshPointer& mesh_pointer() const { return mesh_; }
   const Solver& solver() const { return *solver_; }
-  const Softness& softness() const { return softness_; }
+  const Softness& softness() const { return *softness_; }
   std::optional<ElementId> grabbed() const { return grabbed_; }
+  /// The blocks in which a position may have changed since forget_changes().
+  const ElementBlocks& changed() const { return changed_; }
+  void forget_changes() { changed_.clear(); }
   const Statistics& statistics() const { return statistics_; }
   /// No link violated beyond rounding, as far as is known without looking at the whole mesh.
   bool valid() const { return valid_; }
@@ -57,13 +60,16 @@ class Simulation {
   /// Refreshes the figures that cost more than a pass may: the times of the last second and the violation,
   /// over the whole mesh or over the links that the last pass touched.
   void refresh_statistics(bool whole_mesh);
+  /// Spends idle time on the same over the whole mesh: a slice of some milliseconds. What was measured before a
+  /// command or a step is dropped. Returns whether there is more to do; the figures are there when there is not.
+  bool measure();
 
  private:
   struct State {
     MeshPointer mesh;
     std::vector<LinkId> cuts;
     std::vector<ElementId> pins;
-    Softness softness;
+    std::shared_ptr<const Softness> softness;
     KeptPositions positions;
     bool valid = true;
   };
@@ -86,9 +92,12 @@ class Simulation {
 
   void answer();
   void forget_passes();
+  void set_softness(std::shared_ptr<const Softness> softness);
   void pass(ElementId element, const Point& target);
+  void mark(std::span<const ElementId> moved);
+  void mark_all();
   void check_element(ElementId element) const;
-  void check_links(const std::vector<LinkId>& links) const;
+  void check_links(std::span<const LinkId> links) const;
   void take_mesh(MeshPointer mesh);
   void wake(std::span<const ElementId> elements);
   void wake_ends(const std::vector<LinkId>& links);
@@ -99,7 +108,9 @@ class Simulation {
   Algorithm algorithm_;
   Precision precision_;
   std::unique_ptr<Solver> solver_;
-  Softness softness_;
+  std::shared_ptr<const Softness> softness_ = std::make_shared<const Softness>();
+  ElementBlocks changed_;  // since they were last forgotten
+  ElementBlocks away_;     // no element outside them stands away from rest
   std::optional<ElementId> grabbed_;
   std::optional<ElementId> last_moved_;  // the element of the last pass
   bool valid_ = true;
@@ -110,6 +121,8 @@ class Simulation {
   PassTimes::Clock::time_point relaxation_deadline_{};
   std::map<commands::StateId, State> kept_;
   PassTimes times_;
+  std::optional<WholeViolation> measure_;  // as far as it has come
+  TouchedViolation touched_;
   Statistics statistics_;
   Trace* trace_ = nullptr;
 };

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -38,13 +37,21 @@ void Simulation::carry_out(const commands::Release&) {
 void Simulation::carry_out(const commands::SetSoftness& command) {
   check(command.softness.global);
   for (const auto& [link, softness] : command.softness.links) {
-    check_links({link});
+    check_links(std::span(&link, 1));
     check(softness);
   }
-  softness_ = command.softness;
-  solver_->set_softness(softness_);
+  set_softness(std::make_shared<const Softness>(command.softness));
   valid_ = false;
   answer();
+}
+
+/// Softness that is the same leaves the regions of all links as they are.
+void Simulation::set_softness(std::shared_ptr<const Softness> softness) {
+  const bool same = softness == softness_ || *softness == *softness_;
+  softness_ = std::move(softness);
+  if (!same) {
+    solver_->set_softness(*softness_);
+  }
 }
 
 /// Under load the object may now violate its links: a pass about the hand, or the element that was moved
@@ -73,9 +80,8 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
   relaxation_step_ = command.step;
   solver_->set_relaxation(relaxation_scheme_ = command.scheme);
   if (command.on && !was_on) {
-    std::vector<ElementId> all(mesh_->element_count());
-    std::iota(all.begin(), all.end(), ElementId{0});
-    wake(all);
+    solver_->wake_all();
+    wake({});
   } else if (!command.on) {
     fall_asleep();
   }
@@ -83,8 +89,12 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
 
 void Simulation::carry_out(const commands::SetAlgorithm& command) {
   solver_->set_algorithm(command.algorithm);
-  if (std::exchange(algorithm_, command.algorithm) == command.algorithm) {
+  const Algorithm before = std::exchange(algorithm_, command.algorithm);
+  if (before == algorithm_) {
     return;
+  }
+  if ((before == Algorithm::exact || algorithm_ == Algorithm::exact) && !away_.empty()) {
+    mark_all();  // Exact holds positions otherwise: the change rounds every one
   }
   statistics_.algorithm = algorithm_;
   forget_passes();
@@ -126,7 +136,9 @@ void Simulation::carry_out(const commands::Unpin& command) {
 }
 
 void Simulation::carry_out(const commands::Reset&) {
-  solver_->reset();
+  solver_->reset(away_);
+  changed_.insert(away_);
+  away_.clear();
   last_moved_.reset();
   forget_passes();
   valid_ = true;
@@ -137,9 +149,9 @@ void Simulation::carry_out(const commands::ReplaceMesh& command) {
   if (!command.mesh) {
     throw Error("replace mesh", "no mesh is given", "give one");
   }
+  auto softness = std::make_shared<const Softness>(Softness{softness_->global, {}});
   take_mesh(command.mesh);
-  softness_.links.clear();
-  solver_->set_softness(softness_);
+  set_softness(std::move(softness));
 }
 
 void Simulation::carry_out(const commands::KeepState& command) { kept_[command.state] = current_state(); }
@@ -157,11 +169,13 @@ void Simulation::carry_out(const commands::SwapState& command) {
     solver_->unpin(std::vector<ElementId>(solver_->pins().begin(), solver_->pins().end()));
   }
   std::swap(now, kept->second);
-  softness_ = now.softness;
-  solver_->set_softness(softness_);
+  set_softness(now.softness);
   solver_->cut(now.cuts);
   solver_->pin(now.pins);
-  solver_->restore(now.positions);
+  solver_->restore(now.positions, away_);
+  changed_.insert(away_);
+  changed_.insert(now.positions.blocks);
+  away_ = now.positions.blocks;
   valid_ = now.valid;
   forget_passes();
   grabbed_.reset();

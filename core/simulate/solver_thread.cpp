@@ -1,5 +1,6 @@
 #include "simulate/solver_thread.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -20,7 +21,7 @@ constexpr auto violation_time = std::chrono::milliseconds(250);
 
 SolverThread::SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready)
     : simulation_(std::move(mesh), algorithm, Precision::single_precision), frame_ready_(std::move(frame_ready)) {
-  publish(true);
+  publish();
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -76,7 +77,8 @@ void SolverThread::run(const std::stop_token& stop) {
       lock.unlock();
     }
     if (unseen_ && Clock::now() >= last_frame_ + frame_time) {
-      publish(false);
+      refresh_figures();
+      publish();
     }
     lock.lock();
     rest(lock, stop);
@@ -99,32 +101,40 @@ void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_toke
   } else if (!measured_ && !changed_.wait_for(lock, stop, violation_time, has_command) && !stop.stop_requested()) {
     // Nothing came for a while: the object is at rest.
     lock.unlock();
-    publish(true);
+    if (measure(stop)) {
+      measured_ = true;
+      publish();
+    }
     lock.lock();
   }
 }
 
-void SolverThread::publish(bool at_rest) {
+/// The violation of the whole mesh, unless a command comes meanwhile; says whether it was measured.
+bool SolverThread::measure(const std::stop_token& stop) {
+  while (idle() && !stop.stop_requested()) {
+    if (!simulation_.measure()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// What is shown of passes while they go on.
+void SolverThread::refresh_figures() {
   const auto now = Clock::now();
-  const Statistics& statistics = simulation_.statistics();
-  // The first pass after a rest must not show the figure of the whole mesh as it was.
-  const bool outdated = statistics.violation_of_whole_mesh && statistics.passes != measured_passes_;
-  if (at_rest || outdated || now >= next_violation_) {
-    simulation_.refresh_statistics(at_rest);
-    measured_passes_ = statistics.passes;
-    // On a large mesh it costs more than a pass: at most a tenth of the time goes there.
+  // What moved since the object was at rest must not be shown with the figure of the whole mesh as it was.
+  const bool outdated = simulation_.statistics().violation_of_whole_mesh;
+  if (!simulation_.changed().empty() && (outdated || now >= next_violation_)) {
+    simulation_.refresh_statistics(false);
+    // After a pass through a large mesh it costs more than a pass: at most a tenth of the time goes there.
     next_violation_ = now + std::max<Clock::duration>(violation_time, 10 * (Clock::now() - now));
   }
-  Frame& frame = frames_.back();
-  frame.mesh = simulation_.mesh_pointer();
-  frame.positions.resize(frame.mesh->rest.size());
-  simulation_.solver().copy_positions(std::span(frame.positions));
-  frame.statistics = simulation_.statistics();
-  frame.number = ++frame_number_;
-  frames_.publish();
-  last_frame_ = now;
+}
+
+void SolverThread::publish() {
+  last_frame_ = Clock::now();
+  writer_.publish(simulation_);
   unseen_ = false;
-  measured_ = at_rest;
   frame_ready_();
 }
 

@@ -8,8 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "simulate/frame.h"
-#include "simulate/simulation.h"
+#include "simulate/frame_writer.h"
 
 namespace chainmail {
 
@@ -38,17 +37,18 @@ class SolverThread {
   void carry_out(const Command& command);
   void relax();
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
-  void publish(bool at_rest);
+  bool measure(const std::stop_token& stop);
+  void refresh_figures();
+  void publish();
 
   Simulation simulation_;
   std::function<void()> frame_ready_;
   TripleBuffer frames_;
-  std::uint64_t frame_number_ = 0;
+  FrameWriter writer_{frames_};
   PassTimes::Clock::time_point last_frame_{};
   PassTimes::Clock::time_point next_violation_{};
-  std::uint64_t measured_passes_ = 0;
-  bool unseen_ = false;   // something changed since the last frame
-  bool measured_ = true;  // the last frame shows the violation of the whole mesh
+  bool unseen_ = false;    // something changed since the last frame
+  bool measured_ = false;  // the last frame shows the violation of the whole mesh
 
   std::mutex mutex_;  // guards commands_ and error_
   std::condition_variable_any changed_;

@@ -26,6 +26,7 @@ class SimulationTest : public QObject {
   void a_cut_under_tension_is_felt();
   void sweeps_at_once_need_no_switch();
   void statistics_say_what_happened();
+  void idle_time_measures_in_slices();
   void valid_is_what_the_whole_mesh_says();
 };
 
@@ -218,6 +219,9 @@ void SimulationTest::sweeps_at_once_need_no_switch() {
 
 void SimulationTest::statistics_say_what_happened() {
   auto simulation = grid_simulation();
+  simulation.refresh_statistics(false);
+  QCOMPARE(simulation.statistics().violation.links, std::uint64_t{0});  // no pass has touched any
+  simulation.refresh_statistics(true);
   QCOMPARE(simulation.statistics().violation.links, std::uint64_t{simulation.mesh().link_count()});
   QVERIFY(simulation.statistics().violation_of_whole_mesh);
   drag_by(simulation, 0, Point(0.05, 0, 0));  // moves nobody else
@@ -228,6 +232,23 @@ void SimulationTest::statistics_say_what_happened() {
   QVERIFY(simulation.statistics().last_pass_ms >= 0);
   simulation.refresh_statistics(true);
   QCOMPARE(simulation.statistics().violation.links, std::uint64_t{simulation.mesh().link_count()});
+}
+
+void SimulationTest::idle_time_measures_in_slices() {
+  Simulation simulation(make_mesh(MeshKind::grid, {200, 200, 1}), Algorithm::generalized, Precision::single_precision);
+  drag_by(simulation, 0, Point(-3, -2, 0));
+  QVERIFY(simulation.measure());  // there is more than a slice
+  drag_by(simulation, 0, Point(2, 9, 0));
+  int slices = 1;
+  for (; simulation.measure(); ++slices) {
+    QVERIFY(!simulation.statistics().violation_of_whole_mesh);  // half a mesh is no figure
+  }
+  QVERIFY(slices > 2);
+  QVERIFY(simulation.statistics().violation_of_whole_mesh);
+  // Of the positions as they are, with nothing of those before the command.
+  QVERIFY(simulation.statistics().violation == measure_violation(simulation.mesh(), simulation.softness(),
+                                                                 simulation.solver().cuts(),
+                                                                 simulation.solver().positions()));
 }
 
 void SimulationTest::valid_is_what_the_whole_mesh_says() {

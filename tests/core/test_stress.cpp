@@ -1,6 +1,8 @@
 #include <QtTest>
 #include <cmath>
 
+#include "core/any_command.h"
+#include "core/frame_reader.h"
 #include "core/threads.h"
 #include "simulate/command_log.h"
 
@@ -22,68 +24,46 @@ namespace {
 constexpr auto duration = 1s;
 
 std::vector<MeshPointer> some_meshes() {
-  return {make_mesh(MeshKind::grid, {12, 12, 1}), make_mesh(MeshKind::tetra, {4, 4, 4}), jittered_triangles(9, 9, 5),
+  return {make_mesh(MeshKind::grid, {24, 24, 1}), make_mesh(MeshKind::tetra, {4, 4, 4}), jittered_triangles(9, 9, 5),
           make_mesh(MeshKind::line, {40, 1, 1}, 3)};
 }
 
-/// Draws commands, some of which do not fit the object and are refused.
-class AnyCommand {
+/// Reads a solver's frames, on a thread of its own, and checks what a reader relies on at any moment.
+class Reading {
  public:
-  AnyCommand(std::uint64_t seed, bool relaxed) : random_(seed), relaxed_(relaxed) {}
+  explicit Reading(SolverThread& solver) : solver_(solver) {}
+  ~Reading() { stop(); }
 
-  Command draw() {
-    using namespace commands;
-    switch (random_() % 26) {
-      case 0:
-        return Cut{{below(150), below(150)}};
-      case 1:
-        return Uncut{{below(150), below(150)}};
-      case 2:
-        return SetSoftness{{{between(-0.05, 1), between(1, 2), between(0, 1)}, {{below(150), {1, 1, 0}}}}};
-      case 3:
-        return SetRelaxation{relaxed_ && below(4) != 0, between(0.1, 1),
-                             below(2) == 0 ? RelaxationScheme::mean : RelaxationScheme::link};
-      case 4:
-        return SetAlgorithm{algorithms()[below(6)].algorithm};
-      case 5:
-        return below(3) == 0 ? Command(ReplaceMesh{meshes_[below(4)]}) : Command(Reset{});
-      case 6:
-        return KeepState{below(4)};
-      case 7:
-        return SwapState{below(4)};
-      case 8:
-        return below(3) == 0 ? Command(DropState{below(4)}) : Command(Release{});
-      case 12:
-        return Pin{{below(60)}};
-      case 13:
-        return Unpin{{below(60), below(60), below(60)}};
-      case 9:
-      case 10:
-      case 11:
-        return Grab{below(60)};
-      default:
-        return Drag{Point(between(-4, 16), between(-4, 16), between(-4, 4))};
+  /// No frame is read from here on; says what was wrong, if anything.
+  std::string stop() {
+    thread_.request_stop();
+    if (thread_.joinable()) {
+      thread_.join();
     }
+    return wrong_;
   }
-  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random_() % n); }
 
  private:
-  double between(double low, double high) { return uniform(random_, low, high); }
+  void run(const std::stop_token& stop) {
+    FrameReader reader;
+    while (!stop.stop_requested() && wrong_.empty()) {
+      const Frame& frame = solver_.latest_frame();
+      if (frame.number < reader.number()) {
+        wrong_ = "an older frame came after a newer one";
+      } else if (!std::all_of(frame.positions.begin(), frame.positions.end(),
+                              [](float x) { return std::isfinite(x); })) {
+        wrong_ = "a position is no number";
+      } else if (!reader.take(frame)) {
+        wrong_ = "something moved in a block that does not say so";
+      }
+      std::this_thread::sleep_for(200us);
+    }
+  }
 
-  std::mt19937_64 random_;
-  bool relaxed_;
-  std::vector<MeshPointer> meshes_ = some_meshes();
+  SolverThread& solver_;
+  std::string wrong_;
+  std::jthread thread_{[this](const std::stop_token& stop) { run(stop); }};
 };
-
-/// What a reader of frames relies on, at any moment.
-void check_frame(SolverThread& solver, std::uint64_t& last_number) {
-  const Frame& frame = solver.latest_frame();
-  QVERIFY(frame.number >= last_number);
-  last_number = frame.number;
-  QVERIFY(frame.mesh != nullptr);
-  QCOMPARE(frame.positions.size(), frame.mesh->rest.size());
-  QVERIFY(std::all_of(frame.positions.begin(), frame.positions.end(), [](float x) { return std::isfinite(x); }));
-}
 
 }  // namespace
 
@@ -100,17 +80,19 @@ void StressTest::any_commands_in_any_order() {
   SolverThread left(mesh, Algorithm::natural_queue, [&] { ++frames; });
   SolverThread right(mesh, Algorithm::natural_queue, [&] { ++frames; });
   CommandLog log({&left, &right});
-  AnyCommand any(relaxed ? 31 : 32, relaxed);
-  std::uint64_t left_number = 0, right_number = 0;
-  const auto end = std::chrono::steady_clock::now() + duration;
-  while (std::chrono::steady_clock::now() < end && !QTest::currentTestFailed()) {
-    log.post(any.draw());
-    log.sample();
-    check_frame(left, left_number);
-    check_frame(right, right_number);
-    if (any.below(8) == 0) {
-      std::this_thread::sleep_for(std::chrono::microseconds(any.below(3000)));
+  AnyCommand any(relaxed ? 31 : 32, relaxed, some_meshes(), 60, 150);
+  {
+    Reading left_reading(left), right_reading(right);
+    const auto end = std::chrono::steady_clock::now() + duration;
+    while (std::chrono::steady_clock::now() < end) {
+      log.post(any.draw());
+      log.sample();
+      if (any.below(8) == 0) {
+        std::this_thread::sleep_for(std::chrono::microseconds(any.below(3000)));
+      }
     }
+    QCOMPARE(left_reading.stop(), std::string());
+    QCOMPARE(right_reading.stop(), std::string());
   }
   QVERIFY(frames > 2);
   if (!relaxed) {  // relaxation goes by the clock; all else by the commands alone
@@ -127,17 +109,20 @@ void StressTest::any_commands_in_any_order() {
 
 void StressTest::shut_down_at_any_moment() {
   const auto mesh = some_meshes().front();
-  AnyCommand any(33, true);
+  AnyCommand any(33, true, some_meshes(), 60, 150);
   const auto end = std::chrono::steady_clock::now() + duration;
   while (std::chrono::steady_clock::now() < end) {
     SolverThread left(mesh, Algorithm::generalized, [] {});
     SolverThread right(mesh, Algorithm::natural_queue, [] {});
+    Reading left_reading(left), right_reading(right);
     CommandLog log({&left, &right});
     for (std::uint32_t i = any.below(40); i > 0; --i) {
       log.post(any.draw());
       log.sample();
     }
     std::this_thread::sleep_for(std::chrono::microseconds(any.below(4) == 0 ? any.below(20'000) : 0));
+    QCOMPARE(left_reading.stop(), std::string());
+    QCOMPARE(right_reading.stop(), std::string());
   }
 }
 

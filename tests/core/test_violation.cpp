@@ -91,10 +91,23 @@ void ViolationTest::cut_links_do_not_count() {
 void ViolationTest::over_some_elements() {
   const auto mesh = make_mesh(MeshKind::line, {5, 1, 1});
   const auto solver = at(mesh, {0, 1.5, 2.5, 4.1, 5.1});
+  TouchedViolation touched;
   const ElementId some[] = {1, 4};  // links 0, 1 and 3
-  const Violation violation = measure_violation(*mesh, {}, solver->cuts(), solver->positions(), some);
+  const Violation violation = touched.measure(*mesh, {}, solver->cuts(), solver->positions(), {some});
   QCOMPARE(violation.links, std::uint64_t{3});
   QVERIFY(close(violation.max, 0.3));
+  // Links 0, 1, 2 and 3: each counts once, whichever and however many of its ends are named.
+  const ElementId one[] = {2}, others[] = {1, 2, 3};
+  const Violation once = touched.measure(*mesh, {}, solver->cuts(), solver->positions(), {one, others});
+  QCOMPARE(once.links, std::uint64_t{4});
+  QVERIFY(close(once.max, 0.4));
+  QVERIFY(close(once.rms, std::sqrt((0.09 + 0.16) / 4)));
+  QCOMPARE(once.fraction, 0.5);
+  // What was looked at before does not matter, nor do the links that are cut.
+  QVERIFY(touched.measure(*mesh, {}, solver->cuts(), solver->positions(), {some}) == violation);
+  const LinkId worst = 2;
+  solver->cut(std::span(&worst, 1));
+  QCOMPARE(touched.measure(*mesh, {}, solver->cuts(), solver->positions(), {others}).links, std::uint64_t{3});
 }
 
 void ViolationTest::of_a_link_without_length() {

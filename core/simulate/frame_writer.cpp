@@ -1,0 +1,56 @@
+#include "simulate/frame_writer.h"
+
+#include <algorithm>
+#include <span>
+
+namespace chainmail {
+namespace {
+
+/// The stamps of a run of blocks, given by its elements.
+std::span<std::uint64_t> blocks_of(std::vector<std::uint64_t>& stamps, ElementId first, ElementId end) {
+  const std::size_t block = first / Frame::block_elements;
+  return std::span(stamps).subspan(block, (end - 1) / Frame::block_elements - block + 1);
+}
+
+}  // namespace
+
+void FrameWriter::publish(Simulation& simulation) {
+  ++number_;
+  note_changes(simulation);
+  fill(frames_.back(), pending_[frames_.back_index()], simulation);
+  frames_.publish();
+}
+
+/// What changed since the last frame, in the stamps and for each frame that may be filled next. Of another mesh the
+/// simulation has all blocks changed.
+void FrameWriter::note_changes(Simulation& simulation) {
+  if (mesh_ != simulation.mesh_pointer()) {
+    mesh_ = simulation.mesh_pointer();
+    const ElementBlocks none(mesh_->element_count());
+    changed_.assign(none.block_count(), 0);
+    pending_.fill(none);
+  }
+  simulation.changed().for_each_run(
+      [this](ElementId first, ElementId end) { std::ranges::fill(blocks_of(changed_, first, end), number_); });
+  for (ElementBlocks& pending : pending_) {
+    pending.insert(simulation.changed());
+  }
+  simulation.forget_changes();
+}
+
+void FrameWriter::fill(Frame& frame, ElementBlocks& pending, const Simulation& simulation) {
+  const auto coordinates = static_cast<std::size_t>(mesh_->space_dimension);
+  frame.mesh = mesh_;
+  frame.positions.resize(mesh_->rest.size());
+  frame.changed.resize(changed_.size());
+  pending.for_each_run([&](ElementId first, ElementId end) {
+    const auto run = std::span(frame.positions).subspan(coordinates * first, coordinates * (end - first));
+    simulation.solver().copy_positions(first, run);
+    std::ranges::copy(blocks_of(changed_, first, end), blocks_of(frame.changed, first, end).begin());
+  });
+  pending.clear();
+  frame.statistics = simulation.statistics();
+  frame.number = number_;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "simulate/frame.h"
+
+namespace chainmail {
+
+/// Fills the frames of a buffer from a simulation and hands them over. Each takes only the blocks that changed since
+/// it was last filled.
+class FrameWriter {
+ public:
+  explicit FrameWriter(TripleBuffer& frames) : frames_(frames) {}
+
+  /// Hands over a frame of the simulation as it is now. It must be the same simulation every time.
+  void publish(Simulation& simulation);
+
+ private:
+  void note_changes(Simulation& simulation);
+  void fill(Frame& frame, ElementBlocks& pending, const Simulation& simulation);
+
+  TripleBuffer& frames_;
+  std::uint64_t number_ = 0;
+  // Of the newest frame:
+  MeshPointer mesh_;
+  std::vector<std::uint64_t> changed_;
+  /// For each frame of the buffer, the blocks of this mesh that changed since it was last filled.
+  std::array<ElementBlocks, TripleBuffer::frame_count> pending_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "core/families.h"
+#include "simulate/command.h"
+
+namespace chainmail::test {
+
+/// Draws commands of all kinds, some of which do not fit the object and are refused.
+class AnyCommand {
+ public:
+  /// Elements and links are drawn below these; `relaxed`, where relaxation may be switched on.
+  AnyCommand(std::uint64_t seed, bool relaxed, std::vector<MeshPointer> meshes, ElementId elements, LinkId links)
+      : random_(seed), relaxed_(relaxed), meshes_(std::move(meshes)), elements_(elements), links_(links) {}
+
+  Command draw() {
+    using namespace commands;
+    switch (below(26)) {
+      case 0:
+        return Cut{{below(links_), below(links_)}};
+      case 1:
+        return Uncut{{below(links_), below(links_)}};
+      case 2:
+        return SetSoftness{{{between(-0.05, 1), between(1, 2), between(0, 1)}, {{below(links_), {1, 1, 0}}}}};
+      case 3:
+        return SetRelaxation{relaxed_ && below(4) != 0, between(0.1, 1),
+                             below(2) == 0 ? RelaxationScheme::mean : RelaxationScheme::link};
+      case 4:
+        return SetAlgorithm{algorithms()[below(6)].algorithm};
+      case 5:
+        return below(3) == 0 ? Command(ReplaceMesh{meshes_[below(static_cast<std::uint32_t>(meshes_.size()))]})
+                             : Command(Reset{});
+      case 6:
+        return KeepState{below(4)};
+      case 7:
+        return SwapState{below(4)};
+      case 8:
+        return below(3) == 0 ? Command(DropState{below(4)}) : Command(Release{});
+      case 12:
+        return Pin{{below(elements_)}};
+      case 13:
+        return Unpin{{below(elements_), below(elements_), below(elements_)}};
+      case 9:
+      case 10:
+      case 11:
+        return Grab{below(elements_)};
+      default:
+        return Drag{Point(between(-4, 16), between(-4, 16), between(-4, 4))};
+    }
+  }
+  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random_() % n); }
+
+ private:
+  double between(double low, double high) { return uniform(random_, low, high); }
+
+  std::mt19937_64 random_;
+  bool relaxed_;
+  std::vector<MeshPointer> meshes_;
+  ElementId elements_;
+  LinkId links_;
+};
+
+}  // namespace chainmail::test

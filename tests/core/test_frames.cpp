@@ -1,0 +1,145 @@
+#include <QtTest>
+#include <set>
+
+#include "core/any_command.h"
+#include "core/frame_reader.h"
+#include "core/threads.h"
+#include "mesh/error.h"
+#include "simulate/frame_writer.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// What a frame says of a simulation: all positions, and which blocks of them changed.
+class FramesTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void whoever_copies_what_changed_has_it_all();
+  void what_stays_is_not_copied();
+  void an_undone_reset_changes_what_it_brings_back();
+};
+
+namespace {
+
+/// A simulation, and someone who draws it.
+struct Scene {
+  explicit Scene(const MeshPointer& mesh, Algorithm algorithm = Algorithm::natural_queue)
+      : simulation(mesh, algorithm, Precision::single_precision) {
+    show();
+  }
+
+  const Frame& show() {
+    writer.publish(simulation);
+    return frames.latest();
+  }
+  /// The blocks that the next frame says have changed.
+  std::set<std::size_t> changed() {
+    const Frame& frame = show();
+    std::set<std::size_t> blocks;
+    for (std::size_t block = 0; block < frame.changed.size(); ++block) {
+      if (frame.changed[block] == frame.number) {
+        blocks.insert(block);
+      }
+    }
+    return blocks;
+  }
+
+  Simulation simulation;
+  TripleBuffer frames;
+  FrameWriter writer{frames};
+};
+
+/// The blocks of the element last dragged and of those that it moved.
+std::set<std::size_t> blocks_of_last_pass(const Simulation& simulation) {
+  std::set<std::size_t> blocks{*simulation.grabbed() / Frame::block_elements};
+  for (const ElementId element : simulation.solver().moved()) {
+    blocks.insert(element / Frame::block_elements);
+  }
+  return blocks;
+}
+
+void carry_out_if_it_fits(Simulation& simulation, const Command& command) {
+  try {
+    simulation.apply(command);
+  } catch (const Error&) {
+  }
+}
+
+}  // namespace
+
+void FramesTest::whoever_copies_what_changed_has_it_all() {
+  // From 11 blocks to more than a word of 64 has bits for; the last block is not full.
+  const std::vector<MeshPointer> meshes{make_mesh(MeshKind::grid, {70, 70, 1}), jittered_triangles(30, 30, 5),
+                                        make_mesh(MeshKind::tetra, {9, 9, 9}),
+                                        make_mesh(MeshKind::line, {700, 1, 1}, 3)};
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    AnyCommand any(seed, true, meshes, 700, 690);
+    Scene scene(meshes[seed % 4], algorithms()[seed % 2 == 0 ? 2 : 5].algorithm);
+    FrameReader reader;
+    for (int i = 0; i < 100; ++i) {
+      carry_out_if_it_fits(scene.simulation, any.draw());
+      if (any.below(3) == 0) {
+        scene.simulation.step();
+      }
+      if (any.below(20) == 0) {
+        scene.simulation.relax(1, 0.5);
+      }
+      if (any.below(2) == 0) {
+        scene.writer.publish(scene.simulation);  // the reader may miss frames
+      }
+      if (any.below(2) == 0) {
+        const Frame& frame = scene.show();
+        QVERIFY(frame.mesh == scene.simulation.mesh_pointer());
+        QVERIFY(frame.positions == floats_of(scene.simulation));
+        QVERIFY2(reader.take(frame), qPrintable(QString("seed %1, command %2").arg(seed).arg(i)));
+      }
+    }
+  }
+}
+
+void FramesTest::what_stays_is_not_copied() {
+  Scene scene(make_mesh(MeshKind::grid, {64, 64, 1}));  // a block a row
+  Simulation& simulation = scene.simulation;
+  QCOMPARE(scene.frames.latest().changed.size(), std::size_t{64});
+  const std::vector<Command> still{
+      commands::Grab{0},         commands::Cut{{5}},     commands::Pin{{9}},
+      commands::Unpin{{9}},      commands::Uncut{{5}},   commands::SetSoftness{},
+      commands::KeepState{1},    commands::SwapState{1}, commands::Reset{},
+      commands::SetRelaxation{}, commands::Release{},    commands::SetAlgorithm{Algorithm::exact}};
+  for (const Command& command : still) {
+    carry_out(simulation, command);
+    QVERIFY(scene.changed().empty());
+  }
+  drag_by(simulation, 0, Point(-1, -1, 0));
+  QVERIFY(simulation.statistics().last_pass.moved > 10);
+  const auto blocks = blocks_of_last_pass(simulation);
+  QVERIFY(scene.changed() == blocks && blocks.size() < 32);
+  drag_by(simulation, 64 * 63, Point(0, 1, 0));
+  QVERIFY(scene.changed() == blocks_of_last_pass(simulation));
+  QVERIFY(scene.changed().empty());
+}
+
+void FramesTest::an_undone_reset_changes_what_it_brings_back() {
+  Scene scene(make_mesh(MeshKind::grid, {64, 64, 1}));
+  drag_by(scene.simulation, 0, Point(-1, -1, 0));
+  const auto away = scene.changed();
+  const auto positions = scene.frames.latest().positions;
+  QVERIFY(away.size() < 32);
+  carry_out(scene.simulation, commands::KeepState{1});
+  carry_out(scene.simulation, commands::Reset{});
+  QVERIFY(scene.changed() == away);
+  const auto& rest = scene.simulation.mesh().rest;
+  QVERIFY(std::equal(rest.begin(), rest.end(), scene.frames.latest().positions.begin()));
+  carry_out(scene.simulation, commands::SwapState{1});
+  QVERIFY(scene.changed() == away);
+  QVERIFY(scene.frames.latest().positions == positions);
+  carry_out(scene.simulation, commands::SwapState{1});
+  QVERIFY(scene.changed() == away);
+  // Once more at rest, there is nothing to put back.
+  carry_out(scene.simulation, commands::Reset{});
+  QVERIFY(scene.changed().empty());
+}
+
+QTEST_APPLESS_MAIN(FramesTest)
+#include "test_frames.moc"

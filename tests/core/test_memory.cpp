@@ -1,0 +1,80 @@
+#include <QtTest>
+#include <cstdlib>
+#include <new>
+
+#include "core/threads.h"
+#include "simulate/frame_writer.h"
+
+namespace {
+
+std::size_t times_taken = 0;  // how often memory was taken since the start; this program has one thread
+
+void* take(std::size_t size) {
+  ++times_taken;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) {
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return take(size); }
+void* operator new[](std::size_t size) { return take(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Once it has warmed up, a simulation that is dragged and shown takes no memory.
+class MemoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void passes_and_frames_take_none_data();
+  void passes_and_frames_take_none();
+};
+
+namespace {
+
+/// A hand that goes to and fro, with all figures and a frame for each of its moves.
+void drag_and_show(Simulation& simulation, FrameWriter& writer, TripleBuffer& frames) {
+  for (int i = 0; i < 40; ++i) {
+    simulation.apply(commands::Drag{Point(i % 2 == 0 ? -30 : 5, i % 3, 0)});
+    simulation.refresh_statistics(false);
+    simulation.refresh_statistics(true);
+    writer.publish(simulation);
+    if (i % 4 != 0) {
+      frames.latest();
+    }
+  }
+}
+
+}  // namespace
+
+void MemoryTest::passes_and_frames_take_none_data() {
+  QTest::addColumn<int>("algorithm");
+  for (const AlgorithmInfo& one : algorithms()) {
+    QTest::newRow(std::string(one.name).c_str()) << int(one.algorithm);
+  }
+}
+
+void MemoryTest::passes_and_frames_take_none() {
+  QFETCH(int, algorithm);
+  Simulation simulation(make_mesh(MeshKind::grid, {40, 40, 1}), Algorithm(algorithm), Precision::single_precision);
+  TripleBuffer frames;
+  FrameWriter writer(frames);
+  simulation.apply(commands::Cut{{7, 100}});
+  simulation.apply(commands::Grab{0});
+  drag_and_show(simulation, writer, frames);
+  const std::size_t before = times_taken;
+  drag_and_show(simulation, writer, frames);
+  QCOMPARE(times_taken - before, std::size_t{0});
+  QVERIFY(simulation.statistics().last_pass.moved > 0);
+}
+
+QTEST_APPLESS_MAIN(MemoryTest)
+#include "test_memory.moc"
