@@ -74,6 +74,9 @@ Violation TouchedViolation::measure(const Mesh& mesh, const Softness& softness, 
   seen_.resize(mesh.element_count());
   for (const auto& some : elements) {
     for (const ElementId element : some) {
+      if (seen_[element]) {
+        continue;
+      }
       for (EntryId entry = mesh.first_entry[element]; entry < mesh.first_entry[element + 1]; ++entry) {
         // A link to an element seen before was counted there.
         if (const LinkId link = mesh.entry_link[entry]; !seen_[mesh.neighbours[entry]] && !cuts.is_cut(link)) {
