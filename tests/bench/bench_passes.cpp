@@ -1,44 +1,31 @@
-// The time of a pass: grids in float, as the window runs them, the corner dragged back and forth.
+// The time of a pass, over all meshes and drags: bench_passes [FILTER…], where a filter is a part of
+// DRAG/MESH/ALGORITHM, as whole_body/grid1024 or local or /exact; a row is measured where all filters fit.
 
-#include <benchmark/benchmark.h>
+#include <algorithm>
+#include <cstdio>
 
-#include "mesh/generate.h"
-#include "solve/solver.h"
+#include "bench/contestants.h"
 
-namespace chainmail {
-namespace {
+using namespace chainmail;
+using namespace chainmail::bench;
 
-/// Stiff links: the whole body follows every move.
-constexpr LinkSoftness stiff{0.999, 1.001, 0.0005};
-
-void whole_body(benchmark::State& state, Algorithm algorithm) {
-  const auto side = std::uint32_t(state.range(0));
-  const auto mesh = generate({MeshKind::grid, {side, side, 1}, 1, {}});
-  const auto solver = make_solver(mesh, algorithm, Precision::single_precision);
-  solver->set_softness({stiff, {}});
-  const double far = side;  // beyond what the links give over the whole diagonal
-  double at = 0;
-  PassCount count;
-  for (auto _ : state) {
-    at = at == 0 ? far : 0;
-    count = solver->move(0, Point(at, at, 0));
+int main(int argc, char** argv) {
+  const std::vector<std::string> filters(argv + 1, argv + argc);
+  const auto wanted = [&](const std::string& row) {
+    return std::all_of(filters.begin(), filters.end(), [&](auto& one) { return row.find(one) != row.npos; });
+  };
+  std::printf("%-18s %-18s %-24s %9s %11s %13s %11s\n", "drag", "mesh", "algorithm", "elements", "moved", "a pass",
+              "a moved one");
+  for (const char* mesh_name : {"grid64", "grid256", "grid1024", "grid2048", "cloth512", "block100", "tetra60",
+                                "jittered_grid1024", "jittered_cloth512", "jittered_tetra60"}) {
+    MeshPointer mesh;
+    for (const Drag drag : {Drag::whole_body, Drag::local, Drag::whole_body_mixed}) {
+      std::vector<std::string> algorithms{natural_queue, natural_queue_without_replay, exact};
+      std::erase_if(algorithms, [&](auto& one) { return !wanted(name(drag) + "/" + mesh_name + "/" + one); });
+      if (!algorithms.empty()) {
+        mesh = mesh ? mesh : make_mesh(mesh_name);
+        run(contest(drag, mesh_name, mesh, algorithms));
+      }
+    }
   }
-  state.counters["moved"] = double(count.moved);
-  state.counters["checked"] = double(count.checked);
-  state.counters["per_element"] = benchmark::Counter(
-      double(mesh->element_count()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-
-BENCHMARK_CAPTURE(whole_body, natural_queue, Algorithm::natural_queue)
-    ->Arg(64)
-    ->Arg(256)
-    ->Arg(1024)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(whole_body, generalized, Algorithm::generalized)
-    ->Arg(64)
-    ->Arg(256)
-    ->Arg(1024)
-    ->Unit(benchmark::kMillisecond);
-
-}  // namespace
-}  // namespace chainmail
