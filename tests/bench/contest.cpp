@@ -39,56 +39,66 @@ void initialize() {
   benchmark::DoNotOptimize(done);
 }
 
-double median(std::vector<double> times) {
-  std::sort(times.begin(), times.end());
-  return times.empty() ? 0 : times[times.size() / 2];
+std::string name(const Contestant& one) { return one.drag + "/" + one.mesh + "/" + one.algorithm; }
+
+struct Count {
+  std::uint64_t moved = 0, passes = 0;
+};
+
+void enter(const Contestant& one, Count& count) {
+  benchmark::RegisterBenchmark(name(one).c_str(),
+                               [&](benchmark::State& state) {
+                                 for (auto _ : state) {
+                                   count.moved += one.pass();
+                                   ++count.passes;
+                                 }
+                               })
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->Iterations(one.passes)
+      ->Repetitions(repetitions);
+}
+
+void say(const Run& one) {
+  std::printf("%-17s %-18s %-29s %8llu %10.1f %10.4f ms %8.2f ns\n", one.drag.c_str(), one.mesh.c_str(),
+              one.algorithm.c_str(), static_cast<unsigned long long>(one.elements), one.moved, one.ms,
+              one.ns_per_moved());
+  std::fflush(stdout);
 }
 
 }  // namespace
 
-std::vector<Run> run(const Contest& contest) {
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0 : values[values.size() / 2];
+}
+
+std::vector<Run> run(const std::vector<Contestant>& contest) {
   initialize();
-  struct Count {
-    std::uint64_t moved = 0, passes = 0;
-  };
-  std::vector<Count> counts(contest.contestants.size());
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const Contestant& one = contest.contestants[i];
-    benchmark::RegisterBenchmark(one.algorithm.c_str(),
-                                 [&one, &count = counts[i]](benchmark::State& state) {
-                                   for (auto _ : state) {
-                                     count.moved += one.pass();
-                                     ++count.passes;
-                                   }
-                                 })
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime()
-        ->Iterations(contest.passes)
-        ->Repetitions(repetitions);
+  std::vector<Count> counts(contest.size());
+  for (std::size_t i = 0; i < contest.size(); ++i) {
+    enter(contest[i], counts[i]);
   }
   Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector, ".");
   benchmark::ClearRegisteredBenchmarks();
 
   std::vector<Run> runs;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const std::string& algorithm = contest.contestants[i].algorithm;
-    runs.push_back({contest.name, contest.mesh, algorithm, contest.elements,
-                    double(counts[i].moved) / double(std::max<std::uint64_t>(1, counts[i].passes)),
-                    median(collector.times[algorithm])});
-    const Run& one = runs.back();
-    std::printf("%-18s %-18s %-24s %9llu %11.1f %10.4f ms %8.2f ns\n", one.name.c_str(), one.mesh.c_str(),
-                one.algorithm.c_str(), static_cast<unsigned long long>(one.elements), one.moved, one.ms,
-                one.ns_per_moved());
-    std::fflush(stdout);
+  for (std::size_t i = 0; i < contest.size(); ++i) {
+    const Contestant& one = contest[i];
+    runs.push_back({one.drag, one.mesh, one.algorithm, one.elements, double(counts[i].moved) / double(counts[i].passes),
+                    median(collector.times.at(name(one)))});
+    say(runs.back());
   }
   return runs;
 }
 
-const Run& of(const std::vector<Run>& runs, const std::string& algorithm) {
-  const auto found = std::find_if(runs.begin(), runs.end(), [&](auto& one) { return one.algorithm == algorithm; });
+const Run& of(const std::vector<Run>& runs, const std::string& algorithm, const std::string& mesh) {
+  const auto found = std::find_if(runs.begin(), runs.end(), [&](const Run& one) {
+    return one.algorithm == algorithm && (mesh.empty() || one.mesh == mesh);
+  });
   if (found == runs.end()) {
-    throw std::logic_error("no run of " + algorithm);
+    throw std::logic_error("no run of " + algorithm + " " + mesh);
   }
   return *found;
 }

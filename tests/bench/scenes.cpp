@@ -47,10 +47,15 @@ ElementId middle(const Mesh& mesh) {
   return nearest;
 }
 
+bool solid(const Mesh& mesh) {
+  const auto [low, high] = bounds(mesh);
+  return ((high - low).array() > 0).all();
+}
+
 /// Where the hand is on its round, about the element's rest position.
 Point on_circle(const Mesh& mesh, double radius, double angle) {
   Point at(std::cos(angle), std::sin(angle), 0);
-  if (mesh.space_dimension == 3 && mesh.object_dimension == 3) {
+  if (solid(mesh)) {
     at[2] = (at[0] + at[1]) / 2;
   }
   return radius * at;
@@ -67,8 +72,8 @@ MeshPointer make_mesh(const std::string& name) {
   const std::size_t digits = name.find_first_of("0123456789");
   const MeshKind kind = kind_of(name.substr(0, digits));
   const auto side = static_cast<std::uint32_t>(std::stoul(name.substr(digits)));
-  const bool solid = kind == MeshKind::block || kind == MeshKind::tetra;
-  return generate({kind, {side, side, solid ? side : 1}, 1, in_space ? std::optional(3) : std::nullopt});
+  const bool cube = kind == MeshKind::block || kind == MeshKind::tetra;
+  return generate({kind, {side, side, cube ? side : 1}, 1, in_space ? std::optional(3) : std::nullopt});
 }
 
 Softness mixed_softness(const Mesh& mesh) {
@@ -92,7 +97,7 @@ Softness softness(Drag drag, const Mesh& mesh) {
 Hand hand(Drag drag, const Mesh& mesh) {
   const auto [low, high] = bounds(mesh);
   const bool local = drag == Drag::local;
-  const double local_radius = mesh.object_dimension == 3 ? 1.25 : 2.5;
+  const double local_radius = solid(mesh) ? 1 : 2.5;
   const double radius = local ? local_radius : (high - low).maxCoeff() / 8;
   Hand hand{local ? middle(mesh) : 0, {}};
   const Point centre = mesh.rest_position(hand.element);
