@@ -86,7 +86,7 @@ std::vector<Row> rows_of(const json& all) {
 
 std::string number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, value >= 100 ? "%.0f" : value >= 0.1 || value == 0 ? "%.2f" : "%.5f", value);
+  std::snprintf(text, sizeof text, value >= 100 ? "%.0f" : value >= 0.1 ? "%.2f" : "%.3g", value);
   return text;
 }
 
@@ -105,7 +105,7 @@ void print(const std::vector<std::vector<std::string>>& table, bool markdown) {
       for (const char byte : cell) {
         width += (static_cast<unsigned char>(byte) & 0xC0) != 0x80 ? 1 : 0;
       }
-      const std::size_t room = k == 0 ? 62 : 16;
+      const std::size_t room = k == 0 ? 66 : 16;
       line += markdown ? " " + cell + " |" : cell + std::string(room > width ? room - width : 1, ' ');
     }
     std::printf("%s\n", line.c_str());
@@ -132,7 +132,8 @@ void print_figures(const json& all, bool markdown) {
 }
 
 void print_bullet(const json& all, bool markdown) {
-  for (const auto& [mesh, contestants] : all["ratios"].value("vs_bullet", json::object()).items()) {
+  const json meshes = all["ratios"].value("vs_bullet", json::object());
+  for (const auto& [mesh, contestants] : meshes.items()) {
     std::vector<std::vector<std::string>> table{
         {mesh + ", a corner dragged for 60 frames", "ms a frame", "links off by"}};
     for (const auto& [name, of] : contestants.items()) {

@@ -31,7 +31,8 @@ Contestant dragged(const Scene& scene, const std::string& algorithm, Drag drag);
 /// The literal version (thesis 4.2: lists, and a search through a list wherever something is looked up).
 Contestant dragged_as_2004(const Scene& scene);
 
-/// The time that memory alone takes; see PassBytes.
+/// The time that memory alone takes for PassBytes. Each pass streams another copy, and all copies together are as large
+/// as what a solver holds: the caches hold of it what they would hold after a pass.
 Contestant streamed(const Scene& scene);
 
 }  // namespace chainmail::bench
