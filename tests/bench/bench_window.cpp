@@ -177,7 +177,7 @@ int showFirstFrame(const char* startNanoseconds) {
   const auto sample = sampleRecipe();
   MainWindow window(generate(sample), recipeName(sample));
   const auto look = [&] {
-    if (window.panel(0).view().meter().framesPerSecond() > 0 && window.panel(1).view().meter().framesPerSecond() > 0) {
+    if (application().viewsPainted.size() == Document::panels) {
       timespec now{};
       clock_gettime(CLOCK_MONOTONIC, &now);
       std::printf("%.3f\n", (1e9 * double(now.tv_sec) + double(now.tv_nsec) - std::atof(startNanoseconds)) * 1e-6);
@@ -186,6 +186,7 @@ int showFirstFrame(const char* startNanoseconds) {
     }
   };
   for (int panel = 0; panel < Document::panels; ++panel) {
+    // Tells that the screen has what was painted.
     QObject::connect(&window.panel(panel).view(), &QOpenGLWidget::frameSwapped, &window, look);
   }
   window.show();

@@ -2,6 +2,7 @@
 
 #include <QApplication>
 #include <QEvent>
+#include <QSet>
 #include <ctime>
 
 #include "view.h"
@@ -27,6 +28,7 @@ class MeteredApplication : public QApplication {
     if (type == QEvent::Paint && qobject_cast<View*>(receiver) != nullptr) {
       painted_ = true;
       ++viewPaints;
+      viewsPainted.insert(receiver);
     }
     if (drawing_ || (type != QEvent::UpdateRequest && type != QEvent::Expose && type != QEvent::Paint)) {
       return QApplication::notify(receiver, event);
@@ -44,6 +46,7 @@ class MeteredApplication : public QApplication {
   double drawingMilliseconds = 0;  // of this thread's processor time
   int framesDrawn = 0;             // updates of the window in which at least one view was drawn
   int viewPaints = 0;
+  QSet<const QObject*> viewsPainted;
 
  private:
   bool drawing_ = false;
