@@ -135,7 +135,7 @@ void print_bullet(const json& all, bool markdown) {
   const json meshes = all["ratios"].value("vs_bullet", json::object());
   for (const auto& [mesh, contestants] : meshes.items()) {
     std::vector<std::vector<std::string>> table{
-        {mesh + ", a corner dragged for 60 frames", "ms a frame", "links off by", "at most"}};
+        {mesh + ", a corner dragged for 60 frames", "ms a frame", "links off by (RMS)", "at most"}};
     for (const auto& [name, of] : contestants.items()) {
       table.push_back({name, number(of["ms"]), number(100 * of["stretch"].get<double>()) + " %",
                        number(100 * of["largest"].get<double>()) + " %"});
