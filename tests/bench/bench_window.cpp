@@ -33,6 +33,7 @@ constexpr int handMilliseconds = 16;
 constexpr int dragMilliseconds = 5000;
 constexpr int idleMilliseconds = 5000;
 constexpr int patienceMilliseconds = 120'000;
+constexpr int restMilliseconds = 300;  // between repetitions: what runs in the background ends
 constexpr int repetitions = 5;
 
 MeteredApplication& application() { return *static_cast<MeteredApplication*>(qApp); }
@@ -146,6 +147,7 @@ double saveMilliseconds(MainWindow& window, const QString& path) {
   files.savePath(path);
   const double ms = until(clock, "saving", [&] { return saved; });
   QObject::disconnect(listening);
+  run(restMilliseconds);
   return ms;
 }
 
@@ -155,7 +157,9 @@ double openMilliseconds(MainWindow& window, const QString& path, ElementId eleme
   clock.start();
   window.openFile(path);
   until(clock, "opening", [&] { return window.document().mesh() != before; });
-  return untilShown(window, clock, elements);
+  const double ms = untilShown(window, clock, elements);
+  run(restMilliseconds);
+  return ms;
 }
 
 /// From the start of a process to the first picture of both panels' sample object, as workbench starts. The parent
