@@ -173,15 +173,22 @@ double firstFrameMilliseconds() {
   if (!child.waitForFinished(patienceMilliseconds) || child.exitCode() != 0) {
     throw std::runtime_error("the window did not come up: " + child.readAllStandardError().toStdString());
   }
-  return child.readAllStandardOutput().toDouble();
+  bool isNumber = false;
+  const double ms = child.readAllStandardOutput().toDouble(&isNumber);
+  if (!isNumber) {
+    throw std::runtime_error("the window that came up did not say when");
+  }
+  return ms;
 }
 
 /// That process.
 int showFirstFrame(const char* startNanoseconds) {
   const auto sample = sampleRecipe();
   MainWindow window(generate(sample), recipeName(sample));
+  bool said = false;
   const auto look = [&] {
-    if (application().viewsPainted.size() == Document::panels) {
+    if (!said && application().viewsPainted.size() == Document::panels) {
+      said = true;
       timespec now{};
       clock_gettime(CLOCK_MONOTONIC, &now);
       std::printf("%.3f\n", (1e9 * double(now.tv_sec) + double(now.tv_nsec) - std::atof(startNanoseconds)) * 1e-6);
