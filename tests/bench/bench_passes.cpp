@@ -29,7 +29,9 @@ int main(int argc, char** argv) {
         scene = scene ? scene : Scene(mesh);
         contest.push_back(streamed(*scene));
       }
-      run(contest);
+      if (!contest.empty()) {
+        run(contest);
+      }
     }
   }
 }
