@@ -4,10 +4,10 @@
 #include <barrier>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <thread>
 
 #include "bench/contestants.h"
+#include "bench/process.h"
 #include "bench/results.h"
 #include "core/allocations.h"
 #include "simulate/solver_thread.h"
@@ -17,17 +17,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
-
-/// Bytes of this process that are in memory now, as the kernel counts them.
-double resident_bytes() {
-  std::ifstream in("/proc/self/status");
-  for (std::string word; in >> word;) {
-    if (double kilobytes = 0; word == "VmRSS:" && in >> kilobytes) {
-      return 1024 * kilobytes;
-    }
-  }
-  return 0;
-}
 
 /// As the document has two of them: both deform the mesh, and both frames are looked at.
 double bytes_per_element() {

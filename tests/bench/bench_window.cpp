@@ -10,14 +10,13 @@
 #include <QTimer>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <numbers>
 #include <stdexcept>
 
 #include "bench/contest.h"
 #include "bench/metered_application.h"
+#include "bench/process.h"
 #include "bench/results.h"
 #include "file_actions.h"
 #include "main_window.h"
@@ -93,12 +92,12 @@ double guiMilliseconds(MainWindow& window) {
   hand.start(handMilliseconds);
   run(1000);  // the first frames upload everything
   MeteredApplication& app = application();
-  const double cpu = cpuMilliseconds(CLOCK_THREAD_CPUTIME_ID), drawing = app.drawingMilliseconds;
+  const double cpu = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID), drawing = app.drawingMilliseconds;
   const int frames = app.framesDrawn, steps = step;
   run(dragMilliseconds);
   const int drawn = app.framesDrawn - frames;
   const double drew = app.drawingMilliseconds - drawing;
-  const double own = cpuMilliseconds(CLOCK_THREAD_CPUTIME_ID) - cpu - drew;
+  const double own = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID) - cpu - drew;
   hand.stop();
   const auto* frame = window.document().frame(0);
   std::printf("local drag: %d frames and %d moves in %d s, %llu moved; GUI thread %.3f ms a frame, drawing %.1f ms\n",
@@ -109,29 +108,15 @@ double guiMilliseconds(MainWindow& window) {
   return own / drawn;
 }
 
-/// How often a thread of this process went to sleep since it began, and so woke up.
-std::uint64_t sleeps() {
-  std::uint64_t sum = 0;
-  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
-    std::ifstream in(task.path() / "status");
-    for (std::string word; in >> word;) {
-      if (std::uint64_t count = 0; word == "voluntary_ctxt_switches:" && in >> count) {
-        sum += count;
-      }
-    }
-  }
-  return sum;
-}
-
 /// The share of a core that the whole process takes while nobody does anything.
 double idleShare() {
-  const double before = cpuMilliseconds(CLOCK_PROCESS_CPUTIME_ID);
+  const double before = cpu_milliseconds(CLOCK_PROCESS_CPUTIME_ID);
   const int painted = application().viewPaints;
-  const std::uint64_t slept = sleeps();
+  const double woken = wake_ups();
   run(idleMilliseconds);
-  const double share = (cpuMilliseconds(CLOCK_PROCESS_CPUTIME_ID) - before) / idleMilliseconds;
+  const double share = (cpu_milliseconds(CLOCK_PROCESS_CPUTIME_ID) - before) / idleMilliseconds;
   std::printf("idle: %.5f of a core, %d paints, %d wake-ups (the clock of this measurement is one)\n", share,
-              application().viewPaints - painted, int(sleeps() - slept));
+              application().viewPaints - painted, int(wake_ups() - woken));
   if (application().viewPaints != painted) {
     throw std::runtime_error("a view was drawn while nothing changed");
   }

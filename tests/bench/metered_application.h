@@ -3,18 +3,11 @@
 #include <QApplication>
 #include <QEvent>
 #include <QSet>
-#include <ctime>
 
+#include "bench/process.h"
 #include "view.h"
 
 namespace chainmail::bench {
-
-/// Processor time so far, of this thread or of the whole process (ms).
-inline double cpuMilliseconds(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return 1e3 * double(now.tv_sec) + 1e-6 * double(now.tv_nsec);
-}
 
 /// Sees every event that Qt delivers, and keeps apart what drawing takes: an update of the window (UpdateRequest),
 /// in which Qt paints the widgets, has each view draw, and puts all together, and what the window system asks
@@ -35,9 +28,9 @@ class MeteredApplication : public QApplication {
     }
     drawing_ = true;
     painted_ = false;
-    const double before = cpuMilliseconds(CLOCK_THREAD_CPUTIME_ID);
+    const double before = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID);
     const bool handled = QApplication::notify(receiver, event);
-    drawingMilliseconds += cpuMilliseconds(CLOCK_THREAD_CPUTIME_ID) - before;
+    drawingMilliseconds += cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID) - before;
     drawing_ = false;
     framesDrawn += painted_ ? 1 : 0;
     return handled;
