@@ -13,6 +13,7 @@ build_packages=(
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)
 test_packages=(librapidcheck-dev xvfb xauth clang-format)
 check_packages=(clang-tidy)
+bench_packages=(libbenchmark-dev libbullet-dev)
 
 # Another checkout's build, or one that was here before, fills the cache for this one.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1

@@ -1,44 +1,37 @@
-// The time of a pass: grids in float, as the window runs them, the corner dragged back and forth.
+// The time of a pass, over all meshes and drags: bench_passes [FILTER…], where a filter is a part of
+// DRAG/MESH/ALGORITHM, as whole_body/grid1024 or local or /exact; a row is measured where all filters fit.
+// The floor (/floor) is what memory alone takes for a whole-body pass.
 
-#include <benchmark/benchmark.h>
+#include <algorithm>
+#include <optional>
 
-#include "mesh/generate.h"
-#include "solve/solver.h"
+#include "bench/contestants.h"
 
-namespace chainmail {
-namespace {
+using namespace chainmail::bench;
 
-/// Stiff links: the whole body follows every move.
-constexpr LinkSoftness stiff{0.999, 1.001, 0.0005};
-
-void whole_body(benchmark::State& state, Algorithm algorithm) {
-  const auto side = std::uint32_t(state.range(0));
-  const auto mesh = generate({MeshKind::grid, {side, side, 1}, 1, {}});
-  const auto solver = make_solver(mesh, algorithm, Precision::single_precision);
-  solver->set_softness({stiff, {}});
-  const double far = side;  // beyond what the links give over the whole diagonal
-  double at = 0;
-  PassCount count;
-  for (auto _ : state) {
-    at = at == 0 ? far : 0;
-    count = solver->move(0, Point(at, at, 0));
+int main(int argc, char** argv) {
+  const std::vector<std::string> filters(argv + 1, argv + argc);
+  const auto unwanted = [&](const std::string& row) {
+    return std::any_of(filters.begin(), filters.end(), [&](auto& one) { return row.find(one) == row.npos; });
+  };
+  for (const char* mesh : {"grid64", "grid256", "grid1024", "grid2048", "cloth512", "block100", "tetra60",
+                           "jittered_grid1024", "jittered_cloth512", "jittered_tetra60"}) {
+    std::optional<Scene> scene;
+    for (const Drag drag : {Drag::whole_body, Drag::local, Drag::whole_body_mixed}) {
+      std::vector<Contestant> contest;
+      for (const std::string& algorithm : {names::natural_queue, names::without_replay, names::exact}) {
+        if (!unwanted(name(drag) + "/" + mesh + "/" + algorithm)) {
+          scene = scene ? scene : Scene(mesh);
+          contest.push_back(dragged(*scene, algorithm, drag));
+        }
+      }
+      if (drag == Drag::whole_body && !unwanted(name(drag) + "/" + mesh + "/" + names::memory_floor)) {
+        scene = scene ? scene : Scene(mesh);
+        contest.push_back(streamed(*scene));
+      }
+      if (!contest.empty()) {
+        run(contest);
+      }
+    }
   }
-  state.counters["moved"] = double(count.moved);
-  state.counters["checked"] = double(count.checked);
-  state.counters["per_element"] = benchmark::Counter(
-      double(mesh->element_count()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-
-BENCHMARK_CAPTURE(whole_body, natural_queue, Algorithm::natural_queue)
-    ->Arg(64)
-    ->Arg(256)
-    ->Arg(1024)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(whole_body, generalized, Algorithm::generalized)
-    ->Arg(64)
-    ->Arg(256)
-    ->Arg(1024)
-    ->Unit(benchmark::kMillisecond);
-
-}  // namespace
-}  // namespace chainmail

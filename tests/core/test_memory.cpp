@@ -1,30 +1,8 @@
 #include <QtTest>
-#include <cstdlib>
-#include <new>
 
+#include "core/allocations.h"
 #include "core/threads.h"
 #include "simulate/frame_writer.h"
-
-namespace {
-
-std::size_t times_taken = 0;  // how often memory was taken since the start; this program has one thread
-
-void* take(std::size_t size) {
-  ++times_taken;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return take(size); }
-void* operator new[](std::size_t size) { return take(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 using namespace chainmail;
 using namespace chainmail::test;
@@ -70,9 +48,9 @@ void MemoryTest::passes_and_frames_take_none() {
   simulation.apply(commands::Cut{{7, 100}});
   simulation.apply(commands::Grab{0});
   drag_and_show(simulation, writer, frames);
-  const std::size_t before = times_taken;
+  const std::size_t before = allocations.load();
   drag_and_show(simulation, writer, frames);
-  QCOMPARE(times_taken - before, std::size_t{0});
+  QCOMPARE(allocations.load() - before, std::size_t{0});
   QVERIFY(simulation.statistics().last_pass.moved > 0);
 }
 

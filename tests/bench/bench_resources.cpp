@@ -1,0 +1,119 @@
+// What passes need beside time: memory of a scene as the window holds it, allocations, and what two panels on two
+// cores take from each other: bench_resources RESULTS.
+
+#include <barrier>
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include "bench/contestants.h"
+#include "bench/process.h"
+#include "bench/results.h"
+#include "core/allocations.h"
+#include "simulate/solver_thread.h"
+
+namespace chainmail::bench {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+/// As the document has two of them: both deform the mesh, and both frames are looked at.
+double bytes_per_element() {
+  const double before = resident_bytes();
+  const Scene scene("grid1024");
+  const Hand round = hand(Drag::whole_body, *scene.mesh);
+  std::vector<std::unique_ptr<SolverThread>> panels;
+  for (const Algorithm algorithm : {Algorithm::generalized, Algorithm::natural_queue}) {
+    panels.push_back(std::make_unique<SolverThread>(scene.mesh, algorithm, [] {}));
+    panels.back()->post(commands::SetSoftness{{stiff, {}}});
+    panels.back()->post(commands::Grab{round.element});
+  }
+  for (const Point& target : round.targets) {
+    for (const auto& panel : panels) {
+      panel->post(commands::Drag{target});
+    }
+    while (!panels[0]->idle() || !panels[1]->idle()) {
+      std::this_thread::sleep_for(1ms);
+      panels[0]->latest_frame();
+      panels[1]->latest_frame();
+    }
+  }
+  return (resident_bytes() - before) / scene.mesh->element_count();
+}
+
+/// Over all algorithms and both drags, the most that a pass took, on average, once warmed up.
+double allocations_per_pass() {
+  constexpr int passes = 64;
+  const Scene scene("grid64");
+  double most = 0;
+  for (const auto& info : algorithms()) {
+    for (const Drag drag : {Drag::local, Drag::whole_body}) {
+      const Contestant one = dragged(scene, std::string(info.name), drag);
+      for (int i = 0; i < 4 * passes; ++i) {
+        one.pass();
+      }
+      const std::uint64_t before = test::allocations;
+      for (int i = 0; i < passes; ++i) {
+        one.pass();
+      }
+      most = std::max(most, double(test::allocations - before) / passes);
+    }
+  }
+  return most;
+}
+
+/// Passes a second of these, each on a thread of its own, all at the same time.
+std::vector<double> speeds(const std::vector<Contestant*>& at_once) {
+  std::vector<double> speed(at_once.size());
+  std::barrier start(static_cast<std::ptrdiff_t>(at_once.size()));
+  std::vector<std::jthread> threads;
+  for (std::size_t i = 0; i < at_once.size(); ++i) {
+    threads.emplace_back([&, i] {
+      start.arrive_and_wait();
+      const auto begin = Clock::now();
+      auto now = begin;
+      int passes = 0;
+      for (; now < begin + 400ms; now = Clock::now()) {
+        at_once[i]->pass();
+        ++passes;
+      }
+      speed[i] = passes / std::chrono::duration<double>(now - begin).count();
+    });
+  }
+  threads.clear();
+  return speed;
+}
+
+/// The speed of the slower panel beside the other, over its speed alone.
+double two_panels() {
+  const Scene scene("grid512");
+  Contestant left = dragged(scene, names::natural_queue, Drag::whole_body);
+  Contestant right = dragged(scene, names::natural_queue, Drag::whole_body);
+  std::vector<double> alone[2], together[2];
+  for (int repetition = 0; repetition < 7; ++repetition) {
+    alone[0].push_back(speeds({&left})[0]);
+    const auto both = speeds({&left, &right});
+    together[0].push_back(both[0]);
+    together[1].push_back(both[1]);
+    alone[1].push_back(speeds({&right})[0]);
+  }
+  return std::min(median(together[0]) / median(alone[0]), median(together[1]) / median(alone[1]));
+}
+
+}  // namespace
+}  // namespace chainmail::bench
+
+int main(int argc, char** argv) {
+  using namespace chainmail::bench;
+  if (argc != 2) {
+    std::fprintf(stderr, "bench_resources: name the file of results, as in: bench_resources build/bench.json\n");
+    return 2;
+  }
+  const double bytes = bytes_per_element();  // first, in a heap that nothing else has used
+  Results results(argv[1]);
+  results.ratios()["bytes_per_element"] = bytes;
+  results.ratios()["allocations_per_pass"] = allocations_per_pass();
+  results.ratios()["two_panels"] = two_panels();
+  results.write();
+}

@@ -1,0 +1,245 @@
+// What the window takes, in the real window at a million elements: bench_window RESULTS, on a display.
+
+#include <QDir>
+#include <QElapsedTimer>
+#include <QEventLoop>
+#include <QMouseEvent>
+#include <QProcess>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+#include "bench/contest.h"
+#include "bench/metered_application.h"
+#include "bench/process.h"
+#include "bench/results.h"
+#include "file_actions.h"
+#include "main_window.h"
+#include "mesh/generate.h"
+#include "mesh_dock.h"
+#include "panel.h"
+#include "startup.h"
+
+namespace chainmail::bench {
+namespace {
+
+constexpr int handMilliseconds = 16;
+constexpr int dragMilliseconds = 5000;
+constexpr int idleMilliseconds = 5000;
+constexpr int patienceMilliseconds = 120'000;
+constexpr int restMilliseconds = 300;  // between repetitions: what runs in the background ends
+constexpr int repetitions = 5;
+
+MeteredApplication& application() { return *static_cast<MeteredApplication*>(qApp); }
+
+void run(int milliseconds) {
+  QEventLoop loop;
+  QTimer::singleShot(milliseconds, Qt::PreciseTimer, &loop, &QEventLoop::quit);
+  loop.exec();
+}
+
+/// Waits, with the window alive, for what may be done at once or by another thread; returns the time (ms).
+double until(const QElapsedTimer& clock, const char* what, const std::function<bool()>& done) {
+  while (!done()) {
+    if (clock.elapsed() > patienceMilliseconds) {
+      throw std::runtime_error(std::string("it took too long: ") + what);
+    }
+    run(1);
+  }
+  return double(clock.nsecsElapsed()) * 1e-6;
+}
+
+/// Both panels' views were drawn with the mesh that the document holds.
+double untilShown(MainWindow& window, const QElapsedTimer& clock, ElementId elements) {
+  Document& document = window.document();
+  until(clock, "the object in both panels", [&] {
+    return document.mesh()->element_count() == elements && document.frame(0) != nullptr && document.frame(1) != nullptr;
+  });
+  const int before = application().viewPaints;
+  window.panel(0).view().update();
+  window.panel(1).view().update();
+  return until(clock, "drawing", [&] { return application().viewPaints >= before + Document::panels; });
+}
+
+void send(View& view, QEvent::Type type, QPointF at) {
+  const bool moves = type == QEvent::MouseMove;
+  QMouseEvent event(type, at, view.mapToGlobal(at), moves ? Qt::NoButton : Qt::LeftButton,
+                    type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(&view, &event);
+}
+
+/// The processor time of the GUI thread in a local drag, without drawing, over the frames drawn: a hand with the
+/// default tool about the middle element, on a circle of 2.5 spacings, 60 moves a second.
+double guiMilliseconds(MainWindow& window) {
+  View& view = window.panel(0).view();
+  const auto side = ElementId(std::lround(std::sqrt(window.document().mesh()->element_count())));
+  const ElementId middle = (side / 2) * side + side / 2;
+  const QPointF centre = view.placeOf(middle);
+  const double spacing = QLineF(centre, view.placeOf(middle + 100)).length() / 100;
+  send(view, QEvent::MouseButtonPress, centre);
+  int step = 0;
+  QTimer hand;
+  hand.setTimerType(Qt::PreciseTimer);
+  hand.callOnTimeout([&] {
+    const double angle = 2 * std::numbers::pi * ++step / 32;
+    send(view, QEvent::MouseMove, centre + 2.5 * spacing * QPointF(std::cos(angle), std::sin(angle)));
+  });
+  hand.start(handMilliseconds);
+  run(1000);  // the first frames upload everything
+  MeteredApplication& app = application();
+  const double cpu = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID), drawing = app.drawingMilliseconds;
+  const int frames = app.framesDrawn, steps = step;
+  run(dragMilliseconds);
+  const int drawn = app.framesDrawn - frames;
+  const double drew = app.drawingMilliseconds - drawing;
+  const double own = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID) - cpu - drew;
+  hand.stop();
+  const auto* frame = window.document().frame(0);
+  std::printf("local drag: %d frames and %d moves in %d s, %llu moved; GUI thread %.3f ms a frame, drawing %.1f ms\n",
+              drawn, step - steps, dragMilliseconds / 1000,
+              frame == nullptr ? 0ULL : static_cast<unsigned long long>(frame->statistics.last_pass.moved), own / drawn,
+              drew / drawn);
+  send(view, QEvent::MouseButtonRelease, centre);
+  return own / drawn;
+}
+
+/// The share of a core that the whole process takes while nobody does anything.
+double idleShare() {
+  const double before = cpu_milliseconds(CLOCK_PROCESS_CPUTIME_ID);
+  const int painted = application().viewPaints;
+  const double woken = wake_ups();
+  run(idleMilliseconds);
+  const double share = (cpu_milliseconds(CLOCK_PROCESS_CPUTIME_ID) - before) / idleMilliseconds;
+  std::printf("idle: %.5f of a core, %d paints, %d wake-ups (the clock of this measurement is one)\n", share,
+              application().viewPaints - painted, int(wake_ups() - woken));
+  if (application().viewPaints != painted) {
+    throw std::runtime_error("a view was drawn while nothing changed");
+  }
+  return share;
+}
+
+double saveMilliseconds(MainWindow& window, const QString& path) {
+  auto& files = *window.findChild<FileActions*>();
+  bool saved = false;
+  const auto listening = QObject::connect(&files, &FileActions::saved, &window, [&] { saved = true; });
+  QElapsedTimer clock;
+  clock.start();
+  files.savePath(path);
+  const double ms = until(clock, "saving", [&] { return saved; });
+  QObject::disconnect(listening);
+  run(restMilliseconds);
+  return ms;
+}
+
+double openMilliseconds(MainWindow& window, const QString& path, ElementId elements) {
+  const MeshPointer before = window.document().mesh();
+  QElapsedTimer clock;
+  clock.start();
+  window.openFile(path);
+  until(clock, "opening", [&] { return window.document().mesh() != before; });
+  const double ms = untilShown(window, clock, elements);
+  run(restMilliseconds);
+  return ms;
+}
+
+/// From the start of a process to the first picture of both panels' sample object, as workbench starts. The parent
+/// gives its clock's time.
+double firstFrameMilliseconds() {
+  QProcess child;
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  child.start(QCoreApplication::applicationFilePath(),
+              {QStringLiteral("--first-frame"), QString::number(qint64(now.tv_sec) * 1'000'000'000 + now.tv_nsec)});
+  if (!child.waitForFinished(patienceMilliseconds) || child.exitCode() != 0) {
+    throw std::runtime_error("the window did not come up: " + child.readAllStandardError().toStdString());
+  }
+  bool isNumber = false;
+  const double ms = child.readAllStandardOutput().toDouble(&isNumber);
+  if (!isNumber) {
+    throw std::runtime_error("the window that came up did not say when");
+  }
+  return ms;
+}
+
+/// That process.
+int showFirstFrame(const char* startNanoseconds) {
+  const auto sample = sampleRecipe();
+  MainWindow window(generate(sample), recipeName(sample));
+  bool said = false;
+  const auto look = [&] {
+    if (!said && application().viewsPainted.size() == Document::panels) {
+      said = true;
+      timespec now{};
+      clock_gettime(CLOCK_MONOTONIC, &now);
+      std::printf("%.3f\n", (1e9 * double(now.tv_sec) + double(now.tv_nsec) - std::atof(startNanoseconds)) * 1e-6);
+      std::fflush(stdout);
+      QCoreApplication::quit();
+    }
+  };
+  for (int panel = 0; panel < Document::panels; ++panel) {
+    // Tells that the screen has what was painted.
+    QObject::connect(&window.panel(panel).view(), &QOpenGLWidget::frameSwapped, &window, look);
+  }
+  window.show();
+  return QApplication::exec();
+}
+
+double medianOf(const std::function<double()>& measure) {
+  std::vector<double> values;
+  for (int i = 0; i < repetitions; ++i) {
+    values.push_back(measure());
+  }
+  return median(values);
+}
+
+void measure(Results& results) {
+  auto& ratios = results.ratios()["window"];
+  ratios["first_frame_ms"] = medianOf(firstFrameMilliseconds);
+  constexpr std::uint32_t side = 1024;
+  MainWindow window(generate({MeshKind::grid, {side, side, 1}, 1, {}}), QStringLiteral("grid1024"));
+  QElapsedTimer clock;
+  clock.start();
+  window.show();
+  untilShown(window, clock, side * side);
+  run(1000);
+  ratios["gui_ms"] = guiMilliseconds(window);
+  until(clock, "the solvers to end", [&] { return window.document().idle(); });
+  run(2000);  // the figures at rest come a moment later
+  ratios["idle_cpu"] = idleShare();
+  const QTemporaryDir folder;
+  const QString path = folder.filePath(QStringLiteral("million.obj"));
+  ratios["save_ms"] = medianOf([&] { return saveMilliseconds(window, path); });
+  ratios["open_ms"] = medianOf([&] { return openMilliseconds(window, path, side * side); });
+  std::printf("window: %s\n", ratios.dump().c_str());
+}
+
+}  // namespace
+}  // namespace chainmail::bench
+
+int main(int argc, char** argv) {
+  using namespace chainmail;
+  if (argc < 2) {
+    std::fprintf(stderr, "bench_window: name the file of results, as in: bench_window build/bench.json\n");
+    return 2;
+  }
+  prepareApplication();
+  const QTemporaryDir settings;
+  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
+  bench::MeteredApplication application(argc, argv);
+  styleApplication();
+  if (const QString why = whyNoWindow(); !why.isEmpty()) {
+    std::fprintf(stderr, "bench_window: %s\n", qPrintable(why));
+    return 2;
+  }
+  if (argc == 3 && std::string_view(argv[1]) == "--first-frame") {
+    return bench::showFirstFrame(argv[2]);
+  }
+  bench::Results results(argv[1]);
+  bench::measure(results);
+  results.write();
+}

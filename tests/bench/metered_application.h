@@ -1,0 +1,49 @@
+#pragma once
+
+#include <QApplication>
+#include <QEvent>
+#include <QSet>
+
+#include "bench/process.h"
+#include "view.h"
+
+namespace chainmail::bench {
+
+/// Sees every event that Qt delivers, and keeps apart what drawing takes: an update of the window (UpdateRequest),
+/// in which Qt paints the widgets, has each view draw, and puts all together, and what the window system asks
+/// for (Expose). What else the thread does is the GUI's own work: input, frames received, timers, figures.
+class MeteredApplication : public QApplication {
+ public:
+  using QApplication::QApplication;
+
+  bool notify(QObject* receiver, QEvent* event) override {
+    const QEvent::Type type = event->type();
+    if (type == QEvent::Paint && qobject_cast<View*>(receiver) != nullptr) {
+      painted_ = true;
+      ++viewPaints;
+      viewsPainted.insert(receiver);
+    }
+    if (drawing_ || (type != QEvent::UpdateRequest && type != QEvent::Expose && type != QEvent::Paint)) {
+      return QApplication::notify(receiver, event);
+    }
+    drawing_ = true;
+    painted_ = false;
+    const double before = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID);
+    const bool handled = QApplication::notify(receiver, event);
+    drawingMilliseconds += cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID) - before;
+    drawing_ = false;
+    framesDrawn += painted_ ? 1 : 0;
+    return handled;
+  }
+
+  double drawingMilliseconds = 0;  // of this thread's processor time
+  int framesDrawn = 0;             // updates of the window in which at least one view was drawn
+  int viewPaints = 0;
+  QSet<const QObject*> viewsPainted;
+
+ private:
+  bool drawing_ = false;
+  bool painted_ = false;
+};
+
+}  // namespace chainmail::bench

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+/// Counts what a program takes from the heap through operator new, by replacing all its forms, under the
+/// sanitizers too: to be included by one source of a program alone. What a library takes by malloc is not counted.
+namespace chainmail::test {
+
+inline std::atomic<std::uint64_t> allocations = 0;
+
+inline void* counted(std::size_t bytes, std::size_t alignment) noexcept {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);  // whole multiples alone
+}
+
+inline void* counted_or_throw(std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) {
+  void* taken = counted(bytes, alignment);
+  return taken != nullptr ? taken : throw std::bad_alloc();
+}
+
+}  // namespace chainmail::test
+
+void* operator new(std::size_t bytes) { return chainmail::test::counted_or_throw(bytes); }
+void* operator new[](std::size_t bytes) { return chainmail::test::counted_or_throw(bytes); }
+void* operator new(std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept {
+  return chainmail::test::counted(bytes, alignof(std::max_align_t));
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept {
+  return chainmail::test::counted(bytes, alignof(std::max_align_t));
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return chainmail::test::counted_or_throw(bytes, std::size_t(alignment));
+}
+void* operator new[](std::size_t bytes, std::align_val_t alignment) {
+  return chainmail::test::counted_or_throw(bytes, std::size_t(alignment));
+}
+void operator delete(void* taken) noexcept { std::free(taken); }
+void operator delete[](void* taken) noexcept { std::free(taken); }
+void operator delete(void* taken, std::size_t /*bytes*/) noexcept { std::free(taken); }
+void operator delete[](void* taken, std::size_t /*bytes*/) noexcept { std::free(taken); }
+void operator delete(void* taken, std::align_val_t /*alignment*/) noexcept { std::free(taken); }
+void operator delete[](void* taken, std::align_val_t /*alignment*/) noexcept { std::free(taken); }
+void operator delete(void* taken, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept { std::free(taken); }
+void operator delete[](void* taken, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
+  std::free(taken);
+}

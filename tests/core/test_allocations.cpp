@@ -1,0 +1,98 @@
+// A pass takes no memory after its first ones, whatever the algorithm: nor does relaxation.
+
+#include <QTest>
+#include <numbers>
+
+#include "core/allocations.h"
+#include "core/families.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace {
+
+constexpr LinkSoftness stiff{0.999, 1.001, 0.0005};
+constexpr int rounds_to_warm_up = 10;
+
+/// Moves an element round a circle and counts what each round takes from the heap. The first rounds are not
+/// counted: lists grow in them, that of Generalized still in the third, as it does not end where it began.
+std::uint64_t taken_by_drag(Solver& solver, const Mesh& mesh, ElementId element, double radius) {
+  const auto round = [&] {
+    for (int i = 0; i < 16; ++i) {
+      const double angle = std::numbers::pi * i / 8;
+      solver.move(element, mesh.rest_position(element) + radius * Point(std::cos(angle), std::sin(angle), 0));
+    }
+  };
+  for (int i = 0; i < rounds_to_warm_up; ++i) {
+    round();
+  }
+  const std::uint64_t before = allocations;
+  round();
+  round();
+  return allocations - before;
+}
+
+}  // namespace
+
+class TestAllocations : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void theCounterCounts() {
+    const std::uint64_t before = allocations;
+    ::operator delete(::operator new(5));
+    QCOMPARE(allocations - before, std::uint64_t{1});
+  }
+
+  void aPassTakesNothing_data() {
+    QTest::addColumn<int>("algorithm");
+    QTest::addColumn<bool>("jittered");
+    for (const auto& info : algorithms()) {
+      QTest::addRow("%s, grid", info.name.data()) << int(info.algorithm) << false;
+      if (info.algorithm != Algorithm::original) {
+        QTest::addRow("%s, jittered", info.name.data()) << int(info.algorithm) << true;
+      }
+    }
+  }
+  void aPassTakesNothing() {
+    QFETCH(int, algorithm);
+    QFETCH(bool, jittered);
+    const MeshPointer mesh = jittered ? jittered_triangles(24, 24, 3) : make_mesh(MeshKind::grid, {24, 24, 1});
+    for (const Precision precision : precisions) {
+      const auto solver = make_solver(mesh, Algorithm(algorithm), precision);
+      QCOMPARE(taken_by_drag(*solver, *mesh, 12 * 24 + 12, 2), std::uint64_t{0});
+      solver->reset();
+      solver->set_softness({stiff, {}});
+      QCOMPARE(taken_by_drag(*solver, *mesh, 0, 6), std::uint64_t{0});
+    }
+  }
+
+  void relaxationTakesNothing_data() {
+    QTest::addColumn<int>("scheme");
+    QTest::newRow("mean") << int(RelaxationScheme::mean);
+    QTest::newRow("link") << int(RelaxationScheme::link);
+  }
+  void relaxationTakesNothing() {
+    QFETCH(int, scheme);
+    const auto mesh = make_mesh(MeshKind::grid, {24, 24, 1});
+    const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
+    solver->set_relaxation(RelaxationScheme(scheme));
+    const ElementId element = 12 * 24 + 12;
+    const auto drag_and_relax = [&](double by) {
+      solver->move(element, mesh->rest_position(element) + Point(by, 0, 0));
+      solver->wake(solver->moved());
+      for (int sweep = 0; sweep < 5; ++sweep) {
+        solver->relax(1, 200, element);
+      }
+    };
+    drag_and_relax(3);
+    drag_and_relax(-3);
+    const std::uint64_t before = allocations;
+    drag_and_relax(3);
+    drag_and_relax(-3);
+    QCOMPARE(allocations - before, std::uint64_t{0});
+  }
+};
+
+QTEST_APPLESS_MAIN(TestAllocations)
+#include "test_allocations.moc"
