@@ -142,6 +142,19 @@ int object_dimension(const Mesh& mesh) {
   return std::max(1, static_cast<int>(extended));
 }
 
+/// Whether the way from an element to one of a higher id is one step along an axis.
+bool is_one_step(const Lattice& lattice, ElementId from, ElementId to) {
+  const auto [width, height, depth] = lattice.size;
+  const ElementId way = to - from;
+  return (way == 1 && from % width + 1 < width) || (way == width && from / width % height + 1 < height) ||
+         way == std::uint64_t{width} * height;
+}
+
+bool is_grid(const Mesh& mesh) {
+  return mesh.lattice && std::all_of(mesh.links.begin(), mesh.links.end(),
+                                     [&](const auto& link) { return is_one_step(*mesh.lattice, link[0], link[1]); });
+}
+
 std::array<Point, 2> box_of(const Mesh& mesh) {
   std::array<Point, 2> box{mesh.origin, mesh.origin};
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
@@ -228,6 +241,7 @@ MeshPointer build_mesh(MeshParts parts, const Progress& progress) {
   mesh->object_dimension = object_dimension(*mesh);
   mesh->mean_link_length = mean_link_length(*mesh, progress.part(0.8, 1));
   mesh->box = box_of(*mesh);
+  mesh->is_grid = is_grid(*mesh);
   return mesh;
 }
 

@@ -83,6 +83,8 @@ struct Mesh {
   std::vector<ElementId> polygons;
   std::vector<std::array<ElementId, 4>> tetrahedra;
   std::optional<Lattice> lattice;
+  /// Whether it is rectangular: elements in a lattice, and links along its axes alone, one step each.
+  bool is_grid = false;
   /// Mean rest length over the links (mesh units); 0 without links.
   double mean_link_length = 0;
   /// Axis-aligned bounds of the rest positions, as two corners (mesh units).
