@@ -65,6 +65,8 @@ void append_number(std::string& text, std::uint64_t number);
 class TextBlocks {
  public:
   explicit TextBlocks(std::ostream& out) : out_(out) {}
+  TextBlocks(const TextBlocks&) = delete;
+  TextBlocks& operator=(const TextBlocks&) = delete;
 
   TextBlocks& operator<<(char character);
   /// As append_number does.

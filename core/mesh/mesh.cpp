@@ -16,15 +16,16 @@ namespace {
 void fill_neighbour_table(Mesh& mesh, const std::vector<std::array<ElementId, 2>>& links, std::size_t element_count,
                           const Progress& progress) {
   std::vector<EntryId> next(element_count + 1, 0);
-  for (const auto& [a, b] : links) {
-    ++next[a + 1];
-    ++next[b + 1];
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    progress.part(0, 0.2).report(i, links.size());
+    ++next[links[i][0] + 1];
+    ++next[links[i][1] + 1];
   }
   std::partial_sum(next.begin(), next.end(), next.begin());
   mesh.first_entry = next;
   mesh.neighbours.resize(2 * links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
-    progress.part(0, 0.5).report(i, links.size());
+    progress.part(0.2, 0.5).report(i, links.size());
     const auto& [a, b] = links[i];
     mesh.neighbours[next[a]++] = b;
     mesh.neighbours[next[b]++] = a;
@@ -44,10 +45,11 @@ void fill_neighbour_table(Mesh& mesh, const std::vector<std::array<ElementId, 2>
 }
 
 /// The entries of each row in ascending order of neighbour.
-std::vector<EntryId> ascending_entries(const Mesh& mesh) {
+std::vector<EntryId> ascending_entries(const Mesh& mesh, const Progress& progress) {
   std::vector<EntryId> order(mesh.neighbours.size());
   std::iota(order.begin(), order.end(), EntryId{0});
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    progress.report(e, mesh.element_count());
     const auto row = mesh.neighbours_of(e);
     if (!std::is_sorted(row.begin(), row.end())) {
       std::sort(order.begin() + mesh.first_entry[e], order.begin() + mesh.first_entry[e + 1],
@@ -58,14 +60,14 @@ std::vector<EntryId> ascending_entries(const Mesh& mesh) {
 }
 
 void number_links(Mesh& mesh, const Progress& progress) {
-  const std::vector<EntryId> order = ascending_entries(mesh);
+  const std::vector<EntryId> order = ascending_entries(mesh, progress.part(0, 0.3));
   // Elements are taken in ascending order, and so an element meets its lower neighbours in that order too: the entry
   // that is a link's second end is the next in its row.
   std::vector<EntryId> next(mesh.first_entry.begin(), mesh.first_entry.end() - 1);
   mesh.entry_link.resize(mesh.neighbours.size());
   mesh.links.reserve(mesh.neighbours.size() / 2);
   for (ElementId a = 0; a < mesh.element_count(); ++a) {
-    progress.report(a, mesh.element_count());
+    progress.part(0.3, 1).report(a, mesh.element_count());
     for (EntryId entry = mesh.first_entry[a]; entry < mesh.first_entry[a + 1]; ++entry) {
       const ElementId b = mesh.neighbours[entry];
       if (a < b) {
@@ -223,7 +225,9 @@ MeshPointer build_mesh(MeshParts parts, const Progress& progress) {
                 "use at most " + std::to_string(element_limit));
   }
   auto mesh = std::make_shared<Mesh>();
+  progress.report(0);
   choose_axes(*mesh, parts.rest, parts.space_dimension);
+  progress.report(0.05);
   store_rest(*mesh, parts.rest);
   if (parts.first_entry.empty()) {
     fill_neighbour_table(*mesh, parts.links, parts.rest.size(), progress.part(0.1, 0.5));
