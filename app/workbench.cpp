@@ -67,8 +67,8 @@ int main(int argc, char** argv) {
   chainmail::MainWindow window(chainmail::generate(sample), chainmail::recipeName(sample));
   window.show();
   if (!parser.positionalArguments().isEmpty()) {
-    window.openFile(parser.positionalArguments().constFirst());
-    window.document().undoStack().clear();  // there is no way back to before the start
+    const bool first = true;
+    window.openFile(parser.positionalArguments().constFirst(), first);
   }
   return QApplication::exec();
 }

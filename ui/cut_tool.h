@@ -21,6 +21,7 @@ class CutTool : public Tool {
   void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
   void move(View& view, QPointF place) override;
   void release(View& view, QPointF place) override;
+  bool busy() const override { return at_ != nullptr; }
   void cancel() override;
   std::span<const QPointF> stroke(const View& view) const override;
 

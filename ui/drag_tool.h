@@ -22,6 +22,7 @@ class DragTool : public Tool {
   void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
   void move(View& view, QPointF place) override;
   void release(View& view, QPointF place) override;
+  bool busy() const override { return grabbed_.has_value(); }
   void cancel() override;
   std::span<const QPointF> stroke(const View&) const override { return {}; }
 

@@ -3,15 +3,12 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QGuiApplication>
 #include <QPixmap>
 #include <QSaveFile>
 #include <QSettings>
 #include <filesystem>
-#include <new>
 
 #include "files/mesh_file.h"
-#include "mesh/error.h"
 
 namespace chainmail {
 namespace {
@@ -74,18 +71,21 @@ void FileActions::open() {
   }
 }
 
-void FileActions::openPath(const QString& path) {
-  QGuiApplication::setOverrideCursor(Qt::WaitCursor);
-  try {
-    const QString name = QFileInfo(path).fileName();
-    document_.replaceMesh(read_mesh(asPath(path), {}), name, QStringLiteral("open %1").arg(name));
-    remember(path);
-  } catch (const Error& error) {
-    emit failed(QString::fromStdString(error.what()));
-  } catch (const std::bad_alloc&) {
-    emit failed(path + QStringLiteral(": there is not enough memory; open a smaller mesh"));
+void FileActions::openPath(const QString& path, bool first) {
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
+              [this, path, first](const Progress& progress) -> Jobs::Finish {
+                const MeshPointer mesh = read_mesh(asPath(path), {}, progress);
+                return [this, mesh, path, first] { show(mesh, path, first); };
+              });
+}
+
+void FileActions::show(const MeshPointer& mesh, const QString& path, bool first) {
+  const QString name = QFileInfo(path).fileName();
+  document_.replaceMesh(mesh, name, QStringLiteral("open %1").arg(name));
+  if (first) {
+    document_.undoStack().clear();
   }
-  QGuiApplication::restoreOverrideCursor();
+  remember(path);
 }
 
 void FileActions::save() {
@@ -99,24 +99,27 @@ void FileActions::save() {
   }
 }
 
-void FileActions::savePath(const QString& path) { write(path, rest_positions(*document_.mesh())); }
+void FileActions::savePath(const QString& path) { write(path, nullptr); }
 
 void FileActions::saveShapePath(int panel, const QString& path) {
   if (QFileInfo(path).suffix().compare(QStringLiteral("obj"), Qt::CaseInsensitive) != 0) {
     emit failed(path + QStringLiteral(": a deformed shape is saved as OBJ; choose a name that ends in .obj"));
   } else if (const Frame* frame = document_.frame(panel)) {
-    write(path, frame->view());
+    write(path, std::make_shared<const Frame>(*frame));
   }
 }
 
-void FileActions::write(const QString& path, const PositionView& positions) {
-  try {
-    save_mesh(asPath(path), *document_.mesh(), document_.cuts(), positions);
-    remember(path);
-    emit saved(path);
-  } catch (const Error& error) {
-    emit failed(QString::fromStdString(error.what()));
-  }
+/// Writes the object as it is now, whatever becomes of it meanwhile; without a shape, at rest.
+void FileActions::write(const QString& path, const std::shared_ptr<const Frame>& shape) {
+  jobs_.start(
+      Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
+      [this, path, mesh = document_.mesh(), cuts = document_.cuts(), shape](const Progress& progress) -> Jobs::Finish {
+        save_mesh(asPath(path), *mesh, cuts, shape ? shape->view() : rest_positions(*mesh), progress);
+        return [this, path] {
+          remember(path);
+          emit saved(path);
+        };
+      });
 }
 
 void FileActions::saveScreenshot() {

@@ -4,19 +4,23 @@
 #include <QObject>
 
 #include "document.h"
+#include "jobs.h"
 
 namespace chainmail {
 
-/// The File menu: open, recent files, save, screenshot. Nothing is lost when one of them fails.
+/// The File menu: open, recent files, save, screenshot. Meshes are read and written in the background. Nothing is lost
+/// when one of them fails.
 class FileActions : public QObject {
   Q_OBJECT
 
  public:
-  FileActions(QWidget& window, Document& document) : QObject(&window), window_(window), document_(document) {}
+  FileActions(QWidget& window, Document& document, Jobs& jobs)
+      : QObject(&window), window_(window), document_(document), jobs_(jobs) {}
 
   void fill(QMenu& menu);
   void open();
-  void openPath(const QString& path);
+  /// The first object of a window is no step of undo: there is no way back to before the start.
+  void openPath(const QString& path, bool first = false);
   void save();
   /// Saves the object, without its cut links: .dat its links, .obj its rest shape.
   void savePath(const QString& path);
@@ -31,7 +35,8 @@ class FileActions : public QObject {
 
  private:
   void addShapeActions(QMenu& menu);
-  void write(const QString& path, const PositionView& positions);
+  void show(const MeshPointer& mesh, const QString& path, bool first);
+  void write(const QString& path, const std::shared_ptr<const Frame>& shape);
   void saveScreenshot();
   void writePicture(const QPixmap& picture, const QString& path);
   void fillRecent();
@@ -41,6 +46,7 @@ class FileActions : public QObject {
 
   QWidget& window_;
   Document& document_;
+  Jobs& jobs_;
   QMenu* recent_ = nullptr;
 };
 

@@ -15,6 +15,7 @@
 #include "colours.h"
 #include "file_actions.h"
 #include "frame_rate_dock.h"
+#include "job_bar.h"
 #include "mesh_dock.h"
 #include "message_bar.h"
 #include "panel.h"
@@ -40,7 +41,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       cutTool_(document_),
       pinTool_(document_),
       selectTool_(document_),
-      files_(new FileActions(*this, document_)),
+      files_(new FileActions(*this, document_, jobs_)),
       messages_(new MessageBar),
       splitter_(new QSplitter),
       toolActions_(new QActionGroup(this)),
@@ -57,6 +58,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   setCentralWidget(central);
   hint_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   statusBar()->addWidget(hint_, 1);
+  statusBar()->addPermanentWidget(new JobBar(jobs_));
 
   listen();
   makePanels();
@@ -72,6 +74,7 @@ void MainWindow::listen() {
   connect(&document_, &Document::refused, messages_, &MessageBar::say);
   connect(&document_, &Document::noticed, messages_, &MessageBar::say);
   connect(files_, &FileActions::failed, messages_, &MessageBar::say);
+  connect(&jobs_, &Jobs::failed, messages_, &MessageBar::say);
   connect(files_, &FileActions::saved, this, [this](const QString& path) {
     messages_->hide();
     statusBar()->showMessage(QStringLiteral("Saved %1").arg(path), savedMilliseconds);
@@ -138,10 +141,9 @@ void MainWindow::activate(Tool& tool) {
 }
 
 void MainWindow::makeDocks() {
-  auto* meshDock = new MeshDock(document_);
+  auto* meshDock = new MeshDock(document_, jobs_);
   connect(meshDock, &MeshDock::openRequested, files_, &FileActions::open);
   connect(meshDock, &MeshDock::saveRequested, files_, &FileActions::save);
-  connect(meshDock, &MeshDock::failed, messages_, &MessageBar::say);
   addDockWidget(Qt::LeftDockWidgetArea, new ToolsDock(*toolActions_, selectTool_, *toolActions_->actions().last()));
   addDockWidget(Qt::LeftDockWidgetArea, meshDock);
   addDockWidget(Qt::RightDockWidgetArea, new StiffnessDock(document_));
@@ -175,7 +177,7 @@ void MainWindow::linkCameras(bool linked) {
   panels_[1]->view().setCamera(linked ? camera : std::make_shared<Camera>(*camera));
 }
 
-void MainWindow::openFile(const QString& path) { files_->openPath(path); }
+void MainWindow::openFile(const QString& path, bool first) { files_->openPath(path, first); }
 
 void MainWindow::showTitle() { setWindowTitle(QStringLiteral("%1 – ChainMail workbench").arg(document_.name())); }
 
@@ -187,6 +189,7 @@ void MainWindow::restoreLayout() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  jobs_.close();
   QSettings settings;
   settings.setValue(QStringLiteral("geometry"), saveGeometry());
   settings.setValue(QStringLiteral("layout"), saveState(layoutVersion));

@@ -8,6 +8,7 @@
 #include "cut_tool.h"
 #include "document.h"
 #include "drag_tool.h"
+#include "jobs.h"
 #include "pin_tool.h"
 #include "select_tool.h"
 
@@ -35,8 +36,10 @@ class MainWindow : public QMainWindow {
   Panel& panel(int which) { return *panels_[which]; }
   Colouring& colouring() { return colouring_; }
   MessageBar& messages() { return *messages_; }
-  /// Opens a mesh file as one step of undo; a bad file gets a sentence and changes nothing.
-  void openFile(const QString& path);
+  Jobs& jobs() { return jobs_; }
+  /// Opens a mesh file in the background, as one step of undo or as the window's first object; a bad file gets a
+  /// sentence and changes nothing.
+  void openFile(const QString& path, bool first = false);
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -54,6 +57,7 @@ class MainWindow : public QMainWindow {
   void fillObjectMenu(QMenu& menu);
   void fillViewMenu(QMenu& menu);
   void makeToolBar();
+  void giveUp();
   void activate(Tool& tool);
   void linkCameras(bool linked);
   void showTitle();
@@ -66,6 +70,7 @@ class MainWindow : public QMainWindow {
   PinTool pinTool_;
   SelectTool selectTool_;
   Tool* tool_ = nullptr;
+  Jobs jobs_;
   FileActions* files_;
   MessageBar* messages_;
   QSplitter* splitter_;

@@ -33,20 +33,23 @@ void MainWindow::fillEditMenu(QMenu& menu) {
   menu.addActions({undo, redo});
   menu.addSeparator();
   menu.addActions(toolActions_->actions());
-  auto* giveUp = menu.addAction(QStringLiteral("&Give up stroke, drag or selection"), this, [this] {
-    // The key that closes a field's list arrives here too: it must not cost the selection.
-    if (auto* field = qobject_cast<QComboBox*>(QApplication::focusWidget())) {
-      field->clearFocus();
-      tool_->cancel();
-    } else {
-      tool_->escape();
-    }
-    messages_->hide();
-    for (Panel* panel : panels_) {
-      panel->view().update();
-    }
-  });
-  giveUp->setShortcut(Qt::Key_Escape);
+  menu.addAction(QStringLiteral("&Give up stroke, drag, job or selection"), Qt::Key_Escape, this, &MainWindow::giveUp);
+}
+
+void MainWindow::giveUp() {
+  // The key that closes a field's list arrives here too: it must not cost the selection.
+  if (auto* field = qobject_cast<QComboBox*>(QApplication::focusWidget())) {
+    field->clearFocus();
+    tool_->cancel();
+  } else if (jobs_.running() && !tool_->busy()) {
+    jobs_.cancel();
+  } else {
+    tool_->escape();
+  }
+  messages_->hide();
+  for (Panel* panel : panels_) {
+    panel->view().update();
+  }
 }
 
 void MainWindow::fillObjectMenu(QMenu& menu) {

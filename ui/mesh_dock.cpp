@@ -1,14 +1,11 @@
 #include "mesh_dock.h"
 
 #include <QFormLayout>
-#include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QLocale>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <new>
 
-#include "mesh/error.h"
 #include "text.h"
 
 namespace chainmail {
@@ -38,9 +35,10 @@ QString recipeName(const MeshRecipe& recipe) {
   return QStringLiteral("%1 %2").arg(text(info.name), size.join(QStringLiteral("×")));
 }
 
-MeshDock::MeshDock(Document& document)
+MeshDock::MeshDock(Document& document, Jobs& jobs)
     : QDockWidget(QStringLiteral("Mesh")),
       document_(document),
+      jobs_(jobs),
       kind_(new QComboBox),
       spacing_(new ParameterRow(parameters::spacing)),
       space_(new QComboBox),
@@ -133,15 +131,11 @@ MeshRecipe MeshDock::recipe() const {
 
 void MeshDock::build() {
   const QString name = recipeName(recipe());
-  QGuiApplication::setOverrideCursor(Qt::WaitCursor);
-  try {
-    document_.replaceMesh(generate(recipe()), name, QStringLiteral("build %1").arg(name));
-  } catch (const Error& error) {
-    emit failed(QString::fromStdString(error.what()));
-  } catch (const std::bad_alloc&) {
-    emit failed(name + QStringLiteral(": there is not enough memory; use a smaller size"));
-  }
-  QGuiApplication::restoreOverrideCursor();
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Building %1").arg(name),
+              [this, name, recipe = recipe()](const Progress& progress) -> Jobs::Finish {
+                const MeshPointer mesh = generate(recipe, progress);
+                return [this, name, mesh] { document_.replaceMesh(mesh, name, QStringLiteral("build %1").arg(name)); };
+              });
 }
 
 void MeshDock::describe() {

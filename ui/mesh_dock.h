@@ -8,6 +8,7 @@
 #include <array>
 
 #include "document.h"
+#include "jobs.h"
 #include "mesh/generate.h"
 #include "parameter_row.h"
 
@@ -28,12 +29,11 @@ class MeshDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  explicit MeshDock(Document& document);
+  MeshDock(Document& document, Jobs& jobs);
 
  signals:
   void openRequested();
   void saveRequested();
-  void failed(const QString& sentence);
 
  private:
   const MeshKindInfo& kind() const { return mesh_kinds()[std::size_t(kind_->currentIndex())]; }
@@ -45,6 +45,7 @@ class MeshDock : public QDockWidget {
   void describe();
 
   Document& document_;
+  Jobs& jobs_;
   QComboBox* kind_;
   std::array<QSpinBox*, 3> sizes_{};
   ParameterRow* spacing_;

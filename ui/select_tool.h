@@ -29,6 +29,7 @@ class SelectTool : public Tool {
   void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
   void move(View& view, QPointF place) override;
   void release(View& view, QPointF place) override;
+  bool busy() const override { return pressed_; }
   void cancel() override;
   void escape() override;
   void leave(View& view) override;

@@ -12,10 +12,11 @@ namespace chainmail {
 /// neighbours keep the row's order. It holds no positions: elements stand in a lattice, whose size comes
 /// from the options, else from a comment `# size W [H [D]]`, else from a file name that is exactly
 /// WxH[xD].dat. `path` gives that name and appears in errors; `text` is what the file holds.
-MeshPointer read_dat(std::string_view text, const std::filesystem::path& path, const ReadOptions& options);
+MeshPointer read_dat(std::string_view text, const std::filesystem::path& path, const ReadOptions& options,
+                     const Progress& progress = {});
 
 /// Writes the lattice's size and spacing as comments, and the links that are not cut. Throws Error for a
 /// mesh that stands in no lattice.
-void write_dat(std::ostream& out, const Mesh& mesh, const Cuts& cuts);
+void write_dat(std::ostream& out, const Mesh& mesh, const Cuts& cuts, const Progress& progress = {});
 
 }  // namespace chainmail

@@ -16,7 +16,7 @@ class DatReader {
   DatReader(DatRows file, const std::filesystem::path& path, const ReadOptions& options)
       : file_(std::move(file)), path_(path), options_(options) {}
 
-  MeshPointer read();
+  MeshPointer read(const Progress& progress);
 
  private:
   using Row = DatRows::Row;
@@ -27,9 +27,9 @@ class DatReader {
   void choose_size();
   void choose_lattice();
   std::vector<const Row*> rows_by_id() const;
-  void place_rows();
-  void check_rows(std::vector<ElementId>& sorted) const;
-  void check_links() const;
+  void place_rows(const Progress& progress);
+  void check_rows(std::vector<ElementId>& sorted, const Progress& progress) const;
+  void check_links(const Progress& progress) const;
 
   const DatRows file_;
   const std::filesystem::path& path_;
@@ -102,11 +102,13 @@ std::vector<const DatRows::Row*> DatReader::rows_by_id() const {
   return of;
 }
 
-void DatReader::place_rows() {
+void DatReader::place_rows(const Progress& progress) {
   const auto& listed = file_.neighbours;
   parts_.first_entry.push_back(0);
   parts_.neighbours.reserve(listed.size());
+  parts_.first_entry.reserve(file_.rows.size() + 1);
   for (const Row* row : rows_by_id()) {
+    progress.report(parts_.first_entry.size(), file_.rows.size());
     parts_.neighbours.insert(parts_.neighbours.end(), listed.begin() + static_cast<std::ptrdiff_t>(row->first),
                              listed.begin() + static_cast<std::ptrdiff_t>(row->last));
     parts_.first_entry.push_back(static_cast<EntryId>(parts_.neighbours.size()));
@@ -114,8 +116,9 @@ void DatReader::place_rows() {
 }
 
 /// Sorts each row on the way.
-void DatReader::check_rows(std::vector<ElementId>& sorted) const {
+void DatReader::check_rows(std::vector<ElementId>& sorted, const Progress& progress) const {
   for (const Row& row : file_.rows) {
+    progress.report(row.id, file_.rows.size());
     const auto begin = sorted.begin() + parts_.first_entry[row.id];
     const auto end = sorted.begin() + parts_.first_entry[row.id + 1];
     std::sort(begin, end);
@@ -129,11 +132,12 @@ void DatReader::check_rows(std::vector<ElementId>& sorted) const {
   }
 }
 
-void DatReader::check_links() const {
+void DatReader::check_links(const Progress& progress) const {
   std::vector<ElementId> sorted = parts_.neighbours;
-  check_rows(sorted);
+  check_rows(sorted, progress.part(0, 0.5));
   const auto begin = [&](ElementId id) { return sorted.begin() + parts_.first_entry[id]; };
   for (const Row& row : file_.rows) {
+    progress.part(0.5, 1).report(row.id, file_.rows.size());
     for (auto neighbour = begin(row.id); neighbour != begin(row.id + 1); ++neighbour) {
       if (!std::binary_search(begin(*neighbour), begin(*neighbour + 1), row.id)) {
         const std::string other = std::to_string(*neighbour);
@@ -145,26 +149,27 @@ void DatReader::check_links() const {
   }
 }
 
-MeshPointer DatReader::read() {
+MeshPointer DatReader::read(const Progress& progress) {
   if (file_.rows.empty()) {
     throw Error(shown(path_), "it holds no rows", "write a row 'id count neighbour…' for each element");
   }
   choose_lattice();
-  place_rows();
-  check_links();
+  place_rows(progress.part(0, 0.2));
+  check_links(progress.part(0.2, 0.5));
   parts_.rest.reserve(file_.rows.size());
   for (ElementId element = 0; element < file_.rows.size(); ++element) {
     parts_.rest.push_back(lattice_.position(element));
   }
   parts_.lattice = lattice_;
   parts_.space_dimension = chosen_space(parts_, options_.space_dimension, file_.space, path_);
-  return build_mesh(std::move(parts_));
+  return build_mesh(std::move(parts_), progress.part(0.5, 1));
 }
 
 }  // namespace
 
-MeshPointer read_dat(std::string_view text, const std::filesystem::path& path, const ReadOptions& options) {
-  return DatReader(parse_dat(text, path), path, options).read();
+MeshPointer read_dat(std::string_view text, const std::filesystem::path& path, const ReadOptions& options,
+                     const Progress& progress) {
+  return DatReader(parse_dat(text, path, progress.part(0, 0.5)), path, options).read(progress.part(0.5, 1));
 }
 
 }  // namespace chainmail

@@ -12,7 +12,7 @@ class DatParser {
  public:
   explicit DatParser(const std::filesystem::path& path) : path_(path) {}
 
-  DatRows parse(std::string_view text);
+  DatRows parse(std::string_view text, const Progress& progress);
 
  private:
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
@@ -66,7 +66,7 @@ void DatParser::read_comment(std::string_view line) {
     read_size(*size);
   } else if (const auto spacing = stated(line, "spacing")) {
     read_spacing(*spacing);
-  } else if (const auto space = stated_space(line, shown(path_, line_))) {
+  } else if (const auto space = stated_space(line, path_, line_)) {
     state(result_.space, *space, "space dimension");
   }
 }
@@ -115,10 +115,11 @@ void DatParser::read_row(std::string_view line) {
   result_.rows.push_back(row);
 }
 
-DatRows DatParser::parse(std::string_view text) {
+DatRows DatParser::parse(std::string_view text, const Progress& progress) {
   Lines lines(text);
   while (lines.next()) {
     line_ = lines.number();
+    lines.report(progress);
     read_comment(lines.line());
     read_row(lines.line());
   }
@@ -128,6 +129,8 @@ DatRows DatParser::parse(std::string_view text) {
 
 }  // namespace
 
-DatRows parse_dat(std::string_view text, const std::filesystem::path& path) { return DatParser(path).parse(text); }
+DatRows parse_dat(std::string_view text, const std::filesystem::path& path, const Progress& progress) {
+  return DatParser(path).parse(text, progress);
+}
 
 }  // namespace chainmail

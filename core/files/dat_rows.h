@@ -30,6 +30,6 @@ struct DatRows {
 
 /// Throws Error, with its line, where a row or a statement is not well formed, where two statements
 /// differ, and where an element is linked to itself.
-DatRows parse_dat(std::string_view text, const std::filesystem::path& path);
+DatRows parse_dat(std::string_view text, const std::filesystem::path& path, const Progress& progress);
 
 }  // namespace chainmail

@@ -22,35 +22,35 @@ std::string header(const Mesh& mesh) {
   return text + "\n" + space_comment(mesh, rest_positions(mesh));
 }
 
-void append_row(std::string& text, const Mesh& mesh, const Cuts& cuts, ElementId element) {
-  std::string neighbours;
-  std::uint64_t count = 0;
-  for (EntryId entry = mesh.first_entry[element]; entry < mesh.first_entry[element + 1]; ++entry) {
-    if (!cuts.is_cut(mesh.entry_link[entry])) {
-      neighbours += ' ';
-      append_number(neighbours, std::uint64_t{mesh.neighbours[entry]});
-      ++count;
+void write_row(TextBlocks& text, const Mesh& mesh, const Cuts& cuts, ElementId element) {
+  const auto cut = [&](EntryId entry) { return cuts.is_cut(mesh.entry_link[entry]); };
+  const EntryId first = mesh.first_entry[element], last = mesh.first_entry[element + 1];
+  std::uint32_t count = 0;
+  for (EntryId entry = first; entry < last; ++entry) {
+    count += cut(entry) ? 0 : 1;
+  }
+  text << element << ' ' << count;
+  for (EntryId entry = first; entry < last; ++entry) {
+    if (!cut(entry)) {
+      text << ' ' << mesh.neighbours[entry];
     }
   }
-  append_number(text, std::uint64_t{element});
-  text += ' ';
-  append_number(text, count);
-  text += neighbours + '\n';
+  text << '\n';
 }
 
 }  // namespace
 
-void write_dat(std::ostream& out, const Mesh& mesh, const Cuts& cuts) {
+void write_dat(std::ostream& out, const Mesh& mesh, const Cuts& cuts, const Progress& progress) {
   if (!mesh.lattice) {
     throw Error(".dat", "it holds lattices alone, and this mesh stands in none", "save it as .obj");
   }
   out << header(mesh);
-  std::string row;
+  TextBlocks text(out);
   for (ElementId element = 0; element < mesh.element_count(); ++element) {
-    row.clear();
-    append_row(row, mesh, cuts, element);
-    out << row;
+    progress.report(element, mesh.element_count());
+    write_row(text, mesh, cuts, element);
   }
+  text.flush();
 }
 
 }  // namespace chainmail

@@ -27,14 +27,15 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
               "meshes are .dat or .obj");
 }
 
-MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
   require_file(path);
   const MeshFormat format = mesh_format(path);
   if (format == MeshFormat::obj && (options.size || options.spacing)) {
     throw Error(shown(path), "a .obj file holds its own positions", "leave size and spacing out");
   }
-  const std::string text = read_text(path);
-  return format == MeshFormat::dat ? read_dat(text, path, options) : read_obj(text, path, options);
+  const std::string text = read_text(path, "a mesh", progress.part(0, 0.05));
+  const Progress rest = progress.part(0.05, 1);
+  return format == MeshFormat::dat ? read_dat(text, path, options, rest) : read_obj(text, path, options, rest);
 }
 
 std::optional<std::array<std::uint32_t, 3>> parse_size(std::string_view text, int sizes) {
@@ -59,21 +60,22 @@ PositionView rest_positions(const Mesh& mesh) {
   return {mesh.rest.data(), sizeof(double) * mesh.space_dimension, Precision::double_precision};
 }
 
-void write_mesh(std::ostream& out, MeshFormat format, const Mesh& mesh, const Cuts& cuts,
-                const PositionView& positions) {
+void write_mesh(std::ostream& out, MeshFormat format, const Mesh& mesh, const Cuts& cuts, const PositionView& positions,
+                const Progress& progress) {
   if (format == MeshFormat::dat) {
-    write_dat(out, mesh, cuts);
+    write_dat(out, mesh, cuts, progress);
   } else {
-    write_obj(out, mesh, cuts, positions);
+    write_obj(out, mesh, cuts, positions, progress);
   }
 }
 
-void save_mesh(const std::filesystem::path& path, const Mesh& mesh, const Cuts& cuts, const PositionView& positions) {
+void save_mesh(const std::filesystem::path& path, const Mesh& mesh, const Cuts& cuts, const PositionView& positions,
+               const Progress& progress) {
   const MeshFormat format = mesh_format(path);
   if (format == MeshFormat::dat && !mesh.lattice) {
     throw Error(shown(path), "a .dat file holds lattices alone, and this mesh stands in none", "save it as .obj");
   }
-  write_file(path, [&](std::ostream& out) { write_mesh(out, format, mesh, cuts, positions); });
+  write_file(path, [&](std::ostream& out) { write_mesh(out, format, mesh, cuts, positions, progress); });
 }
 
 }  // namespace chainmail

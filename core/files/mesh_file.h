@@ -27,8 +27,9 @@ enum class MeshFormat { dat, obj };
 /// The format that a file's ending names, in any case of letters. Throws Error for all others.
 MeshFormat mesh_format(const std::filesystem::path& path);
 
-/// Reads a mesh, in the format that its ending names. Throws Error, with the line where there is one.
-MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
+/// Reads a mesh, in the format that its ending names. Throws Error, with the line where there is one, and Cancelled.
+MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& options = {},
+                      const Progress& progress = {});
 
 /// W x H x D of a text `WxH` or `WxHxD`, each 1 or more; `sizes` says how many there must be (0: two or
 /// three). The sizes left out are 1.
@@ -38,11 +39,12 @@ std::optional<std::array<std::uint32_t, 3>> parse_size(std::string_view text, in
 PositionView rest_positions(const Mesh& mesh);
 
 /// Writes the object as it is cut and stands; .dat holds no positions and takes those of its lattice.
-/// Throws Error where the format cannot hold the mesh.
-void write_mesh(std::ostream& out, MeshFormat format, const Mesh& mesh, const Cuts& cuts,
-                const PositionView& positions);
+/// Throws Error where the format cannot hold the mesh, and Cancelled.
+void write_mesh(std::ostream& out, MeshFormat format, const Mesh& mesh, const Cuts& cuts, const PositionView& positions,
+                const Progress& progress = {});
 
 /// The same into a file, in the format that its ending names, whole or not at all.
-void save_mesh(const std::filesystem::path& path, const Mesh& mesh, const Cuts& cuts, const PositionView& positions);
+void save_mesh(const std::filesystem::path& path, const Mesh& mesh, const Cuts& cuts, const PositionView& positions,
+               const Progress& progress = {});
 
 }  // namespace chainmail

@@ -31,7 +31,7 @@ class ObjScanner {
  public:
   explicit ObjScanner(const std::filesystem::path& path) : path_(path) {}
 
-  ObjText scan(std::string_view text);
+  ObjText scan(std::string_view text, const Progress& progress);
 
  private:
   [[noreturn]] void fail(std::size_t line, const std::string& problem, const std::string& remedy) const {
@@ -42,6 +42,7 @@ class ObjScanner {
   void read_corners(std::string_view line, std::string_view rest, bool is_face);
   std::int64_t read_corner(std::string_view word);
   void check_corners(bool is_face) const;
+  void append_corners(char kind);
 
   const std::filesystem::path& path_;
   std::size_t line_ = 0;
@@ -72,7 +73,6 @@ void ObjScanner::read_vertex(std::string_view rest) {
     fail(line_, "a vertex has " + std::to_string(count) + " of its 3 coordinates", "write 'v x y z'");
   }
   result_.vertices.emplace_back(numbers[0], numbers[1], numbers[2]);
-  result_.faces_and_lines += "v 0 0 0\n";
 }
 
 /// The vertex of a corner `v`, `v/t`, `v//n` or `v/t/n`, from 0.
@@ -131,12 +131,26 @@ void ObjScanner::read_corners(std::string_view line, std::string_view rest, bool
     corners_.push_back(read_corner(word));
   }
   check_corners(is_face);
-  result_.faces_and_lines += line;
-  result_.faces_and_lines += '\n';
+  if (line.find('-') == std::string_view::npos) {
+    result_.faces_and_lines += line;
+    result_.faces_and_lines += '\n';
+  } else {
+    append_corners(is_face ? 'f' : 'l');
+  }
+}
+
+void ObjScanner::append_corners(char kind) {
+  std::string& text = result_.faces_and_lines;
+  text += kind;
+  for (const std::int64_t corner : corners_) {
+    text += ' ';
+    append_number(text, std::uint64_t(corner + 1));
+  }
+  text += '\n';
 }
 
 void ObjScanner::read_line(std::string_view line) {
-  if (const auto space = stated_space(line, shown(path_, line_))) {
+  if (const auto space = stated_space(line, path_, line_)) {
     if (result_.space && result_.space->value != *space) {
       fail(line_, "the space dimension differs from that of line " + std::to_string(result_.space->line),
            "state it once");
@@ -155,10 +169,12 @@ void ObjScanner::read_line(std::string_view line) {
   }
 }
 
-ObjText ObjScanner::scan(std::string_view text) {
+ObjText ObjScanner::scan(std::string_view text, const Progress& progress) {
+  result_.faces_and_lines.reserve(text.size());
   Lines lines(text);
   while (lines.next()) {
     line_ = lines.number();
+    lines.report(progress);
     read_line(lines.line());
   }
   if (result_.vertices.empty()) {
@@ -173,6 +189,8 @@ ObjText ObjScanner::scan(std::string_view text) {
 
 }  // namespace
 
-ObjText scan_obj(std::string_view text, const std::filesystem::path& path) { return ObjScanner(path).scan(text); }
+ObjText scan_obj(std::string_view text, const std::filesystem::path& path, const Progress& progress) {
+  return ObjScanner(path).scan(text, progress);
+}
 
 }  // namespace chainmail

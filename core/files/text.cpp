@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <system_error>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace {
 // Ten times what the largest mesh allowed takes; an endless source (a device, a pipe) ends here.
 constexpr std::size_t largest_text = std::size_t{4} << 30;
 constexpr std::size_t longest_quote = 40;
+constexpr std::size_t lines_between_reports = 4096;  // a millisecond or two
 
 /// The length of the UTF-8 sequence at the start of a text, 0 where there is none.
 std::size_t sequence_length(std::string_view text) {
@@ -86,16 +88,22 @@ void require_file(const std::filesystem::path& path) {
   }
 }
 
-std::string read_text(const std::filesystem::path& path, const std::string& content) {
+std::string read_text(const std::filesystem::path& path, const std::string& content, const Progress& progress) {
   require_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     throw Error(shown(path), "it cannot be read (" + reason() + ")", "check its permissions");
   }
   std::string text;
+  std::error_code unknown;  // of a pipe or a device
+  const auto size = std::filesystem::file_size(path, unknown);
+  if (!unknown && size <= largest_text) {
+    text.reserve(size);
+  }
   std::vector<char> part(std::size_t{1} << 20);
   while (file.read(part.data(), static_cast<std::streamsize>(part.size())), file.gcount() > 0) {
     text.append(part.data(), static_cast<std::size_t>(file.gcount()));
+    progress.report(unknown ? 0 : std::min(1.0, double(text.size()) / double(size)));
     if (text.find('\0', text.size() - static_cast<std::size_t>(file.gcount())) != std::string::npos) {
       throw Error(shown(path), "it is not a text file", "give " + content + " as text");
     }
@@ -112,7 +120,7 @@ std::string read_text(const std::filesystem::path& path, const std::string& cont
   return text;
 }
 
-Lines::Lines(std::string_view text) : rest_(text) {
+Lines::Lines(std::string_view text) : size_(text.size()), rest_(text) {
   static constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (rest_.starts_with(byte_order_mark)) {
     rest_.remove_prefix(byte_order_mark.size());
@@ -129,6 +137,12 @@ bool Lines::next() {
   rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : rest_.empty() ? 0 : 1);
   ++number_;
   return true;
+}
+
+void Lines::report(const Progress& progress) const {
+  if (number_ % lines_between_reports == 0) {
+    progress.report(1 - double(rest_.size()) / double(size_));
+  }
 }
 
 std::string_view take_word(std::string_view& rest) {
@@ -158,12 +172,15 @@ std::optional<double> parse_number(std::string_view word) {
 }
 
 std::optional<std::uint32_t> parse_count(std::string_view word) {
-  std::uint32_t number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc() || end != word.data() + word.size()) {
-    return std::nullopt;
+  std::uint64_t number = 0;
+  for (const char c : word) {
+    const unsigned digit = static_cast<unsigned char>(c) - unsigned{'0'};
+    number = 10 * number + digit;
+    if (digit > 9 || number > std::numeric_limits<std::uint32_t>::max()) {
+      return std::nullopt;
+    }
   }
-  return number;
+  return word.empty() ? std::nullopt : std::optional(static_cast<std::uint32_t>(number));
 }
 
 void append_number(std::string& text, double number) {
@@ -176,16 +193,45 @@ void append_number(std::string& text, std::uint64_t number) {
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
 }
 
+void TextBlocks::flush() {
+  out_.write(block_.data(), end_ - block_.data());
+  end_ = block_.data();
+}
+
+void TextBlocks::make_room() {
+  if (block_.data() + block_.size() - end_ < longest_word) {
+    flush();
+  }
+}
+
+TextBlocks& TextBlocks::operator<<(char character) {
+  make_room();
+  *end_++ = character;
+  return *this;
+}
+
+TextBlocks& TextBlocks::operator<<(double number) {
+  make_room();
+  end_ = std::to_chars(end_, end_ + longest_word, number).ptr;
+  return *this;
+}
+
+TextBlocks& TextBlocks::operator<<(std::uint32_t number) {
+  make_room();
+  end_ = std::to_chars(end_, end_ + longest_word, number).ptr;
+  return *this;
+}
+
 std::optional<std::string_view> stated(std::string_view line, std::string_view word) {
   std::string_view rest = line;
-  std::string_view first = take_word(rest);
-  if (first == "#") {
-    first = take_word(rest);
-  } else if (first.starts_with('#')) {
-    first.remove_prefix(1);
-  } else {
-    return std::nullopt;
+  while (!rest.empty() && is_blank(rest[0])) {
+    rest.remove_prefix(1);
   }
+  if (!rest.starts_with('#')) {
+    return std::nullopt;  // at once: most lines are no comments
+  }
+  rest.remove_prefix(1);
+  const std::string_view first = take_word(rest);
   std::string_view behind = rest;
   if (const auto value = take_word(behind);
       first != word || value.empty() || std::string_view("0123456789+-.").find(value[0]) == std::string_view::npos) {
@@ -194,16 +240,16 @@ std::optional<std::string_view> stated(std::string_view line, std::string_view w
   return rest;
 }
 
-std::optional<int> stated_space(std::string_view line, const std::string& where) {
+std::optional<int> stated_space(std::string_view line, const std::filesystem::path& path, std::size_t number) {
   auto rest = stated(line, "space");
   if (!rest) {
     return std::nullopt;
   }
-  const auto number = parse_count(take_word(*rest));
-  if (!number || *number < 1 || *number > 3 || !take_word(*rest).empty()) {
-    throw Error(where, "the space dimension is no 1, 2 or 3", "write '# space N' with one of these");
+  const auto space = parse_count(take_word(*rest));
+  if (!space || *space < 1 || *space > 3 || !take_word(*rest).empty()) {
+    throw Error(shown(path, number), "the space dimension is no 1, 2 or 3", "write '# space N' with one of these");
   }
-  return static_cast<int>(*number);
+  return static_cast<int>(*space);
 }
 
 }  // namespace chainmail

@@ -1,7 +1,6 @@
 #include "mesh/generate.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <string>
 
@@ -38,7 +37,7 @@ void check(const MeshRecipe& recipe, const Lattice& lattice) {
   }
 }
 
-/// Calls `visit(element, {dx, dy, dz})` for every element, where d is 1 on the axes that go on.
+/// Calls `visit(element, {dx, dy, dz})` for every element, where d says which axes go on.
 template <class Visit>
 void for_each_element(const Lattice& lattice, Visit visit) {
   ElementId element = 0;
@@ -51,26 +50,22 @@ void for_each_element(const Lattice& lattice, Visit visit) {
   }
 }
 
+/// Sets of axes along which a link goes one step: bit k is axis k.
+constexpr std::array<unsigned, 3> straight{1, 2, 4};
+constexpr std::array<unsigned, 7> straight_and_diagonal{1, 2, 3, 4, 5, 6, 7};
+
 struct Builder {
   MeshParts& parts;
   std::array<ElementId, 3> stride;
+  std::span<const unsigned> ways;
 
-  /// Links to the elements one step on: along the axes, and across where `diagonals` says so.
-  void add_links(ElementId element, const std::array<bool, 3>& more, bool diagonals) {
-    for (unsigned axes = 1; axes < 8; ++axes) {
-      if (!diagonals && !std::has_single_bit(axes)) {
-        continue;
-      }
-      bool inside = true;
-      ElementId other = element;
-      for (unsigned k = 0; k < 3; ++k) {
-        if ((axes >> k & 1) != 0) {
-          inside = inside && more[k];
-          other += stride[k];
-        }
-      }
-      if (inside) {
-        parts.links.push_back({element, other});
+  /// Links to the elements one step on.
+  void add_links(ElementId element, const std::array<bool, 3>& more) {
+    const unsigned open = unsigned{more[0]} | unsigned{more[1]} << 1 | unsigned{more[2]} << 2;
+    for (const unsigned axes : ways) {
+      if ((axes & open) == axes) {
+        const ElementId step = (axes & 1) * stride[0] + (axes >> 1 & 1) * stride[1] + (axes >> 2) * stride[2];
+        parts.links.push_back({element, element + step});
       }
     }
   }
@@ -98,7 +93,7 @@ struct Builder {
 
 std::span<const MeshKindInfo> mesh_kinds() { return kinds; }
 
-MeshPointer generate(const MeshRecipe& recipe) {
+MeshPointer generate(const MeshRecipe& recipe, const Progress& progress) {
   Lattice lattice{recipe.size, recipe.spacing};
   const int sizes =
       std::find_if(kinds.begin(), kinds.end(), [&](auto& info) { return info.kind == recipe.kind; })->sizes;
@@ -109,10 +104,15 @@ MeshPointer generate(const MeshRecipe& recipe) {
   parts.lattice = lattice;
   parts.space_dimension = recipe.space_dimension;
   parts.rest.reserve(lattice.element_count());
-  Builder builder{parts, {1, lattice.size[0], lattice.size[0] * lattice.size[1]}};
+  const bool diagonals = recipe.kind == MeshKind::cloth || recipe.kind == MeshKind::tetra;
+  const auto ways = diagonals ? std::span(straight_and_diagonal).first((std::size_t{1} << sizes) - 1)
+                              : std::span(straight).first(std::size_t(sizes));
+  parts.links.reserve(lattice.element_count() * ways.size());
+  Builder builder{parts, {1, lattice.size[0], lattice.size[0] * lattice.size[1]}, ways};
   for_each_element(lattice, [&](ElementId element, const std::array<bool, 3>& more) {
+    progress.part(0, 0.4).report(element, lattice.element_count());
     parts.rest.push_back(lattice.position(element));
-    builder.add_links(element, more, recipe.kind == MeshKind::cloth || recipe.kind == MeshKind::tetra);
+    builder.add_links(element, more);
     if (recipe.kind == MeshKind::cloth && more[0] && more[1]) {
       builder.add_square(element);
     }
@@ -120,7 +120,7 @@ MeshPointer generate(const MeshRecipe& recipe) {
       builder.add_cube(element);
     }
   });
-  return build_mesh(std::move(parts));
+  return build_mesh(std::move(parts), progress.part(0.4, 1));
 }
 
 }  // namespace chainmail

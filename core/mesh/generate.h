@@ -36,7 +36,7 @@ struct MeshRecipe {
 /// cloth splits each square by the diagonal from its first element; tetra splits each cube into the
 /// six tetrahedra about its main diagonal (Freudenthal 1942). Throws Error for a size of 0, for more
 /// than element_limit elements (before any memory is taken), and for a spacing that is not positive
-/// or takes a coordinate beyond coordinate_limit.
-MeshPointer generate(const MeshRecipe& recipe);
+/// or takes a coordinate beyond coordinate_limit; and Cancelled.
+MeshPointer generate(const MeshRecipe& recipe, const Progress& progress = {});
 
 }  // namespace chainmail

@@ -14,21 +14,26 @@ namespace chainmail {
 namespace {
 
 /// Rows in ascending order, each link in both its rows once, from pairs in any order.
-void fill_neighbour_table(Mesh& mesh, const std::vector<std::array<ElementId, 2>>& links, std::size_t element_count) {
+void fill_neighbour_table(Mesh& mesh, const std::vector<std::array<ElementId, 2>>& links, std::size_t element_count,
+                          const Progress& progress) {
   std::vector<EntryId> next(element_count + 1, 0);
-  for (const auto& [a, b] : links) {
-    ++next[a + 1];
-    ++next[b + 1];
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    progress.part(0, 0.2).report(i, links.size());
+    ++next[links[i][0] + 1];
+    ++next[links[i][1] + 1];
   }
   std::partial_sum(next.begin(), next.end(), next.begin());
   mesh.first_entry = next;
   mesh.neighbours.resize(2 * links.size());
-  for (const auto& [a, b] : links) {
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    progress.part(0.2, 0.5).report(i, links.size());
+    const auto& [a, b] = links[i];
     mesh.neighbours[next[a]++] = b;
     mesh.neighbours[next[b]++] = a;
   }
   EntryId kept = 0;
   for (std::size_t e = 0; e < element_count; ++e) {
+    progress.part(0.5, 1).report(e, element_count);
     const auto first = mesh.neighbours.begin() + mesh.first_entry[e];
     const auto last = mesh.neighbours.begin() + mesh.first_entry[e + 1];
     std::sort(first, last);
@@ -40,48 +45,36 @@ void fill_neighbour_table(Mesh& mesh, const std::vector<std::array<ElementId, 2>
   mesh.neighbours.resize(kept);
 }
 
-/// The entries of one row in ascending order of neighbour, so that a link's second entry is found fast.
-class AscendingRows {
- public:
-  explicit AscendingRows(const Mesh& mesh) : mesh_(mesh), order_(mesh.neighbours.size()) {
-    std::iota(order_.begin(), order_.end(), EntryId{0});
-    for (ElementId e = 0; e < mesh.element_count(); ++e) {
-      const auto row = mesh.neighbours_of(e);
-      if (!std::is_sorted(row.begin(), row.end())) {
-        std::sort(order_.begin() + mesh.first_entry[e], order_.begin() + mesh.first_entry[e + 1],
-                  [&mesh](EntryId i, EntryId j) { return mesh.neighbours[i] < mesh.neighbours[j]; });
-      }
+/// The entries of each row in ascending order of neighbour.
+std::vector<EntryId> ascending_entries(const Mesh& mesh, const Progress& progress) {
+  std::vector<EntryId> order(mesh.neighbours.size());
+  std::iota(order.begin(), order.end(), EntryId{0});
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    progress.report(e, mesh.element_count());
+    const auto row = mesh.neighbours_of(e);
+    if (!std::is_sorted(row.begin(), row.end())) {
+      std::sort(order.begin() + mesh.first_entry[e], order.begin() + mesh.first_entry[e + 1],
+                [&mesh](EntryId i, EntryId j) { return mesh.neighbours[i] < mesh.neighbours[j]; });
     }
   }
+  return order;
+}
 
-  /// The entry of `neighbour` in the row of `element`, or none.
-  std::optional<EntryId> find(ElementId element, ElementId neighbour) const {
-    const auto first = order_.begin() + mesh_.first_entry[element];
-    const auto last = order_.begin() + mesh_.first_entry[element + 1];
-    const auto found = std::lower_bound(first, last, neighbour,
-                                        [this](EntryId entry, ElementId id) { return mesh_.neighbours[entry] < id; });
-    if (found == last || mesh_.neighbours[*found] != neighbour) {
-      return std::nullopt;
-    }
-    return *found;
-  }
-
- private:
-  const Mesh& mesh_;
-  std::vector<EntryId> order_;
-};
-
-void number_links(Mesh& mesh) {
-  const AscendingRows rows(mesh);
+void number_links(Mesh& mesh, const Progress& progress) {
+  const std::vector<EntryId> order = ascending_entries(mesh, progress.part(0, 0.3));
+  // Elements are taken in ascending order, and so an element meets its lower neighbours in that order too: the entry
+  // that is a link's second end is the next in its row.
+  std::vector<EntryId> next(mesh.first_entry.begin(), mesh.first_entry.end() - 1);
   mesh.entry_link.resize(mesh.neighbours.size());
   mesh.links.reserve(mesh.neighbours.size() / 2);
   for (ElementId a = 0; a < mesh.element_count(); ++a) {
+    progress.part(0.3, 1).report(a, mesh.element_count());
     for (EntryId entry = mesh.first_entry[a]; entry < mesh.first_entry[a + 1]; ++entry) {
       const ElementId b = mesh.neighbours[entry];
       if (a < b) {
-        const auto twin = rows.find(b, a);
-        assert(twin && "a link stands in both its rows");
-        mesh.entry_link[entry] = mesh.entry_link[*twin] = mesh.link_count();
+        const EntryId twin = order[next[b]++];
+        assert(mesh.neighbours[twin] == a && "a link stands in both its rows");
+        mesh.entry_link[entry] = mesh.entry_link[twin] = mesh.link_count();
         mesh.links.push_back({a, b});
       }
     }
@@ -152,9 +145,33 @@ int object_dimension(const Mesh& mesh) {
   return std::max(1, static_cast<int>(extended));
 }
 
-double mean_link_length(const Mesh& mesh) {
+/// Whether the way from an element to one of a higher id is one step along an axis.
+bool is_one_step(const Lattice& lattice, ElementId from, ElementId to) {
+  const auto [width, height, depth] = lattice.size;
+  const ElementId way = to - from;
+  return (way == 1 && from % width + 1 < width) || (way == width && from / width % height + 1 < height) ||
+         way == std::uint64_t{width} * height;
+}
+
+bool is_grid(const Mesh& mesh) {
+  return mesh.lattice && std::all_of(mesh.links.begin(), mesh.links.end(),
+                                     [&](const auto& link) { return is_one_step(*mesh.lattice, link[0], link[1]); });
+}
+
+std::array<Point, 2> box_of(const Mesh& mesh) {
+  std::array<Point, 2> box{mesh.origin, mesh.origin};
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    const Point p = mesh.rest_position(e);
+    box[0] = box[0].cwiseMin(p);
+    box[1] = box[1].cwiseMax(p);
+  }
+  return box;
+}
+
+double mean_link_length(const Mesh& mesh, const Progress& progress) {
   double sum = 0;
   for (LinkId link = 0; link < mesh.link_count(); ++link) {
+    progress.report(link, mesh.link_count());
     sum += rest_length(mesh, link);
   }
   return mesh.links.empty() ? 0 : sum / mesh.link_count();
@@ -180,19 +197,15 @@ Point Mesh::rest_position(ElementId element) const {
   return to_point(rest.data() + std::size_t{element} * space_dimension);
 }
 
-std::array<Point, 2> bounds(const Mesh& mesh) {
-  std::array<Point, 2> box{mesh.origin, mesh.origin};
-  for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    const Point p = mesh.rest_position(e);
-    box[0] = box[0].cwiseMin(p);
-    box[1] = box[1].cwiseMax(p);
-  }
-  return box;
-}
-
 double rest_length(const Mesh& mesh, LinkId link) {
-  const auto [a, b] = mesh.links[link];
-  return (mesh.rest_position(b) - mesh.rest_position(a)).stableNorm();
+  const int dimension = mesh.space_dimension;
+  const double* from = mesh.rest.data() + std::size_t{mesh.links[link][0]} * dimension;
+  const double* to = mesh.rest.data() + std::size_t{mesh.links[link][1]} * dimension;
+  Point vector = Point::Zero();
+  for (int k = 0; k < dimension; ++k) {
+    vector[mesh.axes[k]] = to[k] - from[k];
+  }
+  return vector.stableNorm();
 }
 
 std::optional<LinkId> find_link(const Mesh& mesh, ElementId a, ElementId b) {
@@ -207,22 +220,24 @@ std::optional<LinkId> find_link(const Mesh& mesh, ElementId a, ElementId b) {
   return mesh.entry_link[mesh.first_entry[a] + std::distance(row.begin(), found)];
 }
 
-MeshPointer build_mesh(MeshParts parts) {
+MeshPointer build_mesh(MeshParts parts, const Progress& progress) {
   if (parts.rest.size() > element_limit) {
     throw Error("mesh", std::to_string(parts.rest.size()) + " elements are too many",
                 "use at most " + std::to_string(element_limit));
   }
   auto mesh = std::make_shared<Mesh>();
+  progress.report(0);
   choose_axes(*mesh, parts.rest, parts.space_dimension);
+  progress.report(0.05);
   store_rest(*mesh, parts.rest);
   if (parts.first_entry.empty()) {
-    fill_neighbour_table(*mesh, parts.links, parts.rest.size());
+    fill_neighbour_table(*mesh, parts.links, parts.rest.size(), progress.part(0.1, 0.5));
   } else {
     mesh->first_entry = std::move(parts.first_entry);
     mesh->neighbours = std::move(parts.neighbours);
   }
-  number_links(*mesh);
-  number_shapes(*mesh);
+  number_links(*mesh, progress.part(0.5, 0.7));
+  number_shapes(*mesh, progress.part(0.7, 0.8));
   mesh->own_triangles = parts.triangles.size();
   mesh->triangles = std::move(parts.triangles);
   mesh->polygons = std::move(parts.polygons);
@@ -230,7 +245,9 @@ MeshPointer build_mesh(MeshParts parts) {
   mesh->lattice = parts.lattice;
   split_polygons(*mesh);
   mesh->object_dimension = object_dimension(*mesh);
-  mesh->mean_link_length = mean_link_length(*mesh);
+  mesh->mean_link_length = mean_link_length(*mesh, progress.part(0.8, 1));
+  mesh->box = box_of(*mesh);
+  mesh->is_grid = is_grid(*mesh);
   return mesh;
 }
 

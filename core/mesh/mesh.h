@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "mesh/progress.h"
+
 namespace chainmail {
 
 /// A point of the object, by its place in the file's order, from 0.
@@ -86,8 +88,12 @@ struct Mesh {
   std::vector<ElementId> polygons;
   std::vector<std::array<ElementId, 4>> tetrahedra;
   std::optional<Lattice> lattice;
+  /// Whether it is rectangular: elements in a lattice, and links along its axes alone, one step each.
+  bool is_grid = false;
   /// Mean rest length over the links (mesh units); 0 without links.
   double mean_link_length = 0;
+  /// Axis-aligned bounds of the rest positions, as two corners (mesh units).
+  std::array<Point, 2> box{Point::Zero(), Point::Zero()};
 
   ElementId element_count() const { return static_cast<ElementId>(first_entry.size() - 1); }
   LinkId link_count() const { return static_cast<LinkId>(links.size()); }
@@ -102,8 +108,7 @@ struct Mesh {
 
 using MeshPointer = std::shared_ptr<const Mesh>;
 
-/// Axis-aligned bounds of the rest positions, as two corners (mesh units).
-std::array<Point, 2> bounds(const Mesh& mesh);
+inline std::array<Point, 2> bounds(const Mesh& mesh) { return mesh.box; }
 
 /// Length of a link at rest (mesh units).
 double rest_length(const Mesh& mesh, LinkId link);
@@ -116,7 +121,7 @@ std::optional<LinkId> find_link(const Mesh& mesh, ElementId a, ElementId b);
 /// The parts must be consistent (ids below the number of elements, no link to itself, a given
 /// neighbour table symmetric and without doubles): readers check this, each in its file's terms.
 /// Throws Error where the space dimension asked for would flatten the object, and where the parts
-/// exceed element_limit.
-MeshPointer build_mesh(MeshParts parts);
+/// exceed element_limit, and Cancelled.
+MeshPointer build_mesh(MeshParts parts, const Progress& progress = {});
 
 }  // namespace chainmail

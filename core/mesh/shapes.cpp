@@ -67,8 +67,9 @@ class Shapes {
   std::unordered_map<Bits, std::uint16_t, Hash> numbers_;
 };
 
-bool number_all(Mesh& mesh, Shapes& shapes) {
+bool number_all(Mesh& mesh, Shapes& shapes, const Progress& progress) {
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    progress.report(e, mesh.element_count());
     const EntryId first = mesh.first_entry[e];
     for (EntryId entry = first; entry < mesh.first_entry[e + 1]; ++entry) {
       const std::optional<EntryId> alike =
@@ -83,10 +84,10 @@ bool number_all(Mesh& mesh, Shapes& shapes) {
 
 }  // namespace
 
-void number_shapes(Mesh& mesh) {
+void number_shapes(Mesh& mesh, const Progress& progress) {
   mesh.entry_shape.resize(mesh.neighbours.size());
   Shapes shapes(mesh);
-  if (number_all(mesh, shapes)) {
+  if (number_all(mesh, shapes, progress)) {
     shapes.store();
   } else {
     mesh.entry_shape = {};

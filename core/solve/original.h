@@ -7,10 +7,6 @@
 
 namespace chainmail {
 
-/// Whether a mesh is rectangular: elements in a lattice, and links along its axes alone. A lattice with
-/// cuts is one still.
-bool is_grid(const Mesh& mesh);
-
 /// 3D ChainMail (Frisken-Gibson 1997; thesis 2.1), for rectangular meshes: a waiting list a direction.
 ///
 /// The lists are worked in the order right, left, top, bottom, front, back (+x, −x, +y, −y, +z, −z). A

@@ -45,7 +45,7 @@ std::optional<Algorithm> find_algorithm(std::string_view name) {
   return found == infos.end() ? std::nullopt : std::optional(found->algorithm);
 }
 
-bool fits(Algorithm algorithm, const Mesh& mesh) { return algorithm != Algorithm::original || is_grid(mesh); }
+bool fits(Algorithm algorithm, const Mesh& mesh) { return algorithm != Algorithm::original || mesh.is_grid; }
 
 void check(Algorithm algorithm, const Mesh& mesh) {
   if (!fits(algorithm, mesh)) {

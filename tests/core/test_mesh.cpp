@@ -18,6 +18,7 @@ class MeshTest : public QObject {
   void find_link_finds_links_and_nothing_else();
   void polygons_are_split_but_their_diagonals_are_no_links();
   void object_dimension_follows_what_is_there();
+  void a_grid_has_links_of_one_step_along_an_axis();
   void lengths_and_bounds();
   void a_plane_grid_carries_no_third_coordinate();
   void an_object_in_the_xz_plane_keeps_its_y();
@@ -127,6 +128,27 @@ void MeshTest::object_dimension_follows_what_is_there() {
   QCOMPARE(make_mesh(MeshKind::block, {3, 3, 3})->object_dimension, 3);
   QCOMPARE(make_mesh(MeshKind::tetra, {3, 3, 3})->object_dimension, 3);
   QCOMPARE(sphere(6, 3)->object_dimension, 2);
+}
+
+void MeshTest::a_grid_has_links_of_one_step_along_an_axis() {
+  using Size = std::array<std::uint32_t, 3>;
+  for (const Size& size : {Size{4, 3, 2}, Size{1, 3, 2}, Size{4, 1, 2}, Size{1, 1, 5}}) {
+    QVERIFY(make_mesh(MeshKind::block, size)->is_grid);
+  }
+  QVERIFY(!make_mesh(MeshKind::cloth, {3, 3, 1})->is_grid);
+  QVERIFY(!build_mesh(square())->is_grid);  // it stands in no lattice
+  const auto with_link = [](ElementId a, ElementId b) {
+    const auto grid = make_mesh(MeshKind::block, {3, 2, 2});
+    MeshParts parts = placed(*grid, [](const Point& p) { return p; });
+    parts.lattice = grid->lattice;
+    parts.links.push_back({a, b});
+    return build_mesh(std::move(parts));
+  };
+  QVERIFY(with_link(0, 6)->is_grid);   // it was there
+  QVERIFY(!with_link(2, 3)->is_grid);  // from the end of a row to the next
+  QVERIFY(!with_link(4, 7)->is_grid);  // from a plane's last row to the next plane's first
+  QVERIFY(!with_link(0, 2)->is_grid);
+  QVERIFY(!with_link(0, 4)->is_grid);
 }
 
 void MeshTest::lengths_and_bounds() {

@@ -28,8 +28,10 @@ struct Workbench {
   Document& document() { return window.document(); }
   View& view(int panel) { return window.panel(panel).view(); }
 
-  /// Waits until both solvers have done all that was asked and their frames were drawn.
+  /// Waits until what runs in the background is done, both solvers have done all that was asked and their frames were
+  /// drawn.
   void settle() {
+    QTRY_VERIFY(!window.jobs().running());
     QTest::qWait(30);
     QTRY_VERIFY(window.document().idle());
     QTRY_VERIFY(window.document().frame(0) != nullptr && window.document().frame(1) != nullptr);
@@ -56,6 +58,11 @@ struct Workbench {
       QTest::mouseRelease(&at, Qt::LeftButton, {}, places.last());
       settle();
     }
+  }
+
+  void open(const QString& path) {
+    window.openFile(path);
+    settle();
   }
 
   void click(int panel, ElementId element) {

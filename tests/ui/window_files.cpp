@@ -20,16 +20,16 @@ class WindowFiles : public QObject {
   void aBadFileGetsASentenceAndChangesNothing() {
     Workbench bench;
     const MeshPointer before = bench.document().mesh();
-    bench.window.openFile(write("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n"));
+    bench.open(write("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n"));
     QVERIFY(bench.window.messages().isVisible());
     QVERIFY2(bench.window.messages().sentence().contains(QStringLiteral("bad.obj:3: ")),
              qPrintable(bench.window.messages().sentence()));
     QCOMPARE(bench.document().mesh(), before);
     QVERIFY(!bench.document().undoStack().canUndo());
 
-    bench.window.openFile(folder_.filePath(QStringLiteral("not there.obj")));
+    bench.open(folder_.filePath(QStringLiteral("not there.obj")));
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("not there.obj")));
-    bench.window.openFile(write("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    bench.open(write("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
     QVERIFY(!bench.window.messages().isVisible());
     QCOMPARE(bench.document().mesh()->element_count(), 3U);
   }
@@ -37,7 +37,7 @@ class WindowFiles : public QObject {
   void openingIsOneStepOfUndo() {
     Workbench bench;
     const MeshPointer before = bench.document().mesh();
-    bench.window.openFile(write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    bench.open(write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("open triangle.obj"));
     QVERIFY(bench.window.windowTitle().startsWith(QStringLiteral("triangle.obj")));
     bench.document().undoStack().undo();
@@ -55,6 +55,7 @@ class WindowFiles : public QObject {
     QVERIFY(enter.isAccepted());
     QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
     QApplication::sendEvent(&bench.window, &drop);
+    bench.settle();
     QCOMPARE(bench.document().mesh()->element_count(), 2U);
   }
 
@@ -70,7 +71,8 @@ class WindowFiles : public QObject {
     bench.document().cut({0, 5});
     const QString path = folder_.filePath(name);
     files(bench).savePath(path);
-    bench.window.openFile(path);
+    bench.settle();
+    bench.open(path);
     QVERIFY2(!bench.window.messages().isVisible(), qPrintable(bench.window.messages().sentence()));
     const Mesh& again = *bench.document().mesh();
     QCOMPARE(again.element_count(), before->element_count());
@@ -87,7 +89,8 @@ class WindowFiles : public QObject {
     const Point shown = bench.position(1, 31);
     const QString path = folder_.filePath(QStringLiteral("shape.obj"));
     files(bench).saveShapePath(1, path);
-    bench.window.openFile(path);
+    bench.settle();
+    bench.open(path);
     QCOMPARE(bench.document().mesh()->rest_position(31), shown);
   }
 
@@ -98,6 +101,7 @@ class WindowFiles : public QObject {
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("shape.dat: ")));
     QVERIFY(!QFile::exists(path));
     files(bench).savePath(path);  // what succeeds takes the old message away
+    bench.settle();
     QVERIFY(!bench.window.messages().isVisible());
   }
 
@@ -105,6 +109,7 @@ class WindowFiles : public QObject {
     Workbench bench;
     const QString nowhere = folder_.filePath(QStringLiteral("no/such/folder/x.obj"));
     files(bench).savePath(nowhere);
+    bench.settle();
     QVERIFY(bench.window.messages().isVisible());
     QVERIFY(bench.window.messages().sentence().contains(nowhere));
     files(bench).saveScreenshotPath(folder_.filePath(QStringLiteral("no/such/folder/x.png")));

@@ -1,0 +1,98 @@
+#include <QtTest>
+
+#include "files/support.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace fs = std::filesystem;
+
+/// Long work says how far it has come, and a cancelled one leaves nothing behind.
+class ProgressTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void parts_lie_within_their_whole();
+  void nobody_need_watch();
+  void what_is_read_comes_to_its_end_data();
+  void what_is_read_comes_to_its_end();
+  void cancelled_building_builds_nothing();
+  void cancelled_reading_reads_nothing_data() { what_is_read_comes_to_its_end_data(); }
+  void cancelled_reading_reads_nothing();
+  void cancelled_saving_leaves_the_file_that_was_there_data() { what_is_read_comes_to_its_end_data(); }
+  void cancelled_saving_leaves_the_file_that_was_there();
+
+ private:
+  fs::path path(const QString& name) const { return fs::path(folder_.filePath(name).toStdString()); }
+
+  MeshPointer mesh_ = made(MeshKind::grid, {120, 100, 1});  // more than are between two looks
+  QTemporaryDir folder_;
+};
+
+void ProgressTest::parts_lie_within_their_whole() {
+  JobState job;
+  const Progress progress(job);
+  progress.report(0.25);
+  QCOMPARE(job.share.load(), 0.25);
+  const Progress part = progress.part(0.2, 0.6);
+  part.report(0.5);
+  QCOMPARE(job.share.load(), 0.4);
+  part.part(0.5, 1).report(1);
+  QCOMPARE(job.share.load(), 0.6);
+  job.cancelled = true;
+  QVERIFY_THROWS_EXCEPTION(Cancelled, part.report(0.7));
+  QCOMPARE(job.share.load(), 0.6);
+}
+
+void ProgressTest::nobody_need_watch() {
+  Progress().report(0.5);
+  Progress().part(0, 0.5).report(0, 0);
+}
+
+void ProgressTest::what_is_read_comes_to_its_end_data() {
+  QTest::addColumn<QString>("name");
+  QTest::newRow("dat") << "mesh.dat";
+  QTest::newRow("obj") << "mesh.obj";
+}
+
+void ProgressTest::what_is_read_comes_to_its_end() {
+  QFETCH(QString, name);
+  JobState saving, reading;
+  save_mesh(path(name), *mesh_, {}, rest_positions(*mesh_), Progress(saving));
+  QVERIFY(saving.share > 0.5 && saving.share <= 1);
+  const auto again = read_mesh(path(name), {}, Progress(reading));
+  QVERIFY(reading.share > 0.9 && reading.share <= 1);
+  QVERIFY(again->links == mesh_->links && again->rest == mesh_->rest);
+}
+
+void ProgressTest::cancelled_building_builds_nothing() {
+  JobState job;
+  job.cancelled = true;
+  QVERIFY_THROWS_EXCEPTION(Cancelled, generate({MeshKind::tetra, {20, 20, 20}, 1, {}}, Progress(job)));
+}
+
+void ProgressTest::cancelled_reading_reads_nothing() {
+  QFETCH(QString, name);
+  save_mesh(path(name), *mesh_, {}, rest_positions(*mesh_));
+  JobState job;
+  job.cancelled = true;
+  QVERIFY_THROWS_EXCEPTION(Cancelled, read_mesh(path(name), {}, Progress(job)));
+}
+
+void ProgressTest::cancelled_saving_leaves_the_file_that_was_there() {
+  QFETCH(QString, name);
+  QTemporaryDir folder;
+  const fs::path there = fs::path(folder.filePath(name).toStdString());
+  JobState job;
+  job.cancelled = true;
+  const auto save = [&] { save_mesh(there, *mesh_, {}, rest_positions(*mesh_), Progress(job)); };
+  QVERIFY_THROWS_EXCEPTION(Cancelled, save());
+  QCOMPARE(files_in(folder.path().toStdString()), 0);
+  put_file(there, "before");
+  QVERIFY_THROWS_EXCEPTION(Cancelled, save());
+  QCOMPARE(file_text(there), std::string("before"));
+  QCOMPARE(files_in(folder.path().toStdString()), 1);
+}
+
+QTEST_APPLESS_MAIN(ProgressTest)
+#include "test_progress.moc"
