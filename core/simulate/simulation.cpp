@@ -1,6 +1,7 @@
 #include "simulate/simulation.h"
 
 #include <limits>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -23,7 +24,10 @@ Simulation::Simulation(MeshPointer mesh, Algorithm algorithm, Precision precisio
     : mesh_(std::move(mesh)),
       algorithm_(algorithm),
       precision_(precision),
-      solver_(make_solver(mesh_, algorithm, precision)) {
+      solver_(make_solver(mesh_, algorithm, precision)),
+      changed_(mesh_->element_count()),
+      away_(mesh_->element_count()) {
+  changed_.insert_all();
   statistics_.algorithm = algorithm;
   refresh_statistics(true);
 }
@@ -34,7 +38,12 @@ void Simulation::apply(const Command& command) {
 
 void Simulation::pass(ElementId element, const Point& target) {
   const auto start = Clock::now();
-  statistics_.last_pass = solver_->move(element, target, trace_);
+  try {
+    statistics_.last_pass = solver_->move(element, target, trace_);
+  } catch (const std::bad_alloc&) {
+    mark_all();  // it may have ended in the middle
+    throw;
+  }
   const auto end = Clock::now();
   statistics_.last_pass_ms = std::chrono::duration<double, std::milli>(end - start).count();
   times_.add(end, statistics_.last_pass_ms);
@@ -43,6 +52,18 @@ void Simulation::pass(ElementId element, const Point& target) {
   valid_ = algorithm_ == Algorithm::exact;
   wake(std::span(&element, 1));
   wake(solver_->moved());
+  mark(std::span(&element, 1));
+  mark(solver_->moved());
+}
+
+void Simulation::mark(std::span<const ElementId> moved) {
+  changed_.insert(moved);
+  away_.insert(moved);
+}
+
+void Simulation::mark_all() {
+  changed_.insert_all();
+  away_.insert_all();
 }
 
 bool Simulation::step() {
@@ -50,6 +71,7 @@ bool Simulation::step() {
     return false;
   }
   const auto slice = solver_->relax(relaxation_step_, elements_per_slice, grabbed_);
+  mark(solver_->relaxed());
   if (slice.sweep_ended) {
     ++statistics_.sweeps;
     // What woke during the sweep has not been looked at yet.
@@ -73,7 +95,9 @@ void Simulation::relax(int count, double step, const std::stop_token& stop) {
     solver_->wake(solver_->moved());
   }
   for (int i = 0; i < count && !stop.stop_requested(); ++i) {
-    if (solver_->relax(step, std::numeric_limits<std::uint64_t>::max(), grabbed_).visited == 0) {
+    const auto sweep = solver_->relax(step, std::numeric_limits<std::uint64_t>::max(), grabbed_);
+    mark(solver_->relaxed());
+    if (sweep.visited == 0) {
       break;
     }
   }
@@ -115,6 +139,8 @@ void Simulation::take_mesh(MeshPointer mesh) {
   solver_->set_relaxation(relaxation_scheme_);
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
+  away_ = changed_ = ElementBlocks(mesh_->element_count());
+  changed_.insert_all();
   grabbed_.reset();
   last_moved_.reset();
   valid_ = true;
@@ -154,7 +180,8 @@ void Simulation::fall_asleep() {
 
 Simulation::State Simulation::current_state() const {
   const auto pins = solver_->pins();
-  return {mesh_, solver_->cuts().links(), {pins.begin(), pins.end()}, softness_, solver_->keep_positions(), valid_};
+  return {mesh_,     solver_->cuts().links(),        {pins.begin(), pins.end()},
+          softness_, solver_->keep_positions(away_), valid_};
 }
 
 }  // namespace chainmail

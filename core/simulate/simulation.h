@@ -50,6 +50,9 @@ class Simulation {
   const Solver& solver() const { return *solver_; }
   const Softness& softness() const { return softness_; }
   std::optional<ElementId> grabbed() const { return grabbed_; }
+  /// The blocks in which a position may have changed since forget_changes().
+  const ElementBlocks& changed() const { return changed_; }
+  void forget_changes() { changed_.clear(); }
   const Statistics& statistics() const { return statistics_; }
   /// No link violated beyond rounding, as far as is known without looking at the whole mesh.
   bool valid() const { return valid_; }
@@ -87,6 +90,8 @@ class Simulation {
   void answer();
   void forget_passes();
   void pass(ElementId element, const Point& target);
+  void mark(std::span<const ElementId> moved);
+  void mark_all();
   void check_element(ElementId element) const;
   void check_links(const std::vector<LinkId>& links) const;
   void take_mesh(MeshPointer mesh);
@@ -100,6 +105,8 @@ class Simulation {
   Precision precision_;
   std::unique_ptr<Solver> solver_;
   Softness softness_;
+  ElementBlocks changed_;  // since they were last forgotten
+  ElementBlocks away_;     // no element outside them stands away from rest
   std::optional<ElementId> grabbed_;
   std::optional<ElementId> last_moved_;  // the element of the last pass
   bool valid_ = true;

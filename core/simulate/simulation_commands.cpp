@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -73,9 +72,8 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
   relaxation_step_ = command.step;
   solver_->set_relaxation(relaxation_scheme_ = command.scheme);
   if (command.on && !was_on) {
-    std::vector<ElementId> all(mesh_->element_count());
-    std::iota(all.begin(), all.end(), ElementId{0});
-    wake(all);
+    solver_->wake_all();
+    wake({});
   } else if (!command.on) {
     fall_asleep();
   }
@@ -83,8 +81,12 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
 
 void Simulation::carry_out(const commands::SetAlgorithm& command) {
   solver_->set_algorithm(command.algorithm);
-  if (std::exchange(algorithm_, command.algorithm) == command.algorithm) {
+  const Algorithm before = std::exchange(algorithm_, command.algorithm);
+  if (before == algorithm_) {
     return;
+  }
+  if ((before == Algorithm::exact || algorithm_ == Algorithm::exact) && !away_.empty()) {
+    mark_all();  // Exact holds positions otherwise: the change rounds every one
   }
   statistics_.algorithm = algorithm_;
   forget_passes();
@@ -126,7 +128,9 @@ void Simulation::carry_out(const commands::Unpin& command) {
 }
 
 void Simulation::carry_out(const commands::Reset&) {
-  solver_->reset();
+  solver_->reset(away_);
+  changed_.insert(away_);
+  away_.clear();
   last_moved_.reset();
   forget_passes();
   valid_ = true;
@@ -161,7 +165,10 @@ void Simulation::carry_out(const commands::SwapState& command) {
   solver_->set_softness(softness_);
   solver_->cut(now.cuts);
   solver_->pin(now.pins);
-  solver_->restore(now.positions);
+  solver_->restore(now.positions, away_);
+  changed_.insert(away_);
+  changed_.insert(now.positions.blocks);
+  away_ = now.positions.blocks;
   valid_ = now.valid;
   forget_passes();
   grabbed_.reset();

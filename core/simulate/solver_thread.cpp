@@ -1,6 +1,8 @@
 #include "simulate/solver_thread.h"
 
+#include <algorithm>
 #include <new>
+#include <span>
 #include <utility>
 
 #include "mesh/error.h"
@@ -15,6 +17,12 @@ constexpr auto frame_time = std::chrono::milliseconds(16);
 constexpr auto relaxation_share = std::chrono::milliseconds(8);
 // A figure that is read by eye need not change more often.
 constexpr auto violation_time = std::chrono::milliseconds(250);
+
+/// The stamps of a run of blocks, given by its elements.
+std::span<std::uint64_t> blocks_of(std::span<std::uint64_t> stamps, ElementId first, ElementId end) {
+  const std::size_t block = first / Frame::block_elements;
+  return stamps.subspan(block, (end - 1) / Frame::block_elements - block + 1);
+}
 
 }  // namespace
 
@@ -115,17 +123,48 @@ void SolverThread::publish(bool at_rest) {
     // On a large mesh it costs more than a pass: at most a tenth of the time goes there.
     next_violation_ = now + std::max<Clock::duration>(violation_time, 10 * (Clock::now() - now));
   }
-  Frame& frame = frames_.back();
-  frame.mesh = simulation_.mesh_pointer();
-  frame.positions.resize(frame.mesh->rest.size());
-  simulation_.solver().copy_positions(std::span(frame.positions));
-  frame.statistics = simulation_.statistics();
-  frame.number = ++frame_number_;
+  ++frame_number_;
+  note_changes();
+  fill(frames_.back(), pending_[frames_.back_index()]);
   frames_.publish();
   last_frame_ = now;
   unseen_ = false;
   measured_ = at_rest;
   frame_ready_();
+}
+
+/// What changed since the last frame, in the stamps and for each frame that may be filled next.
+void SolverThread::note_changes() {
+  if (shown_ != simulation_.mesh_pointer()) {
+    shown_ = simulation_.mesh_pointer();
+    const ElementBlocks none(shown_->element_count());
+    stamps_.assign(none.block_count(), 0);
+    pending_.fill(none);
+  }
+  const ElementBlocks& changed = simulation_.changed();
+  changed.for_each_run([this](ElementId first, ElementId end) {
+    std::ranges::fill(blocks_of(std::span(stamps_), first, end), frame_number_);
+  });
+  for (ElementBlocks& pending : pending_) {
+    pending.insert(changed);
+  }
+  simulation_.forget_changes();
+}
+
+/// A pending set is of the mesh last shown; a frame that was filled with another one lacks all of its blocks.
+void SolverThread::fill(Frame& frame, ElementBlocks& pending) {
+  const auto coordinates = static_cast<std::size_t>(shown_->space_dimension);
+  frame.mesh = shown_;
+  frame.positions.resize(shown_->rest.size());
+  frame.changed.resize(stamps_.size());
+  pending.for_each_run([&](ElementId first, ElementId end) {
+    const auto positions = std::span(frame.positions).subspan(coordinates * first, coordinates * (end - first));
+    simulation_.solver().copy_positions(first, positions);
+    std::ranges::copy(blocks_of(std::span(stamps_), first, end), frame.changed.begin() + first / Frame::block_elements);
+  });
+  pending.clear();
+  frame.statistics = simulation_.statistics();
+  frame.number = frame_number_;
 }
 
 }  // namespace chainmail

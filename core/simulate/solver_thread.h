@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -39,11 +40,17 @@ class SolverThread {
   void relax();
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void publish(bool at_rest);
+  void note_changes();
+  void fill(Frame& frame, ElementBlocks& pending);
 
   Simulation simulation_;
   std::function<void()> frame_ready_;
   TripleBuffer frames_;
   std::uint64_t frame_number_ = 0;
+  MeshPointer shown_;                  // by the newest frame
+  std::vector<std::uint64_t> stamps_;  // Frame::changed of the newest frame
+  /// For each frame of the buffer, the blocks that changed since it was last filled.
+  std::array<ElementBlocks, TripleBuffer::frame_count> pending_;
   PassTimes::Clock::time_point last_frame_{};
   PassTimes::Clock::time_point next_violation_{};
   std::uint64_t measured_passes_ = 0;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,15 @@ class ActiveSet {
     last_ = std::max<std::size_t>(last_, element / 64);
   }
 
+  void insert_all(std::size_t element_count) {
+    words_.assign((element_count + 63) / 64, ~std::uint64_t{0});
+    if (element_count % 64 != 0) {
+      words_.back() = (std::uint64_t{1} << (element_count % 64)) - 1;
+    }
+    first_ = 0;
+    last_ = words_.size() - 1;
+  }
+
   /// Takes the smallest element out, or says that there is none.
   std::optional<ElementId> take() {
     for (; first_ <= last_ && first_ < words_.size(); ++first_) {
@@ -40,8 +50,11 @@ class ActiveSet {
   }
 
   void clear() {
-    while (take()) {
+    for (; first_ <= last_ && first_ < words_.size(); ++first_) {
+      words_[first_] = 0;
     }
+    first_ = std::numeric_limits<std::size_t>::max();
+    last_ = 0;
   }
 
  private:
@@ -76,6 +89,8 @@ class Relaxation {
                             [&](ElementId neighbour, EntryId) { next_.insert(neighbour, body.elements.size()); });
   }
 
+  void wake_all(const State& body) { next_.insert_all(body.elements.size()); }
+
   void sleep() {
     current_.clear();
     next_.clear();
@@ -90,6 +105,7 @@ class Relaxation {
       std::swap(current_, next_);
       in_sweep_ = true;
     }
+    moved_.clear();
     RelaxationResult result;
     for (; result.visited < budget; ++result.visited) {
       const auto element = current_.take();
@@ -109,6 +125,9 @@ class Relaxation {
     }
     return result;
   }
+
+  /// The elements that the last slice moved; one that moved twice comes twice.
+  std::span<const ElementId> moved() const { return moved_; }
 
  private:
   void end_sweep() {
@@ -184,6 +203,7 @@ class Relaxation {
       return false;
     }
     largest_step_ = std::max(largest_step_, taken);
+    moved_.push_back(element);
     body.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
       (neighbour > visited ? current_ : next_).insert(neighbour, body.elements.size());
     });
@@ -224,6 +244,7 @@ class Relaxation {
 
   ActiveSet current_;  // still to come in this sweep
   ActiveSet next_;     // to come in the next
+  std::vector<ElementId> moved_;
   bool in_sweep_ = false;
   double largest_step_ = 0;  // of this sweep (mesh units)
 };

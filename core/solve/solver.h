@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/cuts.h"
+#include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
 #include "solve/relaxation_result.h"
 #include "solve/softness.h"
@@ -74,8 +75,10 @@ class PositionView {
   const Mesh* from_rest_;
 };
 
-/// Positions as a solver holds them, element by element, to be given back to it to the bit.
+/// Positions as a solver holds them, to be given back to it to the bit: of some blocks, element by element. All
+/// other elements stand at rest.
 struct KeptPositions {
+  ElementBlocks blocks;
   std::vector<double> held;
   bool from_rest = false;
 };
@@ -101,6 +104,8 @@ class Solver {
   virtual std::span<const ElementId> pins() const = 0;
   /// Back to the rest positions; cuts, pins and softness stay.
   virtual void reset() = 0;
+  /// The same, where no element outside these blocks stands away from rest.
+  virtual void reset(const ElementBlocks& away) = 0;
 
   /// Sets an element to a target (mesh units; the carried axes count) and propagates: one pass.
   /// `trace`, where given, receives every candidate that was processed. Throws Error where the element is
@@ -112,22 +117,30 @@ class Solver {
 
   /// Makes these elements and their neighbours active: relaxation will look at them.
   virtual void wake(std::span<const ElementId> elements) = 0;
+  virtual void wake_all() = 0;
   virtual void set_relaxation(RelaxationScheme scheme) = 0;
   /// Goes on relaxing with a step in (0, 1] until a sweep ends or `budget` elements were visited;
   /// `held` stays. Sleeps where nothing is active (then visited is 0 and the sweep has ended).
   virtual RelaxationResult relax(double step, std::uint64_t budget, std::optional<ElementId> held) = 0;
+  /// The elements that the last call of relax moved; one that moved twice comes twice.
+  virtual std::span<const ElementId> relaxed() const = 0;
   /// Leaves nothing active.
   virtual void sleep() = 0;
 
   virtual const Cuts& cuts() const = 0;
   virtual PositionView positions() const = 0;
-  /// Writes every carried coordinate, element by element, into `out` (element_count x space_dimension).
-  virtual void copy_positions(std::span<float> out) const = 0;
-  virtual void copy_positions(std::span<double> out) const = 0;
+  /// Writes every carried coordinate, element by element from `first` on, into `out` (space_dimension an element).
+  virtual void copy_positions(ElementId first, std::span<float> out) const = 0;
+  virtual void copy_positions(ElementId first, std::span<double> out) const = 0;
+  /// Those of all elements (element_count x space_dimension).
+  void copy_positions(std::span<float> out) const { copy_positions(0, out); }
+  void copy_positions(std::span<double> out) const { copy_positions(0, out); }
   /// Takes every carried coordinate from `in`, as copy_positions wrote it.
   virtual void set_positions(std::span<const double> in) = 0;
-  virtual KeptPositions keep_positions() const = 0;
-  virtual void restore(const KeptPositions& kept) = 0;
+  /// Keeps the positions of these blocks; no element outside them may stand away from rest.
+  virtual KeptPositions keep_positions(const ElementBlocks& away) const = 0;
+  /// Takes them back; no element outside `away` may stand away from rest now.
+  virtual void restore(const KeptPositions& kept, const ElementBlocks& away) = 0;
 };
 
 /// Throws Error where the algorithm does not work on the mesh.

@@ -78,6 +78,13 @@ class TypedSolver final : public Solver {
     exact_.set_valid(true);
   }
 
+  void reset(const ElementBlocks& away) override {
+    away.for_each_run([this](ElementId first, ElementId end) { put_to_rest(first, end); });
+    relaxation_.sleep();
+    at_rest_ = true;
+    exact_.set_valid(true);
+  }
+
   PassCount move(ElementId element, const Point& target, Trace* trace) override {
     if (body_.pinned(element)) {
       throw Error("element " + std::to_string(element), "it is pinned and may not move",
@@ -113,6 +120,8 @@ class TypedSolver final : public Solver {
     }
   }
 
+  void wake_all() override { relaxation_.wake_all(body_); }
+
   void set_relaxation(RelaxationScheme scheme) override { scheme_ = scheme; }
 
   RelaxationResult relax(double step, std::uint64_t budget, std::optional<ElementId> held) override {
@@ -120,6 +129,8 @@ class TypedSolver final : public Solver {
     at_rest_ = at_rest_ && result.largest_step == 0;
     return result;
   }
+
+  std::span<const ElementId> relaxed() const override { return relaxation_.moved(); }
 
   void sleep() override { relaxation_.sleep(); }
 
@@ -129,8 +140,8 @@ class TypedSolver final : public Solver {
             std::is_same_v<Scalar, float> ? Precision::single_precision : Precision::double_precision,
             body_.from_rest ? body_.mesh.get() : nullptr};
   }
-  void copy_positions(std::span<float> out) const override { copy(out); }
-  void copy_positions(std::span<double> out) const override { copy(out); }
+  void copy_positions(ElementId first, std::span<float> out) const override { copy(first, out); }
+  void copy_positions(ElementId first, std::span<double> out) const override { copy(first, out); }
 
   void set_positions(std::span<const double> in) override {
     for (std::size_t i = 0; i < in.size(); ++i) {
@@ -139,22 +150,29 @@ class TypedSolver final : public Solver {
     take_positions();
   }
 
-  KeptPositions keep_positions() const override {
-    KeptPositions kept{std::vector<double>(body_.elements.size() * Dimension), body_.from_rest};
-    for (std::size_t i = 0; i < kept.held.size(); ++i) {
-      kept.held[i] = double(body_.elements[i / Dimension].position[i % Dimension]);
-    }
+  KeptPositions keep_positions(const ElementBlocks& away) const override {
+    KeptPositions kept{away, {}, body_.from_rest};
+    away.for_each_run([&](ElementId first, ElementId end) {
+      for (ElementId e = first; e < end; ++e) {
+        kept.held.insert(kept.held.end(), body_.elements[e].position, body_.elements[e].position + Dimension);
+      }
+    });
     return kept;
   }
 
-  void restore(const KeptPositions& kept) override {
-    const bool now = body_.from_rest;
-    body_.from_rest = kept.from_rest;
-    for (std::size_t i = 0; i < kept.held.size(); ++i) {
-      body_.elements[i / Dimension].position[i % Dimension] = static_cast<Scalar>(kept.held[i]);
+  void restore(const KeptPositions& kept, const ElementBlocks& away) override {
+    reset(away);
+    auto held = kept.held.begin();
+    kept.blocks.for_each_run([&](ElementId first, ElementId end) {
+      for (ElementId e = first; e < end; ++e) {
+        for (int k = 0; k < Dimension; ++k, ++held) {
+          take(e, k, *held, kept.from_rest);
+        }
+      }
+    });
+    if (!kept.held.empty()) {
+      take_positions();
     }
-    body_.hold_from_rest(now, softness_);
-    take_positions();
   }
 
  private:
@@ -176,6 +194,23 @@ class TypedSolver final : public Solver {
     for (const ElementId pin : pins_) {
       body_.set_pinned(pin, true);
     }
+  }
+
+  void put_to_rest(ElementId first, ElementId end) {
+    for (ElementId e = first; e < end; ++e) {
+      for (int k = 0; k < Dimension; ++k) {
+        body_.place(e, k, body_.mesh->rest[std::size_t{e} * Dimension + k]);
+      }
+    }
+  }
+
+  /// Takes a coordinate that was held as a displacement from rest, or absolute, as the body holds it now.
+  void take(ElementId element, int k, double held, bool from_rest) {
+    if (from_rest != body_.from_rest) {
+      const double rest = body_.mesh->rest[std::size_t{element} * Dimension + k];
+      held = from_rest ? held + rest : held - rest;
+    }
+    body_.elements[element].position[k] = static_cast<Scalar>(held);
   }
 
   void take_positions() {
@@ -232,10 +267,10 @@ class TypedSolver final : public Solver {
   }
 
   template <class Out>
-  void copy(std::span<Out> out) const {
-    for (ElementId e = 0; e < body_.elements.size(); ++e) {
+  void copy(ElementId first, std::span<Out> out) const {
+    for (std::size_t i = 0; i < out.size() / Dimension; ++i) {
       for (int k = 0; k < Dimension; ++k) {
-        out[std::size_t{e} * Dimension + k] = static_cast<Out>(body_.absolute(e, k));
+        out[i * Dimension + k] = static_cast<Out>(body_.absolute(first + static_cast<ElementId>(i), k));
       }
     }
   }

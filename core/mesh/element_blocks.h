@@ -1,0 +1,89 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// A set of blocks of 256 elements, in id order. What happens to elements is noted by the block, so that copying
+/// what changed costs what changed: a bit a block makes 2 KiB for four million elements.
+class ElementBlocks {
+ public:
+  static constexpr ElementId block_elements = 256;
+
+  ElementBlocks() = default;
+  /// None of the blocks of an object with this many elements.
+  explicit ElementBlocks(ElementId element_count)
+      : element_count_(element_count), words_((block_count() + bits - 1) / bits) {}
+
+  std::size_t block_count() const { return (std::size_t{element_count_} + block_elements - 1) / block_elements; }
+  bool empty() const {
+    return std::all_of(words_.begin(), words_.end(), [](std::uint64_t word) { return word == 0; });
+  }
+
+  void insert(ElementId element) { insert_block(element / block_elements); }
+  /// Of more than half of the elements it takes all blocks, without looking at each.
+  void insert(std::span<const ElementId> elements) {
+    if (elements.size() > element_count_ / 2) {
+      insert_all();
+      return;
+    }
+    std::size_t last = block_count();
+    for (const ElementId element : elements) {
+      if (const std::size_t block = element / block_elements; block != last) {
+        insert_block(last = block);
+      }
+    }
+  }
+  void insert_all() {
+    for (std::size_t block = 0; block < block_count(); block += bits) {
+      const std::size_t left = block_count() - block;
+      words_[block / bits] = left < bits ? (std::uint64_t{1} << left) - 1 : ~std::uint64_t{0};
+    }
+  }
+  /// Those of a set of the same object.
+  void insert(const ElementBlocks& others) {
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      words_[i] |= others.words_[i];
+    }
+  }
+  void clear() { std::fill(words_.begin(), words_.end(), 0); }
+
+  /// Calls visit(first, end), of element ids, for each run of blocks, in ascending order.
+  template <class Visit>
+  void for_each_run(Visit visit) const {
+    std::size_t first = 0, end = 0;  // of a run of blocks
+    const auto finish = [&] {
+      if (first != end) {
+        visit(static_cast<ElementId>(first * block_elements),
+              static_cast<ElementId>(std::min<std::size_t>(end * block_elements, element_count_)));
+      }
+    };
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      for (std::uint64_t word = words_[i]; word != 0; word &= word - 1) {
+        const std::size_t block = bits * i + static_cast<std::size_t>(std::countr_zero(word));
+        if (block != end) {
+          finish();
+          first = block;
+        }
+        end = block + 1;
+      }
+    }
+    finish();
+  }
+
+ private:
+  static constexpr std::size_t bits = 64;
+
+  void insert_block(std::size_t block) { words_[block / bits] |= std::uint64_t{1} << (block % bits); }
+
+  ElementId element_count_ = 0;
+  std::vector<std::uint64_t> words_;  // a bit a block
+};
+
+}  // namespace chainmail
