@@ -39,16 +39,6 @@ const ColourModeInfo& info(ColourMode mode) {
   return *std::find_if(infos.begin(), infos.end(), [mode](auto& one) { return one.mode == mode; });
 }
 
-std::vector<float> largestOfLinks(const Mesh& mesh, const std::vector<float>& ofLinks) {
-  std::vector<float> largest(mesh.element_count());
-  for (LinkId link = 0; link < mesh.link_count(); ++link) {
-    for (const ElementId e : mesh.links[link]) {
-      largest[e] = std::max(largest[e], ofLinks[link]);
-    }
-  }
-  return largest;
-}
-
 Colouring::Colouring(const Document& document) : document_(document) {
   timer_.setInterval(intervalMilliseconds);
   connect(&timer_, &QTimer::timeout, this, &Colouring::goOn);

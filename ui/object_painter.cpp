@@ -4,18 +4,13 @@
 #include <cmath>
 
 #include "colour_map.h"
-#include "drawn_indices.h"
 #include "mesh/error.h"
-#include "picking.h"
+#include "projection.h"
 #include "upload.h"
 
 namespace chainmail {
 namespace {
 
-// Above this many links an object is drawn more coarsely where its links fall below this many pixels.
-constexpr LinkId linksDrawnAlways = 60'000;
-constexpr double pixelsPerLink = 3;
-constexpr LinkId linksOfVolume = 200'000;
 // Elements are marked where there are few and they stand apart.
 constexpr ElementId elementsMarked = 20'000;
 constexpr double pixelsBetweenMarks = 9;
@@ -37,22 +32,22 @@ void ObjectPainter::initialize() {
     throw Error("OpenGL", program_.log().simplified().toStdString(), "update the graphics driver");
   }
   vertexArray_.create();
-  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &coarse_, &faces_, &selected_, &values_}) {
+  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &faces_, &selected_, &values_}) {
     buffer->create();
     buffer->setUsagePattern(QOpenGLBuffer::DynamicDraw);
   }
   glGenTextures(1, &valuesTexture_);
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largestTexture_);
 }
 
 void ObjectPainter::destroy() {
   program_.removeAllShaders();
   vertexArray_.destroy();
   glDeleteTextures(1, &valuesTexture_);
-  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &coarse_, &faces_, &selected_, &values_}) {
+  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &faces_, &selected_, &values_}) {
     buffer->destroy();
   }
   mesh_.reset();
+  level_.reset();
   frameNumber_ = 0;
   valuesNumber_ = 0;
   selectedIndices_ = 0;
@@ -60,47 +55,36 @@ void ObjectPainter::destroy() {
 
 void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
   frame_ = &frame;
+  cuts_ = &cuts;
   if (frame.mesh != mesh_) {
-    setMesh(frame.mesh, cuts);
+    mesh_ = frame.mesh;
+    frameNumber_ = 0;
+    selectedIndices_ = 0;
+    valuesNumber_ = 0;
+    level_.reset();
   }
   if (frame.number != frameNumber_) {
+    uploadPositions(frame);
     frameNumber_ = frame.number;
-    upload(positions_, frame.positions);
   }
 }
 
-void ObjectPainter::setCuts(const Cuts& cuts) {
-  cuts_ = cuts;
-  coarseStep_ = 0;
-  linksOutdated_ = facesOutdated_ = true;
-  valuesNumber_ = 0;
-}
-
-void ObjectPainter::setMesh(const MeshPointer& mesh, const Cuts& cuts) {
-  mesh_ = mesh;
-  frameNumber_ = 0;
-  selectedIndices_ = 0;
-  setCuts(cuts);
-}
-
-void ObjectPainter::chooseStep(double pixelsPerUnit) {
-  step_ = 1;
-  const double pixels = mesh_->mean_link_length * pixelsPerUnit;
-  if (mesh_->link_count() <= linksDrawnAlways || !(pixels > 0)) {
+/// Runs of blocks that changed since the last time; all at once where all are new.
+void ObjectPainter::uploadPositions(const Frame& frame) {
+  if (frameNumber_ == 0) {
+    upload(positions_, frame.positions);
     return;
   }
-  // Inside a volume links hide each other: it is drawn coarsely before they become too small.
-  const bool volume = mesh_->object_dimension == 3 && mesh_->lattice;
-  const auto tooMany = [&] { return volume && mesh_->link_count() / (step_ * step_ * step_) > linksOfVolume; };
-  while (step_ < 64 && (pixels * step_ < pixelsPerLink || tooMany())) {
-    step_ *= 2;
-  }
-}
-
-void ObjectPainter::makeCoarse() {
-  if (step_ > 1 && step_ != coarseStep_) {
-    coarseStep_ = step_;
-    coarseIndices_ = upload(coarse_, mesh_->lattice ? coarseLinks(*mesh_, cuts_, step_) : scattered(*mesh_, step_));
+  const std::size_t perBlock = std::size_t{Frame::block_elements} * mesh_->space_dimension;
+  const auto& changed = frame.changed;
+  for (std::size_t block = 0; block < changed.size(); ++block) {
+    const std::size_t first = block;
+    while (block < changed.size() && changed[block] > frameNumber_) {
+      ++block;
+    }
+    if (block > first) {
+      uploadPart(positions_, frame.positions, first * perBlock, std::min(block * perBlock, frame.positions.size()));
+    }
   }
 }
 
@@ -124,8 +108,8 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
 }
 
 void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
-  chooseStep(pixelsPerUnit);
-  makeCoarse();
+  chooseStep(scene, pixelsPerUnit);
+  makeLists(scene);
   drawFaces(scene, paint);
   drawWires(scene, paint);
   if (step_ == 1 && mesh_->element_count() <= elementsMarked &&
@@ -147,17 +131,10 @@ void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
 }
 
 void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
-  const bool spatial = mesh_->space_dimension == 3;
-  if (step_ > 1 && !spatial) {
-    return;  // they only tint a plane, and there are many
-  }
-  if (facesOutdated_) {
-    faceIndices_ = upload(faces_, uncutFaces(*mesh_, cuts_));
-    facesOutdated_ = false;
-  }
   if (faceIndices_ == 0) {
     return;
   }
+  const bool spatial = mesh_->space_dimension == 3;
   if (spatial) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
@@ -178,24 +155,14 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
 }
 
 void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
-  const bool coarse = step_ > 1;
-  if (!coarse && linksOutdated_) {
-    linkIndices_ = upload(links_, uncutLinks(*mesh_, cuts_));
-    linksOutdated_ = false;
-  }
-  const GLsizei count = coarse ? coarseIndices_ : linkIndices_;
+  const auto count = GLsizei(2 * drawnLinks_.size());
   positions_.bind();
   use(scene, paint.colour, 0, mesh_->space_dimension);
   if (valuesFit(paint)) {
-    useValues(paint, linksKeepValues(paint));
+    useValues(paint, paint.values->ofLinks);
     glLineWidth(count <= indicesSmoothed ? valuedWidth * scene.pixelRatio : 1);
   }
-  (coarse ? coarse_ : links_).bind();
-  if (coarse && !mesh_->lattice) {
-    program_.setUniformValue("point_size", scene.pixelRatio);
-    glDrawElements(GL_POINTS, count, GL_UNSIGNED_INT, nullptr);
-    return;
-  }
+  links_.bind();
   if (count <= indicesSmoothed) {
     glEnable(GL_LINE_SMOOTH);
   }

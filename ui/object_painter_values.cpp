@@ -29,29 +29,30 @@ void ObjectPainter::useValues(const Paint& paint, bool ofLinks) {
   }
 }
 
-/// The links' values as the links are drawn, one after the other, or a value for each element.
+/// A value for each link that is drawn, the largest of those that it stands for, or a value for each element.
 void ObjectPainter::uploadValues(const ColourValues& values, bool ofLinks) {
   valuesNumber_ = values.number;
   valuesOfLinks_ = ofLinks;
   if (!ofLinks) {
-    upload(values_, values.ofLinks ? largestOfLinks(*mesh_, values.values) : values.values);
+    upload(values_, values.values);
     return;
   }
   std::vector<float> drawn;
-  drawn.reserve(values.values.size());
-  for (LinkId link = 0; link < mesh_->link_count(); ++link) {
-    if (!cuts_.is_cut(link)) {
+  drawn.reserve(drawnLinks_.size());
+  for (const std::uint32_t link : drawnLinks_) {
+    if (level_->step == 1) {
       drawn.push_back(values.values[link]);
+      continue;
     }
+    float largest = 0;
+    for (const LinkId one : level_->paths[link]) {
+      largest = std::max(largest, values.values[one]);
+    }
+    drawn.push_back(largest);
   }
   upload(values_, drawn);
   glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
   glTexBuffer(GL_TEXTURE_BUFFER, GL_R32F, values_.bufferId());
-}
-
-/// Where links are drawn coarsely, or are too many for a texture, the values stand at their ends.
-bool ObjectPainter::linksKeepValues(const Paint& paint) const {
-  return paint.values->ofLinks && step_ == 1 && mesh_->link_count() <= LinkId(largestTexture_);
 }
 
 }  // namespace chainmail

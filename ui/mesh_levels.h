@@ -1,0 +1,30 @@
+#pragma once
+
+#include <map>
+
+#include "coarse_level.h"
+
+namespace chainmail {
+
+/// The levels of detail of one mesh at a time, made when first asked for; the panels share them.
+class MeshLevels {
+ public:
+  /// `step` is a power of two.
+  MeshLevelPointer at(const MeshPointer& mesh, unsigned step) {
+    if (mesh != mesh_) {
+      levels_.clear();
+      mesh_ = mesh;
+    }
+    auto& level = levels_[step];
+    if (level == nullptr) {
+      level = step == 1 ? wholeLevel(mesh) : mesh->lattice ? coarseLattice(mesh, step) : coarser(*at(mesh, step / 2));
+    }
+    return level;
+  }
+
+ private:
+  MeshPointer mesh_;
+  std::map<unsigned, MeshLevelPointer> levels_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <QLineF>
+#include <QMatrix4x4>
+#include <QRectF>
+#include <limits>
+
+#include "cell_boxes.h"
+
+namespace chainmail {
+
+/// Carried coordinates to the three of space: the axes in their places, the others constant.
+QMatrix4x4 placement(const Mesh& mesh);
+
+/// A part of a view outside which something does not appear (logical pixels).
+struct ViewBounds {
+  double left = std::numeric_limits<double>::max(), top = left;
+  double right = std::numeric_limits<double>::lowest(), bottom = right;
+
+  static ViewBounds everywhere() {
+    constexpr double far = 1e300;  // products with it stay finite
+    return {-far, -far, far, far};
+  }
+  void unite(const ViewBounds& other);
+  bool meets(const QRectF& rectangle) const;
+  bool meets(const QLineF& segment) const;
+};
+
+/// Where elements appear in a view (logical pixels), and how deep.
+class Projection {
+ public:
+  Projection(const Mesh& mesh, const QMatrix4x4& toView, const QMatrix4x4& toClip, QSizeF view);
+
+  struct Place {
+    float x, y;
+    float distance;  // from the eye in perspective, 1 in a plane view, 0 or less behind the eye
+    bool visible() const { return distance > 0; }
+  };
+  /// `carried` points to the coordinates that the scene carries.
+  Place operator()(const float* carried) const;
+  /// Depth in pixels, growing away from the eye.
+  float depth(const Place& place) const;
+  /// Where all that lies in a box appears, rounding included.
+  ViewBounds bounds(const CellBoxes::Box& box) const;
+
+ private:
+  QMatrix4x4 matrix_;
+  int dimension_;
+  QSizeF view_;
+  float pixelsPerDepth_;
+};
+
+}  // namespace chainmail
