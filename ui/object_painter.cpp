@@ -1,7 +1,7 @@
 #include "object_painter.h"
 
+#include <QFile>
 #include <algorithm>
-#include <cmath>
 
 #include "colour_map.h"
 #include "mesh/error.h"
@@ -21,15 +21,25 @@ constexpr float valuedWidth = 2;
 
 QVector4D asVector(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
 
+void build(QOpenGLShaderProgram& program, const std::array<int, 2>& variant) {
+  const QByteArray head = "#version 330 core\n#define SHADING " + QByteArray::number(variant[0]) +
+                          "\n#define COLOURED_BY " + QByteArray::number(variant[1]) + "\n";
+  const auto source = [&head](const char* name) {
+    QFile file(QLatin1String(":/shaders/") + QLatin1String(name));
+    return file.open(QIODevice::ReadOnly) ? head + file.readAll() : QByteArray();
+  };
+  if (!(program.addShaderFromSourceCode(QOpenGLShader::Vertex, source("object.vert")) &&
+        program.addShaderFromSourceCode(QOpenGLShader::Fragment, source("object.frag")) && program.link())) {
+    throw Error("OpenGL", program.log().simplified().toStdString(), "update the graphics driver");
+  }
+}
+
 }  // namespace
 
 void ObjectPainter::initialize() {
   initializeOpenGLFunctions();
-  const bool built = program_.addShaderFromSourceFile(QOpenGLShader::Vertex, ":/shaders/object.vert") &&
-                     program_.addShaderFromSourceFile(QOpenGLShader::Fragment, ":/shaders/object.frag") &&
-                     program_.link();
-  if (!built) {
-    throw Error("OpenGL", program_.log().simplified().toStdString(), "update the graphics driver");
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    build(programs_[i], variants[i]);
   }
   vertexArray_.create();
   for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &faces_, &selected_, &values_}) {
@@ -40,7 +50,9 @@ void ObjectPainter::initialize() {
 }
 
 void ObjectPainter::destroy() {
-  program_.removeAllShaders();
+  for (QOpenGLShaderProgram& program : programs_) {
+    program.removeAllShaders();
+  }
   vertexArray_.destroy();
   glDeleteTextures(1, &valuesTexture_);
   for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &faces_, &selected_, &values_}) {
@@ -88,23 +100,23 @@ void ObjectPainter::uploadPositions(const Frame& frame) {
   }
 }
 
-void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dimension) {
+void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dimension, int colouredBy) {
   glEnable(GL_PROGRAM_POINT_SIZE);
   glEnable(GL_BLEND);
   // The picture stays opaque, whatever is blended into it.
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  program_.bind();
-  program_.setUniformValue("to_view", scene.toView * placement(*mesh_));
-  program_.setUniformValue("to_clip", scene.toClip);
-  program_.setUniformValue("colour", asVector(colour));
-  program_.setUniformValue("background", asVector(scene.background));
-  program_.setUniformValue("fog", scene.fog);
-  program_.setUniformValue("shading", shading);
-  program_.setUniformValue("coloured_by", 0);
+  const std::array variant{shading, colouredBy};
+  program_ = &programs_[std::size_t(std::find(variants.begin(), variants.end(), variant) - variants.begin())];
+  program_->bind();
+  program_->setUniformValue("to_view", scene.toView * placement(*mesh_));
+  program_->setUniformValue("to_clip", scene.toClip);
+  program_->setUniformValue("colour", asVector(colour));
+  program_->setUniformValue("background", asVector(scene.background));
+  program_->setUniformValue("fog", scene.fog);
   vertexArray_.bind();
-  program_.enableAttributeArray(0);
-  program_.setAttributeBuffer(0, GL_FLOAT, 0, dimension);
-  program_.disableAttributeArray(1);
+  program_->enableAttributeArray(0);
+  program_->setAttributeBuffer(0, GL_FLOAT, 0, dimension);
+  program_->disableAttributeArray(1);
 }
 
 void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
@@ -122,11 +134,12 @@ void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pi
 void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
   const bool byValues = valuesFit(paint);
   positions_.bind();
-  use(scene, byValues ? colour_map::neutral : paint.colour.lighter(125), 2, mesh_->space_dimension);
   if (byValues && !paint.values->ofLinks) {
-    useValues(paint, false);
+    useValues(scene, paint, 2);
+  } else {
+    use(scene, byValues ? colour_map::neutral : paint.colour.lighter(125), 2, mesh_->space_dimension);
   }
-  program_.setUniformValue("point_size", 4.5F * scene.pixelRatio);
+  program_->setUniformValue("point_size", 4.5F * scene.pixelRatio);
   glDrawArrays(GL_POINTS, 0, GLsizei(mesh_->element_count()));
 }
 
@@ -157,9 +170,10 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
 void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
   const auto count = GLsizei(2 * drawnLinks_.size());
   positions_.bind();
-  use(scene, paint.colour, 0, mesh_->space_dimension);
-  if (valuesFit(paint)) {
-    useValues(paint, paint.values->ofLinks);
+  if (!valuesFit(paint)) {
+    use(scene, paint.colour, 0, mesh_->space_dimension);
+  } else {
+    useValues(scene, paint, 0);
     glLineWidth(count <= indicesSmoothed ? valuedWidth * scene.pixelRatio : 1);
   }
   links_.bind();

@@ -68,14 +68,14 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
  private:
   void uploadPositions(const Frame& frame);
   void chooseStep(const Scene& scene, double pixelsPerUnit);
-  double shapesInView(const Scene& scene, double pixelsPerLink) const;
-  /// The cells of the level that may be seen.
-  std::vector<std::uint32_t> visibleCells(const Scene& scene);
+  double shareInView(const Scene& scene);
+  /// The cells of a level that may be seen.
+  std::vector<std::uint32_t> visibleCells(const Scene& scene, const MeshLevelPointer& level, CellBoxes& boxes) const;
   void makeLists(const Scene& scene);
-  void use(const Scene& scene, QColor colour, int shading, int dimension);
-  /// After use(): what is drawn next takes its colours from the values.
-  void useValues(const Paint& paint, bool ofLinks);
-  void uploadValues(const ColourValues& values, bool ofLinks);
+  void use(const Scene& scene, QColor colour, int shading, int dimension, int colouredBy = 0);
+  /// Where the object has values: as use(), and what is drawn next takes its colours from them.
+  void useValues(const Scene& scene, const Paint& paint, int shading);
+  void uploadValues(const ColourValues& values);
   bool valuesFit(const Paint& paint) const { return paint.values != nullptr && paint.values->mesh == mesh_; }
   void drawFaces(const Scene& scene, const Paint& paint);
   void drawWires(const Scene& scene, const Paint& paint);
@@ -83,7 +83,11 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour, int shading,
                float diameter);
 
-  QOpenGLShaderProgram program_;
+  // The shaders, compiled for each pair of their SHADING and COLOURED_BY that is drawn with.
+  static constexpr std::array<std::array<int, 2>, 8> variants{
+      {{0, 0}, {0, 1}, {0, 2}, {1, 0}, {2, 0}, {2, 1}, {3, 0}, {4, 0}}};
+  std::array<QOpenGLShaderProgram, variants.size()> programs_;
+  QOpenGLShaderProgram* program_ = nullptr;  // the one in use
   QOpenGLVertexArrayObject vertexArray_;
   QOpenGLBuffer positions_{QOpenGLBuffer::VertexBuffer};
   QOpenGLBuffer scratch_{QOpenGLBuffer::VertexBuffer};
@@ -99,14 +103,14 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   std::uint64_t frameNumber_ = 0;
   unsigned step_ = 1;
   MeshLevelPointer level_;
-  CellBoxes boxes_;
+  CellBoxes boxes_;       // of that level
+  CellBoxes wholeBoxes_;  // of every element
   // What links_ and faces_ were filled with.
   std::vector<std::uint32_t> cells_;
   std::vector<std::uint32_t> drawnLinks_;  // their numbers in the level
   bool listsOutdated_ = true;
   GLsizei faceIndices_ = 0, selectedIndices_ = 0;
   std::uint64_t valuesNumber_ = 0;
-  bool valuesOfLinks_ = false;  // what values_ was filled with
 };
 
 }  // namespace chainmail

@@ -39,40 +39,44 @@ double shapesPerElement(const Mesh& mesh, unsigned step) {
   return faces + double(std::count_if(size.begin(), size.end(), [](auto one) { return one > 1; }));
 }
 
-/// How often an object lies behind itself, at rest.
-double layers(const Mesh& mesh) {
-  const bool spatial = mesh.space_dimension == 3;
-  return mesh.object_dimension == 3 ? std::cbrt(mesh.element_count()) : spatial ? 2 : 1;
-}
-
 }  // namespace
 
-/// About how many links and faces would be seen, from what has room in the view.
-double ObjectPainter::shapesInView(const Scene& scene, double pixels) const {
-  const double room = scene.size.width() * scene.size.height() / (scene.pixelRatio * scene.pixelRatio);
-  const double share = std::min(1.0, room / (pixels * pixels) * layers(*mesh_) / mesh_->element_count());
-  return share * elementsAt(*mesh_, step_) * shapesPerElement(*mesh_, step_);
+/// Which share of the elements may be seen.
+double ObjectPainter::shareInView(const Scene& scene) {
+  const auto whole = levels_->at(mesh_, 1);
+  const auto seen = visibleCells(scene, whole, wholeBoxes_);
+  return double(seen.size()) / double(whole->cellCount());
 }
 
+/// As finely as its links can be told apart; more coarsely where too many would be seen at once, as in a volume.
 void ObjectPainter::chooseStep(const Scene& scene, double pixelsPerUnit) {
   step_ = 1;
   const double pixels = mesh_->mean_link_length * pixelsPerUnit;
   if (mesh_->links.size() + mesh_->triangles.size() <= shapesDrawn || !(pixels > 0)) {
     return;
   }
-  while (step_ < coarsest && (pixels * step_ < pixelsPerLink || shapesInView(scene, pixels) > shapesDrawn)) {
-    step_ *= 2;
+  while (step_ < coarsest && pixels * step_ < pixelsPerLink) {
+    step_ = MeshLevels::after(step_, *mesh_);
+  }
+  const auto shapes = [&] { return elementsAt(*mesh_, step_) * shapesPerElement(*mesh_, step_); };
+  if (shapes() <= shapesDrawn) {
+    return;
+  }
+  const double share = shareInView(scene);
+  while (step_ < coarsest && share * shapes() > shapesDrawn) {
+    step_ = MeshLevels::after(step_, *mesh_);
   }
 }
 
-std::vector<std::uint32_t> ObjectPainter::visibleCells(const Scene& scene) {
-  std::vector<std::uint32_t> cells(level_->cellCount());
+std::vector<std::uint32_t> ObjectPainter::visibleCells(const Scene& scene, const MeshLevelPointer& level,
+                                                       CellBoxes& boxes) const {
+  std::vector<std::uint32_t> cells(level->cellCount());
   std::iota(cells.begin(), cells.end(), 0U);
-  if (level_->links.size() + level_->faces.size() <= shapesDrawn) {
+  if (level->links.size() + level->faces.size() <= shapesDrawn) {
     return cells;
   }
-  boxes_.follow(level_, *frame_);
-  const auto bounds = reachedBounds(boxes_, Projection(*mesh_, scene.toView, scene.toClip, scene.size));
+  boxes.follow(level, *frame_);
+  const auto bounds = reachedBounds(boxes, Projection(*mesh_, scene.toView, scene.toClip, scene.size));
   const QRectF view(QPointF(), scene.size);
   std::erase_if(cells, [&](std::uint32_t cell) { return !bounds[cell].meets(view); });
   return cells;
@@ -84,7 +88,7 @@ void ObjectPainter::makeLists(const Scene& scene) {
     level_ = levels_->at(mesh_, step_);
     listsOutdated_ = true;
   }
-  auto cells = visibleCells(scene);
+  auto cells = visibleCells(scene, level_, boxes_);
   if (!listsOutdated_ && cells == cells_) {
     return;
   }

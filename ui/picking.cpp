@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace chainmail {
 namespace {
@@ -89,7 +90,9 @@ std::vector<ViewBounds> reachedBounds(const CellBoxes& boxes, const Projection& 
   std::vector<ViewBounds> reached = own;
   for (std::size_t cell = 0; cell < own.size(); ++cell) {
     for (const std::uint32_t other : level.cellsLinked[cell]) {
-      reached[cell].unite(own[other]);
+      // A link from before the eye to behind it leaves the view at any side.
+      const bool around = own[other].empty() != own[cell].empty();
+      reached[cell].unite(around ? ViewBounds::everywhere() : own[other]);
     }
   }
   return reached;
@@ -98,8 +101,15 @@ std::vector<ViewBounds> reachedBounds(const CellBoxes& boxes, const Projection& 
 std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts,
                                  const Projection& projection, QLineF stroke) {
   const MeshLevel& level = boxes.level();
-  const auto place = [&](ElementId e) {
-    return projection(frame.positions.data() + std::size_t{e} * level.mesh->space_dimension);
+  // Room for all elements, of which only those near the stroke are looked at.
+  const auto places = std::make_unique_for_overwrite<Projection::Place[]>(level.mesh->element_count());
+  std::vector<bool> placed(level.cellCount());
+  const auto place = [&](std::size_t cell) {
+    for (std::size_t i = 0; !placed[cell] && i < level.cell(cell).size(); ++i) {
+      const ElementId e = level.cell(cell)[i];
+      places[e] = projection(frame.positions.data() + std::size_t{e} * level.mesh->space_dimension);
+    }
+    placed[cell] = true;
   };
   const auto reached = reachedBounds(boxes, projection);
   std::vector<LinkId> crossed;
@@ -107,8 +117,10 @@ std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, con
     if (!reached[cell].meets(stroke)) {
       continue;
     }
+    place(cell);
+    std::ranges::for_each(level.cellsLinked[cell], place);
     for (const LinkId link : level.cellLinks[cell]) {
-      const auto a = place(level.links[link][0]), b = place(level.links[link][1]);
+      const auto &a = places[level.links[link][0]], &b = places[level.links[link][1]];
       if (a.visible() && b.visible() && cross(stroke, QLineF(a.x, a.y, b.x, b.y)) && !cuts.is_cut(link)) {
         crossed.push_back(link);
       }

@@ -33,7 +33,7 @@ void ViewBounds::unite(const ViewBounds& other) {
 }
 
 bool ViewBounds::meets(const QRectF& rectangle) const {
-  return !(right < rectangle.left() || left > rectangle.right() || bottom < rectangle.top() ||
+  return !empty() && !(right < rectangle.left() || left > rectangle.right() || bottom < rectangle.top() ||
            top > rectangle.bottom());
 }
 
@@ -73,7 +73,7 @@ float Projection::depth(const Place& place) const {
   return pixelsPerDepth_ * std::log(place.distance);
 }
 
-/// What is convex before the eye appears between its corners; what reaches behind the eye may appear anywhere.
+/// What is convex and before the eye appears between its corners.
 ViewBounds Projection::bounds(const CellBoxes::Box& box) const {
   const float* m = matrix_.constData();
   std::array<double, 4> size{};  // of the terms of each row
@@ -84,7 +84,7 @@ ViewBounds Projection::bounds(const CellBoxes::Box& box) const {
     }
   }
   ViewBounds result;
-  double nearest = std::numeric_limits<double>::max();
+  double nearest = std::numeric_limits<double>::max(), furthest = -nearest;
   for (int corner = 0; corner < 1 << dimension_; ++corner) {
     std::array<double, 4> clip{m[12], m[13], m[14], m[15]};
     for (int k = 0; k < dimension_; ++k) {
@@ -94,10 +94,14 @@ ViewBounds Projection::bounds(const CellBoxes::Box& box) const {
       }
     }
     nearest = std::min(nearest, clip[3]);
+    furthest = std::max(furthest, clip[3]);
     const double x = (clip[0] / clip[3] + 1) / 2 * view_.width(), y = (1 - clip[1] / clip[3]) / 2 * view_.height();
     result.unite({x, y, x, y});
   }
   const double ofDistance = rounding * size[3];
+  if (furthest < -ofDistance) {
+    return {};
+  }
   if (!(nearest > 4 * ofDistance)) {
     return ViewBounds::everywhere();
   }

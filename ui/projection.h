@@ -17,6 +17,7 @@ struct ViewBounds {
   double left = std::numeric_limits<double>::max(), top = left;
   double right = std::numeric_limits<double>::lowest(), bottom = right;
 
+  bool empty() const { return right < left; }
   static ViewBounds everywhere() {
     constexpr double far = 1e300;  // products with it stay finite
     return {-far, -far, far, far};
@@ -40,7 +41,7 @@ class Projection {
   Place operator()(const float* carried) const;
   /// Depth in pixels, growing away from the eye.
   float depth(const Place& place) const;
-  /// Where all that lies in a box appears, rounding included.
+  /// Where all that lies in a box appears, rounding included: nowhere if it is behind the eye, everywhere if a part is.
   ViewBounds bounds(const CellBoxes::Box& box) const;
 
  private:
