@@ -7,6 +7,9 @@ namespace {
 
 CellBoxes::Box boxOf(std::span<const ElementId> elements, const Frame& frame) {
   CellBoxes::Box box;
+  if (elements.empty()) {
+    return box;
+  }
   const int dimension = frame.mesh->space_dimension;
   std::copy_n(frame.positions.data() + std::size_t{elements.front()} * dimension, dimension, box.lowest.begin());
   box.highest = box.lowest;
@@ -33,7 +36,7 @@ void CellBoxes::follow(const MeshLevelPointer& level, const Frame& frame) {
   }
   for (std::size_t cell = 0; cell < boxes_.size(); ++cell) {
     if (seen_ == 0 || isOutdated(cell, frame)) {
-      boxes_[cell] = boxOf(level_->cell(cell), frame);
+      boxes_[cell] = boxOf(level_->cells[cell], frame);
     }
   }
   seen_ = frame.number;

@@ -1,6 +1,7 @@
 #include "mesh_level.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "simulate/frame.h"
@@ -8,7 +9,8 @@
 namespace chainmail {
 namespace {
 
-constexpr unsigned keyBits = 10;  // of each axis
+constexpr std::size_t cellElements = 256;  // about
+constexpr unsigned keyBits = 10;           // of each axis
 
 /// Spreads ten bits so that two fit between each and the next.
 std::uint32_t spread(std::uint32_t bits) {
@@ -33,8 +35,9 @@ std::vector<std::uint32_t> curveKeys(const Mesh& mesh, const std::vector<Element
   return keys;
 }
 
-/// Sorts by the keys, ten bits at a time from the lowest.
-void sortByKeys(std::vector<ElementId>& elements, std::vector<std::uint32_t> keys) {
+/// In the order of their keys, ten bits at a time from the lowest.
+std::vector<ElementId> sortedAlongCurve(const Mesh& mesh, std::vector<ElementId> elements) {
+  auto keys = curveKeys(mesh, elements);
   for (unsigned shift = 0; shift < 3 * keyBits; shift += keyBits) {
     const Groups order = grouped(1U << keyBits, keys.size(),
                                  [&](std::uint32_t i) { return keys[i] >> shift & ((1U << keyBits) - 1); });
@@ -47,6 +50,41 @@ void sortByKeys(std::vector<ElementId>& elements, std::vector<std::uint32_t> key
     elements.swap(sorted);
     keys.swap(sortedKeys);
   }
+  return elements;
+}
+
+/// Bricks of a lattice: about as many rows along each axis as fill a cell.
+struct Bricks {
+  Bricks(const Mesh& mesh, unsigned step) : size(mesh.lattice->size) {
+    const auto axes = std::count_if(size.begin(), size.end(), [](auto one) { return one > 1; });
+    rows = step * std::uint32_t(axes == 3 ? 6 : axes == 2 ? 16 : cellElements);
+    for (int k = 0; k < 3; ++k) {
+      count[k] = (size[k] + rows - 1) / rows;
+    }
+  }
+  std::uint32_t of(ElementId e) const {
+    const ElementId x = e % size[0] / rows, y = e / size[0] % size[1] / rows, z = e / size[0] / size[1] / rows;
+    return x + count[0] * (y + count[1] * z);
+  }
+  std::array<std::uint32_t, 3> size, count{};
+  std::uint32_t rows = 1;
+};
+
+Groups cellsOf(const MeshLevel& level) {
+  if (level.mesh->lattice) {
+    const Bricks bricks(*level.mesh, level.step);
+    Groups cells = grouped(std::size_t{bricks.count[0]} * bricks.count[1] * bricks.count[2], level.elements.size(),
+                           [&](std::uint32_t i) { return bricks.of(level.elements[i]); });
+    std::ranges::transform(cells.items, cells.items.begin(), [&](std::uint32_t i) { return level.elements[i]; });
+    return cells;
+  }
+  Groups cells;
+  cells.items = sortedAlongCurve(*level.mesh, level.elements);
+  for (std::size_t end = cellElements; end < cells.items.size(); end += cellElements) {
+    cells.first.push_back(std::uint32_t(end));
+  }
+  cells.close();
+  return cells;
 }
 
 bool isCut(const Mesh& mesh, const Cuts& cuts, ElementId a, ElementId b) {
@@ -54,18 +92,53 @@ bool isCut(const Mesh& mesh, const Cuts& cuts, ElementId a, ElementId b) {
   return link && cuts.is_cut(*link);
 }
 
-/// For each cell, what `numbersOf` names for it, other than itself and once each.
-template <class NumbersOf>
-Groups distinct(std::size_t cells, std::size_t numbers, NumbersOf numbersOf) {
-  Groups result;
-  std::vector<std::uint32_t> seenBy(numbers, MeshLevel::none);
-  for (std::uint32_t cell = 0; cell < cells; ++cell) {
-    numbersOf(cell, [&](std::uint32_t number) {
-      if (seenBy[number] != cell) {
-        seenBy[number] = cell;
-        result.items.push_back(number);
+/// Which cells each cell reaches, and its links in the order of those.
+void findReached(MeshLevel& level, const std::vector<std::uint32_t>& cellOf) {
+  std::vector<std::uint32_t> slotOf(level.cellCount()), seenBy(level.cellCount(), MeshLevel::none), ends, sorted;
+  for (std::uint32_t cell = 0; cell < level.cellCount(); ++cell) {
+    const auto add = [&](ElementId element) {
+      const std::uint32_t other = cellOf[element];
+      if (seenBy[other] != cell) {
+        seenBy[other] = cell;
+        slotOf[other] = std::uint32_t(ends.size());
+        level.reached.items.push_back(other);
+        ends.push_back(0);
       }
-    });
+      return slotOf[other];
+    };
+    const auto links = level.cellLinks[cell];
+    ends.clear();
+    for (const std::uint32_t link : links) {
+      ++ends[add(level.links[link][1])];
+    }
+    for (const std::uint32_t face : level.cellFaces[cell]) {
+      add(level.faces[face][1]);
+      add(level.faces[face][2]);
+    }
+    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), 0U);
+    const std::uint32_t first = level.cellLinks.first[cell];
+    std::ranges::transform(ends, std::back_inserter(level.reachedLinks), [first](auto end) { return first + end; });
+    sorted.resize(links.size());
+    for (const std::uint32_t link : links) {
+      sorted[ends[slotOf[cellOf[level.links[link][1]]]]++] = link;
+    }
+    std::ranges::copy(sorted, level.cellLinks.items.begin() + first);
+    level.reached.close();
+  }
+  level.reachedLinks.push_back(std::uint32_t(level.links.size()));
+}
+
+/// The blocks that each cell's elements lie in.
+Groups blocksOf(const MeshLevel& level) {
+  Groups result;
+  std::vector<std::uint32_t> seenBy(level.mesh->element_count() / Frame::block_elements + 1, MeshLevel::none);
+  for (std::uint32_t cell = 0; cell < level.cellCount(); ++cell) {
+    for (const ElementId e : level.cells[cell]) {
+      if (std::uint32_t& seen = seenBy[e / Frame::block_elements]; seen != cell) {
+        seen = cell;
+        result.items.push_back(e / Frame::block_elements);
+      }
+    }
     result.close();
   }
   return result;
@@ -93,29 +166,17 @@ bool MeshLevel::isWhole(std::uint32_t face, const Cuts& cuts) const {
 }
 
 void makeCells(MeshLevel& level) {
-  sortByKeys(level.elements, curveKeys(*level.mesh, level.elements));
-  const std::size_t cells = (level.elements.size() + MeshLevel::cellElements - 1) / MeshLevel::cellElements;
+  level.cells = cellsOf(level);
   std::vector<std::uint32_t> cellOf(level.mesh->element_count());
-  for (std::size_t i = 0; i < level.elements.size(); ++i) {
-    cellOf[level.elements[i]] = std::uint32_t(i / MeshLevel::cellElements);
+  for (std::uint32_t cell = 0; cell < level.cellCount(); ++cell) {
+    for (const ElementId e : level.cells[cell]) {
+      cellOf[e] = cell;
+    }
   }
-  level.cellLinks = grouped(cells, level.links.size(), [&](auto i) { return cellOf[level.links[i][0]]; });
-  level.cellFaces = grouped(cells, level.faces.size(), [&](auto i) { return cellOf[level.faces[i][0]]; });
-  level.cellsLinked = distinct(cells, cells, [&](std::uint32_t cell, auto add) {
-    for (const std::uint32_t link : level.cellLinks[cell]) {
-      add(cellOf[level.links[link][1]]);
-    }
-    for (const std::uint32_t face : level.cellFaces[cell]) {
-      add(cellOf[level.faces[face][1]]);
-      add(cellOf[level.faces[face][2]]);
-    }
-  });
-  const std::size_t blocks = level.mesh->element_count() / Frame::block_elements + 1;
-  level.cellBlocks = distinct(cells, blocks, [&](std::uint32_t cell, auto add) {
-    for (const ElementId e : level.cell(cell)) {
-      add(e / Frame::block_elements);
-    }
-  });
+  level.cellLinks = grouped(level.cellCount(), level.links.size(), [&](auto i) { return cellOf[level.links[i][0]]; });
+  level.cellFaces = grouped(level.cellCount(), level.faces.size(), [&](auto i) { return cellOf[level.faces[i][0]]; });
+  findReached(level, cellOf);
+  level.cellBlocks = blocksOf(level);
 }
 
 MeshLevelPointer wholeLevel(const MeshPointer& mesh) {

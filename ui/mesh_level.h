@@ -17,17 +17,19 @@ namespace chainmail {
 struct MeshLevel {
   using Link = std::array<ElementId, 2>;
   using Face = std::array<ElementId, 3>;
-  static constexpr std::size_t cellElements = 256;
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   MeshPointer mesh;
   unsigned step = 1;                // how many links in a row become one
   std::span<const Link> links;      // the mesh's own at step 1
   std::span<const Face> faces;
-  std::vector<ElementId> elements;  // cell by cell
-  Groups cellLinks, cellFaces;      // where their first elements are
-  Groups cellsLinked;               // the other cells that a cell's links and faces reach
-  Groups cellBlocks;                // the blocks of ids that a cell's elements lie in, as Frame::changed has them
+  std::vector<ElementId> elements;
+  Groups cells;                // of elements
+  Groups cellLinks;            // in the cells of their first elements
+  Groups cellFaces;
+  Groups reached;              // the cells that a cell's links and faces lead to, itself maybe among them
+  std::vector<std::uint32_t> reachedLinks;  // where in cellLinks those to each of them begin, and the end
+  Groups cellBlocks;  // the blocks of ids that a cell's elements lie in, as Frame::changed has them
 
   // Beyond step 1.
   std::vector<Link> coarseLinks;
@@ -39,11 +41,7 @@ struct MeshLevel {
   MeshLevel(const MeshLevel&) = delete;  // the spans are of its own vectors
   MeshLevel& operator=(const MeshLevel&) = delete;
 
-  std::size_t cellCount() const { return cellLinks.count(); }
-  std::span<const ElementId> cell(std::size_t i) const {
-    const std::size_t first = i * cellElements;
-    return std::span(elements).subspan(first, std::min(cellElements, elements.size() - first));
-  }
+  std::size_t cellCount() const { return cells.count(); }
   /// Whether none of the links that this one stands for is cut.
   bool isUncut(std::uint32_t link, const Cuts& cuts) const;
   /// Whether no side of a face is cut.
@@ -55,7 +53,7 @@ using MeshLevelPointer = std::shared_ptr<const MeshLevel>;
 /// Every element, link and face.
 MeshLevelPointer wholeLevel(const MeshPointer& mesh);
 
-/// Fills in the cells, from the elements in any order, the links and the faces.
+/// Fills in the cells from the elements, in any order, the links and the faces.
 void makeCells(MeshLevel& level);
 
 }  // namespace chainmail

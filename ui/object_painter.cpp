@@ -15,7 +15,7 @@ namespace {
 constexpr ElementId elementsMarked = 20'000;
 constexpr double pixelsBetweenMarks = 9;
 // Smooth lines cost about twice as much; beyond this many links nobody sees the difference.
-constexpr GLsizei indicesSmoothed = 60'000;
+constexpr GLsizei indicesSmoothed = 30'000;
 // A thinner line is blended with its background all over, and is no colour of the map any more (pixels).
 constexpr float valuedWidth = 2;
 

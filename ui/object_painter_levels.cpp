@@ -70,16 +70,13 @@ void ObjectPainter::chooseStep(const Scene& scene, double pixelsPerUnit) {
 
 std::vector<std::uint32_t> ObjectPainter::visibleCells(const Scene& scene, const MeshLevelPointer& level,
                                                        CellBoxes& boxes) const {
-  std::vector<std::uint32_t> cells(level->cellCount());
-  std::iota(cells.begin(), cells.end(), 0U);
   if (level->links.size() + level->faces.size() <= shapesDrawn) {
-    return cells;
+    std::vector<std::uint32_t> all(level->cellCount());
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
   }
   boxes.follow(level, *frame_);
-  const auto bounds = reachedBounds(boxes, Projection(*mesh_, scene.toView, scene.toClip, scene.size));
-  const QRectF view(QPointF(), scene.size);
-  std::erase_if(cells, [&](std::uint32_t cell) { return !bounds[cell].meets(view); });
-  return cells;
+  return cellsSeen(boxes, Projection(*mesh_, scene.toView, scene.toClip, scene.size), QRectF(QPointF(), scene.size));
 }
 
 /// Costs what is drawn, not what there is, and only when another part is seen or a link was cut.

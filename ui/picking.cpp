@@ -27,6 +27,23 @@ bool cross(QLineF a, QLineF b) {
   return side(a, b.p1()) * side(a, b.p2()) <= 0 && side(b, a.p1()) * side(b, a.p2()) <= 0 && !a.isNull() && !b.isNull();
 }
 
+/// Where links between two cells may appear: one from before the eye to behind it leaves the view at any side.
+ViewBounds united(ViewBounds a, const ViewBounds& b) {
+  if (a.empty() != b.empty()) {
+    return ViewBounds::everywhere();
+  }
+  a.unite(b);
+  return a;
+}
+
+std::vector<ViewBounds> cellBounds(const CellBoxes& boxes, const Projection& projection) {
+  std::vector<ViewBounds> bounds(boxes.level().cellCount());
+  for (std::size_t cell = 0; cell < bounds.size(); ++cell) {
+    bounds[cell] = projection.bounds(boxes[cell]);
+  }
+  return bounds;
+}
+
 }  // namespace
 
 std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
@@ -39,7 +56,7 @@ std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& box
     if (!projection.bounds(boxes[cell]).meets(within)) {
       continue;
     }
-    for (const ElementId e : boxes.level().cell(cell)) {
+    for (const ElementId e : boxes.level().cells[cell]) {
       const auto at = projection(frame.positions.data() + std::size_t{e} * dimension);
       const float dx = at.x - float(place.x()), dy = at.y - float(place.y());
       if (!(dx * dx + dy * dy <= float(reach * reach)) || !at.visible()) {
@@ -63,7 +80,7 @@ std::vector<ElementId> elementsWhere(const Frame& frame, const CellBoxes& boxes,
     if (!projection.bounds(boxes[cell]).meets(bounds)) {
       continue;
     }
-    for (const ElementId e : boxes.level().cell(cell)) {
+    for (const ElementId e : boxes.level().cells[cell]) {
       const auto at = projection(frame.positions.data() + std::size_t{e} * frame.mesh->space_dimension);
       if (at.visible() && inside(QPointF(at.x, at.y))) {
         found.push_back(e);
@@ -81,21 +98,18 @@ double distanceFrom(QLineF segment, QPointF place) {
   return QLineF(segment.p1() + share * along, place).length();
 }
 
-std::vector<ViewBounds> reachedBounds(const CellBoxes& boxes, const Projection& projection) {
-  const MeshLevel& level = boxes.level();
-  std::vector<ViewBounds> own(level.cellCount());
-  for (std::size_t cell = 0; cell < own.size(); ++cell) {
-    own[cell] = projection.bounds(boxes[cell]);
-  }
-  std::vector<ViewBounds> reached = own;
-  for (std::size_t cell = 0; cell < own.size(); ++cell) {
-    for (const std::uint32_t other : level.cellsLinked[cell]) {
-      // A link from before the eye to behind it leaves the view at any side.
-      const bool around = own[other].empty() != own[cell].empty();
-      reached[cell].unite(around ? ViewBounds::everywhere() : own[other]);
+std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& projection, const QRectF& view) {
+  const auto bounds = cellBounds(boxes, projection);
+  std::vector<std::uint32_t> seen;
+  for (std::uint32_t cell = 0; cell < bounds.size(); ++cell) {
+    const auto reached = boxes.level().reached[cell];
+    if (bounds[cell].meets(view) || std::ranges::any_of(reached, [&](std::uint32_t other) {
+          return united(bounds[cell], bounds[other]).meets(view);
+        })) {
+      seen.push_back(cell);
     }
   }
-  return reached;
+  return seen;
 }
 
 std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts,
@@ -105,24 +119,29 @@ std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, con
   const auto places = std::make_unique_for_overwrite<Projection::Place[]>(level.mesh->element_count());
   std::vector<bool> placed(level.cellCount());
   const auto place = [&](std::size_t cell) {
-    for (std::size_t i = 0; !placed[cell] && i < level.cell(cell).size(); ++i) {
-      const ElementId e = level.cell(cell)[i];
-      places[e] = projection(frame.positions.data() + std::size_t{e} * level.mesh->space_dimension);
+    if (!placed[cell]) {
+      for (const ElementId e : level.cells[cell]) {
+        places[e] = projection(frame.positions.data() + std::size_t{e} * level.mesh->space_dimension);
+      }
+      placed[cell] = true;
     }
-    placed[cell] = true;
   };
-  const auto reached = reachedBounds(boxes, projection);
+  const auto bounds = cellBounds(boxes, projection);
   std::vector<LinkId> crossed;
-  for (std::size_t cell = 0; cell < reached.size(); ++cell) {
-    if (!reached[cell].meets(stroke)) {
-      continue;
-    }
-    place(cell);
-    std::ranges::for_each(level.cellsLinked[cell], place);
-    for (const LinkId link : level.cellLinks[cell]) {
-      const auto &a = places[level.links[link][0]], &b = places[level.links[link][1]];
-      if (a.visible() && b.visible() && cross(stroke, QLineF(a.x, a.y, b.x, b.y)) && !cuts.is_cut(link)) {
-        crossed.push_back(link);
+  for (std::size_t cell = 0; cell < bounds.size(); ++cell) {
+    for (std::uint32_t i = level.reached.first[cell]; i < level.reached.first[cell + 1]; ++i) {
+      const std::uint32_t other = level.reached.items[i];
+      if (!united(bounds[cell], bounds[other]).meets(stroke)) {
+        continue;
+      }
+      place(cell);
+      place(other);
+      for (std::uint32_t at = level.reachedLinks[i]; at < level.reachedLinks[i + 1]; ++at) {
+        const LinkId link = level.cellLinks.items[at];
+        const auto &a = places[level.links[link][0]], &b = places[level.links[link][1]];
+        if (a.visible() && b.visible() && cross(stroke, QLineF(a.x, a.y, b.x, b.y)) && !cuts.is_cut(link)) {
+          crossed.push_back(link);
+        }
       }
     }
   }

@@ -32,7 +32,7 @@ double distanceFrom(QLineF segment, QPointF place);
 std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts,
                                  const Projection& projection, QLineF stroke);
 
-/// For each cell, the part of the view in which its elements and all that they are linked with appear.
-std::vector<ViewBounds> reachedBounds(const CellBoxes& boxes, const Projection& projection);
+/// The cells of any level some of whose elements, links or faces may be seen.
+std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& projection, const QRectF& view);
 
 }  // namespace chainmail
