@@ -73,8 +73,7 @@ struct StandIns {
 struct Rows {
   explicit Rows(const MeshLevel& level) : links(level.links) {
     const std::size_t count = level.links.size();
-    entries = grouped(level.mesh->element_count(), 2 * count,
-                      [&](std::uint32_t i) { return links[i / 2][i % 2]; });
+    entries = grouped(level.mesh->element_count(), 2 * count, [&](std::uint32_t i) { return links[i / 2][i % 2]; });
   }
   template <class Visit>
   void visit(ElementId e, Visit visit) const {

@@ -39,8 +39,8 @@ std::vector<std::uint32_t> curveKeys(const Mesh& mesh, const std::vector<Element
 std::vector<ElementId> sortedAlongCurve(const Mesh& mesh, std::vector<ElementId> elements) {
   auto keys = curveKeys(mesh, elements);
   for (unsigned shift = 0; shift < 3 * keyBits; shift += keyBits) {
-    const Groups order = grouped(1U << keyBits, keys.size(),
-                                 [&](std::uint32_t i) { return keys[i] >> shift & ((1U << keyBits) - 1); });
+    const Groups order =
+        grouped(1U << keyBits, keys.size(), [&](std::uint32_t i) { return keys[i] >> shift & ((1U << keyBits) - 1); });
     std::vector<ElementId> sorted(elements.size());
     std::vector<std::uint32_t> sortedKeys(keys.size());
     for (std::size_t i = 0; i < sorted.size(); ++i) {

@@ -20,14 +20,14 @@ struct MeshLevel {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   MeshPointer mesh;
-  unsigned step = 1;                // how many links in a row become one
-  std::span<const Link> links;      // the mesh's own at step 1
+  unsigned step = 1;            // how many links in a row become one
+  std::span<const Link> links;  // the mesh's own at step 1
   std::span<const Face> faces;
   std::vector<ElementId> elements;
-  Groups cells;                // of elements
-  Groups cellLinks;            // in the cells of their first elements
+  Groups cells;      // of elements
+  Groups cellLinks;  // in the cells of their first elements
   Groups cellFaces;
-  Groups reached;              // the cells that a cell's links and faces lead to, itself maybe among them
+  Groups reached;                           // the cells that a cell's links and faces lead to, itself maybe among them
   std::vector<std::uint32_t> reachedLinks;  // where in cellLinks those to each of them begin, and the end
   Groups cellBlocks;  // the blocks of ids that a cell's elements lie in, as Frame::changed has them
 

@@ -15,7 +15,7 @@ constexpr int refreshMilliseconds = 100;
 }  // namespace
 
 Panel::Panel(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
-        std::shared_ptr<MeshLevels> levels, QColor colour)
+             std::shared_ptr<MeshLevels> levels, QColor colour)
     : document_(document),
       colouring_(colouring),
       panel_(panel),

@@ -34,7 +34,7 @@ void ViewBounds::unite(const ViewBounds& other) {
 
 bool ViewBounds::meets(const QRectF& rectangle) const {
   return !empty() && !(right < rectangle.left() || left > rectangle.right() || bottom < rectangle.top() ||
-           top > rectangle.bottom());
+                       top > rectangle.bottom());
 }
 
 /// Not if all corners lie on one side of the line, or the bounds of the segment elsewhere.
