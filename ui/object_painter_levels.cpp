@@ -76,7 +76,7 @@ std::vector<std::uint32_t> ObjectPainter::visibleCells(const Scene& scene, const
     return all;
   }
   boxes.follow(level, *frame_);
-  return cellsSeen(boxes, Projection(*mesh_, scene.toView, scene.toClip, scene.size), QRectF(QPointF(), scene.size));
+  return cellsSeen(boxes, Projection(*mesh_, scene.toView, scene.toClip, scene.size));
 }
 
 /// Costs what is drawn, not what there is, and only when another part is seen or a link was cut.

@@ -98,14 +98,16 @@ double distanceFrom(QLineF segment, QPointF place) {
   return QLineF(segment.p1() + share * along, place).length();
 }
 
-std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& projection, const QRectF& view) {
-  const auto bounds = cellBounds(boxes, projection);
+std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& projection) {
+  const MeshLevel& level = boxes.level();
+  std::vector<unsigned> beyond(level.cellCount());
+  for (std::size_t cell = 0; cell < beyond.size(); ++cell) {
+    beyond[cell] = projection.beyond(boxes[cell]);
+  }
   std::vector<std::uint32_t> seen;
-  for (std::uint32_t cell = 0; cell < bounds.size(); ++cell) {
-    const auto reached = boxes.level().reached[cell];
-    if (bounds[cell].meets(view) || std::ranges::any_of(reached, [&](std::uint32_t other) {
-          return united(bounds[cell], bounds[other]).meets(view);
-        })) {
+  for (std::uint32_t cell = 0; cell < beyond.size(); ++cell) {
+    const auto isSeen = [&](std::uint32_t other) { return (beyond[cell] & beyond[other]) == 0; };
+    if (isSeen(cell) || std::ranges::any_of(level.reached[cell], isSeen)) {
       seen.push_back(cell);
     }
   }

@@ -33,6 +33,6 @@ std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, con
                                  const Projection& projection, QLineF stroke);
 
 /// The cells of any level some of whose elements, links or faces may be seen.
-std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& projection, const QRectF& view);
+std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& projection);
 
 }  // namespace chainmail

@@ -9,6 +9,9 @@ namespace {
 // Of a sum of four products in single precision, of the sum of their sizes; a little more than rounding can take.
 constexpr double rounding = 8 * std::numeric_limits<float>::epsilon();
 
+// A view goes from -1 to 1; what is drawn has some width, and is rounded.
+constexpr double viewEdge = 1.05;
+
 }  // namespace
 
 QMatrix4x4 placement(const Mesh& mesh) {
@@ -73,6 +76,29 @@ float Projection::depth(const Place& place) const {
   return pixelsPerDepth_ * std::log(place.distance);
 }
 
+std::array<double, 4> Projection::clipped(const CellBoxes::Box& box, int corner) const {
+  const float* m = matrix_.constData();
+  std::array<double, 4> clip{m[12], m[13], m[14], m[15]};
+  for (int k = 0; k < dimension_; ++k) {
+    const double at = (corner >> k & 1) != 0 ? box.highest[k] : box.lowest[k];
+    for (int row = 0; row < 4; ++row) {
+      clip[row] += m[4 * k + row] * at;
+    }
+  }
+  return clip;
+}
+
+unsigned Projection::beyond(const CellBoxes::Box& box) const {
+  unsigned sides = 31;
+  for (int corner = 0; corner < 1 << dimension_ && sides != 0; ++corner) {
+    const auto clip = clipped(box, corner);
+    const double edge = viewEdge * clip[3];
+    sides &= unsigned(clip[0] > edge) | unsigned(clip[0] < -edge) << 1 | unsigned(clip[1] > edge) << 2 |
+             unsigned(clip[1] < -edge) << 3 | unsigned(clip[3] < 0) << 4;
+  }
+  return sides;
+}
+
 /// What is convex and before the eye appears between its corners.
 ViewBounds Projection::bounds(const CellBoxes::Box& box) const {
   const float* m = matrix_.constData();
@@ -86,13 +112,7 @@ ViewBounds Projection::bounds(const CellBoxes::Box& box) const {
   ViewBounds result;
   double nearest = std::numeric_limits<double>::max(), furthest = -nearest;
   for (int corner = 0; corner < 1 << dimension_; ++corner) {
-    std::array<double, 4> clip{m[12], m[13], m[14], m[15]};
-    for (int k = 0; k < dimension_; ++k) {
-      const double at = (corner >> k & 1) != 0 ? box.highest[k] : box.lowest[k];
-      for (int row = 0; row < 4; ++row) {
-        clip[row] += m[4 * k + row] * at;
-      }
-    }
+    const auto clip = clipped(box, corner);
     nearest = std::min(nearest, clip[3]);
     furthest = std::max(furthest, clip[3]);
     const double x = (clip[0] / clip[3] + 1) / 2 * view_.width(), y = (1 - clip[1] / clip[3]) / 2 * view_.height();

@@ -41,10 +41,15 @@ class Projection {
   Place operator()(const float* carried) const;
   /// Depth in pixels, growing away from the eye.
   float depth(const Place& place) const;
+  /// Sides of the view, as bits, beyond which all of a box lies. What lies between two boxes is beyond those that they
+  /// have in common, where one of them is behind the eye too.
+  unsigned beyond(const CellBoxes::Box& box) const;
   /// Where all that lies in a box appears, rounding included: nowhere if it is behind the eye, everywhere if a part is.
   ViewBounds bounds(const CellBoxes::Box& box) const;
 
  private:
+  std::array<double, 4> clipped(const CellBoxes::Box& box, int corner) const;
+
   QMatrix4x4 matrix_;
   int dimension_;
   QSizeF view_;
