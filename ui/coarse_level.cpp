@@ -103,6 +103,52 @@ StandIns chooseStandIns(const MeshLevel& finer, const Rows& rows) {
   return result;
 }
 
+/// From an element that stays to one of greater id that stays: over a link between those they stand for.
+struct Way {
+  ElementId to;
+  std::uint32_t link, length;  // in links of the level
+};
+
+/// Those that begin at one element; of two with the same end that of fewest links is kept. `wayTo` says where in
+/// `ways` each end is.
+void findWays(ElementId member, const Rows& rows, const StandIns& standIn, std::vector<Way>& ways,
+              std::vector<std::uint32_t>& wayTo) {
+  const ElementId from = standIn.of[member];
+  rows.visit(member, [&](std::uint32_t link, ElementId other) {
+    const ElementId to = standIn.of[other];
+    if (to <= from) {
+      return;
+    }
+    const std::uint32_t length = 1U + (member != from ? 1U : 0U) + (other != to ? 1U : 0U);
+    if (wayTo[to] == MeshLevel::none) {
+      wayTo[to] = std::uint32_t(ways.size());
+      ways.push_back({to, link, length});
+    } else if (length < ways[wayTo[to]].length) {
+      ways[wayTo[to]] = {to, link, length};
+    }
+  });
+}
+
+/// A coarse link, and all links of the mesh that it stands for.
+void addWay(MeshLevel& level, const MeshLevel& finer, const StandIns& standIn, ElementId from, const Way& way) {
+  auto& path = level.paths.items;
+  const auto add = [&](std::uint32_t link) {
+    if (finer.step == 1) {
+      path.push_back(link);
+    } else {
+      path.insert(path.end(), finer.paths[link].begin(), finer.paths[link].end());
+    }
+  };
+  add(way.link);
+  for (const ElementId end : finer.links[way.link]) {
+    if (standIn.by[end] != MeshLevel::none) {
+      add(standIn.by[end]);
+    }
+  }
+  level.paths.close();
+  level.coarseLinks.push_back({from, way.to});
+}
+
 }  // namespace
 
 MeshLevelPointer coarseLattice(const MeshPointer& mesh, unsigned step) {
@@ -139,24 +185,10 @@ MeshLevelPointer coarser(const MeshLevel& finer) {
   level->step = 2 * finer.step;
   const Rows rows(finer);
   const StandIns standIn = chooseStandIns(finer, rows);
-  std::vector<std::vector<ElementId>> none;
   const Groups members = grouped(finer.mesh->element_count(), finer.elements.size(),
                                  [&](std::uint32_t i) { return standIn.of[finer.elements[i]]; });
-  // For each element that stays, its coarse links to those of greater id: the path of fewest links wins.
-  struct Way {
-    ElementId to;
-    std::uint32_t link, length;
-  };
   std::vector<Way> ways;
   std::vector<std::uint32_t> wayTo(finer.mesh->element_count(), MeshLevel::none);
-  const auto addPath = [&](std::uint32_t link) {
-    if (finer.step == 1) {
-      level->paths.items.push_back(link);
-    } else {
-      const auto path = finer.paths[link];
-      level->paths.items.insert(level->paths.items.end(), path.begin(), path.end());
-    }
-  };
   for (ElementId e = 0; e < finer.mesh->element_count(); ++e) {
     if (standIn.of[e] != e) {
       continue;
@@ -164,31 +196,11 @@ MeshLevelPointer coarser(const MeshLevel& finer) {
     level->elements.push_back(e);
     ways.clear();
     for (const std::uint32_t member : members[e]) {
-      const ElementId inside = finer.elements[member];
-      rows.visit(inside, [&](std::uint32_t link, ElementId outside) {
-        const ElementId to = standIn.of[outside];
-        if (to <= e) {
-          return;
-        }
-        const std::uint32_t length = 1 + (inside != e) + (outside != to);
-        if (wayTo[to] == MeshLevel::none) {
-          wayTo[to] = std::uint32_t(ways.size());
-          ways.push_back({to, link, length});
-        } else if (length < ways[wayTo[to]].length) {
-          ways[wayTo[to]] = {to, link, length};
-        }
-      });
+      findWays(finer.elements[member], rows, standIn, ways, wayTo);
     }
     for (const Way& way : ways) {
       wayTo[way.to] = MeshLevel::none;
-      addPath(way.link);
-      for (const ElementId end : finer.links[way.link]) {
-        if (standIn.by[end] != MeshLevel::none) {
-          addPath(standIn.by[end]);
-        }
-      }
-      level->paths.close();
-      level->coarseLinks.push_back({e, way.to});
+      addWay(*level, finer, standIn, e, way);
     }
   }
   addFaces(*level, finer.faces, [&](ElementId e) { return standIn.of[e]; });
