@@ -28,7 +28,4 @@ struct ColourScale {
   bool operator==(const ColourScale&) const = default;
 };
 
-/// For each element the largest value among its links: what stands for them where single links are not drawn.
-std::vector<float> largestOfLinks(const Mesh& mesh, const std::vector<float>& ofLinks);
-
 }  // namespace chainmail

@@ -39,16 +39,6 @@ const ColourModeInfo& info(ColourMode mode) {
   return *std::find_if(infos.begin(), infos.end(), [mode](auto& one) { return one.mode == mode; });
 }
 
-std::vector<float> largestOfLinks(const Mesh& mesh, const std::vector<float>& ofLinks) {
-  std::vector<float> largest(mesh.element_count());
-  for (LinkId link = 0; link < mesh.link_count(); ++link) {
-    for (const ElementId e : mesh.links[link]) {
-      largest[e] = std::max(largest[e], ofLinks[link]);
-    }
-  }
-  return largest;
-}
-
 Colouring::Colouring(const Document& document) : document_(document) {
   timer_.setInterval(intervalMilliseconds);
   connect(&timer_, &QTimer::timeout, this, &Colouring::goOn);
@@ -64,6 +54,20 @@ Colouring::Colouring(const Document& document) : document_(document) {
   connect(&document, &Document::softnessChanged, this, outdate);
   connect(&document, &Document::cutsChanged, this, outdate);
   connect(&document, &Document::meshChanged, this, &Colouring::startOver);
+}
+
+void Colouring::Kept::follow(const Frame& frame) {
+  if (number == 0) {
+    positions = frame.positions;
+  }
+  const std::size_t perBlock = std::size_t{Frame::block_elements} * frame.mesh->space_dimension;
+  for (std::size_t block = 0; number != 0 && block < frame.changed.size(); ++block) {
+    if (frame.changed[block] > number) {
+      const std::size_t first = block * perBlock, count = std::min(perBlock, positions.size() - first);
+      std::copy_n(frame.positions.data() + first, count, positions.data() + first);
+    }
+  }
+  number = frame.number;
 }
 
 void Colouring::receiveFrame(int panel) {
@@ -126,10 +130,10 @@ bool Colouring::start(int panel) {
   work.building.highest = 0;
   work.softness = document_.wholeSoftness();
   if (!isOfSoftness(mode_)) {
-    work.positions = frame->positions;
+    work.own.follow(*frame);
   }
   if (mode_ == ColourMode::distance) {
-    work.others = other->positions;
+    work.other.follow(*other);
   }
   return true;
 }
@@ -172,7 +176,7 @@ float Colouring::value(const Work& work, std::size_t i) const {
     case ColourMode::shear:
       return float(work.softness->of(LinkId(i)).shear);
     case ColourMode::violation: {
-      const PositionView positions(work.positions.data(), mesh.space_dimension * sizeof(float),
+      const PositionView positions(work.own.positions.data(), mesh.space_dimension * sizeof(float),
                                    Precision::single_precision);
       return float(link_violation(mesh, *work.softness, positions, LinkId(i)));
     }
@@ -182,7 +186,8 @@ float Colouring::value(const Work& work, std::size_t i) const {
   double squared = 0;
   for (int k = 0; k < mesh.space_dimension; ++k) {
     const std::size_t at = i * std::size_t(mesh.space_dimension) + std::size_t(k);
-    squared += (double(work.positions[at]) - work.others[at]) * (double(work.positions[at]) - work.others[at]);
+    const double apart = double(work.own.positions[at]) - double(work.other.positions[at]);
+    squared += apart * apart;
   }
   return mesh.mean_link_length > 0 ? float(std::sqrt(squared) / mesh.mean_link_length) : 0;
 }

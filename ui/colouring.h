@@ -45,13 +45,21 @@ class Colouring : public QObject {
   void changed();
 
  private:
+  /// Positions of a panel as they were in a frame.
+  struct Kept {
+    std::vector<float> positions;
+    std::uint64_t number = 0;  // of the frame
+
+    /// Copies what has changed since.
+    void follow(const Frame& frame);
+  };
   /// The values of a panel, and those that will take their place.
   struct Work {
     bool outdated = true, running = false;
     std::size_t next = 0;
     ColourValues building, shown;
     // As they were when the work began: frames and softness may change meanwhile.
-    std::vector<float> positions, others;
+    Kept own, other;
     std::shared_ptr<const Softness> softness;
   };
 

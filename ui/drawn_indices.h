@@ -2,23 +2,23 @@
 
 #include <vector>
 
-#include "mesh/cuts.h"
+#include "mesh_level.h"
 
 namespace chainmail {
 
 /// What to draw of a mesh, as elements' ids for the graphics card.
 
-/// The two ends of every link that is not cut.
-std::vector<ElementId> uncutLinks(const Mesh& mesh, const Cuts& cuts);
+/// The links of a level that are drawn: their numbers, and the two ends of each.
+struct DrawnLinks {
+  std::vector<std::uint32_t> numbers;
+  std::vector<ElementId> ends;
+};
 
-/// The three corners of every triangle none of whose links is cut.
-std::vector<ElementId> uncutFaces(const Mesh& mesh, const Cuts& cuts);
+/// Those of some cells that are not cut.
+DrawnLinks drawnLinks(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& cells);
 
-/// On a lattice: every step-th row, its elements joined where no link between them is cut.
-std::vector<ElementId> coarseLinks(const Mesh& mesh, const Cuts& cuts, unsigned step);
-
-/// One element in step², spread evenly whatever the order of the ids.
-std::vector<ElementId> scattered(const Mesh& mesh, unsigned step);
+/// The three corners of every face of some cells none of whose sides is cut.
+std::vector<ElementId> drawnFaces(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& cells);
 
 /// All of the elements, or about `atMost` of them, spread evenly.
 std::vector<ElementId> thinned(const std::vector<ElementId>& elements, std::size_t atMost);

@@ -96,9 +96,10 @@ MainWindow::~MainWindow() {
 
 void MainWindow::makePanels() {
   auto camera = std::make_shared<Camera>();
+  auto levels = std::make_shared<MeshLevels>();
   const std::array colour{colours::left, colours::right};
   for (int i = 0; i < Document::panels; ++i) {
-    panels_.push_back(new Panel(document_, colouring_, i, camera, colour[std::size_t(i)]));
+    panels_.push_back(new Panel(document_, colouring_, i, camera, levels, colour[std::size_t(i)]));
     splitter_->addWidget(panels_.back());
     connect(&panels_.back()->view(), &View::failed, messages_, &MessageBar::say);
     connect(&panels_.back()->view(), &View::cameraChanged, this, [this, i] {

@@ -1,58 +1,65 @@
 #include "object_painter.h"
 
+#include <QFile>
 #include <algorithm>
-#include <cmath>
 
 #include "colour_map.h"
-#include "drawn_indices.h"
 #include "mesh/error.h"
-#include "picking.h"
+#include "projection.h"
 #include "upload.h"
 
 namespace chainmail {
 namespace {
 
-// Above this many links an object is drawn more coarsely where its links fall below this many pixels.
-constexpr LinkId linksDrawnAlways = 60'000;
-constexpr double pixelsPerLink = 3;
-constexpr LinkId linksOfVolume = 200'000;
 // Elements are marked where there are few and they stand apart.
 constexpr ElementId elementsMarked = 20'000;
 constexpr double pixelsBetweenMarks = 9;
 // Smooth lines cost about twice as much; beyond this many links nobody sees the difference.
-constexpr GLsizei indicesSmoothed = 60'000;
+constexpr GLsizei indicesSmoothed = 30'000;
 // A thinner line is blended with its background all over, and is no colour of the map any more (pixels).
 constexpr float valuedWidth = 2;
 
 QVector4D asVector(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
 
+void build(QOpenGLShaderProgram& program, const std::array<int, 2>& variant) {
+  const QByteArray head = "#version 330 core\n#define SHADING " + QByteArray::number(variant[0]) +
+                          "\n#define COLOURED_BY " + QByteArray::number(variant[1]) + "\n";
+  const auto source = [&head](const char* name) {
+    QFile file(QLatin1String(":/shaders/") + QLatin1String(name));
+    return file.open(QIODevice::ReadOnly) ? head + file.readAll() : QByteArray();
+  };
+  if (!(program.addShaderFromSourceCode(QOpenGLShader::Vertex, source("object.vert")) &&
+        program.addShaderFromSourceCode(QOpenGLShader::Fragment, source("object.frag")) && program.link())) {
+    throw Error("OpenGL", program.log().simplified().toStdString(), "update the graphics driver");
+  }
+}
+
 }  // namespace
 
 void ObjectPainter::initialize() {
   initializeOpenGLFunctions();
-  const bool built = program_.addShaderFromSourceFile(QOpenGLShader::Vertex, ":/shaders/object.vert") &&
-                     program_.addShaderFromSourceFile(QOpenGLShader::Fragment, ":/shaders/object.frag") &&
-                     program_.link();
-  if (!built) {
-    throw Error("OpenGL", program_.log().simplified().toStdString(), "update the graphics driver");
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    build(programs_[i], variants[i]);
   }
   vertexArray_.create();
-  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &coarse_, &faces_, &selected_, &values_}) {
+  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &faces_, &selected_, &values_}) {
     buffer->create();
     buffer->setUsagePattern(QOpenGLBuffer::DynamicDraw);
   }
   glGenTextures(1, &valuesTexture_);
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largestTexture_);
 }
 
 void ObjectPainter::destroy() {
-  program_.removeAllShaders();
+  for (QOpenGLShaderProgram& program : programs_) {
+    program.removeAllShaders();
+  }
   vertexArray_.destroy();
   glDeleteTextures(1, &valuesTexture_);
-  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &coarse_, &faces_, &selected_, &values_}) {
+  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &faces_, &selected_, &values_}) {
     buffer->destroy();
   }
   mesh_.reset();
+  level_.reset();
   frameNumber_ = 0;
   valuesNumber_ = 0;
   selectedIndices_ = 0;
@@ -60,72 +67,61 @@ void ObjectPainter::destroy() {
 
 void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
   frame_ = &frame;
+  cuts_ = &cuts;
   if (frame.mesh != mesh_) {
-    setMesh(frame.mesh, cuts);
+    mesh_ = frame.mesh;
+    frameNumber_ = 0;
+    selectedIndices_ = 0;
+    valuesNumber_ = 0;
+    level_.reset();
   }
   if (frame.number != frameNumber_) {
+    uploadPositions(frame);
     frameNumber_ = frame.number;
-    upload(positions_, frame.positions);
   }
 }
 
-void ObjectPainter::setCuts(const Cuts& cuts) {
-  cuts_ = cuts;
-  coarseStep_ = 0;
-  linksOutdated_ = facesOutdated_ = true;
-  valuesNumber_ = 0;
-}
-
-void ObjectPainter::setMesh(const MeshPointer& mesh, const Cuts& cuts) {
-  mesh_ = mesh;
-  frameNumber_ = 0;
-  selectedIndices_ = 0;
-  setCuts(cuts);
-}
-
-void ObjectPainter::chooseStep(double pixelsPerUnit) {
-  step_ = 1;
-  const double pixels = mesh_->mean_link_length * pixelsPerUnit;
-  if (mesh_->link_count() <= linksDrawnAlways || !(pixels > 0)) {
+/// Runs of blocks that changed since the last time; all at once where all are new.
+void ObjectPainter::uploadPositions(const Frame& frame) {
+  if (frameNumber_ == 0) {
+    upload(positions_, frame.positions);
     return;
   }
-  // Inside a volume links hide each other: it is drawn coarsely before they become too small.
-  const bool volume = mesh_->object_dimension == 3 && mesh_->lattice;
-  const auto tooMany = [&] { return volume && mesh_->link_count() / (step_ * step_ * step_) > linksOfVolume; };
-  while (step_ < 64 && (pixels * step_ < pixelsPerLink || tooMany())) {
-    step_ *= 2;
+  const std::size_t perBlock = std::size_t{Frame::block_elements} * mesh_->space_dimension;
+  const auto& changed = frame.changed;
+  for (std::size_t block = 0; block < changed.size(); ++block) {
+    const std::size_t first = block;
+    while (block < changed.size() && changed[block] > frameNumber_) {
+      ++block;
+    }
+    if (block > first) {
+      uploadPart(positions_, frame.positions, first * perBlock, std::min(block * perBlock, frame.positions.size()));
+    }
   }
 }
 
-void ObjectPainter::makeCoarse() {
-  if (step_ > 1 && step_ != coarseStep_) {
-    coarseStep_ = step_;
-    coarseIndices_ = upload(coarse_, mesh_->lattice ? coarseLinks(*mesh_, cuts_, step_) : scattered(*mesh_, step_));
-  }
-}
-
-void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dimension) {
+void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dimension, int colouredBy) {
   glEnable(GL_PROGRAM_POINT_SIZE);
   glEnable(GL_BLEND);
   // The picture stays opaque, whatever is blended into it.
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  program_.bind();
-  program_.setUniformValue("to_view", scene.toView * placement(*mesh_));
-  program_.setUniformValue("to_clip", scene.toClip);
-  program_.setUniformValue("colour", asVector(colour));
-  program_.setUniformValue("background", asVector(scene.background));
-  program_.setUniformValue("fog", scene.fog);
-  program_.setUniformValue("shading", shading);
-  program_.setUniformValue("coloured_by", 0);
+  const std::array variant{shading, colouredBy};
+  program_ = &programs_[std::size_t(std::find(variants.begin(), variants.end(), variant) - variants.begin())];
+  program_->bind();
+  program_->setUniformValue("to_view", scene.toView * placement(*mesh_));
+  program_->setUniformValue("to_clip", scene.toClip);
+  program_->setUniformValue("colour", asVector(colour));
+  program_->setUniformValue("background", asVector(scene.background));
+  program_->setUniformValue("fog", scene.fog);
   vertexArray_.bind();
-  program_.enableAttributeArray(0);
-  program_.setAttributeBuffer(0, GL_FLOAT, 0, dimension);
-  program_.disableAttributeArray(1);
+  program_->enableAttributeArray(0);
+  program_->setAttributeBuffer(0, GL_FLOAT, 0, dimension);
+  program_->disableAttributeArray(1);
 }
 
 void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
-  chooseStep(pixelsPerUnit);
-  makeCoarse();
+  chooseStep(scene, pixelsPerUnit);
+  makeLists(scene);
   drawFaces(scene, paint);
   drawWires(scene, paint);
   if (step_ == 1 && mesh_->element_count() <= elementsMarked &&
@@ -138,26 +134,20 @@ void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pi
 void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
   const bool byValues = valuesFit(paint);
   positions_.bind();
-  use(scene, byValues ? colour_map::neutral : paint.colour.lighter(125), 2, mesh_->space_dimension);
   if (byValues && !paint.values->ofLinks) {
-    useValues(paint, false);
+    useValues(scene, paint, 2);
+  } else {
+    use(scene, byValues ? colour_map::neutral : paint.colour.lighter(125), 2, mesh_->space_dimension);
   }
-  program_.setUniformValue("point_size", 4.5F * scene.pixelRatio);
+  program_->setUniformValue("point_size", 4.5F * scene.pixelRatio);
   glDrawArrays(GL_POINTS, 0, GLsizei(mesh_->element_count()));
 }
 
 void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
-  const bool spatial = mesh_->space_dimension == 3;
-  if (step_ > 1 && !spatial) {
-    return;  // they only tint a plane, and there are many
-  }
-  if (facesOutdated_) {
-    faceIndices_ = upload(faces_, uncutFaces(*mesh_, cuts_));
-    facesOutdated_ = false;
-  }
   if (faceIndices_ == 0) {
     return;
   }
+  const bool spatial = mesh_->space_dimension == 3;
   if (spatial) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
@@ -178,24 +168,15 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
 }
 
 void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
-  const bool coarse = step_ > 1;
-  if (!coarse && linksOutdated_) {
-    linkIndices_ = upload(links_, uncutLinks(*mesh_, cuts_));
-    linksOutdated_ = false;
-  }
-  const GLsizei count = coarse ? coarseIndices_ : linkIndices_;
+  const auto count = GLsizei(2 * drawnLinks_.size());
   positions_.bind();
-  use(scene, paint.colour, 0, mesh_->space_dimension);
-  if (valuesFit(paint)) {
-    useValues(paint, linksKeepValues(paint));
+  if (!valuesFit(paint)) {
+    use(scene, paint.colour, 0, mesh_->space_dimension);
+  } else {
+    useValues(scene, paint, 0);
     glLineWidth(count <= indicesSmoothed ? valuedWidth * scene.pixelRatio : 1);
   }
-  (coarse ? coarse_ : links_).bind();
-  if (coarse && !mesh_->lattice) {
-    program_.setUniformValue("point_size", scene.pixelRatio);
-    glDrawElements(GL_POINTS, count, GL_UNSIGNED_INT, nullptr);
-    return;
-  }
+  links_.bind();
   if (count <= indicesSmoothed) {
     glEnable(GL_LINE_SMOOTH);
   }

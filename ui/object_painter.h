@@ -11,16 +11,21 @@
 #include <array>
 #include <span>
 
+#include "cell_boxes.h"
 #include "colour_values.h"
-#include "mesh/cuts.h"
-#include "simulate/frame.h"
+#include "drawn_indices.h"
+#include "mesh_levels.h"
 
 namespace chainmail {
 
 /// Draws frames of an object with OpenGL: links, faces, elements. It holds what the graphics card holds
-/// and sends only what changed. All calls need the context current.
+/// and sends only what changed: of positions the blocks that did, of links and faces those that the camera sees, as
+/// finely as it can show them. All calls but cutsChanged need the context current.
 class ObjectPainter : protected QOpenGLExtraFunctions {
  public:
+  /// `levels` of the mesh may be shared with other painters.
+  explicit ObjectPainter(std::shared_ptr<MeshLevels> levels) : levels_(std::move(levels)) {}
+
   struct Scene {
     QMatrix4x4 toView, toClip;
     QSizeF size;    // of the view, in device pixels
@@ -41,10 +46,10 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   void initialize();
   void destroy();
 
-  /// Takes the frame over: positions always, the mesh's links and faces where they are others.
+  /// Takes the frame over; both must stay as they are until the next one, the cuts but for cutsChanged.
   void setFrame(const Frame& frame, const Cuts& cuts);
   /// Links were cut or uncut.
-  void setCuts(const Cuts& cuts);
+  void cutsChanged() { listsOutdated_ = true; }
 
   /// The object itself. `pixelsPerUnit` decides how finely it is drawn.
   void drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit);
@@ -57,47 +62,55 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   /// A line through places of the view (logical pixels).
   void drawStroke(const Scene& scene, std::span<const QPointF> places, QColor colour);
 
-  /// 1 where every link is drawn; k where every k-th row of the lattice or every k-th element is.
+  /// 1 where every link is drawn; k where about k links in a row are drawn as one.
   unsigned step() const { return step_; }
 
  private:
-  void setMesh(const MeshPointer& mesh, const Cuts& cuts);
-  void chooseStep(double pixelsPerUnit);
-  void makeCoarse();
-  void use(const Scene& scene, QColor colour, int shading, int dimension);
-  /// After use(): what is drawn next takes its colours from the values.
-  void useValues(const Paint& paint, bool ofLinks);
-  void uploadValues(const ColourValues& values, bool ofLinks);
+  void uploadPositions(const Frame& frame);
+  void chooseStep(const Scene& scene, double pixelsPerUnit);
+  double shareInView(const Scene& scene);
+  /// The cells of a level that may be seen.
+  std::vector<std::uint32_t> visibleCells(const Scene& scene, const MeshLevelPointer& level, CellBoxes& boxes) const;
+  void makeLists(const Scene& scene);
+  void use(const Scene& scene, QColor colour, int shading, int dimension, int colouredBy = 0);
+  /// Where the object has values: as use(), and what is drawn next takes its colours from them.
+  void useValues(const Scene& scene, const Paint& paint, int shading);
+  void uploadValues(const ColourValues& values);
   bool valuesFit(const Paint& paint) const { return paint.values != nullptr && paint.values->mesh == mesh_; }
-  bool linksKeepValues(const Paint& paint) const;
   void drawFaces(const Scene& scene, const Paint& paint);
   void drawWires(const Scene& scene, const Paint& paint);
   void drawEveryElement(const Scene& scene, const Paint& paint);
   void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour, int shading,
                float diameter);
 
-  QOpenGLShaderProgram program_;
+  // The shaders, compiled for each pair of their SHADING and COLOURED_BY that is drawn with.
+  static constexpr std::array<std::array<int, 2>, 8> variants{
+      {{0, 0}, {0, 1}, {0, 2}, {1, 0}, {2, 0}, {2, 1}, {3, 0}, {4, 0}}};
+  std::array<QOpenGLShaderProgram, variants.size()> programs_;
+  QOpenGLShaderProgram* program_ = nullptr;  // the one in use
   QOpenGLVertexArrayObject vertexArray_;
   QOpenGLBuffer positions_{QOpenGLBuffer::VertexBuffer};
   QOpenGLBuffer scratch_{QOpenGLBuffer::VertexBuffer};
   QOpenGLBuffer links_{QOpenGLBuffer::IndexBuffer};
-  QOpenGLBuffer coarse_{QOpenGLBuffer::IndexBuffer};
   QOpenGLBuffer faces_{QOpenGLBuffer::IndexBuffer};
   QOpenGLBuffer selected_{QOpenGLBuffer::IndexBuffer};
   QOpenGLBuffer values_{QOpenGLBuffer::VertexBuffer};
   GLuint valuesTexture_ = 0;  // values_ as the fragment shader reads it
-  GLint largestTexture_ = 0;  // values
+  std::shared_ptr<MeshLevels> levels_;
   MeshPointer mesh_;
-  Cuts cuts_;
+  const Cuts* cuts_ = nullptr;
   const Frame* frame_ = nullptr;
   std::uint64_t frameNumber_ = 0;
-  GLsizei linkIndices_ = 0, coarseIndices_ = 0, faceIndices_ = 0, selectedIndices_ = 0;
-  // Indices are made when they are first drawn.
-  bool linksOutdated_ = true, facesOutdated_ = true;
   unsigned step_ = 1;
-  unsigned coarseStep_ = 0;  // the step that coarse_ was filled for; 0 none
+  MeshLevelPointer level_;
+  CellBoxes boxes_;       // of that level
+  CellBoxes wholeBoxes_;  // of every element
+  // What links_ and faces_ were filled with.
+  std::vector<std::uint32_t> cells_;
+  std::vector<std::uint32_t> drawnLinks_;  // their numbers in the level
+  bool listsOutdated_ = true;
+  GLsizei faceIndices_ = 0, selectedIndices_ = 0;
   std::uint64_t valuesNumber_ = 0;
-  bool valuesOfLinks_ = false;  // what values_ was filled with
 };
 
 }  // namespace chainmail

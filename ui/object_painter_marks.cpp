@@ -38,7 +38,7 @@ void ObjectPainter::drawSelection(const Scene& scene, QColor colour, float diame
   over.fog = {};
   const bool small = diameter < smallestRing;
   use(over, colour, int(small ? Mark::disc : Mark::ring), mesh_->space_dimension);
-  program_.setUniformValue("point_size", diameter * scene.pixelRatio);
+  program_->setUniformValue("point_size", diameter * scene.pixelRatio);
   selected_.bind();
   glDrawElements(GL_POINTS, selectedIndices_, GL_UNSIGNED_INT, nullptr);
   vertexArray_.release();
@@ -69,7 +69,7 @@ void ObjectPainter::drawOwn(const Scene& scene, std::span<const float> positions
   Scene over = scene;
   over.fog = {};
   use(over, colour, shading, mesh_->space_dimension);
-  program_.setUniformValue("point_size", diameter * scene.pixelRatio);
+  program_->setUniformValue("point_size", diameter * scene.pixelRatio);
   glDrawArrays(mode, 0, GLsizei(positions.size() / mesh_->space_dimension));
   vertexArray_.release();
 }
@@ -87,8 +87,8 @@ void ObjectPainter::drawStroke(const Scene& scene, std::span<const QPointF> plac
   scratch_.bind();
   scratch_.allocate(device.data(), int(device.size() * sizeof(float)));
   use(scene, colour, 0, 2);
-  program_.setUniformValue("to_view", QMatrix4x4());
-  program_.setUniformValue("to_clip", QMatrix4x4());
+  program_->setUniformValue("to_view", QMatrix4x4());
+  program_->setUniformValue("to_clip", QMatrix4x4());
   glDrawArrays(GL_LINE_STRIP, 0, GLsizei(places.size()));
   vertexArray_.release();
 }

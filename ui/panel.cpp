@@ -14,14 +14,15 @@ constexpr int refreshMilliseconds = 100;
 
 }  // namespace
 
-Panel::Panel(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera, QColor colour)
+Panel::Panel(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
+             std::shared_ptr<MeshLevels> levels, QColor colour)
     : document_(document),
       colouring_(colouring),
       panel_(panel),
       selector_(new QComboBox),
       state_(new QLabel),
       statistics_(new QLabel),
-      view_(new View(document, colouring, panel, std::move(camera), colour)),
+      view_(new View(document, colouring, panel, std::move(camera), std::move(levels), colour)),
       legend_(new Legend) {
   view_->setObjectName(QStringLiteral("view%1").arg(panel));
   state_->setObjectName(QStringLiteral("state%1").arg(panel));

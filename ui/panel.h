@@ -15,7 +15,8 @@ class Panel : public QFrame {
   Q_OBJECT
 
  public:
-  Panel(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera, QColor colour);
+  Panel(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
+        std::shared_ptr<MeshLevels> levels, QColor colour);
 
   View& view() { return *view_; }
   QComboBox& selector() { return *selector_; }

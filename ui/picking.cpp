@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace chainmail {
 namespace {
@@ -26,73 +27,67 @@ bool cross(QLineF a, QLineF b) {
   return side(a, b.p1()) * side(a, b.p2()) <= 0 && side(b, a.p1()) * side(b, a.p2()) <= 0 && !a.isNull() && !b.isNull();
 }
 
+/// Where links between two cells may appear: one from before the eye to behind it leaves the view at any side.
+ViewBounds united(ViewBounds a, const ViewBounds& b) {
+  if (a.empty() != b.empty()) {
+    return ViewBounds::everywhere();
+  }
+  a.unite(b);
+  return a;
+}
+
+std::vector<ViewBounds> cellBounds(const CellBoxes& boxes, const Projection& projection) {
+  std::vector<ViewBounds> bounds(boxes.level().cellCount());
+  for (std::size_t cell = 0; cell < bounds.size(); ++cell) {
+    bounds[cell] = projection.bounds(boxes[cell]);
+  }
+  return bounds;
+}
+
 }  // namespace
 
-QMatrix4x4 placement(const Mesh& mesh) {
-  QMatrix4x4 matrix;
-  matrix.fill(0);
-  matrix(3, 3) = 1;
-  for (int k = 0; k < 3; ++k) {
-    matrix(k, 3) = float(mesh.origin[k]);
-  }
-  for (int k = 0; k < mesh.space_dimension; ++k) {
-    matrix(mesh.axes[k], k) = 1;
-    matrix(mesh.axes[k], 3) = 0;
-  }
-  return matrix;
-}
-
-Projection::Projection(const Mesh& mesh, const QMatrix4x4& toView, const QMatrix4x4& toClip, QSizeF view)
-    : matrix_(toClip * toView * placement(mesh)), dimension_(mesh.space_dimension), view_(view) {
-  // One unit along the view's vertical spans this many pixels at the depth of the origin of the view.
-  pixelsPerDepth_ = float(toClip(1, 1) * view.height() / 2);
-}
-
-Projection::Place Projection::operator()(const float* carried) const {
-  const float* m = matrix_.constData();  // column by column
-  float clip[4]{m[12], m[13], m[14], m[15]};
-  for (int k = 0; k < dimension_; ++k) {
-    for (int row = 0; row < 4; ++row) {
-      clip[row] += m[4 * k + row] * carried[k];
-    }
-  }
-  const float w = clip[3];
-  return {(clip[0] / w + 1) / 2 * float(view_.width()), (1 - clip[1] / w) / 2 * float(view_.height()), w};
-}
-
-float Projection::depth(const Place& place) const {
-  // At a distance w from the eye a unit of depth spans pixelsPerDepth_ / w pixels.
-  return pixelsPerDepth_ * std::log(place.distance);
-}
-
-std::optional<ElementId> nearestElement(const Frame& frame, const Projection& projection, QPointF place, double reach) {
+std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
+                                        QPointF place, double reach) {
   const int dimension = frame.mesh->space_dimension;
+  const QRectF within(place - QPointF(reach, reach), place + QPointF(reach, reach));
   std::optional<ElementId> best;
   float bestScore = 0;
-  for (ElementId e = 0; e < frame.mesh->element_count(); ++e) {
-    const auto at = projection(frame.positions.data() + std::size_t{e} * dimension);
-    const float dx = at.x - float(place.x()), dy = at.y - float(place.y());
-    if (!(dx * dx + dy * dy <= float(reach * reach)) || !at.visible()) {
+  for (std::size_t cell = 0; cell < boxes.level().cellCount(); ++cell) {
+    if (!projection.bounds(boxes[cell]).meets(within)) {
       continue;
     }
-    const float score = std::hypot(dx, dy) + depthWeight * projection.depth(at);
-    if (!best || score < bestScore) {
-      best = e;
-      bestScore = score;
+    for (const ElementId e : boxes.level().cells[cell]) {
+      const auto at = projection(frame.positions.data() + std::size_t{e} * dimension);
+      const float dx = at.x - float(place.x()), dy = at.y - float(place.y());
+      if (!(dx * dx + dy * dy <= float(reach * reach)) || !at.visible()) {
+        continue;
+      }
+      const float score = std::hypot(dx, dy) + depthWeight * projection.depth(at);
+      // Of two alike the first by id, in whatever order they come.
+      if (!best || score < bestScore || (score == bestScore && e < *best)) {
+        best = e;
+        bestScore = score;
+      }
     }
   }
   return best;
 }
 
-std::vector<ElementId> elementsWhere(const Frame& frame, const Projection& projection,
-                                     const std::function<bool(QPointF)>& inside) {
+std::vector<ElementId> elementsWhere(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
+                                     QRectF bounds, const std::function<bool(QPointF)>& inside) {
   std::vector<ElementId> found;
-  for (ElementId e = 0; e < frame.mesh->element_count(); ++e) {
-    const auto at = projection(frame.positions.data() + std::size_t{e} * frame.mesh->space_dimension);
-    if (at.visible() && inside(QPointF(at.x, at.y))) {
-      found.push_back(e);
+  for (std::size_t cell = 0; cell < boxes.level().cellCount(); ++cell) {
+    if (!projection.bounds(boxes[cell]).meets(bounds)) {
+      continue;
+    }
+    for (const ElementId e : boxes.level().cells[cell]) {
+      const auto at = projection(frame.positions.data() + std::size_t{e} * frame.mesh->space_dimension);
+      if (at.visible() && inside(QPointF(at.x, at.y))) {
+        found.push_back(e);
+      }
     }
   }
+  std::sort(found.begin(), found.end());
   return found;
 }
 
@@ -103,20 +98,56 @@ double distanceFrom(QLineF segment, QPointF place) {
   return QLineF(segment.p1() + share * along, place).length();
 }
 
-std::vector<LinkId> crossedLinks(const Frame& frame, const Cuts& cuts, const Projection& projection, QLineF stroke) {
-  const Mesh& mesh = *frame.mesh;
-  std::vector<Projection::Place> places(mesh.element_count());
-  for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    places[e] = projection(frame.positions.data() + std::size_t{e} * mesh.space_dimension);
+std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& projection) {
+  const MeshLevel& level = boxes.level();
+  std::vector<unsigned> beyond(level.cellCount());
+  for (std::size_t cell = 0; cell < beyond.size(); ++cell) {
+    beyond[cell] = projection.beyond(boxes[cell]);
   }
-  std::vector<LinkId> crossed;
-  for (LinkId link = 0; link < mesh.link_count(); ++link) {
-    const auto& a = places[mesh.links[link][0]];
-    const auto& b = places[mesh.links[link][1]];
-    if (a.visible() && b.visible() && cross(stroke, QLineF(a.x, a.y, b.x, b.y)) && !cuts.is_cut(link)) {
-      crossed.push_back(link);
+  std::vector<std::uint32_t> seen;
+  for (std::uint32_t cell = 0; cell < beyond.size(); ++cell) {
+    const auto isSeen = [&](std::uint32_t other) { return (beyond[cell] & beyond[other]) == 0; };
+    if (isSeen(cell) || std::ranges::any_of(level.reached[cell], isSeen)) {
+      seen.push_back(cell);
     }
   }
+  return seen;
+}
+
+std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts,
+                                 const Projection& projection, QLineF stroke) {
+  const MeshLevel& level = boxes.level();
+  // Room for all elements, of which only those near the stroke are looked at.
+  const auto places = std::make_unique_for_overwrite<Projection::Place[]>(level.mesh->element_count());
+  std::vector<bool> placed(level.cellCount());
+  const auto place = [&](std::size_t cell) {
+    if (!placed[cell]) {
+      for (const ElementId e : level.cells[cell]) {
+        places[e] = projection(frame.positions.data() + std::size_t{e} * level.mesh->space_dimension);
+      }
+      placed[cell] = true;
+    }
+  };
+  const auto bounds = cellBounds(boxes, projection);
+  std::vector<LinkId> crossed;
+  for (std::size_t cell = 0; cell < bounds.size(); ++cell) {
+    for (std::uint32_t i = level.reached.first[cell]; i < level.reached.first[cell + 1]; ++i) {
+      const std::uint32_t other = level.reached.items[i];
+      if (!united(bounds[cell], bounds[other]).meets(stroke)) {
+        continue;
+      }
+      place(cell);
+      place(other);
+      for (std::uint32_t at = level.reachedLinks[i]; at < level.reachedLinks[i + 1]; ++at) {
+        const LinkId link = level.cellLinks.items[at];
+        const auto &a = places[level.links[link][0]], &b = places[level.links[link][1]];
+        if (a.visible() && b.visible() && cross(stroke, QLineF(a.x, a.y, b.x, b.y)) && !cuts.is_cut(link)) {
+          crossed.push_back(link);
+        }
+      }
+    }
+  }
+  std::sort(crossed.begin(), crossed.end());
   return crossed;
 }
 

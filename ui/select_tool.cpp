@@ -80,7 +80,7 @@ void SelectTool::release(View& view, QPointF place) {
   if (shape_ == Shape::rectangle) {
     const QRectF rectangle = QRectF(start_, place).normalized();
     if (std::max(rectangle.width(), rectangle.height()) >= smallestRectangle) {
-      hit_ = view.elementsWhere([&rectangle](QPointF at) { return rectangle.contains(at); });
+      hit_ = view.elementsWhere(rectangle, [&rectangle](QPointF at) { return rectangle.contains(at); });
     } else if (const auto element = view.elementAt(place)) {
       hit_ = {*element};
     }
@@ -92,7 +92,9 @@ void SelectTool::release(View& view, QPointF place) {
 
 /// Lives on every step of the stroke, so that one sees what it takes.
 void SelectTool::brush(View& view, QLineF along) {
-  const auto reached = view.elementsWhere([this, along](QPointF at) { return distanceFrom(along, at) <= radius_; });
+  const QRectF bounds = QRectF(along.p1(), along.p2()).normalized().adjusted(-radius_, -radius_, radius_, radius_);
+  const auto reached =
+      view.elementsWhere(bounds, [this, along](QPointF at) { return distanceFrom(along, at) <= radius_; });
   hit_ = combined(hit_, reached, SelectionMode::add);
   document_.select(combined(before_, hit_, mode_));
 }

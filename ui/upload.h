@@ -13,4 +13,11 @@ int upload(QOpenGLBuffer& buffer, const std::vector<Datum>& data) {
   return int(data.size());
 }
 
+/// The same for a part of what the buffer already holds.
+template <class Datum>
+void uploadPart(QOpenGLBuffer& buffer, const std::vector<Datum>& data, std::size_t first, std::size_t end) {
+  buffer.bind();
+  buffer.write(int(first * sizeof(Datum)), data.data() + first, int((end - first) * sizeof(Datum)));
+}
+
 }  // namespace chainmail

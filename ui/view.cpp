@@ -17,8 +17,15 @@ constexpr double smallestMark = 2;
 
 }  // namespace
 
-View::View(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera, QColor colour)
-    : document_(document), colouring_(colouring), panel_(panel), camera_(std::move(camera)), colour_(colour) {
+View::View(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
+           std::shared_ptr<MeshLevels> levels, QColor colour)
+    : document_(document),
+      colouring_(colouring),
+      panel_(panel),
+      camera_(std::move(camera)),
+      colour_(colour),
+      levels_(std::move(levels)),
+      painter_(levels_) {
   setMouseTracking(true);
   setFocusPolicy(Qt::ClickFocus);  // a click here takes the keyboard from the field last typed in
   setMinimumSize(160, 120);
@@ -47,12 +54,7 @@ void View::listen() {
   connect(&colouring_, &Colouring::changed, this, qOverload<>(&View::update));
   connect(&document_, &Document::meshChanged, this, &View::fit);
   connect(&document_, &Document::cutsChanged, this, [this] {
-    if (painterReady_ && document_.frame(panel_) != nullptr) {
-      makeCurrent();
-      painter_.setFrame(*document_.frame(panel_), document_.cuts());
-      painter_.setCuts(document_.cuts());
-      doneCurrent();
-    }
+    painter_.cutsChanged();
     update();
   });
   connect(this, &QOpenGLWidget::frameSwapped, this, [this] { meter_.swapped(); });
@@ -85,19 +87,26 @@ void View::fit() {
   update();
 }
 
+const CellBoxes& View::boxes(const Frame& frame) const {
+  boxes_.follow(levels_->at(frame.mesh, 1), frame);
+  return boxes_;
+}
+
 std::optional<ElementId> View::elementAt(QPointF place) const {
   const Frame* frame = document_.frame(panel_);
-  return frame == nullptr ? std::nullopt : nearestElement(*frame, projection(), place, reach);
+  return frame == nullptr ? std::nullopt : nearestElement(*frame, boxes(*frame), projection(), place, reach);
 }
 
 std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
   const Frame* frame = document_.frame(panel_);
-  return frame == nullptr ? std::vector<LinkId>() : crossedLinks(*frame, document_.cuts(), projection(), stroke);
+  return frame == nullptr ? std::vector<LinkId>()
+                          : crossedLinks(*frame, boxes(*frame), document_.cuts(), projection(), stroke);
 }
 
-std::vector<ElementId> View::elementsWhere(const std::function<bool(QPointF)>& inside) const {
+std::vector<ElementId> View::elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const {
   const Frame* frame = document_.frame(panel_);
-  return frame == nullptr ? std::vector<ElementId>() : chainmail::elementsWhere(*frame, projection(), inside);
+  return frame == nullptr ? std::vector<ElementId>()
+                          : chainmail::elementsWhere(*frame, boxes(*frame), projection(), bounds, inside);
 }
 
 Point View::position(ElementId element) const {

@@ -19,7 +19,9 @@ class View : public QOpenGLWidget {
   Q_OBJECT
 
  public:
-  View(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera, QColor colour);
+  /// The panels share the camera, unless they are unlinked, and the mesh's levels of detail.
+  View(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
+       std::shared_ptr<MeshLevels> levels, QColor colour);
   ~View() override;
 
   void setTool(Tool* tool);
@@ -31,7 +33,8 @@ class View : public QOpenGLWidget {
   /// For tools: what is under a place of this view, and where an element is.
   std::optional<ElementId> elementAt(QPointF place) const;
   std::vector<LinkId> linksCrossing(QLineF stroke) const;
-  std::vector<ElementId> elementsWhere(const std::function<bool(QPointF)>& inside) const;
+  /// `inside` is asked of places in `bounds`.
+  std::vector<ElementId> elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const;
   Point position(ElementId element) const;
   QVector3D pointAt(QPointF place, const Point& through) const;
 
@@ -60,6 +63,7 @@ class View : public QOpenGLWidget {
  private:
   ObjectPainter::Scene scene() const;
   Projection projection() const;
+  const CellBoxes& boxes(const Frame& frame) const;
   void listen();
   double pixelsPerLink() const;
   void drawMarks(const ObjectPainter::Scene& scene);
@@ -72,6 +76,8 @@ class View : public QOpenGLWidget {
   std::shared_ptr<Camera> camera_;
   QColor colour_;
   Tool* tool_ = nullptr;
+  std::shared_ptr<MeshLevels> levels_;
+  mutable CellBoxes boxes_;  // for the search under the cursor, as of the last one
   ObjectPainter painter_;
   FrameMeter meter_;
   QTimer hover_;  // the search for the element under the cursor runs once a frame, not once an event

@@ -1,4 +1,7 @@
-#version 330 core
+// What follows is compiled once for each pair of SHADING and COLOURED_BY: a software renderer takes every branch
+// at every pixel.
+//   SHADING: 0 plain, 1 a face lit from the eye; points: 2 a disc, 3 a diamond, 4 a ring
+//   COLOURED_BY: 0 `colour`, 1 the elements' values, 2 the links' (a primitive is a link)
 
 in vec3 in_view;
 in float value_here;
@@ -6,9 +9,7 @@ in float value_here;
 uniform vec4 colour;
 uniform vec4 background;
 uniform vec2 fog;    // distances from the eye at which fading begins and ends; equal: none
-uniform int shading; // 0 plain, 1 a face lit from the eye; points: 2 a disc, 3 a diamond, 4 a ring
 
-uniform int coloured_by; // 0 `colour`, 1 the elements' values, 2 the links' (a primitive is a link)
 uniform samplerBuffer link_values;
 uniform vec3 stops[6];   // the colour map's control points
 uniform vec2 range;      // the values at its two ends
@@ -26,30 +27,33 @@ vec4 mapped(float value) {
   return vec4(mix(stops[from], stops[from + 1], share * 5.0 - float(from)), 1.0);
 }
 
+#if SHADING >= 2
 // How far a place of a point lies outside its mark, in point sizes.
 float outside(vec2 place) {
-  if (shading == 3) {
+  if (SHADING == 3) {
     return abs(place.x) + abs(place.y) - 0.5;
   }
   float from_centre = length(place);
-  return shading == 4 ? max(from_centre - 0.5, 0.32 - from_centre) : from_centre - 0.5;
+  return SHADING == 4 ? max(from_centre - 0.5, 0.32 - from_centre) : from_centre - 0.5;
 }
+#endif
 
 void main() {
+#if COLOURED_BY == 1
+  vec4 result = mapped(value_here);
+#elif COLOURED_BY == 2
+  vec4 result = mapped(texelFetch(link_values, gl_PrimitiveID).r);
+#else
   vec4 result = colour;
-  if (coloured_by == 1) {
-    result = mapped(value_here);
-  } else if (coloured_by == 2) {
-    result = mapped(texelFetch(link_values, gl_PrimitiveID).r);
-  }
-  if (shading == 1) {
-    vec3 normal = normalize(cross(dFdx(in_view), dFdy(in_view)));
-    result.rgb *= 0.55 + 0.45 * abs(normal.z);
-  } else if (shading >= 2) {
-    float beyond = outside(gl_PointCoord - 0.5);
-    float edge = fwidth(beyond);
-    result.a *= 1.0 - smoothstep(-edge, 0.0, beyond);
-  }
+#endif
+#if SHADING == 1
+  vec3 normal = normalize(cross(dFdx(in_view), dFdy(in_view)));
+  result.rgb *= 0.55 + 0.45 * abs(normal.z);
+#elif SHADING >= 2
+  float beyond = outside(gl_PointCoord - 0.5);
+  float edge = fwidth(beyond);
+  result.a *= 1.0 - smoothstep(-edge, 0.0, beyond);
+#endif
   if (fog.y > fog.x) {
     result.rgb = mix(result.rgb, background.rgb, 0.75 * clamp((-in_view.z - fog.x) / (fog.y - fog.x), 0.0, 1.0));
   }

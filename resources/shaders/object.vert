@@ -1,5 +1,3 @@
-#version 330 core
-
 // The coordinates that the scene carries; those it does not carry arrive as 0.
 layout(location = 0) in vec3 carried;
 // What the element is coloured by, where that is a value of elements.

@@ -48,11 +48,6 @@ class ColourMap : public QObject {
     QVERIFY(lightness(colour_map::at(1)) - lightness(colour_map::at(0)) > 45);
     QVERIFY(lightness(colour_map::at(0)) - lightness(colours::background) > 25);
   }
-
-  void anElementStandsForTheLargestOfItsLinks() {
-    const auto mesh = generate({MeshKind::line, {4, 1, 1}, 1, {}});
-    QCOMPARE(largestOfLinks(*mesh, {0.5F, 2.0F, 1.0F}), (std::vector<float>{0.5F, 2.0F, 2.0F, 1.0F}));
-  }
 };
 
 QTEST_GUILESS_MAIN(ColourMap)

@@ -5,10 +5,67 @@
 #include <QTest>
 #include <algorithm>
 #include <numeric>
+#include <random>
+#include <set>
 
+#include "coarse_level.h"
 #include "mesh/generate.h"
 
 using namespace chainmail;
+
+namespace {
+
+std::vector<std::uint32_t> allCells(const MeshLevel& level) {
+  std::vector<std::uint32_t> cells(level.cellCount());
+  std::iota(cells.begin(), cells.end(), 0U);
+  return cells;
+}
+
+/// The ends of the links that are drawn, as they come.
+std::vector<ElementId> ends(const MeshLevelPointer& level, const Cuts& cuts) {
+  return drawnLinks(*level, cuts, allCells(*level)).ends;
+}
+
+std::size_t faceCount(const MeshLevelPointer& level, const Cuts& cuts) {
+  return drawnFaces(*level, cuts, allCells(*level)).size() / 3;
+}
+
+/// Whether two elements hang together by links that are drawn.
+bool joined(const MeshLevelPointer& level, const Cuts& cuts, ElementId from, ElementId to) {
+  const auto links = ends(level, cuts);
+  std::set<ElementId> found{from};
+  for (std::size_t before = 0; before != found.size();) {
+    before = found.size();
+    for (std::size_t i = 0; i < links.size(); i += 2) {
+      if (found.count(links[i]) + found.count(links[i + 1]) == 1) {
+        found.insert({links[i], links[i + 1]});
+      }
+    }
+  }
+  return found.count(to) != 0;
+}
+
+/// A cloth whose file says nothing of a lattice, with its elements in no order.
+MeshPointer plainCloth(ElementId width, ElementId height) {
+  const auto cloth = generate({MeshKind::cloth, {width, height, 1}, 1, {}});
+  std::vector<ElementId> place(cloth->element_count());
+  std::iota(place.begin(), place.end(), ElementId{0});
+  std::shuffle(place.begin(), place.end(), std::mt19937(5));
+  MeshParts parts;
+  parts.rest.resize(place.size());
+  for (ElementId e = 0; e < place.size(); ++e) {
+    parts.rest[place[e]] = cloth->rest_position(e);
+  }
+  for (const auto& [a, b] : cloth->links) {
+    parts.links.push_back({place[a], place[b]});
+  }
+  for (const auto& [a, b, c] : cloth->triangles) {
+    parts.triangles.push_back({place[a], place[b], place[c]});
+  }
+  return build_mesh(std::move(parts));
+}
+
+}  // namespace
 
 class DrawnIndices : public QObject {
   Q_OBJECT
@@ -16,12 +73,13 @@ class DrawnIndices : public QObject {
  private slots:
   void cutLinksAndTheirFacesGo() {
     const auto mesh = generate({MeshKind::cloth, {3, 2, 1}, 1, {}});
+    const auto level = wholeLevel(mesh);
     Cuts cuts(mesh);
-    QCOMPARE(uncutLinks(*mesh, cuts).size(), 2U * 9);
-    QCOMPARE(uncutFaces(*mesh, cuts).size(), 3U * 4);
+    QCOMPARE(ends(level, cuts).size(), 2U * 9);
+    QCOMPARE(faceCount(level, cuts), 4U);
     cuts.cut(*find_link(*mesh, 1, 4));  // the middle upright, in two triangles
-    QCOMPARE(uncutLinks(*mesh, cuts).size(), 2U * 8);
-    QCOMPARE(uncutFaces(*mesh, cuts).size(), 3U * 2);
+    QCOMPARE(ends(level, cuts).size(), 2U * 8);
+    QCOMPARE(faceCount(level, cuts), 2U);
   }
 
   void thePolygonsDiagonalIsNoLink() {
@@ -30,24 +88,79 @@ class DrawnIndices : public QObject {
     parts.links = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
     parts.polygons = {4, 0, 1, 2, 3};
     const auto mesh = build_mesh(std::move(parts));
-    QCOMPARE(uncutLinks(*mesh, Cuts(mesh)).size(), 8U);
-    QCOMPARE(uncutFaces(*mesh, Cuts(mesh)).size(), 6U);
+    QCOMPARE(ends(wholeLevel(mesh), Cuts(mesh)).size(), 8U);
+    QCOMPARE(faceCount(wholeLevel(mesh), Cuts(mesh)), 2U);
+  }
+
+  void everyLinkAndFaceIsInOneCell() {
+    for (const auto& mesh : {generate({MeshKind::cloth, {70, 33, 1}, 1, {}}), plainCloth(70, 33),
+                             generate({MeshKind::tetra, {13, 14, 15}, 1, {}})}) {
+      const auto level = wholeLevel(mesh);
+      QVERIFY(level->cellCount() > 4);
+      auto numbers = drawnLinks(*level, Cuts(mesh), allCells(*level)).numbers;
+      std::sort(numbers.begin(), numbers.end());
+      QCOMPARE(numbers.size(), mesh->links.size());
+      QVERIFY(std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end());
+      QCOMPARE(faceCount(level, Cuts(mesh)), mesh->triangles.size());
+    }
   }
 
   void coarselyTheLastRowIsThereAndCutsShow() {
     const auto mesh = generate({MeshKind::grid, {6, 1, 1}, 1, {}});
     Cuts cuts(mesh);
+    const auto level = coarseLattice(mesh, 2);
     const std::vector<ElementId> whole{0, 2, 2, 4, 4, 5};
-    QCOMPARE(coarseLinks(*mesh, cuts, 2), whole);
+    QCOMPARE(ends(level, cuts), whole);
     cuts.cut(*find_link(*mesh, 3, 4));
     const std::vector<ElementId> parted{0, 2, 4, 5};
-    QCOMPARE(coarseLinks(*mesh, cuts, 2), parted);
+    QCOMPARE(ends(level, cuts), parted);
+    cuts.uncut(*find_link(*mesh, 3, 4));
+    QCOMPARE(ends(level, cuts), whole);
   }
 
-  void scatteredElementsAreAboutOneInStepSquared() {
-    const auto mesh = generate({MeshKind::line, {10'000, 1, 1}, 1, {}});
-    const auto count = scattered(*mesh, 4).size();
-    QVERIFY(count > 500 && count < 750);  // 625 on the mean; the hash is even to a few percent
+  void coarseFacesCoverTheLatticeAndGoWithTheirSides() {
+    const auto mesh = generate({MeshKind::cloth, {10, 7, 1}, 1, {}});
+    Cuts cuts(mesh);
+    const auto level = coarseLattice(mesh, 4);  // columns 0 4 8 9, rows 0 4 6
+    QCOMPARE(faceCount(level, cuts), 2U * 3 * 2);
+    cuts.cut(*find_link(*mesh, 4 + 10, 4 + 20));  // in the side from (4, 0) to (4, 4), of a face left and one right
+    QCOMPARE(faceCount(level, cuts), 2U * 3 * 2 - 2);
+  }
+
+  void aPlainMeshThinsOutAndHangsTogether() {
+    const auto mesh = plainCloth(60, 50);
+    const Cuts none(mesh);
+    auto level = wholeLevel(mesh);
+    for (unsigned step = 2; step <= 8; step *= 2) {
+      const auto next = coarser(*level);
+      QCOMPARE(next->step, step);
+      QVERIFY(next->elements.size() * 3 < level->elements.size());
+      QVERIFY(next->links.size() * 2 < level->links.size());
+      QVERIFY(!next->faces.empty());
+      const ElementId first = next->elements.front();
+      for (const ElementId e : {next->elements[next->elements.size() / 2], next->elements.back()}) {
+        QVERIFY(joined(next, none, first, e));
+      }
+      level = next;
+    }
+  }
+
+  void aCutThroughAPlainMeshShowsCoarsely() {
+    const auto mesh = plainCloth(40, 40);
+    const auto level = coarser(*coarser(*wholeLevel(mesh)));
+    const auto x = [&](ElementId e) { return mesh->rest_position(e).x(); };
+    const auto side = [&](bool right) {
+      return *std::ranges::find_if(level->elements, [&](ElementId e) { return (x(e) > 19.5) == right; });
+    };
+    Cuts cuts(mesh);
+    QVERIFY(joined(level, cuts, side(false), side(true)));
+    for (LinkId link = 0; link < mesh->link_count(); ++link) {
+      if ((x(mesh->links[link][0]) > 19.5) != (x(mesh->links[link][1]) > 19.5)) {
+        cuts.cut(link);
+      }
+    }
+    QVERIFY(!joined(level, cuts, side(false), side(true)));
+    QVERIFY(faceCount(level, cuts) < level->faces.size());
   }
 
   void fewElementsAreAllKeptAndManyThinnedEvenly() {

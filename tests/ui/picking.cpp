@@ -2,31 +2,120 @@
 
 #include "picking.h"
 
+#include <rapidcheck.h>
+
 #include <QTest>
+#include <numeric>
+#include <random>
 
 #include "camera.h"
+#include "coarse_level.h"
 #include "mesh/generate.h"
+#include "plain_picking.h"
 
 using namespace chainmail;
 
 namespace {
 
 struct Scene {
-  explicit Scene(const MeshRecipe& recipe) {
-    frame.mesh = generate(recipe);
-    frame.positions.assign(frame.mesh->rest.begin(), frame.mesh->rest.end());
-    camera.fit(bounds(*frame.mesh), std::span(frame.mesh->axes).first(std::size_t(frame.mesh->space_dimension)), view);
+  explicit Scene(const MeshRecipe& recipe) : Scene(generate(recipe)) {}
+  explicit Scene(const MeshPointer& mesh) : level(wholeLevel(mesh)) {
+    frame.mesh = mesh;
+    frame.positions.assign(mesh->rest.begin(), mesh->rest.end());
+    frame.number = 1;
+    frame.changed.assign((mesh->element_count() + Frame::block_elements - 1) / Frame::block_elements, 1);
+    camera.fit(bounds(*mesh), std::span(mesh->axes).first(std::size_t(mesh->space_dimension)), view);
+    boxes.follow(level, frame);
   }
   Projection projection() const { return {*frame.mesh, camera.toView(), camera.toClip(view), view}; }
   QPointF place(ElementId e) const {
-    const auto at = projection()(frame.positions.data() + std::size_t{e} * frame.mesh->space_dimension);
+    const auto at = plain::placeOf(frame, projection(), e);
     return {at.x, at.y};
+  }
+
+  std::optional<ElementId> nearest(QPointF at, double reach) const {
+    return nearestElement(frame, boxes, projection(), at, reach);
+  }
+  std::vector<LinkId> crossed(const Cuts& cuts, QLineF stroke) const {
+    return crossedLinks(frame, boxes, cuts, projection(), stroke);
+  }
+  std::vector<ElementId> elementsIn(const QRectF& rectangle) const {
+    return elementsWhere(frame, boxes, projection(), rectangle, [&](QPointF at) { return rectangle.contains(at); });
   }
 
   QSizeF view{800, 600};
   Frame frame;
   Camera camera;
+  MeshLevelPointer level;
+  CellBoxes boxes;
 };
+
+/// Elements scattered in space, or along a plane, in no order, linked without regard to where they are.
+MeshPointer disorder(std::mt19937_64& random, ElementId count) {
+  MeshParts parts;
+  std::uniform_real_distribution<double> along(-20, 20);
+  const bool flat = random() % 2 == 0;
+  for (ElementId e = 0; e < count; ++e) {
+    parts.rest.push_back(Point(along(random), along(random), flat ? 3 : along(random)));
+  }
+  for (ElementId e = 1; e < count; ++e) {
+    parts.links.push_back({e, ElementId(random() % e)});
+  }
+  return build_mesh(std::move(parts));
+}
+
+MeshPointer randomMesh(std::mt19937_64& random) {
+  const auto kind = *rc::gen::inRange(0, 6);
+  const auto size = [&random](std::uint32_t highest) { return std::uint32_t(2 + random() % (highest - 1)); };
+  switch (kind) {
+    case 0:
+      return generate({MeshKind::line, {size(1500), 1, 1}, 1, {}});
+    case 1:
+      return generate({MeshKind::grid, {size(60), size(60), 1}, 1, {}});
+    case 2:
+      return generate({MeshKind::cloth, {size(40), size(40), 1}, 0.01, 3});
+    case 3:
+      return generate({MeshKind::block, {size(14), size(14), size(14)}, 30, {}});
+    case 4:
+      return generate({MeshKind::tetra, {size(10), size(10), size(10)}, 1, {}});
+    default:
+      return disorder(random, size(6000));
+  }
+}
+
+/// As a hand does: some elements near each other by id move, and now and then all of them.
+void deform(Scene& scene, std::mt19937_64& random) {
+  const ElementId count = scene.frame.mesh->element_count();
+  const bool all = random() % 4 == 0;
+  const auto first = all ? 0 : ElementId(random() % count);
+  const ElementId end = all ? count : std::min<ElementId>(count, first + ElementId(random() % 40));
+  std::normal_distribution<float> by(0, float(5 * scene.frame.mesh->mean_link_length));
+  ++scene.frame.number;
+  for (ElementId e = first; e < end; ++e) {
+    for (int k = 0; k < scene.frame.mesh->space_dimension; ++k) {
+      scene.frame.positions[std::size_t{e} * scene.frame.mesh->space_dimension + k] += by(random);
+    }
+    scene.frame.changed[e / Frame::block_elements] = scene.frame.number;
+  }
+}
+
+void moveCamera(Scene& scene, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> pixels(-300, 300), notches(-3, 18);
+  scene.camera.orbit({pixels(random), pixels(random)});
+  scene.camera.zoom(std::pow(1.2, notches(random)), {400 + pixels(random), 300 + pixels(random)}, scene.view);
+  scene.camera.pan({pixels(random), pixels(random)}, scene.view);
+}
+
+/// A place on a link, from one end at 0 to the other at 1.
+Projection::Place along(const Scene& scene, const MeshLevel::Link& link, float share) {
+  const int dimension = scene.frame.mesh->space_dimension;
+  std::array<float, 3> at{};
+  for (int k = 0; k < dimension; ++k) {
+    const auto end = [&](ElementId e) { return scene.frame.positions[std::size_t{e} * dimension + k]; };
+    at[k] = (1 - share) * end(link[0]) + share * end(link[1]);
+  }
+  return scene.projection()(at.data());
+}
 
 }  // namespace
 
@@ -36,12 +125,10 @@ class Picking : public QObject {
  private slots:
   void allElementsInAShape() {
     const Scene scene({MeshKind::block, {3, 3, 3}, 1, {}});
-    const auto all = elementsWhere(scene.frame, scene.projection(), [](QPointF) { return true; });
+    const auto all = scene.elementsIn(QRectF(0, 0, 800, 600));
     QCOMPARE(all.size(), 27U);  // those behind others too
     const QPointF at = scene.place(13);
-    const auto one = elementsWhere(scene.frame, scene.projection(),
-                                   [at](QPointF place) { return QLineF(at, place).length() < 1e-3; });
-    QCOMPARE(one, std::vector<ElementId>{13});
+    QCOMPARE(scene.elementsIn(QRectF(at - QPointF(1, 1), at + QPointF(1, 1))), std::vector<ElementId>{13});
   }
 
   void theDistanceFromASegment() {
@@ -55,8 +142,8 @@ class Picking : public QObject {
   void theNearestWithinReach() {
     const Scene scene({MeshKind::grid, {5, 4, 1}, 1, {}});
     const QPointF at = scene.place(7);
-    QCOMPARE(nearestElement(scene.frame, scene.projection(), at + QPointF(6, 5), 14), std::optional<ElementId>(7));
-    QCOMPARE(nearestElement(scene.frame, scene.projection(), at + QPointF(20, 0), 14), std::nullopt);
+    QCOMPARE(scene.nearest(at + QPointF(6, 5), 14), std::optional<ElementId>(7));
+    QCOMPARE(scene.nearest(at + QPointF(20, 0), 14), std::nullopt);
   }
 
   void theOneInFrontIsPreferred() {
@@ -64,7 +151,7 @@ class Picking : public QObject {
     Scene scene({MeshKind::block, {2, 2, 9}, 1, {}});
     scene.camera.orbit({30 / 0.4, -25 / 0.4});
     const ElementId front = 4 * 8;
-    QCOMPARE(nearestElement(scene.frame, scene.projection(), scene.place(front), 40), std::optional<ElementId>(front));
+    QCOMPARE(scene.nearest(scene.place(front), 40), std::optional<ElementId>(front));
   }
 
   void aStrokeCrossesWhatLiesUnderIt() {
@@ -74,14 +161,66 @@ class Picking : public QObject {
     const QLineF stroke(scene.place(0) + half, scene.place(5) + half);
     const auto link = find_link(*scene.frame.mesh, 5, 6);
     const Cuts none(scene.frame.mesh);
-    QCOMPARE(crossedLinks(scene.frame, none, scene.projection(), stroke), std::vector<LinkId>{*link});
+    QCOMPARE(scene.crossed(none, stroke), std::vector<LinkId>{*link});
     Cuts cut(scene.frame.mesh);
     cut.cut(*link);
-    QVERIFY(crossedLinks(scene.frame, cut, scene.projection(), stroke).empty());
-    QVERIFY(crossedLinks(scene.frame, none, scene.projection(), QLineF(1, 1, 9, 1)).empty());
+    QVERIFY(scene.crossed(cut, stroke).empty());
+    QVERIFY(scene.crossed(none, QLineF(1, 1, 9, 1)).empty());
     // In line with the first row, and beside it.
     const double y = scene.place(0).y();
-    QVERIFY(crossedLinks(scene.frame, none, scene.projection(), QLineF(0, y, scene.place(0).x() - 5, y)).empty());
+    QVERIFY(scene.crossed(none, QLineF(0, y, scene.place(0).x() - 5, y)).empty());
+  }
+
+  void theAnswersAreThoseOfLookingAtEverything() {
+    const auto holds = [] {
+      std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+      Scene scene(randomMesh(random));
+      Cuts cuts(scene.frame.mesh);
+      std::uniform_real_distribution<double> x(-20, 820), y(-20, 620), near(-40, 40);
+      for (int i = 0; i < 6; ++i) {
+        deform(scene, random);
+        moveCamera(scene, random);
+        cuts.cut(LinkId(random() % scene.frame.mesh->link_count()));
+        scene.boxes.follow(scene.level, scene.frame);
+        const QPointF from(x(random), y(random));
+        const QPointF to = i % 2 == 0 ? from + QPointF(near(random), near(random)) : QPointF(x(random), y(random));
+        const QRectF rectangle = QRectF(from, to).normalized();
+        RC_ASSERT(scene.nearest(from, 14) == plain::nearestElement(scene.frame, scene.projection(), from, 14));
+        RC_ASSERT(scene.elementsIn(rectangle) == plain::elementsIn(scene.frame, scene.projection(), rectangle));
+        const auto crossed = plain::crossedLinks(scene.frame, cuts, scene.projection(), {from, to});
+        RC_ASSERT(scene.crossed(cuts, {from, to}) == crossed);
+      }
+    };
+    QVERIFY(rc::check("cells that are passed over hold nothing of the answer", holds));
+  }
+
+  /// Boxes of every element, and of coarse links, which reach further.
+  void nothingThatIsSeenIsPassedOver() {
+    const auto holds = [] {
+      std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+      Scene scene(randomMesh(random));
+      const auto whole = scene.level;
+      const auto level = *rc::gen::arbitrary<bool>() ? whole
+                         : scene.frame.mesh->lattice ? coarseLattice(scene.frame.mesh, 3)
+                                                     : coarser(*coarser(*whole));
+      deform(scene, random);
+      moveCamera(scene, random);
+      scene.boxes.follow(level, scene.frame);
+      const QRectF view(QPointF(), scene.view);
+      const auto seen = cellsSeen(scene.boxes, scene.projection());
+      for (std::uint32_t cell = 0; cell < level->cellCount(); ++cell) {
+        if (std::binary_search(seen.begin(), seen.end(), cell)) {
+          continue;
+        }
+        for (const std::uint32_t link : level->cellLinks[cell]) {
+          for (int step = 0; step <= 16; ++step) {
+            const auto at = along(scene, level->links[link], float(step) / 16);
+            RC_ASSERT(!(at.visible() && view.contains(QPointF(at.x, at.y))));
+          }
+        }
+      }
+    };
+    QVERIFY(rc::check("what is not drawn is out of the view", holds));
   }
 
   void coordinatesThatAreNotCarriedStayInPlace() {

@@ -81,6 +81,43 @@ class WindowCut : public QObject {
     QCOMPARE(bench.document().cuts().count(), 7U);
   }
 
+  /// A large mesh, of which a part is in view: what a drag, a cut and its undo sent to the graphics card, bit by bit,
+  /// gives the picture that all of it gives.
+  void aPicturePatchedIsThePictureDrawnAnew() {
+    Workbench bench(generate({MeshKind::cloth, {260, 250, 1}, 1, {}}));
+    bench.document().setSoftness({0.2, 2, 0.5}, QStringLiteral("soft"));
+    View& view = bench.view(0);
+    view.camera()->zoom(9, QPointF(view.width() / 2.0, view.height() / 2.0), view.size());
+    const Camera near = *view.camera();
+    const auto picture = [&] {
+      bench.settle();
+      return view.grabFramebuffer();
+    };
+    const auto dragBy = [&bench](double travel) {
+      bench.document().grab(32'630);
+      bench.document().drag(bench.position(0, 32'630) + Point(travel, travel / 2, 0));
+      bench.document().release();
+      bench.settle();
+    };
+    const QImage before = picture();
+    dragBy(4);
+    const QPointF at = view.placeOf(32'500);
+    bench.document().cut(view.linksCrossing(QLineF(at - QPointF(80, 60), at + QPointF(70, 60))));
+    bench.document().cut(view.linksCrossing(QLineF(at - QPointF(80, -60), at + QPointF(70, -60))));
+    bench.document().undoStack().undo();
+    QVERIFY(bench.document().cuts().count() > 0);
+    dragBy(3);
+    const QImage patched = picture();
+    QVERIFY(patched != before);
+
+    bench.document().replaceMesh(generate({MeshKind::line, {5, 1, 1}, 1, {}}), QStringLiteral("other"),
+                                 QStringLiteral("build"));
+    bench.settle();
+    bench.document().undoStack().undo();  // back, and all is sent again
+    *view.camera() = near;
+    QCOMPARE(picture(), patched);
+  }
+
   void keysChooseTheTool() {
     Workbench bench;
     QTest::keyClick(&bench.window, Qt::Key_K);

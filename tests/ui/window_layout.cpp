@@ -1,6 +1,8 @@
 // Sizes, docking, cameras and what is remembered, in a real window.
 
 #include <QDockWidget>
+#include <QLabel>
+#include <QSignalSpy>
 #include <QSplitter>
 #include <QWheelEvent>
 
@@ -104,6 +106,22 @@ class WindowLayout : public QObject {
     Workbench again;
     QVERIFY(!again.find<QDockWidget>("relaxationDock")->isVisible());
     QVERIFY(again.find<QDockWidget>("stiffnessDock")->isVisible());
+  }
+
+  void nothingIsPaintedWhileNothingChanges() {
+    Workbench bench;
+    bench.document().grab(10);
+    bench.document().drag(bench.position(0, 10) + Point(0.5, 0, 0));
+    bench.document().release();
+    bench.settle();
+    for (const char* rate : {"painted0", "painted1"}) {  // they count the last second
+      QTRY_COMPARE(bench.find<QLabel>(rate)->text(), QStringLiteral("idle"));
+    }
+    QTest::qWait(400);
+    const QSignalSpy left(&bench.view(0), &QOpenGLWidget::aboutToCompose);
+    const QSignalSpy right(&bench.view(1), &QOpenGLWidget::aboutToCompose);
+    QTest::qWait(600);
+    QCOMPARE(left.count() + right.count(), 0);
   }
 
   void aLargeGridIsDrawnCoarselyAndSaysSo() {
