@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solve/hand_regions.h"
+#include "solve/replay.h"
 #include "solve/trace.h"
 
 namespace chainmail {
@@ -45,8 +46,6 @@ class ExactPropagation {
   void forget() { grabbed_ = no_element; }
 
  private:
-  static constexpr std::size_t ahead = 16;  // elements whose places are fetched before they are needed
-
   static Place<Scalar, Dimension> clamped(const Place<Scalar, Dimension>& from, const Reach& reach,
                                           const Region<Scalar, Dimension>& region) {
     auto place = from;
@@ -66,7 +65,7 @@ class ExactPropagation {
     moved.resize(elements.size());
     std::size_t count = 0;
     for (std::size_t i = 1; i < elements.size(); ++i) {
-      __builtin_prefetch(&places[elements[std::min(i + ahead, elements.size() - 1)]], 1);
+      __builtin_prefetch(&places[elements[std::min(i + fetched_ahead, elements.size() - 1)]], 1);
       auto& place = places[elements[i]];
       const auto next = clamped(place, reach, regions[i]);
       if (next != place) {

@@ -25,6 +25,9 @@ struct Step {
   void note(bool moved) { element_and_moved = element() | (moved ? moved_bit : 0); }
 };
 
+/// Steps whose places are fetched before they are needed: about what a wait for memory takes.
+inline constexpr std::size_t fetched_ahead = 64;
+
 /// Carries out the steps of the last pass again, as long as each element moves, or stays, as it did then; returns
 /// how many steps that were.
 ///
@@ -33,10 +36,11 @@ struct Step {
 /// fetched from memory before they are needed.
 template <class Scalar, int Dimension>
 std::size_t replay(Body<Scalar, Dimension>& body, std::span<const Step> steps) {
-  constexpr std::size_t ahead = 16;
   auto* places = body.places.data();
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    __builtin_prefetch(&places[steps[std::min(i + ahead, steps.size() - 1)].element()], 1);
+    const Step& later = steps[std::min(i + fetched_ahead, steps.size() - 1)];
+    __builtin_prefetch(&places[later.element()], 1);
+    __builtin_prefetch(&body.regions.at(later.region));
     const Step& step = steps[i];
     const ElementId element = step.element();
     const auto next = body.clamped(element, step.sponsor, step.region);
