@@ -10,9 +10,7 @@
 
 #include "mesh/error.h"
 #include "solve/exact_solver.h"
-#include "solve/natural_queue.h"
-#include "solve/original.h"
-#include "solve/propagate.h"
+#include "solve/list_solver.h"
 #include "solve/relaxation.h"
 #include "solve/solver.h"
 
@@ -225,8 +223,7 @@ class TypedSolver final : public Solver {
   }
 
   PassCount move_by_lists(ElementId element, const Scalar (&target)[Dimension], Trace* trace) {
-    std::copy(std::begin(target), std::end(target), body_.places[element].at);
-    const std::span<const Step> steps = propagate_by_lists(element);
+    const std::span<const Step> steps = lists_.move(body_, algorithm_, element, target, moved_);
     if (trace != nullptr) {
       for (const Step& step : steps) {
         trace->push_back({step.element(), step.sponsor, step.has_moved()});
@@ -236,45 +233,16 @@ class TypedSolver final : public Solver {
     return {steps.size(), moved_.size()};
   }
 
-  std::span<const Step> propagate_by_lists(ElementId grabbed) {
-    switch (algorithm_) {
-      case Algorithm::natural_queue:
-        natural_queue_.propagate(body_, grabbed, moved_);
-        return natural_queue_.steps();
-      case Algorithm::generalized:
-        propagate(body_, front_, record_, grabbed, moved_);
-        break;
-      case Algorithm::spiral:
-        propagate(body_, spiral_, record_, grabbed, moved_);
-        break;
-      case Algorithm::enhanced:
-        propagate(body_, enhanced_, record_, grabbed, moved_);
-        break;
-      case Algorithm::original:
-        directions_.propagate(body_, record_, grabbed, moved_);
-        break;
-      case Algorithm::exact:
-        break;
-    }
-    return record_.steps();
-  }
-
   /// What the next pass would take over from the last one holds no more.
   void forget() {
-    record_.forget();
-    natural_queue_.forget();
+    lists_.forget();
     exact_.forget();
   }
 
   /// There was no memory in the middle of a pass: nothing of it may come up in the next one.
   void drop_pass() {
     exact_ = {};
-    record_ = {};
-    front_ = {};
-    spiral_ = {};
-    natural_queue_ = {};
-    enhanced_ = {};
-    directions_ = {};
+    lists_ = {};
     moved_.clear();
     at_rest_ = false;
     exact_.set_valid(false);
@@ -293,12 +261,7 @@ class TypedSolver final : public Solver {
   Algorithm algorithm_;
   Softness softness_;
   std::vector<ElementId> pins_;  // ascending
-  PassRecord record_;            // of the algorithms below, up to 3D ChainMail
-  FrontList front_;
-  SpiralList spiral_;
-  EnhancedList enhanced_;
-  DirectionLists directions_;
-  NaturalQueue<Scalar, Dimension> natural_queue_;
+  ListSolver<Scalar, Dimension> lists_;
   ExactSolver<Scalar, Dimension> exact_;
   std::vector<ElementId> moved_;
   Relaxation<Scalar, Dimension> relaxation_;
