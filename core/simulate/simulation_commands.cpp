@@ -47,11 +47,10 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
 
 /// Softness that is the same leaves the regions of all links as they are.
 void Simulation::set_softness(std::shared_ptr<const Softness> softness) {
-  const bool same = softness == softness_ || *softness == *softness_;
-  softness_ = std::move(softness);
-  if (!same) {
-    solver_->set_softness(*softness_);
+  if (softness != softness_ && *softness != *softness_) {
+    solver_->set_softness(*softness);
   }
+  softness_ = std::move(softness);
 }
 
 /// Under load the object may now violate its links: a pass about the hand, or the element that was moved

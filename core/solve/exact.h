@@ -38,6 +38,7 @@ class ExactPropagation {
     }
     move(body, reach, moved);
     std::copy_n(reach.to, Dimension, body.places[grabbed].at);
+    drop_what_rests(moved.size());
     const bool stopped = std::find(reach.stopped, reach.stopped + Dimension, true) != reach.stopped + Dimension;
     return {moved.size(), moved.size(), stopped, regions_.visits() - visits_before};
   }
@@ -46,6 +47,19 @@ class ExactPropagation {
   void forget() { grabbed_ = no_element; }
 
  private:
+  /// A drag that once reached far and then moves little would look at all that it has reached: once that has cost
+  /// as much as to find the regions anew, of what moves alone, it does so.
+  void drop_what_rests(std::size_t moved) {
+    const std::size_t known = regions_.elements().size();
+    idle_passes_ = moved < known / 4 ? idle_passes_ + 1 : 0;
+    if (idle_passes_ == passes_of_a_search) {
+      forget();
+      idle_passes_ = 0;
+    }
+  }
+
+  static constexpr int passes_of_a_search = 16;  // about; tests/bench has both
+
   static Place<Scalar, Dimension> clamped(const Place<Scalar, Dimension>& from, const Reach& reach,
                                           const Region<Scalar, Dimension>& region) {
     auto place = from;
@@ -105,28 +119,25 @@ class ExactPropagation {
     }
   }
 
-  /// The neighbour with the lowest id that the shortest path comes from, along an axis, up or down.
+  /// The neighbour with the lowest id that the shortest path comes from, along an axis, up or down. Seen from the
+  /// link's other end its region is mirrored, to the bit.
   ElementId binding_neighbour(const State& body, ElementId element, int k, bool up) const {
     const auto& to = *regions_.find(element);
     ElementId binding = no_element;
-    for (const ElementId neighbour : body.mesh->neighbours_of(element)) {
+    body.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
       const auto* from = regions_.find(neighbour);
-      if (from == nullptr || body.pinned(neighbour)) {
-        continue;
+      const auto& link = body.regions[entry];
+      if (from != nullptr &&
+          (up ? from->low[k] - link.high[k] == to.low[k] : from->high[k] - link.low[k] == to.high[k])) {
+        binding = std::min(binding, neighbour);
       }
-      body.for_each_neighbour(neighbour, [&](ElementId back, EntryId entry) {
-        const auto& link = body.regions[entry];
-        const bool binds = up ? from->low[k] + link.low[k] == to.low[k] : from->high[k] + link.high[k] == to.high[k];
-        if (back == element && binds) {
-          binding = std::min(binding, neighbour);
-        }
-      });
-    }
+    });
     return binding;
   }
 
   HandRegions<Scalar, Dimension, Schedule> regions_;
   ElementId grabbed_ = no_element;
+  int idle_passes_ = 0;  // in a row, that moved little of what is known
 };
 
 }  // namespace chainmail

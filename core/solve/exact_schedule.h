@@ -19,7 +19,7 @@ namespace chainmail {
 /// it `keeps_place()`, it is not. One that `adapts` is told after each visit how it goes. `begin_drag()` comes
 /// with another hand, `begin()` with each pass. Elements go by the order in which they became known.
 
-/// Smallest key first, in a radix heap: with keys that never fall below the last one taken, an element is visited
+/// Smallest key first, in a radix heap: with keys that hardly ever fall below the last one taken, an element is visited
 /// at most once a side of each axis (label setting; Ahuja, Mehlhorn, Orlin and Tarjan 1990).
 ///
 /// Keys are compared as the bits of a number that is not below 0, which are in the numbers' order.

@@ -18,7 +18,10 @@ class ExactSolver {
 
   /// Says what is known of the links without looking at them: that all hold, or nothing. What is not known to
   /// be valid is looked at before the next pass.
-  void set_valid(bool is_valid) { is_valid_ = is_valid; }
+  void set_valid(bool is_valid) {
+    is_valid_ = is_valid;
+    reach_ = is_valid ? 0 : reach_;
+  }
 
   /// To be called where links, softness or pins were changed.
   void forget() { propagation_.forget(); }
@@ -26,14 +29,15 @@ class ExactSolver {
   /// A pass as ExactPropagation has it, from any state.
   PassCount move(State& body, std::span<const ElementId> pins, ElementId grabbed, const Scalar (&target)[Dimension],
                  std::vector<ElementId>& moved, Trace* trace) {
-    note_reach(body, grabbed, target);
-    Repair repair(body, search_);
+    const double reach = note_reach(body, grabbed, target);
+    Repair repair(body, search_, reach_);
     std::vector<Place<Scalar, Dimension>> before;
     if (!is_valid_ && !repair.is_valid()) {
       before = body.places;
       repair.run(pins, grabbed);
     }
     is_valid_ = true;
+    reach_ = std::max(reach_, reach);
     PassCount count = propagation_.propagate(body, grabbed, target, moved, trace);
     if (!before.empty()) {
       add_repaired(body, before, grabbed, moved, count, trace);
@@ -44,7 +48,7 @@ class ExactSolver {
  private:
   /// Numbers as large as this leave links with the rounding of their size; once the hand is back among small
   /// ones, the object must be looked at again.
-  void note_reach(const State& body, ElementId grabbed, const Scalar (&target)[Dimension]) {
+  double note_reach(const State& body, ElementId grabbed, const Scalar (&target)[Dimension]) {
     double reach = 0;
     for (int k = 0; k < Dimension; ++k) {
       const double from = double(body.places[grabbed][k]);
@@ -56,6 +60,7 @@ class ExactSolver {
       furthest_ = 0;
     }
     furthest_ = std::max(furthest_, reach);
+    return reach;
   }
 
   /// A repair and the pass after it count as one: what moved is what stands elsewhere than before. What the
@@ -93,6 +98,7 @@ class ExactSolver {
   ExactPropagation<Scalar, Dimension> propagation_;
   PathSearch search_;
   bool is_valid_ = true;
+  double reach_ = 0;     // the largest displacement or move since the object was at rest (mesh units)
   double furthest_ = 0;  // displacement or move since the links were last looked at (mesh units)
 };
 

@@ -18,14 +18,13 @@ class RegionTable {
   using Id = std::uint32_t;
 
   void set(const Mesh& mesh, const Softness& softness, bool about_rest_vector) {
-    shape_of_ = softness.links.empty() && !mesh.entry_shape.empty() ? mesh.entry_shape.data() : nullptr;
-    regions_.resize(shape_of_ != nullptr ? mesh.shapes.size() / Dimension : mesh.neighbours.size());
-    if (shape_of_ != nullptr) {
-      set_shapes(mesh, softness.global, about_rest_vector);
-    } else {
-      set_entries(mesh, softness, about_rest_vector);
+    const bool by_shape = softness.links.empty() && !mesh.entry_shape.empty();
+    const std::size_t count = by_shape ? mesh.shapes.size() / Dimension : mesh.neighbours.size();
+    if (count != regions_.size()) {
+      std::vector<One>(count).swap(regions_);  // where there is no memory, what was there stays
     }
-    regions_.shrink_to_fit();  // one softness again after many: the table was large
+    shape_of_ = by_shape ? mesh.entry_shape.data() : nullptr;
+    by_shape ? set_shapes(mesh, softness.global, about_rest_vector) : set_entries(mesh, softness, about_rest_vector);
   }
 
   Id id(EntryId entry) const { return shape_of_ != nullptr ? shape_of_[entry] : entry; }

@@ -24,9 +24,11 @@ class Repair {
  public:
   using State = Body<Scalar, Dimension>;
 
-  Repair(State& body, PathSearch& search) : body_(body), search_(search) {}
+  /// `reach`: the largest displacement or move that the state comes from (mesh units).
+  Repair(State& body, PathSearch& search, double reach) : body_(body), search_(search), reach_(reach) {}
 
-  /// Whether every link holds, up to what rounding does to displacements of this size.
+  /// Whether every link holds, up to what rounding does to displacements of this size, and, as far as nobody sees
+  /// it, to those that the state comes from: an element stands where the hand went, less a length of path.
   bool is_valid() const {
     for (ElementId e = 0; e < body_.mesh->element_count(); ++e) {
       bool holds = true;
@@ -55,14 +57,20 @@ class Repair {
  private:
   using Labels = std::vector<double>;
   enum class Way { up, down };
+  static constexpr double epsilon = std::numeric_limits<Scalar>::epsilon();
+
+  /// Half of what counts as violated where links are of about one length (mesh units).
+  double unseen() const { return 5e-5 * body_.mesh->mean_link_length; }
 
   bool link_holds(ElementId a, ElementId b, EntryId entry) const {
     for (int k = 0; k < Dimension; ++k) {
       const Scalar from = body_.places[a][k], to = body_.places[b][k];
-      const Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon() * std::max(std::abs(from), std::abs(to));
+      const double size = std::max(std::abs(double(from)), std::abs(double(to)));
+      const double rounding = std::max(8 * epsilon * size, std::min(8 * epsilon * reach_, unseen()));
       const auto& region = body_.regions[entry];
       // What is no number holds nothing.
-      if (!(to - from >= region.low[k] - rounding && to - from <= region.high[k] + rounding)) {
+      const double apart = double(to) - double(from);
+      if (!(apart >= double(region.low[k]) - rounding && apart <= double(region.high[k]) + rounding)) {
         return false;
       }
     }
@@ -148,8 +156,8 @@ class Repair {
     for (const Way way : {Way::up, Way::down}) {
       search(u, std::span(&pin, 1), way, k);
       for (const ElementId other : pins) {
-        const double size = std::max(std::abs(u[pin]), std::abs(u[other]));
-        const double rounding = std::numeric_limits<Scalar>::epsilon() * size * (search_.hops(other) + 8.0);
+        const double size = std::max({std::abs(u[pin]), std::abs(u[other]), reach_});
+        const double rounding = epsilon * size * (search_.hops(other) + 8.0);
         const double outside = (way == Way::up ? u[other] : -u[other]) - search_.label(other);
         if (outside > std::max(rounding, most)) {
           most = outside;
@@ -166,6 +174,7 @@ class Repair {
 
   State& body_;
   PathSearch& search_;
+  double reach_;
 };
 
 }  // namespace chainmail

@@ -37,8 +37,9 @@ class TypedSolver final : public Solver {
   }
 
   void set_softness(const Softness& softness) override {
-    softness_ = softness;
+    Softness next = softness;
     body_.set_softness(softness);
+    softness_ = std::move(next);
     forget();
     exact_.set_valid(at_rest_);
   }
@@ -82,6 +83,7 @@ class TypedSolver final : public Solver {
 
   void reset(const ElementBlocks& away) override {
     away.for_each_run([this](ElementId first, ElementId end) { put_to_rest(first, end); });
+    forget();
     relaxation_.sleep();
     at_rest_ = true;
     exact_.set_valid(true);
@@ -241,10 +243,12 @@ class TypedSolver final : public Solver {
 
   /// There was no memory in the middle of a pass: nothing of it may come up in the next one.
   void drop_pass() {
-    exact_ = {};
-    lists_ = {};
     moved_.clear();
     at_rest_ = false;
+    exact_.set_valid(false);
+    forget();
+    lists_ = {};
+    exact_ = {};
     exact_.set_valid(false);
   }
 

@@ -1,4 +1,5 @@
 #include <QtTest>
+#include <numeric>
 #include <set>
 
 #include "core/scenarios.h"
@@ -21,6 +22,8 @@ class RepairTest : public QObject {
   void a_repair_of_huge_displacements_stays_finite();
   void back_from_far_away_every_link_holds();
   void relaxation_that_moves_nothing_leaves_the_rest_shape();
+  void what_exact_leaves_needs_no_repair();
+  void pins_on_what_exact_leaves_contradict_nobody();
   void an_uncut_link_is_mended();
 };
 
@@ -166,6 +169,38 @@ void RepairTest::relaxation_that_moves_nothing_leaves_the_rest_shape() {
   solver->relax(1, 1000, {});
   solver->set_algorithm(Algorithm::exact);
   QVERIFY(same_bits(positions_of(*solver, *mesh), mesh->rest));
+}
+
+void RepairTest::what_exact_leaves_needs_no_repair() {
+  // Uncutting a link at rest has all links looked at: they hold as far as a hand this far away rounds them.
+  const auto mesh = make_mesh(MeshKind::grid, {200, 200, 1});
+  for (const Precision precision : precisions) {
+    for (const double far : {30.0, 100.0}) {
+      const auto solver = make_solver(mesh, Algorithm::exact, precision);
+      const Point to = mesh->rest_position(20100) + Point(far, far / 3, 0);
+      solver->move(20100, to);
+      const LinkId corner = 0;
+      solver->cut(std::span(&corner, 1));
+      solver->uncut(std::span(&corner, 1));
+      QCOMPARE(solver->move(20100, to).moved, std::uint64_t{0});
+    }
+  }
+}
+
+void RepairTest::pins_on_what_exact_leaves_contradict_nobody() {
+  // Ten elements in a row are pinned just behind the front of a long drag, and the hand comes back near them.
+  const auto mesh = make_mesh(MeshKind::line, {3000, 1, 1});
+  for (const double far : {25.0, 70.0, 400.0}) {
+    const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
+    const std::size_t front = solver->move(0, Point(-far, 0, 0)).moved;
+    std::vector<ElementId> pins(10);
+    std::iota(pins.begin(), pins.end(), ElementId(front - 11));
+    solver->pin(pins);
+    for (const double to : {-0.9 * far, -far / 100, 0.01 - far / 100}) {
+      solver->move(0, Point(to, 0, 0));  // throws where it finds a contradiction
+    }
+    QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()).max < 1e-4);
+  }
 }
 
 void RepairTest::an_uncut_link_is_mended() {
