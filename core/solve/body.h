@@ -31,6 +31,19 @@ struct Place {
   alignas(lanes * sizeof(Scalar)) Scalar at[lanes];
 };
 
+/// A place clamped into a region whose lower bounds count from `low`, and upper ones from `high` (mesh units).
+template <class Scalar, int Dimension>
+Place<Scalar, Dimension> clamped(Place<Scalar, Dimension> place, const Scalar* low, const Scalar* high,
+                                 const Region<Scalar, Dimension>& region) {
+  for (int k = 0; k < Dimension; ++k) {
+    const Scalar lowest = low[k] + region.low[k];
+    const Scalar highest = high[k] + region.high[k];
+    place[k] = place[k] < lowest ? lowest : place[k];
+    place[k] = highest < place[k] ? highest : place[k];
+  }
+  return place;
+}
+
 /// An object as the algorithms of one scalar and one space dimension see it.
 template <class Scalar_, int Dimension_>
 struct Body {
@@ -106,16 +119,8 @@ struct Body {
 
   /// The place of an element clamped into its valid region about its sponsor.
   Place<Scalar, Dimension> clamped(ElementId element, ElementId sponsor, std::uint32_t region_id) const {
-    const auto& about = places[sponsor];
-    const auto& region = regions.at(region_id);
-    Place<Scalar, Dimension> place = places[element];
-    for (int k = 0; k < Dimension; ++k) {
-      const Scalar low = about[k] + region.low[k];
-      const Scalar high = about[k] + region.high[k];
-      place[k] = place[k] < low ? low : place[k];
-      place[k] = high < place[k] ? high : place[k];
-    }
-    return place;
+    const Scalar* about = places[sponsor].at;
+    return chainmail::clamped(places[element], about, about, regions.at(region_id));
   }
 
   /// Clamps the candidate's element into its valid region about its sponsor; says whether it moved.

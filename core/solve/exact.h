@@ -60,18 +60,6 @@ class ExactPropagation {
 
   static constexpr int passes_of_a_search = 16;  // about; tests/bench has both
 
-  static Place<Scalar, Dimension> clamped(const Place<Scalar, Dimension>& from, const Reach& reach,
-                                          const Region<Scalar, Dimension>& region) {
-    auto place = from;
-    for (int k = 0; k < Dimension; ++k) {
-      const Scalar low = reach.low[k] + region.low[k];
-      const Scalar high = reach.high[k] + region.high[k];
-      place[k] = place[k] < low ? low : place[k];
-      place[k] = high < place[k] ? high : place[k];
-    }
-    return place;
-  }
-
   void move(State& body, const Reach& reach, std::vector<ElementId>& moved) {
     const auto elements = regions_.elements();
     const auto regions = regions_.regions();
@@ -81,7 +69,7 @@ class ExactPropagation {
     for (std::size_t i = 1; i < elements.size(); ++i) {
       __builtin_prefetch(&places[elements[std::min(i + fetched_ahead, elements.size() - 1)]], 1);
       auto& place = places[elements[i]];
-      const auto next = clamped(place, reach, regions[i]);
+      const auto next = clamped(place, reach.low, reach.high, regions[i]);
       if (next != place) {
         place = next;
         moved[count++] = elements[i];
@@ -99,7 +87,7 @@ class ExactPropagation {
     std::vector<Row> rows;
     for (std::size_t i = 1; i < regions_.elements().size(); ++i) {
       const ElementId element = regions_.elements()[i];
-      const auto next = clamped(body.places[element], reach, regions_.regions()[i]);
+      const auto next = clamped(body.places[element], reach.low, reach.high, regions_.regions()[i]);
       double ways[Dimension];
       for (int k = 0; k < Dimension; ++k) {
         ways[k] = std::abs(double(next[k]) - double(body.places[element][k]));

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -34,19 +33,15 @@ class PathSearch {
   void add_source(ElementId element, double label) { lower(element, label, 0); }
 
   /// Lowers labels until label_j ≤ label_i + weight(i, j, entry) on every link that is not cut; weights are
-  /// not below 0. Stops early at the first element, nearest first, for which `is_end` says so, and returns
-  /// it.
-  template <class Body, class Weight, class IsEnd>
-  std::optional<ElementId> run(const Body& body, Weight weight, IsEnd is_end) {
+  /// not below 0.
+  template <class Body, class Weight>
+  void run(const Body& body, Weight weight) {
     while (!heap_.empty()) {
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
       const auto [label, element] = heap_.back();
       heap_.pop_back();
       if (label > labels_[element]) {
         continue;
-      }
-      if (is_end(element)) {
-        return element;
       }
       body.for_each_neighbour(element, [&, from = label, sponsor = element](ElementId neighbour, EntryId entry) {
         const double through = from + weight(sponsor, neighbour, entry);
@@ -55,7 +50,6 @@ class PathSearch {
         }
       });
     }
-    return std::nullopt;
   }
 
   /// Of the shortest path to an element: its length with the source's label, and its number of links.

@@ -30,7 +30,6 @@ class RegionTable {
   Id id(EntryId entry) const { return shape_of_ != nullptr ? shape_of_[entry] : entry; }
   const One& at(Id id) const { return regions_[id]; }
   const One& operator[](EntryId entry) const { return regions_[id(entry)]; }
-  std::size_t size() const { return regions_.size(); }
 
  private:
   void set_shapes(const Mesh& mesh, const LinkSoftness& softness, bool about_rest_vector) {

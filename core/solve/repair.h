@@ -84,13 +84,10 @@ class Repair {
     for (const ElementId source : sources) {
       search_.add_source(source, way == Way::up ? u[source] : -u[source]);
     }
-    search_.run(
-        body_,
-        [&](ElementId, ElementId, EntryId entry) {
-          const auto& region = body_.regions[entry];
-          return double(way == Way::up ? region.high[k] : -region.low[k]);
-        },
-        [](ElementId) { return false; });
+    search_.run(body_, [&](ElementId, ElementId, EntryId entry) {
+      const auto& region = body_.regions[entry];
+      return double(way == Way::up ? region.high[k] : -region.low[k]);
+    });
   }
 
   /// Clamps to what the anchors allow.

@@ -96,7 +96,7 @@ void measure(Results& results) {
   auto& exactly = results.ratios()["exact_over_nq"];
   exactly["uniform"] = std::max(uniform, exact_over(results, Drag::whole_body, {"grid256"}));
   exactly["jittered"] =
-      exact_over(results, Drag::whole_body, {"jittered_grid1024", "jittered_cloth512", "jittered_tetra60"});
+      exact_over(results, Drag::whole_body, {"jittered_grid1024", "jittered_cloth512", "jittered_tetra60", "tetra60"});
   exactly["mixed"] = exact_over(results, Drag::whole_body_mixed, {"grid1024", "jittered_tetra60"});
   plane(results);
   others(results);
