@@ -16,7 +16,8 @@ check_packages=(clang-tidy)
 bench_packages=(libbenchmark-dev libbullet-dev)
 
 # Another checkout's build, or one that was here before, fills the cache for this one.
-export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+# The last two let it cache what uses a precompiled header.
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_PCH_EXTSUM=1
 
 say() { printf '%s\n' "$*"; }
 fail() {
