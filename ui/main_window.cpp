@@ -147,7 +147,7 @@ void MainWindow::makeDocks() {
   connect(meshDock, &MeshDock::saveRequested, files_, &FileActions::save);
   addDockWidget(Qt::LeftDockWidgetArea, new ToolsDock(*toolActions_, selectTool_, *toolActions_->actions().last()));
   addDockWidget(Qt::LeftDockWidgetArea, meshDock);
-  addDockWidget(Qt::RightDockWidgetArea, new StiffnessDock(document_));
+  makeStiffnessDock();
   addDockWidget(Qt::RightDockWidgetArea, new RelaxationDock(document_));
   addDockWidget(Qt::RightDockWidgetArea, new FrameRateDock(document_, panels_, {colours::left, colours::right}));
   makeReportDock();
@@ -155,6 +155,15 @@ void MainWindow::makeDocks() {
   for (QDockWidget* dock : findChildren<QDockWidget*>()) {
     menu->addAction(dock->toggleViewAction());
   }
+}
+
+void MainWindow::makeStiffnessDock() {
+  auto* dock = new StiffnessDock(document_);
+  addDockWidget(Qt::RightDockWidgetArea, dock);
+  findChild<QMenu*>(QStringLiteral("objectMenu"))->addMenu(&dock->presets().menu());
+  connect(&dock->presets(), &PresetRow::failed, messages_, &MessageBar::say);
+  connect(&dock->presets(), &PresetRow::told, this,
+          [this](const QString& sentence) { statusBar()->showMessage(sentence, savedMilliseconds); });
 }
 
 /// Under the panels, and out of sight until it is asked for.

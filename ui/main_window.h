@@ -51,6 +51,7 @@ class MainWindow : public QMainWindow {
   void makePanels();
   void makeTools();
   void makeDocks();
+  void makeStiffnessDock();
   void makeReportDock();
   void makeMenus();
   void fillEditMenu(QMenu& menu);

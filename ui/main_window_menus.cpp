@@ -53,6 +53,7 @@ void MainWindow::giveUp() {
 }
 
 void MainWindow::fillObjectMenu(QMenu& menu) {
+  menu.setObjectName(QStringLiteral("objectMenu"));
   auto* object = menu.addAction(QStringLiteral("Reset &object"), this, [this] { document_.resetObject(); });
   object->setObjectName(QStringLiteral("resetObject"));
   object->setShortcut(Qt::Key_R);

@@ -10,10 +10,12 @@ StiffnessDock::StiffnessDock(Document& document)
     : QDockWidget(QStringLiteral("Stiffness")),
       document_(document),
       column_(new QVBoxLayout),
+      presets_(new PresetRow(document)),
       compression_(new ParameterRow(parameters::compression)),
       stretch_(new ParameterRow(parameters::stretch)),
       shear_(new ParameterRow(parameters::shear)) {
   setObjectName(QStringLiteral("stiffnessDock"));
+  column_->addWidget(presets_);
   addRow(compression_, &LinkSoftness::compression);
   addRow(stretch_, &LinkSoftness::stretch);
   addRow(shear_, &LinkSoftness::shear);

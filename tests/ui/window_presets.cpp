@@ -1,0 +1,180 @@
+// Presets of softness, in a real window.
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QLineEdit>
+
+#include "message_bar.h"
+#include "preset_row.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+struct PresetBench : Workbench {
+  PresetBench() : Workbench(generate({MeshKind::grid, {9, 7, 1}, 1, {}})) {}
+
+  QComboBox& field() { return *find<QComboBox>("preset"); }
+  PresetRow& row() { return *window.findChild<PresetRow*>(); }
+  QString shown() { return field().currentText(); }
+  void pick(const char* name) {
+    field().setCurrentIndex(field().findText(QLatin1String(name)));
+    emit field().activated(field().currentIndex());
+  }
+  void set(const char* spin, double value) { find<QDoubleSpinBox>(spin)->setValue(value); }
+  bool enabled(const char* action) { return find<QAction>(action)->isEnabled(); }
+  /// Types a name into the field that an action opens.
+  void name(const char* action, const char* typed) {
+    trigger(action);
+    auto* line = find<QLineEdit>("presetName");
+    QVERIFY(line->isVisible());
+    line->clear();
+    QTest::keyClicks(line, QLatin1String(typed));
+    QTest::keyClick(line, Qt::Key_Return);
+  }
+  bool has(const char* name) { return field().findText(QLatin1String(name)) >= 0; }
+};
+
+}  // namespace
+
+class WindowPresets : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  void thoseBuiltInActLiveAsOneStep() {
+    PresetBench bench;
+    QCOMPARE(bench.shown(), QStringLiteral("Standard"));
+    for (const BuiltInPreset& preset : built_in_presets()) {
+      QVERIFY(bench.has(std::string(preset.name).c_str()));
+    }
+    const int steps = bench.document().undoStack().count();
+    bench.pick("Rubber");
+    QCOMPARE(bench.shown(), QStringLiteral("Rubber"));
+    QCOMPARE(bench.document().softness().stretch, 2.0);
+    QCOMPARE(bench.find<QDoubleSpinBox>("stretchSpin")->value(), 2.0);
+    QCOMPARE(bench.document().undoStack().count(), steps + 1);
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("preset Rubber"));
+    bench.document().undoStack().undo();
+    QCOMPARE(bench.document().softness(), LinkSoftness());
+    QCOMPARE(bench.shown(), QStringLiteral("Standard"));
+  }
+
+  void aPresetMovesADeformedObjectAtOnce() {
+    PresetBench bench;
+    bench.pick("Rubber");
+    const QPoint from = bench.place(0, 35);
+    bench.stroke(0, {from, from + QPoint(100, 0)});
+    const double before = bench.position(1, 27).x();
+    bench.pick("Steel mail");
+    bench.settle();
+    QVERIFY(bench.position(1, 27).x() > before);
+  }
+
+  void changedValuesAreCustomAndValuesOfAPresetAreIt() {
+    PresetBench bench;
+    bench.set("stretchSpin", 1.3);
+    QCOMPARE(bench.shown(), QStringLiteral("Custom"));
+    QVERIFY(bench.enabled("savePreset"));
+    bench.set("compressionSpin", 0.7);
+    bench.set("shearSpin", 0.5);
+    bench.set("stretchSpin", 2);
+    QCOMPARE(bench.shown(), QStringLiteral("Rubber"));
+    QVERIFY(!bench.enabled("savePreset") && !bench.enabled("renamePreset") && !bench.enabled("deletePreset"));
+    QVERIFY(bench.find<QAction>("deletePreset")->toolTip().contains(QStringLiteral("always there")));
+  }
+
+  void oneOfTheUsersIsSavedRenamedDeletedAndKept() {
+    {
+      PresetBench bench;
+      bench.set("stretchSpin", 1.25);
+      bench.name("savePreset", "wet clay");
+      QCOMPARE(bench.shown(), QStringLiteral("wet clay"));
+      bench.name("renamePreset", "dry clay");
+      QCOMPARE(bench.shown(), QStringLiteral("dry clay"));
+      QVERIFY(!bench.has("wet clay"));
+      bench.pick("Jelly");
+    }
+    PresetBench bench;  // the next start
+    bench.pick("dry clay");
+    QCOMPARE(bench.document().softness().stretch, 1.25);
+    bench.trigger("deletePreset");
+    QVERIFY(!bench.has("dry clay"));
+    QCOMPARE(bench.shown(), QStringLiteral("Custom"));
+    QCOMPARE(bench.document().softness().stretch, 1.25);
+    QVERIFY(!bench.enabled("exportPresets"));
+  }
+
+  void namesThatAreTakenAreRefusedWithASentence() {
+    PresetBench bench;
+    bench.set("stretchSpin", 1.25);
+    bench.name("savePreset", "Jelly");
+    QVERIFY(bench.window.messages().isVisible());
+    QVERIFY(bench.find<QLineEdit>("presetName")->isVisible());  // to be mended
+    QTest::keyClick(bench.find<QLineEdit>("presetName"), Qt::Key_Escape);
+    QVERIFY(bench.field().isVisible());
+    QCOMPARE(bench.shown(), QStringLiteral("Custom"));
+    bench.name("savePreset", "a");
+    bench.set("stretchSpin", 1.5);
+    bench.name("savePreset", "b");
+    bench.window.messages().hide();
+    bench.name("renamePreset", "a");
+    QVERIFY(bench.window.messages().isVisible());
+    QTest::keyClick(bench.find<QLineEdit>("presetName"), Qt::Key_Escape);
+    QCOMPARE(bench.shown(), QStringLiteral("b"));
+  }
+
+  void presetsGoFromOneUserToAnother() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("presets.json"));
+    PresetBench bench;
+    bench.set("stretchSpin", 1.25);
+    bench.name("savePreset", "felt");
+    bench.set("shearSpin", 0.375);
+    bench.name("savePreset", "wool");
+    bench.row().exportPath(path);
+    bench.row().importPath(path);  // nothing new
+    QVERIFY(!bench.has("felt (2)"));
+    bench.trigger("deletePreset");
+    bench.pick("felt");
+    bench.trigger("deletePreset");
+    bench.set("stretchSpin", 2.5);
+    bench.name("savePreset", "felt");  // another one of that name
+    bench.row().importPath(path);
+    QVERIFY(bench.has("felt") && bench.has("felt (2)"));
+    bench.pick("wool");
+    QCOMPARE(bench.document().softness(), (LinkSoftness{0.8, 1.25, 0.375}));
+  }
+
+  void aFileThatIsNoneChangesNothing() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("presets.json"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("{\"version\": 1, \"presets\": [{\"name\": \"x\", \"compression\": 7, \"stretch\": 1, \"shear\": 0}]}");
+    file.close();
+    PresetBench bench;
+    const int before = bench.field().count();
+    bench.row().importPath(path);
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("compression")));
+    QCOMPARE(bench.field().count(), before);
+    bench.row().exportPath(folder.filePath(QStringLiteral("missing/presets.json")));
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("missing")));
+  }
+
+  void settingsThatAreBrokenSaySo() {
+    QSettings().setValue(QStringLiteral("softnessPresets"), QStringLiteral("nonsense"));
+    PresetBench bench;
+    QVERIFY(bench.window.messages().sentence().startsWith(QStringLiteral("settings:1: ")));
+    QCOMPARE(bench.shown(), QStringLiteral("Standard"));
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowPresets>(argc, argv); }
+#include "window_presets.moc"
