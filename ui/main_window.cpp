@@ -37,6 +37,7 @@ constexpr int savedMilliseconds = 4000;
 MainWindow::MainWindow(MeshPointer mesh, const QString& name)
     : document_(std::move(mesh), name),
       colouring_(document_),
+      regions_(document_),
       dragTool_(document_),
       cutTool_(document_),
       pinTool_(document_),
@@ -101,6 +102,8 @@ void MainWindow::makePanels() {
   for (int i = 0; i < Document::panels; ++i) {
     panels_.push_back(new Panel(document_, colouring_, i, camera, levels, colour[std::size_t(i)]));
     splitter_->addWidget(panels_.back());
+    panels_.back()->addOverlay(regions_);
+    connect(&regions_, &ValidRegions::changed, panels_.back(), &Panel::refresh);
     connect(&panels_.back()->view(), &View::failed, messages_, &MessageBar::say);
     connect(&panels_.back()->view(), &View::cameraChanged, this, [this, i] {
       View& other = panels_[std::size_t(1 - i)]->view();

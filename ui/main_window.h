@@ -11,6 +11,7 @@
 #include "jobs.h"
 #include "pin_tool.h"
 #include "select_tool.h"
+#include "valid_regions.h"
 
 class QActionGroup;
 class QLabel;
@@ -66,6 +67,7 @@ class MainWindow : public QMainWindow {
 
   Document document_;
   Colouring colouring_;
+  ValidRegions regions_;
   DragTool dragTool_;
   CutTool cutTool_;
   PinTool pinTool_;

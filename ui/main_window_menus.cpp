@@ -87,6 +87,7 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   link->setChecked(true);
   link->setStatusTip(QStringLiteral("Both panels look at the object from the same side"));
   connect(link, &QAction::toggled, this, &MainWindow::linkCameras);
+  regions_.fill(menu);
   menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
 }
 

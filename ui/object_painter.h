@@ -61,6 +61,10 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   void drawLinks(const Scene& scene, std::span<const LinkId> links, QColor colour);
   /// A line through places of the view (logical pixels).
   void drawStroke(const Scene& scene, std::span<const QPointF> places, QColor colour);
+  enum class Shape { segments, triangles };
+  /// Pairs of ends or triples of corners, in mesh units on all three axes, over everything else; lines in logical
+  /// pixels.
+  void drawInSpace(const Scene& scene, std::span<const QVector3D> places, Shape shape, QColor colour, float width = 1);
 
   /// 1 where every link is drawn; k where about k links in a row are drawn as one.
   unsigned step() const { return step_; }

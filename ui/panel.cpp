@@ -145,7 +145,14 @@ QStringList Panel::states(const Statistics& statistics) const {
   if (view_->drawnStep() > 1) {
     states << QStringLiteral("drawn coarsely, 1 in %1").arg(view_->drawnStep());
   }
-  return states;
+  return states + view_->notes();
+}
+
+void Panel::refresh() {
+  view_->update();
+  if (!refresh_.isActive()) {
+    refresh_.start();
+  }
 }
 
 void Panel::showStatistics() {

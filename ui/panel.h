@@ -21,6 +21,10 @@ class Panel : public QFrame {
   View& view() { return *view_; }
   QComboBox& selector() { return *selector_; }
   Legend& legend() { return *legend_; }
+  /// Draws it over the panel's object, and says what it notes.
+  void addOverlay(Overlay& overlay) { view_->addOverlay(overlay); }
+  /// Paints and says anew what an overlay has changed.
+  void refresh();
 
  private:
   void fillSelector();

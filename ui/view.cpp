@@ -127,6 +127,12 @@ QPointF View::placeOf(ElementId element) const {
   return {at.x, at.y};
 }
 
+QPointF View::placeOf(const Point& point) const {
+  const QVector3D at = (camera_->toClip(size()) * camera_->toView())
+                           .map(QVector3D(float(point.x()), float(point.y()), float(point.z())));
+  return {(1 + double(at.x())) / 2 * width(), (1 - double(at.y())) / 2 * height()};
+}
+
 Projection View::projection() const { return {*document_.mesh(), camera_->toView(), camera_->toClip(size()), size()}; }
 
 ObjectPainter::Scene View::scene() const {
@@ -176,12 +182,39 @@ void View::paintGL() {
   painter_.setFrame(*frame, document_.cuts());
   const unsigned stepBefore = painter_.step();
   const auto in = scene();
-  const ColourValues* values = colouring_.follow(panel_);
-  painter_.drawObject(in, {colour_, values, colouring_.scale()}, 1 / camera_->unitsPerPixel(size()));
+  painter_.drawObject(in, paint(), 1 / camera_->unitsPerPixel(size()));
+  drawOverlays(in, *frame);
   drawMarks(in);
   if (painter_.step() != stepBefore) {
     emit drawnStepChanged();
   }
+}
+
+/// How the object is painted: as an overlay wants it, or by its values, or in the panel's colour.
+ObjectPainter::Paint View::paint() {
+  for (const Overlay* overlay : overlays_) {
+    if (const auto paint = overlay->paint(panel_)) {
+      return *paint;
+    }
+  }
+  const ColourValues* values = colouring_.follow(panel_);
+  return {colour_, values, colouring_.scale()};
+}
+
+void View::drawOverlays(const ObjectPainter::Scene& in, const Frame& frame) {
+  for (Overlay* overlay : overlays_) {
+    overlay->draw({painter_, in, frame, panel_, camera_->unitsPerPixel(size())});
+  }
+}
+
+QStringList View::notes() const {
+  QStringList notes;
+  for (const Overlay* overlay : overlays_) {
+    if (const QString note = overlay->note(panel_); !note.isEmpty()) {
+      notes << note;
+    }
+  }
+  return notes;
 }
 
 double View::pixelsPerLink() const { return document_.mesh()->mean_link_length / camera_->unitsPerPixel(size()); }

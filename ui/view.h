@@ -8,7 +8,7 @@
 #include "colouring.h"
 #include "document.h"
 #include "frame_meter.h"
-#include "object_painter.h"
+#include "overlay.h"
 #include "picking.h"
 #include "tool.h"
 
@@ -25,6 +25,10 @@ class View : public QOpenGLWidget {
   ~View() override;
 
   void setTool(Tool* tool);
+  /// Draws it over the object, after those added before. Whoever changes it updates the view.
+  void addOverlay(Overlay& overlay) { overlays_.push_back(&overlay); }
+  /// What the overlays say of this panel.
+  QStringList notes() const;
   void setCamera(std::shared_ptr<Camera> camera);
   const std::shared_ptr<Camera>& camera() const { return camera_; }
   /// Shows the whole rest shape.
@@ -40,6 +44,7 @@ class View : public QOpenGLWidget {
 
   /// Where an element appears (logical pixels).
   QPointF placeOf(ElementId element) const;
+  QPointF placeOf(const Point& point) const;
 
   FrameMeter& meter() { return meter_; }
   /// How coarsely the object is drawn, as ObjectPainter::step.
@@ -66,6 +71,8 @@ class View : public QOpenGLWidget {
   const CellBoxes& boxes(const Frame& frame) const;
   void listen();
   double pixelsPerLink() const;
+  void drawOverlays(const ObjectPainter::Scene& scene, const Frame& frame);
+  ObjectPainter::Paint paint();
   void drawMarks(const ObjectPainter::Scene& scene);
   void drawHighlight(const ObjectPainter::Scene& scene);
   void moveCamera(QPointF travel, Qt::MouseButtons buttons);
@@ -76,6 +83,7 @@ class View : public QOpenGLWidget {
   std::shared_ptr<Camera> camera_;
   QColor colour_;
   Tool* tool_ = nullptr;
+  std::vector<Overlay*> overlays_;
   std::shared_ptr<MeshLevels> levels_;
   mutable CellBoxes boxes_;  // for the search under the cursor, as of the last one
   ObjectPainter painter_;

@@ -1,7 +1,8 @@
 #include <QtTest>
 #include <cmath>
 
-#include "core/support.h"
+#include "core/families.h"
+#include "measure/neighbour_regions.h"
 #include "measure/violation.h"
 
 using namespace chainmail;
@@ -22,6 +23,8 @@ class ViolationTest : public QObject {
   void counts_from_1e_4_on();
   void energy_by_hand();
   void displacement_by_hand();
+  void regions_of_neighbours_by_hand();
+  void regions_agree_with_the_violation();
 };
 
 namespace {
@@ -144,6 +147,49 @@ void ViolationTest::displacement_by_hand() {
   const Displacement displacement = measure_displacement(*mesh, solver->positions());
   QCOMPARE(displacement.max, 5.0);
   QCOMPARE(displacement.rms, 2.5);
+}
+
+void ViolationTest::regions_of_neighbours_by_hand() {
+  // The middle one of three in a plane, moved; its link to the right gives more, and a cut neighbour has no region.
+  const auto mesh = make_mesh(MeshKind::grid, {3, 2, 1});
+  std::vector<double> positions = mesh->rest;
+  positions[2] = 1.5;  // element 1
+  positions[3] = 0.25;
+  const auto solver = at(mesh, positions);
+  Cuts cuts(mesh);
+  cuts.cut(*find_link(*mesh, 1, 4));
+  const Softness softness{{0.75, 1.25, 0.125}, {{*find_link(*mesh, 1, 2), {0.5, 2, 0.25}}}};
+  const auto regions = neighbour_regions(*mesh, softness, cuts, solver->positions(), 1, 10);
+  QCOMPARE(regions.size(), std::size_t{2});
+  const NeighbourRegion &left = regions[0], &right = regions[1];
+  QCOMPARE(left.neighbour, 0U);
+  QVERIFY(left.low == Point(0.25, 0.125, 0) && left.high == Point(0.75, 0.375, 0));
+  QVERIFY(!left.inside && left.at == Point(0, 0, 0) && left.nearest == Point(0.25, 0.125, 0));
+  QCOMPARE(right.neighbour, 2U);
+  QVERIFY(right.low == Point(2, 0, 0) && right.high == Point(3.5, 0.5, 0));
+  QVERIFY(right.inside && right.at == Point(2, 0, 0) && right.nearest == right.at);
+  QCOMPARE(neighbour_regions(*mesh, softness, cuts, solver->positions(), 1, 1).size(), std::size_t{1});
+}
+
+void ViolationTest::regions_agree_with_the_violation() {
+  std::mt19937_64 random(5);
+  for (const Family& family : families()) {
+    const Mesh& mesh = *family.mesh;
+    std::vector<double> positions = mesh.rest;
+    for (double& x : positions) {
+      x += uniform(random, -0.3, 0.3);
+    }
+    const auto solver = at(family.mesh, positions);
+    for (ElementId e = 0; e < mesh.element_count(); ++e) {
+      const auto regions = neighbour_regions(mesh, {}, Cuts(family.mesh), solver->positions(), e, 1000);
+      QCOMPARE(regions.size(), mesh.neighbours_of(e).size());
+      for (const NeighbourRegion& region : regions) {
+        const double apart = (region.at - region.nearest).norm() / rest_length(mesh, region.link);
+        QVERIFY(std::abs(apart - link_violation(mesh, {}, solver->positions(), region.link)) < 1e-12);
+        QCOMPARE(region.inside, apart <= counts_as_violated);
+      }
+    }
+  }
 }
 
 QTEST_APPLESS_MAIN(ViolationTest)

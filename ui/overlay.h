@@ -1,0 +1,35 @@
+#pragma once
+
+#include <QString>
+#include <optional>
+
+#include "object_painter.h"
+
+namespace chainmail {
+
+/// Something that is drawn over the objects of the views, and may say how the objects themselves are painted meanwhile.
+/// Whoever adds one to a view lets it live as long as the view.
+class Overlay {
+ public:
+  /// One view as it is painted, its context current.
+  struct Canvas {
+    ObjectPainter& painter;
+    const ObjectPainter::Scene& scene;
+    const Frame& frame;  // what the painter shows
+    int panel;
+    double unitsPerPixel;  // mesh units that a logical pixel spans, in the plane through the view's centre
+  };
+
+  Overlay() = default;
+  Overlay(const Overlay&) = delete;
+  Overlay& operator=(const Overlay&) = delete;
+  virtual ~Overlay() = default;
+
+  /// How a panel's object is painted under it; none: as without it.
+  virtual std::optional<ObjectPainter::Paint> paint(int /*panel*/) const { return std::nullopt; }
+  virtual void draw(const Canvas& canvas) = 0;
+  /// What a panel says of it beside its algorithm; empty: nothing.
+  virtual QString note(int /*panel*/) const { return {}; }
+};
+
+}  // namespace chainmail
