@@ -4,6 +4,7 @@
 
 #include "files/dat.h"
 #include "files/dat_rows.h"
+#include "files/neighbour_rows.h"
 #include "files/space.h"
 #include "files/text.h"
 #include "mesh/error.h"
@@ -27,9 +28,8 @@ class DatReader {
   void choose_size();
   void choose_lattice();
   std::vector<const Row*> rows_by_id() const;
-  void place_rows(const Progress& progress);
-  void check_rows(std::vector<ElementId>& sorted, const Progress& progress) const;
-  void check_links(const Progress& progress) const;
+  void place_rows(const std::vector<const Row*>& rows, const Progress& progress);
+  void check_links(const std::vector<const Row*>& rows, const Progress& progress) const;
 
   const DatRows file_;
   const std::filesystem::path& path_;
@@ -102,12 +102,12 @@ std::vector<const DatRows::Row*> DatReader::rows_by_id() const {
   return of;
 }
 
-void DatReader::place_rows(const Progress& progress) {
+void DatReader::place_rows(const std::vector<const Row*>& rows, const Progress& progress) {
   const auto& listed = file_.neighbours;
   parts_.first_entry.push_back(0);
   parts_.neighbours.reserve(listed.size());
   parts_.first_entry.reserve(file_.rows.size() + 1);
-  for (const Row* row : rows_by_id()) {
+  for (const Row* row : rows) {
     progress.report(parts_.first_entry.size(), file_.rows.size());
     parts_.neighbours.insert(parts_.neighbours.end(), listed.begin() + static_cast<std::ptrdiff_t>(row->first),
                              listed.begin() + static_cast<std::ptrdiff_t>(row->last));
@@ -115,37 +115,9 @@ void DatReader::place_rows(const Progress& progress) {
   }
 }
 
-/// Sorts each row on the way.
-void DatReader::check_rows(std::vector<ElementId>& sorted, const Progress& progress) const {
-  for (const Row& row : file_.rows) {
-    progress.report(row.id, file_.rows.size());
-    const auto begin = sorted.begin() + parts_.first_entry[row.id];
-    const auto end = sorted.begin() + parts_.first_entry[row.id + 1];
-    std::sort(begin, end);
-    if (begin != end && *(end - 1) >= file_.rows.size()) {
-      fail(row.line, named(row.id) + " lists the neighbour " + std::to_string(*(end - 1)) + ", which is out of range",
-           "ids run from 0 to " + std::to_string(file_.rows.size() - 1));
-    }
-    if (const auto twice = std::adjacent_find(begin, end); twice != end) {
-      fail(row.line, named(row.id) + " lists the neighbour " + std::to_string(*twice) + " twice", "list it once");
-    }
-  }
-}
-
-void DatReader::check_links(const Progress& progress) const {
-  std::vector<ElementId> sorted = parts_.neighbours;
-  check_rows(sorted, progress.part(0, 0.5));
-  const auto begin = [&](ElementId id) { return sorted.begin() + parts_.first_entry[id]; };
-  for (const Row& row : file_.rows) {
-    progress.part(0.5, 1).report(row.id, file_.rows.size());
-    for (auto neighbour = begin(row.id); neighbour != begin(row.id + 1); ++neighbour) {
-      if (!std::binary_search(begin(*neighbour), begin(*neighbour + 1), row.id)) {
-        const std::string other = std::to_string(*neighbour);
-        std::string problem = named(row.id) + " lists " + other;
-        problem += ", but " + other + " does not list " + std::to_string(row.id);
-        fail(row.line, problem, "list a link in both rows or in neither");
-      }
-    }
+void DatReader::check_links(const std::vector<const Row*>& rows, const Progress& progress) const {
+  if (const auto fault = find_row_fault(parts_.first_entry, parts_.neighbours, progress)) {
+    fail(rows[fault->element]->line, fault->problem, fault->remedy);
   }
 }
 
@@ -154,8 +126,9 @@ MeshPointer DatReader::read(const Progress& progress) {
     throw Error(shown(path_), "it holds no rows", "write a row 'id count neighbour…' for each element");
   }
   choose_lattice();
-  place_rows(progress.part(0, 0.2));
-  check_links(progress.part(0.2, 0.5));
+  const auto rows = rows_by_id();
+  place_rows(rows, progress.part(0, 0.2));
+  check_links(rows, progress.part(0.2, 0.5));
   parts_.rest.reserve(file_.rows.size());
   for (ElementId element = 0; element < file_.rows.size(); ++element) {
     parts_.rest.push_back(lattice_.position(element));

@@ -65,6 +65,30 @@ const Json& JsonFields::array(const Json& object, const std::string& key) const 
   return json;
 }
 
+const JsonFields::Json& JsonFields::object(const Json& object, const std::string& key) const {
+  const Json& json = member(object, key);
+  if (!json.is_object()) {
+    fail("'" + key + "' is not an object", "write it in { }");
+  }
+  return json;
+}
+
+std::string JsonFields::text(const Json& object, const std::string& key) const {
+  const Json& json = member(object, key);
+  if (!json.is_string()) {
+    fail("'" + key + "' is not a text", "write it in quotes");
+  }
+  return json.get<std::string>();
+}
+
+bool JsonFields::boolean(const Json& object, const std::string& key) const {
+  const Json& json = member(object, key);
+  if (!json.is_boolean()) {
+    fail("'" + key + "' is neither true nor false", "write one of them");
+  }
+  return json.get<bool>();
+}
+
 double JsonFields::number(const Json& json) const {
   if (!json.is_number()) {
     fail(in_quotes(text_of(json)) + " is not a number", "write a decimal number");

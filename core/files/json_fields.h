@@ -23,6 +23,7 @@ class JsonFields {
   /// `where` stands in errors.
   explicit JsonFields(std::string where) : where_(std::move(where)) {}
 
+  const std::string& where() const { return where_; }
   void say_at(const std::string& where) { where_ = where; }
 
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
@@ -30,6 +31,9 @@ class JsonFields {
   void check_keys(const Json& object, const std::vector<std::string>& known) const;
   const Json& member(const Json& object, const std::string& key) const;
   const Json& array(const Json& object, const std::string& key) const;
+  const Json& object(const Json& object, const std::string& key) const;
+  std::string text(const Json& object, const std::string& key) const;
+  bool boolean(const Json& object, const std::string& key) const;
   double number(const Json& json) const;
   LinkSoftness softness(const Json& compression, const Json& stretch, const Json& shear) const;
 

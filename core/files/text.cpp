@@ -1,5 +1,6 @@
 #include "files/text.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -207,6 +208,16 @@ void TextBlocks::make_room() {
 TextBlocks& TextBlocks::operator<<(char character) {
   make_room();
   *end_++ = character;
+  return *this;
+}
+
+TextBlocks& TextBlocks::operator<<(std::string_view text) {
+  while (!text.empty()) {
+    make_room();
+    const auto part = text.substr(0, static_cast<std::size_t>(block_.data() + block_.size() - end_));
+    end_ = std::copy(part.begin(), part.end(), end_);
+    text.remove_prefix(part.size());
+  }
   return *this;
 }
 

@@ -69,6 +69,7 @@ class TextBlocks {
   TextBlocks& operator=(const TextBlocks&) = delete;
 
   TextBlocks& operator<<(char character);
+  TextBlocks& operator<<(std::string_view text);
   /// As append_number does.
   TextBlocks& operator<<(double number);
   TextBlocks& operator<<(std::uint32_t number);

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/progress.h"
+#include "simulate/command.h"
+#include "solve/placement.h"
+#include "solve/softness.h"
+#include "solve/solver.h"
+
+namespace chainmail {
+
+/// All there is in a window, to be put down and taken up again: an object, what was done to it, and where its elements
+/// stand in each panel.
+struct Session {
+  struct Panel {
+    Algorithm algorithm = Algorithm::natural_queue;
+    /// Of the numbers in the placement: those of single precision are floats.
+    Precision precision = Precision::single_precision;
+    Placement placement;
+  };
+
+  std::string name;  // of the object, as titles show it
+  MeshPointer mesh;
+  std::vector<LinkId> cuts;     // ascending
+  std::vector<ElementId> pins;  // ascending
+  std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
+  commands::SetRelaxation relaxation;
+  std::vector<Panel> panels;  // 1 to session_panels
+  /// A JSON object that is the window's alone: cameras, layout.
+  std::string ui = "{}";
+};
+
+inline constexpr std::size_t session_panels = 16;
+
+/// What the names of sessions end in, with the dot.
+inline constexpr std::string_view session_ending = ".chainmail";
+
+/// Whether a file's ending, in any case of letters, is that of a session.
+bool is_session(const std::filesystem::path& path);
+
+/// Writes a session as JSON, numbers in the fewest digits that read back as the same:
+///
+///     {"format": "chainmail session", "version": 1, "name": …,
+///      "mesh": {"elements": n, "space": 1 to 3, "lattice": {"size": [w, h, d], "spacing": s},
+///        "rest": [x, y, z of each element…], "links": [a, b of each link…], "triangles": [three ids each…],
+///        "polygons": [count, id…], "tetrahedra": [four ids each…]},
+///      "cuts": [a, b of each cut link…], "pins": [id…],
+///      "softness": {"compression": c, "stretch": s, "shear": h, "own": [a, b, c, s, h of each link with its own…]},
+///      "relaxation": {"on": false, "scheme": "mean" or "link", "step": 1},
+///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
+///        "runs": [first, end of each run of elements that are given…], "held": [their coordinates…]}],
+///      "ui": {…}}
+///
+/// Where neighbours stand in an order of their own, "counts" (of each element) and "neighbours" (its ids) take the
+/// place of "links". "lattice" is left out where there is none. Throws Error for a number that is not finite, and
+/// Cancelled.
+void write_session(std::ostream& out, const Session& session, const Progress& progress = {});
+
+/// The same into a file, whole or not at all.
+void save_session(const std::filesystem::path& path, const Session& session, const Progress& progress = {});
+
+/// Reads a session. Throws Error, which says where, for all that write_session would not have written of an object,
+/// and for a newer version than it knows; and Cancelled.
+Session read_session(const std::filesystem::path& path, const Progress& progress = {});
+/// The same; `path` appears in errors, and `text` is what the file holds.
+Session parse_session(std::string_view text, const std::filesystem::path& path, const Progress& progress = {});
+
+}  // namespace chainmail

@@ -1,0 +1,230 @@
+#include "files/session_json.h"
+
+#include <algorithm>
+#include <istream>
+#include <limits>
+#include <streambuf>
+#include <string>
+
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t deepest = 16;
+// Of what is not packed: some hours of recorded moves. A value takes some hundred times the memory of its text.
+constexpr std::size_t most_values = 10'000'000;
+
+enum class Packed { no, ids, reals };
+
+Packed packed_as(const std::string& key) {
+  for (const char* ids :
+       {"links", "counts", "neighbours", "triangles", "polygons", "tetrahedra", "cuts", "pins", "runs"}) {
+    if (key == ids) {
+      return Packed::ids;
+    }
+  }
+  return key == "rest" || key == "own" || key == "held" ? Packed::reals : Packed::no;
+}
+
+/// A text as a stream reads it, in pieces, so that progress is reported and cancelling noticed between them.
+class TextBuffer : public std::streambuf {
+ public:
+  TextBuffer(std::string_view text, const Progress& progress) : text_(text), progress_(progress) {}
+
+ private:
+  int_type underflow() override {
+    static constexpr std::size_t piece = std::size_t{1} << 18;  // some milliseconds
+    if (done_ == text_.size()) {
+      return traits_type::eof();
+    }
+    progress_.report(double(done_) / double(text_.size()));
+    const std::size_t size = std::min(piece, text_.size() - done_);
+    char* first = const_cast<char*>(text_.data()) + done_;  // it is only read
+    setg(first, first, first + size);
+    done_ += size;
+    return traits_type::to_int_type(*first);
+  }
+
+  std::string_view text_;
+  const Progress& progress_;
+  std::size_t done_ = 0;
+};
+
+/// What nlohmann's parser calls, value by value.
+class Scanner {
+ public:
+  Scanner(std::string_view text, const std::filesystem::path& path, SessionJson& result)
+      : text_(text), file_(shown(path)), path_(path), result_(result) {}
+
+  bool null() { return put(nullptr); }
+  bool boolean(bool value) { return put(value); }
+  bool number_integer(std::int64_t value) { return number(value, double(value), std::nullopt); }
+  bool number_unsigned(std::uint64_t value) { return number(value, double(value), value); }
+  bool number_float(double value, const std::string&) { return number(value, value, std::nullopt); }
+  bool string(std::string& value) { return put(std::move(value)); }
+  bool binary(Json::binary_t&) { return false; }  // JSON has none
+  bool start_object(std::size_t) { return open(Json::object()); }
+  bool key(std::string& key);
+  bool end_object() { return close(); }
+  bool start_array(std::size_t);
+  bool end_array();
+  bool parse_error(std::size_t position, const std::string& last, const Json::exception& error);
+
+ private:
+  [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
+    throw Error(file_, problem, remedy);
+  }
+  template <class Value>
+  bool number(Value value, double real, std::optional<std::uint64_t> whole);
+  bool put(Json value);
+  bool open(Json container);
+  bool close();
+  Json& place(Json value);
+  std::size_t packed_count() const;
+  [[noreturn]] void refuse_in_array() const;
+
+  std::string_view text_;
+  std::string file_;
+  const std::filesystem::path& path_;
+  SessionJson& result_;
+  std::vector<Json*> open_;  // from the outermost on
+  std::string key_;          // of the value that follows, in an object
+  std::string top_;          // the outermost key
+  Packed packed_ = Packed::no;
+  std::size_t values_ = 0;
+};
+
+std::size_t Scanner::packed_count() const {
+  return packed_ == Packed::ids ? result_.ids.back().size() : result_.reals.back().size();
+}
+
+void Scanner::refuse_in_array() const {
+  const bool ids = packed_ == Packed::ids;
+  fail("number " + std::to_string(packed_count()) + " of '" + key_ + "' is no " + (ids ? "whole number" : "number"),
+       ids ? "whole numbers run from 0 to 4294967295" : "write decimal numbers alone");
+}
+
+template <class Value>
+bool Scanner::number(Value value, double real, std::optional<std::uint64_t> whole) {
+  if (packed_ == Packed::reals) {
+    result_.reals.back().push_back(real);
+    return true;
+  }
+  if (packed_ == Packed::ids) {
+    if (!whole || *whole > std::numeric_limits<std::uint32_t>::max()) {
+      refuse_in_array();
+    }
+    result_.ids.back().push_back(static_cast<std::uint32_t>(*whole));
+    return true;
+  }
+  if (open_.size() == 1 && key_ == "version" && whole && *whole > session_version) {
+    fail("its version is " + std::to_string(*whole) + ", and this program knows " + std::to_string(session_version) +
+             " and older",
+         "open it with a newer program");
+  }
+  return put(value);
+}
+
+/// Puts a value where it stands in the tree.
+Json& Scanner::place(Json value) {
+  if (++values_ > most_values) {
+    fail("it holds too many values", "give a session");
+  }
+  if (open_.empty()) {
+    return result_.tree = std::move(value);
+  }
+  if (open_.back()->is_array()) {
+    open_.back()->push_back(std::move(value));
+    return open_.back()->back();
+  }
+  return (*open_.back())[key_] = std::move(value);
+}
+
+bool Scanner::put(Json value) {
+  if (packed_ != Packed::no) {
+    refuse_in_array();
+  }
+  if (!open_.empty() && open_.back()->is_object() && top_ != "ui" && packed_as(key_) != Packed::no) {
+    fail("'" + key_ + "' is not an array", "write it in [ ]");
+  }
+  place(std::move(value));
+  return true;
+}
+
+bool Scanner::open(Json container) {
+  if (open_.size() == deepest) {
+    fail("it is nested too deeply", "give a session");
+  }
+  if (packed_ != Packed::no) {
+    refuse_in_array();
+  }
+  open_.push_back(&place(std::move(container)));
+  return true;
+}
+
+bool Scanner::close() {
+  open_.pop_back();
+  return true;
+}
+
+bool Scanner::key(std::string& key) {
+  if (open_.back()->contains(key)) {
+    fail(in_quotes(key) + " stands twice", "remove one of them");
+  }
+  key_ = std::move(key);
+  if (open_.size() == 1) {
+    top_ = key_;
+  }
+  return true;
+}
+
+bool Scanner::start_array(std::size_t) {
+  const bool named = !open_.empty() && open_.back()->is_object() && top_ != "ui";
+  const Packed packed = named && packed_ == Packed::no ? packed_as(key_) : Packed::no;
+  if (packed == Packed::no) {
+    return open(Json::array());
+  }
+  place(packed == Packed::ids ? result_.ids.size() : result_.reals.size());
+  packed_ = packed;
+  if (packed == Packed::ids) {
+    result_.ids.emplace_back();
+  } else {
+    result_.reals.emplace_back();
+  }
+  return true;
+}
+
+bool Scanner::end_array() {
+  if (packed_ == Packed::no) {
+    return close();
+  }
+  packed_ = Packed::no;
+  return true;
+}
+
+bool Scanner::parse_error(std::size_t position, const std::string&, const Json::exception& error) {
+  if (dynamic_cast<const Json::parse_error*>(&error) == nullptr) {
+    fail("a number in it is beyond what a double holds", "give a session");
+  }
+  const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(position, text_.size()));
+  const auto line = static_cast<std::size_t>(1 + std::count(text_.begin(), end, '\n'));
+  const bool ended = position > text_.size();
+  throw Error(shown(path_, line), ended ? "it ends too early" : "it is not JSON", "give a session as it was saved");
+}
+
+}  // namespace
+
+SessionJson parse_session_json(std::string_view text, const std::filesystem::path& path, const Progress& progress) {
+  SessionJson result;
+  Scanner scanner(text, path, result);
+  TextBuffer buffer(text, progress);
+  std::istream stream(&buffer);
+  Json::sax_parse(stream, &scanner);
+  return result;
+}
+
+}  // namespace chainmail

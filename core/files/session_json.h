@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
+
+#include "mesh/progress.h"
+
+namespace chainmail {
+
+inline constexpr unsigned session_version = 1;
+
+/// A session's JSON. Its long arrays of numbers stand beside the tree, packed, in the order in which they come: in the
+/// tree, in place of each, is its number there.
+struct SessionJson {
+  nlohmann::json tree;
+  std::vector<std::vector<std::uint32_t>> ids;
+  std::vector<std::vector<double>> reals;
+};
+
+/// Throws Error where the text is no JSON, where an array of ids or numbers holds something else, where a key stands
+/// twice, and, before it looks at what follows, where the version is newer than session_version; and Cancelled.
+SessionJson parse_session_json(std::string_view text, const std::filesystem::path& path, const Progress& progress);
+
+}  // namespace chainmail

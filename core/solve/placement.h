@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// Where the elements of an object stand, coordinate by coordinate as a solver holds them, so that it, or another of
+/// its mesh and precision, takes them back to the bit. A plain value, which knows neither blocks nor scalars.
+struct Placement {
+  /// Held are displacements from rest, as Exact ChainMail has them; else positions (mesh units both).
+  bool from_rest = false;
+  /// first, end, first, end… of the runs of elements that are given, ascending. All others stand at rest.
+  std::vector<ElementId> runs;
+  /// Of each element of the runs, space_dimension coordinates.
+  std::vector<double> held;
+
+  bool operator==(const Placement&) const = default;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <random>
+#include <sstream>
+
+#include "files/session.h"
+#include "files/support.h"
+
+namespace chainmail::test {
+
+inline std::string session_text(const Session& session) {
+  std::ostringstream out;
+  write_session(out, session);
+  return out.str();
+}
+
+/// Numbers that few digits do not hold: the ends of what floats are, and any bits between.
+inline std::vector<double> odd_floats(std::size_t count, std::uint64_t seed) {
+  std::vector<double> result{-0.0, 0.1F, 1.0F / 3, 1e-45F, -1.17549435e-38F, 2e37F, 16777217.0F, 9007199791611905.0F};
+  std::mt19937_64 random(seed);
+  while (result.size() < count) {
+    const auto bits = static_cast<std::uint32_t>(random());
+    float number = 0;
+    std::memcpy(&number, &bits, sizeof number);
+    if (std::abs(number) < 2e37F) {
+      result.push_back(number);
+    }
+  }
+  result.resize(count);
+  return result;
+}
+
+/// An object with something of everything, on a mesh of 9 elements or more.
+inline Session session_on(const MeshPointer& mesh) {
+  Session session;
+  session.name = "an \"object\" ∆\n";
+  session.mesh = mesh;
+  session.cuts = {0, 3};
+  session.pins = {1, 8};
+  session.softness = std::make_shared<const Softness>(Softness{{0.1, 1.0 / 0.3, 1e-300}, {{2, {0, 1, 7}}, {4, {}}}});
+  session.relaxation = {true, 1.0 / 3, RelaxationScheme::link};
+  const auto dimension = static_cast<std::size_t>(mesh->space_dimension);
+  session.panels = {{Algorithm::exact, Precision::single_precision, {true, {0, 2, 5, 9}, odd_floats(6 * dimension, 5)}},
+                    {Algorithm::spiral, Precision::double_precision, {false, {3, 4}, {}}},
+                    {Algorithm::generalized, Precision::single_precision, {}}};
+  session.panels[1].placement.held = {1.0 / 3, -0.0, 1e300};
+  session.panels[1].placement.held.resize(dimension);
+  session.ui = R"({"cameras":[{"yaw":0.1}],"layout":"AAE="})";
+  return session;
+}
+
+}  // namespace chainmail::test

@@ -1,0 +1,180 @@
+#include <QtTest>
+#include <cmath>
+#include <cstring>
+
+#include "core/families.h"
+#include "files/session_support.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace fs = std::filesystem;
+
+/// A session comes back as it was, to the bit; and those of version 1 open for ever.
+class SessionTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void what_is_written_reads_back_data();
+  void what_is_written_reads_back();
+  void polygons_and_loose_elements_do_too();
+  void every_float_comes_back_to_the_bit();
+  void what_was_written_once_opens();
+  void the_file_is_json_as_it_is_documented();
+  void numbers_that_are_none_are_not_written();
+  void saving_is_whole_or_not_at_all();
+  void long_work_comes_to_its_end_and_is_cancelled();
+  void endings_are_known_in_any_case();
+
+ private:
+  static void compare(const Session& again, const Session& session);
+  static bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  }
+};
+
+void SessionTest::what_is_written_reads_back_data() {
+  QTest::addColumn<int>("which");
+  int i = 0;
+  for (const Family& family : families()) {
+    if (family.mesh->element_count() >= 9 && family.mesh->link_count() > 4) {
+      QTest::newRow(family.name.c_str()) << i;
+    }
+    ++i;
+  }
+}
+
+void SessionTest::compare(const Session& again, const Session& session) {
+  const Mesh &mesh = *again.mesh, &before = *session.mesh;
+  QVERIFY(same_bits(mesh.rest, before.rest));
+  QVERIFY(mesh.links == before.links && mesh.neighbours == before.neighbours);
+  QVERIFY(mesh.first_entry == before.first_entry && mesh.entry_link == before.entry_link);
+  QVERIFY(mesh.triangles == before.triangles && mesh.own_triangles == before.own_triangles);
+  QVERIFY(mesh.polygons == before.polygons && mesh.tetrahedra == before.tetrahedra);
+  QVERIFY(mesh.axes == before.axes && mesh.origin == before.origin && mesh.is_grid == before.is_grid);
+  QCOMPARE(mesh.object_dimension, before.object_dimension);
+  QCOMPARE(mesh.lattice.has_value(), before.lattice.has_value());
+  QVERIFY(again.cuts == session.cuts && again.pins == session.pins && *again.softness == *session.softness);
+  QVERIFY(again.relaxation == session.relaxation);
+  QCOMPARE(again.panels.size(), session.panels.size());
+  for (std::size_t i = 0; i < again.panels.size(); ++i) {
+    const auto &panel = again.panels[i], &one = session.panels[i];
+    QVERIFY(panel.algorithm == one.algorithm && panel.precision == one.precision);
+    QVERIFY(panel.placement == one.placement && same_bits(panel.placement.held, one.placement.held));
+  }
+  QCOMPARE(again.name, session.name);
+  QCOMPARE(again.ui, session.ui);
+}
+
+void SessionTest::what_is_written_reads_back() {
+  QFETCH(int, which);
+  const Session session = session_on(families()[static_cast<std::size_t>(which)].mesh);
+  const std::string text = session_text(session);
+  const Session again = parse_session(text, "a.chainmail");
+  compare(again, session);
+  QCOMPARE(session_text(again), text);
+}
+
+void SessionTest::polygons_and_loose_elements_do_too() {
+  Session session;
+  session.panels.resize(1);
+  session.mesh = obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 2 5\nv 9 9 9\nf 1 2 3 4\nf 4 3 5\nf 1 2 3 5 4\n");
+  compare(parse_session(session_text(session), "a.chainmail"), session);
+  session.mesh = obj("v 0.5 0 0\n");
+  compare(parse_session(session_text(session), "a.chainmail"), session);
+}
+
+void SessionTest::every_float_comes_back_to_the_bit() {
+  Session session;
+  session.mesh = made(MeshKind::line, {50'000, 1, 1});
+  session.panels = {
+      {Algorithm::natural_queue, Precision::single_precision, {false, {0, 50'000}, odd_floats(50'000, 1)}}};
+  compare(parse_session(session_text(session), "a.chainmail"), session);
+}
+
+/// The file is never written anew: what it holds is version 1.
+void SessionTest::what_was_written_once_opens() {
+  const Session session = read_session(fs::path(SESSIONS) / "version1.chainmail");
+  QCOMPARE(session.name, std::string("cloth 3 × 3"));
+  QCOMPARE(session.mesh->element_count(), 9U);
+  QCOMPARE(session.mesh->link_count(), 16U);
+  QCOMPARE(session.mesh->own_triangles, std::size_t{8});
+  QVERIFY(session.mesh->lattice && session.mesh->space_dimension == 2);
+  QCOMPARE(session.cuts, (std::vector<LinkId>{*find_link(*session.mesh, 0, 1), *find_link(*session.mesh, 4, 5)}));
+  QCOMPARE(session.pins, (std::vector<ElementId>{0, 8}));
+  const LinkId own = *find_link(*session.mesh, 3, 4);
+  QVERIFY((*session.softness == Softness{{0.5, 1.25, 0.1}, {{own, {1, 1, 0}}}}));
+  QVERIFY((session.relaxation == commands::SetRelaxation{false, 0.5, RelaxationScheme::link}));
+  QCOMPARE(session.panels.size(), std::size_t{2});
+  QVERIFY(session.panels[0].algorithm == Algorithm::exact && session.panels[1].algorithm == Algorithm::natural_queue);
+  QVERIFY((session.panels[0].placement == Placement{true, {2, 4}, {0.1F, -0.0, 1.0F / 3, -2}}));
+  QVERIFY(std::signbit(session.panels[0].placement.held[1]));
+  QVERIFY((session.panels[1].placement == Placement{false, {8, 9}, {2.5, 2.25}}));
+  QCOMPARE(session.ui, std::string(R"({"colour":"plain"})"));
+}
+
+void SessionTest::the_file_is_json_as_it_is_documented() {
+  Session session = session_on(made(MeshKind::grid, {3, 3, 1}));
+  session.panels.resize(1);
+  session.panels[0].placement.held = {0, 0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  const auto document = QJsonDocument::fromJson(QByteArray::fromStdString(session_text(session)));
+  QCOMPARE(document["format"].toString(), QStringLiteral("chainmail session"));
+  QCOMPARE(document["version"].toInt(), 1);
+  QCOMPARE(document["name"].toString(), QString::fromStdString(session.name));
+  QCOMPARE(document["mesh"]["elements"].toInt(), 9);
+  QCOMPARE(document["mesh"]["rest"].toArray().size(), 27);
+  QCOMPARE(document["mesh"]["links"].toArray().size(), 24);
+  QCOMPARE(document["cuts"].toArray(), (QJsonArray{0, 1, 1, 4}));
+  QCOMPARE(document["pins"].toArray(), (QJsonArray{1, 8}));
+  QCOMPARE(document["softness"]["own"].toArray(), (QJsonArray{1, 2, 0, 1, 7, 2, 5, 0.8, 1.2, 0.1}));
+  QCOMPARE(document["relaxation"]["scheme"].toString(), QStringLiteral("link"));
+  QCOMPARE(document["panels"][0]["algorithm"].toString(), QStringLiteral("exact"));
+  QCOMPARE(document["panels"][0]["runs"].toArray(), (QJsonArray{0, 2, 5, 9}));
+  QCOMPARE(document["panels"][0]["held"].toArray(), (QJsonArray{0, 0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+}
+
+void SessionTest::numbers_that_are_none_are_not_written() {
+  for (const double none : {std::nan(""), HUGE_VAL}) {
+    Session session = session_on(made(MeshKind::grid, {3, 3, 1}));
+    session.panels[0].placement.held[0] = none;
+    QVERIFY(error_of([&] { session_text(session); }).startsWith("session: a coordinate is no finite number; "));
+  }
+}
+
+void SessionTest::saving_is_whole_or_not_at_all() {
+  const QTemporaryDir folder;
+  const fs::path path = folder.filePath("a.chainmail").toStdString();
+  Session session = session_on(made(MeshKind::cloth, {4, 3, 1}));
+  save_session(path, session);
+  compare(read_session(path), session);
+  const std::string before = file_text(path);
+  session.panels[0].placement.held[0] = std::nan("");
+  QVERIFY(!error_of([&] { save_session(path, session); }).isEmpty());
+  QCOMPARE(file_text(path), before);
+  QCOMPARE(files_in(folder.path().toStdString()), 1);
+}
+
+void SessionTest::long_work_comes_to_its_end_and_is_cancelled() {
+  const QTemporaryDir folder;
+  const fs::path path = folder.filePath("a.chainmail").toStdString();
+  const Session session = session_on(made(MeshKind::tetra, {20, 20, 20}));
+  JobState writing, reading, cancelled;
+  save_session(path, session, Progress(writing));
+  QVERIFY(writing.share > 0.5 && writing.share <= 1);
+  compare(read_session(path, Progress(reading)), session);
+  QVERIFY(reading.share > 0.9 && reading.share <= 1);
+  cancelled.cancelled = true;
+  QVERIFY_THROWS_EXCEPTION(Cancelled, read_session(path, Progress(cancelled)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, parse_session(file_text(path), path, Progress(cancelled)));
+  fs::remove(path);
+  QVERIFY_THROWS_EXCEPTION(Cancelled, save_session(path, session, Progress(cancelled)));
+  QCOMPARE(files_in(folder.path().toStdString()), 0);
+}
+
+void SessionTest::endings_are_known_in_any_case() {
+  QVERIFY(is_session("a.chainmail") && is_session("b/A.ChainMail"));
+  QVERIFY(!is_session("a.obj") && !is_session("chainmail") && !is_session("a.chainmail.obj"));
+}
+
+QTEST_APPLESS_MAIN(SessionTest)
+#include "test_session.moc"

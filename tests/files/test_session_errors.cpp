@@ -1,0 +1,228 @@
+#include <QtTest>
+#include <filesystem>
+
+#include "files/session_support.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Files that are no session, and sessions that lie: a sentence each that says where, and nothing half read.
+class SessionErrorsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase();
+  void other_files_are_refused_data();
+  void other_files_are_refused();
+  void wrong_members_are_refused_data();
+  void wrong_members_are_refused();
+  void a_newer_version_is_named_before_all_else();
+  void wrong_paths();
+  void huge_claims_take_no_memory();
+  void deep_nesting_is_refused();
+  void what_ends_too_early_is_refused();
+  void changed_bytes_never_do_worse();
+
+ private:
+  static QString read(const std::string& text) {
+    return error_of([&] { parse_session(text, "a.chainmail"); });
+  }
+  /// What a small session says with one passage replaced; it must be there.
+  QString with(const std::string& passage, const std::string& other) const {
+    std::string text = good_;
+    const auto at = text.find(passage);
+    return at == std::string::npos ? QStringLiteral("no such passage") : read(text.replace(at, passage.size(), other));
+  }
+
+  std::string good_;
+};
+
+void SessionErrorsTest::initTestCase() {
+  good_ = file_text(std::filesystem::path(SESSIONS) / "version1.chainmail");
+  QCOMPARE(read(good_), QString());
+}
+
+void SessionErrorsTest::other_files_are_refused_data() {
+  QTest::addColumn<QString>("text");
+  QTest::addColumn<QString>("said");
+  const auto row = [](const char* text, const char* said) { QTest::newRow(text) << QString(text) << QString(said); };
+  row("{\"format\":\n}", "a.chainmail:2: it is not JSON; ");
+  row("v 0 0 0", "a.chainmail:1: it is not JSON; ");
+  row(" ", "a.chainmail:1: it ends too early; ");
+  row("{\"format\": \"chainmail session\",\n", "a.chainmail:2: it ends too early; ");
+  row("{} x", "a.chainmail:1: it is not JSON; ");
+  row("{\"format\": NaN}", "a.chainmail:1: it is not JSON; ");
+  row("{\"format\": 1e999}", "a.chainmail: a number in it is beyond ");
+  row("{\"rest\": [1e999]}", "a.chainmail: a number in it is beyond ");
+  row("[]", "a.chainmail: it holds no session; ");
+  row("[[1], [2]]", "a.chainmail: it holds no session; ");
+  row("null", "a.chainmail: it holds no session; ");
+  row("{}", "a.chainmail: it holds no session; ");
+  row(R"({"version": 1, "commands": []})", "a.chainmail: it holds no session; ");
+  row(R"({"format": ["chainmail session"]})", "a.chainmail: it holds no session; ");
+  row(R"({"format": "chainmail session"})", "a.chainmail: 'version' is missing; ");
+  row(R"({"format": "chainmail session", "version": 1})", "a.chainmail: 'name' is missing; ");
+}
+
+void SessionErrorsTest::other_files_are_refused() {
+  QFETCH(QString, text);
+  QFETCH(QString, said);
+  const QString error = read(text.toStdString());
+  QVERIFY2(error.startsWith(said) && !error.contains('\n'), qPrintable(error));
+}
+
+void SessionErrorsTest::wrong_members_are_refused_data() {
+  QTest::addColumn<QString>("passage");
+  QTest::addColumn<QString>("other");
+  QTest::addColumn<QString>("said");
+  const auto row = [](const char* passage, const char* other, const char* said) {
+    QTest::addRow("%s: %s", passage, other) << QString(passage) << QString(other) << QString(said);
+  };
+  row("\"version\": 1", "\"version\": 2",
+      "its version is 2, and this program knows 1 and older; open it with a newer ");
+  row("\"version\": 1", "\"version\": 0", "'version' is no whole number from 1 to 1; ");
+  row("\"version\": 1", "\"version\": \"1\"", "'version' is no whole number from 1 to 1; ");
+  row("\"name\": ", "\"nam\": ", "'nam' is not known here; ");
+  row("\"name\": ", "\"format\": 1, \"name\": ", "'format' stands twice; ");
+  row("\"cloth 3 × 3\"", "3", "'name' is not a text; ");
+  row("\"elements\": 9", "\"elements\": 8", "mesh: 'rest' holds 27 numbers, and 8 elements have 24; ");
+  row("\"elements\": 9", "\"elements\": 0", "mesh: 'elements' is no whole number from 1 to 20000000; ");
+  row("\"elements\": 9", "\"elements\": -9", "mesh: 'elements' is no whole number from 1 to 20000000; ");
+  row("\"space\": 2", "\"space\": 1", "mesh: space dimension 1: the object extends along 2 axes; ");
+  row("\"space\": 2", "\"space\": 4", "mesh: 'space' is no whole number from 1 to 3; ");
+  row("\"size\": [3,3,1]", "\"size\": [3,2,1]", "mesh: the lattice is not one of 9 elements; ");
+  row("\"size\": [3,3,1]", "\"size\": [3,3]", "mesh: the lattice is not one of 9 elements; ");
+  row("\"size\": [3,3,1]", "\"size\": [3,3,1.0]", "mesh: the lattice is not one of 9 elements; ");
+  row("\"spacing\": 1.5", "\"spacing\": 1", "mesh: element 1 does not stand in the lattice; ");
+  row("\"spacing\": 1.5", "\"spacing\": null", "mesh: 'null' is not a number; ");
+  row("3,3,0],", "3,3,1e101],", "mesh: 'rest' places element 8 beyond 1e100; ");
+  row("3,3,0],", "3,3,\"0\"],", "number 26 of 'rest' is no number; ");
+  row("3,3,0],", "3,3,[0]],", "number 26 of 'rest' is no number; ");
+  row("3,3,0],", "3,3,{}],", "number 26 of 'rest' is no number; ");
+  row("3,3,0],", "3,3],", "mesh: 'rest' holds 26 numbers, and 9 elements have 27; ");
+  row("0,1,0,3,0,4", "0,1,0,3,0,9", "mesh: 'links' names element 9, which is not there; ids run from 0 to 8");
+  row("0,1,0,3,0,4", "0,1,0,3,0", "mesh: 'links' ends within a group of 2; ");
+  row("0,1,0,3,0,4", "0,1,0,3,1,0", "mesh: 'links' holds a link twice; ");
+  row("0,1,0,3,0,4", "0,1,0,3,0,0", "mesh: element 0 is linked to itself; ");
+  row("0,1,0,3,0,4", "0,1,0,3,0,-4", "number 5 of 'links' is no whole number; ");
+  row("0,1,0,3,0,4", "0,1,0,3,0,4.0", "number 5 of 'links' is no whole number; ");
+  row("0,1,0,3,0,4", "0,1,0,3,0,4294967300", "number 5 of 'links' is no whole number; ");
+  row("\"triangles\": [0,1,4,", "\"triangles\": [0,1,", "mesh: 'triangles' ends within a group of 3; ");
+  row("\"triangles\": [0,1,4,", "\"triangles\": [0,1,40,", "mesh: 'triangles' names element 40, which ");
+  row("\"triangles\": ", "\"triangle\": ", "mesh: 'triangle' is not known here; ");
+  row("\"polygons\": []", "\"polygons\": {}", "mesh: 'polygons' is not an array; ");
+  row("\"polygons\": []", "\"polygons\": 0", "'polygons' is not an array; ");
+  row("\"polygons\": []", "\"polygons\": [4,0,1,2]", "mesh: 'polygons' has a count of 4 at number 0; ");
+  row("\"polygons\": []", "\"polygons\": [3,0,1,2,4294967295]",
+      "mesh: 'polygons' has a count of 4294967295 at number 4; ");
+  row("\"polygons\": []", "\"polygons\": [2,0,1]", "mesh: 'polygons' has a count of 2 at number 0; ");
+  row("\"polygons\": []", "\"polygons\": [3,0,1,9]", "mesh: 'polygons' names element 9, which ");
+  row("\"tetrahedra\": []", "\"tetrahedra\": [1]", "mesh: 'tetrahedra' ends within a group of 4; ");
+  row("\"cuts\": [0,1,", "\"cuts\": [0,2,", "the elements 0 and 2 are not linked; ");
+  row("\"cuts\": [0,1,", "\"cuts\": [5,4,", "'cuts' holds a link twice; ");
+  row("\"pins\": [0,8]", "\"pins\": [0,9]", "'pins' names element 9, which is not there; ");
+  row("\"pins\": [0,8]", "\"pins\": [8,0,8]", "'pins' holds an element twice; ");
+  row("\"pins\": [0,8]", "\"pins\": true", "'pins' is not an array; ");
+  row("\"stretch\":1.25", "\"stretch\":0.5", "softness: stretch: it must be 1 or more ");
+  row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,2,1,0]", "softness: compression: it must lie ");
+  row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,1,1]", "softness: 'own' ends within a group of 5; ");
+  row("\"own\": [3,4,1,1,0]", "\"own\": [3,4.5,1,1,0]", "softness: 'own' names no element in its link 0; ");
+  row("\"own\": [3,4,1,1,0]", "\"own\": [3,9,1,1,0]", "softness: 'own' names no element in its link 0; ");
+  row("\"own\": [3,4,1,1,0]", "\"own\": [3,8,1,1,0]", "softness: the elements 3 and 8 are not linked; ");
+  row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,1,1,0,4,3,1,1,0]", "softness: the link 4-3 is given twice; ");
+  row("\"on\":false", "\"on\":0", "relaxation: 'on' is neither true nor false; ");
+  row("\"scheme\":\"link\"", "\"scheme\":\"links\"", "relaxation: 'scheme' names none; ");
+  row("\"step\":0.5", "\"step\":0", "relaxation: 'step' must lie above 0 ");
+  row("\"algorithm\": \"exact\"", "\"algorithm\": \"original\"", "panel 0: 3D ChainMail: ");
+  row("\"algorithm\": \"exact\"", "\"algorithm\": \"best\"", "panel 0: 'algorithm' names none; ");
+  row("\"precision\": \"float\", \"from_rest\": false", "\"precision\": \"half\", \"from_rest\": false",
+      "panel 1: 'precision' names none; ");
+  row("\"from_rest\": true", "\"from_rest\": 1", "panel 0: 'from_rest' is neither true nor false; ");
+  row("\"runs\": [2,4]", "\"runs\": [2]", "panel 0: 'runs' ends within a group of 2; ");
+  row("\"runs\": [2,4]", "\"runs\": [4,2]", "panel 0: 'runs' are not ascending runs of elements; ");
+  row("\"runs\": [2,4]", "\"runs\": [2,4,3,4]", "panel 0: 'runs' are not ascending runs of elements; ");
+  row("\"runs\": [2,4]", "\"runs\": [2,4294967295]", "panel 0: 'runs' are not ascending runs of elements; ");
+  row("\"runs\": [2,4]", "\"runs\": [2,5]", "panel 0: 'held' holds 4 numbers, and 'runs' name 3 elements in 2D; ");
+  row("2.5,2.25", "2.5,2.25,1", "panel 1: 'held' holds 3 numbers, and 'runs' name 1 elements in 2D; ");
+  row("2.5,2.25", "2.5,1e38", "panel 1: 'held' holds a number beyond ");
+  row("\"panels\": [", "\"panels\": [7,", "panel 0: it is not an object; ");
+  row("\"ui\": {\"colour\":\"plain\"}", "\"ui\": []", "'ui' is not an object; ");
+}
+
+void SessionErrorsTest::wrong_members_are_refused() {
+  QFETCH(QString, passage);
+  QFETCH(QString, other);
+  QFETCH(QString, said);
+  const QString error = with(passage.toStdString(), other.toStdString());
+  QVERIFY2(error.startsWith("a.chainmail: " + said) && !error.contains('\n'), qPrintable(error));
+}
+
+/// Whatever a later version means by its members.
+void SessionErrorsTest::a_newer_version_is_named_before_all_else() {
+  const auto error = read(R"({"format": "chainmail session", "version": 7, "mesh": [], "rest": "elsewhere"})");
+  QCOMPARE(error, QString("a.chainmail: its version is 7, and this program knows 1 and older; "
+                          "open it with a newer program"));
+}
+
+void SessionErrorsTest::wrong_paths() {
+  const QTemporaryDir folder;
+  const std::filesystem::path path = folder.filePath("a.chainmail").toStdString();
+  const auto error = [&] { return error_of([&] { read_session(path); }); };
+  QVERIFY(error().endsWith("a.chainmail: there is no such file; check the path"));
+  put_file(path, "");
+  QVERIFY(error().endsWith("a.chainmail: it is empty; give a file that holds a session"));
+  put_file(path, std::string("{\0}", 3));
+  QVERIFY(error().endsWith("a.chainmail: it is not a text file; give a session as text"));
+  put_file(path, "\xef\xbb\xbf" + good_);
+  QCOMPARE(error(), QString());
+}
+
+void SessionErrorsTest::huge_claims_take_no_memory() {
+  QVERIFY(with("\"elements\": 9", "\"elements\": 1000000000").contains("mesh: 'elements' is no whole number from 1 "));
+  QVERIFY(with("\"elements\": 9", "\"elements\": 20000000").contains("mesh: 'rest' holds 27 numbers, and 20000000 "));
+  QVERIFY(with("\"elements\": 9", "\"elements\": 18446744073709551617").contains("mesh: 'elements' is no whole "));
+  QVERIFY(with("[3,3,1]", "[4294967295,4294967295,4294967295]").contains("mesh: the lattice is not one of 9 "));
+  const auto table = [&](const char* counts) {
+    std::string text = good_;
+    const auto first = text.find("\"links\""), end = text.find("\"triangles\"");
+    return read(text.replace(first, end - first, "\"counts\": " + std::string(counts) + ", \"neighbours\": [1,0],"));
+  };
+  QVERIFY(table("[4294967295,3,0,0,0,0,0,0,0]").contains("mesh: 'counts' and 'neighbours' do not go together; "));
+  QVERIFY(table("[1,1]").contains("mesh: 'counts' and 'neighbours' do not go together; "));
+  QVERIFY(table("[2,0,0,0,0,0,0,0,0]").contains("mesh: element 0 is linked to itself; "));
+  QVERIFY(table("[0,2,0,0,0,0,0,0,0]").contains("mesh: element 1 is linked to itself; "));
+  QVERIFY(table("[1,0,1,0,0,0,0,0,0]").contains("mesh: element 0 lists 1, but 1 does not list 0; "));
+}
+
+void SessionErrorsTest::deep_nesting_is_refused() {
+  for (const char* open : {"[", "{\"a\":"}) {
+    std::string text;
+    for (int i = 0; i < 200'000; ++i) {
+      text += open;
+    }
+    QVERIFY(read(text).startsWith("a.chainmail: it is nested too deeply; "));
+  }
+}
+
+void SessionErrorsTest::what_ends_too_early_is_refused() {
+  // But for the last line's end.
+  for (std::size_t i = 0; i + 1 < good_.size(); ++i) {
+    const QString error = read(good_.substr(0, i));
+    QVERIFY2(!error.isEmpty() && !error.contains('\n'), qPrintable(QString::number(i)));
+  }
+}
+
+void SessionErrorsTest::changed_bytes_never_do_worse() {
+  std::mt19937 random(3);
+  const std::string others = "0123456789-.,:[]{}\"e \nt\xff";
+  for (int i = 0; i < 20'000; ++i) {
+    std::string text = good_;
+    for (int j = i % 3; j >= 0; --j) {
+      text[random() % text.size()] = others[random() % others.size()];
+    }
+    QVERIFY(!read(text).contains('\n'));
+  }
+}
+
+QTEST_APPLESS_MAIN(SessionErrorsTest)
+#include "test_session_errors.moc"
