@@ -3,18 +3,21 @@
 #include <QColor>
 #include <array>
 
-/// Numbers to colours: one map, read alike with every kind of colour vision and in grey, because its lightness only
-/// grows. Between the control points it is linear in sRGB; they follow viridis (Smith and van der Walt 2015), but begin
-/// lighter, so that a thin line stands out from the views' background.
+#include "colours.h"
+
+/// Numbers to colours: a map for either ground, read alike with every kind of colour vision and in grey, because its
+/// lightness only moves away from the ground's. Between the control points it is linear in sRGB; they follow viridis
+/// (Smith and van der Walt 2015): on a dark ground from somewhat further up, on a light one from the middle down, so
+/// that a thin line stands out everywhere.
 namespace chainmail::colour_map {
 
-inline constexpr std::array<std::array<int, 3>, 6> stops{
-    {{88, 80, 168}, {58, 112, 165}, {33, 145, 140}, {53, 183, 121}, {143, 215, 68}, {253, 231, 37}}};
+using Stops = std::array<std::array<int, 3>, 6>;
+const Stops& stops(colours::Ground ground = colours::ground());
 
 /// What lies at or below a threshold has no place on the map, and steps back behind all that has.
-inline const QColor neutral(0x50, 0x56, 0x60);
+inline constexpr colours::Colour neutral(0xff505660, 0xffa6acb5);
 
 /// The colour of a share of the way from the lowest value to the highest.
-QColor at(double share);
+QColor at(double share, colours::Ground ground = colours::ground());
 
 }  // namespace chainmail::colour_map

@@ -1,18 +1,61 @@
 #pragma once
 
 #include <QColor>
+#include <functional>
 
-/// The few colours of the views, told apart by the colour-blind (Okabe and Ito 2008).
+class QWidget;
+
+/// Every colour that is not the palette's. The marks are told apart by the colour-blind (Okabe and Ito 2008) on either
+/// ground, and stand out from it by a contrast of at least 3 (WCAG 2.1, 1.4.11); words by 4.5.
 namespace chainmail::colours {
 
-inline const QColor background(0x15, 0x19, 0x1f);
-inline const QColor left(0xe6, 0x9f, 0x00);
-inline const QColor right(0x56, 0xb4, 0xe9);
-inline const QColor marked(0xff, 0xff, 0xff);
-inline const QColor pinned(0xf0, 0xe4, 0x42);
-inline const QColor selected(0xf5, 0xa6, 0xd0);
-inline const QColor lit(0xf0, 0x50, 0x30);
-inline const QColor inside(0x2f, 0xc4, 0x9b);  // a valid region
-inline const QColor outside(0xf0, 0x7a, 0x30);
+/// What the window's words and marks stand on.
+enum class Ground { dark, light };
+
+/// That of the application's palette, as it is now.
+Ground ground();
+
+/// A colour for either ground. Where a QColor is asked for it is that of the present ground: who keeps one keeps this,
+/// or asks again when the theme changes (followTheme).
+class Colour {
+ public:
+  constexpr Colour(QRgb onDark, QRgb onLight) : onDark_(onDark), onLight_(onLight) {}
+  QColor on(Ground ground) const { return QColor::fromRgb(ground == Ground::dark ? onDark_ : onLight_); }
+  operator QColor() const { return on(ground()); }
+
+ private:
+  QRgb onDark_, onLight_;
+};
+
+// The views'.
+inline constexpr Colour background(0xff15191f, 0xfff8f9fb);
+inline constexpr Colour left(0xffe69f00, 0xff9c4a00);
+inline constexpr Colour right(0xff56b4e9, 0xff0068a8);
+inline constexpr Colour marked(0xffffffff, 0xff101418);
+inline constexpr Colour pinned(0xfff0e442, 0xff6a5a00);
+inline constexpr Colour selected(0xfff5a6d0, 0xffb02a80);
+inline constexpr Colour lit(0xfff05030, 0xffcc2200);
+inline constexpr Colour inside(0xff2fc49b, 0xff00754f);  // a valid region
+inline constexpr Colour outside(0xfff07a30, 0xffb84800);
+
+// The message bar's: what it stands on, and what its sign is drawn in. Its words are the palette's.
+inline constexpr Colour infoGround(0xff1d3a52, 0xffdcecf8);
+inline constexpr Colour warningGround(0xff4a3a12, 0xfffbeec4);
+inline constexpr Colour errorGround(0xff5a2a1e, 0xfffbdcd4);
+inline constexpr Colour infoSign(0xff8ccbf2, 0xff0068a8);
+inline constexpr Colour warningSign(0xfff0c84a, 0xff7a5800);
+inline constexpr Colour errorSign(0xffff9a80, 0xffb32000);
+
+/// The same colour further from the ground, for what stands out among its like.
+QColor stronger(const QColor& colour);
+/// The same colour near the ground, for the faces between links of that colour.
+QColor faint(const QColor& colour);
 
 }  // namespace chainmail::colours
+
+namespace chainmail {
+
+/// Does `apply` now, and again whenever the theme has changed, as long as the widget lives.
+void followTheme(QWidget& widget, std::function<void()> apply);
+
+}  // namespace chainmail

@@ -4,6 +4,7 @@
 #include <QChartView>
 #include <QGraphicsLayout>
 #include <QGridLayout>
+#include <QGuiApplication>
 #include <QLineSeries>
 #include <QVBoxLayout>
 #include <QValueAxis>
@@ -20,18 +21,19 @@ constexpr int refreshMilliseconds = 200;
 constexpr double secondsShown = 10;
 constexpr int figureWidth = 54;  // pixels: what 1,000,000 takes
 
-QLabel* figure(const QString& name, QColor colour) {
+QLabel* figure(const QString& name, colours::Colour colour) {
   auto* label = new QLabel(QStringLiteral("–"));
   label->setObjectName(name);
   label->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   label->setMinimumWidth(figureWidth);
-  label->setStyleSheet(QStringLiteral("color:%1").arg(colour.name()));
+  followTheme(*label, [label, colour] { label->setStyleSheet(QStringLiteral("color:%1").arg(QColor(colour).name())); });
   return label;
 }
 
 }  // namespace
 
-FrameRateDock::FrameRateDock(Document& document, std::vector<Panel*> panels, const std::vector<QColor>& colours)
+FrameRateDock::FrameRateDock(Document& document, std::vector<Panel*> panels,
+                             const std::vector<colours::Colour>& colours)
     : QDockWidget(QStringLiteral("Frame rate")), document_(document), panels_(std::move(panels)) {
   setObjectName(QStringLiteral("frameRateDock"));
   auto* content = new QWidget;
@@ -71,7 +73,7 @@ FrameRateDock::FrameRateDock(Document& document, std::vector<Panel*> panels, con
   });
 }
 
-QWidget* FrameRateDock::makeChart(const std::vector<QColor>& colours) {
+QWidget* FrameRateDock::makeChart(const std::vector<colours::Colour>& colours) {
   auto* chart = new QChart;
   chart->legend()->hide();
   chart->setBackgroundVisible(false);
@@ -85,13 +87,8 @@ QWidget* FrameRateDock::makeChart(const std::vector<QColor>& colours) {
   milliseconds_->setLabelFormat(QStringLiteral("%.3g"));
   chart->addAxis(time_, Qt::AlignBottom);
   chart->addAxis(milliseconds_, Qt::AlignLeft);
-  for (QValueAxis* axis : {time_, milliseconds_}) {
-    axis->setLabelsColor(palette().color(QPalette::WindowText));
-    axis->setGridLineColor(palette().color(QPalette::Mid));
-  }
   for (int panel = 0; panel < Document::panels; ++panel) {
     auto* series = new QLineSeries;
-    series->setPen(QPen(colours[panel], 1.5));
     chart->addSeries(series);
     series->attachAxis(time_);
     series->attachAxis(milliseconds_);
@@ -103,6 +100,15 @@ QWidget* FrameRateDock::makeChart(const std::vector<QColor>& colours) {
   view->setMinimumHeight(110);
   view->setFrameShape(QFrame::NoFrame);
   view->setBackgroundBrush(Qt::NoBrush);
+  followTheme(*view, [this, colours] {
+    for (QValueAxis* axis : {time_, milliseconds_}) {
+      axis->setLabelsColor(QGuiApplication::palette().color(QPalette::WindowText));
+      axis->setGridLineColor(QGuiApplication::palette().color(QPalette::Mid));
+    }
+    for (int panel = 0; panel < Document::panels; ++panel) {
+      columns_[panel].series->setPen(QPen(QColor(colours[std::size_t(panel)]), 1.5));
+    }
+  });
   return view;
 }
 

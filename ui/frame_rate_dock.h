@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "colours.h"
 #include "document.h"
 
 class QLineSeries;
@@ -22,7 +23,7 @@ class FrameRateDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  FrameRateDock(Document& document, std::vector<Panel*> panels, const std::vector<QColor>& colours);
+  FrameRateDock(Document& document, std::vector<Panel*> panels, const std::vector<colours::Colour>& colours);
 
  private:
   struct Column {
@@ -33,7 +34,7 @@ class FrameRateDock : public QDockWidget {
 
   void refresh();
   bool refresh(int panel, double now);
-  QWidget* makeChart(const std::vector<QColor>& colours);
+  QWidget* makeChart(const std::vector<colours::Colour>& colours);
   void scaleChart(double now);
 
   Document& document_;

@@ -92,8 +92,9 @@ void Legend::drawMap(QPainter& painter, QRect line) const {
   }
   const QRect map = bar(line, width);
   QLinearGradient gradient(map.topLeft(), map.topRight());
-  for (std::size_t i = 0; i < colour_map::stops.size(); ++i) {
-    const double share = double(i) / (colour_map::stops.size() - 1);
+  constexpr int steps = int(std::tuple_size_v<colour_map::Stops>) - 1;
+  for (int i = 0; i <= steps; ++i) {
+    const double share = double(i) / steps;
     gradient.setColorAt(share, colour_map::at(share));
   }
   painter.fillRect(map, gradient);

@@ -15,6 +15,7 @@
 #include "colours.h"
 #include "file_actions.h"
 #include "frame_rate_dock.h"
+#include "icons.h"
 #include "job_bar.h"
 #include "mesh_dock.h"
 #include "message_bar.h"
@@ -22,7 +23,6 @@
 #include "relaxation_dock.h"
 #include "report_dock.h"
 #include "stiffness_dock.h"
-#include "tool_icons.h"
 #include "tools_dock.h"
 
 namespace chainmail {
@@ -126,10 +126,10 @@ void MainWindow::makeTools() {
     action->setStatusTip(tool.hint());
     connect(action, &QAction::triggered, this, [this, &tool] { activate(tool); });
   };
-  add(dragTool_, tool_icons::drag(palette()), Qt::Key_D);
-  add(cutTool_, tool_icons::cut(palette()), Qt::Key_K);
-  add(pinTool_, tool_icons::pin(palette()), Qt::Key_P);
-  add(selectTool_, tool_icons::select(palette()), Qt::Key_S);
+  add(dragTool_, icon("drag"), Qt::Key_D);
+  add(cutTool_, icon("cut"), Qt::Key_K);
+  add(pinTool_, icon("pin"), Qt::Key_P);
+  add(selectTool_, icon("select"), Qt::Key_S);
   toolActions_->actions().first()->setChecked(true);
 }
 

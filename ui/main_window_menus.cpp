@@ -11,6 +11,7 @@
 #include "main_window.h"
 #include "message_bar.h"
 #include "panel.h"
+#include "theme_menu.h"
 
 namespace chainmail {
 
@@ -89,6 +90,8 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   connect(link, &QAction::toggled, this, &MainWindow::linkCameras);
   regions_.fill(menu);
   menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
+  menu.addSeparator();
+  (new ThemeMenu(this))->fill(menu);
 }
 
 void MainWindow::makeToolBar() {

@@ -18,6 +18,8 @@ constexpr double pixelsBetweenMarks = 9;
 constexpr GLsizei indicesSmoothed = 30'000;
 // A thinner line is blended with its background all over, and is no colour of the map any more (pixels).
 constexpr float valuedWidth = 2;
+// Of a face seen from the side, as a share of its colour: on a light ground shadows must not drown the links.
+constexpr float darkestOnDark = 0.55F, darkestOnLight = 0.82F;
 
 QVector4D asVector(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
 
@@ -113,6 +115,7 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
   program_->setUniformValue("colour", asVector(colour));
   program_->setUniformValue("background", asVector(scene.background));
   program_->setUniformValue("fog", scene.fog);
+  program_->setUniformValue("darkest", colours::ground() == colours::Ground::dark ? darkestOnDark : darkestOnLight);
   vertexArray_.bind();
   program_->enableAttributeArray(0);
   program_->setAttributeBuffer(0, GL_FLOAT, 0, dimension);
@@ -137,7 +140,7 @@ void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
   if (byValues && !paint.values->ofLinks) {
     useValues(scene, paint, 2);
   } else {
-    use(scene, byValues ? colour_map::neutral : paint.colour.lighter(125), 2, mesh_->space_dimension);
+    use(scene, byValues ? QColor(colour_map::neutral) : colours::stronger(paint.colour), 2, mesh_->space_dimension);
   }
   program_->setUniformValue("point_size", 4.5F * scene.pixelRatio);
   glDrawArrays(GL_POINTS, 0, GLsizei(mesh_->element_count()));
@@ -158,8 +161,8 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
   // A plane object's faces are only hinted at; in space they hide what lies behind them.
   // Beside the colour map they stay grey.
   const bool grey = valuesFit(paint);
-  QColor face = grey ? colour_map::neutral : paint.colour;
-  face = spatial ? face.darker(grey ? 200 : 320) : face;
+  QColor face = grey ? QColor(colour_map::neutral) : paint.colour;
+  face = spatial ? colours::faint(face) : face;
   face.setAlphaF(spatial ? 1.0F : 0.08F);
   use(scene, face, spatial ? 1 : 0, mesh_->space_dimension);
   faces_.bind();

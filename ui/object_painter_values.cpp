@@ -15,13 +15,14 @@ void ObjectPainter::useValues(const Scene& scene, const Paint& paint, int shadin
   if (paint.values->number != valuesNumber_) {
     uploadValues(*paint.values);
   }
-  std::array<QVector3D, colour_map::stops.size()> stops;
-  std::transform(colour_map::stops.begin(), colour_map::stops.end(), stops.begin(),
+  const colour_map::Stops& map = colour_map::stops();
+  std::array<QVector3D, std::tuple_size_v<colour_map::Stops>> stops;
+  std::transform(map.begin(), map.end(), stops.begin(),
                  [](const auto& stop) { return QVector3D(float(stop[0]), float(stop[1]), float(stop[2])) / 255; });
   program_->setUniformValueArray("stops", stops.data(), int(stops.size()));
   program_->setUniformValue("range", QVector2D(paint.scale.lowest, paint.scale.highest));
   program_->setUniformValue("threshold", paint.scale.threshold);
-  program_->setUniformValue("neutral", colour_map::neutral);
+  program_->setUniformValue("neutral", QColor(colour_map::neutral));
   if (ofLinks) {
     glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
   } else {

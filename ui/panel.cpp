@@ -15,7 +15,7 @@ constexpr int refreshMilliseconds = 100;
 }  // namespace
 
 Panel::Panel(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
-             std::shared_ptr<MeshLevels> levels, QColor colour)
+             std::shared_ptr<MeshLevels> levels, colours::Colour colour)
     : document_(document),
       colouring_(colouring),
       panel_(panel),
@@ -96,10 +96,12 @@ void Panel::showAlgorithm() {
 }
 
 /// The selector above the view, the figures below it.
-void Panel::arrange(QColor colour) {
+void Panel::arrange(colours::Colour colour) {
   auto* swatch = new QLabel;
   swatch->setFixedSize(10, 10);
-  swatch->setStyleSheet(QStringLiteral("background:%1; border-radius:5px").arg(colour.name()));
+  followTheme(*swatch, [swatch, colour] {
+    swatch->setStyleSheet(QStringLiteral("background:%1; border-radius:5px").arg(QColor(colour).name()));
+  });
   auto* head = new QHBoxLayout;
   head->setContentsMargins(8, 6, 8, 6);
   head->setSpacing(8);

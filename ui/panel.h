@@ -16,7 +16,7 @@ class Panel : public QFrame {
 
  public:
   Panel(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
-        std::shared_ptr<MeshLevels> levels, QColor colour);
+        std::shared_ptr<MeshLevels> levels, colours::Colour colour);
 
   View& view() { return *view_; }
   QComboBox& selector() { return *selector_; }
@@ -29,7 +29,7 @@ class Panel : public QFrame {
  private:
   void fillSelector();
   void showAlgorithm();
-  void arrange(QColor colour);
+  void arrange(colours::Colour colour);
   void showStatistics();
   QString describe(const Statistics& statistics) const;
   QStringList states(const Statistics& statistics) const;

@@ -4,6 +4,7 @@
 #include <QStandardItemModel>
 #include <QVBoxLayout>
 
+#include "colours.h"
 #include "mesh/error.h"
 #include "report_looks.h"
 #include "text.h"
@@ -69,11 +70,17 @@ void ReportChoices::fillAlgorithms() {
   algorithms_->setUniformItemSizes(true);
   algorithms_->setMinimumHeight(60);
   for (const AlgorithmInfo& one : algorithms()) {
-    auto* item = new QListWidgetItem(QIcon(reportMark({one.algorithm, 0}, markSize, devicePixelRatioF())),
-                                     text(one.label), algorithms_);
+    auto* item = new QListWidgetItem(text(one.label), algorithms_);
     item->setData(Qt::UserRole, int(one.algorithm));
     item->setCheckState(Qt::Checked);
   }
+  followTheme(*this, [this] {
+    const QSignalBlocker block(algorithms_);  // nothing was chosen
+    for (int row = 0; row < algorithms_->count(); ++row) {
+      const auto algorithm = Algorithm(algorithms_->item(row)->data(Qt::UserRole).toInt());
+      algorithms_->item(row)->setIcon(QIcon(reportMark({algorithm, 0}, markSize, devicePixelRatioF())));
+    }
+  });
 }
 
 void ReportChoices::fillRest() {

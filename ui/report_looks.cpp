@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "colours.h"
 #include "text.h"
 
 namespace chainmail {
@@ -31,11 +32,12 @@ QPolygonF bar() { return QRectF(-1.2, -0.55, 2.4, 1.1); }
 
 struct Look {
   Shape shape;
-  QRgb colour;  // Okabe and Ito 2008; the blue lighter, for the dark ground
+  colours::Colour colour;
 };
-constexpr std::array looks{Look{square, 0xffd55e00},   Look{triangle, 0xff56b4e9}, Look{circle, 0xff2a86d1},
-                           Look{onItsTip, 0xff009e73}, Look{cross, 0xffcc79a7},    Look{diamond, 0xffffffff},
-                           Look{bar, 0xfff0e442}};
+constexpr std::array looks{Look{square, {0xffd55e00, 0xffc04a00}}, Look{triangle, {0xff56b4e9, 0xff0f7cb8}},
+                           Look{circle, {0xff2a86d1, 0xff00468c}}, Look{onItsTip, {0xff009e73, 0xff007a58}},
+                           Look{cross, {0xffcc79a7, 0xffa83a80}},  Look{diamond, {0xffffffff, 0xff101418}},
+                           Look{bar, {0xfff0e442, 0xff857000}}};
 
 const Look& lookOf(Algorithm algorithm) {
   const auto all = algorithms();

@@ -4,6 +4,7 @@
 #include <QChart>
 #include <QChartView>
 #include <QGraphicsLayout>
+#include <QGuiApplication>
 #include <QLabel>
 #include <QLineSeries>
 #include <QScatterSeries>
@@ -168,12 +169,13 @@ QChart* ReportPlot::makeChart(const report::DragResult& drag, const ReportError&
   chart->setBackgroundVisible(false);
   chart->setMargins({});
   chart->layout()->setContentsMargins(0, 0, 0, 0);
-  addAxis(*chart, axes.time, Qt::AlignBottom, QStringLiteral("ms a move"), palette());
-  addAxis(*chart, axes.error, Qt::AlignLeft, QLatin1String(error.axis), palette());
+  addAxis(*chart, axes.time, Qt::AlignBottom, QStringLiteral("ms a move"), QGuiApplication::palette());
+  addAxis(*chart, axes.error, Qt::AlignLeft, QLatin1String(error.axis), QGuiApplication::palette());
   if (axes.error.has_zero()) {
     const double zero = axes.error.place(0);
-    auto* line = addSeries<QLineSeries>(*chart, {{-margin, zero}, {1 + margin, zero}},
-                                        QPen(palette().color(QPalette::PlaceholderText), 1, Qt::DashLine));
+    auto* line =
+        addSeries<QLineSeries>(*chart, {{-margin, zero}, {1 + margin, zero}},
+                               QPen(QGuiApplication::palette().color(QPalette::PlaceholderText), 1, Qt::DashLine));
     line->setName(QStringLiteral("zero"));
   }
   for (const Mark& mark : marks) {

@@ -9,6 +9,7 @@
 #include <QSplitter>
 #include <QVBoxLayout>
 
+#include "colours.h"
 #include "mesh/error.h"
 #include "report_files.h"
 #include "report_plot.h"
@@ -78,6 +79,7 @@ ReportResults::ReportResults()
   column->addLayout(makeBar());
   column->addWidget(split, 1);
   column->addWidget(refusals_);
+  followTheme(*this, [this] { showDrag(); });  // marks are drawn for one ground
 }
 
 QLayout* ReportResults::makeBar() {

@@ -3,7 +3,6 @@
 #include <QOpenGLContext>
 #include <algorithm>
 
-#include "colours.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -18,7 +17,7 @@ constexpr double smallestMark = 2;
 }  // namespace
 
 View::View(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
-           std::shared_ptr<MeshLevels> levels, QColor colour)
+           std::shared_ptr<MeshLevels> levels, colours::Colour colour)
     : document_(document),
       colouring_(colouring),
       panel_(panel),
@@ -171,7 +170,8 @@ void View::paintGL() {
     fit();  // no resize came once it could be seen
   }
   auto* gl = context()->functions();
-  gl->glClearColor(colours::background.redF(), colours::background.greenF(), colours::background.blueF(), 1);
+  const QColor ground = colours::background;
+  gl->glClearColor(ground.redF(), ground.greenF(), ground.blueF(), 1);
   gl->glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   gl->glDisable(GL_DEPTH_TEST);
   const Frame* frame = document_.frame(panel_);

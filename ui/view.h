@@ -6,6 +6,7 @@
 
 #include "camera.h"
 #include "colouring.h"
+#include "colours.h"
 #include "document.h"
 #include "frame_meter.h"
 #include "overlay.h"
@@ -21,7 +22,7 @@ class View : public QOpenGLWidget {
  public:
   /// The panels share the camera, unless they are unlinked, and the mesh's levels of detail.
   View(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
-       std::shared_ptr<MeshLevels> levels, QColor colour);
+       std::shared_ptr<MeshLevels> levels, colours::Colour colour);
   ~View() override;
 
   void setTool(Tool* tool);
@@ -81,7 +82,7 @@ class View : public QOpenGLWidget {
   Colouring& colouring_;
   int panel_;
   std::shared_ptr<Camera> camera_;
-  QColor colour_;
+  colours::Colour colour_;
   Tool* tool_ = nullptr;
   std::vector<Overlay*> overlays_;
   std::shared_ptr<MeshLevels> levels_;

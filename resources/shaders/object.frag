@@ -8,6 +8,7 @@ in float value_here;
 
 uniform vec4 colour;
 uniform vec4 background;
+uniform float darkest; // how dark a face is that is seen from its side, of 1
 uniform vec2 fog;    // distances from the eye at which fading begins and ends; equal: none
 
 uniform samplerBuffer link_values;
@@ -48,7 +49,7 @@ void main() {
 #endif
 #if SHADING == 1
   vec3 normal = normalize(cross(dFdx(in_view), dFdy(in_view)));
-  result.rgb *= 0.55 + 0.45 * abs(normal.z);
+  result.rgb *= mix(darkest, 1.0, abs(normal.z));
 #elif SHADING >= 2
   float beyond = outside(gl_PointCoord - 0.5);
   float edge = fwidth(beyond);

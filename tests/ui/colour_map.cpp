@@ -10,6 +10,7 @@
 #include "mesh/generate.h"
 
 using namespace chainmail;
+using colours::Ground;
 
 namespace {
 
@@ -34,19 +35,26 @@ class ColourMap : public QObject {
     const auto is = [](QColor colour, const std::array<int, 3>& stop) {
       return colour == QColor(stop[0], stop[1], stop[2]);
     };
-    QVERIFY(is(colour_map::at(0), colour_map::stops.front()));
-    QVERIFY(is(colour_map::at(1), colour_map::stops.back()));
-    QVERIFY(is(colour_map::at(-3), colour_map::stops.front()));
-    QVERIFY(is(colour_map::at(7), colour_map::stops.back()));
-    QVERIFY(is(colour_map::at(0.4), colour_map::stops[2]));  // the third of six
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      const auto& stops = colour_map::stops(ground);
+      QVERIFY(is(colour_map::at(0, ground), stops.front()));
+      QVERIFY(is(colour_map::at(1, ground), stops.back()));
+      QVERIFY(is(colour_map::at(-3, ground), stops.front()));
+      QVERIFY(is(colour_map::at(7, ground), stops.back()));
+      QVERIFY(is(colour_map::at(0.4, ground), stops[2]));  // the third of six
+    }
   }
 
-  void itsLightnessGrowsAllTheWay() {
-    for (int i = 1; i <= 50; ++i) {
-      QVERIFY(lightness(colour_map::at(i / 50.0)) > lightness(colour_map::at((i - 1) / 50.0)));
+  void itsLightnessLeavesTheGroundsAllTheWay() {
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      const double away = ground == Ground::dark ? 1 : -1;
+      const auto at = [&](double share) { return away * lightness(colour_map::at(share, ground)); };
+      for (int i = 1; i <= 50; ++i) {
+        QVERIFY(at(i / 50.0) > at((i - 1) / 50.0));
+      }
+      QVERIFY(at(1) - at(0) > 45);
+      QVERIFY(at(0) - away * lightness(colours::background.on(ground)) > 25);
     }
-    QVERIFY(lightness(colour_map::at(1)) - lightness(colour_map::at(0)) > 45);
-    QVERIFY(lightness(colour_map::at(0)) - lightness(colours::background) > 25);
   }
 };
 

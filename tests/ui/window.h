@@ -12,6 +12,7 @@
 #include "mesh/generate.h"
 #include "panel.h"
 #include "startup.h"
+#include "theme.h"
 
 namespace chainmail {
 
@@ -112,6 +113,7 @@ int runWindowTest(int argc, char** argv) {
   QTemporaryDir settings;
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
   QApplication application(argc, argv);
+  remember(Theme::dark);  // whatever the desktop looks like
   styleApplication();
   if (const QString why = whyNoWindow(); !why.isEmpty()) {
     qCritical("%s", qPrintable(why));

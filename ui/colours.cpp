@@ -1,0 +1,66 @@
+#include "colours.h"
+
+#include <QEvent>
+#include <QGuiApplication>
+#include <QPalette>
+#include <QWidget>
+#include <cmath>
+
+namespace chainmail {
+namespace {
+
+constexpr int strongerPercent = 125, darkerFace = 320;
+constexpr double faceOnLight = 0.22;  // of the links' colour; the rest is the background's
+constexpr int middleLightness = 128;
+
+/// Hears of every change of the palette, and tells of those that change the ground.
+class ThemeFollower : public QObject {
+ public:
+  ThemeFollower(QWidget& widget, std::function<void()> apply)
+      : QObject(&widget), apply_(std::move(apply)), ground_(colours::ground()) {
+    widget.installEventFilter(this);
+    apply_();
+  }
+
+  bool eventFilter(QObject* /*watched*/, QEvent* event) override {
+    const bool palette = event->type() == QEvent::PaletteChange || event->type() == QEvent::ApplicationPaletteChange;
+    if (palette && colours::ground() != ground_) {
+      ground_ = colours::ground();  // first: what is applied may change the widget's palette
+      apply_();
+    }
+    return false;
+  }
+
+ private:
+  std::function<void()> apply_;
+  colours::Ground ground_;
+};
+
+}  // namespace
+
+namespace colours {
+
+Ground ground() {
+  const int lightness = QGuiApplication::palette().color(QPalette::Window).lightness();
+  return lightness < middleLightness ? Ground::dark : Ground::light;
+}
+
+QColor stronger(const QColor& colour) {
+  return ground() == Ground::dark ? colour.lighter(strongerPercent) : colour.darker(strongerPercent);
+}
+
+QColor faint(const QColor& colour) {
+  if (ground() == Ground::dark) {
+    return colour.darker(darkerFace);
+  }
+  const QColor behind = background;
+  const auto mixed = [](float of, float with) { return float(with + faceOnLight * (of - with)); };
+  return QColor::fromRgbF(mixed(colour.redF(), behind.redF()), mixed(colour.greenF(), behind.greenF()),
+                          mixed(colour.blueF(), behind.blueF()));
+}
+
+}  // namespace colours
+
+void followTheme(QWidget& widget, std::function<void()> apply) { new ThemeFollower(widget, std::move(apply)); }
+
+}  // namespace chainmail

@@ -1,0 +1,96 @@
+#include "theme.h"
+
+#include <QApplication>
+#include <QPalette>
+#include <QSettings>
+#include <optional>
+
+namespace chainmail {
+namespace {
+
+using colours::Colour;
+using colours::Ground;
+
+QString themeKey() { return QStringLiteral("theme"); }
+QString systemKey() { return QStringLiteral("systemTheme"); }
+QString darkName() { return QStringLiteral("dark"); }
+QString lightName() { return QStringLiteral("light"); }
+
+struct Role {
+  QPalette::ColorRole role;
+  Colour colour;
+};
+
+constexpr Colour faintText(0xff98a0ab, 0xff59616c), checkedEdge(0xff3f93cb, 0xff4a90c0),
+    checked(0xff1f5f8b, 0xffb8dcf2);
+
+constexpr std::array roles{Role{QPalette::Window, {0xff242930, 0xffeceef1}},
+                           Role{QPalette::WindowText, {0xffe4e7eb, 0xff1a1e24}},
+                           Role{QPalette::Base, {0xff1b1f25, 0xffffffff}},
+                           Role{QPalette::AlternateBase, {0xff242930, 0xfff3f5f7}},
+                           Role{QPalette::ToolTipBase, {0xff1b1f25, 0xffffffff}},
+                           Role{QPalette::ToolTipText, {0xffe4e7eb, 0xff1a1e24}},
+                           Role{QPalette::PlaceholderText, faintText},
+                           Role{QPalette::Text, {0xffe4e7eb, 0xff1a1e24}},
+                           Role{QPalette::Button, {0xff30363f, 0xffe2e5e9}},
+                           Role{QPalette::ButtonText, {0xffe4e7eb, 0xff1a1e24}},
+                           Role{QPalette::BrightText, {0xffffffff, 0xffffffff}},
+                           Role{QPalette::Light, {0xff464e59, 0xffffffff}},
+                           Role{QPalette::Midlight, {0xff3a414b, 0xffd4d8de}},
+                           Role{QPalette::Mid, {0xff3a414b, 0xffc2c7ce}},
+                           Role{QPalette::Dark, {0xff14171c, 0xff9aa1ab}},
+                           Role{QPalette::Shadow, {0xff0c0e11, 0xff6b727c}},
+                           Role{QPalette::Highlight, {0xff2a78ad, 0xffa9d2ee}},
+                           Role{QPalette::HighlightedText, {0xffffffff, 0xff1a1e24}},
+                           Role{QPalette::Link, {0xff56b4e9, 0xff0068a8}},
+                           Role{QPalette::LinkVisited, {0xffc9a0e8, 0xff6b3fa0}}};
+
+QPalette paletteOn(Ground ground) {
+  QPalette palette;
+  for (const Role& one : roles) {
+    palette.setColor(one.role, one.colour.on(ground));
+  }
+  for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
+    palette.setColor(QPalette::Disabled, role, faintText.on(ground));
+  }
+  return palette;
+}
+
+std::optional<Ground> named(const QString& name) {
+  return name == darkName()    ? std::optional(Ground::dark)
+         : name == lightName() ? std::optional(Ground::light)
+                               : std::nullopt;
+}
+
+QString nameOf(Ground ground) { return ground == Ground::dark ? darkName() : lightName(); }
+
+}  // namespace
+
+Theme rememberedTheme() {
+  const auto ground = named(QSettings().value(themeKey()).toString());
+  return !ground ? Theme::system : *ground == Ground::dark ? Theme::dark : Theme::light;
+}
+
+Ground rememberedGround() {
+  const QSettings settings;
+  const auto chosen = named(settings.value(themeKey()).toString());
+  return chosen ? *chosen : named(settings.value(systemKey()).toString()).value_or(Ground::dark);
+}
+
+void remember(Theme theme) {
+  QSettings settings;
+  settings.setValue(themeKey(), theme == Theme::system ? QStringLiteral("system")
+                                                       : nameOf(theme == Theme::dark ? Ground::dark : Ground::light));
+}
+
+void rememberSystem(Ground ground) { QSettings().setValue(systemKey(), nameOf(ground)); }
+
+void applyGround(Ground ground) {
+  QApplication::setPalette(paletteOn(ground));
+  // Fusion hardly tells a checked button from an unchecked one.
+  qApp->setStyleSheet(QStringLiteral("QToolButton:checked { background: %1; border: 1px solid %2; border-radius: 3px; "
+                                     "padding: 3px 6px; }")
+                          .arg(checked.on(ground).name(), checkedEdge.on(ground).name()));
+}
+
+}  // namespace chainmail
