@@ -1,162 +1,249 @@
 #include "frame_rate_dock.h"
 
-#include <QChart>
-#include <QChartView>
-#include <QGraphicsLayout>
-#include <QGridLayout>
-#include <QGuiApplication>
-#include <QLineSeries>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QSettings>
+#include <QToolButton>
 #include <QVBoxLayout>
-#include <QValueAxis>
-#include <algorithm>
 
-#include "colours.h"
+#include "files/outputs.h"
+#include "icons.h"
+#include "mesh/error.h"
 #include "panel.h"
 #include "parameter_row.h"
+#include "text.h"
 
 namespace chainmail {
 namespace {
 
 constexpr int refreshMilliseconds = 200;
-constexpr double secondsShown = 10;
-constexpr int figureWidth = 54;  // pixels: what 1,000,000 takes
 
-QLabel* figure(const QString& name, colours::Colour colour) {
-  auto* label = new QLabel(QStringLiteral("–"));
-  label->setObjectName(name);
-  label->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  label->setMinimumWidth(figureWidth);
-  followTheme(*label, [label, colour] { label->setStyleSheet(QStringLiteral("color:%1").arg(QColor(colour).name())); });
-  return label;
-}
+QString quantityKey() { return QStringLiteral("rateQuantity"); }
+QString spanKey() { return QStringLiteral("rateSeconds"); }
 
 }  // namespace
 
 FrameRateDock::FrameRateDock(Document& document, std::vector<Panel*> panels,
                              const std::vector<colours::Colour>& colours)
-    : QDockWidget(QStringLiteral("Frame rate")), document_(document), panels_(std::move(panels)) {
+    : QDockWidget(QStringLiteral("Frame rate")),
+      document_(document),
+      panels_(std::move(panels)),
+      colours_(colours),
+      histories_(panels_.size()),
+      passesSeen_(panels_.size(), 0),
+      figures_(new RateFigures(document, colours)),
+      plot_(new RatePlot),
+      quantity_(new QComboBox),
+      span_(new QComboBox),
+      menu_(new QMenu(QStringLiteral("&Rates over time"), this)) {
   setObjectName(QStringLiteral("frameRateDock"));
+  plot_->setObjectName(QStringLiteral("ratePlot"));
+  plot_->setAccessibleName(QStringLiteral("Rates of the panels over time"));
+  plot_->setToolTip(QStringLiteral("A line a panel, in its colour; it breaks off where nothing happened"));
+  addActions();
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
-  auto* grid = new QGridLayout;
-  grid->addWidget(new QLabel(QStringLiteral("Painted frames/s")), 1, 0);
-  grid->addWidget(new QLabel(QStringLiteral("Passes/s")), 2, 0);
-  grid->addWidget(new QLabel(QStringLiteral("ms a pass, median")), 3, 0);
-  grid->addWidget(new QLabel(QStringLiteral("ms a pass, worst")), 4, 0);
-  grid->itemAtPosition(1, 0)->widget()->setToolTip(QStringLiteral("Frames that reached the screen in the last second"));
-  grid->itemAtPosition(2, 0)->widget()->setToolTip(
-      QStringLiteral("1 over the median time of a pass: what the algorithm alone could do"));
-  for (int panel = 0; panel < Document::panels; ++panel) {
-    Column& own = columns_[panel];
-    auto* title = figure(QString(), colours[panel]);
-    title->setText(panel == 0 ? QStringLiteral("Left") : QStringLiteral("Right"));
-    own.painted = figure(QStringLiteral("painted%1").arg(panel), colours[panel]);
-    own.passes = figure(QStringLiteral("passes%1").arg(panel), colours[panel]);
-    own.median = figure(QStringLiteral("median%1").arg(panel), colours[panel]);
-    own.worst = figure(QStringLiteral("worst%1").arg(panel), colours[panel]);
-    int row = 0;
-    for (QLabel* label : {title, own.painted, own.passes, own.median, own.worst}) {
-      grid->addWidget(label, row++, panel + 1);
-    }
-  }
-  column->addLayout(grid);
-  column->addWidget(makeChart(colours), 1);
+  column->setContentsMargins(5, 4, 5, 4);
+  column->setSpacing(4);
+  column->addWidget(figures_);
+  column->addWidget(makeControls());
+  column->addWidget(plot_, 1);
   content->setMinimumWidth(dockWidth);
   setWidget(content);
   clock_.start();
   timer_.setInterval(refreshMilliseconds);
-  connect(&timer_, &QTimer::timeout, this, qOverload<>(&FrameRateDock::refresh));
-  connect(&document, &Document::frameReady, this, [this] {
-    if (!timer_.isActive()) {
-      timer_.start();
-    }
-  });
+  connect(&timer_, &QTimer::timeout, this, &FrameRateDock::refresh);
+  connect(&document, &Document::frameReady, this, &FrameRateDock::receive);
+  showPlot();
 }
 
-QWidget* FrameRateDock::makeChart(const std::vector<colours::Colour>& colours) {
-  auto* chart = new QChart;
-  chart->legend()->hide();
-  chart->setBackgroundVisible(false);
-  chart->setMargins({});
-  chart->layout()->setContentsMargins(0, 0, 0, 0);
-  time_ = new QValueAxis;
-  milliseconds_ = new QValueAxis;
-  time_->setLabelsVisible(false);
-  time_->setTickCount(2);
-  milliseconds_->setTickCount(3);
-  milliseconds_->setLabelFormat(QStringLiteral("%.3g"));
-  chart->addAxis(time_, Qt::AlignBottom);
-  chart->addAxis(milliseconds_, Qt::AlignLeft);
-  for (int panel = 0; panel < Document::panels; ++panel) {
-    auto* series = new QLineSeries;
-    chart->addSeries(series);
-    series->attachAxis(time_);
-    series->attachAxis(milliseconds_);
-    columns_[panel].series = series;
+void FrameRateDock::fillChoices() {
+  quantity_->setObjectName(QStringLiteral("rateQuantity"));
+  quantity_->setAccessibleName(QStringLiteral("What is plotted"));
+  for (const RateQuantity& one : rateQuantities()) {
+    quantity_->addItem(QStringLiteral("%1 (%2)").arg(text(one.label), text(one.unit)), text(one.name));
+    quantity_->setItemData(quantity_->count() - 1, text(one.help), Qt::ToolTipRole);
   }
-  scaleChart(0);
-  auto* view = new QChartView(chart);
-  view->setToolTip(QStringLiteral("Milliseconds a pass over the last 10 seconds"));
-  view->setMinimumHeight(110);
-  view->setFrameShape(QFrame::NoFrame);
-  view->setBackgroundBrush(Qt::NoBrush);
-  followTheme(*view, [this, colours] {
-    for (QValueAxis* axis : {time_, milliseconds_}) {
-      axis->setLabelsColor(QGuiApplication::palette().color(QPalette::WindowText));
-      axis->setGridLineColor(QGuiApplication::palette().color(QPalette::Mid));
-    }
-    for (int panel = 0; panel < Document::panels; ++panel) {
-      columns_[panel].series->setPen(QPen(QColor(colours[std::size_t(panel)]), 1.5));
-    }
-  });
-  return view;
+  quantity_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  span_->setObjectName(QStringLiteral("rateSpan"));
+  span_->setAccessibleName(QStringLiteral("Stretch of time that is plotted"));
+  span_->setToolTip(QStringLiteral("How far back the plot reaches; the last 10 minutes are kept"));
+  for (const int seconds : {10, 30, 60, 300, 600}) {
+    span_->addItem(seconds < 60 ? QStringLiteral("%1 s").arg(seconds) : QStringLiteral("%1 min").arg(seconds / 60),
+                   seconds);
+  }
+  const QSettings settings;
+  quantity_->setCurrentIndex(std::max(0, quantity_->findData(settings.value(quantityKey(), QStringLiteral("ms")))));
+  span_->setCurrentIndex(std::max(0, span_->findData(settings.value(spanKey(), 10).toInt())));
+  connect(quantity_, &QComboBox::activated, this, &FrameRateDock::choose);
+  connect(span_, &QComboBox::activated, this, &FrameRateDock::choose);
 }
 
+QWidget* FrameRateDock::makeControls() {
+  fillChoices();
+  auto* pause = new QToolButton;
+  pause->setDefaultAction(pause_);
+  auto* save = new QToolButton;  // its list is the menu's, but for the first
+  save->setObjectName(QStringLiteral("rateSave"));
+  save->setIcon(icon("save"));
+  save->setAccessibleName(QStringLiteral("Save the rates as a table or a picture"));
+  save->setToolTip(save->accessibleName());
+  save->setPopupMode(QToolButton::InstantPopup);
+  save->addActions(menu_->actions().mid(1));
+  auto* controls = new QWidget;
+  auto* column = new QVBoxLayout(controls);
+  column->setContentsMargins(0, 2, 0, 0);
+  column->setSpacing(4);
+  auto* row = new QHBoxLayout;
+  row->addWidget(span_, 1);
+  row->addWidget(pause);
+  row->addWidget(save);
+  column->addWidget(quantity_);
+  column->addLayout(row);
+  return controls;
+}
+
+void FrameRateDock::addActions() {
+  pause_ = menu_->addAction(QStringLiteral("&Pause the plot"));
+  pause_->setObjectName(QStringLiteral("pauseRates"));
+  pause_->setIcon(icon("pause"));
+  pause_->setIconText(QStringLiteral("Pause"));
+  pause_->setCheckable(true);
+  pause_->setShortcut(Qt::Key_Pause);
+  pause_->setStatusTip(
+      QStringLiteral("The plot of the frame rate stands still, and nothing is added to it, until it "
+                     "goes on"));
+  auto* table = menu_->addAction(QStringLiteral("Save rates as &table…"), this, &FrameRateDock::saveTable);
+  table->setIcon(icon("save"));
+  table->setObjectName(QStringLiteral("saveRateTable"));
+  table->setStatusTip(QStringLiteral("All quantities of the last 10 minutes with all digits, time in seconds, as CSV"));
+  auto* picture = menu_->addAction(QStringLiteral("Save rates as p&icture…"), this, &FrameRateDock::savePicture);
+  picture->setIcon(icon("picture"));
+  picture->setObjectName(QStringLiteral("saveRatePicture"));
+  picture->setStatusTip(QStringLiteral("The plot as it stands, with its legend, as PNG or, for print, as PDF"));
+}
+
+void FrameRateDock::receive(int panel) {
+  if (std::size_t(panel) >= panels_.size()) {
+    return;
+  }
+  const Frame* frame = document_.frame(panel);
+  if (frame != nullptr && !pause_->isChecked()) {
+    RateSample sample = read(panel);
+    if (std::exchange(passesSeen_[std::size_t(panel)], frame->statistics.passes) == frame->statistics.passes) {
+      sample.ms = sample.medianMs = sample.worstMs = RateSample::none;
+    }
+    histories_[std::size_t(panel)].add(sample);
+  }
+  if (!timer_.isActive()) {
+    timer_.start();
+  }
+}
+
+/// What there is to say of a panel now.
+RateSample FrameRateDock::read(int panel) {
+  RateSample sample;
+  sample.time = now();
+  sample.painted = panels_[std::size_t(panel)]->view().meter().framesPerSecond();
+  sample.algorithm = document_.algorithm(panel);
+  if (const Frame* frame = document_.frame(panel)) {
+    const Statistics& statistics = frame->statistics;
+    sample.violationMax = statistics.violation.max;
+    sample.violationRms = statistics.violation.rms;
+    sample.ofWholeMesh = statistics.violation_of_whole_mesh;
+    if (statistics.last_second.passes != 0) {
+      sample.ms = statistics.last_pass_ms;
+      sample.medianMs = statistics.last_second.median_ms;
+      sample.worstMs = statistics.last_second.worst_ms;
+    }
+  }
+  return sample;
+}
+
+/// What is painted may go on, or end, without a frame of the solver's.
 void FrameRateDock::refresh() {
-  const double now = double(clock_.elapsed()) / 1000;
   bool busy = false;
-  for (int panel = 0; panel < Document::panels; ++panel) {
-    busy = refresh(panel, now) || busy;
+  for (int panel = 0; panel < int(panels_.size()); ++panel) {
+    const RateSample sample = read(panel);
+    figures_->show(panel, sample);
+    busy = busy || sample.painted > 0;
+    if (!pause_->isChecked()) {
+      RateSample painted;
+      painted.time = sample.time;
+      painted.painted = sample.painted;
+      painted.algorithm = sample.algorithm;
+      histories_[std::size_t(panel)].add(painted);
+    }
   }
-  scaleChart(now);
+  if (!pause_->isChecked()) {
+    shownTo_ = now();
+    showPlot();
+  }
   if (!busy) {
     timer_.stop();  // until the next frame
   }
 }
 
-bool FrameRateDock::refresh(int panel, double now) {
-  Column& own = columns_[panel];
-  const Frame* frame = document_.frame(panel);
-  const int painted = panels_[panel]->view().meter().framesPerSecond();
-  own.painted->setText(painted == 0 ? QStringLiteral("idle") : QString::number(painted));
-  if (frame == nullptr) {
-    return true;
-  }
-  const auto& statistics = frame->statistics;
-  if (statistics.passes != own.passesSeen && statistics.last_second.passes != 0) {
-    own.passesSeen = statistics.passes;
-    const QLocale locale;
-    const auto& times = statistics.last_second;
-    own.passes->setText(times.median_ms > 0 ? locale.toString(1000 / times.median_ms, 'f', 0) : QStringLiteral("–"));
-    own.median->setText(locale.toString(times.median_ms, 'f', 3));
-    own.worst->setText(locale.toString(times.worst_ms, 'f', 3));
-    own.series->append(now, times.median_ms);
-  }
-  while (own.series->count() > 0 && own.series->at(0).x() < now - secondsShown) {
-    own.series->remove(0);
-  }
-  return painted != 0;
+void FrameRateDock::choose() {
+  QSettings settings;
+  settings.setValue(quantityKey(), quantity_->currentData());
+  settings.setValue(spanKey(), span_->currentData());
+  showPlot();
 }
 
-void FrameRateDock::scaleChart(double now) {
-  double highest = 0;
-  for (const Column& own : columns_) {
-    for (const QPointF& point : own.series->points()) {
-      highest = std::max(highest, point.y());
-    }
+void FrameRateDock::showPlot() {
+  quantity_->setToolTip(quantity_->currentData(Qt::ToolTipRole).toString());
+  plot_->show(picture());
+}
+
+RatePicture FrameRateDock::picture() const {
+  RatePicture picture;
+  picture.quantity = &rateQuantities()[std::size_t(quantity_->currentIndex())];
+  picture.to = shownTo_;
+  picture.from = shownTo_ - span_->currentData().toDouble();
+  for (std::size_t panel = 0; panel < panels_.size(); ++panel) {
+    picture.curves.push_back({text(info(document_.algorithm(int(panel))).label), colours_[panel],
+                              curveOf(histories_[panel].since(picture.from), *picture.quantity, picture.from,
+                                      picture.to, drawnPoints / panels_.size())});
   }
-  time_->setRange(now - secondsShown, now);
-  milliseconds_->setRange(0, highest > 0 ? highest * 1.2 : 1);
+  return picture;
+}
+
+void FrameRateDock::saveTable() {
+  const QString path =
+      QFileDialog::getSaveFileName(this, QStringLiteral("Save rates as table"), QStringLiteral("rates.csv"),
+                                   QStringLiteral("Comma-separated values (*.csv)"));
+  if (!path.isEmpty()) {
+    saveTablePath(path);
+  }
+}
+
+void FrameRateDock::saveTablePath(const QString& path) {
+  attempt(path, [&] {
+    write_file(std::filesystem::path(path.toStdU16String()), [this](std::ostream& out) { writeCsv(out, histories_); });
+  });
+}
+
+void FrameRateDock::savePicture() {
+  const QString path =
+      QFileDialog::getSaveFileName(this, QStringLiteral("Save rates as picture"), QStringLiteral("rates.png"),
+                                   QStringLiteral("PNG picture (*.png);;PDF for print (*.pdf)"));
+  if (!path.isEmpty()) {
+    savePicturePath(path);
+  }
+}
+
+void FrameRateDock::savePicturePath(const QString& path) {
+  attempt(path, [&] { saveRates(picture(), path); });
+}
+
+void FrameRateDock::attempt(const QString& path, const std::function<void()>& write) {
+  try {
+    write();
+    emit saved(path);
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
 }
 
 }  // namespace chainmail

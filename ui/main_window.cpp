@@ -152,7 +152,7 @@ void MainWindow::makeDocks() {
   addDockWidget(Qt::LeftDockWidgetArea, meshDock);
   makeStiffnessDock();
   addDockWidget(Qt::RightDockWidgetArea, new RelaxationDock(document_));
-  addDockWidget(Qt::RightDockWidgetArea, new FrameRateDock(document_, panels_, {colours::left, colours::right}));
+  makeFrameRateDock();
   makeReportDock();
   auto* menu = menuBar()->addMenu(QStringLiteral("&Docks"));
   for (QDockWidget* dock : findChildren<QDockWidget*>()) {
@@ -167,6 +167,14 @@ void MainWindow::makeStiffnessDock() {
   connect(&dock->presets(), &PresetRow::failed, messages_, &MessageBar::say);
   connect(&dock->presets(), &PresetRow::told, this,
           [this](const QString& sentence) { statusBar()->showMessage(sentence, savedMilliseconds); });
+}
+
+void MainWindow::makeFrameRateDock() {
+  auto* dock = new FrameRateDock(document_, panels_, {colours::left, colours::right});
+  addDockWidget(Qt::RightDockWidgetArea, dock);
+  findChild<QMenu*>(QStringLiteral("viewMenu"))->addMenu(&dock->menu());
+  connect(dock, &FrameRateDock::failed, messages_, &MessageBar::say);
+  connect(dock, &FrameRateDock::saved, files_, &FileActions::saved);
 }
 
 /// Under the panels, and out of sight until it is asked for.

@@ -53,6 +53,7 @@ class MainWindow : public QMainWindow {
   void makeTools();
   void makeDocks();
   void makeStiffnessDock();
+  void makeFrameRateDock();
   void makeReportDock();
   void makeMenus();
   void fillEditMenu(QMenu& menu);

@@ -7,6 +7,7 @@
 #include <QStandardItemModel>
 #include <algorithm>
 
+#include "icons.h"
 #include "mesh/error.h"
 #include "text.h"
 
@@ -24,6 +25,7 @@ PresetRow::PresetRow(Document& document)
       name_(new QLineEdit),
       more_(new QToolButton),
       menu_(new QMenu(QStringLiteral("&Presets of softness"), this)) {
+  menu_->setIcon(icon("preset"));
   arrange();
   addActions();
   connect(field_, &QComboBox::activated, this, &PresetRow::choose);

@@ -1,6 +1,8 @@
 #include "stiffness_dock.h"
 
 #include <QScrollArea>
+#include <QScrollBar>
+#include <algorithm>
 
 #include "selected_links.h"
 
@@ -31,7 +33,9 @@ StiffnessDock::StiffnessDock(Document& document)
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setMinimumWidth(dockWidth);
+  // The bar that scrolls must not lie over what it scrolls.
+  scroll->setMinimumWidth(
+      std::max(dockWidth, content->minimumSizeHint().width() + scroll->verticalScrollBar()->sizeHint().width()));
   setWidget(scroll);
   connect(&document, &Document::softnessChanged, this, &StiffnessDock::showSoftness);
   showSoftness();

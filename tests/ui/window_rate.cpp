@@ -1,0 +1,227 @@
+// The frame rate over time, in a real window.
+
+#include <QComboBox>
+#include <QDir>
+#include <QFile>
+#include <QImage>
+#include <QLabel>
+#include <sstream>
+
+#include "frame_rate_dock.h"
+#include "message_bar.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+struct RateBench : Workbench {
+  RateBench() : Workbench(generate({MeshKind::grid, {9, 7, 1}, 1, {}})) {}
+
+  FrameRateDock& dock() { return *window.findChild<FrameRateDock*>(); }
+  const RatePicture& plot() { return find<RatePlot>("ratePlot")->picture(); }
+  void shake() {
+    const QPoint from = place(0, 31);
+    QList<QPoint> there{from};
+    for (int i = 0; i < 12; ++i) {
+      there << from + QPoint(i % 2 == 0 ? 120 : 0, -60);
+    }
+    stroke(0, there);
+  }
+  void set(const char* box, const QVariant& data) {
+    auto* field = find<QComboBox>(box);
+    field->setCurrentIndex(field->findData(data));
+    emit field->activated(field->currentIndex());
+  }
+  /// The points of a panel's lines.
+  QPolygonF points(std::size_t panel) {
+    QPolygonF all;
+    for (const QPolygonF& line : plot().curves[panel].lines) {
+      all += line;
+    }
+    return all;
+  }
+  void rest() { QTRY_COMPARE(find<QLabel>("painted0")->text(), QStringLiteral("idle")); }
+};
+
+QByteArray bytesOf(const QString& path) {
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+RateSample sampleAt(double time, double ms) {
+  RateSample sample;
+  sample.time = time;
+  sample.ms = ms;
+  return sample;
+}
+
+const RateQuantity& quantity(std::string_view name) {
+  return *std::ranges::find(rateQuantities(), name, &RateQuantity::name);
+}
+
+std::vector<QPolygonF> curve(const std::vector<RateSample>& samples, double from, double to, std::size_t points) {
+  return curveOf(samples, quantity("ms"), from, to, points);
+}
+
+std::size_t pointsIn(const std::vector<QPolygonF>& lines) {
+  std::size_t points = 0;
+  for (const QPolygonF& line : lines) {
+    points += std::size_t(line.size());
+  }
+  return points;
+}
+
+}  // namespace
+
+class WindowRate : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  void spikesStayHoweverManySamplesThereAre() {
+    std::vector<RateSample> samples;
+    for (int i = 0; i < 36'000; ++i) {
+      samples.push_back(sampleAt(i / 60.0, i == 17'777 ? 40 : i == 20'001 ? 0.001 : 1 + 0.1 * (i % 7)));
+    }
+    const auto lines = curve(samples, 0, 600, 500);
+    QCOMPARE(lines.size(), std::size_t{1});
+    QVERIFY(pointsIn(lines) <= 500);
+    QVERIFY(lines[0].contains(QPointF(17'777 / 60.0, 40)) && lines[0].contains(QPointF(20'001 / 60.0, 0.001)));
+    QVERIFY(std::ranges::is_sorted(lines[0], {}, &QPointF::x));
+    // Few samples are all drawn.
+    samples.resize(300);
+    QCOMPARE(pointsIn(curve(samples, 0, 10, 500)), std::size_t{300});
+  }
+
+  void aLineBreaksOffWhereNothingHappened() {
+    const std::vector<RateSample> samples{sampleAt(1, 5), sampleAt(1.5, 6), sampleAt(4, 7), sampleAt(7.1, 2400)};
+    const auto lines = curve(samples, 0, 10, 100);
+    // The last pass began 0.7 s after the one before ended.
+    QCOMPARE(lines.size(), std::size_t{2});
+    QCOMPARE(lines[0], (QPolygonF{{1, 5}, {1.5, 6}}));
+    QCOMPARE(lines[1], (QPolygonF{{4, 7}, {7.1, 2400}}));
+    QVERIFY(curve({}, 0, 10, 100).empty());
+    // However often it breaks off, there are no more points than asked for.
+    std::vector<RateSample> sparse;
+    for (int i = 0; i < 3000; ++i) {
+      sparse.push_back(sampleAt(0.2 * i + (i / 5) * 1.2, i));
+    }
+    QVERIFY(pointsIn(curve(sparse, 0, sparse.back().time, 500)) <= 500);
+  }
+
+  void theHistoryKeepsTenMinutes() {
+    RateHistory history;
+    for (int i = 0; i <= 4000; ++i) {
+      history.add(sampleAt(i, 1));
+    }
+    QVERIFY(history.samples().size() <= 1300);  // twice as many at most: old ones go in large pieces
+    QCOMPARE(history.since(3900).size(), std::size_t{102});
+    QCOMPARE(history.since(3900).front().time, 3899.0);
+  }
+
+  void bothPanelsAreOnOnePlot() {
+    RateBench bench;
+    bench.shake();
+    bench.rest();
+    for (const RateQuantity& one : rateQuantities()) {
+      bench.set("rateQuantity", QString::fromUtf8(one.name.data(), qsizetype(one.name.size())));
+      QCOMPARE(bench.plot().quantity->name, one.name);
+      QCOMPARE(bench.plot().curves.size(), bench.document().panels);
+      for (std::size_t panel = 0; panel < 2; ++panel) {
+        const QPolygonF points = bench.points(panel);
+        QVERIFY2(points.size() > 3, one.name.data());
+        QVERIFY(std::ranges::any_of(points, [](const QPointF& point) { return point.y() > 0; }) ||
+                one.name.starts_with("violation"));
+      }
+    }
+    QVERIFY(QColor(bench.plot().curves[0].colour) != QColor(bench.plot().curves[1].colour));
+    QCOMPARE(bench.plot().curves[0].name, QStringLiteral("Generalized ChainMail"));
+    QVERIFY(bench.find<QLabel>("rateName1")->text().contains(QStringLiteral("Natural Queue")));
+    bench.set("rateSpan", 60);
+    QCOMPARE(bench.plot().to - bench.plot().from, 60.0);
+    bench.choose(0, "Spiral");
+    QVERIFY(bench.find<QLabel>("rateName0")->text().contains(QStringLiteral("Spiral")));
+  }
+
+  void aPlotStandsStillWhereItIsPausedOrNothingHappens() {
+    RateBench bench;
+    bench.shake();
+    bench.rest();
+    QTest::qWait(300);
+    const auto before = bench.points(0);
+    const double to = bench.plot().to;
+    QTest::qWait(600);  // three times as long as between two readings
+    QCOMPARE(bench.plot().to, to);
+    bench.trigger("pauseRates");
+    bench.shake();
+    bench.rest();
+    QCOMPARE(bench.points(0), before);
+    QCOMPARE(bench.plot().to, to);
+    bench.trigger("pauseRates");
+    bench.shake();
+    bench.rest();
+    QVERIFY(bench.plot().to > to);
+    QVERIFY(bench.points(0) != before);
+  }
+
+  void theTableHoldsAllQuantitiesExactly() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("rates.csv"));
+    RateBench bench;
+    bench.shake();
+    const double ms = bench.document().frame(0)->statistics.last_pass_ms;
+    bench.rest();
+    QCOMPARE(bench.points(0).last().y(), ms);
+    QVERIFY(std::uint64_t(bench.points(0).size()) <= bench.document().frame(0)->statistics.passes);
+    bench.dock().saveTablePath(path);
+    const QList<QByteArray> rows = bytesOf(path).trimmed().split('\n');
+    QVERIFY(rows[0].startsWith("time_s,panel,algorithm,painted_per_s,passes_per_s,pass_ms,"));
+    double time = 0;
+    bool found = false;
+    for (const QByteArray& row : rows.mid(1)) {
+      const QList<QByteArray> fields = row.split(',');
+      QCOMPARE(fields.size(), rows[0].split(',').size());
+      QVERIFY(fields[0].toDouble() >= time);
+      time = fields[0].toDouble();
+      found = found || (fields[1] == "1" && fields[2] == "generalized" && fields[5].toDouble() == ms);
+      // The painted rate is there always, the solver's where there was a pass.
+      QVERIFY(!fields[3].isEmpty());
+      QCOMPARE(fields[4].isEmpty(), fields[5].isEmpty());
+    }
+    QVERIFY(found);
+  }
+
+  void thePlotIsSavedAsPictureAndForPrint() {
+    const QTemporaryDir folder;
+    RateBench bench;
+    bench.set("rateQuantity", QStringLiteral("painted"));
+    bench.shake();
+    bench.rest();
+    bench.dock().savePicturePath(folder.filePath(QStringLiteral("rates.png")));
+    const QImage picture(folder.filePath(QStringLiteral("rates.png")));
+    QVERIFY(picture.width() > 1500);
+    for (const RatePicture::Curve& curve : bench.plot().curves) {
+      int pixels = 0;
+      for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+          pixels += picture.pixelColor(x, y) == curve.colour.on(colours::Ground::light) ? 1 : 0;
+        }
+      }
+      QVERIFY(pixels > 100);  // the line of the legend alone is longer
+    }
+    bench.dock().savePicturePath(folder.filePath(QStringLiteral("rates.pdf")));
+    QVERIFY(bytesOf(folder.filePath(QStringLiteral("rates.pdf"))).startsWith("%PDF-"));
+    bench.dock().savePicturePath(folder.filePath(QStringLiteral("missing/rates.png")));
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("missing")));
+    bench.dock().saveTablePath(folder.filePath(QStringLiteral("missing/rates.csv")));
+    QVERIFY(bench.window.messages().isVisible());
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowRate>(argc, argv); }
+#include "window_rate.moc"

@@ -1,0 +1,197 @@
+#include "rate_plot.h"
+
+#include <QPainter>
+#include <QPdfWriter>
+#include <QSaveFile>
+#include <array>
+#include <cmath>
+
+#include "mesh/error.h"
+#include "report/format.h"
+#include "text.h"
+
+namespace chainmail {
+namespace {
+
+constexpr QSizeF pageSize{160, 90};      // mm
+constexpr QSizeF pictureSize{640, 360};  // logical pixels
+constexpr double picturePixelRatio = 3;
+constexpr double lineWidth = 1.4;
+constexpr int gridColumns = 4;
+
+/// The end of an axis from 0: 1, 2 or 5 times a power of ten.
+double axisEnd(double highest) {
+  if (!(highest > 0)) {
+    return 1;
+  }
+  const double power = std::pow(10, std::floor(std::log10(highest)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (highest <= digit * power) {
+      return digit * power;
+    }
+  }
+  return 10 * power;
+}
+
+double highestOf(const RatePicture& picture) {
+  double highest = 0;
+  for (const RatePicture::Curve& curve : picture.curves) {
+    for (const QPolygonF& line : curve.lines) {
+      for (const QPointF& point : line) {
+        highest = std::max(highest, point.y());
+      }
+    }
+  }
+  return highest;
+}
+
+class Drawing {
+ public:
+  Drawing(QPainter& painter, const QPalette& palette, colours::Ground ground, const RatePicture& picture)
+      : painter_(painter), palette_(palette), ground_(ground), picture_(picture), end_(axisEnd(highestOf(picture))) {}
+
+  void axes(const QRectF& area) {
+    const QFontMetricsF metrics(painter_.font(), painter_.device());
+    const std::array labels{text(report::figure(0)), text(report::figure(end_ / 2)), text(report::figure(end_))};
+    double width = 0;
+    for (const QString& label : labels) {
+      width = std::max(width, metrics.horizontalAdvance(label));
+    }
+    inner_ = area.adjusted(width + 6, metrics.height() / 2, -1, -metrics.height() - 3);
+    for (int i = 0; i < 3; ++i) {
+      const double y = inner_.bottom() - inner_.height() * i / 2;
+      grid({inner_.left(), y, inner_.right(), y});
+      word({area.left(), y - metrics.height() / 2, width, metrics.height()}, Qt::AlignRight, labels[std::size_t(i)]);
+    }
+    for (int i = 0; i <= gridColumns; ++i) {
+      const double x = inner_.left() + inner_.width() * i / gridColumns;
+      grid({x, inner_.top(), x, inner_.bottom()});
+    }
+    const QRectF below(inner_.left(), inner_.bottom() + 2, inner_.width(), metrics.height());
+    word(below, Qt::AlignLeft, QStringLiteral("−%1 s").arg(picture_.to - picture_.from));
+    word(below, Qt::AlignRight, QStringLiteral("0 s"));
+  }
+
+  void curves() {
+    painter_.save();
+    painter_.setClipRect(inner_.adjusted(-1, -1, 1, 1));
+    painter_.setRenderHint(QPainter::Antialiasing);
+    for (const RatePicture::Curve& curve : picture_.curves) {
+      painter_.setPen(QPen(curve.colour.on(ground_), lineWidth, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+      for (QPolygonF line : curve.lines) {
+        for (QPointF& point : line) {
+          point = place(point);
+        }
+        line.size() == 1 ? painter_.drawPoint(line.first()) : painter_.drawPolyline(line);
+      }
+    }
+    painter_.restore();
+  }
+
+  /// What is plotted, and whose the lines are.
+  void heading(const QRectF& area) {
+    const QFontMetricsF metrics(painter_.font(), painter_.device());
+    word(area, Qt::AlignLeft,
+         QStringLiteral("%1 (%2)").arg(text(picture_.quantity->label), text(picture_.quantity->unit)));
+    double right = area.right();
+    for (auto curve = picture_.curves.rbegin(); curve != picture_.curves.rend(); ++curve) {
+      const double width = metrics.horizontalAdvance(curve->name);
+      word({right - width, area.top(), width, area.height()}, Qt::AlignLeft, curve->name);
+      const double y = area.center().y();
+      painter_.setPen(QPen(curve->colour.on(ground_), 2 * lineWidth));
+      painter_.drawLine(QPointF(right - width - 20, y), QPointF(right - width - 6, y));
+      right -= width + 34;
+    }
+  }
+
+ private:
+  void grid(QLineF line) {
+    painter_.setPen(QPen(palette_.color(QPalette::Mid), 0));
+    painter_.drawLine(line);
+  }
+  void word(const QRectF& area, Qt::Alignment alignment, const QString& word) {
+    painter_.setPen(palette_.color(QPalette::WindowText));
+    painter_.drawText(area, int(alignment | Qt::AlignVCenter) | Qt::TextDontClip | Qt::TextSingleLine, word);
+  }
+  QPointF place(QPointF point) const {
+    return {inner_.left() + inner_.width() * (point.x() - picture_.from) / (picture_.to - picture_.from),
+            inner_.bottom() - inner_.height() * point.y() / end_};
+  }
+
+  QPainter& painter_;
+  const QPalette& palette_;
+  colours::Ground ground_;
+  const RatePicture& picture_;
+  double end_;    // of the upright axis
+  QRectF inner_;  // between the axes
+};
+
+/// On paper, in an area of the pictures' size.
+void drawPage(QPainter& painter, const RatePicture& picture) {
+  QPalette paper;
+  paper.setColor(QPalette::WindowText, Qt::black);
+  paper.setColor(QPalette::Mid, Qt::lightGray);
+  QFont font;
+  font.setPixelSize(13);
+  painter.setFont(font);
+  const QRectF area = QRectF({}, pictureSize).adjusted(14, 10, -16, -8);
+  Drawing drawing(painter, paper, colours::Ground::light, picture);
+  drawing.axes(area.adjusted(0, 26, 0, 0));
+  drawing.curves();
+  drawing.heading({area.left(), area.top(), area.width(), 18});
+}
+
+bool writePdf(QIODevice& file, const RatePicture& picture) {
+  QPdfWriter writer(&file);
+  writer.setPageSize(QPageSize(pageSize, QPageSize::Millimeter));
+  writer.setPageMargins({});
+  writer.setTitle(text(picture.quantity->label));
+  QPainter painter;
+  if (!painter.begin(&writer)) {
+    return false;
+  }
+  painter.scale(writer.width() / pictureSize.width(), writer.height() / pictureSize.height());
+  drawPage(painter, picture);
+  return painter.end();
+}
+
+bool writePng(QIODevice& file, const RatePicture& picture) {
+  QImage image((pictureSize * picturePixelRatio).toSize(), QImage::Format_RGB32);
+  image.setDevicePixelRatio(picturePixelRatio);
+  image.fill(Qt::white);
+  QPainter painter(&image);
+  drawPage(painter, picture);
+  painter.end();
+  return image.save(&file, "PNG");
+}
+
+}  // namespace
+
+RatePlot::RatePlot() {
+  setMinimumHeight(90);
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);
+}
+
+void RatePlot::show(RatePicture picture) {
+  picture_ = std::move(picture);
+  update();
+}
+
+void RatePlot::paintEvent(QPaintEvent* /*event*/) {
+  QPainter painter(this);
+  Drawing drawing(painter, palette(), colours::ground(), picture_);
+  drawing.axes(rect());
+  drawing.curves();
+}
+
+void saveRates(const RatePicture& picture, const QString& path) {
+  QSaveFile file(path);
+  const bool asPdf = path.endsWith(QStringLiteral(".pdf"), Qt::CaseInsensitive);
+  if (!file.open(QIODevice::WriteOnly) || !(asPdf ? writePdf(file, picture) : writePng(file, picture)) ||
+      !file.commit()) {
+    throw Error(path.toStdString(), "the picture could not be written (" + file.errorString().toStdString() + ")",
+                "choose another place");
+  }
+}
+
+}  // namespace chainmail
