@@ -17,15 +17,6 @@ constexpr double residual = 1e-12;
 
 constexpr Eigen::Index none = -1;
 
-template <class Visit>
-void for_each_neighbour(const Mesh& mesh, const Cuts& cuts, ElementId element, Visit visit) {
-  for (EntryId entry = mesh.first_entry[element]; entry < mesh.first_entry[element + 1]; ++entry) {
-    if (!cuts.is_cut(mesh.entry_link[entry])) {
-      visit(mesh.neighbours[entry]);
-    }
-  }
-}
-
 /// The elements that uncut links join to one of these, and these.
 std::vector<bool> joined_to(const Mesh& mesh, const Cuts& cuts, std::span<const ElementId> fixed) {
   std::vector<bool> joined(mesh.element_count());
@@ -36,7 +27,7 @@ std::vector<bool> joined_to(const Mesh& mesh, const Cuts& cuts, std::span<const 
   while (!open.empty()) {
     const ElementId element = open.back();
     open.pop_back();
-    for_each_neighbour(mesh, cuts, element, [&](ElementId neighbour) {
+    for_each_neighbour(mesh, cuts, element, [&](ElementId neighbour, EntryId) {
       if (!joined[neighbour]) {
         joined[neighbour] = true;
         open.push_back(neighbour);
@@ -95,7 +86,7 @@ class System {
   /// The matrix is symmetric: its lower half says all.
   void add_row(Eigen::Index i) {
     int degree = 0;
-    for_each_neighbour(mesh_, cuts_, elements_[i], [&](ElementId neighbour) {
+    for_each_neighbour(mesh_, cuts_, elements_[i], [&](ElementId neighbour, EntryId) {
       ++degree;
       if (const Eigen::Index j = unknown_[neighbour]; j > i) {
         matrix_.insert(j, i) = -1;

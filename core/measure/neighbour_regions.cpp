@@ -36,17 +36,14 @@ std::vector<NeighbourRegion> neighbour_regions(const Mesh& mesh, const Softness&
                             : mesh.space_dimension == 2 ? region_of<2>
                                                         : region_of<3>;
   std::vector<NeighbourRegion> regions;
-  for (EntryId entry = mesh.first_entry[about]; entry < mesh.first_entry[about + 1]; ++entry) {
-    const LinkId link = mesh.entry_link[entry];
-    if (regions.size() == at_most) {
-      break;
-    }
-    if (!cuts.is_cut(link)) {
-      regions.push_back(of_dimension(mesh, softness.of(link), position, about, mesh.neighbours[entry]));
+  for_each_neighbour(mesh, cuts, about, [&](ElementId neighbour, EntryId entry) {
+    if (regions.size() < at_most) {
+      const LinkId link = mesh.entry_link[entry];
+      regions.push_back(of_dimension(mesh, softness.of(link), position, about, neighbour));
       regions.back().link = link;
       regions.back().inside = link_violation(mesh, softness, position, link) <= counts_as_violated;
     }
-  }
+  });
   return regions;
 }
 

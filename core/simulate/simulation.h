@@ -50,6 +50,8 @@ class Simulation {
   const Solver& solver() const { return *solver_; }
   const Softness& softness() const { return *softness_; }
   std::optional<ElementId> grabbed() const { return grabbed_; }
+  /// The element that the last pass was about.
+  std::optional<ElementId> last_moved() const { return last_moved_; }
   /// The blocks in which a position may have changed since forget_changes().
   const ElementBlocks& changed() const { return changed_; }
   void forget_changes() { changed_.clear(); }

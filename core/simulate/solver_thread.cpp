@@ -47,6 +47,7 @@ void SolverThread::refuse(const std::string& sentence) {
 }
 
 void SolverThread::carry_out(const Command& command) {
+  recorder_.begin(command, simulation_);
   try {
     simulation_.apply(command);
   } catch (const Error& error) {
@@ -54,6 +55,7 @@ void SolverThread::carry_out(const Command& command) {
   } catch (const std::bad_alloc&) {
     refuse("memory: there is not enough; use a smaller mesh");
   }
+  recorder_.end(simulation_);
   unseen_ = true;
   measured_ = false;
   waiting_.fetch_sub(1, std::memory_order_release);
@@ -133,6 +135,7 @@ void SolverThread::refresh_figures() {
 
 void SolverThread::publish() {
   last_frame_ = Clock::now();
+  recorder_.note_changes(simulation_);
   writer_.publish(simulation_);
   unseen_ = false;
   frame_ready_();

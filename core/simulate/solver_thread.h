@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "simulate/frame_writer.h"
+#include "simulate/pass_recorder.h"
 
 namespace chainmail {
 
@@ -31,6 +32,11 @@ class SolverThread {
   /// Takes the sentence of the last command that was refused, if any.
   std::string take_error();
 
+  /// From now on passes are recorded, or no more.
+  void record_passes(bool on) { recorder_.set_on(on); }
+  /// The last pass that was recorded, as PassRecorder::last.
+  std::unique_ptr<RecordedPass> last_pass(std::uint64_t seen) const { return recorder_.last(seen); }
+
  private:
   void run(const std::stop_token& stop);
   void refuse(const std::string& sentence);
@@ -45,6 +51,7 @@ class SolverThread {
   std::function<void()> frame_ready_;
   TripleBuffer frames_;
   FrameWriter writer_{frames_};
+  PassRecorder recorder_;
   PassTimes::Clock::time_point last_frame_{};
   PassTimes::Clock::time_point next_violation_{};
   bool unseen_ = false;    // something changed since the last frame

@@ -44,6 +44,27 @@ Place<Scalar, Dimension> clamped(Place<Scalar, Dimension> place, const Scalar* l
   return place;
 }
 
+/// How far an element at `x` lies outside its valid region about its sponsor at `about`, in rest lengths. In
+/// double, like the metric; what a mesh without a mean length divides by makes no order.
+template <class Scalar, int Dimension>
+double candidate_violation(const Mesh& mesh, ElementId element, const Scalar* x, ElementId sponsor, const Scalar* about,
+                           const Region<Scalar, Dimension>& region) {
+  double outside = 0, length = 0;
+  for (int k = 0; k < Dimension; ++k) {
+    const Scalar low = about[k] + region.low[k];
+    const Scalar high = about[k] + region.high[k];
+    const double excess = x[k] < low ? double(low) - double(x[k]) : high < x[k] ? double(x[k]) - double(high) : 0;
+    const double rest =
+        mesh.rest[std::size_t{element} * Dimension + k] - mesh.rest[std::size_t{sponsor} * Dimension + k];
+    outside += excess * excess;
+    length += rest * rest;
+  }
+  if (outside == 0) {
+    return 0;
+  }
+  return std::sqrt(outside) / (length > 0 ? std::sqrt(length) : mesh.mean_link_length > 0 ? mesh.mean_link_length : 1);
+}
+
 /// An object as the algorithms of one scalar and one space dimension see it.
 template <class Scalar_, int Dimension_>
 struct Body {
@@ -131,38 +152,15 @@ struct Body {
     return moved;
   }
 
-  /// How far the candidate's element lies outside its valid region about its sponsor, in rest lengths. In
-  /// double, like the metric; what a mesh without a mean length divides by makes no order.
+  /// How far the candidate's element lies outside its valid region about its sponsor, in rest lengths.
   double violation(ElementId element, ElementId sponsor, EntryId entry) const {
-    const Scalar* x = places[element].at;
-    const Scalar* about = places[sponsor].at;
-    double outside = 0, length = 0;
-    for (int k = 0; k < Dimension; ++k) {
-      const Scalar low = about[k] + regions[entry].low[k];
-      const Scalar high = about[k] + regions[entry].high[k];
-      const double excess = x[k] < low ? double(low) - double(x[k]) : high < x[k] ? double(x[k]) - double(high) : 0;
-      const double rest =
-          mesh->rest[std::size_t{element} * Dimension + k] - mesh->rest[std::size_t{sponsor} * Dimension + k];
-      outside += excess * excess;
-      length += rest * rest;
-    }
-    if (outside == 0) {
-      return 0;
-    }
-    return std::sqrt(outside) / (length > 0                   ? std::sqrt(length)
-                                 : mesh->mean_link_length > 0 ? mesh->mean_link_length
-                                                              : 1);
+    return candidate_violation(*mesh, element, places[element].at, sponsor, places[sponsor].at, regions[entry]);
   }
 
   /// Calls visit(neighbour, entry) for each neighbour to which the link is not cut, in the file's order.
   template <class Visit>
   void for_each_neighbour(ElementId element, Visit visit) const {
-    const bool has_cuts = cuts.touches(element);
-    for (EntryId entry = mesh->first_entry[element]; entry < mesh->first_entry[element + 1]; ++entry) {
-      if (!has_cuts || !cuts.is_cut(mesh->entry_link[entry])) {
-        visit(mesh->neighbours[entry], entry);
-      }
-    }
+    chainmail::for_each_neighbour(*mesh, cuts, element, visit);
   }
 
   static constexpr std::uint32_t always = std::numeric_limits<std::uint32_t>::max();

@@ -59,7 +59,7 @@ class ListSolver {
   FrontList front_;
   SpiralList spiral_;
   EnhancedList enhanced_;
-  DirectionLists directions_;
+  DirectionLists<> directions_;
 };
 
 }  // namespace chainmail

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <utility>
 
 #include "solve/propagate.h"
 
@@ -12,10 +13,16 @@ namespace chainmail {
 /// The lists are worked in the order right, left, top, bottom, front, back (+x, −x, +y, −y, +z, −z). A
 /// list feeds itself and those of the axes after its own; the grabbed element feeds all. First in, first
 /// out, all admitted. Arguments and result as in propagate().
+template <class List = BackList>
 class DirectionLists {
  public:
-  template <class Body>
-  void propagate(Body& body, PassRecord& record, ElementId grabbed, std::vector<ElementId>& moved) {
+  static constexpr int list_count = 6;
+
+  DirectionLists() = default;
+  explicit DirectionLists(std::array<List, list_count> lists) : lists_(std::move(lists)) {}
+
+  template <class Body, class Record>
+  void propagate(Body& body, Record& record, ElementId grabbed, std::vector<ElementId>& moved) {
     if (record.begin(body, grabbed, moved)) {
       return;
     }
@@ -39,7 +46,6 @@ class DirectionLists {
   }
 
  private:
-  static constexpr int list_count = 6;
   static constexpr int all_lists = -1;
 
   /// How far apart the ids of neighbours along each axis are; 0 where the lattice is one element thick.
@@ -69,7 +75,7 @@ class DirectionLists {
     });
   }
 
-  std::array<BackList, list_count> lists_;
+  std::array<List, list_count> lists_;
 };
 
 }  // namespace chainmail

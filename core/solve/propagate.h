@@ -9,10 +9,10 @@ namespace chainmail {
 /// The propagation that answers a move: one loop for all algorithms that differ in their waiting list.
 ///
 /// The grabbed element stands at its target already. `moved` receives the elements that moved, in order
-/// of update, without the grabbed one; `record` the candidates taken and not dropped. Each element is updated at
-/// most once (thesis 3.1 and 4.1; Li and Brodlie 2003).
-template <class List, class Body>
-void propagate(Body& body, List& list, PassRecord& record, ElementId grabbed, std::vector<ElementId>& moved) {
+/// of update, without the grabbed one; `record`, a PassRecord or what stands for one, the candidates taken and not
+/// dropped. Each element is updated at most once (thesis 3.1 and 4.1; Li and Brodlie 2003).
+template <class List, class Body, class Record>
+void propagate(Body& body, List& list, Record& record, ElementId grabbed, std::vector<ElementId>& moved) {
   const auto admit_neighbours = [&](ElementId sponsor) {
     body.for_each_neighbour(sponsor, [&](ElementId neighbour, EntryId entry) {
       if (List::admits_updated || !body.updated(neighbour)) {

@@ -1,0 +1,112 @@
+#include "simulate/pass_recorder.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace chainmail {
+namespace {
+
+/// Whether it may be a pass to look at, and changes no position beside. Another algorithm may hold positions otherwise,
+/// and rounds them all, before it answers.
+bool may_be_pass(const Command& command) {
+  return std::holds_alternative<commands::Drag>(command) || std::holds_alternative<commands::SetSoftness>(command);
+}
+
+/// The others change neither cuts, pins nor softness.
+bool changes_conditions(const Command& command) {
+  return !std::holds_alternative<commands::Grab>(command) && !std::holds_alternative<commands::Drag>(command) &&
+         !std::holds_alternative<commands::Release>(command);
+}
+
+}  // namespace
+
+void PassRecorder::set_on(bool on) {
+  const std::lock_guard lock(mutex_);
+  on_ = on;
+  if (!on) {
+    record_ = {};
+    is_whole_ = false;
+  }
+}
+
+std::unique_ptr<RecordedPass> PassRecorder::last(std::uint64_t seen) const {
+  const std::lock_guard lock(mutex_);
+  return is_whole_ && record_.number != seen ? std::make_unique<RecordedPass>(record_) : nullptr;
+}
+
+void PassRecorder::begin(const Command& command, Simulation& simulation) {
+  runs_ = on_ && may_be_pass(command);
+  trace_.clear();
+  simulation.set_trace(runs_ ? &trace_ : nullptr);
+  if (changes_conditions(command)) {
+    conditions_.reset();
+  }
+  if (!runs_) {
+    return;
+  }
+  passes_ = simulation.statistics().passes;
+  const std::lock_guard lock(mutex_);
+  is_whole_ = false;
+  follow(simulation);
+}
+
+/// Copies what has changed since the last pass began.
+void PassRecorder::follow(const Simulation& simulation) {
+  if (record_.mesh != simulation.mesh_pointer()) {
+    record_.mesh = simulation.mesh_pointer();
+    record_.before.resize(record_.mesh->rest.size());
+    pending_ = ElementBlocks(record_.mesh->element_count());
+    conditions_.reset();
+    copy(simulation, 0, record_.mesh->element_count());
+    return;
+  }
+  pending_.insert(simulation.changed());
+  pending_.for_each_run([&](ElementId first, ElementId end) { copy(simulation, first, end); });
+  pending_.clear();
+}
+
+void PassRecorder::copy(const Simulation& simulation, ElementId first, ElementId end) {
+  const auto coordinates = static_cast<std::size_t>(record_.mesh->space_dimension);
+  simulation.solver().copy_positions(
+      first, std::span(record_.before).subspan(coordinates * first, coordinates * (end - first)));
+}
+
+void PassRecorder::end(Simulation& simulation) {
+  simulation.set_trace(nullptr);
+  if (!runs_ || simulation.statistics().passes == passes_ || !simulation.last_moved()) {
+    return;
+  }
+  if (!conditions_) {
+    const auto pins = simulation.solver().pins();
+    conditions_ = std::make_shared<const PassConditions>(
+        PassConditions{simulation.solver().cuts(), {pins.begin(), pins.end()}, simulation.softness()});
+  }
+  const std::lock_guard lock(mutex_);
+  if (on_ && record_.mesh == simulation.mesh_pointer()) {  // else it was switched off meanwhile
+    write(simulation);
+    is_whole_ = true;
+  }
+}
+
+void PassRecorder::write(const Simulation& simulation) {
+  record_.algorithm = simulation.statistics().algorithm;
+  record_.number = simulation.statistics().passes;
+  record_.grabbed = *simulation.last_moved();
+  record_.conditions = conditions_;
+  std::swap(record_.trace, trace_);
+  const auto coordinates = static_cast<std::size_t>(record_.mesh->space_dimension);
+  record_.after.resize(coordinates * (record_.trace.size() + 1));
+  simulation.solver().copy_positions(record_.grabbed, std::span(record_.after).first(coordinates));
+  for (std::size_t row = 0; row < record_.trace.size(); ++row) {
+    simulation.solver().copy_positions(record_.trace[row].element,
+                                       std::span(record_.after).subspan(coordinates * (row + 1), coordinates));
+  }
+}
+
+void PassRecorder::note_changes(const Simulation& simulation) {
+  if (on_ && pending_.block_count() == simulation.changed().block_count()) {
+    pending_.insert(simulation.changed());
+  }
+}
+
+}  // namespace chainmail

@@ -1,0 +1,323 @@
+#include <QtTest>
+#include <set>
+
+#include "core/any_command.h"
+#include "core/threads.h"
+#include "mesh/error.h"
+#include "simulate/pass_recorder.h"
+#include "solve/region.h"
+#include "solve/waiting_history.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Passes as they were recorded: their positions step by step, and what waited at each step.
+class RecordedPassTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void steps_lead_from_before_to_after_data();
+  void steps_lead_from_before_to_after();
+  void each_step_clamps_into_the_region_about_the_sponsor();
+  void the_next_one_on_the_list_is_the_one_that_is_taken();
+  void the_lists_of_a_3x3_grid_by_hand();
+  void three_d_chainmail_empties_one_list_after_another();
+  void what_does_not_lead_through_the_list_is_not_known();
+  void nothing_is_recorded_unless_it_is_asked_for();
+  void another_thread_may_look_at_any_time();
+};
+
+namespace {
+
+/// A simulation as the window runs it, with its recorder.
+struct Recorded {
+  Recorded(const MeshPointer& mesh, Algorithm algorithm) : simulation(mesh, algorithm, Precision::single_precision) {
+    recorder.set_on(true);
+  }
+
+  /// False where the command was refused.
+  bool apply(const Command& command) {
+    bool done = true;
+    recorder.begin(command, simulation);
+    try {
+      simulation.apply(command);
+    } catch (const Error&) {
+      done = false;
+    }
+    recorder.end(simulation);
+    return done;
+  }
+  /// As when a frame is handed over.
+  void publish() {
+    recorder.note_changes(simulation);
+    simulation.forget_changes();
+  }
+  std::unique_ptr<RecordedPass> drag(ElementId element, const Point& to) {
+    apply(commands::Grab{element});
+    apply(commands::Drag{to});
+    return recorder.last(0);
+  }
+
+  Simulation simulation;
+  PassRecorder recorder;
+};
+
+/// The states of a pass, one after another.
+struct Player {
+  explicit Player(const RecordedPass& of) : pass(of), positions(of.before) {
+    place(pass.grabbed, pass.grabbed_after());
+  }
+  void take(std::size_t row) { place(pass.trace[row].element, pass.place_after(row)); }
+  void place(ElementId element, std::span<const float> at) {
+    std::ranges::copy(at, positions.begin() + element * pass.mesh->space_dimension);
+  }
+  float at(ElementId element, int k) const { return positions[std::size_t{element} * pass.mesh->space_dimension + k]; }
+
+  const RecordedPass& pass;
+  std::vector<float> positions;
+};
+
+std::vector<float> played(const RecordedPass& pass) {
+  Player player(pass);
+  for (std::size_t row = 0; row < pass.trace.size(); ++row) {
+    player.take(row);
+  }
+  return player.positions;
+}
+
+bool updated_once(const RecordedPass& pass) {
+  std::set<ElementId> updated{pass.grabbed};
+  return std::ranges::all_of(pass.trace, [&](const TraceRow& row) { return updated.insert(row.element).second; });
+}
+
+bool stays(const RecordedPass& pass, std::size_t row) {
+  return std::ranges::equal(pass.place_before(pass.trace[row].element), pass.place_after(row));
+}
+
+/// Where the element of a row goes along an axis, as the sponsor stands at that step. In a space of three, the axis
+/// first: the others are summed in the order of axes, of which there are two at most.
+float clamped_by_hand(const Player& player, std::size_t row, int k) {
+  const Mesh& mesh = *player.pass.mesh;
+  const auto [element, sponsor, moved] = player.pass.trace[row];
+  double along[3]{};
+  for (int j = 0, next = 1; j < mesh.space_dimension; ++j) {
+    along[j == k ? 0 : next++] = mesh.rest[std::size_t{element} * mesh.space_dimension + j] -
+                                 mesh.rest[std::size_t{sponsor} * mesh.space_dimension + j];
+  }
+  const auto& softness = player.pass.conditions->softness.of(*find_link(mesh, element, sponsor));
+  const auto region = valid_region<float, 3>(along, softness);
+  const float low = player.at(sponsor, k) + region.low[0], high = player.at(sponsor, k) + region.high[0];
+  return std::min(std::max(player.at(element, k), low), high);
+}
+
+/// Whether the list names, as the next one that will not be dropped, what the trace has next, at every step.
+bool leads_through(const RecordedPass& pass, const WaitingHistory& history) {
+  std::set<ElementId> updated(pass.conditions->pins.begin(), pass.conditions->pins.end());
+  updated.insert(pass.grabbed);
+  for (std::size_t step = 0; step < pass.trace.size(); ++step) {
+    const auto waiting = history.at(step);
+    const auto next = std::ranges::find_if(
+        waiting, [&](std::uint32_t i) { return !updated.contains(history.candidates()[i].element); });
+    if (next == waiting.end() || history.candidates()[*next].element != pass.trace[step].element ||
+        history.candidates()[*next].sponsor != pass.trace[step].sponsor) {
+      return false;
+    }
+    updated.insert(pass.trace[step].element);
+  }
+  return history.at(pass.trace.size()).empty();
+}
+
+Softness mixed(const Mesh& mesh, std::mt19937_64& random) {
+  Softness softness{{0.7, 1.3, 0.2}, {}};
+  for (LinkId link = 0; link < mesh.link_count(); link += 3) {
+    softness.links[link] = {uniform(random, 0.2, 1), uniform(random, 1, 2), uniform(random, 0, 0.6)};
+  }
+  return softness;
+}
+
+/// Passes of an algorithm on a mesh, with cuts, a pin and mixed softness, each as it was recorded.
+template <class Check>
+void for_each_pass(const MeshPointer& mesh, Algorithm algorithm, Check check) {
+  std::mt19937_64 random(17);
+  Recorded recorded(mesh, algorithm);
+  recorded.apply(commands::SetSoftness{mixed(*mesh, random)});
+  recorded.apply(commands::Cut{{0, static_cast<LinkId>(random() % mesh->link_count())}});
+  recorded.apply(commands::Pin{{mesh->element_count() - 1}});
+  for (int i = 0; i < 6; ++i) {
+    const auto element = static_cast<ElementId>(random() % (mesh->element_count() - 1));
+    const Point by(uniform(random, -3, 3), uniform(random, -3, 3), uniform(random, -3, 3));
+    const auto pass = recorded.drag(element, position_of(recorded.simulation, element) + by);
+    if (pass) {  // pins may contradict each other
+      check(*pass);
+    }
+  }
+}
+
+std::vector<ElementId> elements_at(const WaitingHistory& history, std::size_t step) {
+  std::vector<ElementId> elements;
+  for (const std::uint32_t i : history.at(step)) {
+    elements.push_back(history.candidates()[i].element);
+  }
+  return elements;
+}
+
+}  // namespace
+
+void RecordedPassTest::steps_lead_from_before_to_after_data() {
+  QTest::addColumn<int>("family");
+  const auto all = families();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    QTest::newRow(all[i].name.c_str()) << int(i);
+  }
+}
+
+/// Whatever happens between passes: relaxation, edits, undo, other meshes and algorithms, and a recorder that is
+/// switched off and on.
+void RecordedPassTest::steps_lead_from_before_to_after() {
+  QFETCH(int, family);
+  const MeshPointer mesh = families()[std::size_t(family)].mesh;
+  std::uint64_t passes = 0;
+  AnyCommand any(41, true, {mesh, make_mesh(MeshKind::block, {3, 3, 2})}, 12, 14);
+  Recorded recorded(mesh, Algorithm::generalized);
+  for (int i = 0; i < 1500; ++i) {
+    if (any.below(40) == 0) {
+      recorded.recorder.set_on(false);
+      QVERIFY(!recorded.recorder.last(0));
+      recorded.recorder.set_on(any.below(2) == 0);
+    }
+    if (any.below(3) == 0) {
+      recorded.publish();
+    }
+    const std::vector<float> before = floats_of(recorded.simulation);
+    const auto passes_before = recorded.simulation.statistics().passes;
+    recorded.apply(any.draw());
+    const auto pass = recorded.recorder.last(0);
+    if (pass && pass->number > passes_before) {
+      ++passes;
+      QVERIFY(pass->before == before);
+      QVERIFY(played(*pass) == floats_of(recorded.simulation));
+      QVERIFY(updated_once(*pass));
+      QVERIFY(pass->number == recorded.simulation.statistics().passes);
+      QVERIFY(pass->algorithm == recorded.simulation.statistics().algorithm);
+      QVERIFY(!recorded.recorder.last(pass->number));
+    }
+    recorded.simulation.step();
+    recorded.recorder.set_on(true);
+  }
+  QVERIFY(passes > 300);
+}
+
+void RecordedPassTest::each_step_clamps_into_the_region_about_the_sponsor() {
+  for (const Family& family : families()) {
+    for (const AlgorithmInfo& one : algorithms_for(*family.mesh)) {
+      for_each_pass(family.mesh, one.algorithm, [&](const RecordedPass& pass) {
+        Player player(pass);
+        for (std::size_t row = 0; row < pass.trace.size() && one.algorithm != Algorithm::exact; ++row) {
+          QCOMPARE(stays(pass, row), !pass.trace[row].moved);
+          for (int k = 0; k < pass.mesh->space_dimension; ++k) {
+            QCOMPARE(clamped_by_hand(player, row, k), pass.place_after(row)[std::size_t(k)]);
+          }
+          player.take(row);
+        }
+      });
+    }
+  }
+}
+
+void RecordedPassTest::the_next_one_on_the_list_is_the_one_that_is_taken() {
+  for (const Family& family : families()) {
+    for (const AlgorithmInfo& one : algorithms_for(*family.mesh)) {
+      for_each_pass(family.mesh, one.algorithm, [&](const RecordedPass& pass) {
+        const WaitingHistory history(pass);
+        QCOMPARE(history.known(), one.algorithm != Algorithm::exact);
+        if (history.known()) {
+          QVERIFY2(leads_through(pass, history), std::string(one.name).c_str());
+        }
+      });
+    }
+  }
+}
+
+/// As in test_propagation, where the same drags are worked out: nearly rigid, far enough for all to move.
+void RecordedPassTest::the_lists_of_a_3x3_grid_by_hand() {
+  const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
+  const auto history_of = [&](Algorithm algorithm) {
+    Recorded recorded(mesh, algorithm);
+    recorded.apply(commands::SetSoftness{{{1, 1, 0}, {}}});
+    return WaitingHistory(*recorded.drag(0, Point(-5, -5, 0)));
+  };
+  using List = std::vector<ElementId>;
+  const auto generalized = history_of(Algorithm::generalized);
+  QCOMPARE(elements_at(generalized, 0), (List{3, 1}));
+  QCOMPARE(elements_at(generalized, 1), (List{6, 4, 0, 1}));
+  QCOMPARE(elements_at(generalized, 2), (List{7, 3, 4, 0, 1}));
+  QCOMPARE(elements_at(generalized, 4), (List{7, 5, 6, 4, 3, 4, 0, 1}));  // 6 4 before 3, of 7; 7 is to be dropped
+  const auto spiral = history_of(Algorithm::spiral);
+  QCOMPARE(elements_at(spiral, 0), (List{1, 3}));
+  QCOMPARE(elements_at(spiral, 1), (List{3, 0, 2, 4}));
+  QCOMPARE(elements_at(spiral, 2), (List{0, 2, 4, 0, 4, 6}));
+  const auto queue = history_of(Algorithm::natural_queue);
+  QCOMPARE(elements_at(queue, 0), (List{1, 3}));
+  QCOMPARE(elements_at(queue, 1), (List{3, 2, 4}));
+  QCOMPARE(elements_at(queue, 2), (List{2, 4, 6}));
+  QCOMPARE(elements_at(queue, 8), List{});
+}
+
+void RecordedPassTest::three_d_chainmail_empties_one_list_after_another() {
+  const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
+  Recorded recorded(mesh, Algorithm::original);
+  recorded.apply(commands::SetSoftness{{{1, 1, 0}, {}}});
+  const WaitingHistory history(*recorded.drag(4, Point(5, 5, 0)));
+  // Right, left, top, bottom of the centre; 5, on the right, feeds right, top and bottom.
+  QCOMPARE(elements_at(history, 0), (std::vector<ElementId>{5, 3, 7, 1}));
+  QCOMPARE(elements_at(history, 1), (std::vector<ElementId>{3, 7, 8, 1, 2}));
+}
+
+void RecordedPassTest::what_does_not_lead_through_the_list_is_not_known() {
+  Recorded recorded(make_mesh(MeshKind::grid, {4, 4, 1}), Algorithm::spiral);
+  auto pass = recorded.drag(5, Point(4, 4, 0));
+  QVERIFY(WaitingHistory(*pass).known());
+  std::swap(pass->trace[1], pass->trace[3]);
+  QVERIFY(!WaitingHistory(*pass).known());
+}
+
+void RecordedPassTest::nothing_is_recorded_unless_it_is_asked_for() {
+  Recorded recorded(make_mesh(MeshKind::grid, {4, 4, 1}), Algorithm::spiral);
+  recorded.recorder.set_on(false);
+  QVERIFY(!recorded.drag(5, Point(4, 4, 0)));
+  recorded.recorder.set_on(true);
+  QVERIFY(!recorded.recorder.last(0));
+  QVERIFY(recorded.drag(5, Point(0, 0, 0)));
+  recorded.apply(commands::Release{});
+  recorded.apply(commands::Grab{3});
+  QVERIFY(recorded.recorder.last(0));  // the hand alone changes nothing
+}
+
+void RecordedPassTest::another_thread_may_look_at_any_time() {
+  const auto mesh = make_mesh(MeshKind::cloth, {20, 20, 1});
+  SolverThread solver(mesh, Algorithm::natural_queue, [] {});
+  solver.record_passes(true);
+  std::mt19937_64 random(3);
+  std::uint64_t seen = 0, passes = 0;
+  solver.post(commands::Grab{210});
+  for (int i = 0; i < 400; ++i) {
+    solver.post(commands::Drag{Point(uniform(random, 0, 20), uniform(random, 0, 20), 0)});
+    ++passes;
+    if (const auto pass = solver.last_pass(seen)) {
+      QVERIFY(pass->number > seen);
+      seen = pass->number;
+      QVERIFY(WaitingHistory(*pass).known());
+    }
+    if (i % 100 == 50) {
+      solver.record_passes(false);
+      solver.record_passes(true);
+    }
+  }
+  QVERIFY(wait_for_passes(solver, passes));
+  const auto last = solver.last_pass(0);
+  QVERIFY(last && last->number == passes);
+  QVERIFY(played(*last) == solver.latest_frame().positions);
+}
+
+QTEST_APPLESS_MAIN(RecordedPassTest)
+#include "test_recorded_pass.moc"
