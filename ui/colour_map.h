@@ -13,11 +13,15 @@ namespace chainmail::colour_map {
 
 using Stops = std::array<std::array<int, 3>, 6>;
 const Stops& stops(colours::Ground ground = colours::ground());
+/// For differences: blue below 0, orange above, which are told apart with every kind of colour vision; both leave the
+/// ground's lightness alike.
+const Stops& differenceStops(colours::Ground ground = colours::ground());
 
 /// What lies at or below a threshold has no place on the map, and steps back behind all that has.
 inline constexpr colours::Colour neutral(0xff505660, 0xffa6acb5);
 
 /// The colour of a share of the way from the lowest value to the highest.
 QColor at(double share, colours::Ground ground = colours::ground());
+QColor at(double share, const Stops& stops);
 
 }  // namespace chainmail::colour_map

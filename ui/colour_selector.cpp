@@ -7,7 +7,7 @@ namespace chainmail {
 ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), actions_(new QActionGroup(this)) {
   setObjectName(QStringLiteral("colourBy"));
   setAccessibleName(QStringLiteral("Colour by"));
-  setToolTip(QStringLiteral("What the colours of both panels show"));
+  setToolTip(QStringLiteral("What the colours of all panels show"));
   for (const ColourModeInfo& info : colourModes()) {
     addItem(text(info.label), int(info.mode));
     auto* action = actions_->addAction(text(info.label));

@@ -18,10 +18,11 @@ struct ColourValues {
   std::uint64_t number = 0;
 };
 
-/// The values at the two ends of the colour map. What is at or below the threshold is neutral.
+/// The values at the two ends of the colour map. What is no larger than the threshold, whatever its sign, is neutral.
 struct ColourScale {
   float lowest = 0, highest = -1;
-  float threshold = -1;  // values are never negative: none is
+  float threshold = -1;    // no magnitude is below 0: none is
+  bool diverging = false;  // a difference: 0 lies in the middle
 
   /// Whether there are values; they are worked out when a panel is painted.
   bool known() const { return lowest <= highest; }

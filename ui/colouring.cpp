@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "measure/violation.h"
+#include "panel_names.h"
+#include "text.h"
 
 namespace chainmail {
 namespace {
@@ -23,8 +25,9 @@ constexpr std::array infos{
     ColourModeInfo{ColourMode::stretch, "stretch", "Stretch of links", "Stretch", "of rest length"},
     ColourModeInfo{ColourMode::shear, "shear", "Shear of links", "Shear", "of rest length"},
     ColourModeInfo{ColourMode::violation, "violation", "Violation of links", "Violation, live", "rest lengths"},
-    ColourModeInfo{ColourMode::distance, "distance", "Distance between panels", "Distance between the panels",
-                   "mean rest lengths"},
+    ColourModeInfo{ColourMode::distance, "distance", "Distance between panels", "Distance", "mean rest lengths"},
+    ColourModeInfo{ColourMode::violationDifference, "violationDifference", "Violation, difference of panels",
+                   "Violation", "rest lengths"},
 };
 
 bool isOfSoftness(ColourMode mode) {
@@ -38,6 +41,8 @@ std::span<const ColourModeInfo> colourModes() { return infos; }
 const ColourModeInfo& info(ColourMode mode) {
   return *std::find_if(infos.begin(), infos.end(), [mode](auto& one) { return one.mode == mode; });
 }
+
+bool comparesPanels(ColourMode mode) { return mode == ColourMode::distance || mode == ColourMode::violationDifference; }
 
 Colouring::Colouring(const Document& document) : document_(document) {
   timer_.setInterval(intervalMilliseconds);
@@ -73,11 +78,11 @@ void Colouring::Kept::follow(const Frame& frame) {
 void Colouring::receiveFrame(int panel) {
   if (mode_ == ColourMode::violation) {
     works_[panel].outdated = true;
-  } else if (mode_ == ColourMode::distance) {
+  } else if (comparesPanels(mode_)) {
     for (Work& work : works_) {
       work.outdated = true;
     }
-    emit changed();  // the other panel's colours follow from this frame too
+    emit changed();  // the other panels' colours follow from this frame too
   }
 }
 
@@ -90,12 +95,39 @@ void Colouring::setMode(ColourMode mode) {
   }
 }
 
+void Colouring::setReference(int panel) {
+  if (panel != reference_) {
+    reference_ = panel;
+    startOver();
+    emit modeChanged();
+    emit changed();
+  }
+}
+
+void Colouring::setSharesScale(bool shares) {
+  if (shares != sharesScale_) {
+    sharesScale_ = shares;
+    updateScales();
+    emit modeChanged();  // the legends say so
+  }
+}
+
+QString Colouring::title(int panel) const {
+  const auto& mode = info(mode_);
+  QString what = text(mode.title);
+  if (comparesPanels(mode_)) {
+    const auto others = comparedWith(panel);
+    const QString other = others.size() == 1 ? panelName(others.front()) : QStringLiteral("the furthest of the others");
+    what = mode_ == ColourMode::distance ? QStringLiteral("%1 from %2").arg(what, other)
+                                         : QStringLiteral("%1, %2 less that of %3").arg(what, panelName(panel), other);
+  }
+  return QStringLiteral("%1 (%2)").arg(what, text(mode.unit));
+}
+
 void Colouring::startOver() {
   timer_.stop();
-  for (Work& work : works_) {
-    work = {};
-  }
-  scale_ = {};
+  works_ = {};
+  scales_ = {};
 }
 
 const ColourValues* Colouring::follow(int panel) {
@@ -104,7 +136,7 @@ const ColourValues* Colouring::follow(int panel) {
   }
   Work& work = works_[panel];
   if (work.outdated && !work.running && start(panel)) {
-    advance(work);
+    advance(panel);
     if (work.running && !timer_.isActive()) {
       timer_.start();
     }
@@ -112,41 +144,53 @@ const ColourValues* Colouring::follow(int panel) {
   return work.shown.number != 0 ? &work.shown : nullptr;
 }
 
+std::vector<int> Colouring::comparedWith(int panel) const {
+  std::vector<int> others;
+  for (int other = 0; comparesPanels(mode_) && other < Document::panels; ++other) {
+    if (other != panel && (panel == reference_ || other == reference_)) {
+      others.push_back(other);
+    }
+  }
+  return others;
+}
+
 /// Takes what the values follow from. Returns false while a panel has no frame of the object yet.
 bool Colouring::start(int panel) {
-  const Frame* frame = document_.frame(panel);
-  const Frame* other = document_.frame(1 - panel);
-  if (frame == nullptr || (mode_ == ColourMode::distance && other == nullptr)) {
+  Work& work = works_[panel];
+  work.others = comparedWith(panel);
+  std::vector<int> all = work.others;
+  all.push_back(panel);
+  if (std::any_of(all.begin(), all.end(), [this](int one) { return document_.frame(one) == nullptr; })) {
     return false;
   }
-  Work& work = works_[panel];
+  const Mesh& mesh = *document_.mesh();
   work.outdated = false;
   work.running = true;
   work.next = 0;
-  work.building.mesh = frame->mesh;
+  work.building.mesh = document_.mesh();
   work.building.ofLinks = mode_ != ColourMode::distance;
-  work.building.values.resize(work.building.ofLinks ? frame->mesh->link_count() : frame->mesh->element_count());
+  work.building.values.resize(work.building.ofLinks ? mesh.link_count() : mesh.element_count());
   work.building.lowest = std::numeric_limits<float>::max();
   work.building.highest = 0;
   work.softness = document_.wholeSoftness();
-  if (!isOfSoftness(mode_)) {
-    work.own.follow(*frame);
-  }
-  if (mode_ == ColourMode::distance) {
-    work.other.follow(*other);
+  for (const int one : all) {
+    if (!isOfSoftness(mode_)) {
+      work.kept[one].follow(*document_.frame(one));
+    }
   }
   return true;
 }
 
-void Colouring::advance(Work& work) {
+void Colouring::advance(int panel) {
   QElapsedTimer clock;
   clock.start();
+  Work& work = works_[panel];
   ColourValues& building = work.building;
   while (work.next < building.values.size() && clock.elapsed() < sliceMilliseconds) {
     const std::size_t end = std::min(work.next + valuesBetweenLooks, building.values.size());
     for (; work.next < end; ++work.next) {
       const bool counts = !building.ofLinks || !document_.cuts().is_cut(LinkId(work.next));
-      const float one = counts ? value(work, work.next) : 0;
+      const float one = counts ? value(panel, work.next) : 0;
       building.values[work.next] = one;
       if (counts) {
         building.lowest = std::min(building.lowest, one);
@@ -163,11 +207,11 @@ void Colouring::finish(Work& work) {
   work.running = false;
   work.building.number = ++number_;
   std::swap(work.building, work.shown);
-  updateScale();
+  updateScales();
 }
 
-float Colouring::value(const Work& work, std::size_t i) const {
-  const Mesh& mesh = *work.building.mesh;
+float Colouring::value(int panel, std::size_t i) const {
+  const Work& work = works_[panel];
   switch (mode_) {
     case ColourMode::compression:
       return float(work.softness->of(LinkId(i)).compression);
@@ -175,18 +219,34 @@ float Colouring::value(const Work& work, std::size_t i) const {
       return float(work.softness->of(LinkId(i)).stretch);
     case ColourMode::shear:
       return float(work.softness->of(LinkId(i)).shear);
-    case ColourMode::violation: {
-      const PositionView positions(work.own.positions.data(), mesh.space_dimension * sizeof(float),
-                                   Precision::single_precision);
-      return float(link_violation(mesh, *work.softness, positions, LinkId(i)));
-    }
+    case ColourMode::violation:
+      return violation(work, panel, LinkId(i));
     default:
       break;
   }
+  float furthest = 0;
+  for (const int other : work.others) {
+    const float one = mode_ == ColourMode::distance
+                          ? distance(work, panel, other, ElementId(i))
+                          : violation(work, panel, LinkId(i)) - violation(work, other, LinkId(i));
+    furthest = std::abs(one) > std::abs(furthest) ? one : furthest;
+  }
+  return furthest;
+}
+
+float Colouring::violation(const Work& work, int panel, LinkId link) const {
+  const Mesh& mesh = *work.building.mesh;
+  const PositionView positions(work.kept[panel].positions.data(), mesh.space_dimension * sizeof(float),
+                               Precision::single_precision);
+  return float(link_violation(mesh, *work.softness, positions, link));
+}
+
+float Colouring::distance(const Work& work, int panel, int other, ElementId element) const {
+  const Mesh& mesh = *work.building.mesh;
   double squared = 0;
   for (int k = 0; k < mesh.space_dimension; ++k) {
-    const std::size_t at = i * std::size_t(mesh.space_dimension) + std::size_t(k);
-    const double apart = double(work.own.positions[at]) - double(work.other.positions[at]);
+    const std::size_t at = std::size_t{element} * std::size_t(mesh.space_dimension) + std::size_t(k);
+    const double apart = double(work.kept[panel].positions[at]) - double(work.kept[other].positions[at]);
     squared += apart * apart;
   }
   return mesh.mean_link_length > 0 ? float(std::sqrt(squared) / mesh.mean_link_length) : 0;
@@ -194,11 +254,11 @@ float Colouring::value(const Work& work, std::size_t i) const {
 
 void Colouring::goOn() {
   bool running = false, finished = false;
-  for (Work& work : works_) {
-    if (work.running) {
-      advance(work);
-      running = running || work.running;
-      finished = finished || !work.running;
+  for (int panel = 0; panel < Document::panels; ++panel) {
+    if (works_[panel].running) {
+      advance(panel);
+      running = running || works_[panel].running;
+      finished = finished || !works_[panel].running;
     }
   }
   if (!running) {
@@ -209,24 +269,41 @@ void Colouring::goOn() {
   }
 }
 
-void Colouring::updateScale() {
-  ColourScale scale;
-  for (const Work& work : works_) {
-    if (work.shown.number != 0 && work.shown.lowest <= work.shown.highest) {
-      scale.lowest = scale.known() ? std::min(scale.lowest, work.shown.lowest) : work.shown.lowest;
-      scale.highest = std::max(scale.highest, work.shown.highest);
+void Colouring::updateScales() {
+  std::array<ColourScale, Document::panels> scales;
+  ColourScale all;
+  for (std::size_t panel = 0; panel < works_.size(); ++panel) {
+    const ColourValues& shown = works_[panel].shown;
+    if (shown.number != 0 && shown.lowest <= shown.highest) {
+      all.lowest = all.known() ? std::min(all.lowest, shown.lowest) : shown.lowest;
+      all.highest = std::max(all.highest, shown.highest);
+      scales[panel].lowest = shown.lowest;
+      scales[panel].highest = shown.highest;
     }
   }
+  for (ColourScale& scale : scales) {
+    scale = finished(sharesScale_ ? all : scale);
+  }
+  if (scales != scales_) {
+    scales_ = scales;
+    emit changed();  // the other panels are painted by it too
+  }
+}
+
+/// The values' own range, as the mode widens it.
+ColourScale Colouring::finished(ColourScale scale) const {
   if (mode_ == ColourMode::violation) {
     scale.lowest = scale.threshold = violationThreshold;
     scale.highest = std::max(scale.highest, violationThreshold);
   } else if (mode_ == ColourMode::distance) {
     scale.lowest = 0;
+  } else if (mode_ == ColourMode::violationDifference && scale.known()) {
+    scale.diverging = true;
+    scale.threshold = violationThreshold;
+    scale.highest = std::max({std::abs(scale.lowest), std::abs(scale.highest), violationThreshold});
+    scale.lowest = -scale.highest;
   }
-  if (scale != scale_) {
-    scale_ = scale;
-    emit changed();  // the other panel is painted by it too
-  }
+  return scale;
 }
 
 }  // namespace chainmail

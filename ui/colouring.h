@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <QString>
 #include <QTimer>
 #include <array>
 #include <memory>
@@ -12,7 +13,7 @@
 
 namespace chainmail {
 
-enum class ColourMode { plain, compression, stretch, shear, violation, distance };
+enum class ColourMode { plain, compression, stretch, shear, violation, distance, violationDifference };
 
 /// How a mode is called: `name` in settings and tests, `label` in the menu, `title` and `unit` in the legend.
 struct ColourModeInfo {
@@ -21,8 +22,10 @@ struct ColourModeInfo {
 };
 std::span<const ColourModeInfo> colourModes();
 const ColourModeInfo& info(ColourMode mode);
+/// Whether a panel's values follow from another panel's object too.
+bool comparesPanels(ColourMode mode);
 
-/// Works out what the objects of both panels are coloured by. It does so for panels that are painted alone, only when
+/// Works out what the objects of the panels are coloured by. It does so for panels that are painted alone, only when
 /// something has changed, and in slices, so that a large mesh lags behind instead of the window.
 class Colouring : public QObject {
   Q_OBJECT
@@ -32,12 +35,20 @@ class Colouring : public QObject {
 
   ColourMode mode() const { return mode_; }
   void setMode(ColourMode mode);
+  /// The panel that all others are compared with, by modes that compare; itself it is compared with the one of them
+  /// that is furthest off.
+  int reference() const { return reference_; }
+  void setReference(int panel);
+  /// Whether a colour means the same in all panels, or each has a scale of its own.
+  bool sharesScale() const { return sharesScale_; }
+  void setSharesScale(bool shares);
 
   /// To be called when a panel is painted. The values for its newest frame, or for one a little older while those are
   /// being worked out; none in plain mode and as long as there are none.
   const ColourValues* follow(int panel);
-  /// One for both panels, so that a colour means the same in both.
-  ColourScale scale() const { return scale_; }
+  ColourScale scale(int panel) const { return scales_[panel]; }
+  /// What the values of a panel are, for its legend.
+  QString title(int panel) const;
 
  signals:
   void modeChanged();
@@ -58,24 +69,31 @@ class Colouring : public QObject {
     bool outdated = true, running = false;
     std::size_t next = 0;
     ColourValues building, shown;
-    // As they were when the work began: frames and softness may change meanwhile.
-    Kept own, other;
+    std::vector<int> others;  // the panels that it is compared with
+    // As they were when the work began, by the panel: frames and softness may change meanwhile.
+    std::array<Kept, Document::panels> kept;
     std::shared_ptr<const Softness> softness;
   };
 
   void receiveFrame(int panel);
   void startOver();
   bool start(int panel);
-  void advance(Work& work);
+  std::vector<int> comparedWith(int panel) const;
+  void advance(int panel);
   void finish(Work& work);
-  float value(const Work& work, std::size_t i) const;
+  float value(int panel, std::size_t i) const;
+  float violation(const Work& work, int panel, LinkId link) const;
+  float distance(const Work& work, int panel, int other, ElementId element) const;
   void goOn();
-  void updateScale();
+  void updateScales();
+  ColourScale finished(ColourScale scale) const;
 
   const Document& document_;
   ColourMode mode_ = ColourMode::plain;
   std::array<Work, Document::panels> works_;
-  ColourScale scale_;
+  std::array<ColourScale, Document::panels> scales_;
+  int reference_ = 0;
+  bool sharesScale_ = true;
   std::uint64_t number_ = 0;
   QTimer timer_;
 };

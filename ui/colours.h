@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QColor>
+#include <array>
 #include <functional>
 
 class QWidget;
@@ -31,6 +32,8 @@ class Colour {
 inline constexpr Colour background(0xff15191f, 0xfff8f9fb);
 inline constexpr Colour left(0xffe69f00, 0xff9c4a00);
 inline constexpr Colour right(0xff56b4e9, 0xff0068a8);
+inline constexpr Colour third(0xff00a87a, 0xff006b50);
+inline constexpr Colour fourth(0xffac78ff, 0xff7028b8);
 inline constexpr Colour marked(0xffffffff, 0xff101418);
 inline constexpr Colour pinned(0xfff0e442, 0xff6a5a00);
 inline constexpr Colour selected(0xfff5a6d0, 0xffb02a80);
@@ -50,6 +53,9 @@ inline constexpr Colour errorSign(0xffff9a80, 0xffb32000);
 QColor stronger(const QColor& colour);
 /// The same colour near the ground, for the faces between links of that colour.
 QColor faint(const QColor& colour);
+
+/// Of a panel and all that speaks of it, by its number from 0.
+inline constexpr Colour ofPanel(int panel) { return std::array{left, right, third, fourth}[std::size_t(panel)]; }
 
 }  // namespace chainmail::colours
 

@@ -75,6 +75,9 @@ constexpr std::array drawings{
     IconDrawing{
         "swap",
         "M 2 5.5 L 13.5 5.5 M 10.8 2.8 L 13.5 5.5 L 10.8 8.2 M 14 10.5 L 2.5 10.5 M 5.2 7.8 L 2.5 10.5 L 5.2 13.2"},
+    IconDrawing{
+        "alone",
+        "M 9.5 2.2 L 13.8 2.2 L 13.8 6.5 M 13.8 2.2 L 9.8 6.2 M 6.5 13.8 L 2.2 13.8 L 2.2 9.5 M 2.2 13.8 L 6.2 9.8"},
     IconDrawing{"overlay", "E 6 8 4.4 4.4 E 10 8 4.4 4.4"},
     IconDrawing{"difference", "M 8 2 L 8 9 M 4.5 5.5 L 11.5 5.5 M 4.5 12.8 L 11.5 12.8"},
     IconDrawing{"grow", {}, "R 2 10 3 4 R 6.5 6.5 3 7.5 R 11 2.5 3 11.5"},

@@ -29,23 +29,21 @@ QRect bar(QRect line, int width) { return {line.left(), line.center().y() - barH
 
 Legend::Legend() {
   setFixedHeight(2 * fontMetrics().height() + 6);
-  setToolTip(QStringLiteral("One scale for both panels: a colour means the same in both"));
   hide();
 }
 
-void Legend::showScale(ColourMode mode, const ColourScale& scale) {
-  setVisible(mode != ColourMode::plain);
-  if (mode != mode_ || scale != scale_) {
-    mode_ = mode;
+void Legend::follow(const Colouring& colouring, int panel) {
+  setVisible(colouring.mode() != ColourMode::plain);
+  setToolTip(colouring.sharesScale() ? QStringLiteral("One scale for all panels: a colour means the same in each")
+                                     : QStringLiteral("This panel's own scale: other panels have others"));
+  const QString title = colouring.title(panel);
+  const ColourScale scale = colouring.scale(panel);
+  if (title != title_ || scale != scale_) {
+    title_ = title;
     scale_ = scale;
-    setAccessibleName(QStringLiteral("%1, from %2 to %3").arg(title(), lowest(), highest()));
+    setAccessibleName(QStringLiteral("%1, from %2 to %3").arg(title_, lowest(), highest()));
     update();
   }
-}
-
-QString Legend::title() const {
-  const auto& mode = info(mode_);
-  return QStringLiteral("%1 (%2)").arg(text(mode.title), text(mode.unit));
 }
 
 QString Legend::lowest() const { return scale_.known() ? number(scale_.lowest) : QString(); }
@@ -77,13 +75,14 @@ void Legend::paintEvent(QPaintEvent* /*event*/) {
 void Legend::drawNeutral(QPainter& painter, QRect& line) const {
   painter.fillRect(bar(line, barHeight), colour_map::neutral);
   line.setLeft(line.left() + barHeight + gap);
-  const QString bound = QStringLiteral("up to %1").arg(number(scale_.threshold));
+  const QString bound =
+      (scale_.diverging ? QStringLiteral("within ±%1") : QStringLiteral("up to %1")).arg(number(scale_.threshold));
   place(painter, line, showsOne() ? bound + QStringLiteral(", everywhere") : bound);
   line.setLeft(line.left() + gap);
 }
 
 void Legend::drawMap(QPainter& painter, QRect line) const {
-  if (scale_.threshold < 0) {
+  if (scale_.threshold < 0 || scale_.diverging) {
     place(painter, line, lowest());
   }
   const int width = std::min(widestBar, line.width() - gap - painter.fontMetrics().horizontalAdvance(highest()));
@@ -92,10 +91,11 @@ void Legend::drawMap(QPainter& painter, QRect line) const {
   }
   const QRect map = bar(line, width);
   QLinearGradient gradient(map.topLeft(), map.topRight());
+  const auto& stops = scale_.diverging ? colour_map::differenceStops() : colour_map::stops();
   constexpr int steps = int(std::tuple_size_v<colour_map::Stops>) - 1;
   for (int i = 0; i <= steps; ++i) {
     const double share = double(i) / steps;
-    gradient.setColorAt(share, colour_map::at(share));
+    gradient.setColorAt(share, colour_map::at(share, stops));
   }
   painter.fillRect(map, gradient);
   line.setLeft(map.right() + gap);

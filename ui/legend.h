@@ -13,9 +13,10 @@ class Legend : public QWidget {
 
  public:
   Legend();
-  void showScale(ColourMode mode, const ColourScale& scale);
+  /// Shows what the colours of a panel mean now.
+  void follow(const Colouring& colouring, int panel);
   /// What it says; the numbers are empty as long as there are none.
-  QString title() const;
+  QString title() const { return title_; }
   QString lowest() const;
   QString highest() const;
 
@@ -23,11 +24,11 @@ class Legend : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  bool showsOne() const { return scale_.highest <= scale_.lowest; }
+  bool showsOne() const { return scale_.highest <= (scale_.diverging ? scale_.threshold : scale_.lowest); }
   void drawNeutral(QPainter& painter, QRect& line) const;
   void drawMap(QPainter& painter, QRect line) const;
 
-  ColourMode mode_ = ColourMode::plain;
+  QString title_;
   ColourScale scale_;
 };
 

@@ -7,7 +7,6 @@
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
-#include <QSplitter>
 #include <QStatusBar>
 #include <QVBoxLayout>
 
@@ -44,7 +43,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       selectTool_(document_),
       files_(new FileActions(*this, document_, jobs_)),
       messages_(new MessageBar),
-      splitter_(new QSplitter),
+      area_(new PanelArea(document_, colouring_)),
       toolActions_(new QActionGroup(this)),
       colourBy_(new ColourSelector(colouring_)),
       hint_(new QLabel) {
@@ -55,14 +54,13 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(messages_);
-  column->addWidget(splitter_, 1);
+  column->addWidget(area_, 1);
   setCentralWidget(central);
   hint_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   statusBar()->addWidget(hint_, 1);
   statusBar()->addPermanentWidget(new JobBar(jobs_));
 
   listen();
-  makePanels();
   makeTools();
   makeMenus();
   makeDocks();
@@ -74,6 +72,9 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
 void MainWindow::listen() {
   connect(&document_, &Document::refused, messages_, &MessageBar::say);
   connect(&document_, &Document::noticed, messages_, &MessageBar::say);
+  area_->addOverlay(regions_);
+  connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
+  connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
   connect(files_, &FileActions::failed, messages_, &MessageBar::say);
   connect(&jobs_, &Jobs::failed, messages_, &MessageBar::say);
   connect(files_, &FileActions::saved, this, [this](const QString& path) {
@@ -93,27 +94,6 @@ void MainWindow::listen() {
 MainWindow::~MainWindow() {
   // The panels look at the document until they are gone.
   delete takeCentralWidget();
-}
-
-void MainWindow::makePanels() {
-  auto camera = std::make_shared<Camera>();
-  auto levels = std::make_shared<MeshLevels>();
-  const std::array colour{colours::left, colours::right};
-  for (int i = 0; i < Document::panels; ++i) {
-    panels_.push_back(new Panel(document_, colouring_, i, camera, levels, colour[std::size_t(i)]));
-    splitter_->addWidget(panels_.back());
-    panels_.back()->addOverlay(regions_);
-    connect(&regions_, &ValidRegions::changed, panels_.back(), &Panel::refresh);
-    connect(&panels_.back()->view(), &View::failed, messages_, &MessageBar::say);
-    connect(&panels_.back()->view(), &View::cameraChanged, this, [this, i] {
-      View& other = panels_[std::size_t(1 - i)]->view();
-      if (other.camera() == panels_[std::size_t(i)]->view().camera()) {
-        other.update();
-      }
-    });
-  }
-  splitter_->setChildrenCollapsible(false);
-  splitter_->setHandleWidth(3);
 }
 
 void MainWindow::makeTools() {
@@ -138,9 +118,7 @@ void MainWindow::activate(Tool& tool) {
     tool_->cancel();
   }
   tool_ = &tool;
-  for (Panel* panel : panels_) {
-    panel->view().setTool(&tool);
-  }
+  area_->setTool(tool);
   hint_->setText(tool.hint());
 }
 
@@ -170,7 +148,7 @@ void MainWindow::makeStiffnessDock() {
 }
 
 void MainWindow::makeFrameRateDock() {
-  auto* dock = new FrameRateDock(document_, panels_, {colours::left, colours::right});
+  auto* dock = new FrameRateDock(document_, area_->panels(), {colours::left, colours::right});
   addDockWidget(Qt::RightDockWidgetArea, dock);
   findChild<QMenu*>(QStringLiteral("viewMenu"))->addMenu(&dock->menu());
   connect(dock, &FrameRateDock::failed, messages_, &MessageBar::say);
@@ -191,11 +169,6 @@ void MainWindow::makeReportDock() {
   show->setShortcut(Qt::Key_E);
   show->setStatusTip(QStringLiteral("Time per move and errors of the algorithms on this object"));
   findChild<QMenu*>(QStringLiteral("viewMenu"))->addAction(show);
-}
-
-void MainWindow::linkCameras(bool linked) {
-  auto camera = panels_[0]->view().camera();
-  panels_[1]->view().setCamera(linked ? camera : std::make_shared<Camera>(*camera));
 }
 
 void MainWindow::openFile(const QString& path, bool first) { files_->openPath(path, first); }

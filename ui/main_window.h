@@ -2,13 +2,13 @@
 
 #include <QMainWindow>
 #include <memory>
-#include <vector>
 
 #include "colouring.h"
 #include "cut_tool.h"
 #include "document.h"
 #include "drag_tool.h"
 #include "jobs.h"
+#include "panel_area.h"
 #include "pin_tool.h"
 #include "select_tool.h"
 #include "valid_regions.h"
@@ -16,7 +16,6 @@
 class QActionGroup;
 class QLabel;
 class QMenu;
-class QSplitter;
 
 namespace chainmail {
 
@@ -34,7 +33,7 @@ class MainWindow : public QMainWindow {
   ~MainWindow() override;
 
   Document& document() { return document_; }
-  Panel& panel(int which) { return *panels_[which]; }
+  Panel& panel(int which) { return *area_->panels()[std::size_t(which)]; }
   Colouring& colouring() { return colouring_; }
   MessageBar& messages() { return *messages_; }
   Jobs& jobs() { return jobs_; }
@@ -49,7 +48,6 @@ class MainWindow : public QMainWindow {
 
  private:
   void listen();
-  void makePanels();
   void makeTools();
   void makeDocks();
   void makeStiffnessDock();
@@ -62,7 +60,6 @@ class MainWindow : public QMainWindow {
   void makeToolBar();
   void giveUp();
   void activate(Tool& tool);
-  void linkCameras(bool linked);
   void showTitle();
   void restoreLayout();
 
@@ -77,8 +74,7 @@ class MainWindow : public QMainWindow {
   Jobs jobs_;
   FileActions* files_;
   MessageBar* messages_;
-  QSplitter* splitter_;
-  std::vector<Panel*> panels_;
+  PanelArea* area_;
   QActionGroup* toolActions_;
   ColourSelector* colourBy_;
   QLabel* hint_;

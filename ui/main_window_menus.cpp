@@ -10,7 +10,7 @@
 #include "file_actions.h"
 #include "main_window.h"
 #include "message_bar.h"
-#include "panel.h"
+#include "panel_actions.h"
 #include "theme_menu.h"
 
 namespace chainmail {
@@ -48,9 +48,7 @@ void MainWindow::giveUp() {
     tool_->escape();
   }
   messages_->hide();
-  for (Panel* panel : panels_) {
-    panel->view().update();
-  }
+  area_->refresh();
 }
 
 void MainWindow::fillObjectMenu(QMenu& menu) {
@@ -75,19 +73,10 @@ void MainWindow::fillObjectMenu(QMenu& menu) {
 
 void MainWindow::fillViewMenu(QMenu& menu) {
   menu.setObjectName(QStringLiteral("viewMenu"));
-  auto* fit = menu.addAction(QStringLiteral("Reset &view (fit)"), this, [this] {
-    for (Panel* panel : panels_) {
-      panel->view().fit();
-    }
-  });
+  auto* fit = menu.addAction(QStringLiteral("Reset &view (fit)"), area_, &PanelArea::fit);
   fit->setObjectName(QStringLiteral("fitView"));
   fit->setShortcut(Qt::Key_F);
-  auto* link = menu.addAction(QStringLiteral("&Link cameras"));
-  link->setObjectName(QStringLiteral("linkCameras"));
-  link->setCheckable(true);
-  link->setChecked(true);
-  link->setStatusTip(QStringLiteral("Both panels look at the object from the same side"));
-  connect(link, &QAction::toggled, this, &MainWindow::linkCameras);
+  (new PanelActions(*area_, document_, colouring_))->fill(menu);
   regions_.fill(menu);
   menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
   menu.addSeparator();
@@ -109,9 +98,12 @@ void MainWindow::makeToolBar() {
   redo->setIconText(QStringLiteral("Redo"));
   bar->addActions({undo, redo});
   bar->addSeparator();
-  for (const char* name : {"resetObject", "unpinAll", "fitView", "linkCameras"}) {
+  for (const char* name : {"resetObject", "unpinAll", "fitView"}) {
     add(name);
   }
+  bar->addSeparator();
+  bar->addWidget(new QLabel(QStringLiteral(" Linked ")));
+  bar->addActions(area_->links().actions());
   bar->addSeparator();
   bar->addWidget(new QLabel(QStringLiteral(" Colour by ")));
   bar->addWidget(colourBy_);

@@ -1,6 +1,7 @@
 // The values that colour an object, on the graphics card: a texture for links, an attribute for elements.
 
 #include <algorithm>
+#include <cmath>
 
 #include "colour_map.h"
 #include "object_painter.h"
@@ -15,7 +16,7 @@ void ObjectPainter::useValues(const Scene& scene, const Paint& paint, int shadin
   if (paint.values->number != valuesNumber_) {
     uploadValues(*paint.values);
   }
-  const colour_map::Stops& map = colour_map::stops();
+  const auto& map = paint.scale.diverging ? colour_map::differenceStops() : colour_map::stops();
   std::array<QVector3D, std::tuple_size_v<colour_map::Stops>> stops;
   std::transform(map.begin(), map.end(), stops.begin(),
                  [](const auto& stop) { return QVector3D(float(stop[0]), float(stop[1]), float(stop[2])) / 255; });
@@ -48,7 +49,7 @@ void ObjectPainter::uploadValues(const ColourValues& values) {
     }
     float largest = 0;
     for (const LinkId one : level_->paths[link]) {
-      largest = std::max(largest, values.values[one]);
+      largest = std::max(largest, values.values[one], [](float a, float b) { return std::abs(a) < std::abs(b); });
     }
     drawn.push_back(largest);
   }

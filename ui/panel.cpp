@@ -1,11 +1,10 @@
 #include "panel.h"
 
 #include <QHBoxLayout>
-#include <QStandardItemModel>
 #include <QVBoxLayout>
+#include <cmath>
 
-#include "mesh/error.h"
-#include "text.h"
+#include "panel_names.h"
 
 namespace chainmail {
 namespace {
@@ -14,23 +13,17 @@ constexpr int refreshMilliseconds = 100;
 
 }  // namespace
 
-Panel::Panel(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
-             std::shared_ptr<MeshLevels> levels, colours::Colour colour)
+Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int panel, std::shared_ptr<Camera> camera,
+             std::shared_ptr<MeshLevels> levels)
     : document_(document),
       colouring_(colouring),
       panel_(panel),
-      selector_(new QComboBox),
-      state_(new QLabel),
       statistics_(new QLabel),
-      view_(new View(document, colouring, panel, std::move(camera), std::move(levels), colour)),
+      view_(new View(document, colouring, links, panel, std::move(camera), std::move(levels))),
+      head_(new PanelHead(document, *view_, panel)),
       legend_(new Legend) {
   view_->setObjectName(QStringLiteral("view%1").arg(panel));
-  state_->setObjectName(QStringLiteral("state%1").arg(panel));
-  state_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  // What it says comes and goes during a drag: the view must not change its size with it.
-  state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   legend_->setObjectName(QStringLiteral("legend%1").arg(panel));
-  fillSelector();
   statistics_->setObjectName(QStringLiteral("statistics%1").arg(panel));
   statistics_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   statistics_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -38,83 +31,40 @@ Panel::Panel(Document& document, Colouring& colouring, int panel, std::shared_pt
       QStringLiteral("Violation: how far links lie outside their valid regions, in rest lengths; the last figure is "
                      "the share of links above 1e-4.\nDuring a drag it covers the links that the pass touched, at rest "
                      "all links."));
-  arrange(colour);
+  arrange();
+  listen();
+  showStatistics();
+}
 
+void Panel::listen() {
   refresh_.setSingleShot(true);
   refresh_.setInterval(refreshMilliseconds);
   connect(&refresh_, &QTimer::timeout, this, &Panel::showStatistics);
-  connect(&document, &Document::frameReady, this, [this](int ready) {
+  connect(&document_, &Document::frameReady, this, [this](int ready) {
     if (ready == panel_ && !refresh_.isActive()) {
       refresh_.start();
     }
   });
   connect(view_, &View::drawnStepChanged, &refresh_, qOverload<>(&QTimer::start));
-  connect(&document, &Document::pinsChanged, &refresh_, qOverload<>(&QTimer::start));
-  connect(&colouring, &Colouring::modeChanged, this, &Panel::showStatistics);
-  connect(&colouring, &Colouring::changed, this, [this] {
+  connect(view_, &View::ghostChanged, &refresh_, qOverload<>(&QTimer::start));
+  connect(&document_, &Document::pinsChanged, &refresh_, qOverload<>(&QTimer::start));
+  connect(&colouring_, &Colouring::modeChanged, this, &Panel::showStatistics);
+  connect(&colouring_, &Colouring::changed, this, [this] {
     if (!refresh_.isActive()) {
       refresh_.start();
     }
   });
-  showStatistics();
 }
 
-void Panel::fillSelector() {
-  selector_->setObjectName(QStringLiteral("algorithm%1").arg(panel_));
-  selector_->setAccessibleName(QStringLiteral("Algorithm of this panel"));
-  selector_->setToolTip(QStringLiteral("The algorithm that deforms this panel's object"));
-  for (const auto& info : algorithms()) {
-    selector_->addItem(text(info.label), int(info.algorithm));
-  }
-  connect(selector_, &QComboBox::activated, this,
-          [this] { document_.setAlgorithm(panel_, Algorithm(selector_->currentData().toInt())); });
-  connect(&document_, &Document::algorithmChanged, this, [this](int panel) {
-    if (panel == panel_) {
-      showAlgorithm();
-    }
-  });
-  connect(&document_, &Document::meshChanged, this, &Panel::showAlgorithm);
-  showAlgorithm();
-}
-
-/// What runs, and what does not work on this mesh, with the reason.
-void Panel::showAlgorithm() {
-  const auto* items = qobject_cast<QStandardItemModel*>(selector_->model());
-  for (int i = 0; i < selector_->count(); ++i) {
-    const auto algorithm = Algorithm(selector_->itemData(i).toInt());
-    QString help = text(info(algorithm).source);
-    try {
-      check(algorithm, *document_.mesh());
-      items->item(i)->setEnabled(true);
-    } catch (const Error& error) {
-      items->item(i)->setEnabled(false);
-      help = QString::fromStdString(error.what());
-    }
-    items->item(i)->setToolTip(help);
-  }
-  selector_->setCurrentIndex(selector_->findData(int(document_.algorithm(panel_))));
-}
-
-/// The selector above the view, the figures below it.
-void Panel::arrange(colours::Colour colour) {
-  auto* swatch = new QLabel;
-  swatch->setFixedSize(10, 10);
-  followTheme(*swatch, [swatch, colour] {
-    swatch->setStyleSheet(QStringLiteral("background:%1; border-radius:5px").arg(QColor(colour).name()));
-  });
-  auto* head = new QHBoxLayout;
-  head->setContentsMargins(8, 6, 8, 6);
-  head->setSpacing(8);
-  head->addWidget(swatch);
-  head->addWidget(selector_);
-  head->addWidget(state_, 1);
+/// The figures below the view.
+void Panel::arrange() {
   auto* foot = new QHBoxLayout;
   foot->setContentsMargins(8, 4, 8, 6);
   foot->addWidget(statistics_);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  column->addLayout(head);
+  column->addWidget(head_);
   column->addWidget(legend_);
   column->addWidget(view_, 1);
   column->addLayout(foot);
@@ -144,6 +94,9 @@ QStringList Panel::states(const Statistics& statistics) const {
   if (statistics.relaxing) {
     states << QStringLiteral("relaxing, sweep %L1").arg(statistics.sweeps);
   }
+  if (const Ghost& ghost = view_->ghost(); ghost.of) {
+    states << QStringLiteral("ghost of %1, %2 %").arg(panelName(*ghost.of)).arg(std::lround(100 * ghost.blend));
+  }
   if (view_->drawnStep() > 1) {
     states << QStringLiteral("drawn coarsely, 1 in %1").arg(view_->drawnStep());
   }
@@ -158,12 +111,10 @@ void Panel::refresh() {
 }
 
 void Panel::showStatistics() {
-  legend_->showScale(colouring_.mode(), colouring_.scale());
+  legend_->follow(colouring_, panel_);
   if (const Frame* frame = document_.frame(panel_)) {
     statistics_->setText(describe(frame->statistics));
-    const QString state = states(frame->statistics).join(QStringLiteral(" · "));
-    state_->setText(state_->fontMetrics().elidedText(state, Qt::ElideRight, state_->width()));
-    state_->setToolTip(state);
+    head_->showState(states(frame->statistics).join(QStringLiteral(" · ")));
   }
 }
 

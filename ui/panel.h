@@ -1,11 +1,11 @@
 #pragma once
 
-#include <QComboBox>
 #include <QFrame>
 #include <QLabel>
 #include <QTimer>
 
 #include "legend.h"
+#include "panel_head.h"
 #include "view.h"
 
 namespace chainmail {
@@ -15,11 +15,12 @@ class Panel : public QFrame {
   Q_OBJECT
 
  public:
-  Panel(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
-        std::shared_ptr<MeshLevels> levels, colours::Colour colour);
+  Panel(Document& document, Colouring& colouring, PanelLinks& links, int panel, std::shared_ptr<Camera> camera,
+        std::shared_ptr<MeshLevels> levels);
 
   View& view() { return *view_; }
-  QComboBox& selector() { return *selector_; }
+  PanelHead& head() { return *head_; }
+  QComboBox& selector() { return head_->selector(); }
   Legend& legend() { return *legend_; }
   /// Draws it over the panel's object, and says what it notes.
   void addOverlay(Overlay& overlay) { view_->addOverlay(overlay); }
@@ -27,9 +28,8 @@ class Panel : public QFrame {
   void refresh();
 
  private:
-  void fillSelector();
-  void showAlgorithm();
-  void arrange(colours::Colour colour);
+  void arrange();
+  void listen();
   void showStatistics();
   QString describe(const Statistics& statistics) const;
   QStringList states(const Statistics& statistics) const;
@@ -37,10 +37,9 @@ class Panel : public QFrame {
   Document& document_;
   Colouring& colouring_;
   int panel_;
-  QComboBox* selector_;
-  QLabel* state_;
   QLabel* statistics_;
   View* view_;
+  PanelHead* head_;
   Legend* legend_;
   QTimer refresh_;  // figures change at a rate that can be read, and only when there is something new
 };

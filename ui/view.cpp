@@ -16,13 +16,14 @@ constexpr double smallestMark = 2;
 
 }  // namespace
 
-View::View(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
-           std::shared_ptr<MeshLevels> levels, colours::Colour colour)
+View::View(Document& document, Colouring& colouring, PanelLinks& links, int panel, std::shared_ptr<Camera> camera,
+           std::shared_ptr<MeshLevels> levels)
     : document_(document),
       colouring_(colouring),
+      links_(links),
       panel_(panel),
       camera_(std::move(camera)),
-      colour_(colour),
+      colour_(colours::ofPanel(panel)),
       levels_(std::move(levels)),
       painter_(levels_) {
   setMouseTracking(true);
@@ -40,7 +41,7 @@ View::View(Document& document, Colouring& colouring, int panel, std::shared_ptr<
 
 void View::listen() {
   connect(&document_, &Document::frameReady, this, [this](int ready) {
-    if (ready == panel_) {
+    if (ready == panel_ || ready == ghost_.of) {
       update();
     }
   });
@@ -48,12 +49,16 @@ void View::listen() {
   connect(&document_, &Document::pinsChanged, this, qOverload<>(&View::update));
   connect(&document_, &Document::selectionChanged, this, [this] {
     selectionOutdated_ = true;
+    selectedHere_ = links_.pointed() == panel_;
     update();
   });
+  connect(&links_, &PanelLinks::marksLinked, this, qOverload<>(&View::update));
   connect(&colouring_, &Colouring::changed, this, qOverload<>(&View::update));
-  connect(&document_, &Document::meshChanged, this, &View::fit);
   connect(&document_, &Document::cutsChanged, this, [this] {
     painter_.cutsChanged();
+    if (ghostPainter_ != nullptr) {
+      ghostPainter_->cutsChanged();
+    }
     update();
   });
   connect(this, &QOpenGLWidget::frameSwapped, this, [this] { meter_.swapped(); });
@@ -65,6 +70,7 @@ View::~View() {
   }
   makeCurrent();
   painter_.destroy();
+  forgetGhost();
   doneCurrent();
 }
 
@@ -75,6 +81,7 @@ void View::setTool(Tool* tool) {
 
 void View::setCamera(std::shared_ptr<Camera> camera) {
   camera_ = std::move(camera);
+  fitPending_ = false;
   update();
 }
 
@@ -153,6 +160,7 @@ void View::initializeGL() {
   connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
     makeCurrent();
     painter_.destroy();
+    forgetGhost();
     painterReady_ = false;
     doneCurrent();
   });
@@ -182,7 +190,7 @@ void View::paintGL() {
   painter_.setFrame(*frame, document_.cuts());
   const unsigned stepBefore = painter_.step();
   const auto in = scene();
-  painter_.drawObject(in, paint(), 1 / camera_->unitsPerPixel(size()));
+  drawObjects(in);
   drawOverlays(in, *frame);
   drawMarks(in);
   if (painter_.step() != stepBefore) {
@@ -198,7 +206,7 @@ ObjectPainter::Paint View::paint() {
     }
   }
   const ColourValues* values = colouring_.follow(panel_);
-  return {colour_, values, colouring_.scale()};
+  return {colour_, values, colouring_.scale(panel_)};
 }
 
 void View::drawOverlays(const ObjectPainter::Scene& in, const Frame& frame) {
@@ -226,7 +234,9 @@ void View::drawMarks(const ObjectPainter::Scene& in) {
     selectionOutdated_ = false;
   }
   const double room = pixelsPerLink() * 0.7;
-  painter_.drawSelection(in, colours::selected, float(std::clamp(room, smallestMark, largestRing)));
+  if (links_.marks() || selectedHere_) {
+    painter_.drawSelection(in, colours::selected, float(std::clamp(room, smallestMark, largestRing)));
+  }
   drawHighlight(in);
   painter_.drawElements(in, document_.pins(), colours::background, pinSize + 5, ObjectPainter::Mark::diamond);
   painter_.drawElements(in, document_.pins(), colours::pinned, pinSize, ObjectPainter::Mark::diamond);
@@ -237,6 +247,11 @@ void View::drawMarks(const ObjectPainter::Scene& in) {
 
 void View::drawHighlight(const ObjectPainter::Scene& in) {
   const Highlight& highlight = document_.highlight();
+  // What the hand holds, or would cut, it does in all panels.
+  const bool mirrored = links_.marks() || highlight.grabbed || !highlight.links.empty();
+  if (!mirrored && links_.pointed() != panel_) {
+    return;
+  }
   painter_.drawLinks(in, highlight.links, colours::lit);
   if (highlight.element) {
     const ElementId element = *highlight.element;

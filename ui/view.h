@@ -9,8 +9,11 @@
 #include "colours.h"
 #include "document.h"
 #include "frame_meter.h"
+#include "ghost.h"
 #include "overlay.h"
+#include "panel_links.h"
 #include "picking.h"
+#include "see_through.h"
 #include "tool.h"
 
 namespace chainmail {
@@ -21,8 +24,8 @@ class View : public QOpenGLWidget {
 
  public:
   /// The panels share the camera, unless they are unlinked, and the mesh's levels of detail.
-  View(Document& document, Colouring& colouring, int panel, std::shared_ptr<Camera> camera,
-       std::shared_ptr<MeshLevels> levels, colours::Colour colour);
+  View(Document& document, Colouring& colouring, PanelLinks& links, int panel, std::shared_ptr<Camera> camera,
+       std::shared_ptr<MeshLevels> levels);
   ~View() override;
 
   void setTool(Tool* tool);
@@ -30,10 +33,13 @@ class View : public QOpenGLWidget {
   void addOverlay(Overlay& overlay) { overlays_.push_back(&overlay); }
   /// What the overlays say of this panel.
   QStringList notes() const;
+  /// Looks through another camera, as it stands.
   void setCamera(std::shared_ptr<Camera> camera);
   const std::shared_ptr<Camera>& camera() const { return camera_; }
   /// Shows the whole rest shape.
   void fit();
+  void setGhost(const Ghost& ghost);
+  const Ghost& ghost() const { return ghost_; }
 
   /// For tools: what is under a place of this view, and where an element is.
   std::optional<ElementId> elementAt(QPointF place) const;
@@ -55,6 +61,7 @@ class View : public QOpenGLWidget {
   void cameraChanged();
   void failed(const QString& sentence);
   void drawnStepChanged();
+  void ghostChanged();
 
  protected:
   void initializeGL() override;
@@ -74,12 +81,15 @@ class View : public QOpenGLWidget {
   double pixelsPerLink() const;
   void drawOverlays(const ObjectPainter::Scene& scene, const Frame& frame);
   ObjectPainter::Paint paint();
+  void drawObjects(const ObjectPainter::Scene& scene);
+  void forgetGhost();
   void drawMarks(const ObjectPainter::Scene& scene);
   void drawHighlight(const ObjectPainter::Scene& scene);
   void moveCamera(QPointF travel, Qt::MouseButtons buttons);
 
   Document& document_;
   Colouring& colouring_;
+  PanelLinks& links_;
   int panel_;
   std::shared_ptr<Camera> camera_;
   colours::Colour colour_;
@@ -88,12 +98,16 @@ class View : public QOpenGLWidget {
   std::shared_ptr<MeshLevels> levels_;
   mutable CellBoxes boxes_;  // for the search under the cursor, as of the last one
   ObjectPainter painter_;
+  Ghost ghost_;
+  std::unique_ptr<ObjectPainter> ghostPainter_;  // as long as there is a ghost
+  SeeThrough seeThrough_;
   FrameMeter meter_;
   QTimer hover_;  // the search for the element under the cursor runs once a frame, not once an event
   QPointF cursor_;
   bool fitPending_ = true;
   bool painterReady_ = false;
   bool selectionOutdated_ = true;  // on the graphics card
+  bool selectedHere_ = true;       // in this view, or in no other
 };
 
 }  // namespace chainmail

@@ -14,6 +14,7 @@ constexpr double zoomPerNotch = 1.2;
 }  // namespace
 
 void View::mousePressEvent(QMouseEvent* event) {
+  links_.point(panel_);
   cursor_ = event->position();
   if (event->button() == Qt::LeftButton && tool_ != nullptr) {
     hover_.stop();
@@ -22,6 +23,7 @@ void View::mousePressEvent(QMouseEvent* event) {
 }
 
 void View::mouseMoveEvent(QMouseEvent* event) {
+  links_.point(panel_);
   const QPointF travel = event->position() - cursor_;
   cursor_ = event->position();
   if (event->buttons() == Qt::NoButton) {

@@ -14,13 +14,13 @@ uniform vec2 fog;    // distances from the eye at which fading begins and ends; 
 uniform samplerBuffer link_values;
 uniform vec3 stops[6];   // the colour map's control points
 uniform vec2 range;      // the values at its two ends
-uniform float threshold; // at or below it a value is neutral
+uniform float threshold; // a value that is no larger, whatever its sign, is neutral
 uniform vec4 neutral;
 
 out vec4 fragment;
 
 vec4 mapped(float value) {
-  if (value <= threshold) {
+  if (abs(value) <= threshold) {
     return neutral;
   }
   float share = range.y > range.x ? clamp((value - range.x) / (range.y - range.x), 0.0, 1.0) : 0.0;

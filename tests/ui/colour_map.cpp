@@ -56,6 +56,21 @@ class ColourMap : public QObject {
       QVERIFY(at(0) - away * lightness(colours::background.on(ground)) > 25);
     }
   }
+
+  /// Both sides of a difference leave the ground alike, and blue never stands for the side above 0.
+  void differencesStandOutBothWays() {
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      const auto at = [&](double share) { return colour_map::at(share, colour_map::differenceStops(ground)); };
+      double before = lightness(colours::background.on(ground));
+      for (const double off : {0.1, 0.3, 0.5}) {  // between these it is linear
+        const QColor below = at(0.5 - off), above = at(0.5 + off);
+        QVERIFY(below.blue() > below.red() && above.red() > above.blue());
+        QVERIFY(std::abs(lightness(below) - lightness(above)) < 5);  // neither side looks larger
+        QVERIFY((lightness(below) - before) * (ground == Ground::dark ? 1 : -1) > 10);
+        before = lightness(below);
+      }
+    }
+  }
 };
 
 QTEST_GUILESS_MAIN(ColourMap)

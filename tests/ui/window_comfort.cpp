@@ -56,13 +56,14 @@ class WindowComfort : public QObject {
                  qPrintable(QStringLiteral("%1 on %2").arg(palette.color(text).name(), palette.color(behind).name())));
       }
       // Panels' figures are written in their colours.
-      for (const QColor colour : {QColor(colours::left), QColor(colours::right)}) {
+      for (const QColor colour :
+           {QColor(colours::left), QColor(colours::right), QColor(colours::third), QColor(colours::fourth)}) {
         QVERIFY(contrast(colour, palette.color(QPalette::Window)) >= ofText);
       }
       for (const QColor mark :
-           {QColor(colours::left), QColor(colours::right), QColor(colours::marked), QColor(colours::pinned),
-            QColor(colours::selected), QColor(colours::lit), QColor(colours::inside), QColor(colours::outside),
-            colour_map::at(0), colour_map::at(1)}) {
+           {QColor(colours::left), QColor(colours::right), QColor(colours::third), QColor(colours::fourth),
+            QColor(colours::marked), QColor(colours::pinned), QColor(colours::selected), QColor(colours::lit),
+            QColor(colours::inside), QColor(colours::outside), colour_map::at(0), colour_map::at(1)}) {
         QVERIFY2(contrast(mark, colours::background) >= ofMarks, qPrintable(mark.name()));
       }
       for (const auto& one : algorithms()) {

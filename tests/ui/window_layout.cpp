@@ -58,7 +58,9 @@ class WindowLayout : public QObject {
     QVERIFY(QTest::qWaitForWindowExposed(panel));
     panel->setParent(home);
     panel->show();
-    qobject_cast<QSplitter*>(home)->insertWidget(0, panel);
+    auto* row = qobject_cast<QSplitter*>(home);
+    row->insertWidget(0, panel);
+    row->setSizes({1000, 1000});
     bench.settle();
     bench.trigger("fitView");
     bench.settle();

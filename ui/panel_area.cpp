@@ -1,0 +1,169 @@
+#include "panel_area.h"
+
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "panel.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int inARow = 2;
+constexpr int handleWidth = 3;
+constexpr int equal = 10'000;  // sizes that a splitter scales to the room there is
+
+QSplitter* makeSplitter(Qt::Orientation orientation) {
+  auto* splitter = new QSplitter(orientation);
+  splitter->setChildrenCollapsible(false);
+  splitter->setHandleWidth(handleWidth);
+  return splitter;
+}
+
+void shareEqually(QSplitter& splitter) { splitter.setSizes(QList<int>(splitter.count(), equal)); }
+
+double aspect(const Panel& panel) { return double(panel.width()) / std::max(1, panel.height()); }
+
+}  // namespace
+
+PanelArea::PanelArea(Document& document, Colouring& colouring)
+    : document_(document),
+      colouring_(colouring),
+      links_(colouring, this),
+      camera_(std::make_shared<Camera>()),
+      levels_(std::make_shared<MeshLevels>()),
+      column_(makeSplitter(Qt::Vertical)),
+      rows_{makeSplitter(Qt::Horizontal), makeSplitter(Qt::Horizontal)} {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(column_);
+  for (QSplitter* row : rows_) {
+    column_->addWidget(row);
+  }
+  for (int panel = 0; panel < Document::panels; ++panel) {
+    addPanel();
+  }
+  arrange();
+  connect(&links_, &PanelLinks::camerasLinked, this, &PanelArea::linkCameras);
+  connect(&document, &Document::meshChanged, this, &PanelArea::fit);
+}
+
+void PanelArea::addPanel() {
+  const int number = int(panels_.size());
+  auto* panel = new Panel(document_, colouring_, links_, number, camera_, levels_);
+  panels_.push_back(panel);
+  places_.push_back(number);
+  shown_.push_back(true);
+  View& view = panel->view();
+  connect(&view, &View::failed, this, &PanelArea::failed);
+  connect(&view, &View::ghostChanged, this, &PanelArea::ghostsChanged);
+  connect(&view, &View::cameraChanged, this, [this, &view] {
+    for (Panel* other : panels_) {
+      if (&other->view() != &view && other->view().camera() == view.camera()) {
+        other->view().update();
+      }
+    }
+  });
+  connect(&panel->head(), &PanelHead::aloneToggled, this,
+          [this, number] { setAlone(alone_ == number ? std::nullopt : std::optional(number)); });
+}
+
+void PanelArea::setTool(Tool& tool) {
+  tool_ = &tool;
+  for (Panel* panel : panels_) {
+    panel->view().setTool(&tool);
+  }
+}
+
+/// Of linked views the one with the least room at its sides comes last: what it shows whole, all do.
+void PanelArea::fit() {
+  auto all = panels_;
+  const auto hidden =
+      std::stable_partition(all.begin(), all.end(), [](const Panel* panel) { return panel->isHidden(); });
+  std::stable_sort(hidden, all.end(), [](const Panel* a, const Panel* b) { return aspect(*a) > aspect(*b); });
+  for (Panel* panel : all) {
+    panel->view().fit();
+  }
+}
+
+void PanelArea::addOverlay(Overlay& overlay) {
+  overlays_.push_back(&overlay);
+  for (Panel* panel : panels_) {
+    panel->addOverlay(overlay);
+  }
+}
+
+void PanelArea::refresh() {
+  for (Panel* panel : panels_) {
+    panel->refresh();
+  }
+}
+
+void PanelArea::linkCameras(bool linked) {
+  camera_ = panels_.front()->view().camera();
+  for (Panel* panel : panels_) {
+    if (panel != panels_.front()) {
+      panel->view().setCamera(linked ? camera_ : std::make_shared<Camera>(*camera_));
+    }
+  }
+}
+
+std::vector<int> PanelArea::inSight() const {
+  std::vector<int> seen = alone_ ? std::vector{*alone_} : places_;
+  std::erase_if(seen, [this](int panel) { return !alone_ && !isShown(panel); });
+  return seen;
+}
+
+void PanelArea::setShown(int panel, bool shown) {
+  const bool last = std::count(shown_.begin(), shown_.end(), true) == 1;
+  if (shown != isShown(panel) && (shown || !last)) {
+    shown_[std::size_t(panel)] = shown;
+  }
+  alone_.reset();
+  arrange();
+}
+
+void PanelArea::setAlone(std::optional<int> panel) {
+  alone_ = panel;
+  arrange();
+}
+
+void PanelArea::moveOn() {
+  std::rotate(places_.begin(), places_.begin() + 1, places_.end());
+  arrange();
+}
+
+void PanelArea::arrange() {
+  const auto seen = inSight();
+  for (std::size_t panel = 0; panel < panels_.size(); ++panel) {
+    const auto place = std::find(seen.begin(), seen.end(), int(panel)) - seen.begin();
+    const bool visible = place < std::ssize(seen);
+    QSplitter* row = rows_[visible ? std::size_t(place / inARow) : 0];
+    if (panels_[panel]->parentWidget() != row) {
+      row->addWidget(panels_[panel]);
+    }
+    panels_[panel]->setVisible(visible);
+    panels_[panel]->head().showAlone(alone_ == int(panel));
+  }
+  for (std::size_t place = 0; place < seen.size(); ++place) {
+    rows_[place / inARow]->insertWidget(int(place % inARow), panels_[std::size_t(seen[place])]);
+  }
+  rows_[1]->setVisible(seen.size() > inARow);
+  for (QSplitter* splitter : {rows_[0], rows_[1], column_}) {
+    shareEqually(*splitter);
+  }
+  emit arranged();
+}
+
+void PanelArea::setGhosts(bool on) {
+  const int count = int(panels_.size());
+  for (int panel = 0; panel < count; ++panel) {
+    View& view = panels_[std::size_t(panel)]->view();
+    view.setGhost({on ? std::optional((panel + 1) % count) : std::nullopt, view.ghost().blend});
+  }
+}
+
+bool PanelArea::hasGhosts() const {
+  return std::any_of(panels_.begin(), panels_.end(), [](Panel* one) { return one->view().ghost().of.has_value(); });
+}
+
+}  // namespace chainmail

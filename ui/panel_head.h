@@ -1,0 +1,51 @@
+#pragma once
+
+#include <QComboBox>
+#include <QLabel>
+#include <QWidget>
+
+#include "document.h"
+
+class QHBoxLayout;
+class QToolButton;
+
+namespace chainmail {
+
+class View;
+
+/// What stands above a panel's view: its colour and letter, the algorithm's selector, what state the object is in, and
+/// the buttons that arrange the panel. A double-click beside them shows the panel alone, or all again.
+class PanelHead : public QWidget {
+  Q_OBJECT
+
+ public:
+  PanelHead(Document& document, View& view, int panel);
+
+  QComboBox& selector() { return *selector_; }
+  void showState(const QString& state);
+  /// Whether its panel is shown alone.
+  void showAlone(bool alone);
+  /// A button for an action, as long as it is wanted here.
+  void addAction(QAction& action);
+
+ signals:
+  void aloneToggled();
+
+ protected:
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+
+ private:
+  void fillSelector();
+  void showAlgorithm();
+  void arrange(View& view);
+  QToolButton* makeAloneButton();
+
+  Document& document_;
+  int panel_;
+  QComboBox* selector_;
+  QLabel* state_;
+  QToolButton* alone_;
+  QHBoxLayout* row_;
+};
+
+}  // namespace chainmail
