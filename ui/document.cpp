@@ -63,7 +63,13 @@ void Document::receiveFrame(int panel) {
 }
 
 void Document::grab(ElementId element) {
+  endDrag();
   recorder_.grab(element);
+  if (!isPinned(element)) {  // else it is refused
+    beforeDrag_ = newState();
+    dragged_ = element;
+    post(commands::KeepState{*beforeDrag_});
+  }
   post(commands::Grab{element});
 }
 
@@ -83,9 +89,45 @@ void Document::post(const Command& command) {
 
 void Document::release() {
   post(commands::Release{});
-  if (recorder_.release()) {
+  endDrag();
+}
+
+/// What the hand did so far becomes a step of undo; a press without a move is none.
+void Document::endDrag() {
+  const bool moved = recorder_.release();
+  if (const auto state = std::exchange(beforeDrag_, {})) {
+    if (moved) {
+      undoStack_.push(new DragEdit(*this, dragged_, *state));
+    } else {
+      post(commands::DropState{*state});
+    }
+  }
+  if (moved) {
     emit lastDragChanged();
   }
+}
+
+void Document::push(QUndoCommand* edit) {
+  endDrag();
+  undoStack_.push(edit);
+}
+
+void Document::undo() {
+  endDrag();
+  undoStack_.undo();
+}
+
+void Document::redo() {
+  endDrag();
+  undoStack_.redo();
+}
+
+/// None where the step of this gesture will be merged into the last one, which has kept the state before.
+std::optional<commands::StateId> Document::stateFor(int gesture, const QString& text) {
+  const QUndoCommand* last = undoStack_.command(undoStack_.index() - 1);
+  const bool goesOn = gesture != 0 && last != nullptr && last->id() == gesture && last->text() == text &&
+                      undoStack_.index() != undoStack_.cleanIndex();
+  return goesOn ? std::nullopt : std::optional(newState());
 }
 
 void Document::setSoftness(const LinkSoftness& global, const QString& text, int gesture) {
@@ -115,27 +157,27 @@ void Document::resetSoftness() {
 }
 
 void Document::pushSoftness(Softness softness, const QString& text, int gesture) {
-  undoStack_.push(new SoftnessEdit(*this, std::make_shared<const Softness>(std::move(softness)), text, gesture));
+  push(new SoftnessEdit(*this, std::make_shared<const Softness>(std::move(softness)), text, gesture));
 }
 
 bool Document::isPinned(ElementId element) const { return std::binary_search(pins_.begin(), pins_.end(), element); }
 
 void Document::setPinned(const std::vector<ElementId>& elements, bool pinned) {
   if (!elements.empty()) {
-    undoStack_.push(new PinEdit(*this, elements, pinned));
+    push(new PinEdit(*this, elements, pinned));
   }
 }
 
 void Document::cut(const std::vector<LinkId>& links) {
   if (!links.empty()) {
-    undoStack_.push(new CutEdit(*this, links));
+    push(new CutEdit(*this, links));
   }
 }
 
-void Document::resetObject() { undoStack_.push(new ResetEdit(*this)); }
+void Document::resetObject() { push(new ResetEdit(*this)); }
 
 void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text) {
-  undoStack_.push(new MeshEdit(*this, mesh, name, text));
+  push(new MeshEdit(*this, mesh, name, text));
 }
 
 void Document::setAlgorithm(int panel, Algorithm algorithm) {
@@ -147,9 +189,22 @@ void Document::setAlgorithm(int panel, Algorithm algorithm) {
     return;
   }
   if (algorithms_[panel] != algorithm) {
-    algorithms_[panel] = algorithm;
-    solvers_[panel]->post(commands::SetAlgorithm{algorithm});
-    emit algorithmChanged(panel);
+    push(new AlgorithmEdit(*this, panel, algorithm));
+  }
+}
+
+void Document::runAlgorithm(int panel, Algorithm algorithm) {
+  algorithms_[panel] = algorithm;
+  log_->post_to(*solvers_[panel], commands::SetAlgorithm{algorithm});
+}
+
+/// What ran before a mesh on which not all of it works.
+void Document::runAlgorithms(const std::vector<Algorithm>& algorithms) {
+  for (int panel = 0; panel < std::min(panels, int(algorithms.size())); ++panel) {
+    if (algorithms_[panel] != algorithms[panel]) {
+      runAlgorithm(panel, algorithms[panel]);
+      emit algorithmChanged(panel);
+    }
   }
 }
 
@@ -172,12 +227,18 @@ void Document::followFallback() {
   }
 }
 
-void Document::setRelaxation(const commands::SetRelaxation& relaxation) {
+void Document::setRelaxation(const commands::SetRelaxation& relaxation, int gesture) {
   if (relaxation != relaxation_) {
-    relaxation_ = relaxation;
-    post(relaxation_);
-    emit relaxationChanged();
+    const QString text = relaxation.on == relaxation_.on ? QStringLiteral("relaxation's settings")
+                         : relaxation.on                 ? QStringLiteral("relaxation on")
+                                                         : QStringLiteral("relaxation off");
+    push(new RelaxationEdit(*this, relaxation, text, gesture));
   }
+}
+
+void Document::showRelaxation(const commands::SetRelaxation& relaxation) {
+  relaxation_ = relaxation;
+  emit relaxationChanged();
 }
 
 void Document::setHighlight(const Highlight& highlight) {
@@ -195,11 +256,10 @@ void Document::select(std::vector<ElementId> elements) {
   }
 }
 
-void Document::applyCuts(const std::vector<LinkId>& links, bool cut) {
+void Document::showCuts(const std::vector<LinkId>& links, bool cut) {
   for (const LinkId link : links) {
     cut ? cuts_.cut(link) : cuts_.uncut(link);
   }
-  post(cut ? Command(commands::Cut{links}) : Command(commands::Uncut{links}));
   emit cutsChanged();
   if (!selection_.empty()) {
     selection_.links = linksAmong(*mesh_, cuts_, selection_.elements);
@@ -207,15 +267,13 @@ void Document::applyCuts(const std::vector<LinkId>& links, bool cut) {
   }
 }
 
-void Document::applyPins(const std::vector<ElementId>& elements, bool pinned) {
+void Document::showPins(const std::vector<ElementId>& elements, bool pinned) {
   pins_ = combined(pins_, elements, pinned ? SelectionMode::add : SelectionMode::remove);
-  post(pinned ? Command(commands::Pin{elements}) : Command(commands::Unpin{elements}));
   emit pinsChanged();
 }
 
-void Document::applySoftness(std::shared_ptr<const Softness> softness) {
+void Document::showSoftness(std::shared_ptr<const Softness> softness) {
   softness_ = std::move(softness);
-  post(commands::SetSoftness{*softness_});
   emit softnessChanged();
 }
 

@@ -51,6 +51,9 @@ class Document : public QObject {
   const commands::SetRelaxation& relaxation() const { return relaxation_; }
   Algorithm algorithm(int panel) const { return algorithms_[panel]; }
   QUndoStack& undoStack() { return undoStack_; }
+  /// Ends what the hand is at, so that it is a step of its own, and undoes it or the step before.
+  void undo();
+  void redo();
 
   /// The newest frame of a panel, or none while it does not show the object yet; it stays as it is until
   /// frameReady.
@@ -58,14 +61,14 @@ class Document : public QObject {
   /// Whether both solvers have carried out all that was asked of them.
   bool idle() const;
 
-  /// The hand, in mesh units. Not undone: 'reset object' is.
+  /// The hand, in mesh units. From grab to release is one step of undo, if anything was dragged.
   void grab(ElementId element);
   void drag(const Point& target);
   void release();
   /// What the hand did last on this mesh, without the release; empty where it did nothing yet.
   const std::vector<Command>& lastDrag() const { return recorder_.last(); }
 
-  /// Edits, each one step of undo. Softness changes of one gesture (not 0) become one step.
+  /// Edits, each one step of undo. Changes of one gesture (not 0) become one step.
   void setSoftness(const LinkSoftness& global, const QString& text, int gesture = 0);
   /// Gives links a softness of their own, or, with none, back the global one.
   void setSoftnessOf(const std::vector<LinkId>& links, const std::optional<LinkSoftness>& own);
@@ -78,7 +81,7 @@ class Document : public QObject {
 
   /// Refused where the algorithm does not work on the mesh.
   void setAlgorithm(int panel, Algorithm algorithm);
-  void setRelaxation(const commands::SetRelaxation& relaxation);
+  void setRelaxation(const commands::SetRelaxation& relaxation, int gesture = 0);
 
   const Highlight& highlight() const { return highlight_; }
   void setHighlight(const Highlight& highlight);
@@ -103,18 +106,31 @@ class Document : public QObject {
   void noticed(const QString& sentence);
 
  private:
+  friend class Edit;
   friend class CutEdit;
-  friend class SoftnessEdit;
   friend class PinEdit;
-  friend class KeepingEdit;
+  template <class Value>
+  friend class GestureEdit;
+  friend class SoftnessEdit;
+  friend class RelaxationEdit;
+  friend class AlgorithmEdit;
   friend class ResetEdit;
   friend class MeshEdit;
 
-  void applyCuts(const std::vector<LinkId>& links, bool cut);
-  void applyPins(const std::vector<ElementId>& elements, bool pinned);
-  void applySoftness(std::shared_ptr<const Softness> softness);
-  void pushSoftness(Softness softness, const QString& text, int gesture);
+  // The document's own side of edits; the solvers are told beside.
+  void showCuts(const std::vector<LinkId>& links, bool cut);
+  void showPins(const std::vector<ElementId>& elements, bool pinned);
+  void showSoftness(std::shared_ptr<const Softness> softness);
+  void showRelaxation(const commands::SetRelaxation& relaxation);
+  void runAlgorithm(int panel, Algorithm algorithm);
+  void runAlgorithms(const std::vector<Algorithm>& algorithms);
   void followFallback();
+
+  commands::StateId newState() { return nextState_++; }
+  std::optional<commands::StateId> stateFor(int gesture, const QString& text);
+  void push(QUndoCommand* edit);
+  void endDrag();
+  void pushSoftness(Softness softness, const QString& text, int gesture);
   void post(const Command& command);
   void receiveFrame(int panel);
 
@@ -129,6 +145,8 @@ class Document : public QObject {
   Selection selection_;
   commands::StateId nextState_ = 1;
   DragRecorder recorder_;
+  std::optional<commands::StateId> beforeDrag_;  // kept while the hand holds an element
+  ElementId dragged_ = 0;
 
   // The solver threads announce a frame at most once until it is received.
   std::array<std::atomic<bool>, panels> announced_{};

@@ -4,68 +4,96 @@
 
 namespace chainmail {
 
-CutEdit::CutEdit(Document& document, std::vector<LinkId> links) : document_(document), links_(std::move(links)) {
-  setText(counted(QStringLiteral("cut"), links_.size(), QStringLiteral("link")));
+Edit::Edit(Document& document, const QString& text, std::optional<commands::StateId> state, bool kept)
+    : QUndoCommand(text), document_(document), state_(state), kept_(kept) {}
+
+Edit::~Edit() {
+  if (state_) {
+    document_.post(commands::DropState{*state_});
+  }
 }
 
+void Edit::redo() {
+  if (done_) {
+    exchange(true);
+    return;
+  }
+  done_ = true;
+  if (state_ && !kept_) {
+    document_.post(commands::KeepState{*state_});
+  }
+  carryOut();
+  show(true);
+}
+
+void Edit::undo() { exchange(false); }
+
+void Edit::exchange(bool done) {
+  const commands::StateId now = document_.newState();
+  document_.post(commands::KeepState{now});
+  prepare(done);
+  document_.post(commands::RestoreState{*state_});
+  document_.post(commands::DropState{*state_});
+  state_ = now;
+  show(done);
+}
+
+DragEdit::DragEdit(Document& document, ElementId element, commands::StateId before)
+    : Edit(document, QStringLiteral("drag of element %1").arg(element), before, true) {}
+
+CutEdit::CutEdit(Document& document, std::vector<LinkId> links)
+    : Edit(document, counted(QStringLiteral("cut"), links.size(), QStringLiteral("link")), document.newState()),
+      links_(std::move(links)) {}
+
+void CutEdit::carryOut() { document_.post(commands::Cut{links_}); }
+
 PinEdit::PinEdit(Document& document, std::vector<ElementId> elements, bool pinned)
-    : document_(document), elements_(std::move(elements)), pinned_(pinned) {
-  setText(
-      counted(pinned ? QStringLiteral("pin") : QStringLiteral("unpin"), elements_.size(), QStringLiteral("element")));
+    : Edit(
+          document,
+          counted(pinned ? QStringLiteral("pin") : QStringLiteral("unpin"), elements.size(), QStringLiteral("element")),
+          document.newState()),
+      elements_(std::move(elements)),
+      pinned_(pinned) {}
+
+void PinEdit::carryOut() {
+  document_.post(pinned_ ? Command(commands::Pin{elements_}) : Command(commands::Unpin{elements_}));
 }
 
 SoftnessEdit::SoftnessEdit(Document& document, std::shared_ptr<const Softness> softness, const QString& text,
                            int gesture)
-    : QUndoCommand(text),
-      document_(document),
-      before_(document.softness_),
-      after_(std::move(softness)),
-      gesture_(gesture) {}
+    : GestureEdit(document, document.wholeSoftness(), std::move(softness), text, gesture) {}
 
-bool SoftnessEdit::mergeWith(const QUndoCommand* later) {
-  const auto* other = dynamic_cast<const SoftnessEdit*>(later);
-  if (other == nullptr || other->text() != text()) {
-    return false;
-  }
-  after_ = other->after_;
-  return true;
-}
+void SoftnessEdit::carryOut() { document_.post(commands::SetSoftness{*after_}); }
 
-KeepingEdit::KeepingEdit(Document& document, const QString& text)
-    : QUndoCommand(text), document_(document), state_(document.nextState_++) {}
+RelaxationEdit::RelaxationEdit(Document& document, const commands::SetRelaxation& relaxation, const QString& text,
+                               int gesture)
+    : GestureEdit(document, document.relaxation(), relaxation, text, gesture) {}
 
-KeepingEdit::~KeepingEdit() { document_.post(commands::DropState{state_}); }
+void RelaxationEdit::carryOut() { document_.post(after_); }
+void RelaxationEdit::prepare(bool done) { document_.post(done ? after_ : before_); }
 
-void KeepingEdit::keep() { document_.post(commands::KeepState{state_}); }
-void KeepingEdit::swap() { document_.post(commands::SwapState{state_}); }
+AlgorithmEdit::AlgorithmEdit(Document& document, int panel, Algorithm algorithm)
+    : Edit(document, chainmail::text(info(algorithm).label), document.newState()),
+      panel_(panel),
+      before_(document.algorithm(panel)),
+      after_(algorithm) {}
 
-ResetEdit::ResetEdit(Document& document) : KeepingEdit(document, QStringLiteral("reset object")) {}
+void AlgorithmEdit::prepare(bool done) { document_.runAlgorithm(panel_, done ? after_ : before_); }
 
-void ResetEdit::redo() {
-  keep();
-  document_.post(commands::Reset{});
-}
+ResetEdit::ResetEdit(Document& document) : Edit(document, QStringLiteral("reset object"), document.newState()) {}
+
+void ResetEdit::carryOut() { document_.post(commands::Reset{}); }
 
 MeshEdit::MeshEdit(Document& document, MeshPointer mesh, const QString& name, const QString& text)
-    : KeepingEdit(document, text), mesh_(std::move(mesh)), name_(name), cuts_(mesh_) {}
+    : Edit(document, text, document.newState()),
+      mesh_(std::move(mesh)),
+      name_(name),
+      cuts_(mesh_),
+      algorithms_(document.algorithms_.begin(), document.algorithms_.end()) {}
 
-void MeshEdit::redo() {
-  if (done_) {
-    swap();
-  } else {
-    keep();
-    document_.post(commands::ReplaceMesh{mesh_});
-    done_ = true;
-  }
-  exchange();
-}
+void MeshEdit::carryOut() { document_.post(commands::ReplaceMesh{mesh_}); }
 
-void MeshEdit::undo() {
-  swap();
-  exchange();
-}
-
-void MeshEdit::exchange() {
+void MeshEdit::show(bool done) {
   std::swap(mesh_, document_.mesh_);
   std::swap(name_, document_.name_);
   std::swap(cuts_, document_.cuts_);
@@ -76,7 +104,11 @@ void MeshEdit::exchange() {
   document_.setHighlight({});
   document_.select({});
   emit document_.meshChanged();
-  document_.followFallback();
+  if (done) {
+    document_.followFallback();
+  } else {
+    document_.runAlgorithms(algorithms_);
+  }
 }
 
 }  // namespace chainmail

@@ -23,6 +23,7 @@
 #include "report_dock.h"
 #include "stiffness_dock.h"
 #include "tools_dock.h"
+#include "undo_actions.h"
 
 namespace chainmail {
 namespace {
@@ -41,6 +42,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       cutTool_(document_),
       pinTool_(document_),
       selectTool_(document_),
+      undoActions_(new UndoActions(document_, *this)),
       files_(new FileActions(*this, document_, jobs_)),
       messages_(new MessageBar),
       area_(new PanelArea(document_, colouring_)),
@@ -132,6 +134,9 @@ void MainWindow::makeDocks() {
   addDockWidget(Qt::RightDockWidgetArea, new RelaxationDock(document_));
   makeFrameRateDock();
   makeReportDock();
+  auto* history = new HistoryDock(document_);
+  addDockWidget(Qt::LeftDockWidgetArea, history);
+  history->hide();
   auto* menu = menuBar()->addMenu(QStringLiteral("&Docks"));
   for (QDockWidget* dock : findChildren<QDockWidget*>()) {
     menu->addAction(dock->toggleViewAction());

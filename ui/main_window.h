@@ -23,6 +23,7 @@ class ColourSelector;
 class FileActions;
 class MessageBar;
 class Panel;
+class UndoActions;
 
 /// The workbench's window: panels, docks, tools and named actions, wired to one document.
 class MainWindow : public QMainWindow {
@@ -72,6 +73,7 @@ class MainWindow : public QMainWindow {
   SelectTool selectTool_;
   Tool* tool_ = nullptr;
   Jobs jobs_;
+  UndoActions* undoActions_;
   FileActions* files_;
   MessageBar* messages_;
   PanelArea* area_;

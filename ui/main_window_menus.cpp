@@ -12,6 +12,7 @@
 #include "message_bar.h"
 #include "panel_actions.h"
 #include "theme_menu.h"
+#include "undo_actions.h"
 
 namespace chainmail {
 
@@ -27,11 +28,7 @@ void MainWindow::makeMenus() {
 }
 
 void MainWindow::fillEditMenu(QMenu& menu) {
-  auto* undo = document_.undoStack().createUndoAction(this, QStringLiteral("&Undo"));
-  auto* redo = document_.undoStack().createRedoAction(this, QStringLiteral("&Redo"));
-  undo->setShortcut(QKeySequence::Undo);
-  redo->setShortcut(QKeySequence::Redo);
-  menu.addActions({undo, redo});
+  undoActions_->fill(menu);
   menu.addSeparator();
   menu.addActions(toolActions_->actions());
   menu.addAction(QStringLiteral("&Give up stroke, drag, job or selection"), Qt::Key_Escape, this, &MainWindow::giveUp);
@@ -91,12 +88,7 @@ void MainWindow::makeToolBar() {
   add("openFile");
   add("saveFile");
   bar->addSeparator();
-  auto* undo = document_.undoStack().createUndoAction(bar, QStringLiteral("Undo"));
-  auto* redo = document_.undoStack().createRedoAction(bar, QStringLiteral("Redo"));
-  // The names of the steps stand in the tool tips: the bar does not change its width with them.
-  undo->setIconText(QStringLiteral("Undo"));
-  redo->setIconText(QStringLiteral("Redo"));
-  bar->addActions({undo, redo});
+  undoActions_->fill(*bar);
   bar->addSeparator();
   for (const char* name : {"resetObject", "unpinAll", "fitView"}) {
     add(name);

@@ -27,10 +27,10 @@ RelaxationDock::RelaxationDock(Document& document)
   column->addWidget(step_);
   column->addStretch();
   setWidget(content);
-  const auto send = [this] { document_.setRelaxation(chosen()); };
-  connect(on_, &QCheckBox::toggled, this, send);
-  connect(scheme_, &QComboBox::currentIndexChanged, this, send);
-  connect(step_, &ParameterRow::changed, this, send);
+  connect(on_, &QCheckBox::toggled, this, [this] { document_.setRelaxation(chosen()); });
+  connect(scheme_, &QComboBox::currentIndexChanged, this, [this] { document_.setRelaxation(chosen()); });
+  connect(step_, &ParameterRow::changed, this,
+          [this](double /*value*/, int gesture) { document_.setRelaxation(chosen(), gesture); });
   connect(&document, &Document::relaxationChanged, this, &RelaxationDock::showRelaxation);
 }
 

@@ -42,6 +42,7 @@ class MoveWriter {
   }
   Json operator()(const commands::ReplaceMesh&) const { refuse(); }
   Json operator()(const commands::SwapState&) const { refuse(); }
+  Json operator()(const commands::RestoreState&) const { refuse(); }
   Json operator()(const commands::SetRelaxation&) const { return {}; }
   Json operator()(const commands::SetAlgorithm&) const { return {}; }
   Json operator()(const commands::KeepState&) const { return {}; }

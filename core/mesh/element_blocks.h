@@ -27,7 +27,10 @@ class ElementBlocks {
     return std::all_of(words_.begin(), words_.end(), [](std::uint64_t word) { return word == 0; });
   }
 
+  bool contains_block(std::size_t block) const { return (words_[block / bits] >> (block % bits) & 1) != 0; }
+
   void insert(ElementId element) { insert_block(element / block_elements); }
+  void insert_block(std::size_t block) { words_[block / bits] |= std::uint64_t{1} << (block % bits); }
   /// Of more than half of the elements it takes all blocks, without looking at each.
   void insert(std::span<const ElementId> elements) {
     if (elements.size() > element_count_ / 2) {
@@ -78,10 +81,18 @@ class ElementBlocks {
     finish();
   }
 
+  /// Calls visit(block, first, end), of element ids, for each block, in ascending order.
+  template <class Visit>
+  void for_each_block(Visit visit) const {
+    for_each_run([&](ElementId first, ElementId end) {
+      for (; first < end; first += block_elements) {
+        visit(std::size_t{first / block_elements}, first, std::min(end, first + block_elements));
+      }
+    });
+  }
+
  private:
   static constexpr std::size_t bits = 64;
-
-  void insert_block(std::size_t block) { words_[block / bits] |= std::uint64_t{1} << (block % bits); }
 
   ElementId element_count_ = 0;
   std::vector<std::uint64_t> words_;  // a bit a block

@@ -71,6 +71,10 @@ struct KeepState {
 struct SwapState {
   StateId state = 0;
 };
+/// Brings the object to the state kept under a name, which stays kept.
+struct RestoreState {
+  StateId state = 0;
+};
 /// Forgets a kept state.
 struct DropState {
   StateId state = 0;
@@ -78,9 +82,9 @@ struct DropState {
 
 }  // namespace commands
 
-using Command =
-    std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness, commands::SetRelaxation,
-                 commands::SetAlgorithm, commands::Cut, commands::Uncut, commands::Pin, commands::Unpin,
-                 commands::Reset, commands::ReplaceMesh, commands::KeepState, commands::SwapState, commands::DropState>;
+using Command = std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness,
+                             commands::SetRelaxation, commands::SetAlgorithm, commands::Cut, commands::Uncut,
+                             commands::Pin, commands::Unpin, commands::Reset, commands::ReplaceMesh,
+                             commands::KeepState, commands::SwapState, commands::RestoreState, commands::DropState>;
 
 }  // namespace chainmail

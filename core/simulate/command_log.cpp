@@ -31,6 +31,11 @@ void CommandLog::post(const Command& command) {
   }
 }
 
+void CommandLog::post_to(SolverThread& solver, const Command& command) {
+  flush();
+  solver.post(command);
+}
+
 void CommandLog::sample() {
   if (std::all_of(solvers_.begin(), solvers_.end(), [](const SolverThread* one) { return one->idle(); })) {
     flush();

@@ -18,6 +18,8 @@ class CommandLog {
   explicit CommandLog(std::vector<SolverThread*> solvers) : solvers_(std::move(solvers)) {}
 
   void post(const Command& command);
+  /// Sends a command to one solver alone, after what waited before it.
+  void post_to(SolverThread& solver, const Command& command);
   /// Sends the waiting command if every solver is idle; to be called 60 times a second while one waits.
   void sample();
   bool waits() const { return waiting_.has_value(); }

@@ -27,7 +27,8 @@ Simulation::Simulation(MeshPointer mesh, Algorithm algorithm, Precision precisio
       precision_(precision),
       solver_(make_solver(mesh_, algorithm, precision)),
       changed_(mesh_->element_count()),
-      away_(mesh_->element_count()) {
+      away_(mesh_->element_count()),
+      unkept_(mesh_->element_count()) {
   changed_.insert_all();
   statistics_.algorithm = algorithm;
 }
@@ -60,11 +61,13 @@ void Simulation::pass(ElementId element, const Point& target) {
 void Simulation::mark(std::span<const ElementId> moved) {
   changed_.insert(moved);
   away_.insert(moved);
+  unkept_.insert(moved);
 }
 
 void Simulation::mark_all() {
   changed_.insert_all();
   away_.insert_all();
+  unkept_.insert_all();
 }
 
 bool Simulation::step() {
@@ -160,7 +163,8 @@ void Simulation::take_mesh(MeshPointer mesh) {
   softness_ = std::make_shared<const Softness>();  // as every solver begins
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
-  away_ = changed_ = ElementBlocks(mesh_->element_count());
+  away_ = changed_ = unkept_ = ElementBlocks(mesh_->element_count());
+  last_kept_ = {};
   changed_.insert_all();
   grabbed_.reset();
   last_moved_.reset();
@@ -197,12 +201,6 @@ void Simulation::wake_ends(const std::vector<LinkId>& links) {
 void Simulation::fall_asleep() {
   solver_->sleep();
   statistics_.relaxing = false;
-}
-
-Simulation::State Simulation::current_state() const {
-  const auto pins = solver_->pins();
-  return {mesh_,     solver_->cuts().links(),        {pins.begin(), pins.end()},
-          softness_, solver_->keep_positions(away_), valid_};
 }
 
 }  // namespace chainmail

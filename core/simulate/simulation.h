@@ -90,6 +90,7 @@ class Simulation {
   void carry_out(const commands::ReplaceMesh& command);
   void carry_out(const commands::KeepState& command);
   void carry_out(const commands::SwapState& command);
+  void carry_out(const commands::RestoreState& command);
   void carry_out(const commands::DropState& command);
 
   void answer();
@@ -98,21 +99,27 @@ class Simulation {
   void pass(ElementId element, const Point& target);
   void mark(std::span<const ElementId> moved);
   void mark_all();
+  State& kept(commands::StateId state);
   void check_element(ElementId element) const;
   void check_links(std::span<const LinkId> links) const;
   void take_mesh(MeshPointer mesh);
   void wake(std::span<const ElementId> elements);
   void wake_ends(const std::vector<LinkId>& links);
   void fall_asleep();
-  State current_state() const;
+  State current_state();
+  void take_state(const State& state);
+  void take_cuts(const std::vector<LinkId>& cuts);
+  void take_positions(const KeptPositions& positions);
 
   MeshPointer mesh_;
   Algorithm algorithm_;
   Precision precision_;
   std::unique_ptr<Solver> solver_;
   std::shared_ptr<const Softness> softness_ = std::make_shared<const Softness>();
-  ElementBlocks changed_;  // since they were last forgotten
-  ElementBlocks away_;     // no element outside them stands away from rest
+  ElementBlocks changed_;    // since they were last forgotten
+  ElementBlocks away_;       // no element outside them stands away from rest
+  KeptPositions last_kept_;  // as positions were last kept or taken back
+  ElementBlocks unkept_;     // the blocks in which a position may have changed since
   std::optional<ElementId> grabbed_;
   std::optional<ElementId> last_moved_;  // the element of the last pass
   bool valid_ = true;

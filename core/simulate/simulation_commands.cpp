@@ -137,6 +137,7 @@ void Simulation::carry_out(const commands::Unpin& command) {
 void Simulation::carry_out(const commands::Reset&) {
   solver_->reset(away_);
   changed_.insert(away_);
+  unkept_.insert(away_);
   away_.clear();
   last_moved_.reset();
   forget_passes();
@@ -152,36 +153,5 @@ void Simulation::carry_out(const commands::ReplaceMesh& command) {
   take_mesh(command.mesh);
   set_softness(std::move(softness));
 }
-
-void Simulation::carry_out(const commands::KeepState& command) { kept_[command.state] = current_state(); }
-
-void Simulation::carry_out(const commands::SwapState& command) {
-  const auto kept = kept_.find(command.state);
-  if (kept == kept_.end()) {
-    throw Error("state " + std::to_string(command.state), "no such state is kept", "keep it first");
-  }
-  State now = current_state();
-  if (kept->second.mesh != mesh_) {
-    take_mesh(kept->second.mesh);
-  } else {
-    solver_->uncut(solver_->cuts().links());
-    solver_->unpin(std::vector<ElementId>(solver_->pins().begin(), solver_->pins().end()));
-  }
-  std::swap(now, kept->second);
-  set_softness(now.softness);
-  solver_->cut(now.cuts);
-  solver_->pin(now.pins);
-  solver_->restore(now.positions, away_);
-  changed_.insert(away_);
-  changed_.insert(now.positions.blocks);
-  away_ = now.positions.blocks;
-  valid_ = now.valid;
-  forget_passes();
-  grabbed_.reset();
-  last_moved_.reset();
-  fall_asleep();
-}
-
-void Simulation::carry_out(const commands::DropState& command) { kept_.erase(command.state); }
 
 }  // namespace chainmail

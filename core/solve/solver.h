@@ -75,11 +75,11 @@ class PositionView {
   const Mesh* from_rest_;
 };
 
-/// Positions as a solver holds them, to be given back to it to the bit: of some blocks, element by element. All
-/// other elements stand at rest.
+/// Positions as a solver holds them, to be given back to it, or to another of its mesh and precision, to the bit. What
+/// is kept at different times shares the blocks that did not change between.
 struct KeptPositions {
-  ElementBlocks blocks;
-  std::vector<double> held;
+  /// One a block of ElementBlocks; none where all elements of the block stand at rest.
+  std::vector<std::shared_ptr<const void>> blocks;
   bool from_rest = false;
 };
 
@@ -137,10 +137,10 @@ class Solver {
   void copy_positions(std::span<double> out) const { copy_positions(0, out); }
   /// Takes every carried coordinate from `in`, as copy_positions wrote it.
   virtual void set_positions(std::span<const double> in) = 0;
-  /// Keeps the positions of these blocks; no element outside them may stand away from rest.
-  virtual KeptPositions keep_positions(const ElementBlocks& away) const = 0;
-  /// Takes them back; no element outside `away` may stand away from rest now.
-  virtual void restore(const KeptPositions& kept, const ElementBlocks& away) = 0;
+  /// Brings these blocks of `kept` up to date; no element outside `away` may stand away from rest.
+  virtual void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, KeptPositions& kept) const = 0;
+  /// Takes these blocks back; all others must stand as they were kept.
+  virtual void restore(const KeptPositions& kept, const ElementBlocks& blocks) = 0;
 };
 
 /// Throws Error where the algorithm does not work on the mesh.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -154,32 +155,36 @@ class TypedSolver final : public Solver {
     take_positions();
   }
 
-  KeptPositions keep_positions(const ElementBlocks& away) const override {
-    KeptPositions kept{away, {}, body_.from_rest};
-    away.for_each_run([&](ElementId first, ElementId end) {
-      for (ElementId e = first; e < end; ++e) {
-        kept.held.insert(kept.held.end(), body_.places[e].at, body_.places[e].at + Dimension);
+  void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, KeptPositions& kept) const override {
+    kept.blocks.resize(away.block_count());
+    kept.from_rest = body_.from_rest;
+    blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
+      kept.blocks[block].reset();
+      if (away.contains_block(block)) {
+        const auto places = std::make_shared<PlaceBlock>();
+        std::copy(body_.places.begin() + first, body_.places.begin() + end, places->begin());
+        kept.blocks[block] = places;
       }
     });
-    return kept;
   }
 
-  void restore(const KeptPositions& kept, const ElementBlocks& away) override {
-    reset(away);
-    auto held = kept.held.begin();
-    kept.blocks.for_each_run([&](ElementId first, ElementId end) {
-      for (ElementId e = first; e < end; ++e) {
-        for (int k = 0; k < Dimension; ++k, ++held) {
-          take(e, k, *held, kept.from_rest);
-        }
+  void restore(const KeptPositions& kept, const ElementBlocks& blocks) override {
+    blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
+      if (const auto* places = static_cast<const PlaceBlock*>(kept.blocks[block].get())) {
+        take(*places, first, end, kept.from_rest);
+      } else {
+        put_to_rest(first, end);
       }
     });
-    if (!kept.held.empty()) {
-      take_positions();
-    }
+    forget();
+    take_positions();
+    at_rest_ = std::none_of(kept.blocks.begin(), kept.blocks.end(), [](const auto& block) { return block != nullptr; });
+    exact_.set_valid(at_rest_);
   }
 
  private:
+  using PlaceBlock = std::array<Place<Scalar, Dimension>, ElementBlocks::block_elements>;
+
   /// Positions stay below this share of what the scalar holds, so that sums of a few of them are finite.
   static constexpr Scalar limit = std::numeric_limits<Scalar>::max() / 16;
 
@@ -209,13 +214,16 @@ class TypedSolver final : public Solver {
     }
   }
 
-  /// Takes a coordinate that was held as a displacement from rest, or absolute, as the body holds it now.
-  void take(ElementId element, int k, double held, bool from_rest) {
-    if (from_rest != body_.from_rest) {
-      const double rest = body_.mesh->rest[std::size_t{element} * Dimension + k];
-      held = from_rest ? held + rest : held - rest;
+  /// Takes places that were held as displacements from rest, or absolute, as the body holds them now.
+  void take(const PlaceBlock& places, ElementId first, ElementId end, bool from_rest) {
+    for (ElementId e = first; e < end; ++e) {
+      body_.places[e] = places[e - first];
+      for (int k = 0; k < Dimension && from_rest != body_.from_rest; ++k) {
+        const double rest = body_.mesh->rest[std::size_t{e} * Dimension + k];
+        const double held = places[e - first][k];
+        body_.places[e][k] = static_cast<Scalar>(from_rest ? held + rest : held - rest);
+      }
     }
-    body_.places[element][k] = static_cast<Scalar>(held);
   }
 
   void take_positions() {

@@ -96,16 +96,16 @@ void RepairTest::a_repair_halves_between_the_envelopes() {
 
 void RepairTest::states_from_outside_are_looked_at() {
   const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
-  const ElementBlocks none(4);
   ElementBlocks all(4);
   all.insert_all();
   for (const bool kept : {false, true}) {
     const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
     solver->set_positions(std::vector<double>{0, 5, 2, 3});
-    const auto positions = solver->keep_positions(all);
+    KeptPositions positions;
+    solver->keep_positions(all, all, positions);
     solver->reset();
     solver->set_algorithm(Algorithm::exact);
-    kept ? solver->restore(positions, none) : solver->set_positions(std::vector<double>{0, 5, 2, 3});
+    kept ? solver->restore(positions, all) : solver->set_positions(std::vector<double>{0, 5, 2, 3});
     solver->move(0, Point(0, 0, 0));
     QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()).max < 1e-12);
   }

@@ -25,6 +25,9 @@ class UndoTest : public QObject {
   void any_change_is_undone();
   void whether_the_object_is_valid_comes_back_too();
   void states_have_names_of_their_own();
+  void a_restored_state_stays_kept();
+  void states_come_back_in_any_order();
+  void a_change_to_exact_is_undone_with_it();
   void a_dropped_state_is_gone();
   void the_hand_lets_go_and_relaxation_sleeps();
 };
@@ -153,6 +156,80 @@ void UndoTest::states_have_names_of_their_own() {
   QVERIFY(Snapshot(simulation).same_object(first));
   carry_out(simulation, commands::SwapState{1});  // and redo the first
   QVERIFY(Snapshot(simulation).same_object(second));
+}
+
+void UndoTest::a_restored_state_stays_kept() {
+  auto simulation = worked_simulation(Algorithm::natural_queue, Precision::single_precision);
+  const Snapshot first(simulation);
+  carry_out(simulation, commands::KeepState{1});
+  for (int i = 0; i < 2; ++i) {
+    change_everything(simulation);
+    QVERIFY(!Snapshot(simulation).same_object(first));
+    carry_out(simulation, commands::RestoreState{1});
+    QVERIFY(Snapshot(simulation).same_object(first));
+  }
+}
+
+/// States share what did not change between them: none may take from another what is not its own. Exact holds positions
+/// otherwise than the rest, so a change to or from it would round what comes back.
+void UndoTest::states_come_back_in_any_order() {
+  const auto holds = [] {
+    const auto algorithm = *rc::gen::elementOf(on_any_mesh);
+    Simulation simulation(make_mesh(MeshKind::grid, {30, 20, 1}), algorithm, *any_precision());
+    std::vector<Snapshot> kept;
+    for (int step = 0; step < 20; ++step) {
+      const auto state = *rc::gen::inRange<std::size_t>(0, kept.size() + 1);
+      if (state == kept.size()) {
+        kept.emplace_back(simulation);
+        carry_out(simulation, commands::KeepState{state});
+      } else if (*rc::gen::arbitrary<bool>()) {
+        const Snapshot now(simulation);
+        carry_out(simulation, commands::SwapState{state});
+        RC_ASSERT(Snapshot(simulation).same_object(kept[state]));
+        kept[state] = now;
+      } else {
+        carry_out(simulation, commands::RestoreState{state});
+        RC_ASSERT(Snapshot(simulation).same_object(kept[state]));
+      }
+      const auto hand = *any_hand();
+      switch (*rc::gen::inRange(0, 4)) {
+        case 0:
+          carry_out(simulation, commands::Reset{});
+          break;
+        case 1:
+          carry_out(simulation, commands::SetAlgorithm{algorithm == Algorithm::exact ? algorithm : Algorithm::spiral});
+          break;
+        default:
+          drag_by(simulation, hand.of(simulation.mesh()), hand.by());
+      }
+    }
+  };
+  QVERIFY(rc::check("states are exchanged and restored to the bit, whatever they share", holds));
+}
+
+void UndoTest::a_change_to_exact_is_undone_with_it() {
+  for (const Precision precision : precisions) {
+    auto simulation = worked_simulation(Algorithm::natural_queue, precision);
+    const Snapshot before(simulation);
+    carry_out(simulation, commands::KeepState{1});
+    carry_out(simulation, commands::SetAlgorithm{Algorithm::exact});
+    const Snapshot exact(simulation);
+    carry_out(simulation, commands::KeepState{2});
+    drag_by(simulation, 20, Point(-3, 2, 0));
+    carry_out(simulation, commands::SwapState{2});
+    QVERIFY(Snapshot(simulation).same_object(exact));
+    carry_out(simulation, commands::SetAlgorithm{Algorithm::natural_queue});
+    carry_out(simulation, commands::SwapState{1});
+    QVERIFY(Snapshot(simulation).same_object(before));
+    // Taken back by an algorithm that holds positions otherwise, they are rounded, and kept as they are then.
+    carry_out(simulation, commands::SetAlgorithm{Algorithm::exact});
+    carry_out(simulation, commands::RestoreState{1});
+    const Snapshot rounded(simulation);
+    carry_out(simulation, commands::KeepState{3});
+    drag_by(simulation, 20, Point(-3, 2, 0));
+    carry_out(simulation, commands::SwapState{3});
+    QVERIFY(Snapshot(simulation).same_object(rounded));
+  }
 }
 
 void UndoTest::a_dropped_state_is_gone() {

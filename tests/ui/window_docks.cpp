@@ -173,7 +173,11 @@ class WindowDocks : public QObject {
     bench.find<QCheckBox>("relaxationOn")->click();
     QVERIFY(bench.document().relaxation().on);
     QVERIFY(bench.document().relaxation().scheme == RelaxationScheme::link);
-    QVERIFY(!bench.document().undoStack().canUndo());
+    bench.trigger("undo");
+    QVERIFY(!bench.document().relaxation().on);
+    QVERIFY(!bench.find<QCheckBox>("relaxationOn")->isChecked());
+    bench.trigger("undo");
+    QCOMPARE(scheme->currentText(), QStringLiteral("mean"));
   }
 
   void frameRatesAreShownAndRest() {

@@ -42,6 +42,7 @@ class WindowPin : public QObject {
     }
     QVERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("1 pinned")));
 
+    QTest::keyClick(&bench.window, Qt::Key_Z, Qt::ControlModifier);  // the drag
     QTest::keyClick(&bench.window, Qt::Key_Z, Qt::ControlModifier);
     QVERIFY(bench.document().pins().empty());
     bench.trigger("resetObject");

@@ -1,0 +1,192 @@
+// Undo in a real window: whatever changed the object or its parameters comes back, positions to the bit.
+
+#include <QUndoView>
+
+#include "parameter_row.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+/// All that undo must give back.
+struct Picture {
+  explicit Picture(Workbench& bench) : softness(*bench.document().wholeSoftness()) {
+    Document& document = bench.document();
+    for (int panel = 0; panel < 2; ++panel) {
+      positions.push_back(document.frame(panel)->positions);
+      algorithms.push_back(document.algorithm(panel));
+    }
+    cuts = document.cuts().links();
+    pins = document.pins();
+    relaxation = document.relaxation();
+  }
+  bool operator==(const Picture&) const = default;
+
+  std::vector<std::vector<float>> positions;
+  std::vector<Algorithm> algorithms;
+  std::vector<LinkId> cuts;
+  std::vector<ElementId> pins;
+  Softness softness;
+  commands::SetRelaxation relaxation;
+};
+
+/// A drag whose end is not where it began.
+void drag(Workbench& bench, ElementId element, QPoint by, bool release = true) {
+  const QPoint from = bench.place(0, element);
+  bench.stroke(0, {from, from + by}, release);
+}
+
+}  // namespace
+
+class WindowUndo : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void everyStepIsUndoneAndRedoneExactly() {
+    Workbench bench;
+    Document& document = bench.document();
+    const std::vector<std::function<void()>> steps{[&] { drag(bench, 31, QPoint(120, -150)); },
+                                                   [&] {
+                                                     document.cut({3, 4, 40});
+                                                   },
+                                                   [&] { drag(bench, 0, QPoint(-60, 60)); },
+                                                   [&] {
+                                                     document.setPinned({8, 9}, true);
+                                                   },
+                                                   [&] {
+                                                     document.setSoftness({0.9, 1.05, 0}, QStringLiteral("stretch"));
+                                                   },
+                                                   [&] { bench.choose(0, "Exact ChainMail"); },
+                                                   [&] { drag(bench, 62, QPoint(90, 90)); },
+                                                   [&] {
+                                                     document.setRelaxation({true, 1, RelaxationScheme::mean});
+                                                   },
+                                                   [&] {
+                                                     document.setRelaxation({false, 0.5, RelaxationScheme::link});
+                                                   },
+                                                   [&] {
+                                                     document.setSoftnessOf({2, 7}, LinkSoftness{0.5, 2, 1});
+                                                   },
+                                                   [&] { bench.trigger("resetObject"); },
+                                                   [&] {
+                                                     document.replaceMesh(generate({MeshKind::tetra, {3, 3, 3}, 1, {}}),
+                                                                          QStringLiteral("block"),
+                                                                          QStringLiteral("open block"));
+                                                   },
+                                                   [&] { drag(bench, 26, QPoint(40, -40)); }};
+    std::vector<Picture> pictures{Picture(bench)};
+    for (const auto& step : steps) {
+      step();
+      bench.settle();
+      QCOMPARE(document.undoStack().count(), int(pictures.size()));
+      pictures.emplace_back(bench);
+    }
+    for (const bool back : {true, false, true}) {
+      for (std::size_t i = 0; i + 1 < pictures.size(); ++i) {
+        bench.trigger(back ? "undo" : "redo");
+        bench.settle();
+        const std::size_t at = back ? pictures.size() - 2 - i : i + 1;
+        QVERIFY2(Picture(bench) == pictures[at], qPrintable(QStringLiteral("step %1, back %2").arg(at).arg(back)));
+      }
+    }
+  }
+
+  void undoInTheMiddleOfADragTakesTheDragBack() {
+    Workbench bench;
+    drag(bench, 31, QPoint(120, -150));
+    const Picture before(bench);
+    drag(bench, 10, QPoint(-100, 60), false);
+    bench.settle();
+    const Picture held(bench);
+    bench.trigger("undo");
+    bench.settle();
+    QVERIFY(Picture(bench) == before);
+    QVERIFY(!bench.document().highlight().grabbed);
+    bench.trigger("redo");
+    bench.settle();
+    QVERIFY(Picture(bench) == held);
+  }
+
+  void anEditDuringADragComesAfterTheDrag() {
+    Workbench bench;
+    const Picture rest(bench);
+    drag(bench, 31, QPoint(100, -100), false);
+    bench.settle();
+    const Picture held(bench);
+    bench.trigger("resetObject");
+    bench.settle();
+    QCOMPARE(bench.document().undoStack().count(), 2);
+    bench.trigger("undo");
+    bench.settle();
+    QVERIFY(Picture(bench) == held);
+    bench.trigger("undo");
+    bench.settle();
+    QVERIFY(Picture(bench) == rest);
+  }
+
+  void aPressWithoutAMoveIsNoStep() {
+    Workbench bench;
+    bench.click(0, 31);
+    QCOMPARE(bench.document().undoStack().count(), 0);
+    QVERIFY(!bench.find<QAction>("undo")->isEnabled());
+  }
+
+  void aGestureOfASliderIsOneStep() {
+    Workbench bench;
+    drag(bench, 31, QPoint(120, -150));
+    const Picture before(bench);
+    Document& document = bench.document();
+    for (const double stretch : {1.15, 1.1, 1.05, 1.0}) {
+      document.setSoftness({0.8, stretch, 0.1}, QStringLiteral("stretch"), 7);
+      QTest::qWait(20);
+    }
+    for (const double step : {0.9, 0.7, 0.5}) {
+      document.setRelaxation({false, step, RelaxationScheme::mean}, 8);
+    }
+    bench.settle();
+    QCOMPARE(document.undoStack().count(), 3);
+    const Picture after(bench);
+    QVERIFY(after.positions != before.positions);  // the dock acts live
+    document.undo();
+    document.undo();
+    bench.settle();
+    QVERIFY(Picture(bench) == before);
+    document.redo();
+    document.redo();
+    bench.settle();
+    QVERIFY(Picture(bench) == after);
+  }
+
+  void anAlgorithmThatDidNotFitComesBackWithItsMesh() {
+    Workbench bench;
+    bench.choose(0, "3D ChainMail");
+    QCOMPARE(bench.document().algorithm(0), Algorithm::original);
+    bench.document().replaceMesh(generate({MeshKind::tetra, {3, 3, 3}, 1, {}}), QStringLiteral("block"),
+                                 QStringLiteral("open block"));
+    bench.settle();
+    QCOMPARE(bench.document().algorithm(0), Algorithm::natural_queue);
+    bench.trigger("undo");
+    bench.settle();
+    QCOMPARE(bench.document().algorithm(0), Algorithm::original);
+    QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::original);
+  }
+
+  void aClickInTheUndoListGoesThere() {
+    Workbench bench;
+    const Picture rest(bench);
+    drag(bench, 31, QPoint(100, -100));
+    bench.document().cut({5});
+    auto* list = bench.find<QUndoView>("undoList");
+    QCOMPARE(list->model()->rowCount(), 3);
+    QCOMPARE(list->model()->index(1, 0).data().toString(), QStringLiteral("drag of element 31"));
+    list->setCurrentIndex(list->model()->index(0, 0));
+    bench.settle();
+    QVERIFY(Picture(bench) == rest);
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowUndo>(argc, argv); }
+#include "window_undo.moc"
