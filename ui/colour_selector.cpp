@@ -13,6 +13,9 @@ ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), ac
     auto* action = actions_->addAction(text(info.label));
     action->setObjectName(QStringLiteral("colourBy-") + text(info.name));
     action->setCheckable(true);
+    action->setStatusTip(info.title.empty()
+                             ? QStringLiteral("Each panel's object in the panel's own colour")
+                             : QStringLiteral("Colours show: %1 (%2)").arg(text(info.title), text(info.unit)));
     connect(action, &QAction::triggered, this, [this, mode = info.mode] { colouring_.setMode(mode); });
   }
   connect(this, &QComboBox::activated, this, [this] {

@@ -37,6 +37,7 @@ inline constexpr Colour fourth(0xffac78ff, 0xff7028b8);
 inline constexpr Colour marked(0xffffffff, 0xff101418);
 inline constexpr Colour pinned(0xfff0e442, 0xff6a5a00);
 inline constexpr Colour selected(0xfff5a6d0, 0xffb02a80);
+inline constexpr Colour focus(0xff56b4e9, 0xff0068a8);  // the frame of where the keys go
 inline constexpr Colour lit(0xfff05030, 0xffcc2200);
 inline constexpr Colour inside(0xff2fc49b, 0xff00754f);  // a valid region
 inline constexpr Colour outside(0xfff07a30, 0xffb84800);

@@ -25,6 +25,7 @@ void FileActions::fill(QMenu& menu) {
   auto* openAction = menu.addAction(QStringLiteral("&Open…"), QKeySequence::Open, this, &FileActions::open);
   openAction->setObjectName(QStringLiteral("openFile"));
   openAction->setIconText(QStringLiteral("Open"));
+  openAction->setStatusTip(QStringLiteral("A mesh from a .dat or .obj file, in place of the present object"));
   recent_ = menu.addMenu(QStringLiteral("Open &recent"));
   auto* saveAction = menu.addAction(QStringLiteral("&Save mesh…"), QKeySequence::Save, this, &FileActions::save);
   saveAction->setObjectName(QStringLiteral("saveFile"));
@@ -32,21 +33,26 @@ void FileActions::fill(QMenu& menu) {
   saveAction->setStatusTip(QStringLiteral("The object at rest, without its cut links, as .dat or .obj"));
   addShapeActions(menu);
   menu.addSeparator();
-  menu.addAction(QStringLiteral("Save s&creenshot…"), Qt::Key_F12, this, &FileActions::saveScreenshot);
+  auto* picture = menu.addAction(QStringLiteral("Save s&creenshot…"), Qt::Key_F12, this, &FileActions::saveScreenshot);
+  picture->setObjectName(QStringLiteral("saveScreenshot"));
+  picture->setStatusTip(QStringLiteral("The window as it stands, as a PNG picture"));
   fillRecent();
 }
 
 void FileActions::addShapeActions(QMenu& menu) {
   auto* shapes = menu.addMenu(QStringLiteral("Save &deformed shape"));
   for (int panel = 0; panel < Document::panels; ++panel) {
-    shapes->addAction(panel == 0 ? QStringLiteral("&Left panel…") : QStringLiteral("&Right panel…"), this,
-                      [this, panel] {
-                        const QString path =
-                            askWhere(QStringLiteral("Save deformed shape"), {QStringLiteral("Wavefront OBJ (*.obj)")});
-                        if (!path.isEmpty()) {
-                          saveShapePath(panel, path);
-                        }
-                      });
+    const bool left = panel == 0;
+    auto* action =
+        shapes->addAction(left ? QStringLiteral("&Left panel…") : QStringLiteral("&Right panel…"), this, [this, panel] {
+          const QString path =
+              askWhere(QStringLiteral("Save deformed shape"), {QStringLiteral("Wavefront OBJ (*.obj)")});
+          if (!path.isEmpty()) {
+            saveShapePath(panel, path);
+          }
+        });
+    action->setObjectName(left ? QStringLiteral("saveShapeLeft") : QStringLiteral("saveShapeRight"));
+    action->setStatusTip(QStringLiteral("The shape that this panel shows, in mesh units, as .obj"));
   }
 }
 
@@ -146,7 +152,9 @@ void FileActions::writePicture(const QPixmap& picture, const QString& path) {
 void FileActions::fillRecent() {
   recent_->clear();
   for (const QString& path : QSettings().value(recentKey()).toStringList()) {
-    recent_->addAction(QDir::toNativeSeparators(path), this, [this, path] { openPath(path); });
+    const QString shown = QDir::toNativeSeparators(path).replace(QLatin1Char('&'), QLatin1String("&&"));
+    recent_->addAction(QStringLiteral("&%1 %2").arg(recent_->actions().size() + 1).arg(shown), this,
+                       [this, path] { openPath(path); });
   }
   recent_->setEnabled(!recent_->isEmpty());
 }

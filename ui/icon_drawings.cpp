@@ -69,6 +69,7 @@ constexpr std::array drawings{
     IconDrawing{"themeLight",
                 "E 8 8 3.2 3.2 M 8 0.8 L 8 2.6 M 8 13.4 L 8 15.2 M 0.8 8 L 2.6 8 M 13.4 8 L 15.2 8 M 2.9 2.9 L 4.2 4.2 "
                 "M 11.8 11.8 L 13.1 13.1 M 13.1 2.9 L 11.8 4.2 M 4.2 11.8 L 2.9 13.1"},
+    IconDrawing{"region", "R 2.5 3.5 11 9", "E 8 8 1.7 1.7", {}, {}, colours::inside, true},
     IconDrawing{"eye", "M 1.2 8 C 4 3 12 3 14.8 8 C 12 13 4 13 1.2 8 Z E 8 8 2.2 2.2"},
     // Comparing.
     IconDrawing{"panels", "R 1.5 3 13 10 M 8 3 L 8 13"},

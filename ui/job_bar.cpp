@@ -2,6 +2,8 @@
 
 #include <QHBoxLayout>
 
+#include "icons.h"
+
 namespace chainmail {
 namespace {
 
@@ -20,7 +22,7 @@ JobBar::JobBar(Jobs& jobs) : jobs_(jobs), text_(new QLabel), share_(new QProgres
   share_->setRange(0, percent);
   share_->setFixedSize(shareWidth, barHeight);
   cancel_->setObjectName(QStringLiteral("jobCancel"));
-  cancel_->setText(QStringLiteral("✕"));
+  cancel_->setIcon(icon("close"));
   cancel_->setAutoRaise(true);
   cancel_->setAccessibleName(QStringLiteral("Cancel"));
   cancel_->setToolTip(QStringLiteral("Cancel (Esc): the object stays as it is, and so does a file that was there"));

@@ -10,12 +10,15 @@
 #include <QStatusBar>
 #include <QVBoxLayout>
 
+#include "camera_actions.h"
 #include "colour_selector.h"
 #include "colours.h"
 #include "file_actions.h"
 #include "frame_rate_dock.h"
+#include "help_menu.h"
 #include "icons.h"
 #include "job_bar.h"
+#include "menus.h"
 #include "mesh_dock.h"
 #include "message_bar.h"
 #include "panel.h"
@@ -44,6 +47,8 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       selectTool_(document_),
       undoActions_(new UndoActions(document_, *this)),
       files_(new FileActions(*this, document_, jobs_)),
+      cameraActions_(new CameraActions(this)),
+      help_(new HelpMenu(*this)),
       messages_(new MessageBar),
       area_(new PanelArea(document_, colouring_)),
       toolActions_(new QActionGroup(this)),
@@ -66,24 +71,31 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   makeTools();
   makeMenus();
   makeDocks();
+  help_->fill(*menuBar()->addMenu(QStringLiteral("&Help")));
+  completeMenus(*this);
+  help_->shortcuts().adopt();
   showTitle();
   restoreLayout();
   activate(dragTool_);
+  area_->panels().front()->view().setFocus();
 }
 
 void MainWindow::listen() {
-  connect(&document_, &Document::refused, messages_, &MessageBar::say);
-  connect(&document_, &Document::noticed, messages_, &MessageBar::say);
+  connect(&document_, &Document::refused, messages_, &MessageBar::warn);
+  connect(&document_, &Document::noticed, messages_, &MessageBar::note);
   area_->addOverlay(regions_);
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
   connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
+  for (Panel* panel : area_->panels()) {
+    cameraActions_->attach(panel->view());
+  }
   connect(files_, &FileActions::failed, messages_, &MessageBar::say);
   connect(&jobs_, &Jobs::failed, messages_, &MessageBar::say);
   connect(files_, &FileActions::saved, this, [this](const QString& path) {
-    messages_->hide();
+    messages_->clear();
     statusBar()->showMessage(QStringLiteral("Saved %1").arg(path), savedMilliseconds);
   });
-  connect(&document_, &Document::meshChanged, messages_, &QWidget::hide);
+  connect(&document_, &Document::meshChanged, messages_, &MessageBar::clear);
   connect(&document_, &Document::meshChanged, this, &MainWindow::showTitle);
   // What a tool has begun may not fit the object after an edit, an undo or a redo.
   connect(&document_.undoStack(), &QUndoStack::indexChanged, this, [this] {

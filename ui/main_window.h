@@ -19,8 +19,10 @@ class QMenu;
 
 namespace chainmail {
 
+class CameraActions;
 class ColourSelector;
 class FileActions;
+class HelpMenu;
 class MessageBar;
 class Panel;
 class UndoActions;
@@ -75,6 +77,8 @@ class MainWindow : public QMainWindow {
   Jobs jobs_;
   UndoActions* undoActions_;
   FileActions* files_;
+  CameraActions* cameraActions_;
+  HelpMenu* help_;
   MessageBar* messages_;
   PanelArea* area_;
   QActionGroup* toolActions_;

@@ -6,6 +6,7 @@
 #include <QMenuBar>
 #include <QToolBar>
 
+#include "camera_actions.h"
 #include "colour_selector.h"
 #include "file_actions.h"
 #include "main_window.h"
@@ -20,7 +21,9 @@ void MainWindow::makeMenus() {
   auto* file = menuBar()->addMenu(QStringLiteral("&File"));
   files_->fill(*file);
   file->addSeparator();
-  file->addAction(QStringLiteral("&Quit"), QKeySequence::Quit, this, &QWidget::close);
+  auto* quit = file->addAction(QStringLiteral("&Quit"), QKeySequence::Quit, this, &QWidget::close);
+  quit->setObjectName(QStringLiteral("quit"));
+  quit->setStatusTip(QStringLiteral("Closes the window; its layout is remembered"));
   fillEditMenu(*menuBar()->addMenu(QStringLiteral("&Edit")));
   fillObjectMenu(*menuBar()->addMenu(QStringLiteral("&Object")));
   fillViewMenu(*menuBar()->addMenu(QStringLiteral("&View")));
@@ -31,7 +34,9 @@ void MainWindow::fillEditMenu(QMenu& menu) {
   undoActions_->fill(menu);
   menu.addSeparator();
   menu.addActions(toolActions_->actions());
-  menu.addAction(QStringLiteral("&Give up stroke, drag, job or selection"), Qt::Key_Escape, this, &MainWindow::giveUp);
+  auto* giveUp = menu.addAction(QStringLiteral("&Give up"), Qt::Key_Escape, this, &MainWindow::giveUp);
+  giveUp->setObjectName(QStringLiteral("giveUp"));
+  giveUp->setStatusTip(QStringLiteral("Gives up a stroke, a drag, a job or the selection, and dismisses the message"));
 }
 
 void MainWindow::giveUp() {
@@ -44,7 +49,7 @@ void MainWindow::giveUp() {
   } else {
     tool_->escape();
   }
-  messages_->hide();
+  messages_->dismiss();
   area_->refresh();
 }
 
@@ -73,6 +78,8 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   auto* fit = menu.addAction(QStringLiteral("Reset &view (fit)"), area_, &PanelArea::fit);
   fit->setObjectName(QStringLiteral("fitView"));
   fit->setShortcut(Qt::Key_F);
+  fit->setStatusTip(QStringLiteral("All of the object at rest in every view, from the side it began with"));
+  cameraActions_->fill(menu);
   (new PanelActions(*area_, document_, colouring_))->fill(menu);
   regions_.fill(menu);
   menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
@@ -82,6 +89,7 @@ void MainWindow::fillViewMenu(QMenu& menu) {
 
 void MainWindow::makeToolBar() {
   auto* bar = addToolBar(QStringLiteral("Main"));
+  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   bar->setObjectName(QStringLiteral("mainToolBar"));
   bar->setMovable(false);
   const auto add = [this, bar](const char* name) { bar->addAction(findChild<QAction*>(QLatin1String(name))); };

@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "icons.h"
 #include "text.h"
 
 namespace chainmail {
@@ -53,6 +54,9 @@ MeshDock::MeshDock(Document& document, Jobs& jobs)
   kind_->setCurrentText(capitalised(text(infoOf(sampleRecipe().kind).name)));
   space_->setObjectName(QStringLiteral("spaceDimension"));
   space_->setToolTip(QStringLiteral("How many coordinates exist: a plane scene carries no third"));
+  kind_->setToolTip(QStringLiteral("What is built: a chain, a surface or a volume, with or without diagonal links"));
+  build_->setToolTip(
+      QStringLiteral("Builds this mesh in place of the present object, in the background, as a step of undo"));
   build_->setObjectName(QStringLiteral("buildMesh"));
   description_->setObjectName(QStringLiteral("meshDescription"));
   description_->setWordWrap(true);
@@ -85,6 +89,11 @@ QLayout* MeshDock::makeSizes() {
 void MeshDock::arrange() {
   auto* open = new QPushButton(QStringLiteral("Open…"));
   auto* save = new QPushButton(QStringLiteral("Save…"));
+  open->setIcon(icon("open"));
+  open->setToolTip(QStringLiteral("A mesh from a .dat or .obj file, in place of the present object"));
+  save->setIcon(icon("save"));
+  save->setToolTip(QStringLiteral("The object at rest, without its cut links, as .dat or .obj"));
+  build_->setIcon(icon("mesh"));
   connect(open, &QPushButton::clicked, this, &MeshDock::openRequested);
   connect(save, &QPushButton::clicked, this, &MeshDock::saveRequested);
   auto* content = new QWidget;

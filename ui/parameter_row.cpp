@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "icons.h"
 #include "text.h"
 
 namespace chainmail {
@@ -40,7 +41,7 @@ ParameterRow::ParameterRow(const Parameter& parameter, const QString& prefix)
   spin_->setStepType(parameter.highest > 1000 ? QAbstractSpinBox::AdaptiveDecimalStepType
                                               : QAbstractSpinBox::DefaultStepType);
   spin_->setFixedWidth(88);
-  reset_->setText(QStringLiteral("↺"));
+  reset_->setIcon(icon("reset"));
   reset_->setAutoRaise(true);
   show(parameter.standard);
 

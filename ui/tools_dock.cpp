@@ -7,6 +7,7 @@
 #include <QSpinBox>
 #include <QToolButton>
 
+#include "icons.h"
 #include "select_tool.h"
 
 namespace chainmail {
@@ -58,9 +59,11 @@ QWidget* ToolsDock::makeOptions(SelectTool& select) {
   grid->setContentsMargins(0, 0, 0, 0);
   auto* shapes = new QButtonGroup(options);
   auto* radius = new QSpinBox;
-  const auto add = [&](const QString& name, SelectTool::Shape shape, int column) {
+  const auto add = [&](const QString& name, SelectTool::Shape shape, int column, const QString& help) {
     auto* button = wideButton();
     button->setText(name);
+    button->setToolTip(help);
+    button->setIcon(icon(qPrintable(QStringLiteral("select") + name)));
     button->setObjectName(QStringLiteral("select") + name);
     button->setCheckable(true);
     button->setChecked(select.shape() == shape);
@@ -73,11 +76,14 @@ QWidget* ToolsDock::makeOptions(SelectTool& select) {
       }
     });
   };
-  add(QStringLiteral("Rectangle"), SelectTool::Shape::rectangle, 0);
-  add(QStringLiteral("Brush"), SelectTool::Shape::brush, 1);
+  add(QStringLiteral("Rectangle"), SelectTool::Shape::rectangle, 0,
+      QStringLiteral("Selects the elements in a rectangle that is drawn"));
+  add(QStringLiteral("Brush"), SelectTool::Shape::brush, 1,
+      QStringLiteral("Selects the elements that the brush goes over"));
   radius->setObjectName(QStringLiteral("brushRadius"));
   radius->setRange(SelectTool::smallestRadius, SelectTool::largestRadius);
   radius->setValue(select.radius());
+  radius->setToolTip(QStringLiteral("How far from the cursor the brush reaches, in pixels"));
   radius->setSuffix(QStringLiteral(" px"));
   radius->setKeyboardTracking(false);
   radius->setEnabled(select.shape() == SelectTool::Shape::brush);

@@ -27,7 +27,7 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
       levels_(std::move(levels)),
       painter_(levels_) {
   setMouseTracking(true);
-  setFocusPolicy(Qt::ClickFocus);  // a click here takes the keyboard from the field last typed in
+  setFocusPolicy(Qt::StrongFocus);  // a click here takes the keyboard from the field last typed in
   setMinimumSize(160, 120);
   hover_.setSingleShot(true);
   hover_.setInterval(hoverMilliseconds);
@@ -243,6 +243,7 @@ void View::drawMarks(const ObjectPainter::Scene& in) {
   if (tool_ != nullptr) {
     painter_.drawStroke(in, tool_->stroke(*this), colours::marked);
   }
+  drawFocus(in);
 }
 
 void View::drawHighlight(const ObjectPainter::Scene& in) {

@@ -40,6 +40,12 @@ class View : public QOpenGLWidget {
   void fit();
   void setGhost(const Ghost& ghost);
   const Ghost& ghost() const { return ghost_; }
+  /// Moves the camera, as travels of the mouse in logical pixels do; a zoom is about the view's centre or a place in
+  /// it.
+  void orbit(QPointF pixels);
+  void pan(QPointF pixels);
+  void zoom(double factor);
+  void zoom(double factor, QPointF about);
 
   /// For tools: what is under a place of this view, and where an element is.
   std::optional<ElementId> elementAt(QPointF place) const;
@@ -72,6 +78,8 @@ class View : public QOpenGLWidget {
   void mouseReleaseEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
 
  private:
   ObjectPainter::Scene scene() const;
@@ -85,6 +93,7 @@ class View : public QOpenGLWidget {
   void forgetGhost();
   void drawMarks(const ObjectPainter::Scene& scene);
   void drawHighlight(const ObjectPainter::Scene& scene);
+  void drawFocus(const ObjectPainter::Scene& scene);
   void moveCamera(QPointF travel, Qt::MouseButtons buttons);
 
   Document& document_;
@@ -106,6 +115,7 @@ class View : public QOpenGLWidget {
   QPointF cursor_;
   bool fitPending_ = true;
   bool painterReady_ = false;
+  bool framed_ = false;            // the keyboard came here by the keyboard
   bool selectionOutdated_ = true;  // on the graphics card
   bool selectedHere_ = true;       // in this view, or in no other
 };

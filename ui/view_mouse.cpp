@@ -41,12 +41,10 @@ void View::mouseMoveEvent(QMouseEvent* event) {
 
 void View::moveCamera(QPointF travel, Qt::MouseButtons buttons) {
   if ((buttons & Qt::RightButton) != 0 && camera_->spatial()) {
-    camera_->orbit(travel);
+    orbit(travel);
   } else {
-    camera_->pan(travel, size());
+    pan(travel);
   }
-  emit cameraChanged();
-  update();
 }
 
 void View::mouseReleaseEvent(QMouseEvent* event) {
@@ -67,9 +65,7 @@ void View::leaveEvent(QEvent* event) {
 }
 
 void View::wheelEvent(QWheelEvent* event) {
-  camera_->zoom(std::pow(zoomPerNotch, event->angleDelta().y() / 120.0), event->position(), size());
-  emit cameraChanged();
-  update();
+  zoom(std::pow(zoomPerNotch, event->angleDelta().y() / 120.0), event->position());
 }
 
 }  // namespace chainmail

@@ -1,9 +1,12 @@
-// What makes the window pleasant to be in: themes.
+// What makes the window pleasant to be in: themes, icons, messages.
 
 #include <QTest>
+#include <QToolButton>
 #include <cmath>
 
 #include "colour_map.h"
+#include "icons.h"
+#include "message_bar.h"
 #include "report_looks.h"
 #include "theme.h"
 #include "window.h"
@@ -97,6 +100,75 @@ class WindowComfort : public QObject {
     remember(Theme::dark);
     QCOMPARE(rememberedGround(), Ground::dark);
     rememberSystem(Ground::dark);
+  }
+
+  void everyIconIsDrawnInThePalettesColoursAtAnyScale() {
+    for (const QString& name : iconNames()) {
+      const QIcon one = icon(qPrintable(name));
+      for (const double ratio : {1.0, 1.25, 2.0}) {
+        const QImage picture = one.pixmap(QSize(16, 16), ratio).toImage();
+        QCOMPARE(picture.size(), QSize(16, 16) * ratio);
+        QVERIFY2(inked(picture) > 8 * ratio, qPrintable(name));
+        const QRect inner = picture.rect().adjusted(1, 1, -1, -1);
+        QVERIFY2(inked(picture.copy(inner)) > 0, qPrintable(name));
+      }
+    }
+    QVERIFY(icon("no such icon").isNull());
+    const QIcon any = icon("fit");
+    const QImage dark = any.pixmap(QSize(16, 16), 1.0).toImage();
+    applyGround(Ground::light);
+    QVERIFY(any.pixmap(QSize(16, 16), 1.0).toImage() != dark);
+  }
+
+  void messagesWaitAndAreDismissedOneByOne() {
+    Workbench bench;
+    MessageBar& bar = bench.window.messages();
+    bar.note(QStringLiteral("first"));
+    bar.say(QStringLiteral("second"));
+    bar.warn(QStringLiteral("third"));
+    bar.say(QStringLiteral("second"));  // again: the newest, but no fourth
+    QCOMPARE(bar.count(), 3);
+    QCOMPARE(bar.sentence(), QStringLiteral("second"));
+    QCOMPARE(bar.severity(), Severity::error);
+    QCOMPARE(bench.find<QLabel>("messagesWaiting")->text(), QStringLiteral("1 of 3"));
+    QTest::keyClick(&bench.view(0), Qt::Key_Escape);
+    QCOMPARE(bar.sentence(), QStringLiteral("third"));
+    QCOMPARE(bar.severity(), Severity::warning);
+    QTest::mouseClick(bench.find<QToolButton>("dismiss"), Qt::LeftButton);
+    QCOMPARE(bar.sentence(), QStringLiteral("first"));
+    QCOMPARE(bar.severity(), Severity::info);
+    QVERIFY(!bench.find<QToolButton>("dismissAll")->isVisible());
+    bar.dismiss();
+    QVERIFY(!bar.isVisible());
+    bar.say(QStringLiteral("fourth"));
+    bar.say(QStringLiteral("fifth"));
+    QTest::mouseClick(bench.find<QToolButton>("dismissAll"), Qt::LeftButton);
+    QVERIFY(!bar.isVisible());
+    QCOMPARE(bar.count(), 0);
+  }
+
+  void messagesAreReadOnEitherGround() {
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      applyGround(ground);
+      const QColor words = QApplication::palette().color(QPalette::WindowText);
+      for (const auto& [behind, sign] :
+           {std::pair(colours::infoGround, colours::infoSign), std::pair(colours::warningGround, colours::warningSign),
+            std::pair(colours::errorGround, colours::errorSign)}) {
+        QVERIFY(contrast(words, behind) >= ofText);
+        QVERIFY(contrast(sign, behind) >= ofMarks);
+      }
+    }
+  }
+
+ private:
+  static int inked(const QImage& picture) {
+    int count = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        count += int(picture.pixelColor(x, y).alpha() > 100);
+      }
+    }
+    return count;
   }
 };
 

@@ -1,0 +1,247 @@
+// Everything can be reached, named and done by keyboard; keys can be changed.
+
+#include <QAbstractButton>
+#include <QAbstractItemView>
+#include <QAbstractSpinBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QKeySequenceEdit>
+#include <QLineEdit>
+#include <QMenuBar>
+#include <QSlider>
+#include <QTest>
+#include <QTreeWidget>
+
+#include "shortcuts.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+/// All menus, the menu bar's own first; that of recent files holds no actions of the window.
+QList<QList<QAction*>> menusOf(const QMainWindow& window) {
+  QList<QList<QAction*>> menus{window.menuBar()->actions()};
+  for (qsizetype i = 0; i < menus.size(); ++i) {
+    for (const QAction* action : menus[i]) {
+      if (action->menu() != nullptr && !action->text().contains(QStringLiteral("recent"))) {
+        menus << action->menu()->actions();
+      }
+    }
+  }
+  return menus;
+}
+
+QChar mnemonicOf(const QAction& action) {
+  const qsizetype at = action.text().indexOf(QLatin1Char('&'));
+  return at < 0 ? QChar() : action.text().at(at + 1).toLower();
+}
+
+/// What a control is called, to one who does not see it.
+QString nameOf(const QWidget& control, const QWidget& window) {
+  if (!control.accessibleName().isEmpty()) {
+    return control.accessibleName();
+  }
+  if (const auto* button = qobject_cast<const QAbstractButton*>(&control)) {
+    return button->text();
+  }
+  for (const QLabel* label : window.findChildren<QLabel*>()) {
+    if (label->buddy() == &control) {
+      return label->text();
+    }
+  }
+  return {};
+}
+
+bool isControl(const QWidget& widget) {
+  // Parts of a control, of a dock's title bar, and of Qt's own menus and bars, have names by Qt.
+  const QWidget* parent = widget.parentWidget();
+  const bool part =
+      qobject_cast<const QAbstractSpinBox*>(parent) != nullptr || qobject_cast<const QComboBox*>(parent) != nullptr ||
+      qobject_cast<const QKeySequenceEdit*>(parent) != nullptr || qobject_cast<const QLineEdit*>(parent) != nullptr ||
+      qobject_cast<const QAbstractItemView*>(parent) != nullptr || widget.objectName().startsWith(QLatin1String("qt_"));
+  return !part &&
+         (qobject_cast<const QAbstractButton*>(&widget) != nullptr ||
+          qobject_cast<const QComboBox*>(&widget) != nullptr ||
+          qobject_cast<const QAbstractSpinBox*>(&widget) != nullptr ||
+          qobject_cast<const QSlider*>(&widget) != nullptr || qobject_cast<const QLineEdit*>(&widget) != nullptr);
+}
+
+QString whatItIs(const QWidget& widget) {
+  return QStringLiteral("%1 '%2' in '%3'")
+      .arg(QLatin1String(widget.metaObject()->className()), widget.objectName(),
+           widget.parentWidget() == nullptr ? QString() : widget.parentWidget()->objectName());
+}
+
+}  // namespace
+
+class WindowKeyboard : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().remove(QStringLiteral("shortcuts"));
+  }
+
+  void everyActionHasANameAnEffectAndALetter() {
+    Workbench bench;
+    for (const auto& menu : menusOf(bench.window)) {
+      QMap<QChar, QString> letters;
+      for (const QAction* action : menu) {
+        if (action->isSeparator()) {
+          continue;
+        }
+        const QString text = action->text();
+        const QChar letter = mnemonicOf(*action);
+        QVERIFY2(!letter.isNull(), qPrintable(text + QStringLiteral(": no letter")));
+        QVERIFY2(!letters.contains(letter), qPrintable(text + QStringLiteral(" and ") + letters[letter]));
+        letters[letter] = text;
+        if (action->menu() == nullptr) {
+          QVERIFY2(!action->objectName().isEmpty(), qPrintable(text + QStringLiteral(": no name")));
+          QVERIFY2(!action->statusTip().isEmpty(), qPrintable(text + QStringLiteral(": no effect")));
+        }
+      }
+    }
+  }
+
+  void noTwoActionsShareKeys() {
+    Workbench bench;
+    QMap<QKeySequence, QString> keys;
+    for (const auto& entry : Shortcuts(bench.window).entries()) {
+      for (const QKeySequence& one : entry.action->shortcuts()) {
+        QVERIFY2(!keys.contains(one), qPrintable(entry.place + QStringLiteral(" and ") + keys[one]));
+        keys[one] = entry.place;
+      }
+    }
+  }
+
+  void everyControlHasANameAndSaysWhatItDoes() {
+    Workbench bench;
+    for (const QWidget* widget : bench.window.findChildren<QWidget*>()) {
+      if (isControl(*widget)) {
+        QVERIFY2(!nameOf(*widget, bench.window).isEmpty(), qPrintable(whatItIs(*widget)));
+        QVERIFY2(!widget->toolTip().isEmpty(), qPrintable(whatItIs(*widget)));
+      }
+    }
+  }
+
+  void tabGoesThroughTheDocksAndBothViews() {
+    Workbench bench;
+    bench.view(0).setFocus();
+    QSet<QString> reached;
+    for (int i = 0; i < 120; ++i) {
+      QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
+      reached += QApplication::focusWidget()->objectName();
+    }
+    for (const char* name : {"view0", "view1", "algorithm0", "algorithm1", "colourBy", "meshKind", "buildMesh",
+                             "compressionSpin", "compressionSlider", "relaxationOn"}) {
+      QVERIFY2(reached.contains(QLatin1String(name)), name);
+    }
+  }
+
+  void keysMoveTheCameraOfTheViewThatHasThem() {
+    Workbench bench;  // in a plane: arrows shift
+    bench.view(1).setFocus(Qt::TabFocusReason);
+    const QPoint before = bench.place(1, 31);
+    QTest::keyClick(&bench.view(1), Qt::Key_Right);
+    QVERIFY(bench.place(1, 31).x() > before.x());
+    QCOMPARE(bench.place(1, 31).y(), before.y());
+    QTest::keyClick(&bench.view(1), Qt::Key_Left);
+    QCOMPARE(bench.place(1, 31), before);
+    const int across = bench.place(1, 8).x() - bench.place(1, 0).x();
+    QTest::keyClick(&bench.view(1), Qt::Key_Plus);
+    QVERIFY(bench.place(1, 8).x() - bench.place(1, 0).x() > across);
+    QTest::keyClick(&bench.view(1), Qt::Key_Minus);
+    QCOMPARE(bench.place(1, 8).x() - bench.place(1, 0).x(), across);
+  }
+
+  void arrowsStayWithTheFieldThatHasThem() {
+    Workbench bench;
+    const QPoint before = bench.place(0, 31);
+    auto* slider = bench.find<QSlider>("compressionSlider");
+    slider->setFocus();
+    const int value = slider->value();
+    QTest::keyClick(slider, Qt::Key_Left);
+    QVERIFY(slider->value() < value);
+    QCOMPARE(bench.place(0, 31), before);
+  }
+
+  void keysAreChangedRefusedAndRemembered() {
+    {
+      Workbench bench;
+      auto* list = openList(bench);
+      auto* keys = dialog(bench)->findChild<QKeySequenceEdit*>(QStringLiteral("shortcutKeys"));
+      auto* answer = dialog(bench)->findChild<QLabel*>(QStringLiteral("shortcutAnswer"));
+      auto* fit = bench.find<QAction>("fitView");
+      search(bench, QStringLiteral("reset view"));
+      QCOMPARE(visibleRows(*list), 1);
+      keys->setFocus();
+      QTest::keyClick(keys, Qt::Key_K);  // that of Cut
+      QCOMPARE(fit->shortcut(), QKeySequence(Qt::Key_F));
+      QVERIFY2(answer->text().startsWith(QStringLiteral("K belongs to 'Edit › Cut'")), qPrintable(answer->text()));
+      QTest::keyClick(keys, Qt::Key_J, Qt::ControlModifier);
+      QCOMPARE(fit->shortcut(), QKeySequence(Qt::CTRL | Qt::Key_J));
+      QVERIFY(answer->text().isEmpty());
+      QVERIFY(fit->toolTip().contains(QStringLiteral("Ctrl+J")));
+      dialog(bench)->close();
+    }
+    Workbench bench;
+    QCOMPARE(bench.find<QAction>("fitView")->shortcut(), QKeySequence(Qt::CTRL | Qt::Key_J));
+    openList(bench);
+    search(bench, QStringLiteral("reset view"));
+    QTest::mouseClick(dialog(bench)->findChild<QAbstractButton*>(QStringLiteral("shortcutReset")), Qt::LeftButton);
+    QCOMPARE(bench.find<QAction>("fitView")->shortcut(), QKeySequence(Qt::Key_F));
+    QVERIFY(!QSettings().contains(QStringLiteral("shortcuts/fitView")));
+  }
+
+  void allKeysAreReset() {
+    Workbench bench;
+    auto* list = openList(bench);
+    QVERIFY(list->topLevelItemCount() > 25);
+    search(bench, QStringLiteral("scissors nobody has"));
+    QCOMPARE(visibleRows(*list), 0);
+    QVERIFY(!dialog(bench)->findChild<QKeySequenceEdit*>()->isEnabled());
+    search(bench, QStringLiteral("cut"));
+    list->setCurrentItem(list->findItems(QStringLiteral("Edit › Cut"), Qt::MatchExactly).value(0));
+    QTest::mouseClick(dialog(bench)->findChild<QAbstractButton*>(QStringLiteral("shortcutNone")), Qt::LeftButton);
+    QVERIFY(bench.find<QAction>("toolCut")->shortcut().isEmpty());
+    QTest::mouseClick(dialog(bench)->findChild<QAbstractButton*>(QStringLiteral("shortcutResetAll")), Qt::LeftButton);
+    QCOMPARE(bench.find<QAction>("toolCut")->shortcut(), QKeySequence(Qt::Key_K));
+    QVERIFY(QSettings().value(QStringLiteral("shortcuts/toolCut")).isNull());
+  }
+
+  void actionsThatComeLaterAreTakenInWithTheUsersKeys() {
+    QSettings().setValue(QStringLiteral("shortcuts/late"), QStringLiteral("K"));
+    Workbench bench;
+    auto* late = new QAction(QStringLiteral("Late"), &bench.window);
+    late->setObjectName(QStringLiteral("late"));
+    bench.window.addAction(late);
+    openList(bench);
+    QCOMPARE(late->shortcut(), QKeySequence(Qt::Key_K));
+    QVERIFY(bench.find<QAction>("toolCut")->shortcut().isEmpty());  // the user's word counts for more
+  }
+
+ private:
+  static QDialog* dialog(Workbench& bench) { return bench.find<QDialog>("shortcutsDialog"); }
+
+  static QTreeWidget* openList(Workbench& bench) {
+    QTest::keyClick(&bench.window, Qt::Key_F1);
+    return QTest::qWaitForWindowActive(dialog(bench)) ? dialog(bench)->findChild<QTreeWidget*>() : nullptr;
+  }
+
+  static void search(Workbench& bench, const QString& words) {
+    dialog(bench)->findChild<QLineEdit*>(QStringLiteral("shortcutSearch"))->setText(words);
+  }
+
+  static int visibleRows(const QTreeWidget& list) {
+    int rows = 0;
+    for (int i = 0; i < list.topLevelItemCount(); ++i) {
+      rows += int(!list.topLevelItem(i)->isHidden());
+    }
+    return rows;
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowKeyboard>(argc, argv); }
+#include "window_keyboard.moc"

@@ -1,0 +1,113 @@
+#include "menus.h"
+
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QSet>
+
+#include "icons.h"
+
+namespace chainmail {
+namespace {
+
+struct ActionIcon {
+  const char* action;
+  const char* icon;
+};
+
+constexpr std::array actionIcons{ActionIcon{"openFile", "open"},
+                                 ActionIcon{"saveFile", "save"},
+                                 ActionIcon{"saveShapeLeft", "shape"},
+                                 ActionIcon{"saveShapeRight", "shape"},
+                                 ActionIcon{"saveScreenshot", "screenshot"},
+                                 ActionIcon{"quit", "quit"},
+                                 ActionIcon{"undo", "undo"},
+                                 ActionIcon{"redo", "redo"},
+                                 ActionIcon{"giveUp", "giveUp"},
+                                 ActionIcon{"resetObject", "resetObject"},
+                                 ActionIcon{"resetStiffness", "resetStiffness"},
+                                 ActionIcon{"unpinAll", "unpin"},
+                                 ActionIcon{"fitView", "fit"},
+                                 ActionIcon{"linkCameras", "link"},
+                                 ActionIcon{"showReport", "report"},
+                                 ActionIcon{"showToolsDock", "tools"},
+                                 ActionIcon{"showMeshDock", "mesh"},
+                                 ActionIcon{"showStiffnessDock", "stiffness"},
+                                 ActionIcon{"showRelaxationDock", "relaxation"},
+                                 ActionIcon{"showFrameRateDock", "frameRate"},
+                                 ActionIcon{"showValidRegions", "region"},
+                                 ActionIcon{"showShortcuts", "keyboard"},
+                                 ActionIcon{"showHints", "hints"}};
+
+void nameDocks(QMainWindow& window) {
+  for (const QDockWidget* dock : window.findChildren<QDockWidget*>()) {
+    QAction* toggle = dock->toggleViewAction();
+    QString name = dock->objectName();
+    if (toggle->objectName().isEmpty() && !name.isEmpty()) {
+      name[0] = name[0].toUpper();
+      toggle->setObjectName(QStringLiteral("show") + name);
+    }
+    if (toggle->statusTip().isEmpty()) {
+      toggle->setStatusTip(QStringLiteral("Shows or hides the dock '%1'").arg(dock->windowTitle()));
+    }
+  }
+}
+
+QChar mnemonicOf(const QString& text) {
+  const qsizetype at = text.indexOf(QLatin1Char('&'));
+  return at < 0 || at + 1 >= text.size() ? QChar() : text[at + 1].toLower();
+}
+
+/// A letter that is free, rather the first of a word.
+qsizetype freeLetter(const QString& text, const QSet<QChar>& taken) {
+  for (const bool first : {true, false}) {
+    for (qsizetype i = 0; i < text.size(); ++i) {
+      const bool begins = i == 0 || text[i - 1].isSpace();
+      if (text[i].isLetterOrNumber() && (begins || !first) && !taken.contains(text[i].toLower())) {
+        return i;
+      }
+    }
+  }
+  return -1;
+}
+
+void giveMnemonics(const QList<QAction*>& actions) {
+  QSet<QChar> taken;
+  QList<QAction*> without;
+  for (QAction* action : actions) {
+    const QChar own = mnemonicOf(action->text());
+    if (!own.isNull() && !taken.contains(own)) {
+      taken += own;
+    } else if (!action->isSeparator()) {
+      without << action;
+    }
+  }
+  for (QAction* action : without) {
+    QString text = action->text().remove(QLatin1Char('&'));
+    if (const qsizetype at = freeLetter(text, taken); at >= 0) {
+      taken += text[at].toLower();
+      action->setText(text.insert(at, QLatin1Char('&')));
+    }
+  }
+  for (const QAction* action : actions) {
+    if (action->menu() != nullptr) {
+      giveMnemonics(action->menu()->actions());
+    }
+  }
+}
+
+}  // namespace
+
+void completeMenus(QMainWindow& window) {
+  nameDocks(window);
+  for (const ActionIcon& one : actionIcons) {
+    auto* action = window.findChild<QAction*>(QLatin1String(one.action));
+    if (action != nullptr && action->icon().isNull()) {
+      action->setIcon(icon(one.icon));
+    }
+  }
+  giveMnemonics(window.menuBar()->actions());
+}
+
+}  // namespace chainmail

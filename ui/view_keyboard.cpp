@@ -1,0 +1,53 @@
+// The keyboard in a view: the camera's moves, and a frame that says where the keys go.
+
+#include <QApplication>
+#include <QFocusEvent>
+
+#include "view.h"
+
+namespace chainmail {
+
+void View::orbit(QPointF pixels) {
+  camera_->orbit(pixels);
+  emit cameraChanged();
+  update();
+}
+
+void View::pan(QPointF pixels) {
+  camera_->pan(pixels, size());
+  emit cameraChanged();
+  update();
+}
+
+void View::zoom(double factor) { zoom(factor, QRectF(rect()).center()); }
+
+void View::zoom(double factor, QPointF about) {
+  camera_->zoom(factor, about, size());
+  emit cameraChanged();
+  update();
+}
+
+/// A click needs no frame to say where it went.
+void View::focusInEvent(QFocusEvent* event) {
+  QOpenGLWidget::focusInEvent(event);
+  framed_ = event->reason() == Qt::TabFocusReason || event->reason() == Qt::BacktabFocusReason ||
+            event->reason() == Qt::ShortcutFocusReason;
+  update();
+}
+
+void View::focusOutEvent(QFocusEvent* event) {
+  QOpenGLWidget::focusOutEvent(event);
+  framed_ = false;
+  update();
+}
+
+void View::drawFocus(const ObjectPainter::Scene& in) {
+  if (framed_) {
+    const QRectF inner = QRectF(rect()).adjusted(1, 1, -1, -1);
+    const std::array corners{inner.topLeft(), inner.topRight(), inner.bottomRight(), inner.bottomLeft(),
+                             inner.topLeft()};
+    painter_.drawStroke(in, corners, colours::focus);
+  }
+}
+
+}  // namespace chainmail
