@@ -24,6 +24,7 @@
 #include "panel.h"
 #include "relaxation_dock.h"
 #include "report_dock.h"
+#include "size_test_dock.h"
 #include "stiffness_dock.h"
 #include "tools_dock.h"
 #include "undo_actions.h"
@@ -146,6 +147,7 @@ void MainWindow::makeDocks() {
   addDockWidget(Qt::RightDockWidgetArea, new RelaxationDock(document_));
   makeFrameRateDock();
   makeReportDock();
+  makeSizeTestDock();
   auto* history = new HistoryDock(document_);
   addDockWidget(Qt::LeftDockWidgetArea, history);
   history->hide();
@@ -185,6 +187,27 @@ void MainWindow::makeReportDock() {
   show->setText(QStringLiteral("&Report: speed against error"));
   show->setShortcut(Qt::Key_E);
   show->setStatusTip(QStringLiteral("Time per move and errors of the algorithms on this object"));
+  findChild<QMenu*>(QStringLiteral("viewMenu"))->addAction(show);
+}
+
+void MainWindow::makeSizeTestDock() {
+  auto* dock = new SizeTestDock(*this, document_, *area_, [this] {
+    std::vector<SizeTestContestant> inSight;
+    for (const int panel : area_->inSight()) {
+      inSight.push_back({panel, document_.algorithm(panel), colours::ofPanel(panel)});
+    }
+    return inSight;
+  });
+  connect(dock, &SizeTestDock::failed, messages_, &MessageBar::say);
+  connect(dock, &SizeTestDock::saved, files_, &FileActions::saved);
+  addDockWidget(Qt::BottomDockWidgetArea, dock);
+  dock->hide();
+  QAction* show = dock->toggleViewAction();
+  show->setIcon(icon("grow"));
+  show->setObjectName(QStringLiteral("showSizeTest"));
+  show->setText(QStringLiteral("&Size test: until real time is lost"));
+  show->setShortcut(Qt::SHIFT | Qt::Key_E);
+  show->setStatusTip(QStringLiteral("Grids grow under a scripted hand until each panel has lost real time"));
   findChild<QMenu*>(QStringLiteral("viewMenu"))->addAction(show);
 }
 

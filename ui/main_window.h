@@ -56,6 +56,7 @@ class MainWindow : public QMainWindow {
   void makeStiffnessDock();
   void makeFrameRateDock();
   void makeReportDock();
+  void makeSizeTestDock();
   void makeMenus();
   void fillEditMenu(QMenu& menu);
   void fillObjectMenu(QMenu& menu);

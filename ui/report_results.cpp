@@ -14,6 +14,7 @@
 #include "report_files.h"
 #include "report_plot.h"
 #include "report_table.h"
+#include "table_text.h"
 #include "text.h"
 
 namespace chainmail {
@@ -165,6 +166,6 @@ void ReportResults::saveTo(const QString& folder) {
   }
 }
 
-void ReportResults::copy() { QGuiApplication::clipboard()->setText(table_->asText()); }
+void ReportResults::copy() { QGuiApplication::clipboard()->setText(textOf(*table_)); }
 
 }  // namespace chainmail

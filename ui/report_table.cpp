@@ -5,6 +5,7 @@
 
 #include "report/format.h"
 #include "report_looks.h"
+#include "table_text.h"
 #include "text.h"
 
 namespace chainmail {
@@ -99,6 +100,7 @@ ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   }
   horizontalHeader()->setHighlightSections(false);
   sortByColumn(1, Qt::AscendingOrder);  // the fastest first
+  copyByKeys(*this);
 }
 
 void ReportTable::show(const report::DragResult& drag) {
@@ -122,22 +124,6 @@ void ReportTable::show(const report::DragResult& drag) {
   }
   setSortingEnabled(true);
   resizeColumnsToContents();
-}
-
-QString ReportTable::asText() const {
-  QStringList lines, heads;
-  for (int column = 0; column < columnCount(); ++column) {
-    heads << horizontalHeaderItem(column)->text().replace(QLatin1Char('\n'), QLatin1Char(' '));
-  }
-  lines << heads.join(QLatin1Char('\t'));
-  for (int row = 0; row < rowCount(); ++row) {
-    QStringList cells;
-    for (int column = 0; column < columnCount(); ++column) {
-      cells << item(row, column)->text();
-    }
-    lines << cells.join(QLatin1Char('\t'));
-  }
-  return lines.join(QLatin1Char('\n')) + QLatin1Char('\n');
 }
 
 }  // namespace chainmail

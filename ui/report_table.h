@@ -13,8 +13,6 @@ class ReportTable : public QTableWidget {
  public:
   ReportTable();
   void show(const report::DragResult& drag);
-  /// The table as it stands, columns parted by tabs, under its heads.
-  QString asText() const;
 };
 
 }  // namespace chainmail

@@ -5,20 +5,12 @@
 
 #include "mesh/generate.h"
 #include "report/hand.h"
+#include "report/ramp_rule.h"
 
 namespace chainmail::report {
 namespace {
 
 constexpr std::uint32_t first_width = 4;
-constexpr double percentile_kept = 0.99;
-
-/// Drags of their own for each size and each attempt: the seed's bits spread (Steele et al. 2014, SplitMix).
-std::uint64_t seed_of(std::uint64_t seed, std::uint32_t width, int attempt) {
-  std::uint64_t z = seed + 0x9e3779b97f4a7c15 * (2 * std::uint64_t{width} + static_cast<std::uint64_t>(attempt));
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
-}
 
 /// One size: its mesh, and solvers on it. The algorithms that work on lists share one, for memory's sake.
 class Size {
@@ -46,12 +38,6 @@ class Size {
   std::unique_ptr<Solver> by_lists_, exact_;
 };
 
-/// The passes of one algorithm at one size.
-struct Passes {
-  std::vector<double> ms;
-  std::uint64_t moved = 0;
-};
-
 class Run {
  public:
   Run(const RampOptions& options, const std::function<void(const RampProgress&)>& progress, const std::stop_token& stop)
@@ -74,14 +60,14 @@ class Run {
     }
     result_.stopped = stop_.stop_requested();
     for (const Algorithm algorithm : result_.options.algorithms) {
-      result_.verdicts.push_back(verdict(algorithm));
+      result_.verdicts.push_back(ramp_verdict(algorithm, result_.rows));
     }
     result_.seconds = now() - start;
     return std::move(result_);
   }
 
  private:
-  using Measured = std::map<Algorithm, Passes>;
+  using Measured = std::map<Algorithm, RampPasses>;
 
   double now() const { return result_.options.clocks.wall(); }
 
@@ -121,7 +107,8 @@ class Run {
 
   Measured attempt(Size& size, std::uint32_t width, const std::vector<Algorithm>& contestants, int number) {
     const RampOptions& options = result_.options;
-    const auto drags = hand_drags(*size.mesh(), seed_of(options.seed, width, number), options.drags + 1, options.moves);
+    const auto drags =
+        hand_drags(*size.mesh(), ramp_seed(options.seed, width, number), options.drags + 1, options.moves);
     Measured measured;
     const auto all = static_cast<int>(drags.size() * contestants.size());
     int done = 0;
@@ -131,9 +118,9 @@ class Run {
         if (progress_) {
           progress_({width, done, all, number > 0, in_race_, result_.rows});
         }
-        const Passes passes = make(size.solver(algorithm), drags[i]);
+        const RampPasses passes = make(size.solver(algorithm), drags[i]);
         // The first drag takes the memory that the others then find.
-        if (Passes& of_all = measured[algorithm]; i > 0) {
+        if (RampPasses& of_all = measured[algorithm]; i > 0) {
           of_all.ms.insert(of_all.ms.end(), passes.ms.begin(), passes.ms.end());
           of_all.moved += passes.moved;
         }
@@ -142,8 +129,8 @@ class Run {
     return measured;
   }
 
-  Passes make(Solver& solver, const HandDrag& drag) const {
-    Passes passes;
+  RampPasses make(Solver& solver, const HandDrag& drag) const {
+    RampPasses passes;
     for (const Point& target : drag.targets) {
       if (stop_.stop_requested()) {
         break;
@@ -154,33 +141,8 @@ class Run {
     return passes;
   }
 
-  RampRow row(const Mesh& mesh, std::uint32_t width, Algorithm algorithm, const Passes& passes) const {
-    RampRow row{width, mesh.element_count(), mesh.link_count(), algorithm, static_cast<int>(passes.ms.size())};
-    if (row.passes > 0) {
-      row.median_ms = percentile(passes.ms, 0.5);
-      row.p99_ms = percentile(passes.ms, percentile_kept);
-      row.mean_moved = double(passes.moved) / row.passes;
-      row.in_real_time = row.p99_ms <= 1000 * result_.options.budget;
-    }
-    return row;
-  }
-
-  RampVerdict verdict(Algorithm algorithm) const {
-    RampVerdict verdict;
-    verdict.algorithm = algorithm;
-    std::vector<SizedTime> medians;
-    for (const RampRow& one : result_.rows) {
-      if (one.algorithm != algorithm) {
-        continue;
-      }
-      medians.push_back({double(one.elements), one.median_ms});
-      verdict.lost = !one.in_real_time;
-      if (one.in_real_time) {
-        verdict.largest_width = one.width;
-      }
-    }
-    verdict.growth = growth_of(medians, growth_from);
-    return verdict;
+  RampRow row(const Mesh& mesh, std::uint32_t width, Algorithm algorithm, const RampPasses& passes) const {
+    return ramp_row(mesh, width, algorithm, passes, result_.options.budget);
   }
 
   const std::function<void(const RampProgress&)>& progress_;

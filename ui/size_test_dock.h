@@ -1,0 +1,68 @@
+#pragma once
+
+#include <QAction>
+#include <QDockWidget>
+#include <QElapsedTimer>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QShortcut>
+#include <functional>
+#include <memory>
+
+#include "document.h"
+#include "size_test_choices.h"
+#include "size_test_stage.h"
+#include "size_test_table.h"
+#include "window_rest.h"
+
+namespace chainmail {
+
+/// The size test: a button that grows a grid under a scripted hand where the panels are, until each has lost real time,
+/// and the table of it. The window's own object is not touched; while the test runs, nothing else acts.
+class SizeTestDock : public QDockWidget {
+  Q_OBJECT
+
+ public:
+  using Contestants = std::function<std::vector<SizeTestContestant>()>;
+
+  /// `area` holds the panels, in a box layout of its parent's; `inSight` says which of them can be seen.
+  SizeTestDock(QMainWindow& window, const Document& document, QWidget& area, Contestants inSight);
+  ~SizeTestDock() override;
+
+  bool running() const { return stage_ != nullptr; }
+  void start();
+  void cancel();
+  void saveTablePath(const QString& path);
+
+ signals:
+  void saved(const QString& path);
+  void failed(const QString& sentence);
+
+ private:
+  QWidget* makeControls();
+  void listen(const SizeTestStage& stage);
+  void leave();
+  void retire(SizeTestStage* stage);
+  void showState();
+  void showProgress(double share, const QString& text);
+  void fillBar(int value, const QString& text);
+  void saveTable();
+
+  QMainWindow& window_;
+  const Document& document_;
+  QWidget& area_;
+  Contestants inSight_;
+  SizeTestChoices* choices_;
+  SizeTestTable* table_;
+  QPushButton* run_;
+  QPushButton* cancel_;
+  QPushButton* copy_;
+  QPushButton* save_;
+  QProgressBar* progress_;
+  SizeTestStage* stage_ = nullptr;
+  std::unique_ptr<WindowRest> rest_;
+  std::unique_ptr<QShortcut> escape_;
+  QElapsedTimer sinceShown_;  // since the last progress
+};
+
+}  // namespace chainmail
