@@ -31,6 +31,10 @@ void CellBoxes::follow(const MeshLevelPointer& level, const Frame& frame) {
     seen_ = 0;
     boxes_.assign(level->cellCount(), {});
   }
+  if (frame.series != series_) {
+    series_ = frame.series;
+    seen_ = 0;
+  }
   if (frame.number == seen_) {
     return;
   }

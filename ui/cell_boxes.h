@@ -27,6 +27,7 @@ class CellBoxes {
 
   MeshLevelPointer level_;
   std::uint64_t seen_ = 0;  // the number of the frame that the boxes are of
+  std::uint64_t series_ = 0;
   std::vector<Box> boxes_;
 };
 

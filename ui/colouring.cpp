@@ -62,11 +62,14 @@ Colouring::Colouring(const Document& document) : document_(document) {
 }
 
 void Colouring::Kept::follow(const Frame& frame) {
-  if (number == 0) {
+  if (number == 0 || series != frame.series) {
     positions = frame.positions;
+    number = frame.number;
+    series = frame.series;
+    return;
   }
   const std::size_t perBlock = std::size_t{Frame::block_elements} * frame.mesh->space_dimension;
-  for (std::size_t block = 0; number != 0 && block < frame.changed.size(); ++block) {
+  for (std::size_t block = 0; block < frame.changed.size(); ++block) {
     if (frame.changed[block] > number) {
       const std::size_t first = block * perBlock, count = std::min(perBlock, positions.size() - first);
       std::copy_n(frame.positions.data() + first, count, positions.data() + first);

@@ -59,7 +59,7 @@ class Colouring : public QObject {
   /// Positions of a panel as they were in a frame.
   struct Kept {
     std::vector<float> positions;
-    std::uint64_t number = 0;  // of the frame
+    std::uint64_t number = 0, series = 0;  // of the frame
 
     /// Copies what has changed since.
     void follow(const Frame& frame);

@@ -57,7 +57,16 @@ class Document : public QObject {
 
   /// The newest frame of a panel, or none while it does not show the object yet; it stays as it is until
   /// frameReady.
-  const Frame* frame(int panel) const { return frames_[panel]->mesh == mesh_ ? frames_[panel] : nullptr; }
+  const Frame* frame(int panel) const;
+  /// Shows a frame in place of a panel's newest one, until none is given; it stays as long as it is shown, and this
+  /// is called again when it has changed.
+  void showInstead(int panel, const Frame* frame);
+  /// From now on all solvers record their passes, or no more.
+  void recordPasses(bool on);
+  /// A panel's last pass, unless it is the one with this number, as SolverThread::last_pass.
+  std::unique_ptr<RecordedPass> lastPass(int panel, std::uint64_t seen) const {
+    return solvers_[panel]->last_pass(seen);
+  }
   /// Whether both solvers have carried out all that was asked of them.
   bool idle() const;
 
@@ -152,6 +161,7 @@ class Document : public QObject {
   std::array<std::atomic<bool>, panels> announced_{};
   std::array<std::unique_ptr<SolverThread>, panels> solvers_;
   std::array<const Frame*, panels> frames_{};
+  std::array<const Frame*, panels> instead_{};  // of these
   std::unique_ptr<CommandLog> log_;
   QTimer sampler_;
   QUndoStack undoStack_;  // last: its edits post to the log when they go

@@ -46,6 +46,17 @@ void Legend::follow(const Colouring& colouring, int panel) {
   }
 }
 
+void Legend::show(const OverlayLegend& legend) {
+  setVisible(true);
+  setToolTip(legend.toolTip);
+  if (legend.title != title_ || legend.scale != scale_) {
+    title_ = legend.title;
+    scale_ = legend.scale;
+    setAccessibleName(QStringLiteral("%1, from %2 to %3").arg(title_, lowest(), highest()));
+    update();
+  }
+}
+
 QString Legend::lowest() const { return scale_.known() ? number(scale_.lowest) : QString(); }
 QString Legend::highest() const { return scale_.known() ? number(scale_.highest) : QString(); }
 

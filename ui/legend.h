@@ -3,6 +3,7 @@
 #include <QWidget>
 
 #include "colouring.h"
+#include "overlay.h"
 
 namespace chainmail {
 
@@ -15,6 +16,8 @@ class Legend : public QWidget {
   Legend();
   /// Shows what the colours of a panel mean now.
   void follow(const Colouring& colouring, int panel);
+  /// Shows what the colours of something over the object mean.
+  void show(const OverlayLegend& legend);
   /// What it says; the numbers are empty as long as there are none.
   QString title() const { return title_; }
   QString lowest() const;

@@ -22,6 +22,7 @@
 #include "mesh_dock.h"
 #include "message_bar.h"
 #include "panel.h"
+#include "propagation_dock.h"
 #include "relaxation_dock.h"
 #include "report_dock.h"
 #include "size_test_dock.h"
@@ -33,7 +34,7 @@ namespace chainmail {
 namespace {
 
 // To be raised when the docks change, so that an older layout is not restored over them.
-constexpr int layoutVersion = 2;
+constexpr int layoutVersion = 3;
 constexpr int savedMilliseconds = 4000;
 
 }  // namespace
@@ -41,6 +42,8 @@ constexpr int savedMilliseconds = 4000;
 MainWindow::MainWindow(MeshPointer mesh, const QString& name)
     : document_(std::move(mesh), name),
       colouring_(document_),
+      propagation_(document_),
+      propagationOverlay_(propagation_),
       regions_(document_),
       dragTool_(document_),
       cutTool_(document_),
@@ -84,6 +87,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
 void MainWindow::listen() {
   connect(&document_, &Document::refused, messages_, &MessageBar::warn);
   connect(&document_, &Document::noticed, messages_, &MessageBar::note);
+  area_->addOverlay(propagationOverlay_);
   area_->addOverlay(regions_);
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
   connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
@@ -148,6 +152,7 @@ void MainWindow::makeDocks() {
   makeFrameRateDock();
   makeReportDock();
   makeSizeTestDock();
+  makePropagationDock();
   auto* history = new HistoryDock(document_);
   addDockWidget(Qt::LeftDockWidgetArea, history);
   history->hide();
@@ -172,6 +177,15 @@ void MainWindow::makeFrameRateDock() {
   findChild<QMenu*>(QStringLiteral("viewMenu"))->addMenu(&dock->menu());
   connect(dock, &FrameRateDock::failed, messages_, &MessageBar::say);
   connect(dock, &FrameRateDock::saved, files_, &FileActions::saved);
+}
+
+/// Beside the panels, and out of sight until it is asked for.
+void MainWindow::makePropagationDock() {
+  auto* dock = new PropagationDock(document_, propagation_, propagationOverlay_);
+  connect(dock, &PropagationDock::changed, area_, &PanelArea::refresh);
+  addDockWidget(Qt::LeftDockWidgetArea, dock);
+  dock->hide();
+  dock->fill(*findChild<QMenu*>(QStringLiteral("viewMenu")));
 }
 
 /// Under the panels, and out of sight until it is asked for.

@@ -10,6 +10,7 @@
 #include "jobs.h"
 #include "panel_area.h"
 #include "pin_tool.h"
+#include "propagation_overlay.h"
 #include "select_tool.h"
 #include "valid_regions.h"
 
@@ -57,6 +58,7 @@ class MainWindow : public QMainWindow {
   void makeFrameRateDock();
   void makeReportDock();
   void makeSizeTestDock();
+  void makePropagationDock();
   void makeMenus();
   void fillEditMenu(QMenu& menu);
   void fillObjectMenu(QMenu& menu);
@@ -69,6 +71,8 @@ class MainWindow : public QMainWindow {
 
   Document document_;
   Colouring colouring_;
+  Propagation propagation_;
+  PropagationOverlay propagationOverlay_;
   ValidRegions regions_;
   DragTool dragTool_;
   CutTool cutTool_;

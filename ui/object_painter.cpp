@@ -70,6 +70,10 @@ void ObjectPainter::destroy() {
 void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
   frame_ = &frame;
   cuts_ = &cuts;
+  if (frame.series != frameSeries_) {
+    frameSeries_ = frame.series;
+    frameNumber_ = 0;
+  }
   if (frame.mesh != mesh_) {
     mesh_ = frame.mesh;
     frameNumber_ = 0;

@@ -61,10 +61,14 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   void drawLinks(const Scene& scene, std::span<const LinkId> links, QColor colour);
   /// A line through places of the view (logical pixels).
   void drawStroke(const Scene& scene, std::span<const QPointF> places, QColor colour);
-  enum class Shape { segments, triangles };
+  enum class Shape { segments, triangles, discs, rings };
   /// Pairs of ends or triples of corners, in mesh units on all three axes, over everything else; lines in logical
   /// pixels.
   void drawInSpace(const Scene& scene, std::span<const QVector3D> places, Shape shape, QColor colour, float width = 1);
+  /// The same, coloured by a value for each place; in space what lies behind faces is hidden. Discs and rings are as
+  /// wide as lines would be.
+  void drawValued(const Scene& scene, std::span<const QVector3D> places, std::span<const float> values,
+                  const ColourScale& scale, Shape shape, float width);
 
   /// 1 where every link is drawn; k where about k links in a row are drawn as one.
   unsigned step() const { return step_; }
@@ -79,6 +83,7 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   void use(const Scene& scene, QColor colour, int shading, int dimension, int colouredBy = 0);
   /// Where the object has values: as use(), and what is drawn next takes its colours from them.
   void useValues(const Scene& scene, const Paint& paint, int shading);
+  void useMap(const ColourScale& scale);
   void uploadValues(const ColourValues& values);
   bool valuesFit(const Paint& paint) const { return paint.values != nullptr && paint.values->mesh == mesh_; }
   void drawFaces(const Scene& scene, const Paint& paint);
@@ -88,8 +93,8 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
                float diameter);
 
   // The shaders, compiled for each pair of their SHADING and COLOURED_BY that is drawn with.
-  static constexpr std::array<std::array<int, 2>, 8> variants{
-      {{0, 0}, {0, 1}, {0, 2}, {1, 0}, {2, 0}, {2, 1}, {3, 0}, {4, 0}}};
+  static constexpr std::array<std::array<int, 2>, 9> variants{
+      {{0, 0}, {0, 1}, {0, 2}, {1, 0}, {2, 0}, {2, 1}, {3, 0}, {4, 0}, {4, 1}}};
   std::array<QOpenGLShaderProgram, variants.size()> programs_;
   QOpenGLShaderProgram* program_ = nullptr;  // the one in use
   QOpenGLVertexArrayObject vertexArray_;
@@ -104,7 +109,7 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   MeshPointer mesh_;
   const Cuts* cuts_ = nullptr;
   const Frame* frame_ = nullptr;
-  std::uint64_t frameNumber_ = 0;
+  std::uint64_t frameNumber_ = 0, frameSeries_ = 0;
   unsigned step_ = 1;
   MeshLevelPointer level_;
   CellBoxes boxes_;       // of that level

@@ -28,4 +28,31 @@ void ObjectPainter::drawInSpace(const Scene& scene, std::span<const QVector3D> p
   vertexArray_.release();
 }
 
+void ObjectPainter::drawValued(const Scene& scene, std::span<const QVector3D> places, std::span<const float> values,
+                               const ColourScale& scale, Shape shape, float width) {
+  if (places.empty()) {
+    return;
+  }
+  const bool lines = shape == Shape::segments;
+  if (mesh_->space_dimension == 3) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+  }
+  scratch_.bind();
+  scratch_.allocate(int(places.size_bytes() + values.size_bytes()));
+  scratch_.write(0, places.data(), int(places.size_bytes()));
+  scratch_.write(int(places.size_bytes()), values.data(), int(values.size_bytes()));
+  use(scene, {}, lines ? 0 : int(shape == Shape::discs ? Mark::disc : Mark::ring), 3, 1);
+  program_->setUniformValue("to_view", scene.toView);
+  useMap(scale);
+  program_->enableAttributeArray(1);
+  program_->setAttributeBuffer(1, GL_FLOAT, int(places.size_bytes()), 1);
+  program_->setUniformValue("point_size", width * scene.pixelRatio);
+  glLineWidth(lines ? width * scene.pixelRatio : 1);
+  glDrawArrays(lines ? GL_LINES : GL_POINTS, 0, GLsizei(places.size()));
+  glLineWidth(1);
+  glDisable(GL_DEPTH_TEST);
+  vertexArray_.release();
+}
+
 }  // namespace chainmail

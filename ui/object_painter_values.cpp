@@ -16,14 +16,7 @@ void ObjectPainter::useValues(const Scene& scene, const Paint& paint, int shadin
   if (paint.values->number != valuesNumber_) {
     uploadValues(*paint.values);
   }
-  const auto& map = paint.scale.diverging ? colour_map::differenceStops() : colour_map::stops();
-  std::array<QVector3D, std::tuple_size_v<colour_map::Stops>> stops;
-  std::transform(map.begin(), map.end(), stops.begin(),
-                 [](const auto& stop) { return QVector3D(float(stop[0]), float(stop[1]), float(stop[2])) / 255; });
-  program_->setUniformValueArray("stops", stops.data(), int(stops.size()));
-  program_->setUniformValue("range", QVector2D(paint.scale.lowest, paint.scale.highest));
-  program_->setUniformValue("threshold", paint.scale.threshold);
-  program_->setUniformValue("neutral", QColor(colour_map::neutral));
+  useMap(paint.scale);
   if (ofLinks) {
     glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
   } else {
@@ -31,6 +24,18 @@ void ObjectPainter::useValues(const Scene& scene, const Paint& paint, int shadin
     program_->enableAttributeArray(1);
     program_->setAttributeBuffer(1, GL_FLOAT, 0, 1);
   }
+}
+
+/// The colour map, for a program that takes its colours from values.
+void ObjectPainter::useMap(const ColourScale& scale) {
+  const auto& map = scale.diverging ? colour_map::differenceStops() : colour_map::stops();
+  std::array<QVector3D, std::tuple_size_v<colour_map::Stops>> stops;
+  std::transform(map.begin(), map.end(), stops.begin(),
+                 [](const auto& stop) { return QVector3D(float(stop[0]), float(stop[1]), float(stop[2])) / 255; });
+  program_->setUniformValueArray("stops", stops.data(), int(stops.size()));
+  program_->setUniformValue("range", QVector2D(scale.lowest, scale.highest));
+  program_->setUniformValue("threshold", scale.threshold);
+  program_->setUniformValue("neutral", QColor(colour_map::neutral));
 }
 
 /// A value for each link that is drawn, the largest of those that it stands for, or a value for each element.

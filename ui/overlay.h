@@ -7,6 +7,13 @@
 
 namespace chainmail {
 
+/// What the colours of an overlay mean.
+struct OverlayLegend {
+  QString title;
+  ColourScale scale;
+  QString toolTip;
+};
+
 /// Something that is drawn over the objects of the views, and may say how the objects themselves are painted meanwhile.
 /// Whoever adds one to a view lets it live as long as the view.
 class Overlay {
@@ -30,6 +37,8 @@ class Overlay {
   virtual void draw(const Canvas& canvas) = 0;
   /// What a panel says of it beside its algorithm; empty: nothing.
   virtual QString note(int /*panel*/) const { return {}; }
+  /// What a panel's legend says instead of the object's own, where the overlay colours it.
+  virtual std::optional<OverlayLegend> legend(int /*panel*/) const { return std::nullopt; }
 };
 
 }  // namespace chainmail

@@ -111,7 +111,11 @@ void Panel::refresh() {
 }
 
 void Panel::showStatistics() {
-  legend_->follow(colouring_, panel_);
+  if (const auto legend = view_->overlayLegend()) {
+    legend_->show(*legend);
+  } else {
+    legend_->follow(colouring_, panel_);
+  }
   if (const Frame* frame = document_.frame(panel_)) {
     statistics_->setText(describe(frame->statistics));
     head_->showState(states(frame->statistics).join(QStringLiteral(" · ")));

@@ -215,6 +215,15 @@ void View::drawOverlays(const ObjectPainter::Scene& in, const Frame& frame) {
   }
 }
 
+std::optional<OverlayLegend> View::overlayLegend() const {
+  for (const Overlay* overlay : overlays_) {
+    if (auto legend = overlay->legend(panel_)) {
+      return legend;
+    }
+  }
+  return std::nullopt;
+}
+
 QStringList View::notes() const {
   QStringList notes;
   for (const Overlay* overlay : overlays_) {

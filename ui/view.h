@@ -33,6 +33,7 @@ class View : public QOpenGLWidget {
   void addOverlay(Overlay& overlay) { overlays_.push_back(&overlay); }
   /// What the overlays say of this panel.
   QStringList notes() const;
+  std::optional<OverlayLegend> overlayLegend() const;
   /// Looks through another camera, as it stands.
   void setCamera(std::shared_ptr<Camera> camera);
   const std::shared_ptr<Camera>& camera() const { return camera_; }

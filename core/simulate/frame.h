@@ -21,6 +21,8 @@ struct Frame {
   std::vector<std::uint64_t> changed;
   Statistics statistics;
   std::uint64_t number = 0;
+  /// Numbers of frames of another series say nothing of this one's: whoever has shown one needs all blocks.
+  std::uint64_t series = 0;
 
   /// The positions as they are read in place; valid as long as the frame stays as it is.
   PositionView view() const {

@@ -1,10 +1,15 @@
-// How an algorithm works, made visible: valid regions, and passes step by step, in a real window.
+// Passes looked at step by step, in a real window.
 
 #include <QAction>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDockWidget>
 #include <QLabel>
+#include <QSlider>
+#include <QTreeView>
 
+#include "colour_map.h"
 #include "colours.h"
-#include "measure/neighbour_regions.h"
 #include "window.h"
 
 using namespace chainmail;
@@ -14,6 +19,34 @@ namespace {
 constexpr ElementId middle = 31;  // of 9 x 7
 constexpr int alike = 60;         // of 255: a line one or two pixels wide is blended with what lies behind it
 
+/// With the dock open, one far drag that moves every element of the sample in most algorithms.
+void openAndDrag(Workbench& bench, const Point& by = Point(4, 3, 0)) {
+  QTest::keyClick(&bench.window, Qt::Key_O);
+  QTRY_VERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
+  bench.document().grab(middle);
+  bench.document().drag(bench.document().mesh()->rest_position(middle) + by);
+  bench.document().release();
+  bench.settle();
+  QTRY_VERIFY(bench.find<QAction>("passBack")->isEnabled());
+}
+
+QSlider& slider(Workbench& bench, int panel) {
+  return *bench.find<QSlider>(qPrintable(QStringLiteral("propagationStep%1").arg(panel)));
+}
+QAbstractItemModel& list(Workbench& bench, int panel) {
+  return *bench.find<QTreeView>(qPrintable(QStringLiteral("waitingList%1").arg(panel)))->model();
+}
+QString cell(Workbench& bench, int panel, int row, int column) {
+  return list(bench, panel).index(row, column).data().toString();
+}
+std::vector<Point> positions(Workbench& bench, int panel) {
+  std::vector<Point> all;
+  for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
+    all.push_back(bench.position(panel, e));
+  }
+  return all;
+}
+
 }  // namespace
 
 class WindowPropagation : public QObject {
@@ -22,83 +55,172 @@ class WindowPropagation : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
-  void validRegionsStandAboutTheElementUnderTheCursor() {
+  void aPassIsSteppedBackAndForward() {
     Workbench bench;
-    const QImage without = bench.view(0).grabFramebuffer();
-    QTest::keyClick(&bench.window, Qt::Key_V);
-    QVERIFY(bench.find<QAction>("showValidRegions")->isChecked());
-    QTRY_VERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("point at an element")));
-    bench.document().setHighlight({middle, false, {}});
-    for (int p = 0; p < Document::panels; ++p) {
-      for (const auto& region : regionsAbout(bench, p, middle)) {
-        QVERIFY(region.inside);
-        QVERIFY(bench.distanceFromColour(p, corner(bench, p, region), colours::inside) < alike);
-      }
+    openAndDrag(bench);
+    const auto after = positions(bench, 1);
+    const int steps = slider(bench, 1).maximum();
+    QCOMPARE(quint64(steps), bench.document().frame(1)->statistics.last_pass.checked);
+    QCOMPARE(slider(bench, 1).value(), steps);
+    bench.trigger("passFirst");  // nothing has followed the hand yet
+    for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
+      const Point rest = bench.document().mesh()->rest_position(e);
+      QVERIFY(bench.position(1, e) == (e == middle ? Point(rest + Point(4, 3, 0)) : rest));
     }
+    QTest::keyClick(&bench.window, Qt::Key_Period);
+    QCOMPARE(slider(bench, 1).value(), 1);
+    // Natural Queue takes the lowest neighbour of the hand first: the one below.
+    QVERIFY(bench.position(1, middle - 9) == after[middle - 9]);
+    QVERIFY(bench.position(1, middle - 1) == bench.document().mesh()->rest_position(middle - 1));
+    QTest::keyClick(&bench.window, Qt::Key_Comma);
+    QVERIFY(bench.position(1, middle - 9) == bench.document().mesh()->rest_position(middle - 9));
+    bench.trigger("passLast");
+    QVERIFY(positions(bench, 1) == after);
+  }
+
+  void theListSaysWhatWaits() {
+    Workbench bench;
+    openAndDrag(bench);
+    bench.trigger("passFirst");
+    QCOMPARE(cell(bench, 1, 0, 2), QStringLiteral("in the hand"));
+    const auto row = [&](int i) { return cell(bench, 1, i, 0) + cell(bench, 1, i, 2); };
+    QCOMPARE(row(1), QStringLiteral("22next"));
+    QCOMPARE(row(2), QStringLiteral("30waits"));
+    QCOMPARE(row(4), QStringLiteral("40waits"));
+    QCOMPARE(list(bench, 1).rowCount(), 5);
+    bench.trigger("passForward");
+    QVERIFY(row(0) == QStringLiteral("22moved") && cell(bench, 1, 0, 1) == QStringLiteral("31"));
+    QCOMPARE(row(1), QStringLiteral("30next"));
+    QCOMPARE(row(4), QStringLiteral("13waits"));
+    QCOMPARE(list(bench, 1).rowCount(), 1 + 6 + 1);
+    QVERIFY(bench.find<QLabel>("propagationState1")->text().contains(QStringLiteral("<b>6</b> waiting")));
+    // Generalized takes the last listed first, and lets those in that have been updated.
+    QCOMPARE(cell(bench, 0, 0, 0), QStringLiteral("40"));
+    bench.trigger("passForward");
+    bool drops = false;
+    for (int i = 1; i < list(bench, 0).rowCount(); ++i) {
+      drops = drops ||
+              (cell(bench, 0, i, 0) == QStringLiteral("40") && cell(bench, 0, i, 2) == QStringLiteral("drops out"));
+    }
+    QVERIFY(drops);
+    auto* view = bench.find<QTreeView>("waitingList1");
+    view->setCurrentIndex(list(bench, 1).index(3, 0));
+    QCOMPARE(QString::number(*bench.document().highlight().element), cell(bench, 1, 3, 0));
+    bench.choose(1, "Exact ChainMail");
+    bench.document().resetObject();
+    bench.trigger("showPropagation");
+    openAndDrag(bench);
+    bench.trigger("passFirst");
+    QVERIFY(bench.find<QLabel>("propagationState1")->text().contains(QStringLiteral("no waiting list")));
+    QCOMPARE(cell(bench, 1, 1, 2), QStringLiteral("to come"));
+  }
+
+  void elementsAreColouredByOrderOfUpdate() {
+    Workbench bench;
+    openAndDrag(bench, Point(1.5, 1, 0));
+    QTRY_VERIFY(bench.window.panel(1).legend().title().contains(QStringLiteral("Order of update")));
+    bench.trigger("passFirst");
+    bench.trigger("passForward");
     bench.document().setHighlight({});
-    QTest::keyClick(&bench.window, Qt::Key_V);
-    QTRY_VERIFY(!bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("regions")));
-    QCOMPARE(bench.view(0).grabFramebuffer(), without);
-  }
-
-  void whatLiesOutsideIsMarkedSo() {
-    Workbench bench;
-    bench.document().setPinned({middle + 1}, true);
-    bench.document().grab(middle);
-    bench.document().drag(bench.document().mesh()->rest_position(middle) + Point(-1.5, 0, 0));
-    bench.document().release();
+    const int most = std::max(slider(bench, 0).maximum(), slider(bench, 1).maximum());
+    QTRY_COMPARE(bench.window.panel(1).legend().highest(), QLocale().toString(double(most), 'g', 3));
+    QVERIFY(bench.distanceFromColour(1, bench.place(1, 22), colour_map::at(0)) < alike);
+    QVERIFY(bench.distanceFromColour(1, bench.place(1, 4), colour_map::at(0)) > alike);
+    bench.trigger("showPropagation");  // closed: as if it had never been
+    bench.document().resetObject();
     bench.settle();
-    bench.trigger("showValidRegions");
-    bench.document().setHighlight({middle, false, {}});
-    for (int p = 0; p < Document::panels; ++p) {
-      const auto regions = regionsAbout(bench, p, middle);
-      const auto pinned =
-          std::find_if(regions.begin(), regions.end(), [](auto& r) { return r.neighbour == middle + 1; });
-      QVERIFY(!pinned->inside);
-      // The line that joins it to its region.
-      const Point half = (pinned->at + pinned->nearest) / 2;
-      QVERIFY(bench.distanceFromColour(p, bench.view(p).placeOf(half), colours::outside) < alike);
-    }
+    QTRY_VERIFY(!bench.window.panel(1).legend().isVisible());
+    bench.document().setHighlight({});
+    QVERIFY(bench.distanceFromColour(1, bench.place(1, 22), colours::stronger(colours::ofPanel(1))) < alike);
   }
 
-  void regionsAreDrawnOfFewSelectedElementsAndInEveryDimension() {
-    for (const auto& mesh :
-         {generate({MeshKind::line, {6, 1, 1}, 1, {}}), generate({MeshKind::block, {3, 3, 3}, 1, {}})}) {
-      Workbench bench(mesh);
-      const QImage without = bench.view(1).grabFramebuffer();
-      bench.trigger("showValidRegions");
-      bench.document().select({1, 2});
-      for (const auto& region : regionsAbout(bench, 1, 1)) {
-        const QPointF at = mesh->space_dimension == 1 ? bench.view(1).placeOf(region.low) : corner(bench, 1, region);
-        QVERIFY(bench.distanceFromColour(1, at, colours::inside) < alike);
+  void panelsStepTogetherOrAlone() {
+    Workbench bench;
+    openAndDrag(bench);
+    bench.trigger("passFirst");
+    bench.trigger("passForward");
+    QCOMPARE(slider(bench, 0).value(), 1);
+    QCOMPARE(slider(bench, 1).value(), 1);
+    bench.find<QCheckBox>("passTogether")->setChecked(false);
+    slider(bench, 1).setValue(7);
+    QCOMPARE(slider(bench, 0).value(), 1);
+    bench.trigger("passForward");
+    QCOMPARE(slider(bench, 0).value(), 1);
+    QCOMPARE(slider(bench, 1).value(), 8);
+    bench.find<QCheckBox>("passTogether")->setChecked(true);
+    bench.trigger("passBack");
+    QCOMPARE(slider(bench, 0).value(), 7);
+    QCOMPARE(slider(bench, 1).value(), 7);
+  }
+
+  void slowMotionRunsToTheEndAndStops() {
+    Workbench bench;
+    openAndDrag(bench);
+    auto* speed = bench.find<QComboBox>("passSpeed");
+    speed->setCurrentIndex(speed->findData(1000));
+    bench.trigger("passPlay");
+    QVERIFY(bench.find<QAction>("passPlay")->isChecked());
+    QVERIFY(slider(bench, 1).value() < slider(bench, 1).maximum());
+    QTRY_COMPARE(slider(bench, 1).value(), slider(bench, 1).maximum());
+    QTRY_VERIFY(!bench.find<QAction>("passPlay")->isChecked());
+  }
+
+  void theHandAndEditsLetGoOfThePass() {
+    Workbench bench;
+    openAndDrag(bench);
+    const auto live = positions(bench, 0);
+    bench.trigger("passFirst");
+    QVERIFY(!bench.find<QAction>("passFollow")->isChecked());
+    QVERIFY(positions(bench, 0) != live);
+    bench.document().setHighlight({middle, true, {}});
+    QVERIFY(positions(bench, 0) == live);
+    bench.document().setHighlight({});
+    bench.trigger("passFirst");
+    bench.trigger("resetObject");
+    bench.settle();
+    QVERIFY(bench.find<QAction>("passFollow")->isChecked());
+    QVERIFY(bench.position(0, middle) == bench.document().mesh()->rest_position(middle));
+    bench.trigger("passFirst");
+    bench.document().replaceMesh(generate({MeshKind::tetra, {5, 5, 5}, 1, {}}), QStringLiteral("other"),
+                                 QStringLiteral("build"));
+    bench.settle();
+    QVERIFY(!bench.find<QAction>("passFirst")->isEnabled());
+    QVERIFY(bench.find<QAction>("passFirst")->toolTip().contains(QStringLiteral("drag an element")));
+  }
+
+  void everyAlgorithmCanBeSteppedInSpace() {
+    Workbench bench(generate({MeshKind::block, {5, 5, 5}, 1, {}}));
+    for (const auto& one : algorithms()) {
+      bench.document().resetObject();
+      bench.choose(0, std::string(one.label).c_str());
+      if (!bench.find<QDockWidget>("propagationDock")->isHidden()) {
+        bench.trigger("showPropagation");
       }
-      bench.document().select({});
-      QCOMPARE(bench.view(1).grabFramebuffer(), without);
+      openAndDrag(bench, Point(3, 2, 1));
+      const auto after = positions(bench, 0);
+      bench.trigger("passFirst");
+      bench.view(0).grabFramebuffer();
+      for (const int step : {3, 40, 1, 124}) {
+        slider(bench, 0).setValue(step);
+        bench.view(0).grabFramebuffer();
+      }
+      bench.trigger("passLast");
+      QVERIFY(positions(bench, 0) == after);
     }
   }
 
-  void regionsFollowTheSoftnessOfTheirLink() {
-    Workbench bench;
-    bench.trigger("showValidRegions");
-    bench.document().setHighlight({middle, false, {}});
-    const Point edge = Point(5.2, 2.9, 0);  // a corner with the softness that all have
-    QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(edge), colours::inside) < alike);
-    bench.document().setSoftnessOf({*find_link(*bench.document().mesh(), middle, middle + 1)},
-                                   LinkSoftness{1, 1.5, 0.3});
-    bench.settle();
-    bench.document().setHighlight({middle, false, {}});  // the cursor of the display may be over the window
-    QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(edge), colours::inside) > alike);
-    QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(Point(5.5, 2.7, 0)), colours::inside) < alike);
-  }
-
- private:
-  static std::vector<NeighbourRegion> regionsAbout(Workbench& bench, int panel, ElementId element) {
-    const Document& document = bench.document();
-    return neighbour_regions(*document.mesh(), *document.wholeSoftness(), document.cuts(),
-                             document.frame(panel)->view(), element, 100);
-  }
-  static QPointF corner(Workbench& bench, int panel, const NeighbourRegion& region) {
-    return bench.view(panel).placeOf(region.low);
+  void aHundredThousandStepsStayQuick() {
+    Workbench bench(generate({MeshKind::grid, {320, 320, 1}, 1, {}}));
+    openAndDrag(bench, Point(400, 300, 0));
+    QVERIFY(slider(bench, 1).maximum() > 100'000);
+    QTRY_VERIFY(bench.find<QLabel>("state1")->toolTip().contains(QStringLiteral("drawn")));
+    QElapsedTimer clock;
+    clock.start();
+    for (const int step : {50'000, 50'001, 90'000, 10'000, 100'000}) {
+      slider(bench, 1).setValue(step);
+      bench.view(1).grabFramebuffer();
+    }
+    QVERIFY(clock.elapsed() < 5 * 2000);  // some 100 ms each; the limit is for a machine with much else to do
   }
 };
 

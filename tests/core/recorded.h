@@ -1,0 +1,113 @@
+#pragma once
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "core/support.h"
+#include "mesh/error.h"
+#include "simulate/pass_recorder.h"
+#include "solve/region.h"
+#include "solve/waiting_history.h"
+
+namespace chainmail::test {
+
+/// A simulation as the window runs it, with its recorder.
+struct Recorded {
+  Recorded(const MeshPointer& mesh, Algorithm algorithm) : simulation(mesh, algorithm, Precision::single_precision) {
+    recorder.set_on(true);
+  }
+
+  /// False where the command was refused.
+  bool apply(const Command& command) {
+    bool done = true;
+    recorder.begin(command, simulation);
+    try {
+      simulation.apply(command);
+    } catch (const Error&) {
+      done = false;
+    }
+    recorder.end(simulation);
+    return done;
+  }
+  /// As when a frame is handed over.
+  void publish() {
+    recorder.note_changes(simulation);
+    simulation.forget_changes();
+  }
+  std::unique_ptr<RecordedPass> drag(ElementId element, const Point& to) {
+    apply(commands::Grab{element});
+    apply(commands::Drag{to});
+    return recorder.last(0);
+  }
+
+  Simulation simulation;
+  PassRecorder recorder;
+};
+
+/// The states of a pass, one after another.
+struct Player {
+  explicit Player(const RecordedPass& of) : pass(of), positions(of.before) {
+    place(pass.grabbed, pass.grabbed_after());
+  }
+  void take(std::size_t row) { place(pass.trace[row].element, pass.place_after(row)); }
+  void place(ElementId element, std::span<const float> at) {
+    std::ranges::copy(at, positions.begin() + element * pass.mesh->space_dimension);
+  }
+  float at(ElementId element, int k) const { return positions[std::size_t{element} * pass.mesh->space_dimension + k]; }
+
+  const RecordedPass& pass;
+  std::vector<float> positions;
+};
+
+inline std::vector<float> played(const RecordedPass& pass) {
+  Player player(pass);
+  for (std::size_t row = 0; row < pass.trace.size(); ++row) {
+    player.take(row);
+  }
+  return player.positions;
+}
+
+inline bool updated_once(const RecordedPass& pass) {
+  std::set<ElementId> updated{pass.grabbed};
+  return std::ranges::all_of(pass.trace, [&](const TraceRow& row) { return updated.insert(row.element).second; });
+}
+
+inline bool stays(const RecordedPass& pass, std::size_t row) {
+  return std::ranges::equal(pass.place_before(pass.trace[row].element), pass.place_after(row));
+}
+
+/// Where the element of a row goes along an axis, as the sponsor stands at that step. In a space of three, the axis
+/// first: the others are summed in the order of axes, of which there are two at most.
+inline float clamped_by_hand(const Player& player, std::size_t row, int k) {
+  const Mesh& mesh = *player.pass.mesh;
+  const auto [element, sponsor, moved] = player.pass.trace[row];
+  double along[3]{};
+  for (int j = 0, next = 1; j < mesh.space_dimension; ++j) {
+    along[j == k ? 0 : next++] = mesh.rest[std::size_t{element} * mesh.space_dimension + j] -
+                                 mesh.rest[std::size_t{sponsor} * mesh.space_dimension + j];
+  }
+  const auto& softness = player.pass.conditions->softness.of(*find_link(mesh, element, sponsor));
+  const auto region = valid_region<float, 3>(along, softness);
+  const float low = player.at(sponsor, k) + region.low[0], high = player.at(sponsor, k) + region.high[0];
+  return std::min(std::max(player.at(element, k), low), high);
+}
+
+/// Whether the list names, as the next one that will not be dropped, what the trace has next, at every step.
+inline bool leads_through(const RecordedPass& pass, const WaitingHistory& history) {
+  std::set<ElementId> updated(pass.conditions->pins.begin(), pass.conditions->pins.end());
+  updated.insert(pass.grabbed);
+  for (std::size_t step = 0; step < pass.trace.size(); ++step) {
+    const auto waiting = history.at(step);
+    const auto next = std::ranges::find_if(
+        waiting, [&](std::uint32_t i) { return !updated.contains(history.candidates()[i].element); });
+    if (next == waiting.end() || history.candidates()[*next].element != pass.trace[step].element ||
+        history.candidates()[*next].sponsor != pass.trace[step].sponsor) {
+      return false;
+    }
+    updated.insert(pass.trace[step].element);
+  }
+  return history.at(pass.trace.size()).empty();
+}
+
+}  // namespace chainmail::test

@@ -1,0 +1,106 @@
+// The valid regions about an element, in a real window.
+
+#include <QAction>
+#include <QLabel>
+
+#include "colours.h"
+#include "measure/neighbour_regions.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+constexpr ElementId middle = 31;  // of 9 x 7
+constexpr int alike = 60;         // of 255: a line one or two pixels wide is blended with what lies behind it
+
+}  // namespace
+
+class WindowRegions : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void validRegionsStandAboutTheElementUnderTheCursor() {
+    Workbench bench;
+    const QImage without = bench.view(0).grabFramebuffer();
+    QTest::keyClick(&bench.window, Qt::Key_V);
+    QVERIFY(bench.find<QAction>("showValidRegions")->isChecked());
+    QTRY_VERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("point at an element")));
+    bench.document().setHighlight({middle, false, {}});
+    for (int p = 0; p < Document::panels; ++p) {
+      for (const auto& region : regionsAbout(bench, p, middle)) {
+        QVERIFY(region.inside);
+        QVERIFY(bench.distanceFromColour(p, corner(bench, p, region), colours::inside) < alike);
+      }
+    }
+    bench.document().setHighlight({});
+    QTest::keyClick(&bench.window, Qt::Key_V);
+    QTRY_VERIFY(!bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("regions")));
+    QCOMPARE(bench.view(0).grabFramebuffer(), without);
+  }
+
+  void whatLiesOutsideIsMarkedSo() {
+    Workbench bench;
+    bench.document().setPinned({middle + 1}, true);
+    bench.document().grab(middle);
+    bench.document().drag(bench.document().mesh()->rest_position(middle) + Point(-1.5, 0, 0));
+    bench.document().release();
+    bench.settle();
+    bench.trigger("showValidRegions");
+    bench.document().setHighlight({middle, false, {}});
+    for (int p = 0; p < Document::panels; ++p) {
+      const auto regions = regionsAbout(bench, p, middle);
+      const auto pinned =
+          std::find_if(regions.begin(), regions.end(), [](auto& r) { return r.neighbour == middle + 1; });
+      QVERIFY(!pinned->inside);
+      // The line that joins it to its region.
+      const Point half = (pinned->at + pinned->nearest) / 2;
+      QVERIFY(bench.distanceFromColour(p, bench.view(p).placeOf(half), colours::outside) < alike);
+    }
+  }
+
+  void regionsAreDrawnOfFewSelectedElementsAndInEveryDimension() {
+    for (const auto& mesh :
+         {generate({MeshKind::line, {6, 1, 1}, 1, {}}), generate({MeshKind::block, {3, 3, 3}, 1, {}})}) {
+      Workbench bench(mesh);
+      const QImage without = bench.view(1).grabFramebuffer();
+      bench.trigger("showValidRegions");
+      bench.document().select({1, 2});
+      for (const auto& region : regionsAbout(bench, 1, 1)) {
+        const QPointF at = mesh->space_dimension == 1 ? bench.view(1).placeOf(region.low) : corner(bench, 1, region);
+        QVERIFY(bench.distanceFromColour(1, at, colours::inside) < alike);
+      }
+      bench.document().select({});
+      QCOMPARE(bench.view(1).grabFramebuffer(), without);
+    }
+  }
+
+  void regionsFollowTheSoftnessOfTheirLink() {
+    Workbench bench;
+    bench.trigger("showValidRegions");
+    bench.document().setHighlight({middle, false, {}});
+    const Point edge = Point(5.2, 2.9, 0);  // a corner with the softness that all have
+    QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(edge), colours::inside) < alike);
+    bench.document().setSoftnessOf({*find_link(*bench.document().mesh(), middle, middle + 1)},
+                                   LinkSoftness{1, 1.5, 0.3});
+    bench.settle();
+    bench.document().setHighlight({middle, false, {}});  // the cursor of the display may be over the window
+    QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(edge), colours::inside) > alike);
+    QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(Point(5.5, 2.7, 0)), colours::inside) < alike);
+  }
+
+ private:
+  static std::vector<NeighbourRegion> regionsAbout(Workbench& bench, int panel, ElementId element) {
+    const Document& document = bench.document();
+    return neighbour_regions(*document.mesh(), *document.wholeSoftness(), document.cuts(),
+                             document.frame(panel)->view(), element, 100);
+  }
+  static QPointF corner(Workbench& bench, int panel, const NeighbourRegion& region) {
+    return bench.view(panel).placeOf(region.low);
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowRegions>(argc, argv); }
+#include "window_regions.moc"
