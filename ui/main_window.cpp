@@ -215,8 +215,10 @@ void MainWindow::makeSizeTestDock() {
   connect(dock, &SizeTestDock::failed, messages_, &MessageBar::say);
   connect(dock, &SizeTestDock::saved, files_, &FileActions::saved);
   addDockWidget(Qt::BottomDockWidgetArea, dock);
+  tabifyDockWidget(findChild<QDockWidget*>(QStringLiteral("reportDock")), dock);
   dock->hide();
   QAction* show = dock->toggleViewAction();
+  connect(show, &QAction::triggered, dock, &QWidget::raise);  // in front of the report
   show->setIcon(icon("grow"));
   show->setObjectName(QStringLiteral("showSizeTest"));
   show->setText(QStringLiteral("&Size test: until real time is lost"));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "panel_names.h"
 #include "report/format.h"
 
 namespace chainmail {
@@ -26,9 +27,10 @@ constexpr std::array quantities{
 std::string digits(double number) { return std::isnan(number) ? std::string() : report::all_digits(number); }
 
 void writeRow(std::ostream& out, std::size_t panel, const RateSample& one) {
-  out << digits(one.time) << ',' << panel + 1 << ',' << info(one.algorithm).name << ',' << digits(one.painted) << ','
-      << digits(one.passesPerSecond()) << ',' << digits(one.ms) << ',' << digits(one.medianMs) << ','
-      << digits(one.worstMs) << ',' << digits(one.violationMax) << ',' << digits(one.violationRms) << ','
+  out << digits(one.time) << ',' << panelName(int(panel)).toStdString() << ',' << info(one.algorithm).name << ','
+      << digits(one.painted) << ',' << digits(one.passesPerSecond()) << ',' << digits(one.ms) << ','
+      << digits(one.medianMs) << ',' << digits(one.worstMs) << ',' << digits(one.violationMax) << ','
+      << digits(one.violationRms) << ','
       << (std::isnan(one.violationMax) ? ""
           : one.ofWholeMesh            ? "all"
                                        : "touched")

@@ -119,7 +119,7 @@ QString SizeTestTable::verdictText(const SizeTestContestant& contestant) const {
   if (!verdict.largest_width) {
     return verdict.lost ? QStringLiteral("never in real time")
            : growing_   ? QStringLiteral("not measured yet")
-                        : QStringLiteral("not measured");
+                        : QStringLiteral("not measured; press Size test");
   }
   const std::uint32_t width = *verdict.largest_width;
   const QString upTo =

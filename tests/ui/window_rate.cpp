@@ -188,7 +188,7 @@ class WindowRate : public QObject {
       QCOMPARE(fields.size(), rows[0].split(',').size());
       QVERIFY(fields[0].toDouble() >= time);
       time = fields[0].toDouble();
-      found = found || (fields[1] == "1" && fields[2] == "generalized" && fields[5].toDouble() == ms);
+      found = found || (fields[1] == "A" && fields[2] == "generalized" && fields[5].toDouble() == ms);
       // The painted rate is there always, the solver's where there was a pass.
       QVERIFY(!fields[3].isEmpty());
       QCOMPARE(fields[4].isEmpty(), fields[5].isEmpty());
