@@ -11,7 +11,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int smallestWidth = 185;  // pixels: what three columns take
+constexpr int smallestWidth = 198;  // pixels: what three columns take
 constexpr int smallestList = 180;   // pixels: some ten candidates
 constexpr int swatchSize = 10;
 constexpr int cellMargin = 4;
