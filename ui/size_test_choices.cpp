@@ -51,7 +51,8 @@ SizeTestChoices::SizeTestChoices()
   budget_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   budget_->setValue(1000 * standard.budget);
   add(QStringLiteral("Drags"), drags_, "sizeTestDrags",
-      QStringLiteral("At each size, of 30 moves each, beside one to warm up: half a second each"));
+      QStringLiteral("At each size, of 30 moves each, beside one to warm up: half a second each, and "
+                     "fewer where drawing is slow, so that a size takes no longer than about 8 s"));
   drags_->setRange(1, 20);
   drags_->setValue(standard.drags);
 }

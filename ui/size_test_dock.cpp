@@ -60,6 +60,8 @@ SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidge
   row->addWidget(makeControls());
   row->addLayout(right, 1);
   setWidget(content);
+  // Closed, it takes what it began with it.
+  connect(toggleViewAction(), &QAction::toggled, this, [this](bool shown) { shown ? void() : cancel(); });
   table_->begin(inSight_());
   table_->setGrowing(false);
   showState();
@@ -140,7 +142,7 @@ void SizeTestDock::cancel() {
 
 /// The user's own panels are back at once; what the test leaves behind ends when it can.
 void SizeTestDock::leave() {
-  SizeTestStage* stage = std::exchange(stage_, nullptr);
+  SizeTestStage* stage = std::exchange(stage_, nullptr).data();
   disconnect(stage, nullptr, this, nullptr);
   disconnect(stage, nullptr, table_, nullptr);
   stage->hide();

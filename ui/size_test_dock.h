@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QDockWidget>
 #include <QElapsedTimer>
+#include <QPointer>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QShortcut>
@@ -29,7 +30,7 @@ class SizeTestDock : public QDockWidget {
   SizeTestDock(QMainWindow& window, const Document& document, QWidget& area, Contestants inSight);
   ~SizeTestDock() override;
 
-  bool running() const { return stage_ != nullptr; }
+  bool running() const { return !stage_.isNull(); }
   void start();
   void cancel();
   void saveTablePath(const QString& path);
@@ -59,7 +60,7 @@ class SizeTestDock : public QDockWidget {
   QPushButton* copy_;
   QPushButton* save_;
   QProgressBar* progress_;
-  SizeTestStage* stage_ = nullptr;
+  QPointer<SizeTestStage> stage_;  // a closing window takes it along with the panels
   std::unique_ptr<WindowRest> rest_;
   std::unique_ptr<QShortcut> escape_;
   QElapsedTimer sinceShown_;  // since the last progress

@@ -7,6 +7,13 @@
 #include "text.h"
 
 namespace chainmail {
+namespace {
+
+// Where drawing is slow the hand is, too: after so long a size has had enough drags, beside the one that warms up.
+constexpr qint64 enoughMilliseconds = 8000;
+constexpr std::size_t fewestDrags = 2;
+
+}  // namespace
 
 SizeTestPanel::SizeTestPanel(const SizeTestContestant& contestant, const LinkSoftness& softness,
                              const MeshPointer& mesh, std::shared_ptr<MeshLevels> levels)
@@ -52,6 +59,7 @@ void SizeTestPanel::begin(const MeshPointer& mesh, std::vector<report::HandDrag>
   moving_ = false;
   running_ = true;
   passes_ = {};
+  clock_.start();
   if (mesh != mesh_) {
     mesh_ = mesh;
     solver_.post(commands::ReplaceMesh{mesh});  // the hand begins when it can be seen
@@ -98,7 +106,8 @@ void SizeTestPanel::next() {
   if (move_ == drags_[drag_].targets.size()) {
     solver_.post(commands::Release{});
     move_ = 0;
-    if (++drag_ == drags_.size()) {
+    const bool enough = ++drag_ > fewestDrags && clock_.elapsed() > enoughMilliseconds;
+    if (enough || drag_ == drags_.size()) {
       halt();
       painted_ = view_->meter().framesPerSecond();
       emit ended();

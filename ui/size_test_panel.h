@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QElapsedTimer>
 #include <QFrame>
 #include <QLabel>
 #include <atomic>
@@ -58,6 +59,7 @@ class SizeTestPanel : public QFrame {
   std::size_t drag_ = 0, move_ = 0;  // the one to come
   bool running_ = false;
   bool moving_ = false;  // a pass was asked for
+  QElapsedTimer clock_;  // since the drags began
   std::uint64_t passesSeen_ = 0;
   report::RampPasses passes_;
   int painted_ = 0;

@@ -145,6 +145,14 @@ class WindowSizeTest : public QObject {
     QVERIFY(bench.dock().running());
     QTest::mouseClick(bench.find<QPushButton>("sizeTestCancel"), Qt::LeftButton);
     QVERIFY(!bench.dock().running());
+    bench.begin();
+    bench.dock().close();
+    QVERIFY(!bench.dock().running());
+    QVERIFY(bench.view(0).isVisible());
+    bench.dock().show();
+    bench.begin();
+    QTest::qWait(200);  // the window may close in the middle of a test
+    QVERIFY(bench.dock().running());
   }
 
   void nothingElseActsMeanwhile() {
