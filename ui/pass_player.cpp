@@ -14,7 +14,9 @@ std::uint64_t newSeries() {
 }  // namespace
 
 PassPlayer::PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& statistics)
-    : pass_(std::move(pass)), history_(*pass_), updatedAt_(pass_->mesh->element_count(), never) {
+    : pass_(std::move(pass)),
+      history_(stepCount() <= listedSteps ? WaitingHistory(*pass_) : WaitingHistory()),
+      updatedAt_(pass_->mesh->element_count(), never) {
   for (const ElementId pin : pass_->conditions->pins) {
     updatedAt_[pin] = 0;
   }

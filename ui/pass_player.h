@@ -11,6 +11,8 @@ namespace chainmail {
 class PassPlayer {
  public:
   static constexpr std::uint32_t never = no_element;
+  /// Of a longer pass no waiting list is worked out, which would hold the window up (0.3 s for as many steps).
+  static constexpr std::size_t listedSteps = 300'000;
 
   /// Takes a pass, at its end.
   explicit PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& statistics);

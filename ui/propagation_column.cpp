@@ -91,9 +91,12 @@ QString PropagationColumn::describe(const PassPlayer& player) const {
   if (player.history().known()) {
     return text + QStringLiteral("<b>%1</b> waiting").arg(locale.toString(qulonglong(model_.waitingCount())));
   }
-  return text + (player.pass().algorithm == Algorithm::exact
-                     ? QStringLiteral("no waiting list: steps to come, who goes furthest first")
-                     : QStringLiteral("its list is not known: steps to come"));
+  if (player.pass().algorithm == Algorithm::exact) {
+    return text + QStringLiteral("no waiting list: steps to come, who goes furthest first");
+  }
+  return text + (player.stepCount() > PassPlayer::listedSteps
+                     ? QStringLiteral("too long a pass for its waiting list: steps to come")
+                     : QStringLiteral("its waiting list is not known: steps to come"));
 }
 
 void PropagationColumn::refresh() {
