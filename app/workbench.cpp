@@ -69,6 +69,8 @@ int main(int argc, char** argv) {
   if (!parser.positionalArguments().isEmpty()) {
     const bool first = true;
     window.openFile(parser.positionalArguments().constFirst(), first);
+  } else {
+    window.welcome();
   }
   return QApplication::exec();
 }

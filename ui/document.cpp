@@ -38,10 +38,7 @@ Document::Document(MeshPointer mesh, const QString& name) : mesh_(std::move(mesh
     log_->sample();
   });
   // Elements of another mesh are other elements.
-  connect(this, &Document::meshChanged, this, [this] {
-    recorder_.forget();
-    emit lastDragChanged();
-  });
+  connect(this, &Document::meshChanged, this, &Document::forgetDrags);
 }
 
 Document::~Document() {
@@ -85,6 +82,11 @@ void Document::post(const Command& command) {
     log_->sample();
     sampler_.start();
   }
+}
+
+void Document::forgetDrags() {
+  recorder_.forget();
+  emit lastDragChanged();
 }
 
 void Document::release() {

@@ -76,6 +76,8 @@ class Document : public QObject {
   void release();
   /// What the hand did last on this mesh, without the release; empty where it did nothing yet.
   const std::vector<Command>& lastDrag() const { return recorder_.last(); }
+  /// As if the hand had done nothing yet on this mesh.
+  void forgetDrags();
 
   /// Edits, each one step of undo. Changes of one gesture (not 0) become one step.
   void setSoftness(const LinkSoftness& global, const QString& text, int gesture = 0);

@@ -3,20 +3,26 @@
 #include <QMenu>
 #include <QObject>
 
+#include "example_drag.h"
+#include "hints.h"
 #include "shortcuts_dialog.h"
 
 class QMainWindow;
 
 namespace chainmail {
 
-/// The Help menu: the list of shortcuts.
+/// What helps to find one's way: the first start's example and hints, and the list of shortcuts.
 class HelpMenu : public QObject {
   Q_OBJECT
 
  public:
-  explicit HelpMenu(QMainWindow& window);
+  /// The hints stand over `views`.
+  HelpMenu(QMainWindow& window, Document& document, QWidget& views);
   void fill(QMenu& menu);
   Shortcuts& shortcuts() { return shortcuts_; }
+  /// To who sees the workbench for the first time, an example and hints.
+  void welcome();
+  void dismissHints() { hints_->hide(); }
 
  private:
   void showShortcuts();
@@ -24,6 +30,8 @@ class HelpMenu : public QObject {
   QMainWindow& window_;
   Shortcuts shortcuts_;
   ShortcutsDialog* dialog_ = nullptr;  // made when it is first asked for
+  ExampleDrag example_;
+  Hints* hints_;
 };
 
 }  // namespace chainmail

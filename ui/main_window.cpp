@@ -52,9 +52,9 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       undoActions_(new UndoActions(document_, *this)),
       files_(new FileActions(*this, document_, jobs_)),
       cameraActions_(new CameraActions(this)),
-      help_(new HelpMenu(*this)),
       messages_(new MessageBar),
       area_(new PanelArea(document_, colouring_)),
+      help_(new HelpMenu(*this, document_, *area_)),
       toolActions_(new QActionGroup(this)),
       colourBy_(new ColourSelector(colouring_)),
       hint_(new QLabel) {
@@ -228,6 +228,8 @@ void MainWindow::makeSizeTestDock() {
 }
 
 void MainWindow::openFile(const QString& path, bool first) { files_->openPath(path, first); }
+
+void MainWindow::welcome() { help_->welcome(); }
 
 void MainWindow::showTitle() { setWindowTitle(QStringLiteral("%1 – ChainMail workbench").arg(document_.name())); }
 

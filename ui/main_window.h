@@ -44,6 +44,8 @@ class MainWindow : public QMainWindow {
   /// Opens a mesh file in the background, as one step of undo or as the window's first object; a bad file gets a
   /// sentence and changes nothing.
   void openFile(const QString& path, bool first = false);
+  /// To be called where the window begins with its sample: shows the first start's example and hints, once.
+  void welcome();
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -83,9 +85,9 @@ class MainWindow : public QMainWindow {
   UndoActions* undoActions_;
   FileActions* files_;
   CameraActions* cameraActions_;
-  HelpMenu* help_;
   MessageBar* messages_;
   PanelArea* area_;
+  HelpMenu* help_;
   QActionGroup* toolActions_;
   ColourSelector* colourBy_;
   QLabel* hint_;

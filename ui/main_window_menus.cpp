@@ -9,6 +9,7 @@
 #include "camera_actions.h"
 #include "colour_selector.h"
 #include "file_actions.h"
+#include "help_menu.h"
 #include "main_window.h"
 #include "message_bar.h"
 #include "panel_actions.h"
@@ -50,6 +51,7 @@ void MainWindow::giveUp() {
     tool_->escape();
   }
   messages_->dismiss();
+  help_->dismissHints();
   area_->refresh();
 }
 

@@ -30,6 +30,9 @@ constexpr std::array actionIcons{ActionIcon{"openFile", "open"},
                                  ActionIcon{"unpinAll", "unpin"},
                                  ActionIcon{"fitView", "fit"},
                                  ActionIcon{"linkCameras", "link"},
+                                 ActionIcon{"linkColours", "colour"},
+                                 ActionIcon{"linkMarks", "select"},
+                                 ActionIcon{"showHistoryDock", "history"},
                                  ActionIcon{"showReport", "report"},
                                  ActionIcon{"showToolsDock", "tools"},
                                  ActionIcon{"showMeshDock", "mesh"},
@@ -39,6 +42,16 @@ constexpr std::array actionIcons{ActionIcon{"openFile", "open"},
                                  ActionIcon{"showValidRegions", "region"},
                                  ActionIcon{"showShortcuts", "keyboard"},
                                  ActionIcon{"showHints", "hints"}};
+
+/// Menus in menus, by what they are called.
+constexpr std::array menuIcons{ActionIcon{"Open recent", "history"},
+                               ActionIcon{"Save deformed shape", "shape"},
+                               ActionIcon{"Panels", "panels"},
+                               ActionIcon{"Compare with", "difference"},
+                               ActionIcon{"Colour by", "colour"},
+                               ActionIcon{"Theme", "theme"},
+                               ActionIcon{"Rates over time", "frameRate"},
+                               ActionIcon{"Presets of softness", "preset"}};
 
 void nameDocks(QMainWindow& window) {
   for (const QDockWidget* dock : window.findChildren<QDockWidget*>()) {
@@ -50,6 +63,17 @@ void nameDocks(QMainWindow& window) {
     }
     if (toggle->statusTip().isEmpty()) {
       toggle->setStatusTip(QStringLiteral("Shows or hides the dock '%1'").arg(dock->windowTitle()));
+    }
+  }
+}
+
+void giveIcons(const QMenu& menu) {
+  for (QAction* action : menu.actions()) {
+    const QString words = action->text().remove(QLatin1Char('&'));
+    for (const ActionIcon& one : menuIcons) {
+      if (action->menu() != nullptr && words == QLatin1String(one.action) && action->icon().isNull()) {
+        action->setIcon(icon(one.icon));
+      }
     }
   }
 }
@@ -106,6 +130,9 @@ void completeMenus(QMainWindow& window) {
     if (action != nullptr && action->icon().isNull()) {
       action->setIcon(icon(one.icon));
     }
+  }
+  for (const QAction* top : window.menuBar()->actions()) {
+    giveIcons(*top->menu());
   }
   giveMnemonics(window.menuBar()->actions());
 }

@@ -21,6 +21,7 @@ struct Role {
   Colour colour;
 };
 
+constexpr Colour boxGround(0xff6e7783, 0xffffffff), boxEdge(0xff6e7783, 0xff9aa1ab);
 constexpr Colour faintText(0xff98a0ab, 0xff59616c), checkedEdge(0xff3f93cb, 0xff4a90c0),
     checked(0xff1f5f8b, 0xffb8dcf2);
 
@@ -87,6 +88,11 @@ void rememberSystem(Ground ground) { QSettings().setValue(systemKey(), nameOf(gr
 
 void applyGround(Ground ground) {
   QApplication::setPalette(paletteOn(ground));
+  // Fusion draws the edge of an empty box as it draws all edges: here the box itself has to be seen.
+  QPalette boxes = paletteOn(ground);
+  boxes.setColor(QPalette::Base, boxGround.on(ground));
+  boxes.setColor(QPalette::Window, boxEdge.on(ground));
+  QApplication::setPalette(boxes, "QCheckBox");
   // Fusion hardly tells a checked button from an unchecked one.
   qApp->setStyleSheet(QStringLiteral("QToolButton:checked { background: %1; border: 1px solid %2; border-radius: 3px; "
                                      "padding: 3px 6px; }")

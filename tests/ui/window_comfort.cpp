@@ -1,5 +1,6 @@
 // What makes the window pleasant to be in: themes, icons, messages.
 
+#include <QPushButton>
 #include <QTest>
 #include <QToolButton>
 #include <cmath>
@@ -158,6 +159,74 @@ class WindowComfort : public QObject {
         QVERIFY(contrast(sign, behind) >= ofMarks);
       }
     }
+  }
+
+  void firstStartShowsAnExampleThatLeavesNothingBehind() {
+    QSettings().remove(QStringLiteral("hintsSeen"));
+    Workbench bench;
+    const ElementId moved = bench.document().mesh()->element_count() * 4 / 5;
+    const std::array rest{bench.position(0, moved), bench.position(1, moved)};
+    bench.window.welcome();
+    auto* hints = bench.find<QWidget>("hints");
+    QVERIFY(hints->isVisible());
+    QTRY_VERIFY(bench.position(0, moved) != rest[0] && bench.position(1, moved) != rest[1]);
+    QTest::mousePress(&bench.view(0), Qt::LeftButton, {}, {3, 3});
+    QCOMPARE(bench.position(0, moved), rest[0]);  // when the press is acted on, not some time later
+    QCOMPARE(bench.position(1, moved), rest[1]);
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, {3, 3});
+    bench.settle();
+    QCOMPARE(bench.position(0, moved), rest[0]);
+    QCOMPARE(bench.document().undoStack().count(), 0);
+    QVERIFY(bench.document().lastDrag().empty());
+    QVERIFY(hints->isVisible());  // there is more to read
+    QTest::mouseClick(bench.find<QPushButton>("hintsDone"), Qt::LeftButton);
+    QVERIFY(!hints->isVisible());
+    bench.trigger("showHints");
+    QVERIFY(hints->isVisible());
+    QTest::keyClick(&bench.view(0), Qt::Key_Escape);
+    QVERIFY(!hints->isVisible());
+  }
+
+  void keyEndsTheExampleTooAndTheSecondStartShowsNone() {
+    QSettings().remove(QStringLiteral("hintsSeen"));
+    const auto first = std::make_unique<Workbench>();
+    const ElementId moved = first->document().mesh()->element_count() * 4 / 5;
+    const Point rest = first->position(0, moved);
+    first->window.welcome();
+    QTRY_VERIFY(first->position(0, moved) != rest);
+    QTest::keyClick(&first->view(0), Qt::Key_Z, Qt::ControlModifier);
+    QCOMPARE(first->position(0, moved), rest);
+    first->settle();
+    QCOMPARE(first->position(0, moved), rest);
+    QVERIFY(!first->document().undoStack().canRedo());
+    Workbench second;
+    second.window.welcome();
+    second.settle();
+    QVERIFY(!second.find<QWidget>("hints")->isVisible());
+    QCOMPARE(second.position(0, moved), rest);
+  }
+
+  // Run at several scales, too: see CMakeLists.txt.
+  void noWordIsCutOffAndIconsHaveTheScreensPixels() {
+    Workbench bench;
+    bench.window.messages().say(QStringLiteral("a sentence"));
+    bench.settle();
+    for (const QWidget* widget : bench.window.findChildren<QWidget*>()) {
+      const auto* label = qobject_cast<const QLabel*>(widget);
+      const auto* button = qobject_cast<const QAbstractButton*>(widget);
+      const QString words = label != nullptr ? label->text() : button != nullptr ? button->text() : QString();
+      const bool wraps = label != nullptr && label->wordWrap();
+      const bool gives = widget->sizePolicy().horizontalPolicy() == QSizePolicy::Ignored;
+      if (widget->isVisible() && !words.isEmpty() && !wraps && !gives) {
+        const QSize wanted = widget->minimumSizeHint();
+        QVERIFY2(widget->width() >= wanted.width() && widget->height() >= wanted.height(), qPrintable(words));
+      }
+    }
+    const double ratio = bench.window.devicePixelRatioF();
+    const auto* button = bench.find<QToolButton>("dismiss");
+    const QPixmap drawn = button->icon().pixmap(QSize(16, 16), ratio);
+    QCOMPARE(drawn.size(), QSize(16, 16) * ratio);
+    QCOMPARE(bench.view(0).grabFramebuffer().size(), bench.view(0).size() * ratio);
   }
 
  private:

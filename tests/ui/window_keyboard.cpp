@@ -9,6 +9,7 @@
 #include <QLineEdit>
 #include <QMenuBar>
 #include <QSlider>
+#include <QTabBar>
 #include <QTest>
 #include <QTreeWidget>
 
@@ -59,7 +60,8 @@ bool isControl(const QWidget& widget) {
   const bool part =
       qobject_cast<const QAbstractSpinBox*>(parent) != nullptr || qobject_cast<const QComboBox*>(parent) != nullptr ||
       qobject_cast<const QKeySequenceEdit*>(parent) != nullptr || qobject_cast<const QLineEdit*>(parent) != nullptr ||
-      qobject_cast<const QAbstractItemView*>(parent) != nullptr || widget.objectName().startsWith(QLatin1String("qt_"));
+      qobject_cast<const QAbstractItemView*>(parent) != nullptr || qobject_cast<const QTabBar*>(parent) != nullptr ||
+      widget.objectName().startsWith(QLatin1String("qt_"));
   return !part &&
          (qobject_cast<const QAbstractButton*>(&widget) != nullptr ||
           qobject_cast<const QComboBox*>(&widget) != nullptr ||
