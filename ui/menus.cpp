@@ -40,6 +40,13 @@ constexpr std::array actionIcons{ActionIcon{"openFile", "open"},
                                  ActionIcon{"showRelaxationDock", "relaxation"},
                                  ActionIcon{"showFrameRateDock", "frameRate"},
                                  ActionIcon{"showValidRegions", "region"},
+                                 ActionIcon{"savePreset", "save"},
+                                 ActionIcon{"renamePreset", "file"},
+                                 ActionIcon{"deletePreset", "close"},
+                                 ActionIcon{"importPresets", "open"},
+                                 ActionIcon{"exportPresets", "copy"},
+                                 ActionIcon{"showSizeTest", "grow"},
+                                 ActionIcon{"showPropagation", "propagation"},
                                  ActionIcon{"showShortcuts", "keyboard"},
                                  ActionIcon{"showHints", "hints"}};
 
