@@ -39,7 +39,8 @@ FrameRateDock::FrameRateDock(Document& document, std::vector<Panel*> panels,
   setObjectName(QStringLiteral("frameRateDock"));
   plot_->setObjectName(QStringLiteral("ratePlot"));
   plot_->setAccessibleName(QStringLiteral("Rates of the panels over time"));
-  plot_->setToolTip(QStringLiteral("A line a panel, in its colour; it breaks off where nothing happened"));
+  plot_->setToolTip(QStringLiteral(
+      "A line a panel, in its colour; it breaks off where nothing happened. Beside a line its figures are shown"));
   addActions();
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);

@@ -1,10 +1,13 @@
 #include "rate_plot.h"
 
+#include <QHelpEvent>
 #include <QPainter>
 #include <QPdfWriter>
 #include <QSaveFile>
+#include <QToolTip>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "mesh/error.h"
 #include "report/format.h"
@@ -18,6 +21,7 @@ constexpr QSizeF pictureSize{640, 360};  // logical pixels
 constexpr double picturePixelRatio = 3;
 constexpr double lineWidth = 1.4;
 constexpr int gridColumns = 4;
+constexpr double reach = 6;  // pixels from the cursor in which a point is read
 
 /// The end of an axis from 0: 1, 2 or 5 times a power of ten.
 double axisEnd(double highest) {
@@ -71,6 +75,8 @@ class Drawing {
     word(below, Qt::AlignLeft, QStringLiteral("−%1 s").arg(picture_.to - picture_.from));
     word(below, Qt::AlignRight, QStringLiteral("0 s"));
   }
+
+  const QRectF& inner() const { return inner_; }
 
   void curves() {
     painter_.save();
@@ -165,6 +171,20 @@ bool writePng(QIODevice& file, const RatePicture& picture) {
   return image.save(&file, "PNG");
 }
 
+/// The point of a curve that is nearest in time, if it is within some seconds.
+std::optional<QPointF> nearest(const RatePicture::Curve& curve, double time, double within) {
+  std::optional<QPointF> found;
+  for (const QPolygonF& line : curve.lines) {
+    for (const QPointF& point : line) {
+      if (const double off = std::abs(point.x() - time); off <= within) {
+        within = off;
+        found = point;
+      }
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 RatePlot::RatePlot() {
@@ -182,6 +202,34 @@ void RatePlot::paintEvent(QPaintEvent* /*event*/) {
   Drawing drawing(painter, palette(), colours::ground(), picture_);
   drawing.axes(rect());
   drawing.curves();
+  inner_ = drawing.inner();
+}
+
+QString RatePlot::readingAt(QPointF place) const {
+  if (!inner_.contains(place)) {
+    return {};
+  }
+  const double seconds = picture_.to - picture_.from;
+  const double time = picture_.from + seconds * (place.x() - inner_.left()) / inner_.width();
+  QStringList lines;
+  for (const RatePicture::Curve& curve : picture_.curves) {
+    if (const auto point = nearest(curve, time, reach * seconds / inner_.width())) {
+      lines << QStringLiteral("%1: %2 %3")
+                   .arg(curve.name, text(report::figure(point->y())), text(picture_.quantity->unit));
+    }
+  }
+  return lines.join(QLatin1Char('\n'));
+}
+
+bool RatePlot::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip) {
+    const auto* help = dynamic_cast<QHelpEvent*>(event);
+    if (const QString reading = readingAt(help->pos()); !reading.isEmpty()) {
+      QToolTip::showText(help->globalPos(), reading, this);
+      return true;
+    }
+  }
+  return QWidget::event(event);  // what the plot is
 }
 
 void saveRates(const RatePicture& picture, const QString& path) {

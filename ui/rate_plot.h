@@ -30,12 +30,16 @@ class RatePlot : public QWidget {
   void show(RatePicture picture);
   const RatePicture& picture() const { return picture_; }
   QSize sizeHint() const override { return {200, 110}; }
+  /// What each line says near a place of the plot; empty where there is nothing.
+  QString readingAt(QPointF place) const;
 
  protected:
+  bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
 
  private:
   RatePicture picture_;
+  QRectF inner_;  // between the axes, as last painted
 };
 
 /// Writes a picture with its legend, dark on white: as PDF where the path ends so, else as PNG. Throws Error where that

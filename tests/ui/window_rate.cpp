@@ -9,6 +9,7 @@
 
 #include "frame_rate_dock.h"
 #include "message_bar.h"
+#include "report/format.h"
 #include "window.h"
 
 using namespace chainmail;
@@ -177,6 +178,7 @@ class WindowRate : public QObject {
     const double ms = bench.document().frame(0)->statistics.last_pass_ms;
     bench.rest();
     QCOMPARE(bench.points(0).last().y(), ms);
+    checkThatTheCursorReads(bench, ms);
     QVERIFY(std::uint64_t(bench.points(0).size()) <= bench.document().frame(0)->statistics.passes);
     bench.dock().saveTablePath(path);
     const QList<QByteArray> rows = bytesOf(path).trimmed().split('\n');
@@ -220,6 +222,20 @@ class WindowRate : public QObject {
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("missing")));
     bench.dock().saveTablePath(folder.filePath(QStringLiteral("missing/rates.csv")));
     QVERIFY(bench.window.messages().isVisible());
+  }
+
+ private:
+  static void checkThatTheCursorReads(RateBench& bench, double ms) {
+    auto& plot = *bench.find<RatePlot>("ratePlot");
+    QStringList readings;
+    for (int x = 0; x < plot.width(); ++x) {
+      readings << plot.readingAt(QPointF(x, plot.height() / 2)).split(QLatin1Char('\n'));
+    }
+    QVERIFY2(
+        readings.contains(
+            QStringLiteral("%1: %2 ms").arg(plot.picture().curves[0].name, QString::fromStdString(report::figure(ms)))),
+        qPrintable(readings.join(QLatin1Char('|'))));
+    QVERIFY(plot.readingAt(QPointF(0, 0)).isEmpty());  // beside the axes
   }
 };
 
