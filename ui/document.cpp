@@ -36,6 +36,7 @@ Document::Document(MeshPointer mesh, const QString& name) : mesh_(std::move(mesh
       sampler_.stop();
     }
     log_->sample();
+    emit tapeChanged();
   });
   // Elements of another mesh are other elements.
   connect(this, &Document::meshChanged, this, &Document::forgetDrags);
@@ -50,6 +51,11 @@ bool Document::idle() const {
   return !log_->waits() && std::all_of(solvers_.begin(), solvers_.end(), [](auto& one) { return one->idle(); });
 }
 
+bool Document::settled() const {
+  return !log_->waits() && std::all_of(solvers_.begin(), solvers_.end(), [](auto& one) { return one->settled(); }) &&
+         std::none_of(announced_.begin(), announced_.end(), [](auto& one) { return one.load(); });
+}
+
 void Document::receiveFrame(int panel) {
   announced_[panel] = false;
   frames_[panel] = &solvers_[panel]->latest_frame();
@@ -61,12 +67,15 @@ void Document::receiveFrame(int panel) {
 
 void Document::grab(ElementId element) {
   endDrag();
-  recorder_.grab(element);
-  if (!isPinned(element)) {  // else it is refused
-    beforeDrag_ = newState();
-    dragged_ = element;
-    post(commands::KeepState{*beforeDrag_});
+  if (isPinned(element)) {
+    log_->replay(commands::Grab{element});  // refused, and no move
+    return;
   }
+  noteRelaxation();
+  recorder_.grab(element);
+  beforeDrag_ = newState();
+  dragged_ = element;
+  post(commands::KeepState{*beforeDrag_});
   post(commands::Grab{element});
 }
 
@@ -77,6 +86,9 @@ void Document::drag(const Point& target) {
 
 void Document::post(const Command& command) {
   log_->post(command);
+  replayed_ = replayed_ && (std::holds_alternative<commands::KeepState>(command) ||
+                            std::holds_alternative<commands::DropState>(command));
+  emit tapeChanged();
   // The first sampled command of a while goes at once, later ones 60 times a second.
   if (log_->waits() && !sampler_.isActive()) {
     log_->sample();
@@ -196,6 +208,8 @@ void Document::setAlgorithm(int panel, Algorithm algorithm) {
 }
 
 void Document::runAlgorithm(int panel, Algorithm algorithm) {
+  dropKeptOnTheWay();
+  replayed_ = false;
   algorithms_[panel] = algorithm;
   log_->post_to(*solvers_[panel], commands::SetAlgorithm{algorithm});
 }

@@ -69,6 +69,8 @@ class Document : public QObject {
   }
   /// Whether both solvers have carried out all that was asked of them.
   bool idle() const;
+  /// Whether, beside, the frames show what came of it. Not so while relaxation goes on.
+  bool settled() const;
 
   /// The hand, in mesh units. From grab to release is one step of undo, if anything was dragged.
   void grab(ElementId element);
@@ -78,6 +80,17 @@ class Document : public QObject {
   const std::vector<Command>& lastDrag() const { return recorder_.last(); }
   /// As if the hand had done nothing yet on this mesh.
   void forgetDrags();
+
+  /// What was done to this object since it was at rest, and how far of it the object stands.
+  const Tape& tape() const { return log_->tape(); }
+  /// Notes on the tape what relaxation did in idle time since the last pass; to be called before the tape is saved.
+  void noteRelaxation();
+  /// Brings the object, by both solvers, to where it stood after so many commands of the tape, or where their own
+  /// algorithms would have it. Relaxation goes off: what it did is on the tape. One step of undo, as are several in a
+  /// row.
+  void goTo(std::size_t position);
+  /// Other moves, of this mesh: the object goes to rest, whole, and they lie ahead. One step of undo.
+  void loadMoves(const std::vector<Command>& moves, const QString& text);
 
   /// Edits, each one step of undo. Changes of one gesture (not 0) become one step.
   void setSoftness(const LinkSoftness& global, const QString& text, int gesture = 0);
@@ -111,6 +124,8 @@ class Document : public QObject {
   void pinsChanged();
   void selectionChanged();
   void lastDragChanged();
+  /// There is more on the tape, or the object stands elsewhere on it.
+  void tapeChanged();
   /// A command was refused: one sentence.
   void refused(const QString& sentence);
   /// Something was done that was not asked for: one sentence.
@@ -126,6 +141,7 @@ class Document : public QObject {
   friend class RelaxationEdit;
   friend class AlgorithmEdit;
   friend class ResetEdit;
+  friend class TravelEdit;
   friend class MeshEdit;
 
   // The document's own side of edits; the solvers are told beside.
@@ -136,6 +152,12 @@ class Document : public QObject {
   void runAlgorithm(int panel, Algorithm algorithm);
   void runAlgorithms(const std::vector<Algorithm>& algorithms);
   void followFallback();
+
+  void travel(std::size_t position);
+  void goToBeginning();
+  void keepOnTheWay(std::size_t position);
+  void dropKeptOnTheWay();
+  void showTape();
 
   commands::StateId newState() { return nextState_++; }
   std::optional<commands::StateId> stateFor(int gesture, const QString& text);
@@ -158,6 +180,12 @@ class Document : public QObject {
   DragRecorder recorder_;
   std::optional<commands::StateId> beforeDrag_;  // kept while the hand holds an element
   ElementId dragged_ = 0;
+
+  // States kept while moves are replayed, by how many commands were carried out then: going back begins at one of them.
+  std::map<std::size_t, commands::StateId> onTheWay_;
+  std::uint64_t timelineOnTheWay_ = 0;  // the tape's
+  bool replayed_ = false;               // the solvers stand where a replay has brought them
+  std::uint64_t relaxationNoted_ = 0;   // the number of passes after which relaxation was last noted
 
   // The solver threads announce a frame at most once until it is received.
   std::array<std::atomic<bool>, panels> announced_{};

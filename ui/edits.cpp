@@ -84,6 +84,31 @@ ResetEdit::ResetEdit(Document& document) : Edit(document, QStringLiteral("reset 
 
 void ResetEdit::carryOut() { document_.post(commands::Reset{}); }
 
+TravelEdit::TravelEdit(Document& document, const QString& text, int gesture, std::function<void()> go)
+    : Edit(document, text, document.stateFor(gesture, text)),
+      gesture_(gesture),
+      go_(std::move(go)),
+      relaxation_(document.relaxation()) {}
+
+void TravelEdit::carryOut() {
+  prepare(true);
+  go_();
+}
+
+void TravelEdit::prepare(bool done) {
+  commands::SetRelaxation relaxation = relaxation_;
+  relaxation.on = relaxation.on && !done;
+  if (relaxation != document_.relaxation_) {
+    document_.post(relaxation);
+    document_.showRelaxation(relaxation);
+  }
+}
+
+void TravelEdit::show(bool /*done*/) {
+  document_.setHighlight({});
+  document_.showTape();
+}
+
 MeshEdit::MeshEdit(Document& document, MeshPointer mesh, const QString& name, const QString& text)
     : Edit(document, text, document.newState()),
       mesh_(std::move(mesh)),

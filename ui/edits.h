@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QUndoCommand>
+#include <functional>
 
 #include "document.h"
 
@@ -133,6 +134,23 @@ class ResetEdit : public Edit {
 
  private:
   void carryOut() override;
+};
+
+/// Another place on the tape, or another tape; several in a row are one step.
+class TravelEdit : public Edit {
+ public:
+  TravelEdit(Document& document, const QString& text, int gesture, std::function<void()> go);
+  int id() const override { return gesture_ == 0 ? -1 : gesture_; }
+  bool mergeWith(const QUndoCommand* later) override { return later->text() == text(); }
+
+ private:
+  void carryOut() override;
+  void prepare(bool done) override;
+  void show(bool done) override;
+
+  int gesture_;
+  std::function<void()> go_;
+  commands::SetRelaxation relaxation_;  // before
 };
 
 class MeshEdit : public Edit {

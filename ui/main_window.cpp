@@ -24,6 +24,7 @@
 #include "panel.h"
 #include "propagation_dock.h"
 #include "relaxation_dock.h"
+#include "replay_dock.h"
 #include "report_dock.h"
 #include "size_test_dock.h"
 #include "stiffness_dock.h"
@@ -153,6 +154,7 @@ void MainWindow::makeDocks() {
   makeReportDock();
   makeSizeTestDock();
   makePropagationDock();
+  makeReplayDock();
   auto* history = new HistoryDock(document_);
   addDockWidget(Qt::LeftDockWidgetArea, history);
   history->hide();
@@ -186,6 +188,20 @@ void MainWindow::makePropagationDock() {
   addDockWidget(Qt::LeftDockWidgetArea, dock);
   dock->hide();
   dock->fill(*findChild<QMenu*>(QStringLiteral("viewMenu")));
+}
+
+/// Under the panels, and out of sight until it is asked for.
+void MainWindow::makeReplayDock() {
+  auto* dock = new ReplayDock(document_, *area_);
+  connect(dock, &ReplayDock::failed, messages_, &MessageBar::say);
+  connect(dock, &ReplayDock::saved, files_, &FileActions::saved);
+  addDockWidget(Qt::BottomDockWidgetArea, dock);
+  dock->hide();
+  QAction* show = dock->toggleViewAction();
+  show->setObjectName(QStringLiteral("showReplay"));
+  show->setShortcut(QKeySequence(QStringLiteral("Ctrl+R")));
+  show->setStatusTip(QStringLiteral("What was done to the object: gone back and forth in, played, saved, filmed"));
+  findChild<QMenu*>(QStringLiteral("objectMenu"))->addMenu(&dock->menu());
 }
 
 /// Under the panels, and out of sight until it is asked for.

@@ -61,6 +61,7 @@ class MainWindow : public QMainWindow {
   void makeReportDock();
   void makeSizeTestDock();
   void makePropagationDock();
+  void makeReplayDock();
   void makeMenus();
   void fillEditMenu(QMenu& menu);
   void fillObjectMenu(QMenu& menu);

@@ -5,6 +5,7 @@
 
 #include "command_line/common.h"
 #include "command_line/script.h"
+#include "files/moves.h"
 #include "files/outputs.h"
 #include "files/softness_csv.h"
 #include "files/tables.h"
@@ -19,6 +20,7 @@ struct Options {
   MeshOptions mesh;
   CLI::Option *algorithm, *precision, *compression, *stretch, *shear, *softness;
   CLI::Option *move, *by, *cut, *pin;
+  CLI::Option* script;
   CLI::Option *steps, *relax, *relaxation, *relax_step;
   CLI::Option *positions, *trace, *json;
 };
@@ -113,8 +115,10 @@ bool positions_as_obj(const std::string& path) {
 Targets read_targets(const Options& options) {
   Targets targets{
       value_of(options.positions), value_of(options.trace), value_of(options.json), {*value_of(options.mesh.path)}};
-  if (const auto file = value_of(options.softness)) {
-    targets.inputs.push_back(*file);
+  for (const CLI::Option* option : {options.softness, options.script}) {
+    if (const auto file = value_of(option)) {
+      targets.inputs.push_back(*file);
+    }
   }
   if (targets.positions) {
     positions_as_obj(*targets.positions);
@@ -195,11 +199,15 @@ void deform(const Options& options) {
   if (const auto file = value_of(options.softness)) {
     softness.links = read_softness(std::filesystem::path(*file), *mesh);
   }
+  std::vector<chainmail::Command> moves;
+  if (const auto file = value_of(options.script)) {
+    moves = read_moves(std::filesystem::path(*file), *mesh);
+  }
 
   Simulation simulation(mesh, algorithm, precision);
   simulation.apply(commands::SetSoftness{softness});
   simulation.apply(commands::SetRelaxation{false, schedule.relax_step, relaxation});
-  const Run run = carry_out(simulation, acts, schedule);
+  const Run run = carry_out(simulation, moves, acts, schedule);
   write_results(targets, simulation, run, summarize(simulation, run));
 }
 
@@ -212,6 +220,7 @@ void add_acts(CLI::App& app, Options& options) {
     option->group("Acts, repeated at will and carried out in the order given");
   }
   options.steps = add_value(app, "--steps", "N", "passes of equal steps a move [1]");
+  options.script = add_value(app, "--script", "FILE", "recorded moves, as the workbench saves them; before all acts");
 }
 
 void add_model(CLI::App& app, Options& options) {

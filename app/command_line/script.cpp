@@ -102,8 +102,16 @@ bool is_move(const Act& act) { return act.kind == Act::Kind::move || act.kind ==
 
 class Runner {
  public:
-  Runner(Simulation& simulation, const Schedule& schedule, std::uint64_t moves)
-      : simulation_(simulation), schedule_(schedule), progress_(moves * schedule.steps) {}
+  Runner(Simulation& simulation, const Schedule& schedule, std::uint64_t passes)
+      : simulation_(simulation), schedule_(schedule), progress_(passes) {}
+
+  void carry_out(const chainmail::Command& command) {
+    if (const auto* drag = std::get_if<commands::Drag>(&command)) {
+      pass(*simulation_.grabbed(), drag->target);
+    } else {
+      simulation_.apply(command);
+    }
+  }
 
   void carry_out(const Act& act) {
     if (act.kind == Act::Kind::cut) {
@@ -222,9 +230,15 @@ void check_acts(const std::vector<Act>& acts, const Mesh& mesh) {
   }
 }
 
-Run carry_out(Simulation& simulation, const std::vector<Act>& acts, const Schedule& schedule) {
-  const auto moves = static_cast<std::uint64_t>(std::count_if(acts.begin(), acts.end(), is_move));
-  Runner runner(simulation, schedule, moves);
+Run carry_out(Simulation& simulation, const std::vector<chainmail::Command>& moves, const std::vector<Act>& acts,
+              const Schedule& schedule) {
+  const auto drags = std::count_if(moves.begin(), moves.end(),
+                                   [](const auto& one) { return std::holds_alternative<commands::Drag>(one); });
+  const auto passes = std::count_if(acts.begin(), acts.end(), is_move) * schedule.steps + drags;
+  Runner runner(simulation, schedule, static_cast<std::uint64_t>(passes));
+  for (const chainmail::Command& command : moves) {
+    runner.carry_out(command);
+  }
   for (const Act& act : acts) {
     runner.carry_out(act);
   }

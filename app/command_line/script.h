@@ -40,7 +40,8 @@ struct Run {
   std::vector<Trace> traces;
 };
 
-/// Carries the acts out, one after another; says on a terminal how far it is.
-Run carry_out(Simulation& simulation, const std::vector<Act>& acts, const Schedule& schedule);
+/// Carries recorded moves out as they are, then the acts, one after another; says on a terminal how far it is.
+Run carry_out(Simulation& simulation, const std::vector<chainmail::Command>& moves, const std::vector<Act>& acts,
+              const Schedule& schedule);
 
 }  // namespace chainmail::command_line

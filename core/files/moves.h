@@ -15,6 +15,7 @@ namespace chainmail {
 ///     {"version": 1, "commands": [{"do": "grab", "element": 5}, {"do": "drag", "target": [1, 2, 0]},
 ///       {"do": "release"}, {"do": "cut", "links": [[0, 1]]}, {"do": "uncut", "links": [[0, 1]]},
 ///       {"do": "pin", "elements": [3]}, {"do": "unpin", "elements": [3]}, {"do": "reset"},
+///       {"do": "relax", "sweeps": 3, "step": 1, "scheme": "mean"},
 ///       {"do": "softness", "compression": 0.8, "stretch": 1.2, "shear": 0.1, "links": [[0, 1, 1, 1, 0]]}]}
 ///
 /// Links are named by their ends. A softness replaces the whole one; its links may be left out.

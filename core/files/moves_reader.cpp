@@ -12,6 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int version_read = 1;
+constexpr std::uint64_t most_sweeps = 1'000'000;
 
 class MovesReader {
  public:
@@ -31,6 +32,7 @@ class MovesReader {
   Command unpin(const Json& object);
   Command softness(const Json& object);
   Command reset(const Json& object);
+  Command relax(const Json& object);
 
   std::string file_;
   MoveFields fields_;  // of the file, then of each command
@@ -105,18 +107,37 @@ Command MovesReader::reset(const Json& object) {
   return commands::Reset{};
 }
 
+Command MovesReader::relax(const Json& object) {
+  fields_.check_keys(object, {"do", "sweeps", "step", "scheme"});
+  const Json& sweeps = fields_.member(object, "sweeps");
+  if (!sweeps.is_number_unsigned() || sweeps.get<std::uint64_t>() > most_sweeps) {
+    fields_.fail("'sweeps' is not a whole number up to " + std::to_string(most_sweeps), "write how many there are");
+  }
+  const double step = object.contains("step") ? fields_.number(object["step"]) : 1;
+  if (!(step > 0 && step <= 1)) {
+    fields_.fail("'step' does not lie above 0 and up to 1", "1 goes all the way");
+  }
+  const Json scheme = object.value("scheme", Json("mean"));
+  if (scheme != "mean" && scheme != "link") {
+    fields_.fail("'scheme' is not known", "use mean or link");
+  }
+  return commands::Relax{sweeps.get<std::uint32_t>(), step,
+                         scheme == "link" ? RelaxationScheme::link : RelaxationScheme::mean};
+}
+
 Command MovesReader::command(const Json& object) {
   static const std::map<std::string, Command (MovesReader::*)(const Json&)> known{
       {"grab", &MovesReader::grab},   {"drag", &MovesReader::drag},         {"release", &MovesReader::release},
       {"cut", &MovesReader::cut},     {"uncut", &MovesReader::uncut},       {"pin", &MovesReader::pin},
-      {"unpin", &MovesReader::unpin}, {"softness", &MovesReader::softness}, {"reset", &MovesReader::reset}};
+      {"unpin", &MovesReader::unpin}, {"softness", &MovesReader::softness}, {"reset", &MovesReader::reset},
+      {"relax", &MovesReader::relax}};
   if (!object.is_object()) {
     fields_.fail("it is not an object", "write {\"do\": …}");
   }
   const Json& what = fields_.member(object, "do");
   const auto found = known.find(what.is_string() ? what.get<std::string>() : "");
   if (found == known.end()) {
-    fields_.fail("'do' names no command", "use grab, drag, release, cut, uncut, pin, unpin, softness or reset");
+    fields_.fail("'do' names no command", "use grab, drag, release, cut, uncut, pin, unpin, softness, relax or reset");
   }
   return (this->*found->second)(object);
 }

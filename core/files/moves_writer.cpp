@@ -40,6 +40,10 @@ class MoveWriter {
     }
     return json;
   }
+  Json operator()(const commands::Relax& one) const {
+    const char* scheme = one.scheme == RelaxationScheme::link ? "link" : "mean";
+    return {{"do", "relax"}, {"sweeps", one.sweeps}, {"step", one.step}, {"scheme", scheme}};
+  }
   Json operator()(const commands::ReplaceMesh&) const { refuse(); }
   Json operator()(const commands::SwapState&) const { refuse(); }
   Json operator()(const commands::RestoreState&) const { refuse(); }

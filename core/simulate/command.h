@@ -37,6 +37,12 @@ struct SetRelaxation {
 
   bool operator==(const SetRelaxation&) const = default;
 };
+/// Sweeps of relaxation at once, up to this many, whether it is on or off, with a step in (0, 1].
+struct Relax {
+  std::uint32_t sweeps = 1;
+  double step = 1;
+  RelaxationScheme scheme = RelaxationScheme::mean;
+};
 struct SetAlgorithm {
   Algorithm algorithm = Algorithm::natural_queue;
 };
@@ -83,8 +89,8 @@ struct DropState {
 }  // namespace commands
 
 using Command = std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness,
-                             commands::SetRelaxation, commands::SetAlgorithm, commands::Cut, commands::Uncut,
-                             commands::Pin, commands::Unpin, commands::Reset, commands::ReplaceMesh,
+                             commands::SetRelaxation, commands::Relax, commands::SetAlgorithm, commands::Cut,
+                             commands::Uncut, commands::Pin, commands::Unpin, commands::Reset, commands::ReplaceMesh,
                              commands::KeepState, commands::SwapState, commands::RestoreState, commands::DropState>;
 
 }  // namespace chainmail

@@ -5,6 +5,11 @@
 namespace chainmail {
 
 void CommandLog::send(const Command& command) {
+  tape_.note(command);
+  send_to_all(command);
+}
+
+void CommandLog::send_to_all(const Command& command) {
   for (SolverThread* solver : solvers_) {
     solver->post(command);
   }
@@ -34,6 +39,11 @@ void CommandLog::post(const Command& command) {
 void CommandLog::post_to(SolverThread& solver, const Command& command) {
   flush();
   solver.post(command);
+}
+
+void CommandLog::replay(const Command& command) {
+  flush();
+  send_to_all(command);
 }
 
 void CommandLog::sample() {

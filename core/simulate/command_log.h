@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "simulate/solver_thread.h"
+#include "simulate/tape.h"
 
 namespace chainmail {
 
@@ -20,6 +21,11 @@ class CommandLog {
   void post(const Command& command);
   /// Sends a command to one solver alone, after what waited before it.
   void post_to(SolverThread& solver, const Command& command);
+  /// Sends to all a command that is on the tape already, or is to leave no mark there.
+  void replay(const Command& command);
+  /// Of all that was sent.
+  Tape& tape() { return tape_; }
+  const Tape& tape() const { return tape_; }
   /// Sends the waiting command if every solver is idle; to be called 60 times a second while one waits.
   void sample();
   bool waits() const { return waiting_.has_value(); }
@@ -27,9 +33,11 @@ class CommandLog {
  private:
   void send(const Command& command);
   void flush();
+  void send_to_all(const Command& command);
 
   std::vector<SolverThread*> solvers_;
   std::optional<Command> waiting_;
+  Tape tape_;
 };
 
 }  // namespace chainmail

@@ -81,6 +81,7 @@ class Simulation {
   void carry_out(const commands::Release& command);
   void carry_out(const commands::SetSoftness& command);
   void carry_out(const commands::SetRelaxation& command);
+  void carry_out(const commands::Relax& command);
   void carry_out(const commands::SetAlgorithm& command);
   void carry_out(const commands::Cut& command);
   void carry_out(const commands::Uncut& command);

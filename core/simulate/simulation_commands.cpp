@@ -71,10 +71,25 @@ void Simulation::answer() {
   }
 }
 
-void Simulation::carry_out(const commands::SetRelaxation& command) {
-  if (!(command.step > 0 && command.step <= 1)) {
+namespace {
+
+void check_step(double step) {
+  if (!(step > 0 && step <= 1)) {
     throw Error("relax-step", "it must lie above 0 and up to 1", "1 goes all the way to the mean");
   }
+}
+
+}  // namespace
+
+void Simulation::carry_out(const commands::Relax& command) {
+  check_step(command.step);
+  solver_->set_relaxation(command.scheme);
+  relax(static_cast<int>(command.sweeps), command.step);
+  solver_->set_relaxation(relaxation_scheme_);
+}
+
+void Simulation::carry_out(const commands::SetRelaxation& command) {
+  check_step(command.step);
   const bool was_on = std::exchange(relaxation_on_, command.on);
   relaxation_step_ = command.step;
   solver_->set_relaxation(relaxation_scheme_ = command.scheme);

@@ -27,6 +27,8 @@ class SolverThread {
   void post(Command command);
   /// Whether every command posted has been carried out.
   bool idle() const { return waiting_.load(std::memory_order_acquire) == 0; }
+  /// Whether, beside, a frame that shows what came of them was handed over.
+  bool settled() const { return idle() && !unseen_.load(std::memory_order_acquire); }
   /// The newest frame; for one reading thread.
   const Frame& latest_frame() { return frames_.latest(); }
   /// Takes the sentence of the last command that was refused, if any.
@@ -54,8 +56,8 @@ class SolverThread {
   PassRecorder recorder_;
   PassTimes::Clock::time_point last_frame_{};
   PassTimes::Clock::time_point next_violation_{};
-  bool unseen_ = false;    // something changed since the last frame
-  bool measured_ = false;  // the last frame shows the violation of the whole mesh
+  std::atomic<bool> unseen_ = false;  // something changed since the last frame
+  bool measured_ = false;             // the last frame shows the violation of the whole mesh
 
   std::mutex mutex_;  // guards commands_ and error_
   std::condition_variable_any changed_;

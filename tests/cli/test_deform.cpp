@@ -21,6 +21,7 @@ class DeformCommandTest : public QObject {
   void coordinates_that_do_not_exist_must_be_0();
   void steps_are_equal_and_end_at_the_target();
   void relaxation_goes_to_the_equilibrium();
+  void a_script_is_carried_out_before_the_acts();
   void softness_is_taken();
   void float_rounds_to_float();
   void more_space_may_be_given();
@@ -139,6 +140,19 @@ void DeformCommandTest::relaxation_goes_to_the_equilibrium() {
   const auto at_rest = xs("--move 0:-0.3 --relax 1000 --relaxation mean");
   QCOMPARE(at_rest[0], -0.3);
   QVERIFY(std::abs(at_rest[3] - 2.7) < 1e-3);
+}
+
+void DeformCommandTest::a_script_is_carried_out_before_the_acts() {
+  program_->write("moves.json", R"({"version": 1, "commands": [{"do": "cut", "links": [[2, 3]]},
+    {"do": "grab", "element": 0}, {"do": "drag", "target": [-1, 0, 0]}, {"do": "release"},
+    {"do": "relax", "sweeps": 0}]})");
+  // 1 and 2 follow 0 to 1.2 behind each other; 3 is cut off, and is moved by the act alone.
+  QCOMPARE(xs("--script moves.json --by 3:5"), (QList<double>{-1, -1 + 1.2, -1 + 1.2 + 1.2, 8}));
+  QCOMPARE(program_->json("out.json")["passes"].toArray().size(), 2);
+  program_->write("bad.json", R"({"version": 1, "commands": [{"do": "relax", "sweeps": -1}]})");
+  const auto outcome = program_->run("deform --algorithm exact --script bad.json line.dat");
+  QCOMPARE(outcome.code, 2);
+  QVERIFY(is_one_sentence(outcome) && outcome.error.contains("bad.json: command 0: 'sweeps'"));
 }
 
 void DeformCommandTest::softness_is_taken() {

@@ -86,6 +86,7 @@ void MovesTest::what_is_written_reads_back() {
                                    commands::Uncut{{}},
                                    commands::SetSoftness{{{1.0 / 3, 1.1, 0.7}, {{2, {0, 1e9, 0}}, {5, {1, 1, 0}}}}},
                                    commands::SetSoftness{{{0, 1, 0}, {}}},
+                                   commands::Relax{3, 0.1, RelaxationScheme::link},
                                    commands::Reset{}};
   const std::string text = written(moves);
   const auto again = read(text);

@@ -1,0 +1,119 @@
+#include "simulate/tape.h"
+
+#include <algorithm>
+#include <set>
+
+namespace chainmail {
+namespace {
+
+template <class... Kinds>
+bool is_one_of(const Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
+}
+
+}  // namespace
+
+void Tape::note(const Command& command) {
+  using namespace commands;
+  if (const auto* keep = std::get_if<KeepState>(&command)) {
+    kept_[keep->state] = last();
+  } else if (const auto* restore = std::get_if<RestoreState>(&command)) {
+    return_to(kept_.at(restore->state));
+  } else if (const auto* drop = std::get_if<DropState>(&command)) {
+    kept_.erase(drop->state);
+  } else if (std::holds_alternative<ReplaceMesh>(command)) {
+    begin_mesh();
+  } else if (!is_one_of<SetAlgorithm, SetRelaxation, SwapState>(command)) {
+    add(command);
+  }
+}
+
+void Tape::add(const Command& command) {
+  const Node before = last();
+  if (position_ < timeline_.size()) {
+    timeline_.resize(position_);
+    ++timeline_number_;
+  }
+  nodes_.push_back({command, before});
+  timeline_.push_back(static_cast<Node>(nodes_.size() - 1));
+  ++position_;
+}
+
+void Tape::begin() {
+  beginning_ = static_cast<Node>(nodes_.size());
+  nodes_.push_back({{}, none});
+  timeline_.clear();
+  position_ = 0;
+  ++timeline_number_;
+}
+
+/// Another object takes the global softness over.
+void Tape::begin_mesh() {
+  const LinkSoftness global = object().softness.global;
+  begin();
+  if (global != LinkSoftness()) {
+    add(commands::SetSoftness{{global, {}}});
+  }
+}
+
+void Tape::return_to(Node last) {
+  std::vector<Node> way;
+  Node node = last;
+  for (; nodes_[node].before != none; node = nodes_[node].before) {
+    way.push_back(node);
+  }
+  std::ranges::reverse(way);
+  position_ = way.size();
+  const bool is_behind = way.size() <= timeline_.size() && std::equal(way.begin(), way.end(), timeline_.begin());
+  if (node != beginning_ || !is_behind) {
+    beginning_ = node;
+    timeline_ = std::move(way);
+    ++timeline_number_;
+  }
+}
+
+void Tape::load(const std::vector<Command>& commands) {
+  begin();
+  for (const Command& command : commands) {
+    add(command);
+  }
+  position_ = 0;
+}
+
+std::vector<Command> Tape::commands() const {
+  std::vector<Command> all;
+  for (const Node node : timeline_) {
+    all.push_back(nodes_[node].command);
+  }
+  return all;
+}
+
+Tape::Object Tape::object() const {
+  std::set<LinkId> cuts;
+  std::set<ElementId> pins;
+  Object object;
+  const auto toggle = [](auto& all, const auto& some, bool add) {
+    for (const auto one : some) {
+      add ? void(all.insert(one)) : void(all.erase(one));
+    }
+  };
+  for (std::size_t i = 0; i < position_; ++i) {
+    const Command& command = at(i);
+    if (const auto* cut = std::get_if<commands::Cut>(&command)) {
+      toggle(cuts, cut->links, true);
+    } else if (const auto* uncut = std::get_if<commands::Uncut>(&command)) {
+      toggle(cuts, uncut->links, false);
+    } else if (const auto* pin = std::get_if<commands::Pin>(&command)) {
+      toggle(pins, pin->elements, true);
+    } else if (const auto* unpin = std::get_if<commands::Unpin>(&command)) {
+      toggle(pins, unpin->elements, false);
+    } else if (const auto* softness = std::get_if<commands::SetSoftness>(&command)) {
+      object.softness = softness->softness;
+    }
+  }
+  object.cuts.assign(cuts.begin(), cuts.end());
+  object.pins.assign(pins.begin(), pins.end());
+  return object;
+}
+
+}  // namespace chainmail

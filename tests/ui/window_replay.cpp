@@ -1,0 +1,238 @@
+// Record and replay in a real window: what the hand did is a script, on a slider, as pictures.
+
+#include <QFile>
+#include <QProgressBar>
+#include <QSignalSpy>
+#include <QSlider>
+#include <QToolButton>
+
+#include "files/moves.h"
+#include "replay_dock.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+using Shapes = std::vector<std::vector<float>>;
+
+Shapes shapes(Workbench& bench) { return {bench.document().frame(0)->positions, bench.document().frame(1)->positions}; }
+
+/// Two drags with a cut and a pin between.
+void work(Workbench& bench) {
+  const QPoint from = bench.place(0, 31);
+  bench.stroke(0, {from, from + QPoint(110, -140)});
+  bench.document().cut({3, 4, 40});
+  bench.document().setPinned({0}, true);
+  bench.document().setSoftness({0.9, 1.1, 0.05}, QStringLiteral("stiffer"));
+  const QPoint corner = bench.place(1, 62);
+  bench.stroke(1, {corner, corner + QPoint(60, -90)});
+}
+
+/// Goes to an end of what was done.
+void go(Workbench& bench, const char* action) {
+  bench.trigger(action);
+  const bool first = QLatin1String(action) == QLatin1String("replayFirst");
+  QTRY_COMPARE(bench.document().tape().position(), first ? 0 : bench.document().tape().length());
+  bench.settle();
+}
+
+ReplayDock* dock(Workbench& bench) { return bench.find<ReplayDock>("replayDock"); }
+
+/// What a simulation makes of a script, by the algorithm of a panel.
+std::vector<float> run(const std::vector<Command>& moves, const MeshPointer& mesh, Algorithm algorithm) {
+  Simulation simulation(mesh, algorithm, Precision::single_precision);
+  for (const Command& move : moves) {
+    simulation.apply(move);
+  }
+  std::vector<float> positions(mesh->rest.size());
+  simulation.solver().copy_positions(positions);
+  return positions;
+}
+
+}  // namespace
+
+class WindowReplay : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void aReplayGivesIdenticalBits() {
+    Workbench bench;
+    work(bench);
+    const Shapes live = shapes(bench);
+    const std::size_t length = bench.document().tape().length();
+    QCOMPARE(bench.document().tape().position(), length);
+    go(bench, "replayFirst");
+    const std::vector<float> rest(bench.document().mesh()->rest.begin(), bench.document().mesh()->rest.end());
+    QVERIFY(shapes(bench) == (Shapes{rest, rest}));
+    QCOMPARE(bench.document().cuts().count(), 0U);
+    QVERIFY(bench.document().pins().empty());
+    QCOMPARE(bench.document().softness(), LinkSoftness());
+    QCOMPARE(bench.document().tape().length(), length);
+    go(bench, "replayLast");
+    QVERIFY(shapes(bench) == live);
+    QCOMPARE(bench.document().cuts().count(), 3U);
+    QCOMPARE(bench.document().pins(), std::vector<ElementId>{0});
+  }
+
+  /// Any place is the same whichever way it is come to, and all the way there and back is one step of undo.
+  void aSliderGoesThereAndBack() {
+    Workbench bench;
+    for (int i = 0; i < 12; ++i) {
+      const QPoint from = bench.place(0, ElementId(5 * i));
+      bench.stroke(0, {from, from + QPoint(60 - 20 * i, 50)});
+    }
+    const Shapes live = shapes(bench);
+    const int steps = bench.document().undoStack().count();
+    const auto length = bench.document().tape().length();
+    QVERIFY(length > 64);  // states are kept on the way
+    auto* slider = bench.find<QSlider>("replaySlider");
+    QTRY_COMPARE(slider->maximum(), int(length));
+    std::map<std::size_t, Shapes> seen;
+    for (const std::size_t place :
+         {length, length / 2, length / 3, length - 3, length / 3, length / 2, std::size_t{1}}) {
+      slider->setValue(int(place));
+      QTRY_COMPARE(bench.document().tape().position(), place);
+      bench.settle();
+      const auto [first, isNew] = seen.emplace(place, shapes(bench));
+      QVERIFY(isNew || first->second == shapes(bench));
+    }
+    QVERIFY(seen[length] == live);
+    QCOMPARE(bench.document().undoStack().count(), steps + 1);
+    bench.trigger("undo");
+    bench.settle();
+    QVERIFY(shapes(bench) == live);
+  }
+
+  void fromAPlaceInTheMiddleTheHandGoesOn() {
+    Workbench bench;
+    work(bench);
+    go(bench, "replayFirst");
+    bench.trigger("replayForward");
+    QTRY_VERIFY(bench.document().tape().position() > 0);
+    bench.settle();
+    const auto place = bench.document().tape().position();
+    QVERIFY(place > 0 && place < bench.document().tape().length());
+    const QPoint from = bench.place(0, 5);
+    bench.stroke(0, {from, from + QPoint(-50, 70)});
+    QCOMPARE(bench.document().tape().position(), bench.document().tape().length());
+    const Shapes live = shapes(bench);
+    go(bench, "replayFirst");
+    go(bench, "replayLast");
+    QVERIFY(shapes(bench) == live);
+  }
+
+  void savedMovesAreAScriptOfIdenticalBits() {
+    Workbench bench;
+    work(bench);
+    QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("moves.json"));
+    dock(bench)->saveMoves(path);
+    const auto moves = read_moves(path.toStdString(), *bench.document().mesh());
+    for (int panel = 0; panel < 2; ++panel) {
+      QVERIFY(run(moves, bench.document().mesh(), bench.document().algorithm(panel)) ==
+              bench.document().frame(panel)->positions);
+    }
+    const Shapes live = shapes(bench);
+    bench.document().resetObject();
+    dock(bench)->openMoves(path);
+    bench.settle();
+    QCOMPARE(bench.document().tape().position(), std::size_t{0});
+    QCOMPARE(bench.document().cuts().count(), 0U);
+    go(bench, "replayLast");
+    QVERIFY(shapes(bench) == live);
+  }
+
+  void anotherMeshsMovesAreRefusedWithASentence() {
+    Workbench bench;
+    work(bench);
+    const Shapes live = shapes(bench);
+    QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("other.json"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(R"({"version": 1, "commands": [{"do": "grab", "element": 99999}]})");
+    file.close();
+    QSignalSpy failed(dock(bench), &ReplayDock::failed);
+    dock(bench)->openMoves(path);
+    QCOMPARE(failed.count(), 1);
+    bench.settle();
+    QVERIFY(shapes(bench) == live);
+  }
+
+  void playingCarriesEveryMoveOutAndStops() {
+    Workbench bench;
+    work(bench);
+    const Shapes live = shapes(bench);
+    go(bench, "replayFirst");
+    bench.trigger("replayPlay");
+    QTRY_COMPARE_WITH_TIMEOUT(bench.document().tape().position(), bench.document().tape().length(), 10'000);
+    bench.settle();
+    QVERIFY(shapes(bench) == live);
+    QTRY_VERIFY(bench.find<QAction>("replayPlay")->text().contains(QStringLiteral("Play")));
+  }
+
+  void relaxationIsRepeatedTheSameEachTime() {
+    Workbench bench;
+    bench.document().setRelaxation({true, 1, RelaxationScheme::mean});
+    work(bench);
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.document().frame(0)->statistics.relaxing, 15'000);
+    go(bench, "replayFirst");
+    QVERIFY(!bench.document().relaxation().on);  // what it did is on the tape
+    go(bench, "replayLast");
+    const Shapes once = shapes(bench);
+    go(bench, "replayFirst");
+    go(bench, "replayLast");
+    QVERIFY(shapes(bench) == once);
+    bench.trigger("undo");
+    QVERIFY(bench.document().relaxation().on);
+  }
+
+  void picturesShowEveryMoveAndAFilmThatIsGivenUpLeavesNone() {
+    Workbench bench;
+    work(bench);
+    const Shapes live = shapes(bench);
+    QTemporaryDir folder;
+    QSignalSpy saved(dock(bench), &ReplayDock::saved);
+    dock(bench)->saveFilm(folder.path());
+    dock(bench)->show();
+    QTest::mouseClick(bench.find<QToolButton>("cancelFilm"), Qt::LeftButton);
+    QVERIFY(QDir(folder.path()).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot).isEmpty());
+    bench.settle();
+    QVERIFY(shapes(bench) == live);
+
+    dock(bench)->saveFilm(folder.path());
+    QVERIFY(saved.wait(30'000));
+    int moves = 0;
+    for (std::size_t i = 0; i < bench.document().tape().length(); ++i) {
+      moves += std::holds_alternative<commands::Drag>(bench.document().tape().at(i)) ? 1 : 0;
+    }
+    const QStringList pictures = QDir(folder.path()).entryList({QStringLiteral("*.png")}, QDir::Files, QDir::Name);
+    // One before the first move, one after each, and one where the hand let go last.
+    QCOMPARE(pictures.size(), moves + 2);
+    const QImage first(folder.filePath(pictures.first())), last(folder.filePath(pictures.last()));
+    QVERIFY(!first.isNull() && first != last);
+    bench.settle();
+    QVERIFY(shapes(bench) == live);
+  }
+
+  void aVideoIsMadeWhereFfmpegIs() {
+    if (!Film::canMakeVideos()) {
+      QSKIP("ffmpeg was not found");
+    }
+    Workbench bench;
+    work(bench);
+    QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("film.mp4"));
+    QSignalSpy saved(dock(bench), &ReplayDock::saved);
+    dock(bench)->saveFilm(path);
+    QVERIFY(saved.wait(60'000));
+    QVERIFY(QFileInfo(path).size() > 1000);
+    QCOMPARE(QDir(folder.path()).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot).size(), 1);
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowReplay>(argc, argv); }
+#include "window_replay.moc"
