@@ -39,16 +39,18 @@ void ReplayDock::makeActions() {
     setPlaying(false);
     goTo(position);
   };
-  first_ = add("replayFirst", QStringLiteral("To the &beginning"), "toStart", QKeySequence(QStringLiteral("Ctrl+Home")),
-               QStringLiteral("The object at rest, as before the first move"), [=] { stopAndGo(0); });
-  back_ = add("replayBack", QStringLiteral("A move b&ack"), "stepBack", QKeySequence(QStringLiteral("Ctrl+,")),
+  first_ =
+      add("replayFirst", QStringLiteral("To the &beginning"), "toStart", QKeySequence(QStringLiteral("Ctrl+Alt+Home")),
+          QStringLiteral("The object at rest, as before the first move"), [=] { stopAndGo(0); });
+  back_ = add("replayBack", QStringLiteral("A move b&ack"), "stepBack", QKeySequence(QStringLiteral("Ctrl+Alt+Left")),
               QStringLiteral("The object as before the last pass"), [=, this] { stopAndGo(previousMove()); });
-  play_ = add("replayPlay", QStringLiteral("&Play"), "play", QKeySequence(QStringLiteral("Ctrl+Space")),
+  play_ = add("replayPlay", QStringLiteral("&Play"), "play", QKeySequence(QStringLiteral("Ctrl+Alt+Space")),
               QStringLiteral("The moves one after another, by the algorithms of the panels"),
               [this] { setPlaying(!playing_.isActive()); });
-  forward_ = add("replayForward", QStringLiteral("A move &on"), "stepForward", QKeySequence(QStringLiteral("Ctrl+.")),
-                 QStringLiteral("The next pass"), [=, this] { stopAndGo(nextMove()); });
-  last_ = add("replayLast", QStringLiteral("To the &end"), "toEnd", QKeySequence(QStringLiteral("Ctrl+End")),
+  forward_ =
+      add("replayForward", QStringLiteral("A move &on"), "stepForward", QKeySequence(QStringLiteral("Ctrl+Alt+Right")),
+          QStringLiteral("The next pass"), [=, this] { stopAndGo(nextMove()); });
+  last_ = add("replayLast", QStringLiteral("To the &end"), "toEnd", QKeySequence(QStringLiteral("Ctrl+Alt+End")),
               QStringLiteral("The object after the last move"), [=, this] { stopAndGo(document_.tape().length()); });
   menu_->addSeparator();
   add("openMoves", QStringLiteral("Open &moves…"), "open", {},

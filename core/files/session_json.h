@@ -14,7 +14,7 @@ inline constexpr unsigned session_version = 1;
 
 /// A session's JSON. Its long arrays of numbers stand beside the tree, packed, in the order in which they come: in the
 /// tree, in place of each, is its number there.
-struct SessionJson {
+struct SessionJson {  // NOLINT(bugprone-exception-escape): moving a tree throws nothing, which its library does not say
   nlohmann::json tree;
   std::vector<std::vector<std::uint32_t>> ids;
   std::vector<std::vector<double>> reals;

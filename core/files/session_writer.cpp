@@ -168,13 +168,14 @@ void SessionWriter::write_state() {
 }
 
 void SessionWriter::write_panel(const Session::Panel& panel, const Progress& progress) {
-  const auto& [from_rest, runs, held] = panel.placement;
+  const Placement& placement = panel.placement;
   const bool single = panel.precision == Precision::single_precision;
   out_ << "\n{\"algorithm\": \"" << info(panel.algorithm).name << "\", \"precision\": \""
        << std::string_view(single ? "float" : "double")
-       << "\", \"from_rest\": " << std::string_view(from_rest ? "true" : "false");
-  write_ids("runs", runs);
-  write_array("held", held.size(), progress, [&](std::size_t i) { out_ << digits_(held[i], panel.precision); });
+       << "\", \"from_rest\": " << std::string_view(placement.from_rest ? "true" : "false");
+  write_ids("runs", placement.runs);
+  write_array("held", placement.held.size(), progress,
+              [&](std::size_t i) { out_ << digits_(placement.held[i], panel.precision); });
   out_ << "}";
 }
 
