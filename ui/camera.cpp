@@ -39,6 +39,13 @@ void Camera::orbit(QPointF pixels) {
   }
 }
 
+void Camera::lookFrom(double yaw, double pitch) {
+  if (spatial_) {
+    yaw_ = yaw;
+    pitch_ = pitch;
+  }
+}
+
 void Camera::pan(QPointF pixels, QSizeF view) {
   const QVector3D before = pointAt({0, 0}, centre_, view);
   const QVector3D after = pointAt(pixels, centre_, view);
@@ -65,7 +72,7 @@ QMatrix4x4 Camera::toClip(QSizeF view) const {
   const double distance = eyeDistance(height_);
   const double reach = 8 * radius_;  // a dragged object may leave its box by a good way
   QMatrix4x4 matrix;
-  if (spatial_) {
+  if (spatial_ && !parallel_) {
     matrix.perspective(float(fieldOfView), float(aspect), float(std::max(distance - reach, distance * 0.02)),
                        float(distance + reach));
   } else {

@@ -10,8 +10,11 @@
 
 namespace chainmail {
 
-/// Where an object is looked at from: straight down on the plane in 1D and 2D, in perspective about a
-/// centre in 3D. Lengths are in mesh units, places in the view in logical pixels from its top left.
+inline QVector3D asVector(const Point& point) { return {float(point.x()), float(point.y()), float(point.z())}; }
+
+/// Where an object is looked at from: straight down on the plane in 1D and 2D, in perspective or
+/// by parallel rays about a centre in 3D. Lengths are in mesh units, places in the view in logical pixels from its top
+/// left.
 class Camera {
  public:
   /// Shows the whole box: straight down on the plane of the axes that the scene carries, or obliquely
@@ -21,6 +24,15 @@ class Camera {
   void pan(QPointF pixels, QSizeF view);
   /// Brings the object nearer (factor > 1) about the place under the cursor.
   void zoom(double factor, QPointF cursor, QSizeF view);
+
+  /// Turns about the centre, to a side given by angles (degrees): 0, 0 is from +z, yaw -90 from +x, pitch 90 from +y.
+  void lookFrom(double yaw, double pitch);
+  const QVector3D& centre() const { return centre_; }
+  /// What is turned about comes into the middle of the view.
+  void centreOn(const QVector3D& centre) { centre_ = centre; }
+  /// Parallel rays where a scene has depth, instead of perspective.
+  void setParallel(bool parallel) { parallel_ = parallel; }
+  bool parallel() const { return parallel_; }
 
   bool spatial() const { return spatial_; }
   QMatrix4x4 toView() const;
@@ -39,6 +51,7 @@ class Camera {
   double yaw_ = 0;     // degrees
   double pitch_ = 0;
   bool spatial_ = false;
+  bool parallel_ = false;
 };
 
 }  // namespace chainmail

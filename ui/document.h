@@ -76,6 +76,8 @@ class Document : public QObject {
   void grab(ElementId element);
   void drag(const Point& target);
   void release();
+  /// The element in the hand.
+  std::optional<ElementId> held() const { return recorder_.held(); }
   /// What the hand did last on this mesh, without the release; empty where it did nothing yet.
   const std::vector<Command>& lastDrag() const { return recorder_.last(); }
   /// As if the hand had done nothing yet on this mesh.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,10 @@ class DragRecorder {
       recording_.emplace_back(commands::Drag{target});
       kept_ = now;
     }
+  }
+
+  std::optional<ElementId> held() const {
+    return recording_.empty() ? std::nullopt : std::optional(std::get<commands::Grab>(recording_.front()).element);
   }
 
   /// Whether there is a new last drag: a press without a move is none.

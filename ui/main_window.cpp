@@ -2,7 +2,6 @@
 
 #include <QActionGroup>
 #include <QCloseEvent>
-#include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QScreen>
@@ -10,9 +9,12 @@
 #include <QStatusBar>
 #include <QVBoxLayout>
 
+#include "axis_views.h"
 #include "camera_actions.h"
 #include "colour_selector.h"
 #include "colours.h"
+#include "element_dock.h"
+#include "element_readout.h"
 #include "file_actions.h"
 #include "frame_rate_dock.h"
 #include "help_menu.h"
@@ -49,6 +51,8 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       dragTool_(document_),
       cutTool_(document_),
       pinTool_(document_),
+      measurement_(document_),
+      measureTool_(document_, measurement_),
       selectTool_(document_),
       undoActions_(new UndoActions(document_, *this)),
       files_(new FileActions(*this, document_, jobs_)),
@@ -58,7 +62,8 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       help_(new HelpMenu(*this, document_, *area_)),
       toolActions_(new QActionGroup(this)),
       colourBy_(new ColourSelector(colouring_)),
-      hint_(new QLabel) {
+      axisViews_(new AxisViews(this, document_, *area_)),
+      readout_(new ElementReadout(document_, measurement_, [this] { return area_->links().pointed(); })) {
   setAcceptDrops(true);
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
   auto* central = new QWidget;
@@ -68,8 +73,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   column->addWidget(messages_);
   column->addWidget(area_, 1);
   setCentralWidget(central);
-  hint_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  statusBar()->addWidget(hint_, 1);
+  statusBar()->addWidget(readout_, 1);
   statusBar()->addPermanentWidget(new JobBar(jobs_));
 
   listen();
@@ -90,6 +94,8 @@ void MainWindow::listen() {
   connect(&document_, &Document::noticed, messages_, &MessageBar::note);
   area_->addOverlay(propagationOverlay_);
   area_->addOverlay(regions_);
+  area_->addOverlay(measurement_);
+  connect(&measurement_, &Measurement::changed, area_, &PanelArea::refresh);
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
   connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
   for (Panel* panel : area_->panels()) {
@@ -112,6 +118,9 @@ void MainWindow::listen() {
 }
 
 MainWindow::~MainWindow() {
+  if (QWidget* field = focusWidget()) {
+    field->clearFocus();  // what was typed last is taken while there is a document
+  }
   // The panels look at the document until they are gone.
   delete takeCentralWidget();
 }
@@ -129,6 +138,7 @@ void MainWindow::makeTools() {
   add(dragTool_, icon("drag"), Qt::Key_D);
   add(cutTool_, icon("cut"), Qt::Key_K);
   add(pinTool_, icon("pin"), Qt::Key_P);
+  add(measureTool_, icon("measure"), Qt::Key_M);
   add(selectTool_, icon("select"), Qt::Key_S);
   toolActions_->actions().first()->setChecked(true);
 }
@@ -139,7 +149,7 @@ void MainWindow::activate(Tool& tool) {
   }
   tool_ = &tool;
   area_->setTool(tool);
-  hint_->setText(tool.hint());
+  readout_->setHint(tool.hint());
 }
 
 void MainWindow::makeDocks() {
@@ -158,6 +168,10 @@ void MainWindow::makeDocks() {
   auto* history = new HistoryDock(document_);
   addDockWidget(Qt::LeftDockWidgetArea, history);
   history->hide();
+  auto* element = new ElementDock(document_);
+  addDockWidget(Qt::LeftDockWidgetArea, element);  // the other column is full
+  element->hide();
+  element->fill(*findChild<QMenu*>(QStringLiteral("viewMenu")));
   auto* menu = menuBar()->addMenu(QStringLiteral("&Docks"));
   for (QDockWidget* dock : findChildren<QDockWidget*>()) {
     menu->addAction(dock->toggleViewAction());

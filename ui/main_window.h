@@ -8,6 +8,7 @@
 #include "document.h"
 #include "drag_tool.h"
 #include "jobs.h"
+#include "measure_tool.h"
 #include "panel_area.h"
 #include "pin_tool.h"
 #include "propagation_overlay.h"
@@ -20,8 +21,10 @@ class QMenu;
 
 namespace chainmail {
 
+class AxisViews;
 class CameraActions;
 class ColourSelector;
+class ElementReadout;
 class FileActions;
 class HelpMenu;
 class MessageBar;
@@ -80,6 +83,8 @@ class MainWindow : public QMainWindow {
   DragTool dragTool_;
   CutTool cutTool_;
   PinTool pinTool_;
+  Measurement measurement_;
+  MeasureTool measureTool_;
   SelectTool selectTool_;
   Tool* tool_ = nullptr;
   Jobs jobs_;
@@ -91,7 +96,8 @@ class MainWindow : public QMainWindow {
   HelpMenu* help_;
   QActionGroup* toolActions_;
   ColourSelector* colourBy_;
-  QLabel* hint_;
+  AxisViews* axisViews_;
+  ElementReadout* readout_;
 };
 
 }  // namespace chainmail

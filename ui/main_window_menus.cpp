@@ -6,6 +6,7 @@
 #include <QMenuBar>
 #include <QToolBar>
 
+#include "axis_views.h"
 #include "camera_actions.h"
 #include "colour_selector.h"
 #include "file_actions.h"
@@ -49,6 +50,7 @@ void MainWindow::giveUp() {
     jobs_.cancel();
   } else {
     tool_->escape();
+    measurement_.clear();
   }
   messages_->dismiss();
   help_->dismissHints();
@@ -84,6 +86,7 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   cameraActions_->fill(menu);
   (new PanelActions(*area_, document_, colouring_))->fill(menu);
   regions_.fill(menu);
+  axisViews_->fill(menu);
   menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
   menu.addSeparator();
   (new ThemeMenu(this))->fill(menu);

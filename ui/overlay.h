@@ -2,10 +2,14 @@
 
 #include <QString>
 #include <optional>
+#include <vector>
 
+#include "annotation.h"
 #include "object_painter.h"
 
 namespace chainmail {
+
+class View;
 
 /// What the colours of an overlay mean.
 struct OverlayLegend {
@@ -35,6 +39,8 @@ class Overlay {
   /// How a panel's object is painted under it; none: as without it.
   virtual std::optional<ObjectPainter::Paint> paint(int /*panel*/) const { return std::nullopt; }
   virtual void draw(const Canvas& canvas) = 0;
+  /// Lines with words, over all that is drawn.
+  virtual std::vector<Annotation> annotations(const View& /*view*/) const { return {}; }
   /// What a panel says of it beside its algorithm; empty: nothing.
   virtual QString note(int /*panel*/) const { return {}; }
   /// What a panel's legend says instead of the object's own, where the overlay colours it.

@@ -18,6 +18,7 @@ class PinTool : public Tool {
   void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
   void move(View&, QPointF) override {}
   void release(View& view, QPointF place) override { hover(view, place); }
+  bool clicks() const override { return true; }
   bool busy() const override { return false; }
   void cancel() override { document_.setHighlight({}); }
   std::span<const QPointF> stroke(const View&) const override { return {}; }

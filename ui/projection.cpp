@@ -57,6 +57,8 @@ Projection::Projection(const Mesh& mesh, const QMatrix4x4& toView, const QMatrix
     : matrix_(toClip * toView * placement(mesh)), dimension_(mesh.space_dimension), view_(view) {
   // One unit along the view's vertical spans this many pixels at the depth of the origin of the view.
   pixelsPerDepth_ = float(toClip(1, 1) * view.height() / 2);
+  const bool parallel = toClip(3, 3) != 0;
+  pixelsPerZ_ = parallel ? -pixelsPerDepth_ / toClip(2, 2) : 0;
 }
 
 Projection::Place Projection::operator()(const float* carried) const {
@@ -68,12 +70,12 @@ Projection::Place Projection::operator()(const float* carried) const {
     }
   }
   const float w = clip[3];
-  return {(clip[0] / w + 1) / 2 * float(view_.width()), (1 - clip[1] / w) / 2 * float(view_.height()), w};
+  return {(clip[0] / w + 1) / 2 * float(view_.width()), (1 - clip[1] / w) / 2 * float(view_.height()), w, clip[2]};
 }
 
 float Projection::depth(const Place& place) const {
   // At a distance w from the eye a unit of depth spans pixelsPerDepth_ / w pixels.
-  return pixelsPerDepth_ * std::log(place.distance);
+  return pixelsPerZ_ != 0 ? pixelsPerZ_ * place.z : pixelsPerDepth_ * std::log(place.distance);
 }
 
 std::array<double, 4> Projection::clipped(const CellBoxes::Box& box, int corner) const {

@@ -34,7 +34,8 @@ class Projection {
 
   struct Place {
     float x, y;
-    float distance;  // from the eye in perspective, 1 in a plane view, 0 or less behind the eye
+    float distance;  // from the eye in perspective, 1 by parallel rays, 0 or less behind the eye
+    float z;         // as the projection has it
     bool visible() const { return distance > 0; }
   };
   /// `carried` points to the coordinates that the scene carries.
@@ -54,6 +55,7 @@ class Projection {
   int dimension_;
   QSizeF view_;
   float pixelsPerDepth_;
+  float pixelsPerZ_;  // by parallel rays, else 0
 };
 
 }  // namespace chainmail

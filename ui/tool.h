@@ -26,6 +26,8 @@ class Tool {
   virtual void release(View& view, QPointF place) = 0;
   /// The cursor has left the view.
   virtual void leave(View& /*view*/) {}
+  /// Whether a click does something: then a double click is two of them, and does not move the camera.
+  virtual bool clicks() const { return false; }
   /// Whether a stroke or a drag is under way.
   virtual bool busy() const = 0;
   /// Esc, another tool, an undo: gives up what was begun and leaves nothing behind.

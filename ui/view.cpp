@@ -89,8 +89,22 @@ void View::fit() {
   const Mesh& mesh = *document_.mesh();
   camera_->fit(bounds(mesh), std::span(mesh.axes).first(std::size_t(mesh.space_dimension)), size());
   fitPending_ = false;
+  announceCamera();
+}
+
+void View::announceCamera() {
   emit cameraChanged();
   update();
+}
+
+void View::lookFrom(double yaw, double pitch) {
+  camera_->lookFrom(yaw, pitch);
+  announceCamera();
+}
+
+void View::setParallel(bool parallel) {
+  camera_->setParallel(parallel);
+  announceCamera();
 }
 
 const CellBoxes& View::boxes(const Frame& frame) const {
@@ -121,7 +135,7 @@ Point View::position(ElementId element) const {
 }
 
 QVector3D View::pointAt(QPointF place, const Point& through) const {
-  return camera_->pointAt(place, QVector3D(float(through.x()), float(through.y()), float(through.z())), size());
+  return camera_->pointAt(place, asVector(through), size());
 }
 
 QPointF View::placeOf(ElementId element) const {
@@ -252,6 +266,7 @@ void View::drawMarks(const ObjectPainter::Scene& in) {
   if (tool_ != nullptr) {
     painter_.drawStroke(in, tool_->stroke(*this), colours::marked);
   }
+  drawAnnotations(in);
   drawFocus(in);
 }
 

@@ -47,6 +47,10 @@ class View : public QOpenGLWidget {
   void pan(QPointF pixels);
   void zoom(double factor);
   void zoom(double factor, QPointF about);
+  /// As Camera has them.
+  void lookFrom(double yaw, double pitch);
+  void setParallel(bool parallel);
+  int panel() const { return panel_; }
 
   /// For tools: what is under a place of this view, and where an element is.
   std::optional<ElementId> elementAt(QPointF place) const;
@@ -77,6 +81,7 @@ class View : public QOpenGLWidget {
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void focusInEvent(QFocusEvent* event) override;
@@ -95,6 +100,9 @@ class View : public QOpenGLWidget {
   void drawMarks(const ObjectPainter::Scene& scene);
   void drawHighlight(const ObjectPainter::Scene& scene);
   void drawFocus(const ObjectPainter::Scene& scene);
+  std::vector<Annotation> annotations() const;
+  void drawAnnotations(const ObjectPainter::Scene& scene);
+  void announceCamera();
   void moveCamera(QPointF travel, Qt::MouseButtons buttons);
 
   Document& document_;

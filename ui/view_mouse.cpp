@@ -47,6 +47,18 @@ void View::moveCamera(QPointF travel, Qt::MouseButtons buttons) {
   }
 }
 
+/// The second press of a double click: what was pressed on comes into the middle, and no hand takes hold of it.
+void View::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || (tool_ != nullptr && tool_->clicks())) {
+    mousePressEvent(event);
+    return;
+  }
+  cursor_ = event->position();
+  const auto element = elementAt(cursor_);
+  camera_->centreOn(element ? asVector(position(*element)) : camera_->pointAt(cursor_, camera_->centre(), size()));
+  announceCamera();
+}
+
 void View::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() == Qt::LeftButton && tool_ != nullptr) {
     tool_->release(*this, event->position());

@@ -1,0 +1,289 @@
+// Exact work in a real window: what is under the cursor in figures, looks along the axes, distances, and elements that
+// are picked and moved by numbers.
+
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTableWidget>
+
+#include "colours.h"
+#include "element_facts.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+constexpr ElementId middle = 31;  // of 9 x 7
+
+MeshPointer block() { return generate({MeshKind::tetra, {4, 4, 4}, 1, {}}); }
+
+QString readout(Workbench& bench) { return bench.find<QLabel>("readout")->text(); }
+
+/// The events of a double click, as a display sends them.
+void doubleClick(View& view, QPoint place) {
+  QTest::mouseClick(&view, Qt::LeftButton, {}, place);
+  QTest::mouseDClick(&view, Qt::LeftButton, {}, place);
+  QTest::mouseRelease(&view, Qt::LeftButton, {}, place);
+}
+
+void pick(Workbench& bench, int id) {
+  bench.find<QDockWidget>("elementDock")->show();
+  bench.find<QSpinBox>("elementId")->setValue(id);
+  QTest::qWait(10);
+}
+
+void type(Workbench& bench, const char* field, double value) {
+  auto* edit = bench.find<QLineEdit>(field);
+  edit->setText(edit->locale().toString(value));
+}
+
+/// Presses Move and waits for the end of the last step.
+void move(Workbench& bench) {
+  QPushButton* button = bench.find<QPushButton>("moveElement");
+  QVERIFY(button->isEnabled());
+  button->click();
+  QTRY_VERIFY(!bench.document().held());
+  bench.settle();
+}
+
+}  // namespace
+
+class WindowExact : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void hoverShowsTheElementsFigures() {
+    Workbench bench;
+    QVERIFY(readout(bench).contains(QStringLiteral("Left: drag an element")));
+    bench.document().setSoftnessOf({bench.document().mesh()->entry_link[bench.document().mesh()->first_entry[middle]]},
+                                   LinkSoftness{0.5, 1.5, 0.1});
+    bench.settle();
+    QTest::mouseMove(&bench.view(1), bench.place(1, middle) + QPoint(2, 2));
+    QTRY_COMPARE(bench.document().highlight().element, std::optional<ElementId>(middle));
+    const QString text = readout(bench);
+    QVERIFY2(text.contains(QStringLiteral("Element 31")), qPrintable(text));
+    QVERIFY2(text.contains(QStringLiteral("x 4, y 3")), qPrintable(text));  // and no z: the scene carries none
+    QVERIFY2(!text.contains(QStringLiteral(", z ")), qPrintable(text));
+    QVERIFY2(text.contains(QStringLiteral("compression 0.5–0.8, stretch 1.2–1.5, shear 0.1")), qPrintable(text));
+    // The panel under the cursor comes first.
+    QVERIFY2(text.indexOf(QStringLiteral("<b>B</b>")) < text.indexOf(QStringLiteral("A: ")), qPrintable(text));
+    QTest::mouseMove(&bench.view(1), QPoint(2, 2));
+    QTRY_VERIFY(readout(bench).contains(QStringLiteral("Left: drag an element")));
+  }
+
+  void theFiguresFollowADragByAnotherHand() {
+    Workbench bench;
+    bench.document().setHighlight({middle, false, {}});
+    const QString before = readout(bench);
+    bench.document().grab(middle);
+    bench.document().drag({4, -5, 0});
+    QTRY_VERIFY(readout(bench).contains(QStringLiteral("y -5")));
+    bench.document().release();
+    QVERIFY(readout(bench) != before);
+  }
+
+  void looksAlongTheAxes_data() {
+    QTest::addColumn<QString>("action");
+    QTest::addColumn<int>("deep");    // the axis looked along
+    QTest::addColumn<int>("across");  // the axis that runs to the right, with its sign
+    QTest::addColumn<int>("sign");
+    QTest::newRow("front") << "viewFront" << 2 << 0 << 1;
+    QTest::newRow("back") << "viewBack" << 2 << 0 << -1;
+    QTest::newRow("right") << "viewRight" << 0 << 2 << -1;
+    QTest::newRow("left") << "viewLeft" << 0 << 2 << 1;
+    QTest::newRow("top") << "viewTop" << 1 << 0 << 1;
+    QTest::newRow("bottom") << "viewBottom" << 1 << 0 << 1;
+  }
+  void looksAlongTheAxes() {
+    QFETCH(QString, action);
+    QFETCH(int, deep);
+    QFETCH(int, across);
+    QFETCH(int, sign);
+    Workbench bench(block());
+    bench.trigger("parallelRays");
+    bench.trigger(qPrintable(action));
+    const std::array strides{1U, 4U, 16U};
+    for (int p = 0; p < 2; ++p) {
+      const QPointF at = bench.view(p).placeOf(21);
+      // By parallel rays, what is further along the line of sight appears at the same place.
+      QVERIFY((bench.view(p).placeOf(21 + strides[std::size_t(deep)]) - at).manhattanLength() < 0.1);
+      const QPointF beside = bench.view(p).placeOf(21 + strides[std::size_t(across)]) - at;
+      QVERIFY(beside.x() * sign > 20);
+      QVERIFY(std::abs(beside.y()) < 0.1);
+    }
+  }
+
+  void byParallelRaysTheFrontElementIsPicked() {
+    Workbench bench(block());
+    bench.trigger("parallelRays");
+    bench.trigger("viewFront");
+    const QPointF at = bench.view(0).placeOf(5);  // 21, 37 and 53 are at the same place, nearer to the eye
+    QCOMPARE(bench.view(0).elementAt(at), std::optional<ElementId>(53));
+    bench.trigger("viewBack");
+    QCOMPARE(bench.view(0).elementAt(bench.view(0).placeOf(5)), std::optional<ElementId>(5));
+  }
+
+  void aPlaneObjectHasNoOtherSides() {
+    Workbench bench;
+    QVERIFY(!bench.find<QAction>("viewTop")->isEnabled());
+    QVERIFY(bench.find<QAction>("viewTop")->toolTip().contains(QStringLiteral("no depth")));
+    bench.document().replaceMesh(block(), QStringLiteral("block"), QStringLiteral("build"));
+    QVERIFY(bench.find<QAction>("viewTop")->isEnabled());
+  }
+
+  void aDoubleClickRecentresAndLeavesNoDragBehind() {
+    for (const auto& mesh : {generate({MeshKind::grid, {9, 7, 1}, 1, {}}), block()}) {
+      Workbench bench(mesh);
+      const ElementId element = *bench.view(0).elementAt(bench.place(0, 5));  // itself, or one before it
+      doubleClick(bench.view(0), bench.place(0, element));
+      const QPointF middleOfView(bench.view(0).width() / 2.0, bench.view(0).height() / 2.0);
+      for (int p = 0; p < 2; ++p) {
+        // The cameras are linked.
+        const QPointF off = bench.view(p).placeOf(element) - middleOfView;
+        QVERIFY2(off.manhattanLength() < 2, qPrintable(QStringLiteral("%1 %2").arg(off.x()).arg(off.y())));
+      }
+      QVERIFY(!bench.document().held());
+      QMouseEvent move(QEvent::MouseMove, middleOfView + QPointF(50, 50),
+                       bench.view(0).mapToGlobal(middleOfView + QPointF(50, 50)), Qt::NoButton, Qt::NoButton,
+                       Qt::NoModifier);
+      QApplication::sendEvent(&bench.view(0), &move);
+      bench.settle();
+      QCOMPARE(bench.document().frame(0)->statistics.passes, 0U);
+    }
+  }
+
+  void withThePinToolADoubleClickIsTwoClicks() {
+    Workbench bench;
+    bench.trigger("toolPin");
+    const QPoint at = bench.place(0, middle);
+    doubleClick(bench.view(0), at);
+    QVERIFY(bench.document().pins().empty());  // pinned, and unpinned
+    QCOMPARE(bench.place(0, middle), at);
+  }
+
+  void aDistanceIsMeasuredAndStaysWithTheElements() {
+    Workbench bench;
+    QTest::keyClick(&bench.window, Qt::Key_M);
+    bench.click(0, 27);
+    QVERIFY(readout(bench).contains(QStringLiteral("From element 27: click another one")));
+    bench.click(0, 31);
+    QVERIFY2(readout(bench).contains(QStringLiteral("From element 27 to 31, at rest 4")), qPrintable(readout(bench)));
+    QVERIFY(readout(bench).contains(QStringLiteral("(× 1.000; dx 4, dy 0)")));
+    const QPointF along = (bench.view(1).placeOf(28) + bench.view(1).placeOf(29)) / 2;
+    QVERIFY(bench.distanceFromColour(1, along, colours::marked) < 20);  // a line, in the other panel too
+
+    bench.trigger("toolDrag");
+    bench.document().setPinned({27}, true);
+    bench.stroke(0, {bench.place(0, 31), bench.place(0, 31) + QPoint(0, -160)});
+    bench.document().setHighlight({});
+    const double now = (bench.position(1, 31) - bench.position(1, 27)).norm();
+    QVERIFY(now > 4.01);
+    QTRY_VERIFY2(readout(bench).contains(figure(now)), qPrintable(readout(bench)));
+
+    QTest::keyClick(&bench.window, Qt::Key_Escape);
+    QVERIFY(readout(bench).contains(QStringLiteral("Left: drag an element")));
+  }
+
+  void anElementIsPickedByItsId() {
+    Workbench bench;
+    QTest::keyClick(&bench.window, Qt::Key_E, Qt::ControlModifier);
+    QVERIFY(bench.find<QDockWidget>("elementDock")->isVisible());
+    auto* id = bench.find<QSpinBox>("elementId");
+    QTRY_VERIFY(id->hasFocus());
+    QCOMPARE(id->maximum(), 62);
+    QVERIFY(!bench.find<QPushButton>("moveElement")->isEnabled());
+    id->selectAll();
+    QTest::keyClicks(id, QStringLiteral("31"));
+    QTest::keyClick(id, Qt::Key_Return);
+    QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{31});
+    auto* places = bench.find<QTableWidget>("elementPlaces");
+    QCOMPARE(places->rowCount(), 3);  // at rest, left, right
+    QCOMPARE(places->columnCount(), 3);
+    QCOMPARE(places->item(2, 1)->text(), QStringLiteral("4"));
+    QCOMPARE(bench.find<QTableWidget>("elementNeighbours")->rowCount(), 4);
+    // A selection made elsewhere shows too, where it is one element.
+    bench.document().select({0});
+    QCOMPARE(id->value(), 0);
+    QCOMPARE(bench.find<QTableWidget>("elementNeighbours")->rowCount(), 2);
+    bench.document().select({0, 1});
+    QVERIFY(!bench.find<QPushButton>("moveElement")->isEnabled());
+  }
+
+  void anElementIsMovedToNumbersInStepsAsOneDrag() {
+    Workbench bench;
+    pick(bench, middle);
+    type(bench, "moveX", 4.25);
+    type(bench, "moveY", -2.5);
+    bench.find<QSpinBox>("moveSteps")->setValue(4);
+    move(bench);
+    for (int p = 0; p < 2; ++p) {
+      QCOMPARE(bench.position(p, middle), Point(4.25, -2.5, 0));
+      QCOMPARE(bench.document().frame(p)->statistics.passes, 4U);
+    }
+    const auto& drag = bench.document().lastDrag();  // recorded as the hand's own
+    QCOMPARE(drag.size(), 5U);
+    QCOMPARE(std::get<commands::Grab>(drag.front()).element, middle);
+    QCOMPARE(std::get<commands::Drag>(drag.back()).target, Point(4.25, -2.5, 0));
+    QCOMPARE(std::get<commands::Drag>(drag[2]).target, Point(4.125, 0.25, 0));
+
+    bench.find<QComboBox>("moveHow")->setCurrentIndex(1);
+    type(bench, "moveX", -0.25);
+    type(bench, "moveY", 1);
+    move(bench);
+    QCOMPARE(bench.position(0, middle), Point(4, -1.5, 0));
+    bench.document().undoStack().undo();
+    bench.settle();
+    QCOMPARE(bench.position(1, middle), Point(4.25, -2.5, 0));
+    bench.document().undoStack().undo();
+    bench.settle();
+    QCOMPARE(bench.position(1, middle), bench.document().mesh()->rest_position(middle));
+  }
+
+  void aMoveByNumbersIsStopped() {
+    Workbench bench;
+    pick(bench, middle);
+    type(bench, "moveY", 40);
+    bench.find<QSpinBox>("moveSteps")->setValue(1000);
+    auto* button = bench.find<QPushButton>("moveElement");
+    button->click();
+    QTRY_VERIFY(bench.document().frame(0)->statistics.passes > 2);
+    QVERIFY(button->text().contains(QStringLiteral("of 1000")));
+    button->click();
+    QVERIFY(!bench.document().held());
+    bench.settle();
+    QVERIFY(bench.position(0, middle).y() < 40);
+  }
+
+  void pinsAndCutsByTheDock() {
+    Workbench bench;
+    pick(bench, middle);
+    auto* cut = bench.find<QPushButton>("cutLink");
+    QVERIFY(!cut->isEnabled());
+    QVERIFY(cut->toolTip().contains(QStringLiteral("Choose a neighbour")));
+    auto* neighbours = bench.find<QTableWidget>("elementNeighbours");
+    neighbours->selectRow(1);
+    const ElementId to = bench.document().mesh()->neighbours_of(middle)[1];
+    QCOMPARE(neighbours->item(1, 0)->text(), QString::number(to));
+    cut->click();
+    QVERIFY(bench.document().cuts().is_cut(*find_link(*bench.document().mesh(), middle, to)));
+    QTRY_COMPARE(neighbours->item(1, 4)->text(), QStringLiteral("cut"));
+    QVERIFY(!cut->isEnabled());
+    bench.document().undoStack().undo();
+    QTRY_VERIFY(cut->isEnabled());
+
+    bench.find<QPushButton>("pinElement")->click();
+    QVERIFY(bench.document().isPinned(middle));
+    QTRY_VERIFY(!bench.find<QPushButton>("moveElement")->isEnabled());
+    QVERIFY(bench.find<QPushButton>("moveElement")->toolTip().contains(QStringLiteral("pinned")));
+    bench.find<QPushButton>("pinElement")->click();
+    QVERIFY(!bench.document().isPinned(middle));
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowExact>(argc, argv); }
+#include "window_exact.moc"

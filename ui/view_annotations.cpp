@@ -1,0 +1,53 @@
+// Lines with words over the object of a view.
+
+#include <QPainter>
+#include <algorithm>
+
+#include "colours.h"
+#include "view.h"
+
+namespace chainmail {
+QRectF annotationBox(const Annotation& annotation, const QFontMetricsF& font, QSizeF view) {
+  QRectF box = font.boundingRect(QRectF(0, 0, view.width(), view.height()), Qt::AlignLeft, annotation.words);
+  box.adjust(-annotationPadding, -annotationPadding, annotationPadding, annotationPadding);
+  box.moveCenter(annotation.line.center());
+  // Beside the line and not over it, and inside the view.
+  box.moveBottom(annotation.line.center().y() - annotationEndDiameter);
+  box.moveLeft(std::clamp(box.left(), 0.0, std::max(0.0, view.width() - box.width())));
+  box.moveTop(std::clamp(box.top(), 0.0, std::max(0.0, view.height() - box.height())));
+  return box;
+}
+
+std::vector<Annotation> View::annotations() const {
+  std::vector<Annotation> all;
+  for (const Overlay* overlay : overlays_) {
+    const auto more = overlay->annotations(*this);
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
+void View::drawAnnotations(const ObjectPainter::Scene& in) {
+  const auto annotations = this->annotations();
+  if (annotations.empty()) {
+    return;
+  }
+  for (const Annotation& annotation : annotations) {
+    painter_.drawStroke(in, std::array{annotation.line.p1(), annotation.line.p2()}, colours::marked);
+  }
+  QPainter painter(this);
+  for (const Annotation& annotation : annotations) {
+    painter.setPen(QPen(QColor(colours::marked), 1.5));
+    for (const QPointF& end : {annotation.line.p1(), annotation.line.p2()}) {
+      painter.drawEllipse(end, annotationEndDiameter / 2, annotationEndDiameter / 2);
+    }
+    const QRectF box = annotationBox(annotation, QFontMetricsF(painter.font()), size());
+    QColor ground = colours::background;
+    ground.setAlphaF(0.8F);
+    painter.fillRect(box, ground);
+    painter.drawText(box.adjusted(annotationPadding, annotationPadding, -annotationPadding, -annotationPadding),
+                     Qt::AlignLeft, annotation.words);
+  }
+}
+
+}  // namespace chainmail
