@@ -59,6 +59,7 @@ Colouring::Colouring(const Document& document) : document_(document) {
   connect(&document, &Document::softnessChanged, this, outdate);
   connect(&document, &Document::cutsChanged, this, outdate);
   connect(&document, &Document::meshChanged, this, &Colouring::startOver);
+  connect(&document, &Document::panelsChanged, this, &Colouring::followPanels);
 }
 
 void Colouring::Kept::follow(const Frame& frame) {
@@ -115,6 +116,20 @@ void Colouring::setSharesScale(bool shares) {
   }
 }
 
+void Colouring::followPanels() {
+  if (reference_ >= document_.panels()) {
+    reference_ = 0;
+  }
+  startOver();
+  emit modeChanged();
+  emit changed();
+}
+
+void Colouring::forget(int panel) {
+  works_[panel] = {};
+  updateScales();
+}
+
 QString Colouring::title(int panel) const {
   const auto& mode = info(mode_);
   QString what = text(mode.title);
@@ -149,7 +164,7 @@ const ColourValues* Colouring::follow(int panel) {
 
 std::vector<int> Colouring::comparedWith(int panel) const {
   std::vector<int> others;
-  for (int other = 0; comparesPanels(mode_) && other < Document::panels; ++other) {
+  for (int other = 0; comparesPanels(mode_) && other < document_.panels(); ++other) {
     if (other != panel && (panel == reference_ || other == reference_)) {
       others.push_back(other);
     }
@@ -257,7 +272,7 @@ float Colouring::distance(const Work& work, int panel, int other, ElementId elem
 
 void Colouring::goOn() {
   bool running = false, finished = false;
-  for (int panel = 0; panel < Document::panels; ++panel) {
+  for (int panel = 0; panel < document_.panels(); ++panel) {
     if (works_[panel].running) {
       advance(panel);
       running = running || works_[panel].running;
@@ -273,7 +288,7 @@ void Colouring::goOn() {
 }
 
 void Colouring::updateScales() {
-  std::array<ColourScale, Document::panels> scales;
+  std::array<ColourScale, Document::mostPanels> scales;
   ColourScale all;
   for (std::size_t panel = 0; panel < works_.size(); ++panel) {
     const ColourValues& shown = works_[panel].shown;

@@ -46,6 +46,8 @@ class Colouring : public QObject {
   /// To be called when a panel is painted. The values for its newest frame, or for one a little older while those are
   /// being worked out; none in plain mode and as long as there are none.
   const ColourValues* follow(int panel);
+  /// A panel that is not painted any more has no part in the scale.
+  void forget(int panel);
   ColourScale scale(int panel) const { return scales_[panel]; }
   /// What the values of a panel are, for its legend.
   QString title(int panel) const;
@@ -71,12 +73,13 @@ class Colouring : public QObject {
     ColourValues building, shown;
     std::vector<int> others;  // the panels that it is compared with
     // As they were when the work began, by the panel: frames and softness may change meanwhile.
-    std::array<Kept, Document::panels> kept;
+    std::array<Kept, Document::mostPanels> kept;
     std::shared_ptr<const Softness> softness;
   };
 
   void receiveFrame(int panel);
   void startOver();
+  void followPanels();
   bool start(int panel);
   std::vector<int> comparedWith(int panel) const;
   void advance(int panel);
@@ -90,8 +93,8 @@ class Colouring : public QObject {
 
   const Document& document_;
   ColourMode mode_ = ColourMode::plain;
-  std::array<Work, Document::panels> works_;
-  std::array<ColourScale, Document::panels> scales_;
+  std::array<Work, Document::mostPanels> works_;
+  std::array<ColourScale, Document::mostPanels> scales_;
   int reference_ = 0;
   bool sharesScale_ = true;
   std::uint64_t number_ = 0;

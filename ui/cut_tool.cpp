@@ -13,7 +13,7 @@ constexpr double shortestSegment = 2;  // pixels
 
 QString CutTool::hint() const {
   return QStringLiteral(
-      "Left: draw a stroke, release to cut the links it crosses in both panels  ·  Esc: give up  ·  Ctrl+Z: undo");
+      "Left: draw a stroke, release to cut the links it crosses in all panels  ·  Esc: give up  ·  Ctrl+Z: undo");
 }
 
 void CutTool::hover(View& /*view*/, QPointF /*place*/) { document_.setHighlight({}); }

@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// Draws a stroke; the links that it crosses light up, and are cut in both panels on release.
+/// Draws a stroke; the links that it crosses light up, and are cut in all panels on release.
 class CutTool : public Tool {
  public:
   explicit CutTool(Document& document) : document_(document) {}

@@ -4,6 +4,7 @@
 
 #include "edits.h"
 #include "mesh/error.h"
+#include "panel_names.h"
 #include "text.h"
 
 namespace chainmail {
@@ -16,18 +17,10 @@ constexpr int undoSteps = 30;
 }  // namespace
 
 Document::Document(MeshPointer mesh, const QString& name) : mesh_(std::move(mesh)), name_(name), cuts_(mesh_) {
-  std::vector<SolverThread*> all;
-  for (int panel = 0; panel < panels; ++panel) {
-    solvers_[panel] = std::make_unique<SolverThread>(mesh_, algorithms_[panel], [this, panel] {
-      if (!announced_[panel].exchange(true)) {
-        QMetaObject::invokeMethod(
-            this, [this, panel] { receiveFrame(panel); }, Qt::QueuedConnection);
-      }
-    });
-    frames_[panel] = &solvers_[panel]->latest_frame();
-    all.push_back(solvers_[panel].get());
+  log_ = std::make_unique<CommandLog>(std::vector<SolverThread*>());
+  for (int panel = 0; panel < fewestPanels; ++panel) {
+    takeOn(std::make_unique<SolverThread>(mesh_, algorithms_[panel], announcer(panel)));
   }
-  log_ = std::make_unique<CommandLog>(all);
   undoStack_.setUndoLimit(undoSteps);
   sampler_.setTimerType(Qt::PreciseTimer);
   sampler_.setInterval(samplingMilliseconds);
@@ -47,6 +40,54 @@ Document::~Document() {
   undoStack_.clear();
 }
 
+std::function<void()> Document::announcer(int panel) {
+  return [this, panel] {
+    if (!announced_[panel].exchange(true)) {
+      QMetaObject::invokeMethod(
+          this, [this, panel] { receiveFrame(panel); }, Qt::QueuedConnection);
+    }
+  };
+}
+
+void Document::takeOn(std::unique_ptr<SolverThread> solver) {
+  log_->add(*solver);
+  solver->record_passes(recordsPasses_);
+  frames_[panels()] = &solver->latest_frame();
+  solvers_.push_back(std::move(solver));
+}
+
+void Document::addPanel() {
+  if (panels() < mostPanels) {
+    const int panel = panels();
+    algorithms_[panel] = unusedAlgorithm();
+    log_->flush();
+    takeOn(std::make_unique<SolverThread>(*solvers_.front(), algorithms_[panel], announcer(panel)));
+    emit panelsChanged();
+  }
+}
+
+void Document::removePanel() {
+  if (panels() > fewestPanels) {
+    const int panel = panels() - 1;
+    emit panelLeaves(panel);
+    log_->remove(*solvers_.back());
+    solvers_.pop_back();
+    emit panelsChanged();
+  }
+}
+
+/// Exact before all others: it is what they approximate; and no two that end alike before the rest.
+Algorithm Document::unusedAlgorithm() const {
+  std::vector<Algorithm> all{Algorithm::exact, Algorithm::enhanced};
+  for (const auto& info : algorithms()) {
+    all.push_back(info.algorithm);
+  }
+  const auto used = std::span(algorithms_).first(std::size_t(panels()));
+  const auto free = std::ranges::find_if(
+      all, [&](Algorithm one) { return std::ranges::find(used, one) == used.end() && fits(one, *mesh_); });
+  return free == all.end() ? Algorithm::natural_queue : *free;
+}
+
 bool Document::idle() const {
   return !log_->waits() && std::all_of(solvers_.begin(), solvers_.end(), [](auto& one) { return one->idle(); });
 }
@@ -58,6 +99,9 @@ bool Document::settled() const {
 
 void Document::receiveFrame(int panel) {
   announced_[panel] = false;
+  if (panel >= panels()) {
+    return;  // it is gone since
+  }
   frames_[panel] = &solvers_[panel]->latest_frame();
   if (const std::string error = solvers_[panel]->take_error(); !error.empty()) {
     emit refused(QString::fromStdString(error));
@@ -208,6 +252,9 @@ void Document::setAlgorithm(int panel, Algorithm algorithm) {
 }
 
 void Document::runAlgorithm(int panel, Algorithm algorithm) {
+  if (panel >= panels()) {
+    return;  // it was removed since
+  }
   dropKeptOnTheWay();
   replayed_ = false;
   algorithms_[panel] = algorithm;
@@ -216,7 +263,7 @@ void Document::runAlgorithm(int panel, Algorithm algorithm) {
 
 /// What ran before a mesh on which not all of it works.
 void Document::runAlgorithms(const std::vector<Algorithm>& algorithms) {
-  for (int panel = 0; panel < std::min(panels, int(algorithms.size())); ++panel) {
+  for (int panel = 0; panel < std::min(panels(), int(algorithms.size())); ++panel) {
     if (algorithms_[panel] != algorithms[panel]) {
       runAlgorithm(panel, algorithms[panel]);
       emit algorithmChanged(panel);
@@ -228,18 +275,18 @@ void Document::runAlgorithms(const std::vector<Algorithm>& algorithms) {
 void Document::followFallback() {
   QStringList where;
   QString from;
-  for (int panel = 0; panel < panels; ++panel) {
+  for (int panel = 0; panel < panels(); ++panel) {
     if (!fits(algorithms_[panel], *mesh_)) {
       from = chainmail::text(info(algorithms_[panel]).label);
       algorithms_[panel] = Algorithm::natural_queue;
-      where << (panel == 0 ? QStringLiteral("left") : QStringLiteral("right"));
+      where << panelName(panel);
       emit algorithmChanged(panel);
     }
   }
   if (!where.isEmpty()) {
     emit noticed(
-        QStringLiteral("%1 does not work on this mesh: the %2 panel goes on by %3")
-            .arg(from, where.join(QStringLiteral(" and the ")), chainmail::text(info(Algorithm::natural_queue).label)));
+        QStringLiteral("%1 does not work on this mesh: %2 goes on in panel %3")
+            .arg(from, chainmail::text(info(Algorithm::natural_queue).label), where.join(QStringLiteral(" and "))));
   }
 }
 

@@ -16,7 +16,7 @@
 
 namespace chainmail {
 
-/// What both panels share beside the object: the element under the cursor or the hand, and the links
+/// What all panels share beside the object: the element under the cursor or the hand, and the links
 /// that a stroke would cut.
 struct Highlight {
   std::optional<ElementId> element;
@@ -26,15 +26,15 @@ struct Highlight {
   bool operator==(const Highlight&) const = default;
 };
 
-/// The object, its parameters, their undo stack, and the two solvers that deform it side by side.
+/// The object, its parameters, their undo stack, and the solvers that deform it side by side, one a panel.
 ///
-/// Edits go through the undo stack and change the data and both solvers; the moves of the hand go
+/// Edits go through the undo stack and change the data and all solvers; the moves of the hand go
 /// straight to the solvers' one log.
 class Document : public QObject {
   Q_OBJECT
 
  public:
-  static constexpr int panels = 2;
+  static constexpr int fewestPanels = 2, mostPanels = 4;
 
   Document(MeshPointer mesh, const QString& name);
   ~Document() override;
@@ -49,6 +49,12 @@ class Document : public QObject {
   const LinkSoftness& softness() const { return softness_->global; }
   const std::shared_ptr<const Softness>& wholeSoftness() const { return softness_; }
   const commands::SetRelaxation& relaxation() const { return relaxation_; }
+  /// How many there are, fewestPanels to mostPanels.
+  int panels() const { return int(solvers_.size()); }
+  /// One more, in which the object is as in the first one, undo included, by an algorithm that none runs yet.
+  void addPanel();
+  /// One less: the last one goes.
+  void removePanel();
   Algorithm algorithm(int panel) const { return algorithms_[panel]; }
   QUndoStack& undoStack() { return undoStack_; }
   /// Ends what the hand is at, so that it is a step of its own, and undoes it or the step before.
@@ -67,7 +73,7 @@ class Document : public QObject {
   std::unique_ptr<RecordedPass> lastPass(int panel, std::uint64_t seen) const {
     return solvers_[panel]->last_pass(seen);
   }
-  /// Whether both solvers have carried out all that was asked of them.
+  /// Whether all solvers have carried out all that was asked of them.
   bool idle() const;
   /// Whether, beside, the frames show what came of it. Not so while relaxation goes on.
   bool settled() const;
@@ -117,6 +123,10 @@ class Document : public QObject {
 
  signals:
   void frameReady(int panel);
+  /// The last panel is about to go, and its frames with it.
+  void panelLeaves(int panel);
+  /// There is one more, or one less.
+  void panelsChanged();
   void meshChanged();
   void cutsChanged();
   void softnessChanged();
@@ -167,6 +177,9 @@ class Document : public QObject {
   void endDrag();
   void pushSoftness(Softness softness, const QString& text, int gesture);
   void post(const Command& command);
+  std::function<void()> announcer(int panel);
+  void takeOn(std::unique_ptr<SolverThread> solver);
+  Algorithm unusedAlgorithm() const;
   void receiveFrame(int panel);
 
   MeshPointer mesh_;
@@ -175,7 +188,7 @@ class Document : public QObject {
   std::vector<ElementId> pins_;
   std::shared_ptr<const Softness> softness_ = std::make_shared<Softness>();  // shared with the edits
   commands::SetRelaxation relaxation_;
-  std::array<Algorithm, panels> algorithms_{Algorithm::generalized, Algorithm::natural_queue};
+  std::array<Algorithm, mostPanels> algorithms_{Algorithm::generalized, Algorithm::natural_queue};
   Highlight highlight_;
   Selection selection_;
   commands::StateId nextState_ = 1;
@@ -190,10 +203,11 @@ class Document : public QObject {
   std::uint64_t relaxationNoted_ = 0;   // the number of passes after which relaxation was last noted
 
   // The solver threads announce a frame at most once until it is received.
-  std::array<std::atomic<bool>, panels> announced_{};
-  std::array<std::unique_ptr<SolverThread>, panels> solvers_;
-  std::array<const Frame*, panels> frames_{};
-  std::array<const Frame*, panels> instead_{};  // of these
+  std::array<std::atomic<bool>, mostPanels> announced_{};
+  std::vector<std::unique_ptr<SolverThread>> solvers_;
+  std::array<const Frame*, mostPanels> frames_{};
+  std::array<const Frame*, mostPanels> instead_{};  // of these
+  bool recordsPasses_ = false;
   std::unique_ptr<CommandLog> log_;
   QTimer sampler_;
   QUndoStack undoStack_;  // last: its edits post to the log when they go

@@ -5,6 +5,9 @@
 namespace chainmail {
 
 const Frame* Document::frame(int panel) const {
+  if (panel >= panels()) {
+    return nullptr;
+  }
   const Frame* frame = instead_[panel] != nullptr ? instead_[panel] : frames_[panel];
   return frame->mesh == mesh_ ? frame : nullptr;
 }
@@ -17,6 +20,7 @@ void Document::showInstead(int panel, const Frame* frame) {
 }
 
 void Document::recordPasses(bool on) {
+  recordsPasses_ = on;
   for (const auto& solver : solvers_) {
     solver->record_passes(on);
   }

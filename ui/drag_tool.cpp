@@ -6,7 +6,7 @@ namespace chainmail {
 
 QString DragTool::hint() const {
   return QStringLiteral(
-      "Left: drag an element, in both panels  ·  Right: orbit (3D)  ·  Middle: pan  ·  Wheel: zoom  ·  F: fit");
+      "Left: drag an element, in all panels  ·  Right: orbit (3D)  ·  Middle: pan  ·  Wheel: zoom  ·  F: fit");
 }
 
 void DragTool::hover(View& view, QPointF place) {

@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// Takes hold of the element under the cursor and moves it in both panels, in the plane parallel to the
+/// Takes hold of the element under the cursor and moves it in all panels, in the plane parallel to the
 /// view through the element.
 class DragTool : public Tool {
  public:

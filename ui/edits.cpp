@@ -114,7 +114,7 @@ MeshEdit::MeshEdit(Document& document, MeshPointer mesh, const QString& name, co
       mesh_(std::move(mesh)),
       name_(name),
       cuts_(mesh_),
-      algorithms_(document.algorithms_.begin(), document.algorithms_.end()) {}
+      algorithms_(document.algorithms_.begin(), document.algorithms_.begin() + document.panels()) {}
 
 void MeshEdit::carryOut() { document_.post(commands::ReplaceMesh{mesh_}); }
 

@@ -89,7 +89,7 @@ void ExampleDrag::stop() {
 }
 
 bool ExampleDrag::showsRest() const {
-  for (int panel = 0; panel < Document::panels; ++panel) {
+  for (int panel = 0; panel < document_.panels(); ++panel) {
     const Frame* frame = document_.frame(panel);
     if (frame == nullptr || (point_of(*frame->mesh, frame->view(), element_) - from_).norm() > asGood * reach_) {
       return false;

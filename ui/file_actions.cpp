@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "files/mesh_file.h"
+#include "panel_names.h"
 
 namespace chainmail {
 namespace {
@@ -41,18 +42,19 @@ void FileActions::fill(QMenu& menu) {
 
 void FileActions::addShapeActions(QMenu& menu) {
   auto* shapes = menu.addMenu(QStringLiteral("Save &deformed shape"));
-  for (int panel = 0; panel < Document::panels; ++panel) {
-    const bool left = panel == 0;
-    auto* action =
-        shapes->addAction(left ? QStringLiteral("&Left panel…") : QStringLiteral("&Right panel…"), this, [this, panel] {
-          const QString path =
-              askWhere(QStringLiteral("Save deformed shape"), {QStringLiteral("Wavefront OBJ (*.obj)")});
-          if (!path.isEmpty()) {
-            saveShapePath(panel, path);
-          }
-        });
-    action->setObjectName(left ? QStringLiteral("saveShapeLeft") : QStringLiteral("saveShapeRight"));
+  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+    auto* action = shapes->addAction(QStringLiteral("Panel &%1…").arg(panelName(panel)));
+    connect(action, &QAction::triggered, this, [this, panel] {
+      const QString path = askWhere(QStringLiteral("Save deformed shape"), {QStringLiteral("Wavefront OBJ (*.obj)")});
+      if (!path.isEmpty()) {
+        saveShapePath(panel, path);
+      }
+    });
+    action->setObjectName(QStringLiteral("saveShape%1").arg(panelName(panel)));
     action->setStatusTip(QStringLiteral("The shape that this panel shows, in mesh units, as .obj"));
+    const auto adapt = [this, action, panel] { action->setVisible(panel < document_.panels()); };
+    connect(&document_, &Document::panelsChanged, action, adapt);
+    adapt();
   }
 }
 

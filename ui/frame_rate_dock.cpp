@@ -23,15 +23,13 @@ QString spanKey() { return QStringLiteral("rateSeconds"); }
 
 }  // namespace
 
-FrameRateDock::FrameRateDock(Document& document, std::vector<Panel*> panels,
-                             const std::vector<colours::Colour>& colours)
+FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& panels)
     : QDockWidget(QStringLiteral("Frame rate")),
       document_(document),
-      panels_(std::move(panels)),
-      colours_(colours),
-      histories_(panels_.size()),
-      passesSeen_(panels_.size(), 0),
-      figures_(new RateFigures(document, colours)),
+      panels_(panels),
+      histories_(Document::mostPanels),
+      passesSeen_(Document::mostPanels, 0),
+      figures_(new RateFigures(document)),
       plot_(new RatePlot),
       quantity_(new QComboBox),
       span_(new QComboBox),
@@ -55,6 +53,11 @@ FrameRateDock::FrameRateDock(Document& document, std::vector<Panel*> panels,
   timer_.setInterval(refreshMilliseconds);
   connect(&timer_, &QTimer::timeout, this, &FrameRateDock::refresh);
   connect(&document, &Document::frameReady, this, &FrameRateDock::receive);
+  connect(&document, &Document::panelLeaves, this, [this](int panel) {
+    histories_[std::size_t(panel)] = {};
+    passesSeen_[std::size_t(panel)] = 0;
+  });
+  connect(&document, &Document::panelsChanged, this, &FrameRateDock::showPlot);
   showPlot();
 }
 
@@ -203,7 +206,7 @@ RatePicture FrameRateDock::picture() const {
   picture.to = shownTo_;
   picture.from = shownTo_ - span_->currentData().toDouble();
   for (std::size_t panel = 0; panel < panels_.size(); ++panel) {
-    picture.curves.push_back({text(info(document_.algorithm(int(panel))).label), colours_[panel],
+    picture.curves.push_back({text(info(document_.algorithm(int(panel))).label), colours::ofPanel(int(panel)),
                               curveOf(histories_[panel].since(picture.from), *picture.quantity, picture.from,
                                       picture.to, drawnPoints / panels_.size())});
   }

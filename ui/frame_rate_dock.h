@@ -25,7 +25,8 @@ class FrameRateDock : public QDockWidget {
   /// So many points are drawn at most, of all panels together.
   static constexpr std::size_t drawnPoints = 2000;
 
-  FrameRateDock(Document& document, std::vector<Panel*> panels, const std::vector<colours::Colour>& colours);
+  /// `panels` are those of the document, as they come and go.
+  FrameRateDock(Document& document, const std::vector<Panel*>& panels);
 
   /// What can be done here, for a menu of the window's.
   QMenu& menu() { return *menu_; }
@@ -54,8 +55,7 @@ class FrameRateDock : public QDockWidget {
   void attempt(const QString& path, const std::function<void()>& write);
 
   Document& document_;
-  std::vector<Panel*> panels_;
-  const std::vector<colours::Colour> colours_;
+  const std::vector<Panel*>& panels_;
   std::vector<RateHistory> histories_;
   std::vector<std::uint64_t> passesSeen_;
   RateFigures* figures_;

@@ -40,7 +40,7 @@ GhostButton::GhostButton(Document& document, View& view, int panel)
 void GhostButton::fill() {
   menu_->clear();
   addChoice(QStringLiteral("No ghost"), std::nullopt);
-  for (int other = 0; other < Document::panels; ++other) {
+  for (int other = 0; other < document_.panels(); ++other) {
     if (other != panel_) {
       const QString algorithm = chainmail::text(info(document_.algorithm(other)).label);
       addChoice(QStringLiteral("Panel &%1: %2").arg(panelName(other), algorithm), other);

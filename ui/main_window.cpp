@@ -8,6 +8,7 @@
 #include <QSettings>
 #include <QStatusBar>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "axis_views.h"
 #include "camera_actions.h"
@@ -98,9 +99,9 @@ void MainWindow::listen() {
   connect(&measurement_, &Measurement::changed, area_, &PanelArea::refresh);
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
   connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
-  for (Panel* panel : area_->panels()) {
-    cameraActions_->attach(panel->view());
-  }
+  const auto attach = [this](Panel* panel) { cameraActions_->attach(panel->view()); };
+  std::ranges::for_each(area_->panels(), attach);
+  connect(area_, &PanelArea::added, this, attach);
   connect(files_, &FileActions::failed, messages_, &MessageBar::say);
   connect(&jobs_, &Jobs::failed, messages_, &MessageBar::say);
   connect(files_, &FileActions::saved, this, [this](const QString& path) {
@@ -188,7 +189,7 @@ void MainWindow::makeStiffnessDock() {
 }
 
 void MainWindow::makeFrameRateDock() {
-  auto* dock = new FrameRateDock(document_, area_->panels(), {colours::left, colours::right});
+  auto* dock = new FrameRateDock(document_, area_->panels());
   addDockWidget(Qt::RightDockWidgetArea, dock);
   findChild<QMenu*>(QStringLiteral("viewMenu"))->addMenu(&dock->menu());
   connect(dock, &FrameRateDock::failed, messages_, &MessageBar::say);

@@ -28,6 +28,7 @@ class ElementReadout;
 class FileActions;
 class HelpMenu;
 class MessageBar;
+class PanelActions;
 class Panel;
 class UndoActions;
 
@@ -94,6 +95,7 @@ class MainWindow : public QMainWindow {
   MessageBar* messages_;
   PanelArea* area_;
   HelpMenu* help_;
+  PanelActions* panelActions_;
   QActionGroup* toolActions_;
   ColourSelector* colourBy_;
   AxisViews* axisViews_;

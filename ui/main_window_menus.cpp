@@ -84,7 +84,8 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   fit->setShortcut(Qt::Key_F);
   fit->setStatusTip(QStringLiteral("All of the object at rest in every view, from the side it began with"));
   cameraActions_->fill(menu);
-  (new PanelActions(*area_, document_, colouring_))->fill(menu);
+  panelActions_ = new PanelActions(*area_, document_, colouring_);
+  panelActions_->fill(menu);
   regions_.fill(menu);
   axisViews_->fill(menu);
   menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
@@ -112,6 +113,7 @@ void MainWindow::makeToolBar() {
   bar->addSeparator();
   bar->addWidget(new QLabel(QStringLiteral(" Colour by ")));
   bar->addWidget(colourBy_);
+  panelActions_->fill(*bar);
 }
 
 }  // namespace chainmail

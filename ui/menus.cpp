@@ -18,8 +18,10 @@ struct ActionIcon {
 
 constexpr std::array actionIcons{ActionIcon{"openFile", "open"},
                                  ActionIcon{"saveFile", "save"},
-                                 ActionIcon{"saveShapeLeft", "shape"},
-                                 ActionIcon{"saveShapeRight", "shape"},
+                                 ActionIcon{"saveShapeA", "shape"},
+                                 ActionIcon{"saveShapeB", "shape"},
+                                 ActionIcon{"saveShapeC", "shape"},
+                                 ActionIcon{"saveShapeD", "shape"},
                                  ActionIcon{"saveScreenshot", "screenshot"},
                                  ActionIcon{"quit", "quit"},
                                  ActionIcon{"undo", "undo"},

@@ -4,6 +4,7 @@
 #include <QObject>
 
 class QMenu;
+class QToolBar;
 
 namespace chainmail {
 
@@ -20,15 +21,25 @@ class PanelActions : public QObject {
   PanelActions(PanelArea& area, Document& document, Colouring& colouring);
 
   void fill(QMenu& menu);
+  /// Adds the choice of the panel to compare with, which is there when it makes a difference.
+  void fill(QToolBar& bar);
 
  private:
   QAction* add(const QString& name, const QString& text, const QKeySequence& key, const QString& statusTip);
+  void listen();
   void makeOnes(int panel);
+  void makeOneAlone(int panel);
   void refresh();
+  void refreshOnes(int panel);
+  void refreshCount();
 
   PanelArea& area_;
   Document& document_;
   Colouring& colouring_;
+  QMenu* compare_;
+  QAction* compared_;  // says with whom, in the tool bar
+  QAction* add_;
+  QAction* remove_;
   QAction* swap_;
   QAction* ghosts_;
   QList<QAction*> show_, alone_, reference_;  // by the panel

@@ -39,21 +39,44 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
   for (QSplitter* row : rows_) {
     column_->addWidget(row);
   }
-  for (int panel = 0; panel < Document::panels; ++panel) {
-    addPanel();
-  }
-  arrange();
+  followPanels();
   connect(&links_, &PanelLinks::camerasLinked, this, &PanelArea::linkCameras);
   connect(&document, &Document::meshChanged, this, &PanelArea::fit);
+  connect(&document, &Document::panelsChanged, this, &PanelArea::followPanels);
+  connect(&document, &Document::panelLeaves, this, &PanelArea::removePanel);
+}
+
+void PanelArea::followPanels() {
+  while (int(panels_.size()) < document_.panels()) {
+    addPanel();
+    emit added(panels_.back());
+  }
+  arrange();
 }
 
 void PanelArea::addPanel() {
   const int number = int(panels_.size());
   auto* panel = new Panel(document_, colouring_, links_, number, camera_, levels_);
+  if (!panels_.empty() && number >= Document::fewestPanels) {
+    const auto& first = panels_.front()->view().camera();
+    panel->view().setCamera(links_.cameras() ? first : std::make_shared<Camera>(*first));
+  }
   panels_.push_back(panel);
   places_.push_back(number);
   shown_.push_back(true);
-  View& view = panel->view();
+  alone_.reset();  // a new one is to be seen
+  for (Overlay* overlay : overlays_) {
+    panel->addOverlay(*overlay);
+  }
+  if (tool_ != nullptr) {
+    panel->view().setTool(tool_);
+  }
+  panel->head().setActions(headActions_);
+  listenTo(*panel, number);
+}
+
+void PanelArea::listenTo(Panel& panel, int number) {
+  View& view = panel.view();
   connect(&view, &View::failed, this, &PanelArea::failed);
   connect(&view, &View::ghostChanged, this, &PanelArea::ghostsChanged);
   connect(&view, &View::cameraChanged, this, [this, &view] {
@@ -63,8 +86,36 @@ void PanelArea::addPanel() {
       }
     }
   });
-  connect(&panel->head(), &PanelHead::aloneToggled, this,
+  connect(&panel.head(), &PanelHead::aloneToggled, this,
           [this, number] { setAlone(alone_ == number ? std::nullopt : std::optional(number)); });
+}
+
+/// The last one, before its frames go.
+void PanelArea::removePanel() {
+  const int number = int(panels_.size()) - 1;
+  for (Panel* panel : panels_) {
+    if (panel->view().ghost().of == number) {
+      panel->view().setGhost({std::nullopt, panel->view().ghost().blend});
+    }
+  }
+  delete panels_.back();
+  panels_.pop_back();
+  std::erase(places_, number);
+  shown_.pop_back();
+  if (std::find(shown_.begin(), shown_.end(), true) == shown_.end()) {
+    shown_.front() = true;
+  }
+  if (alone_ == number) {
+    alone_.reset();
+  }
+}
+
+void PanelArea::setHeadActions(const QList<QAction*>& actions) {
+  headActions_ = actions;
+  for (Panel* panel : panels_) {
+    panel->head().setActions(actions);
+  }
+  arrange();
 }
 
 void PanelArea::setTool(Tool& tool) {
@@ -134,24 +185,38 @@ void PanelArea::moveOn() {
 
 void PanelArea::arrange() {
   const auto seen = inSight();
-  for (std::size_t panel = 0; panel < panels_.size(); ++panel) {
-    const auto place = std::find(seen.begin(), seen.end(), int(panel)) - seen.begin();
-    const bool visible = place < std::ssize(seen);
-    QSplitter* row = rows_[visible ? std::size_t(place / inARow) : 0];
-    if (panels_[panel]->parentWidget() != row) {
-      row->addWidget(panels_[panel]);
+  place(seen);
+  for (int panel = 0; panel < int(panels_.size()); ++panel) {
+    Panel& one = *panels_[std::size_t(panel)];
+    const bool visible = std::find(seen.begin(), seen.end(), panel) != seen.end();
+    one.setVisible(visible);
+    one.head().showAlone(alone_ == panel);
+    one.head().showActions(&one == panels_.back());
+    if (!visible) {
+      colouring_.forget(panel);
     }
-    panels_[panel]->setVisible(visible);
-    panels_[panel]->head().showAlone(alone_ == int(panel));
-  }
-  for (std::size_t place = 0; place < seen.size(); ++place) {
-    rows_[place / inARow]->insertWidget(int(place % inARow), panels_[std::size_t(seen[place])]);
   }
   rows_[1]->setVisible(seen.size() > inARow);
   for (QSplitter* splitter : {rows_[0], rows_[1], column_}) {
     shareEqually(*splitter);
   }
   emit arranged();
+}
+
+/// Into their rows, in this order; the others wait in the first one.
+void PanelArea::place(const std::vector<int>& seen) {
+  for (Panel* panel : panels_) {
+    if (panel->parentWidget() == nullptr || panel->parentWidget() == this) {
+      rows_[0]->addWidget(panel);
+    }
+  }
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    QSplitter& row = *rows_[i / inARow];
+    Panel* panel = panels_[std::size_t(seen[i])];
+    if (row.indexOf(panel) != int(i % inARow)) {
+      row.insertWidget(int(i % inARow), panel);
+    }
+  }
 }
 
 void PanelArea::setGhosts(bool on) {

@@ -30,6 +30,8 @@ class PanelArea : public QWidget {
   void setTool(Tool& tool);
   /// Draws it over every panel's object, and says there what it notes.
   void addOverlay(Overlay& overlay);
+  /// Offers actions above the newest panel, as long as they are enabled.
+  void setHeadActions(const QList<QAction*>& actions);
   /// Paints and says anew what an overlay has changed.
   void refresh();
   /// Shows the whole rest shape in every panel.
@@ -52,12 +54,18 @@ class PanelArea : public QWidget {
 
  signals:
   void failed(const QString& sentence);
+  /// One more panel, after those that were there from the start.
+  void added(Panel* panel);
   /// Other panels are in sight, or elsewhere.
   void arranged();
   void ghostsChanged();
 
  private:
   void addPanel();
+  void removePanel();
+  void followPanels();
+  void listenTo(Panel& panel, int number);
+  void place(const std::vector<int>& seen);
   void arrange();
   void linkCameras(bool linked);
 
@@ -68,6 +76,7 @@ class PanelArea : public QWidget {
   std::shared_ptr<MeshLevels> levels_;
   Tool* tool_ = nullptr;
   std::vector<Overlay*> overlays_;
+  QList<QAction*> headActions_;
   QSplitter* column_;
   std::array<QSplitter*, 2> rows_;
   std::vector<Panel*> panels_;

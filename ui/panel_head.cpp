@@ -103,11 +103,23 @@ void PanelHead::showState(const QString& state) {
 
 void PanelHead::showAlone(bool alone) { alone_->setChecked(alone); }
 
-void PanelHead::addAction(QAction& action) {
-  auto* button = new QToolButton;
-  button->setDefaultAction(&action);
-  button->setAutoRaise(true);
-  row_->addWidget(button);
+void PanelHead::setActions(const QList<QAction*>& actions) {
+  for (QAction* action : actions) {
+    auto* button = new QToolButton;
+    button->setDefaultAction(action);
+    button->setObjectName(action->objectName().chopped(5) + QStringLiteral("Button%1").arg(panel_));
+    button->setAutoRaise(true);
+    row_->addWidget(button);
+    buttons_ << button;
+    connect(action, &QAction::changed, button, [this] { showActions(actionsShown_); });
+  }
+}
+
+void PanelHead::showActions(bool shown) {
+  actionsShown_ = shown;
+  for (QToolButton* button : buttons_) {
+    button->setVisible(shown && button->defaultAction()->isEnabled());
+  }
 }
 
 void PanelHead::mouseDoubleClickEvent(QMouseEvent* /*event*/) { emit aloneToggled(); }

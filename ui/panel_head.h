@@ -25,8 +25,9 @@ class PanelHead : public QWidget {
   void showState(const QString& state);
   /// Whether its panel is shown alone.
   void showAlone(bool alone);
-  /// A button for an action, as long as it is wanted here.
-  void addAction(QAction& action);
+  /// Buttons for actions; they are there as long as the actions are enabled, where they are shown here.
+  void setActions(const QList<QAction*>& actions);
+  void showActions(bool shown);
 
  signals:
   void aloneToggled();
@@ -46,6 +47,8 @@ class PanelHead : public QWidget {
   QLabel* state_;
   QToolButton* alone_;
   QHBoxLayout* row_;
+  QList<QToolButton*> buttons_;
+  bool actionsShown_ = false;
 };
 
 }  // namespace chainmail

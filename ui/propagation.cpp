@@ -13,7 +13,7 @@ constexpr int fetchShare = 10;
 
 }  // namespace
 
-Propagation::Propagation(Document& document) : document_(document), players_(Document::panels) {
+Propagation::Propagation(Document& document) : document_(document), players_(Document::mostPanels) {
   fetch_.setSingleShot(true);
   connect(&fetch_, &QTimer::timeout, this, &Propagation::takePasses);
   clock_.setInterval(tickMilliseconds);
@@ -27,6 +27,8 @@ Propagation::Propagation(Document& document) : document_(document), players_(Doc
   });
   connect(&document.undoStack(), &QUndoStack::indexChanged, this, [this] { setFollows(true); });
   connect(&document, &Document::meshChanged, this, &Propagation::forget);
+  connect(&document, &Document::panelLeaves, this, &Propagation::forget);
+  connect(&document, &Document::panelsChanged, this, &Propagation::forget);
   connect(&document, &Document::algorithmChanged, this, [this](int panel) {
     setFollows(true);
     players_[std::size_t(panel)].reset();
@@ -36,7 +38,7 @@ Propagation::Propagation(Document& document) : document_(document), players_(Doc
 
 Propagation::~Propagation() {
   players_.clear();
-  players_.resize(Document::panels);
+  players_.resize(Document::mostPanels);
   emit changed();  // the window's parts that show them go later
 }
 
@@ -51,6 +53,7 @@ void Propagation::setOpen(bool open) {
 void Propagation::forget() {
   letGo();
   follows_ = true;
+  chosen_ = std::min(chosen_, Document::fewestPanels - 1);  // others may be gone
   for (auto& player : players_) {
     player.reset();
   }
@@ -66,7 +69,7 @@ void Propagation::setFollows(bool follows) {
     letGo();
     awaitPass();
   } else {
-    for (int panel = 0; panel < Document::panels; ++panel) {
+    for (int panel = 0; panel < document_.panels(); ++panel) {
       show(panel);
     }
   }
@@ -76,7 +79,7 @@ void Propagation::setFollows(bool follows) {
 /// The panels show their newest frames again.
 void Propagation::letGo() {
   clock_.stop();
-  for (int panel = 0; panel < Document::panels; ++panel) {
+  for (int panel = 0; panel < document_.panels(); ++panel) {
     if (auto& player = players_[std::size_t(panel)]) {
       player->setStep(player->stepCount());
     }
@@ -92,7 +95,7 @@ void Propagation::awaitPass() {
 
 /// To make such passes ready to look at would hold the hand up: it waits until the hand has let go.
 bool Propagation::tooLargeNow() const {
-  for (int panel = 0; panel < Document::panels && document_.highlight().grabbed; ++panel) {
+  for (int panel = 0; panel < document_.panels() && document_.highlight().grabbed; ++panel) {
     const Frame* frame = document_.frame(panel);
     if (frame != nullptr && frame->statistics.last_pass.checked > largestWhileDragged) {
       return true;
@@ -108,7 +111,7 @@ void Propagation::takePasses() {
   QElapsedTimer clock;
   clock.start();
   bool any = false;
-  for (int panel = 0; panel < Document::panels; ++panel) {
+  for (int panel = 0; panel < document_.panels(); ++panel) {
     auto& player = players_[std::size_t(panel)];
     const Frame* frame = document_.frame(panel);
     auto pass = document_.lastPass(panel, player ? player->pass().number : 0);
@@ -153,7 +156,7 @@ void Propagation::setStep(int panel, std::size_t step) {
   }
   follows_ = false;
   chosen_ = panel;
-  for (int one = 0; one < Document::panels; ++one) {
+  for (int one = 0; one < document_.panels(); ++one) {
     if (auto& player = players_[std::size_t(one)]; player && (together_ || one == panel)) {
       player->setStep(step);
     }
@@ -170,7 +173,7 @@ void Propagation::show(int panel) {
 /// Where the buttons go on from.
 std::size_t Propagation::position() const {
   std::size_t position = 0;
-  for (int panel = 0; panel < Document::panels; ++panel) {
+  for (int panel = 0; panel < document_.panels(); ++panel) {
     const auto& player = players_[std::size_t(panel)];
     if (player && (together_ || panel == chosen_)) {
       position = std::max(position, player->step());

@@ -32,10 +32,17 @@ PropagationDock::PropagationDock(Document& document, Propagation& propagation, P
   column->addWidget(makeButtons());
   column->addWidget(makeChoices());
   auto* lists = new QHBoxLayout;
-  for (int panel = 0; panel < Document::panels; ++panel) {
+  for (int panel = 0; panel < Document::mostPanels; ++panel) {
     columns_.push_back(new PropagationColumn(document, propagation, panel));
     lists->addWidget(columns_.back(), 1);
   }
+  const auto adapt = [this, &document] {
+    for (int panel = 0; panel < Document::mostPanels; ++panel) {
+      columns_[std::size_t(panel)]->setVisible(panel < document.panels());
+    }
+  };
+  connect(&document, &Document::panelsChanged, this, adapt);
+  adapt();
   column->addLayout(lists, 1);
   setWidget(content);
   connect(this, &QDockWidget::visibilityChanged, this, [this](bool) { propagation_.setOpen(!isHidden()); });

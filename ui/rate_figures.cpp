@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "panel_names.h"
 #include "text.h"
 
 namespace chainmail {
@@ -15,15 +16,17 @@ constexpr std::array widths{58, 62, 44, 44};  // pixels: of the heads, and of 1,
 
 }  // namespace
 
-RateFigures::RateFigures(const Document& document, const std::vector<colours::Colour>& colours) : document_(document) {
+RateFigures::RateFigures(const Document& document) : document_(document) {
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(3);
   grid->setVerticalSpacing(1);
   addHead(*grid);
-  for (const colours::Colour colour : colours) {
-    addRow(*grid, colour);
+  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+    addRow(*grid);
   }
+  followPanels();
+  connect(&document, &Document::panelsChanged, this, &RateFigures::followPanels);
   connect(&document, &Document::algorithmChanged, this, &RateFigures::nameRow);
 }
 
@@ -44,7 +47,7 @@ void RateFigures::addHead(QGridLayout& grid) {
 }
 
 /// The panel's name in a line of its own: four figures take the width.
-void RateFigures::addRow(QGridLayout& grid, colours::Colour colour) {
+void RateFigures::addRow(QGridLayout& grid) {
   const int panel = int(rows_.size());
   const auto figure = [&](const char* name, const QString& meaning) {
     auto* label = new QLabel(QStringLiteral("–"));
@@ -53,7 +56,7 @@ void RateFigures::addRow(QGridLayout& grid, colours::Colour colour) {
     label->setAccessibleDescription(meaning);
     return label;
   };
-  Row row{colour, new QLabel, nullptr, nullptr, nullptr, nullptr};
+  Row row{new QLabel, nullptr, nullptr, nullptr, nullptr};
   row.name->setObjectName(QStringLiteral("rateName%1").arg(panel));
   row.painted = figure("painted", QStringLiteral("Painted frames a second"));
   row.passes = figure("passes", QStringLiteral("Passes a second"));
@@ -71,11 +74,23 @@ void RateFigures::addRow(QGridLayout& grid, colours::Colour colour) {
   followTheme(*row.name, [this, panel] { nameRow(panel); });
 }
 
+/// Rows of panels that are not there take no room.
+void RateFigures::followPanels() {
+  for (int panel = 0; panel < int(rows_.size()); ++panel) {
+    const Row& row = rows_[std::size_t(panel)];
+    for (QLabel* label : {row.name, row.painted, row.passes, row.median, row.worst}) {
+      label->setVisible(panel < document_.panels());
+    }
+    nameRow(panel);
+  }
+}
+
 void RateFigures::nameRow(int panel) {
   if (panel < int(rows_.size())) {
     const Row& row = rows_[std::size_t(panel)];
-    row.name->setText(QStringLiteral("<span style='color:%1'>━━</span> %2")
-                          .arg(QColor(row.colour).name(), text(info(document_.algorithm(panel)).label)));
+    row.name->setText(QStringLiteral("<span style='color:%1'>━━</span> <b>%2</b> %3")
+                          .arg(QColor(colours::ofPanel(panel)).name(), panelName(panel),
+                               text(info(document_.algorithm(panel)).label)));
   }
 }
 

@@ -17,18 +17,18 @@ class RateFigures : public QWidget {
   Q_OBJECT
 
  public:
-  RateFigures(const Document& document, const std::vector<colours::Colour>& colours);
+  explicit RateFigures(const Document& document);
   /// Shows what a sample holds; of passes, what was shown before stays where it holds none.
   void show(int panel, const RateSample& sample);
 
  private:
   struct Row {
-    colours::Colour colour;
     QLabel *name, *painted, *passes, *median, *worst;
   };
 
   void addHead(QGridLayout& grid);
-  void addRow(QGridLayout& grid, colours::Colour colour);
+  void addRow(QGridLayout& grid);
+  void followPanels();
   void nameRow(int panel);
 
   const Document& document_;

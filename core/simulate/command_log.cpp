@@ -46,6 +46,16 @@ void CommandLog::replay(const Command& command) {
   send_to_all(command);
 }
 
+void CommandLog::add(SolverThread& solver) {
+  flush();
+  solvers_.push_back(&solver);
+}
+
+void CommandLog::remove(const SolverThread& solver) {
+  flush();
+  std::erase(solvers_, &solver);
+}
+
 void CommandLog::sample() {
   if (std::all_of(solvers_.begin(), solvers_.end(), [](const SolverThread* one) { return one->idle(); })) {
     flush();

@@ -26,13 +26,17 @@ class CommandLog {
   /// Of all that was sent.
   Tape& tape() { return tape_; }
   const Tape& tape() const { return tape_; }
+  /// One more, or one less, after what waited before.
+  void add(SolverThread& solver);
+  void remove(const SolverThread& solver);
+  /// Sends what waits; to be called before something is asked of a solver past this log.
+  void flush();
   /// Sends the waiting command if every solver is idle; to be called 60 times a second while one waits.
   void sample();
   bool waits() const { return waiting_.has_value(); }
 
  private:
   void send(const Command& command);
-  void flush();
   void send_to_all(const Command& command);
 
   std::vector<SolverThread*> solvers_;

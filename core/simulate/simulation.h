@@ -10,6 +10,7 @@
 #include "measure/pass_times.h"
 #include "measure/violation.h"
 #include "simulate/command.h"
+#include "simulate/handover.h"
 #include "solve/solver.h"
 
 namespace chainmail {
@@ -39,6 +40,12 @@ class Simulation {
   /// Spends idle time: a slice of relaxation of about 2 ms. Returns whether there is more to do.
   bool step();
 
+  /// All there is but the algorithm and the figures. Shares with what is kept.
+  Handover hand_over();
+  /// Goes on from there by an algorithm, or by Natural Queue where it does not work on the mesh. Nothing moves; where
+  /// one of Exact and another take over from each other, positions are rounded as SetAlgorithm rounds them.
+  void take(const Handover& handover, Algorithm algorithm);
+
   /// `trace`, where set, receives every candidate that a pass processes.
   void set_trace(Trace* trace) { trace_ = trace; }
   /// Sweeps of relaxation at once, by the scheme last set, whether it is on or off: `count` of them, or until
@@ -67,14 +74,7 @@ class Simulation {
   bool measure();
 
  private:
-  struct State {
-    MeshPointer mesh;
-    std::vector<LinkId> cuts;
-    std::vector<ElementId> pins;
-    std::shared_ptr<const Softness> softness;
-    KeptPositions positions;
-    bool valid = true;
-  };
+  using State = ObjectState;
 
   void carry_out(const commands::Grab& command);
   void carry_out(const commands::Drag& command);

@@ -30,6 +30,21 @@ Simulation::State& Simulation::kept(commands::StateId state) {
   return found->second;
 }
 
+Handover Simulation::hand_over() {
+  return {current_state(), kept_, {relaxation_on_, relaxation_step_, relaxation_scheme_}, grabbed_, last_moved_};
+}
+
+void Simulation::take(const Handover& handover, Algorithm algorithm) {
+  measure_.reset();
+  algorithm_ = algorithm;
+  take_mesh(handover.object.mesh);
+  take_state(handover.object);
+  kept_ = handover.kept;
+  carry_out(handover.relaxation);
+  grabbed_ = handover.grabbed;
+  last_moved_ = handover.last_moved;
+}
+
 Simulation::State Simulation::current_state() {
   solver_->keep_positions(unkept_, away_, last_kept_);
   unkept_.clear();

@@ -1,10 +1,12 @@
 #include "simulate/solver_thread.h"
 
 #include <algorithm>
+#include <future>
 #include <new>
 #include <utility>
 
 #include "mesh/error.h"
+#include "mesh/generate.h"
 
 namespace chainmail {
 namespace {
@@ -17,6 +19,9 @@ constexpr auto relaxation_share = std::chrono::milliseconds(8);
 // A figure that is read by eye need not change more often.
 constexpr auto violation_time = std::chrono::milliseconds(250);
 
+/// An object to begin with, where the real one is yet to come.
+MeshPointer no_mesh() { return generate({MeshKind::line, {1, 1, 1}, 1, {}}); }
+
 }  // namespace
 
 SolverThread::SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready)
@@ -25,12 +30,24 @@ SolverThread::SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
+SolverThread::SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready)
+    : SolverThread(no_mesh(), Algorithm::natural_queue, std::move(frame_ready)) {
+  const auto promise = std::make_shared<std::promise<Handover>>();
+  // Where the other one ends before, the promise is broken: it will not be waited for.
+  add([taken = promise->get_future().share(), algorithm](Simulation& simulation) {
+    simulation.take(taken.get(), algorithm);
+  });
+  other.add([promise](Simulation& simulation) { promise->set_value(simulation.hand_over()); });
+}
+
 SolverThread::~SolverThread() = default;
 
-void SolverThread::post(Command command) {
+void SolverThread::post(Command command) { add(std::move(command)); }
+
+void SolverThread::add(Task task) {
   {
     const std::lock_guard lock(mutex_);
-    commands_.push_back(std::move(command));
+    tasks_.push_back(std::move(task));
     waiting_.fetch_add(1, std::memory_order_release);
   }
   changed_.notify_one();
@@ -46,16 +63,23 @@ void SolverThread::refuse(const std::string& sentence) {
   error_ = sentence;
 }
 
-void SolverThread::carry_out(const Command& command) {
-  recorder_.begin(command, simulation_);
+void SolverThread::carry_out(const Task& task) {
+  const auto* command = std::get_if<Command>(&task);
+  if (command != nullptr) {
+    recorder_.begin(*command, simulation_);
+  }
   try {
-    simulation_.apply(command);
+    command != nullptr ? simulation_.apply(*command) : std::get<Job>(task)(simulation_);
   } catch (const Error& error) {
     refuse(error.what());
   } catch (const std::bad_alloc&) {
     refuse("memory: there is not enough; use a smaller mesh");
+  } catch (const std::future_error&) {
+    // Whom it was to go on from is gone.
   }
-  recorder_.end(simulation_);
+  if (command != nullptr) {
+    recorder_.end(simulation_);
+  }
   unseen_ = true;
   measured_ = false;
   waiting_.fetch_sub(1, std::memory_order_release);
@@ -64,16 +88,16 @@ void SolverThread::carry_out(const Command& command) {
 void SolverThread::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
-    if (!commands_.empty()) {
-      const Command command = std::move(commands_.front());
-      commands_.pop_front();
+    if (!tasks_.empty()) {
+      const Task task = std::move(tasks_.front());
+      tasks_.pop_front();
       lock.unlock();
-      carry_out(command);
+      carry_out(task);
     } else if (simulation_.statistics().relaxing) {
       lock.unlock();
       relax();
     } else if (!unseen_ && measured_) {
-      changed_.wait(lock, stop, [this] { return !commands_.empty(); });
+      changed_.wait(lock, stop, [this] { return !tasks_.empty(); });
       continue;
     } else {
       lock.unlock();
@@ -96,7 +120,7 @@ void SolverThread::relax() {
 }
 
 void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
-  const auto has_command = [this] { return !commands_.empty(); };
+  const auto has_command = [this] { return !tasks_.empty(); };
   if (unseen_ || simulation_.statistics().relaxing) {
     const auto share = simulation_.statistics().relaxing ? relaxation_share : frame_time.zero();
     changed_.wait_until(lock, stop, last_frame_ + frame_time - share, has_command);

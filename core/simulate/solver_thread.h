@@ -20,6 +20,9 @@ class SolverThread {
   /// `frame_ready` is called after a frame was handed over, for the first frame here and from then on
   /// by the solver's thread; it must not wait.
   SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready);
+  /// Goes on by `algorithm` from what the other one's object will be when it has carried out all that was asked of it
+  /// so far; until then it shows an object of its own. What is posted here comes after.
+  SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready);
   /// Leaves the commands not yet begun undone.
   ~SolverThread();
 
@@ -40,9 +43,13 @@ class SolverThread {
   std::unique_ptr<RecordedPass> last_pass(std::uint64_t seen) const { return recorder_.last(seen); }
 
  private:
+  using Job = std::function<void(Simulation&)>;
+  using Task = std::variant<Command, Job>;
+
+  void add(Task task);
   void run(const std::stop_token& stop);
   void refuse(const std::string& sentence);
-  void carry_out(const Command& command);
+  void carry_out(const Task& task);
   void relax();
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   bool measure(const std::stop_token& stop);
@@ -59,11 +66,11 @@ class SolverThread {
   std::atomic<bool> unseen_ = false;  // something changed since the last frame
   bool measured_ = false;             // the last frame shows the violation of the whole mesh
 
-  std::mutex mutex_;  // guards commands_ and error_
+  std::mutex mutex_;  // guards tasks_ and error_
   std::condition_variable_any changed_;
-  std::deque<Command> commands_;
+  std::deque<Task> tasks_;
   std::string error_;
-  std::atomic<int> waiting_ = 0;  // commands posted and not yet carried out
+  std::atomic<int> waiting_ = 0;  // tasks added and not yet carried out
 
   std::jthread thread_;  // last: it starts when all else stands, and ends first
 };

@@ -19,6 +19,8 @@ class SolverThreadTest : public QObject {
   void it_sleeps_when_nothing_is_to_do();
   void frames_come_at_most_60_times_a_second();
   void it_ends_without_finishing_the_commands();
+  void another_goes_on_from_where_one_stands();
+  void another_ends_with_the_one_it_waits_for();
   void a_triple_buffer_hands_over_the_newest_frame();
   void a_triple_buffer_never_mixes_two_frames();
 };
@@ -139,6 +141,55 @@ void SolverThreadTest::it_ends_without_finishing_the_commands() {
   const auto start = std::chrono::steady_clock::now();
   solver.reset();
   QVERIFY(std::chrono::steady_clock::now() - start < 2s);
+}
+
+void SolverThreadTest::another_goes_on_from_where_one_stands() {
+  const auto mesh = jittered_triangles(12, 12, 7);
+  SolverThread first(mesh, Algorithm::natural_queue, [] {});
+  first.post(commands::Cut{{3, 4}});
+  first.post(commands::KeepState{1});
+  first.post(commands::Pin{{5}});
+  first.post(commands::Grab{70});
+  first.post(commands::Drag{Point(9, 2, 0)});
+  SolverThread second(first, Algorithm::natural_queue, [] {});
+  SolverThread third(first, Algorithm::enhanced, [] {});
+  const auto idle = [&] { return first.idle() && second.idle() && third.idle(); };
+  const auto same = [&](SolverThread& other) {
+    const Frame &a = first.latest_frame(), &b = other.latest_frame();
+    return a.mesh == b.mesh && a.positions == b.positions;
+  };
+  QVERIFY(wait_until([&] { return idle() && same(second) && same(third); }));
+  const std::vector<float> at_rest(mesh->rest.begin(), mesh->rest.end());
+  QVERIFY(first.latest_frame().positions != at_rest);
+  QVERIFY(third.latest_frame().statistics.algorithm == Algorithm::enhanced);
+  // The hand still holds the element, the pin holds, and what was kept for undo is kept there too.
+  const auto all = [&](const Command& command) {
+    for (SolverThread* one : {&first, &second, &third}) {
+      one->post(command);
+    }
+  };
+  all(commands::Drag{Point(-4, 7, 0)});
+  QVERIFY(wait_until([&] { return idle() && second.latest_frame().statistics.passes == 1; }));
+  QVERIFY(wait_until([&] { return same(second); }));
+  all(commands::SwapState{1});
+  QVERIFY(wait_until([&] {
+    return first.latest_frame().positions == at_rest && second.latest_frame().positions == at_rest &&
+           third.latest_frame().positions == at_rest;
+  }));
+  for (SolverThread* one : {&first, &second, &third}) {
+    QCOMPARE(one->take_error(), std::string());
+  }
+}
+
+void SolverThreadTest::another_ends_with_the_one_it_waits_for() {
+  auto first = std::make_unique<SolverThread>(make_mesh(MeshKind::grid, {512, 512, 1}), Algorithm::generalized, [] {});
+  for (int i = 0; i < 1000; ++i) {
+    first->post(commands::Grab{0});
+    first->post(commands::Drag{Point(-double(i), 0, 0)});
+  }
+  SolverThread second(*first, Algorithm::natural_queue, [] {});
+  first.reset();  // with nearly all of it undone
+  QVERIFY(wait_until([&] { return second.idle(); }));
 }
 
 void SolverThreadTest::a_triple_buffer_hands_over_the_newest_frame() {

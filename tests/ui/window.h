@@ -29,13 +29,15 @@ struct Workbench {
   Document& document() { return window.document(); }
   View& view(int panel) { return window.panel(panel).view(); }
 
-  /// Waits until what runs in the background is done, both solvers have done all that was asked and their frames were
+  /// Waits until what runs in the background is done, all solvers have done all that was asked and their frames were
   /// drawn.
   void settle() {
     QTRY_VERIFY(!window.jobs().running());
     QTest::qWait(30);
     QTRY_VERIFY(window.document().idle());
-    QTRY_VERIFY(window.document().frame(0) != nullptr && window.document().frame(1) != nullptr);
+    for (int panel = 0; panel < window.document().panels(); ++panel) {
+      QTRY_VERIFY(window.document().frame(panel) != nullptr);
+    }
     QTest::qWait(60);
   }
 

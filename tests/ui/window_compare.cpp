@@ -44,6 +44,17 @@ QPointF middleOf(Workbench& bench, int panel, LinkId link) {
   return (bench.view(panel).placeOf(ends[0]) + bench.view(panel).placeOf(ends[1])) / 2;
 }
 
+/// Of the places along a link the one nearest to the colour: others may be covered by other links.
+int alongFromColour(Workbench& bench, int panel, LinkId link, QColor colour) {
+  const auto& ends = bench.document().mesh()->links[link];
+  const QPointF from = bench.view(panel).placeOf(ends[0]), way = bench.view(panel).placeOf(ends[1]) - from;
+  int nearest = 255;
+  for (const double share : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}) {
+    nearest = std::min(nearest, bench.distanceFromColour(panel, from + share * way, colour));
+  }
+  return nearest;
+}
+
 double violationOf(Workbench& bench, int panel, LinkId link) {
   return link_violation(*bench.document().mesh(), {}, bench.document().frame(panel)->view(), link);
 }
@@ -130,8 +141,8 @@ class WindowCompare : public QObject {
       const double own = p == 0 ? furthest : -furthest;
       const auto& map = colour_map::differenceStops();
       const QColor colour = colour_map::at(own > 0 ? 1 : 0, map), opposite = colour_map::at(own > 0 ? 0 : 1, map);
-      QVERIFY(bench.distanceFromColour(p, middleOf(bench, p, worst), colour) < alike);
-      QVERIFY(bench.distanceFromColour(p, middleOf(bench, p, worst), opposite) > alike);
+      QVERIFY(alongFromColour(bench, p, worst, colour) < alike);
+      QVERIFY(alongFromColour(bench, p, worst, colour) < alongFromColour(bench, p, worst, opposite));
     }
   }
 
@@ -198,6 +209,101 @@ class WindowCompare : public QObject {
     bench.trigger("swapPanels");
     bench.settle();
     QVERIFY(bench.window.panel(0).mapToGlobal(QPoint()).x() < bench.window.panel(1).mapToGlobal(QPoint()).x());
+  }
+
+  void panelsAreAddedAsTheObjectStands() {
+    Workbench bench;
+    Document& document = bench.document();
+    document.cut({0, 5});
+    document.setPinned({8}, true);
+    dragFar(bench);
+    bench.trigger("addPanel");
+    bench.settle();
+    QCOMPARE(document.panels(), 3);
+    QCOMPARE(document.algorithm(2), Algorithm::exact);
+    bench.trigger("addPanel");
+    bench.settle();
+    QCOMPARE(document.algorithm(3), Algorithm::enhanced);
+    QVERIFY(!bench.find<QAction>("addPanel")->isEnabled());
+    for (ElementId e = 0; e < document.mesh()->element_count(); ++e) {
+      // Exact holds displacements from rest, rounded to floats.
+      QVERIFY((bench.position(2, e) - bench.position(0, e)).norm() < 1e-5);
+      QCOMPARE(bench.position(3, e), bench.position(0, e));
+      // One camera, whatever the views' sizes: places are apart alike.
+      const auto place = [&](int panel, ElementId one) { return bench.view(panel).placeOf(one); };
+      const QPointF off = (place(3, e) - place(3, 0)) * bench.view(0).height() / bench.view(3).height();
+      QVERIFY((off - (place(0, e) - place(0, 0))).manhattanLength() < 0.1);
+    }
+    // Under the same hand, and back with it: also through what was done before they came.
+    const QPoint from = bench.place(3, 12);
+    bench.stroke(3, {from, from + QPoint(40, 30)});
+    for (int p = 0; p < 4; ++p) {
+      QVERIFY(document.frame(p)->statistics.passes > 0);
+    }
+    while (document.undoStack().canUndo()) {
+      document.undoStack().undo();
+    }
+    bench.settle();
+    for (int p = 0; p < 4; ++p) {
+      for (ElementId e = 0; e < document.mesh()->element_count(); ++e) {
+        QCOMPARE(bench.position(p, e), document.mesh()->rest_position(e));
+      }
+    }
+  }
+
+  void panelsStandTwoInARowAndGoAgain() {
+    Workbench bench;
+    bench.trigger("ghosts");
+    bench.trigger("addPanel");
+    bench.trigger("addPanel");
+    bench.settle();
+    const auto at = [&](int panel) { return bench.window.panel(panel).mapTo(&bench.window, QPoint()); };
+    QCOMPARE(at(0).y(), at(1).y());
+    QCOMPARE(at(2).y(), at(3).y());
+    QCOMPARE(at(0).x(), at(2).x());
+    QVERIFY(at(2).y() > at(0).y() && at(1).x() > at(0).x());
+    chooseGhost(bench, 0, QStringLiteral("Panel D"));
+    QVERIFY(bench.view(0).ghost().of == 3);
+    bench.trigger("colourBy-distance");
+    bench.trigger("compareWithD");
+    dragFar(bench);
+    QTRY_VERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("from D")));
+    QTest::mouseClick(&bench.window.panel(3).head(), Qt::LeftButton);  // nothing: the buttons are beside
+    QVERIFY(bench.find<QToolButton>("removeButton3")->isVisible());
+    QVERIFY(!bench.find<QToolButton>("removeButton2")->isVisible());
+    QTest::mouseClick(bench.find<QToolButton>("removeButton3"), Qt::LeftButton);
+    QTRY_COMPARE(bench.document().panels(), 3);
+    bench.settle();
+    QVERIFY(!bench.view(0).ghost().of);
+    QVERIFY(bench.window.panel(1).legend().title().contains(QStringLiteral("from A")));
+    QVERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("furthest")));
+    bench.trigger("removePanel");
+    QTRY_COMPARE(bench.document().panels(), 2);
+    QVERIFY(!bench.find<QAction>("removePanel")->isEnabled());
+    const QPoint from = bench.place(1, 12);
+    bench.stroke(1, {from, from + QPoint(40, 30)});
+    QVERIFY(bench.document().frame(0)->statistics.last_pass.moved > 0);
+  }
+
+  void theDistanceOfTheReferenceIsThatOfTheFurthest() {
+    Workbench bench;
+    bench.trigger("addPanel");
+    bench.trigger("colourBy-distance");
+    dragFar(bench);
+    bench.trigger("linkColours");  // the panels' own ranges
+    const auto furthest = [&](int a, int b) {
+      double largest = 0;
+      for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
+        largest = std::max(largest, (bench.position(a, e) - bench.position(b, e)).norm());  // links are of length 1
+      }
+      return QLocale().toString(largest, 'g', 3);
+    };
+    const auto highest = [&](int p) { return bench.window.panel(p).legend().highest(); };
+    QTRY_COMPARE(highest(1), furthest(1, 0));
+    QTRY_COMPARE(highest(2), furthest(2, 0));
+    bench.trigger("compareWithC");
+    QTRY_COMPARE(highest(1), furthest(1, 2));
+    QTRY_COMPARE(highest(0), furthest(0, 2));
   }
 
   void aPanelAloneAndAllBack() {

@@ -132,7 +132,7 @@ class WindowRate : public QObject {
     for (const RateQuantity& one : rateQuantities()) {
       bench.set("rateQuantity", QString::fromUtf8(one.name.data(), qsizetype(one.name.size())));
       QCOMPARE(bench.plot().quantity->name, one.name);
-      QCOMPARE(bench.plot().curves.size(), bench.document().panels);
+      QCOMPARE(bench.plot().curves.size(), bench.document().panels());
       for (std::size_t panel = 0; panel < 2; ++panel) {
         const QPolygonF points = bench.points(panel);
         QVERIFY2(points.size() > 3, one.name.data());

@@ -29,7 +29,7 @@ class WindowRegions : public QObject {
     QVERIFY(bench.find<QAction>("showValidRegions")->isChecked());
     QTRY_VERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("point at an element")));
     bench.document().setHighlight({middle, false, {}});
-    for (int p = 0; p < Document::panels; ++p) {
+    for (int p = 0; p < bench.document().panels(); ++p) {
       for (const auto& region : regionsAbout(bench, p, middle)) {
         QVERIFY(region.inside);
         QVERIFY(bench.distanceFromColour(p, corner(bench, p, region), colours::inside) < alike);
@@ -50,7 +50,7 @@ class WindowRegions : public QObject {
     bench.settle();
     bench.trigger("showValidRegions");
     bench.document().setHighlight({middle, false, {}});
-    for (int p = 0; p < Document::panels; ++p) {
+    for (int p = 0; p < bench.document().panels(); ++p) {
       const auto regions = regionsAbout(bench, p, middle);
       const auto pinned =
           std::find_if(regions.begin(), regions.end(), [](auto& r) { return r.neighbour == middle + 1; });

@@ -165,7 +165,7 @@ class WindowStress : public QObject {
     bench.document().setRelaxation({});
     bench.trigger("toolDrag");  // lets go
     bench.settle();
-    for (int panel = 0; panel < Document::panels; ++panel) {
+    for (int panel = 0; panel < bench.document().panels(); ++panel) {
       const Frame& frame = *bench.document().frame(panel);
       QCOMPARE(frame.mesh, bench.document().mesh());
       QCOMPARE(frame.positions.size(), frame.mesh->rest.size());
