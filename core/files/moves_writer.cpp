@@ -45,6 +45,7 @@ class MoveWriter {
     return {{"do", "relax"}, {"sweeps", one.sweeps}, {"step", one.step}, {"scheme", scheme}};
   }
   Json operator()(const commands::ReplaceMesh&) const { refuse(); }
+  Json operator()(const commands::Place&) const { refuse(); }
   Json operator()(const commands::SwapState&) const { refuse(); }
   Json operator()(const commands::RestoreState&) const { refuse(); }
   Json operator()(const commands::SetRelaxation&) const { return {}; }
@@ -54,7 +55,8 @@ class MoveWriter {
 
  private:
   [[noreturn]] static void refuse() {
-    throw Error("moves", "the mesh changed, or was taken back, within them", "record them on one mesh without undo");
+    throw Error("moves", "the object was exchanged, or taken back, within them",
+                "record them on one object without undo");
   }
 
   const Mesh& mesh_;

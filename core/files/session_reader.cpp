@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "files/session.h"
@@ -12,12 +11,6 @@ namespace chainmail {
 namespace {
 
 using Json = nlohmann::json;
-
-/// Beyond this a solver of the precision moves no element.
-double position_limit(Precision precision) {
-  return precision == Precision::single_precision ? double(std::numeric_limits<float>::max() / 16)
-                                                  : std::numeric_limits<double>::max() / 16;
-}
 
 class SessionReader {
  public:
@@ -36,7 +29,6 @@ class SessionReader {
   void take_panels();
   Session::Panel panel(const Json& object);
   Placement placement(const Json& object, Precision precision) const;
-  void check_runs(const Placement& placement) const;
 
   std::string file_;
   SessionFields fields_;  // of the file, then of each member
@@ -125,34 +117,13 @@ void SessionReader::take_relaxation() {
                         scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link};
 }
 
-void SessionReader::check_runs(const Placement& placement) const {
-  const auto& runs = placement.runs;
-  fields_.check_groups(runs.size(), 2, "runs");
-  std::uint64_t given = 0;
-  for (std::size_t i = 0; i < runs.size(); i += 2) {
-    if (runs[i] >= runs[i + 1] || runs[i + 1] > result_.mesh->element_count() || (i > 0 && runs[i] < runs[i - 1])) {
-      fields_.fail("'runs' are not ascending runs of elements", "give the first of each, and the one behind its last");
-    }
-    given += runs[i + 1] - runs[i];
-  }
-  const auto dimension = static_cast<std::uint64_t>(result_.mesh->space_dimension);
-  if (placement.held.size() != dimension * given) {
-    fields_.fail("'held' holds " + std::to_string(placement.held.size()) + " numbers, and 'runs' name " +
-                     std::to_string(given) + " elements in " + std::to_string(dimension) + "D",
-                 "give each coordinate of each of them");
-  }
-}
-
 Placement SessionReader::placement(const Json& object, Precision precision) const {
   Placement result{fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held")};
-  check_runs(result);
-  const bool single = precision == Precision::single_precision;
-  const double limit = position_limit(precision);
-  for (double& held : result.held) {
-    if (!(std::abs(held) <= limit)) {
-      fields_.fail("'held' holds a number beyond what the precision does", "keep coordinates within 1e37");
+  check(result, *result_.mesh, precision);
+  if (precision == Precision::single_precision) {
+    for (double& held : result.held) {
+      held = static_cast<float>(held);
     }
-    held = single ? double(static_cast<float>(held)) : held;
   }
   return result;
 }
@@ -166,17 +137,18 @@ Session::Panel SessionReader::panel(const Json& object) {
   if (!algorithm) {
     fields_.fail("'algorithm' names none", "use one that 'chainmail deform --help' lists");
   }
-  try {
-    check(*algorithm, *result_.mesh);
-  } catch (const Error& error) {
-    throw error.at(fields_.where() + ": " + error.where());
-  }
   const std::string precision = fields_.text(object, "precision");
   if (precision != "float" && precision != "double") {
     fields_.fail("'precision' names none", "use float or double");
   }
   const auto chosen = precision == "float" ? Precision::single_precision : Precision::double_precision;
-  return {*algorithm, chosen, placement(object, chosen)};
+  try {
+    check(*algorithm, *result_.mesh);
+    return {*algorithm, chosen, placement(object, chosen)};
+  } catch (const Error& error) {
+    const bool ours = error.where() == fields_.where();
+    throw ours ? error : error.at(fields_.where() + ": " + error.where());
+  }
 }
 
 void SessionReader::take_panels() {

@@ -31,6 +31,11 @@ class ElementBlocks {
 
   void insert(ElementId element) { insert_block(element / block_elements); }
   void insert_block(std::size_t block) { words_[block / bits] |= std::uint64_t{1} << (block % bits); }
+  void insert_run(ElementId first, ElementId end) {
+    for (std::size_t block = first / block_elements; block * block_elements < end; ++block) {
+      insert_block(block);
+    }
+  }
   /// Of more than half of the elements it takes all blocks, without looking at each.
   void insert(std::span<const ElementId> elements) {
     if (elements.size() > element_count_ / 2) {

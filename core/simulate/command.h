@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <variant>
 #include <vector>
 
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
+#include "solve/placement.h"
 #include "solve/softness.h"
 #include "solve/solver.h"
 
@@ -67,6 +69,11 @@ struct ReplaceMesh {
   MeshPointer mesh;
 };
 
+/// Puts elements where they are said to stand. It must be a placement of this mesh.
+struct Place {
+  std::shared_ptr<const Placement> placement;
+};
+
 /// Names a state that a simulation keeps for undo.
 using StateId = std::uint64_t;
 /// Keeps the object as it is now (mesh, cuts, pins, softness, positions) under a name.
@@ -91,6 +98,7 @@ struct DropState {
 using Command = std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness,
                              commands::SetRelaxation, commands::Relax, commands::SetAlgorithm, commands::Cut,
                              commands::Uncut, commands::Pin, commands::Unpin, commands::Reset, commands::ReplaceMesh,
+                             commands::Place,
                              commands::KeepState, commands::SwapState, commands::RestoreState, commands::DropState>;
 
 }  // namespace chainmail

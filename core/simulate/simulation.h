@@ -59,6 +59,8 @@ class Simulation {
   std::optional<ElementId> grabbed() const { return grabbed_; }
   /// The element that the last pass was about.
   std::optional<ElementId> last_moved() const { return last_moved_; }
+  /// Where the elements stand, to be placed there again.
+  Placement placement() const { return solver_->placement(away_); }
   /// The blocks in which a position may have changed since forget_changes().
   const ElementBlocks& changed() const { return changed_; }
   void forget_changes() { changed_.clear(); }
@@ -89,6 +91,7 @@ class Simulation {
   void carry_out(const commands::Unpin& command);
   void carry_out(const commands::Reset& command);
   void carry_out(const commands::ReplaceMesh& command);
+  void carry_out(const commands::Place& command);
   void carry_out(const commands::KeepState& command);
   void carry_out(const commands::SwapState& command);
   void carry_out(const commands::RestoreState& command);

@@ -22,6 +22,25 @@ void Simulation::carry_out(const commands::RestoreState& command) { take_state(k
 
 void Simulation::carry_out(const commands::DropState& command) { kept_.erase(command.state); }
 
+void Simulation::carry_out(const commands::Place& command) {
+  check(*command.placement, *mesh_, precision_);
+  solver_->place(*command.placement, away_);
+  changed_.insert(away_);
+  unkept_.insert(away_);
+  away_.clear();
+  const auto& runs = command.placement->runs;
+  for (std::size_t i = 0; i < runs.size(); i += 2) {
+    away_.insert_run(runs[i], runs[i + 1]);
+  }
+  changed_.insert(away_);
+  unkept_.insert(away_);
+  valid_ = runs.empty();
+  forget_passes();
+  grabbed_.reset();
+  last_moved_.reset();
+  fall_asleep();
+}
+
 Simulation::State& Simulation::kept(commands::StateId state) {
   const auto found = kept_.find(state);
   if (found == kept_.end()) {

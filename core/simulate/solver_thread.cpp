@@ -44,6 +44,8 @@ SolverThread::~SolverThread() = default;
 
 void SolverThread::post(Command command) { add(std::move(command)); }
 
+void SolverThread::ask(Question question) { add(std::move(question)); }
+
 void SolverThread::add(Task task) {
   {
     const std::lock_guard lock(mutex_);
@@ -64,6 +66,11 @@ void SolverThread::refuse(const std::string& sentence) {
 }
 
 void SolverThread::carry_out(const Task& task) {
+  if (const auto* question = std::get_if<Question>(&task)) {
+    (*question)(simulation_);
+    waiting_.fetch_sub(1, std::memory_order_release);
+    return;
+  }
   const auto* command = std::get_if<Command>(&task);
   if (command != nullptr) {
     recorder_.begin(*command, simulation_);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <variant>
 
 #include "simulate/frame_writer.h"
 #include "simulate/pass_recorder.h"
@@ -17,6 +18,8 @@ namespace chainmail {
 /// time, and hands over a frame when something changed, at most 60 times a second.
 class SolverThread {
  public:
+  using Question = std::function<void(const Simulation&)>;
+
   /// `frame_ready` is called after a frame was handed over, for the first frame here and from then on
   /// by the solver's thread; it must not wait.
   SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready);
@@ -28,7 +31,10 @@ class SolverThread {
 
   /// Adds a command to the end of the list.
   void post(Command command);
-  /// Whether every command posted has been carried out.
+  /// Calls `question` on the solver's thread, after what was posted before; it must not wait. What is not begun when
+  /// the solver ends is dropped.
+  void ask(Question question);
+  /// Whether every command posted has been carried out, and every question answered.
   bool idle() const { return waiting_.load(std::memory_order_acquire) == 0; }
   /// Whether, beside, a frame that shows what came of them was handed over.
   bool settled() const { return idle() && !unseen_.load(std::memory_order_acquire); }
@@ -44,7 +50,7 @@ class SolverThread {
 
  private:
   using Job = std::function<void(Simulation&)>;
-  using Task = std::variant<Command, Job>;
+  using Task = std::variant<Command, Job, Question>;
 
   void add(Task task);
   void run(const std::stop_token& stop);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <string>
 
 #include "mesh/error.h"
 #include "solve/original.h"
@@ -51,6 +54,36 @@ void check(Algorithm algorithm, const Mesh& mesh) {
   if (!fits(algorithm, mesh)) {
     throw Error("3D ChainMail", "it works on grids alone, with links along the axes, and this mesh is none",
                 "choose another algorithm, or generate a grid or a block");
+  }
+}
+
+double position_limit(Precision precision) {
+  return precision == Precision::single_precision ? double(std::numeric_limits<float>::max() / 16)
+                                                  : std::numeric_limits<double>::max() / 16;
+}
+
+void check(const Placement& placement, const Mesh& mesh, Precision precision) {
+  const auto& runs = placement.runs;
+  std::uint64_t given = 0;
+  bool ascending = runs.size() % 2 == 0;
+  for (std::size_t i = 0; ascending && i < runs.size(); i += 2) {
+    ascending = runs[i] < runs[i + 1] && runs[i + 1] <= mesh.element_count() && (i == 0 || runs[i - 1] <= runs[i]);
+    given += runs[i + 1] - runs[i];
+  }
+  if (!ascending) {
+    throw Error("placement", "its runs are not ascending runs of elements",
+                "give the first of each run, and the one behind its last");
+  }
+  const auto dimension = static_cast<std::uint64_t>(mesh.space_dimension);
+  if (placement.held.size() != dimension * given) {
+    throw Error("placement",
+                "it holds " + std::to_string(placement.held.size()) + " coordinates, and its runs name " +
+                    std::to_string(given) + " elements in " + std::to_string(dimension) + "D",
+                "give each coordinate of each of them");
+  }
+  const double limit = position_limit(precision);
+  if (!std::ranges::all_of(placement.held, [limit](double held) { return std::abs(held) <= limit; })) {
+    throw Error("placement", "it holds a number beyond what the precision does", "keep coordinates within 1e37");
   }
 }
 

@@ -10,6 +10,7 @@
 #include "mesh/cuts.h"
 #include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
+#include "solve/placement.h"
 #include "solve/relaxation_result.h"
 #include "solve/softness.h"
 #include "solve/trace.h"
@@ -33,6 +34,12 @@ const AlgorithmInfo& info(Algorithm algorithm);
 std::optional<Algorithm> find_algorithm(std::string_view name);
 
 enum class Precision { single_precision, double_precision };
+
+/// Held positions stay within this (mesh units), so that sums of a few of them are finite.
+double position_limit(Precision precision);
+
+/// Throws Error, saying why, where a placement is none of this mesh, or holds numbers beyond that limit.
+void check(const Placement& placement, const Mesh& mesh, Precision precision);
 
 /// Whether an algorithm works on a mesh: 3D ChainMail does on grids alone.
 bool fits(Algorithm algorithm, const Mesh& mesh);
@@ -137,6 +144,11 @@ class Solver {
   void copy_positions(std::span<double> out) const { copy_positions(0, out); }
   /// Takes every carried coordinate from `in`, as copy_positions wrote it.
   virtual void set_positions(std::span<const double> in) = 0;
+  /// Where the elements of these blocks stand; no other may stand away from rest.
+  virtual Placement placement(const ElementBlocks& away) const = 0;
+  /// Puts elements there, and all others to rest; none outside `away` stands away from it now. It must be a placement
+  /// of the mesh, of numbers within position_limit.
+  virtual void place(const Placement& placement, const ElementBlocks& away) = 0;
   /// Brings these blocks of `kept` up to date; no element outside `away` may stand away from rest.
   virtual void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, KeptPositions& kept) const = 0;
   /// Takes these blocks back; all others must stand as they were kept.

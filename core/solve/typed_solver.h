@@ -12,6 +12,7 @@
 #include "mesh/error.h"
 #include "solve/exact_solver.h"
 #include "solve/list_solver.h"
+#include "solve/placing.h"
 #include "solve/relaxation.h"
 #include "solve/solver.h"
 
@@ -153,6 +154,16 @@ class TypedSolver final : public Solver {
       body_.place(static_cast<ElementId>(i / Dimension), i % Dimension, in[i]);
     }
     take_positions();
+  }
+
+  Placement placement(const ElementBlocks& away) const override { return placement_of(body_, away); }
+
+  void place(const Placement& placement, const ElementBlocks& away) override {
+    reset(away);
+    if (!placement.runs.empty()) {
+      place_elements(body_, placement);
+      take_positions();
+    }
   }
 
   void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, KeptPositions& kept) const override {

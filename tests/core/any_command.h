@@ -19,7 +19,7 @@ class AnyCommand {
 
   Command draw() {
     using namespace commands;
-    switch (below(26)) {
+    switch (below(27)) {
       case 0:
         return Cut{{below(links_), below(links_)}};
       case 1:
@@ -40,6 +40,8 @@ class AnyCommand {
         return SwapState{below(4)};
       case 8:
         return below(3) == 0 ? Command(DropState{below(4)}) : Command(Release{});
+      case 14:
+        return place();
       case 12:
         return Pin{{below(elements_)}};
       case 13:
@@ -55,6 +57,15 @@ class AnyCommand {
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random_() % n); }
 
  private:
+  /// A few elements of some mesh, in one to three dimensions.
+  Command place() {
+    const ElementId first = below(elements_), end = first + 1 + below(70);
+    Placement placement{below(2) == 0, {first, end}, {}};
+    for (std::uint32_t i = 0, count = (end - first) * (1 + below(3)); i < count; ++i) {
+      placement.held.push_back(between(-4, 16));
+    }
+    return commands::Place{std::make_shared<const Placement>(placement)};
+  }
   double between(double low, double high) { return uniform(random_, low, high); }
 
   std::mt19937_64 random_;

@@ -138,13 +138,15 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"precision\": \"float\", \"from_rest\": false", "\"precision\": \"half\", \"from_rest\": false",
       "panel 1: 'precision' names none; ");
   row("\"from_rest\": true", "\"from_rest\": 1", "panel 0: 'from_rest' is neither true nor false; ");
-  row("\"runs\": [2,4]", "\"runs\": [2]", "panel 0: 'runs' ends within a group of 2; ");
-  row("\"runs\": [2,4]", "\"runs\": [4,2]", "panel 0: 'runs' are not ascending runs of elements; ");
-  row("\"runs\": [2,4]", "\"runs\": [2,4,3,4]", "panel 0: 'runs' are not ascending runs of elements; ");
-  row("\"runs\": [2,4]", "\"runs\": [2,4294967295]", "panel 0: 'runs' are not ascending runs of elements; ");
-  row("\"runs\": [2,4]", "\"runs\": [2,5]", "panel 0: 'held' holds 4 numbers, and 'runs' name 3 elements in 2D; ");
-  row("2.5,2.25", "2.5,2.25,1", "panel 1: 'held' holds 3 numbers, and 'runs' name 1 elements in 2D; ");
-  row("2.5,2.25", "2.5,1e38", "panel 1: 'held' holds a number beyond ");
+  row("\"runs\": [2,4]", "\"runs\": [2]", "panel 0: placement: its runs are not ascending runs of elements; ");
+  row("\"runs\": [2,4]", "\"runs\": [4,2]", "panel 0: placement: its runs are not ascending runs of elements; ");
+  row("\"runs\": [2,4]", "\"runs\": [2,4,3,4]", "panel 0: placement: its runs are not ascending runs of elements; ");
+  row("\"runs\": [2,4]", "\"runs\": [2,4294967295]",
+      "panel 0: placement: its runs are not ascending runs of elements; ");
+  row("\"runs\": [2,4]", "\"runs\": [2,5]",
+      "panel 0: placement: it holds 4 coordinates, and its runs name 3 elements in 2D; ");
+  row("2.5,2.25", "2.5,2.25,1", "panel 1: placement: it holds 3 coordinates, and its runs name 1 elements in 2D; ");
+  row("2.5,2.25", "2.5,1e38", "panel 1: placement: it holds a number beyond ");
   row("\"panels\": [", "\"panels\": [7,", "panel 0: it is not an object; ");
   row("\"ui\": {\"colour\":\"plain\"}", "\"ui\": []", "'ui' is not an object; ");
 }
