@@ -8,6 +8,7 @@
 
 #include "main_window.h"
 #include "mesh_dock.h"
+#include "sessions.h"
 #include "startup.h"
 
 namespace {
@@ -31,8 +32,9 @@ void describe(QCommandLineParser& parser) {
                      "Example: workbench meshes/sphere.obj"));
   parser.addHelpOption();
   parser.addVersionOption();
-  parser.addPositionalArgument(QStringLiteral("MESH"), QStringLiteral("a .dat or .obj file to open"),
-                               QStringLiteral("[MESH]"));
+  parser.addPositionalArgument(QStringLiteral("FILE"),
+                               QStringLiteral("a session (.chainmail) or a mesh (.dat, .obj) to open"),
+                               QStringLiteral("[FILE]"));
 }
 
 }  // namespace
@@ -57,7 +59,7 @@ int main(int argc, char** argv) {
     parser.process(application);
   }
   if (parser.positionalArguments().size() > 1) {
-    return fail(QStringLiteral("arguments: more than one mesh was given; name one file"));
+    return fail(QStringLiteral("arguments: more than one file was given; name one file"));
   }
   if (const QString why = chainmail::whyNoWindow(); !why.isEmpty()) {
     return fail(why);
@@ -66,6 +68,7 @@ int main(int argc, char** argv) {
   const auto sample = chainmail::sampleRecipe();
   chainmail::MainWindow window(chainmail::generate(sample), chainmail::recipeName(sample));
   window.show();
+  window.sessions().protect();
   if (!parser.positionalArguments().isEmpty()) {
     const bool first = true;
     window.openFile(parser.positionalArguments().constFirst(), first);

@@ -9,6 +9,7 @@ namespace {
 constexpr double fieldOfView = 35;  // degrees, vertical
 constexpr double margin = 1.25;     // of the view around an object that fits
 constexpr double degreesPerPixel = 0.4;
+constexpr double nearest = 1e-5, farthest = 1e3;  // heights of what a view shows, of the object's radius
 
 double eyeDistance(double height) { return height / 2 / std::tan(fieldOfView / 2 * M_PI / 180); }
 
@@ -30,6 +31,16 @@ void Camera::fit(const std::array<Point, 2>& box, std::span<const int> axes, QSi
   const double flat = std::max(up, across / aspect);
   const double round = 2 * radius_ / std::min(aspect, 1.0) * 0.85;
   height_ = margin * (spatial_ ? round : flat > 0 ? flat : 2 * radius_);
+}
+
+void Camera::setPose(const Pose& pose) {
+  centre_ = pose.centre;
+  parallel_ = pose.parallel;
+  height_ = std::clamp(pose.height, radius_ * nearest, radius_ * farthest);
+  if (spatial_) {
+    yaw_ = pose.yaw;
+    pitch_ = std::clamp(pose.pitch, -90.0, 90.0);
+  }
 }
 
 void Camera::orbit(QPointF pixels) {
@@ -54,7 +65,7 @@ void Camera::pan(QPointF pixels, QSizeF view) {
 
 void Camera::zoom(double factor, QPointF cursor, QSizeF view) {
   const QVector3D before = pointAt(cursor, centre_, view);
-  height_ = std::clamp(height_ / factor, radius_ * 1e-5, radius_ * 1e3);
+  height_ = std::clamp(height_ / factor, radius_ * nearest, radius_ * farthest);
   centre_ += before - pointAt(cursor, centre_, view);
 }
 

@@ -34,6 +34,16 @@ class Camera {
   void setParallel(bool parallel) { parallel_ = parallel; }
   bool parallel() const { return parallel_; }
 
+  /// The way it looks, apart from the object: the centre of the view and the height that it shows (mesh units), and
+  /// the angles (degrees), which count where it is spatial.
+  struct Pose {
+    QVector3D centre;
+    double height = 2, yaw = 0, pitch = 0;
+    bool parallel = false;
+  };
+  Pose pose() const { return {centre_, height_, yaw_, pitch_, parallel_}; }
+  void setPose(const Pose& pose);
+
   bool spatial() const { return spatial_; }
   QMatrix4x4 toView() const;
   QMatrix4x4 toClip(QSizeF view) const;

@@ -5,6 +5,7 @@
 #include <QUndoStack>
 #include <array>
 #include <atomic>
+#include <future>
 #include <memory>
 #include <optional>
 
@@ -15,6 +16,8 @@
 #include "simulate/solver_thread.h"
 
 namespace chainmail {
+
+struct Session;
 
 /// What all panels share beside the object: the element under the cursor or the hand, and the links
 /// that a stroke would cut.
@@ -73,6 +76,13 @@ class Document : public QObject {
   std::unique_ptr<RecordedPass> lastPass(int panel, std::uint64_t seen) const {
     return solvers_[panel]->last_pass(seen);
   }
+  /// Where the elements of a panel will stand when its solver has done all that was asked so far.
+  std::future<Placement> placement(int panel);
+  /// The file of the session that this is; empty where it is none yet.
+  const QString& sessionFile() const { return sessionFile_; }
+  void setSessionFile(const QString& file);
+  /// Whether something was done since it was last opened or saved.
+  bool isModified() const { return !undoStack_.isClean() || beforeDrag_.has_value(); }
   /// Whether all solvers have carried out all that was asked of them.
   bool idle() const;
   /// Whether, beside, the frames show what came of it. Not so while relaxation goes on.
@@ -110,6 +120,8 @@ class Document : public QObject {
   void cut(const std::vector<LinkId>& links);
   void resetObject();
   void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text);
+  /// All that the session holds of an object; `file` is where it is kept, if anywhere.
+  void restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text);
 
   /// Refused where the algorithm does not work on the mesh.
   void setAlgorithm(int panel, Algorithm algorithm);
@@ -138,6 +150,7 @@ class Document : public QObject {
   void lastDragChanged();
   /// There is more on the tape, or the object stands elsewhere on it.
   void tapeChanged();
+  void sessionFileChanged();
   /// A command was refused: one sentence.
   void refused(const QString& sentence);
   /// Something was done that was not asked for: one sentence.
@@ -155,6 +168,7 @@ class Document : public QObject {
   friend class ResetEdit;
   friend class TravelEdit;
   friend class MeshEdit;
+  friend class SessionEdit;
 
   // The document's own side of edits; the solvers are told beside.
   void showCuts(const std::vector<LinkId>& links, bool cut);
@@ -183,7 +197,7 @@ class Document : public QObject {
   void receiveFrame(int panel);
 
   MeshPointer mesh_;
-  QString name_;
+  QString name_, sessionFile_;
   Cuts cuts_;
   std::vector<ElementId> pins_;
   std::shared_ptr<const Softness> softness_ = std::make_shared<Softness>();  // shared with the edits

@@ -9,7 +9,9 @@
 #include <filesystem>
 
 #include "files/mesh_file.h"
+#include "files/session.h"
 #include "panel_names.h"
+#include "sessions.h"
 
 namespace chainmail {
 namespace {
@@ -22,22 +24,65 @@ QString recentKey() { return QStringLiteral("recentFiles"); }
 
 }  // namespace
 
+FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessions& sessions)
+    : QObject(&window), window_(window), document_(document), jobs_(jobs), sessions_(sessions) {
+  connect(&sessions_, &Sessions::failed, this, &FileActions::failed);
+  connect(&sessions_, &Sessions::opened, this, &FileActions::remember);
+  connect(&sessions_, &Sessions::saved, this, [this](const QString& path) {
+    remember(path);
+    emit saved(path);
+  });
+}
+
 void FileActions::fill(QMenu& menu) {
   auto* openAction = menu.addAction(QStringLiteral("&Open…"), QKeySequence::Open, this, &FileActions::open);
   openAction->setObjectName(QStringLiteral("openFile"));
   openAction->setIconText(QStringLiteral("Open"));
-  openAction->setStatusTip(QStringLiteral("A mesh from a .dat or .obj file, in place of the present object"));
+  openAction->setStatusTip(
+      QStringLiteral("A session (.chainmail), or a mesh (.dat, .obj), in place of the present object"));
   recent_ = menu.addMenu(QStringLiteral("Open &recent"));
-  auto* saveAction = menu.addAction(QStringLiteral("&Save mesh…"), QKeySequence::Save, this, &FileActions::save);
-  saveAction->setObjectName(QStringLiteral("saveFile"));
-  saveAction->setIconText(QStringLiteral("Save"));
-  saveAction->setStatusTip(QStringLiteral("The object at rest, without its cut links, as .dat or .obj"));
+  menu.addSeparator();
+  addSaveActions(menu);
   addShapeActions(menu);
   menu.addSeparator();
   auto* picture = menu.addAction(QStringLiteral("Save s&creenshot…"), Qt::Key_F12, this, &FileActions::saveScreenshot);
   picture->setObjectName(QStringLiteral("saveScreenshot"));
   picture->setStatusTip(QStringLiteral("The window as it stands, as a PNG picture"));
   fillRecent();
+}
+
+void FileActions::addSaveActions(QMenu& menu) {
+  const auto add = [&menu, this](const char* name, const QString& text, const QKeySequence& key,
+                                 void (FileActions::*act)(), const QString& help) {
+    auto* action = menu.addAction(text, key, this, act);
+    action->setObjectName(QLatin1String(name));
+    action->setStatusTip(help);
+    return action;
+  };
+  const QString all = QStringLiteral("mesh, cuts, pins, stiffness, positions of every panel, cameras and layout");
+  add("saveSession", QStringLiteral("&Save session"), QKeySequence::Save, &FileActions::saveSession,
+      QStringLiteral("All there is in one file: ") + all)
+      ->setIconText(QStringLiteral("Save"));
+  add("saveSessionAs", QStringLiteral("Save session &as…"), Qt::CTRL | Qt::SHIFT | Qt::Key_S,
+      &FileActions::saveSessionAs, QStringLiteral("The same into another file: ") + all);
+  menu.addSeparator();
+  add("saveFile", QStringLiteral("Save &mesh…"), Qt::CTRL | Qt::Key_M, &FileActions::save,
+      QStringLiteral("The object at rest alone, without its cut links, as .dat or .obj"));
+}
+
+void FileActions::saveSession() {
+  if (document_.sessionFile().isEmpty()) {
+    saveSessionAs();
+  } else {
+    sessions_.savePath(document_.sessionFile());
+  }
+}
+
+void FileActions::saveSessionAs() {
+  const QString path = askWhere(QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")});
+  if (!path.isEmpty()) {
+    sessions_.savePath(path);
+  }
 }
 
 void FileActions::addShapeActions(QMenu& menu) {
@@ -72,14 +117,19 @@ QString FileActions::askWhere(const QString& title, const QStringList& filters) 
 }
 
 void FileActions::open() {
-  const QString path = QFileDialog::getOpenFileName(&window_, QStringLiteral("Open mesh"), startFolder(),
-                                                    QStringLiteral("Meshes (*.dat *.obj);;All files (*)"));
+  const QString path =
+      QFileDialog::getOpenFileName(&window_, QStringLiteral("Open session or mesh"), startFolder(),
+                                   QStringLiteral("Sessions and meshes (*.chainmail *.dat *.obj);;All files (*)"));
   if (!path.isEmpty()) {
     openPath(path);
   }
 }
 
 void FileActions::openPath(const QString& path, bool first) {
+  if (is_session(asPath(path))) {
+    sessions_.openPath(path, first);
+    return;
+  }
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
               [this, path, first](const Progress& progress) -> Jobs::Finish {
                 const MeshPointer mesh = read_mesh(asPath(path), {}, progress);

@@ -8,18 +8,23 @@
 
 namespace chainmail {
 
-/// The File menu: open, recent files, save, screenshot. Meshes are read and written in the background. Nothing is lost
-/// when one of them fails.
+class Sessions;
+
+/// The File menu: open, recent files, save, screenshot. Sessions and meshes are read and written in the background.
+/// Nothing is lost when one of them fails.
 class FileActions : public QObject {
   Q_OBJECT
 
  public:
-  FileActions(QWidget& window, Document& document, Jobs& jobs)
-      : QObject(&window), window_(window), document_(document), jobs_(jobs) {}
+  FileActions(QWidget& window, Document& document, Jobs& jobs, Sessions& sessions);
 
   void fill(QMenu& menu);
   void open();
-  /// The first object of a window is no step of undo: there is no way back to before the start.
+  /// Saves the session where it is kept; one that is kept nowhere yet is asked for its place.
+  void saveSession();
+  void saveSessionAs();
+  /// A session or a mesh, by its ending. The first object of a window is no step of undo: there is no way back to
+  /// before the start.
   void openPath(const QString& path, bool first = false);
   void save();
   /// Saves the object, without its cut links: .dat its links, .obj its rest shape.
@@ -34,6 +39,7 @@ class FileActions : public QObject {
   void saved(const QString& path);
 
  private:
+  void addSaveActions(QMenu& menu);
   void addShapeActions(QMenu& menu);
   void show(const MeshPointer& mesh, const QString& path, bool first);
   void write(const QString& path, const std::shared_ptr<const Frame>& shape);
@@ -47,6 +53,7 @@ class FileActions : public QObject {
   QWidget& window_;
   Document& document_;
   Jobs& jobs_;
+  Sessions& sessions_;
   QMenu* recent_ = nullptr;
 };
 

@@ -2,6 +2,7 @@
 
 #include <QActionGroup>
 #include <QCloseEvent>
+#include <QFileInfo>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QScreen>
@@ -26,9 +27,11 @@
 #include "message_bar.h"
 #include "panel.h"
 #include "propagation_dock.h"
+#include "recovery_bar.h"
 #include "relaxation_dock.h"
 #include "replay_dock.h"
 #include "report_dock.h"
+#include "sessions.h"
 #include "size_test_dock.h"
 #include "stiffness_dock.h"
 #include "tools_dock.h"
@@ -56,7 +59,8 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       measureTool_(document_, measurement_),
       selectTool_(document_),
       undoActions_(new UndoActions(document_, *this)),
-      files_(new FileActions(*this, document_, jobs_)),
+      sessions_(new Sessions(*this, jobs_)),
+      files_(new FileActions(*this, document_, jobs_, *sessions_)),
       cameraActions_(new CameraActions(this)),
       messages_(new MessageBar),
       area_(new PanelArea(document_, colouring_)),
@@ -71,6 +75,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   auto* column = new QVBoxLayout(central);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
+  column->addWidget(&sessions_->recoveryBar());
   column->addWidget(messages_);
   column->addWidget(area_, 1);
   setCentralWidget(central);
@@ -110,6 +115,8 @@ void MainWindow::listen() {
   });
   connect(&document_, &Document::meshChanged, messages_, &MessageBar::clear);
   connect(&document_, &Document::meshChanged, this, &MainWindow::showTitle);
+  connect(&document_, &Document::sessionFileChanged, this, &MainWindow::showTitle);
+  connect(&document_.undoStack(), &QUndoStack::cleanChanged, this, [this](bool clean) { setWindowModified(!clean); });
   // What a tool has begun may not fit the object after an edit, an undo or a redo.
   connect(&document_.undoStack(), &QUndoStack::indexChanged, this, [this] {
     if (tool_ != nullptr) {
@@ -122,6 +129,7 @@ MainWindow::~MainWindow() {
   if (QWidget* field = focusWidget()) {
     field->clearFocus();  // what was typed last is taken while there is a document
   }
+  sessions_->close();
   // The panels look at the document until they are gone.
   delete takeCentralWidget();
 }
@@ -262,20 +270,28 @@ void MainWindow::openFile(const QString& path, bool first) { files_->openPath(pa
 
 void MainWindow::welcome() { help_->welcome(); }
 
-void MainWindow::showTitle() { setWindowTitle(QStringLiteral("%1 – ChainMail workbench").arg(document_.name())); }
+void MainWindow::showTitle() {
+  const QString file = QFileInfo(document_.sessionFile()).fileName();
+  setWindowTitle(QStringLiteral("%1[*] – ChainMail workbench").arg(file.isEmpty() ? document_.name() : file));
+}
+
+QByteArray MainWindow::savedLayout() const { return saveState(layoutVersion); }
+
+void MainWindow::takeLayout(const QByteArray& layout) { restoreState(layout, layoutVersion); }
 
 void MainWindow::restoreLayout() {
   resize(QSize(1600, 900).boundedTo(screen()->availableSize()));
   const QSettings settings;
   restoreGeometry(settings.value(QStringLiteral("geometry")).toByteArray());
-  restoreState(settings.value(QStringLiteral("layout")).toByteArray(), layoutVersion);
+  takeLayout(settings.value(QStringLiteral("layout")).toByteArray());
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   jobs_.close();
+  sessions_->close();
   QSettings settings;
   settings.setValue(QStringLiteral("geometry"), saveGeometry());
-  settings.setValue(QStringLiteral("layout"), saveState(layoutVersion));
+  settings.setValue(QStringLiteral("layout"), savedLayout());
   QMainWindow::closeEvent(event);
 }
 

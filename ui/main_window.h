@@ -30,6 +30,7 @@ class HelpMenu;
 class MessageBar;
 class PanelActions;
 class Panel;
+class Sessions;
 class UndoActions;
 
 /// The workbench's window: panels, docks, tools and named actions, wired to one document.
@@ -45,8 +46,12 @@ class MainWindow : public QMainWindow {
   Colouring& colouring() { return colouring_; }
   MessageBar& messages() { return *messages_; }
   Jobs& jobs() { return jobs_; }
-  /// Opens a mesh file in the background, as one step of undo or as the window's first object; a bad file gets a
-  /// sentence and changes nothing.
+  Sessions& sessions() { return *sessions_; }
+  /// The docks as they stand, and back again; of other docks than these it takes nothing.
+  QByteArray savedLayout() const;
+  void takeLayout(const QByteArray& layout);
+  /// Opens a session or a mesh file in the background, as one step of undo or as the window's first object; a bad file
+  /// gets a sentence and changes nothing.
   void openFile(const QString& path, bool first = false);
   /// To be called where the window begins with its sample: shows the first start's example and hints, once.
   void welcome();
@@ -90,6 +95,7 @@ class MainWindow : public QMainWindow {
   Tool* tool_ = nullptr;
   Jobs jobs_;
   UndoActions* undoActions_;
+  Sessions* sessions_;
   FileActions* files_;
   CameraActions* cameraActions_;
   MessageBar* messages_;

@@ -100,7 +100,7 @@ void MainWindow::makeToolBar() {
   bar->setMovable(false);
   const auto add = [this, bar](const char* name) { bar->addAction(findChild<QAction*>(QLatin1String(name))); };
   add("openFile");
-  add("saveFile");
+  add("saveSession");
   bar->addSeparator();
   undoActions_->fill(*bar);
   bar->addSeparator();

@@ -17,7 +17,9 @@ struct ActionIcon {
 };
 
 constexpr std::array actionIcons{ActionIcon{"openFile", "open"},
-                                 ActionIcon{"saveFile", "save"},
+                                 ActionIcon{"saveSession", "save"},
+                                 ActionIcon{"saveSessionAs", "save"},
+                                 ActionIcon{"saveFile", "mesh"},
                                  ActionIcon{"saveShapeA", "shape"},
                                  ActionIcon{"saveShapeB", "shape"},
                                  ActionIcon{"saveShapeC", "shape"},

@@ -114,6 +114,7 @@ int runWindowTest(int argc, char** argv) {
   prepareApplication();
   QTemporaryDir settings;
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
+  qputenv("XDG_DATA_HOME", settings.path().toUtf8());  // nothing of the user's
   QApplication application(argc, argv);
   remember(Theme::dark);  // whatever the desktop looks like
   styleApplication();

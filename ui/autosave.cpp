@@ -1,0 +1,148 @@
+#include "autosave.h"
+
+#include <QDir>
+#include <QFile>
+#include <QStandardPaths>
+#include <QUuid>
+#include <algorithm>
+#include <atomic>
+
+#include "files/session.h"
+#include "main_window.h"
+#include "mesh/progress.h"
+#include "session_draft.h"
+#include "window_look.h"
+
+namespace chainmail {
+namespace {
+
+using std::chrono::milliseconds;
+
+// From a change to the time when it is on the disk: the wait, and what writing takes, at worst twice.
+constexpr milliseconds mostBehind(4500), shortestWait(500), longestWait(4000);
+
+std::filesystem::path asPath(const QString& path) { return std::filesystem::path(path.toStdU16String()); }
+
+QString newPath() {
+  return QDir(Autosave::folder())
+      .filePath(QUuid::createUuid().toString(QUuid::Id128).left(12) + QStringLiteral(".chainmail"));
+}
+
+}  // namespace
+
+QString Autosave::folder() {
+  const QString path =
+      QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + QStringLiteral("/autosave");
+  QDir().mkpath(path);
+  return path;
+}
+
+struct Autosave::Writing {
+  JobState job;
+  // Written by the thread before `done` is, and read by the window after.
+  std::string error;
+  std::atomic<bool> done = false;
+};
+
+Autosave::Autosave(MainWindow& window, QObject* parent)
+    : QObject(parent), window_(window), path_(newPath()), lock_(lockOf(path_)), timer_(this) {
+  lock_.setStaleLockTime(0);  // as long as the program runs
+  lock_.tryLock();
+  timer_.setObjectName(QStringLiteral("autosaveTimer"));
+  timer_.setSingleShot(true);
+  timer_.setInterval(longestWait);
+  connect(&timer_, &QTimer::timeout, this, &Autosave::save);
+  listen();
+}
+
+Autosave::~Autosave() {
+  if (writing_) {
+    writing_->job.cancelled = true;
+  }
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+  remove();
+}
+
+void Autosave::listen() {
+  Document& document = window_.document();
+  connect(&document.undoStack(), &QUndoStack::indexChanged, this, [this] {
+    ++steps_;
+    noticeChange();
+  });
+  connect(&document.undoStack(), &QUndoStack::cleanChanged, this, &Autosave::noticeChange);
+  connect(&document, &Document::frameReady, this, &Autosave::noticeChange);
+}
+
+/// Cheap: it is called for every frame.
+void Autosave::noticeChange() {
+  changed_ = true;
+  if (!writing_ && !timer_.isActive() && !broken_) {
+    timer_.start();
+  }
+}
+
+Autosave::Mark Autosave::mark() const {
+  Mark mark{steps_, {}};
+  for (int panel = 0; panel < window_.document().panels(); ++panel) {
+    const Frame* frame = window_.document().frame(panel);
+    mark.changed.push_back(frame == nullptr || frame->changed.empty() ? 0 : *std::ranges::max_element(frame->changed));
+  }
+  return mark;
+}
+
+void Autosave::save() {
+  if (!window_.document().isModified()) {
+    remove();
+    return;
+  }
+  Mark now = mark();
+  if (now == saved_) {
+    return;  // a frame that showed the same
+  }
+  saved_ = std::move(now);
+  changed_ = false;
+  begun_ = std::chrono::steady_clock::now();
+  writing_ = std::make_shared<Writing>();
+  thread_ =
+      std::jthread([this, writing = writing_, path = path_, draft = SessionDraft(window_.document(), lookOf(window_))] {
+        try {
+          const Progress progress(writing->job);
+          save_session(asPath(path), draft.finished(progress), progress);
+        } catch (const std::exception& problem) {
+          writing->error = problem.what();
+        }
+        writing->done = true;
+        QMetaObject::invokeMethod(this, &Autosave::receive, Qt::QueuedConnection);
+      });
+}
+
+void Autosave::receive() {
+  const auto written = std::exchange(writing_, nullptr);
+  if (!written->error.empty()) {
+    broken_ = true;
+    emit failed(QStringLiteral("Work is not kept safe from now on: %1").arg(QString::fromStdString(written->error)));
+    return;
+  }
+  const auto took = std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - begun_);
+  timer_.setInterval(std::clamp(mostBehind - 2 * took, shortestWait, longestWait));
+  if (changed_) {
+    timer_.start();
+  }
+}
+
+void Autosave::adopt(const QString& path) {
+  if (QFile::exists(path_)) {
+    QFile::remove(path);
+  } else {
+    QFile::rename(path, path_);
+  }
+}
+
+void Autosave::remove() {
+  QFile::remove(path_);
+  saved_ = {};
+}
+
+}  // namespace chainmail

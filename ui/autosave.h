@@ -1,0 +1,67 @@
+#pragma once
+
+#include <QLockFile>
+#include <QObject>
+#include <QTimer>
+#include <chrono>
+#include <memory>
+#include <thread>
+
+namespace chainmail {
+
+class MainWindow;
+
+/// Keeps a window's unsaved work on the disk, at most some seconds behind: written in the background, whole or not at
+/// all, beside a lock that tells a program that runs from one that has crashed. While nothing changes it does nothing;
+/// what is saved, or closed on purpose, is taken away.
+class Autosave : public QObject {
+  Q_OBJECT
+
+ public:
+  /// Where all programs of a user keep theirs; made where it is missing.
+  static QString folder();
+  /// The lock that belongs to a file there.
+  static QString lockOf(const QString& path) { return path + QStringLiteral(".lock"); }
+
+  Autosave(MainWindow& window, QObject* parent);
+  /// Nothing is left behind.
+  ~Autosave() override;
+
+  /// Takes a file over that another program left; it is this window's work now.
+  void adopt(const QString& path);
+
+ signals:
+  /// Work is not kept safe: one sentence.
+  void failed(const QString& sentence);
+
+ private:
+  struct Writing;
+  /// What tells one state of the work from another.
+  struct Mark {
+    std::uint64_t steps = 0;             // of undo, redo and doing
+    std::vector<std::uint64_t> changed;  // the newest frame of each panel in which a position changed
+
+    bool operator==(const Mark&) const = default;
+  };
+
+  void listen();
+  void noticeChange();
+  void save();
+  void receive();
+  void remove();
+  Mark mark() const;
+
+  MainWindow& window_;
+  QString path_;
+  QLockFile lock_;
+  QTimer timer_;
+  std::uint64_t steps_ = 0;
+  Mark saved_;
+  bool changed_ = false;  // while it was being written
+  bool broken_ = false;
+  std::chrono::steady_clock::time_point begun_;
+  std::shared_ptr<Writing> writing_;  // while something is; shared with its thread
+  std::jthread thread_;
+};
+
+}  // namespace chainmail

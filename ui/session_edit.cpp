@@ -1,0 +1,120 @@
+#include "session_edit.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+namespace chainmail {
+
+SessionEdit::SessionEdit(Document& document, const std::shared_ptr<const Session>& session, const QString& file,
+                         const QString& text)
+    : Edit(document, text, document.newState()),
+      other_{session->mesh,
+             QString::fromStdString(session->name),
+             file,
+             Cuts(session->mesh),
+             session->pins,
+             session->softness,
+             session->relaxation,
+             {document.algorithms_.begin(), document.algorithms_.begin() + document.panels()}},
+      session_(session) {
+  for (const LinkId link : session->cuts) {
+    other_.cuts.cut(link);
+  }
+  for (std::size_t panel = 0; panel < other_.algorithms.size(); ++panel) {
+    Algorithm& algorithm = other_.algorithms[panel];
+    algorithm = panel < session->panels.size()    ? session->panels[panel].algorithm
+                : fits(algorithm, *session->mesh) ? algorithm
+                                                  : Algorithm::natural_queue;
+  }
+}
+
+/// Of panels that were there then and still are.
+int SessionEdit::count() const { return std::min(document_.panels(), int(other_.algorithms.size())); }
+
+void SessionEdit::carryOut() {
+  document_.post(commands::ReplaceMesh{other_.mesh});
+  document_.post(other_.relaxation);
+  document_.post(commands::SetSoftness{*other_.softness});
+  document_.post(commands::Cut{session_->cuts});
+  document_.post(commands::Pin{session_->pins});
+  for (int panel = 0; panel < count(); ++panel) {
+    document_.log_->post_to(*document_.solvers_[panel], commands::SetAlgorithm{other_.algorithms[panel]});
+    place(panel);  // last: relaxation sleeps then, and leaves everything where it stood
+  }
+  session_.reset();
+}
+
+void SessionEdit::place(int panel) {
+  const auto& panels = session_->panels;
+  const auto& from = std::size_t(panel) < panels.size() ? panels[panel] : panels.front();
+  // It shares the session, and does not copy its numbers.
+  document_.log_->post_to(*document_.solvers_[panel],
+                          commands::Place{std::shared_ptr<const Placement>(session_, &from.placement)});
+}
+
+/// What solvers do not keep with the object. Of the algorithms, those that hold positions as the kept ones are, and
+/// work on the mesh that is still there.
+void SessionEdit::prepare(bool /*done*/) {
+  document_.post(other_.relaxation);
+  for (int panel = 0; panel < count(); ++panel) {
+    const bool exact = other_.algorithms[panel] == Algorithm::exact;
+    document_.log_->post_to(*document_.solvers_[panel],
+                            commands::SetAlgorithm{exact ? Algorithm::exact : Algorithm::natural_queue});
+  }
+}
+
+void SessionEdit::show(bool /*done*/) {
+  std::swap(other_.mesh, document_.mesh_);
+  std::swap(other_.name, document_.name_);
+  std::swap(other_.file, document_.sessionFile_);
+  std::swap(other_.cuts, document_.cuts_);
+  std::swap(other_.pins, document_.pins_);
+  std::swap(other_.softness, document_.softness_);
+  std::swap(other_.relaxation, document_.relaxation_);
+  for (int panel = 0; panel < count(); ++panel) {
+    std::swap(other_.algorithms[panel], document_.algorithms_[panel]);
+    document_.log_->post_to(*document_.solvers_[panel], commands::SetAlgorithm{document_.algorithms_[panel]});
+  }
+  tell();
+}
+
+void SessionEdit::tell() const {
+  document_.setHighlight({});
+  document_.select({});
+  emit document_.meshChanged();
+  emit document_.softnessChanged();
+  emit document_.relaxationChanged();
+  for (int panel = 0; panel < count(); ++panel) {
+    emit document_.algorithmChanged(panel);
+  }
+  emit document_.sessionFileChanged();
+}
+
+// What a document has to do with sessions.
+
+void Document::restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text) {
+  push(new SessionEdit(*this, session, file, text));
+}
+
+std::future<Placement> Document::placement(int panel) {
+  const auto promise = std::make_shared<std::promise<Placement>>();
+  log_->flush();
+  solvers_[panel]->ask([promise](const Simulation& simulation) {
+    try {
+      promise->set_value(simulation.placement());
+    } catch (const std::bad_alloc&) {
+      promise->set_exception(std::current_exception());
+    }
+  });
+  return promise->get_future();
+}
+
+void Document::setSessionFile(const QString& file) {
+  if (file != sessionFile_) {
+    sessionFile_ = file;
+    emit sessionFileChanged();
+  }
+}
+
+}  // namespace chainmail

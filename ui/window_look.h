@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace chainmail {
+
+class MainWindow;
+
+/// How a window looks at its object, as a session keeps it: cameras, colours, docks. JSON that core does not look into.
+std::string lookOf(MainWindow& window);
+
+/// Takes a look up again; what is missing, or none, stays as it is.
+void takeLook(MainWindow& window, const std::string& look);
+
+}  // namespace chainmail
