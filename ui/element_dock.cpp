@@ -194,10 +194,10 @@ void ElementDock::showPlaces() {
       put(*places_, row, k + 1, figure(at[mesh.axes[std::size_t(k)]]));
     }
   };
-  places_->setRowCount(element_ ? Document::panels + 1 : 0);
+  places_->setRowCount(element_ ? document_.panels() + 1 : 0);
   if (element_) {
     show(0, QStringLiteral("rest"), mesh.rest_position(*element_));
-    for (int panel = 0; panel < Document::panels; ++panel) {
+    for (int panel = 0; panel < document_.panels(); ++panel) {
       show(panel + 1, panelName(panel), positionIn(document_, panel, *element_));
     }
   }
@@ -222,7 +222,7 @@ void ElementDock::showNeighbour(int row, EntryId entry) {
   const ElementId to = document_.mesh()->neighbours[entry];
   const bool isCut = document_.cuts().is_cut(link);
   double violation = 0;
-  for (int panel = 0; panel < Document::panels; ++panel) {
+  for (int panel = 0; panel < document_.panels(); ++panel) {
     violation = std::max(violation, violationOfLink(document_, panel, link));
   }
   const LinkSoftness& softness = document_.wholeSoftness()->of(link);

@@ -44,7 +44,7 @@ void ElementReadout::showWhatIs() {
 QString ElementReadout::describe(ElementId element) const {
   const int first = hovered_();
   QString places;
-  for (int i = 0; i < Document::panels; ++i) {
+  for (int i = 0; i < document_.panels(); ++i) {
     const int panel = i == 0 ? first : i <= first ? i - 1 : i;
     places += QStringLiteral("  ·  %1: %2, violation %3")
                   .arg(i == 0 ? QStringLiteral("<b>%1</b>").arg(panelName(panel)) : panelName(panel),

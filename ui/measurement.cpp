@@ -49,7 +49,7 @@ QString Measurement::sentence() const {
     return QStringLiteral("From element %L1: click another one").arg(*from_);
   }
   QStringList panels;
-  for (int panel = 0; panel < Document::panels; ++panel) {
+  for (int panel = 0; panel < document_.panels(); ++panel) {
     const Figures of = figures(panel);
     panels << QStringLiteral("%1: <b>%2</b> (× %3; %4)")
                   .arg(panelName(panel), figure(of.now),
