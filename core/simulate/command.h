@@ -95,10 +95,10 @@ struct DropState {
 
 }  // namespace commands
 
-using Command = std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness,
-                             commands::SetRelaxation, commands::Relax, commands::SetAlgorithm, commands::Cut,
-                             commands::Uncut, commands::Pin, commands::Unpin, commands::Reset, commands::ReplaceMesh,
-                             commands::Place,
-                             commands::KeepState, commands::SwapState, commands::RestoreState, commands::DropState>;
+using Command =
+    std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness, commands::SetRelaxation,
+                 commands::Relax, commands::SetAlgorithm, commands::Cut, commands::Uncut, commands::Pin,
+                 commands::Unpin, commands::Reset, commands::ReplaceMesh, commands::Place, commands::KeepState,
+                 commands::SwapState, commands::RestoreState, commands::DropState>;
 
 }  // namespace chainmail
