@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 
-#include "drag_recorder.h"
 #include "mesh/cuts.h"
 #include "selection.h"
 #include "simulate/command_log.h"
@@ -82,7 +81,7 @@ class Document : public QObject {
   const QString& sessionFile() const { return sessionFile_; }
   void setSessionFile(const QString& file);
   /// Whether something was done since it was last opened or saved.
-  bool isModified() const { return !undoStack_.isClean() || beforeDrag_.has_value(); }
+  bool isModified() const { return !undoStack_.isClean() || hand_.has_value(); }
   /// Whether all solvers have carried out all that was asked of them.
   bool idle() const;
   /// Whether, beside, the frames show what came of it. Not so while relaxation goes on.
@@ -93,11 +92,11 @@ class Document : public QObject {
   void drag(const Point& target);
   void release();
   /// The element in the hand.
-  std::optional<ElementId> held() const { return recorder_.held(); }
+  std::optional<ElementId> held() const { return hand_ ? std::optional(hand_->element) : std::nullopt; }
   /// What the hand did last on this mesh, without the release; empty where it did nothing yet.
-  const std::vector<Command>& lastDrag() const { return recorder_.last(); }
-  /// As if the hand had done nothing yet on this mesh.
-  void forgetDrags();
+  std::vector<Command> lastDrag() const { return tape().last_drag(); }
+  /// As if nothing had been done yet to this object, which stands as it is.
+  void forgetMoves();
 
   /// What was done to this object since it was at rest, and how far of it the object stands.
   const Tape& tape() const { return log_->tape(); }
@@ -206,9 +205,12 @@ class Document : public QObject {
   Highlight highlight_;
   Selection selection_;
   commands::StateId nextState_ = 1;
-  DragRecorder recorder_;
-  std::optional<commands::StateId> beforeDrag_;  // kept while the hand holds an element
-  ElementId dragged_ = 0;
+  struct Hand {
+    ElementId element = 0;
+    commands::StateId before = 0;  // kept while the hand holds the element
+    bool moved = false;
+  };
+  std::optional<Hand> hand_;
 
   // States kept while moves are replayed, by how many commands were carried out then: going back begins at one of them.
   std::map<std::size_t, commands::StateId> onTheWay_;

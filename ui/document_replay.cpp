@@ -113,8 +113,8 @@ void Document::showTape() {
     pins_ = object.pins;
     emit pinsChanged();
   }
-  if (*softness_ != object.softness) {
-    showSoftness(std::make_shared<const Softness>(object.softness));
+  if (*softness_ != *object.softness) {
+    showSoftness(object.softness);
   }
 }
 

@@ -63,7 +63,7 @@ SoftnessEdit::SoftnessEdit(Document& document, std::shared_ptr<const Softness> s
                            int gesture)
     : GestureEdit(document, document.wholeSoftness(), std::move(softness), text, gesture) {}
 
-void SoftnessEdit::carryOut() { document_.post(commands::SetSoftness{*after_}); }
+void SoftnessEdit::carryOut() { document_.post(commands::SetSoftness{after_}); }
 
 RelaxationEdit::RelaxationEdit(Document& document, const commands::SetRelaxation& relaxation, const QString& text,
                                int gesture)

@@ -77,7 +77,7 @@ void ExampleDrag::stop() {
   document_.release();
   document_.undo();
   document_.undoStack().clear();
-  document_.forgetDrags();
+  document_.forgetMoves();
   document_.setHighlight({});
   // Who has just pressed a button takes hold of what is there after that.
   QElapsedTimer waited;

@@ -78,6 +78,8 @@ class MainWindow : public QMainWindow {
   void makeToolBar();
   void giveUp();
   void activate(Tool& tool);
+  /// Says something in the status bar for a while.
+  void tell(const QString& sentence);
   void showTitle();
   void restoreLayout();
 

@@ -54,12 +54,7 @@ QString ReplayDock::describe() const {
   if (tape.length() == 0) {
     return QStringLiteral("Nothing was done to this object yet: all that is done will stand here");
   }
-  std::size_t moves = 0, done = 0;
-  for (std::size_t i = 0; i < tape.length(); ++i) {
-    moves += isMove(tape.at(i)) ? 1 : 0;
-    done += i < tape.position() && isMove(tape.at(i)) ? 1 : 0;
-  }
-  return QStringLiteral("move %L1 of %L2").arg(done).arg(moves);
+  return QStringLiteral("move %L1 of %L2").arg(tape.passes(tape.position())).arg(tape.passes(tape.length()));
 }
 
 void ReplayDock::showTape() {

@@ -35,7 +35,7 @@ int SessionEdit::count() const { return std::min(document_.panels(), int(other_.
 void SessionEdit::carryOut() {
   document_.post(commands::ReplaceMesh{other_.mesh});
   document_.post(other_.relaxation);
-  document_.post(commands::SetSoftness{*other_.softness});
+  document_.post(commands::SetSoftness{other_.softness});
   document_.post(commands::Cut{session_->cuts});
   document_.post(commands::Pin{session_->pins});
   for (int panel = 0; panel < count(); ++panel) {

@@ -32,9 +32,9 @@ class MoveWriter {
   Json operator()(const commands::Unpin& one) const { return {{"do", "unpin"}, {"elements", one.elements}}; }
   Json operator()(const commands::Reset&) const { return {{"do", "reset"}}; }
   Json operator()(const commands::SetSoftness& one) const {
-    const auto& [compression, stretch, shear] = one.softness.global;
+    const auto& [compression, stretch, shear] = one.softness->global;
     Json json{{"do", "softness"}, {"compression", compression}, {"stretch", stretch}, {"shear", shear}};
-    for (const auto& [link, of_link] : one.softness.links) {
+    for (const auto& [link, of_link] : one.softness->links) {
       const auto [a, b] = mesh_.links[link];
       json["links"].push_back({a, b, of_link.compression, of_link.stretch, of_link.shear});
     }
@@ -46,7 +46,6 @@ class MoveWriter {
   }
   Json operator()(const commands::ReplaceMesh&) const { refuse(); }
   Json operator()(const commands::Place&) const { refuse(); }
-  Json operator()(const commands::SwapState&) const { refuse(); }
   Json operator()(const commands::RestoreState&) const { refuse(); }
   Json operator()(const commands::SetRelaxation&) const { return {}; }
   Json operator()(const commands::SetAlgorithm&) const { return {}; }

@@ -99,7 +99,7 @@ using Progress = std::function<void(double fraction, const std::string& text)>;
 ///
 /// Of the commands, SetAlgorithm and SetRelaxation are passed over (they are the contestants' own), and so are
 /// KeepState and DropState. Throws Error where a drag holds no move, where it replaces the object
-/// (ReplaceMesh, SwapState), and where a number in the options is out of its range. A contestant that cannot
+/// (ReplaceMesh, RestoreState), and where a number in the options is out of its range. A contestant that cannot
 /// carry the moves out is listed with the reason.
 ///
 /// `stop` is looked at between passes and between sweeps.

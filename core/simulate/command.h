@@ -28,8 +28,12 @@ struct Drag {
 };
 /// The hand lets go.
 struct Release {};
+/// What is set is shared: a slider's gesture on links with a softness of their own copies none of them.
 struct SetSoftness {
-  Softness softness;
+  SetSoftness(std::shared_ptr<const Softness> set = std::make_shared<const Softness>()) : softness(std::move(set)) {}
+  explicit SetSoftness(Softness set) : SetSoftness(std::make_shared<const Softness>(std::move(set))) {}
+
+  std::shared_ptr<const Softness> softness;
 };
 /// Relaxation in idle time, with a step in (0, 1].
 struct SetRelaxation {
@@ -80,10 +84,6 @@ using StateId = std::uint64_t;
 struct KeepState {
   StateId state = 0;
 };
-/// Exchanges the object with the one kept under a name: undo and redo are the same command.
-struct SwapState {
-  StateId state = 0;
-};
 /// Brings the object to the state kept under a name, which stays kept.
 struct RestoreState {
   StateId state = 0;
@@ -95,10 +95,9 @@ struct DropState {
 
 }  // namespace commands
 
-using Command =
-    std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness, commands::SetRelaxation,
-                 commands::Relax, commands::SetAlgorithm, commands::Cut, commands::Uncut, commands::Pin,
-                 commands::Unpin, commands::Reset, commands::ReplaceMesh, commands::Place, commands::KeepState,
-                 commands::SwapState, commands::RestoreState, commands::DropState>;
+using Command = std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness,
+                             commands::SetRelaxation, commands::Relax, commands::SetAlgorithm, commands::Cut,
+                             commands::Uncut, commands::Pin, commands::Unpin, commands::Reset, commands::ReplaceMesh,
+                             commands::Place, commands::KeepState, commands::RestoreState, commands::DropState>;
 
 }  // namespace chainmail

@@ -93,7 +93,6 @@ class Simulation {
   void carry_out(const commands::ReplaceMesh& command);
   void carry_out(const commands::Place& command);
   void carry_out(const commands::KeepState& command);
-  void carry_out(const commands::SwapState& command);
   void carry_out(const commands::RestoreState& command);
   void carry_out(const commands::DropState& command);
 

@@ -35,12 +35,12 @@ void Simulation::carry_out(const commands::Release&) {
 }
 
 void Simulation::carry_out(const commands::SetSoftness& command) {
-  check(command.softness.global);
-  for (const auto& [link, softness] : command.softness.links) {
+  check(command.softness->global);
+  for (const auto& [link, softness] : command.softness->links) {
     check_links(std::span(&link, 1));
     check(softness);
   }
-  set_softness(std::make_shared<const Softness>(command.softness));
+  set_softness(command.softness);
   valid_ = false;
   answer();
 }

@@ -11,13 +11,6 @@ namespace chainmail {
 
 void Simulation::carry_out(const commands::KeepState& command) { kept_[command.state] = current_state(); }
 
-void Simulation::carry_out(const commands::SwapState& command) {
-  State& other = kept(command.state);
-  State now = current_state();
-  take_state(other);
-  other = std::move(now);
-}
-
 void Simulation::carry_out(const commands::RestoreState& command) { take_state(kept(command.state)); }
 
 void Simulation::carry_out(const commands::DropState& command) { kept_.erase(command.state); }

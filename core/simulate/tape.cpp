@@ -18,12 +18,14 @@ void Tape::note(const Command& command) {
   if (const auto* keep = std::get_if<KeepState>(&command)) {
     kept_[keep->state] = last();
   } else if (const auto* restore = std::get_if<RestoreState>(&command)) {
-    return_to(kept_.at(restore->state));
+    if (const auto kept = kept_.find(restore->state); kept != kept_.end()) {  // else the solver refuses it
+      return_to(kept->second);
+    }
   } else if (const auto* drop = std::get_if<DropState>(&command)) {
     kept_.erase(drop->state);
   } else if (std::holds_alternative<ReplaceMesh>(command)) {
     begin_mesh();
-  } else if (!is_one_of<SetAlgorithm, SetRelaxation, SwapState>(command)) {
+  } else if (!is_one_of<SetAlgorithm, SetRelaxation>(command)) {
     add(command);
   }
 }
@@ -34,14 +36,14 @@ void Tape::add(const Command& command) {
     timeline_.resize(position_);
     ++timeline_number_;
   }
-  nodes_.push_back({command, before});
+  nodes_.push_back({command, before, nodes_[before].passes + (is_one_of<commands::Drag>(command) ? 1U : 0U)});
   timeline_.push_back(static_cast<Node>(nodes_.size() - 1));
   ++position_;
 }
 
 void Tape::begin() {
   beginning_ = static_cast<Node>(nodes_.size());
-  nodes_.push_back({{}, none});
+  nodes_.push_back({{}, none, 0});
   timeline_.clear();
   position_ = 0;
   ++timeline_number_;
@@ -49,10 +51,10 @@ void Tape::begin() {
 
 /// Another object takes the global softness over.
 void Tape::begin_mesh() {
-  const LinkSoftness global = object().softness.global;
+  const LinkSoftness global = object().softness->global;
   begin();
   if (global != LinkSoftness()) {
-    add(commands::SetSoftness{{global, {}}});
+    add(commands::SetSoftness{Softness{global, {}}});
   }
 }
 
@@ -86,6 +88,21 @@ std::vector<Command> Tape::commands() const {
     all.push_back(nodes_[node].command);
   }
   return all;
+}
+
+std::vector<Command> Tape::last_drag() const {
+  std::vector<Command> drag;
+  for (std::size_t i = position_; i > 0; --i) {
+    const bool is_grab = is_one_of<commands::Grab>(at(i - 1));
+    if (is_one_of<commands::Drag>(at(i - 1)) || (is_grab && !drag.empty())) {
+      drag.push_back(at(i - 1));
+    }
+    if (is_grab && !drag.empty()) {
+      break;
+    }
+  }
+  std::ranges::reverse(drag);
+  return drag;
 }
 
 Tape::Object Tape::object() const {

@@ -28,6 +28,11 @@ class Tape {
   /// Other commands, none of them carried out yet.
   void load(const std::vector<Command>& commands);
   std::vector<Command> commands() const;
+  /// How many of the first so many commands are drags, and with them passes.
+  std::size_t passes(std::size_t commands) const { return commands == 0 ? 0 : nodes_[timeline_[commands - 1]].passes; }
+  /// The last grab before where the object stands that was followed by a drag, and its drags; empty where there is
+  /// none.
+  std::vector<Command> last_drag() const;
 
   /// Changes when commands ahead of the object are replaced, or others are loaded.
   std::uint64_t timeline() const { return timeline_number_; }
@@ -36,7 +41,7 @@ class Tape {
   struct Object {
     std::vector<LinkId> cuts;
     std::vector<ElementId> pins;
-    Softness softness;
+    std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   };
   /// The object where it stands.
   Object object() const;
@@ -47,7 +52,8 @@ class Tape {
 
   struct Entry {
     Command command;
-    Node before;  // what was done before it; none for the beginning of a timeline, which is no command
+    Node before;               // what was done before it; none for the beginning of a timeline, which is no command
+    std::uint32_t passes = 0;  // up to here
   };
 
   void add(const Command& command);
@@ -57,7 +63,7 @@ class Tape {
   Node last() const { return position_ == 0 ? beginning_ : timeline_[position_ - 1]; }
 
   // All that was ever done, undone or not: what follows after an undo is a branch.
-  std::vector<Entry> nodes_{{{}, none}};
+  std::vector<Entry> nodes_{{{}, none, 0}};
   Node beginning_ = 0;          // of this object, or of what was loaded
   std::vector<Node> timeline_;  // the branch that is looked at
   std::size_t position_ = 0;

@@ -37,7 +37,7 @@ class AnyCommand {
       case 6:
         return KeepState{below(4)};
       case 7:
-        return SwapState{below(4)};
+        return RestoreState{below(4)};
       case 8:
         return below(3) == 0 ? Command(DropState{below(4)}) : Command(Release{});
       case 14:

@@ -9,6 +9,19 @@ namespace chainmail::test {
 
 inline void carry_out(Simulation& simulation, const Command& command) { simulation.apply(command); }
 
+/// Exchanges the object with the one kept under a name, as undo and redo do.
+inline void exchange(Simulation& simulation, commands::StateId state) {
+  constexpr commands::StateId before = 1'000'000, after = before + 1;
+  carry_out(simulation, commands::KeepState{before});
+  carry_out(simulation, commands::RestoreState{state});
+  carry_out(simulation, commands::KeepState{after});
+  carry_out(simulation, commands::RestoreState{before});
+  carry_out(simulation, commands::KeepState{state});
+  carry_out(simulation, commands::RestoreState{after});
+  carry_out(simulation, commands::DropState{before});
+  carry_out(simulation, commands::DropState{after});
+}
+
 inline std::vector<double> positions_of(const Simulation& simulation) {
   return positions_of(simulation.solver(), simulation.mesh());
 }

@@ -116,7 +116,7 @@ void CompareRunTest::wrong_moves_and_numbers_are_refused() {
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
   const RecordedMoves good = drag(*line, 0, {-1, 0, 0});
   RecordedMoves none{"none", "", {commands::Grab{0}}}, undo = good, other = good;
-  undo.commands.emplace_back(commands::SwapState{1});
+  undo.commands.emplace_back(commands::RestoreState{1});
   other.commands.emplace_back(commands::ReplaceMesh{line});
   for (const RecordedMoves& moves : {none, undo, other}) {
     QVERIFY_EXCEPTION_THROWN(compare({object(line, moves)}, quick()), Error);

@@ -103,10 +103,10 @@ void FramesTest::what_stays_is_not_copied() {
   Simulation& simulation = scene.simulation;
   QCOMPARE(scene.frames.latest().changed.size(), std::size_t{64});
   const std::vector<Command> still{
-      commands::Grab{0},         commands::Cut{{5}},     commands::Pin{{9}},
-      commands::Unpin{{9}},      commands::Uncut{{5}},   commands::SetSoftness{},
-      commands::KeepState{1},    commands::SwapState{1}, commands::Reset{},
-      commands::SetRelaxation{}, commands::Release{},    commands::SetAlgorithm{Algorithm::exact}};
+      commands::Grab{0},         commands::Cut{{5}},        commands::Pin{{9}},
+      commands::Unpin{{9}},      commands::Uncut{{5}},      commands::SetSoftness{},
+      commands::KeepState{1},    commands::RestoreState{1}, commands::Reset{},
+      commands::SetRelaxation{}, commands::Release{},       commands::SetAlgorithm{Algorithm::exact}};
   for (const Command& command : still) {
     carry_out(simulation, command);
     QVERIFY(scene.changed().empty());
@@ -131,10 +131,10 @@ void FramesTest::an_undone_reset_changes_what_it_brings_back() {
   QVERIFY(scene.changed() == away);
   const auto& rest = scene.simulation.mesh().rest;
   QVERIFY(std::equal(rest.begin(), rest.end(), scene.frames.latest().positions.begin()));
-  carry_out(scene.simulation, commands::SwapState{1});
+  exchange(scene.simulation, 1);
   QVERIFY(scene.changed() == away);
   QVERIFY(scene.frames.latest().positions == positions);
-  carry_out(scene.simulation, commands::SwapState{1});
+  exchange(scene.simulation, 1);
   QVERIFY(scene.changed() == away);
   // Once more at rest, there is nothing to put back.
   carry_out(scene.simulation, commands::Reset{});

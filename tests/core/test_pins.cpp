@@ -117,14 +117,14 @@ void PinsTest::pins_come_back_with_undo() {
   carry_out(simulation, commands::KeepState{1});
   carry_out(simulation, commands::Unpin{{1}});
   carry_out(simulation, commands::Pin{{7}});
-  carry_out(simulation, commands::SwapState{1});
+  exchange(simulation, 1);
   QCOMPARE(pins(), (std::vector<ElementId>{1, 3}));
-  carry_out(simulation, commands::SwapState{1});
+  exchange(simulation, 1);
   QCOMPARE(pins(), (std::vector<ElementId>{3, 7}));
   carry_out(simulation, commands::KeepState{2});
   carry_out(simulation, commands::ReplaceMesh{make_mesh(MeshKind::grid, {4, 4, 1})});
   QVERIFY(pins().empty());
-  carry_out(simulation, commands::SwapState{2});
+  exchange(simulation, 2);
   QCOMPARE(pins(), (std::vector<ElementId>{3, 7}));
   QVERIFY(refusal([&] { simulation.apply(commands::Drag{Point(0, 0, 0)}); }).starts_with("drag"));
 }

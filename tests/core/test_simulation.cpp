@@ -276,7 +276,7 @@ void SimulationTest::exact_takes_over_at_once() {
 void SimulationTest::what_passes_did_goes_with_them() {
   // Another algorithm, the rest shape or an undone state must not stand beside what an older pass did.
   const std::vector<Command> changes{commands::SetAlgorithm{Algorithm::spiral}, commands::Reset{},
-                                     commands::SwapState{1}};
+                                     commands::RestoreState{1}};
   for (const Command& change : changes) {
     Simulation simulation(make_mesh(MeshKind::line, {12, 1, 1}), Algorithm::exact, Precision::double_precision);
     carry_out(simulation, commands::KeepState{1});

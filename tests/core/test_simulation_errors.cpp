@@ -60,7 +60,7 @@ void SimulationErrorsTest::refused_without_a_trace_data() {
   row("relaxation step of 0", commands::SetRelaxation{false, 0}, "relax-step");
   row("relaxation step above 1", commands::SetRelaxation{true, 1.5}, "relax-step");
   row("relaxation step is no number", commands::SetRelaxation{true, no_number}, "relax-step");
-  row("a state that is not kept", commands::SwapState{5}, "state 5");
+  row("a state that is not kept", commands::RestoreState{5}, "state 5");
 }
 
 void SimulationErrorsTest::refused_without_a_trace() {

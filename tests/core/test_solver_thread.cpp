@@ -171,7 +171,7 @@ void SolverThreadTest::another_goes_on_from_where_one_stands() {
   all(commands::Drag{Point(-4, 7, 0)});
   QVERIFY(wait_until([&] { return idle() && second.latest_frame().statistics.passes == 1; }));
   QVERIFY(wait_until([&] { return same(second); }));
-  all(commands::SwapState{1});
+  all(commands::RestoreState{1});
   QVERIFY(wait_until([&] {
     return first.latest_frame().positions == at_rest && second.latest_frame().positions == at_rest &&
            third.latest_frame().positions == at_rest;

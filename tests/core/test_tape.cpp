@@ -18,6 +18,7 @@ class TapeTest : public QObject {
   void another_mesh_begins_anew_with_the_global_softness();
   void what_is_loaded_lies_ahead();
   void the_object_is_what_the_commands_made_of_it();
+  void the_last_drag_is_told_apart();
   void its_commands_repeat_a_simulation_to_the_bit();
 };
 
@@ -101,7 +102,7 @@ void TapeTest::another_mesh_begins_anew_with_the_global_softness() {
   tape.note(commands::KeepState{1});
   tape.note(commands::ReplaceMesh{make_mesh(MeshKind::line, {4, 1, 1})});
   QCOMPARE(tape.length(), std::size_t{1});
-  QVERIFY((tape.object().softness == Softness{{0.5, 2, 0}, {}}));
+  QVERIFY((*tape.object().softness == Softness{{0.5, 2, 0}, {}}));
   QVERIFY(tape.object().cuts.empty());
   tape.note(commands::RestoreState{1});
   QCOMPARE(tape.length(), std::size_t{2});
@@ -132,10 +133,32 @@ void TapeTest::the_object_is_what_the_commands_made_of_it() {
   tape.note(commands::Reset{});
   QCOMPARE(tape.object().cuts, (std::vector<LinkId>{2, 9}));
   QCOMPARE(tape.object().pins, std::vector<ElementId>{1});
-  QVERIFY((tape.object().softness == Softness{{0.5, 2, 0}, {}}));
+  QVERIFY((*tape.object().softness == Softness{{0.5, 2, 0}, {}}));
   tape.go_to(1);
   QCOMPARE(tape.object().cuts, (std::vector<LinkId>{2, 5, 9}));
-  QVERIFY(tape.object().softness == Softness());
+  QVERIFY(*tape.object().softness == Softness());
+}
+
+void TapeTest::the_last_drag_is_told_apart() {
+  Tape tape;
+  QVERIFY(tape.last_drag().empty());
+  const std::vector<Command> done{commands::Grab{1},
+                                  commands::Drag{Point(1, 0, 0)},
+                                  commands::Drag{Point(2, 0, 0)},
+                                  commands::Release{},
+                                  commands::Grab{2},
+                                  commands::Release{}};
+  for (const Command& command : done) {
+    tape.note(command);
+  }
+  const auto drag = tape.last_drag();  // a press without a move is none
+  QCOMPARE(drag.size(), std::size_t{3});
+  QCOMPARE(std::get<commands::Grab>(drag.front()).element, 1U);
+  QVERIFY(std::get<commands::Drag>(drag.back()).target == Point(2, 0, 0));
+  QCOMPARE(tape.passes(tape.length()), std::size_t{2});
+  QCOMPARE(tape.passes(2), std::size_t{1});
+  tape.go_to(1);
+  QVERIFY(tape.last_drag().empty());
 }
 
 void TapeTest::its_commands_repeat_a_simulation_to_the_bit() {

@@ -72,9 +72,9 @@ void UndoTest::swapping_brings_the_object_back_and_forth() {
     const Snapshot after(simulation);
     QVERIFY(!after.same_object(before));
     for (int i = 0; i < 3; ++i) {
-      carry_out(simulation, commands::SwapState{1});  // undo
+      exchange(simulation, 1);  // undo
       QVERIFY(Snapshot(simulation).same_object(before));
-      carry_out(simulation, commands::SwapState{1});  // redo
+      exchange(simulation, 1);  // redo
       QVERIFY(Snapshot(simulation).same_object(after));
     }
   }
@@ -86,7 +86,7 @@ void UndoTest::later_moves_come_out_as_if_nothing_had_been() {
     auto simulation = worked_simulation(algorithm, Precision::single_precision);
     carry_out(simulation, commands::KeepState{1});
     change_everything(simulation);
-    carry_out(simulation, commands::SwapState{1});
+    exchange(simulation, 1);
     QVERIFY(trace_of_drags(simulation) == trace_of_drags(untouched));
     QVERIFY(same_bits(positions_of(simulation), positions_of(untouched)));
   }
@@ -99,9 +99,9 @@ void UndoTest::another_mesh_comes_back_with_its_cuts_and_softness() {
   carry_out(simulation, commands::ReplaceMesh{make_mesh(MeshKind::block, {3, 3, 3})});
   drag_by(simulation, 0, Point(-1, -2, -3));
   const Snapshot after(simulation);
-  carry_out(simulation, commands::SwapState{1});
+  exchange(simulation, 1);
   QVERIFY(Snapshot(simulation).same_object(before));
-  carry_out(simulation, commands::SwapState{1});
+  exchange(simulation, 1);
   QVERIFY(Snapshot(simulation).same_object(after));
 }
 
@@ -121,10 +121,10 @@ void UndoTest::any_change_is_undone() {
     carry_out(simulation, commands::KeepState{1});
     work();
     const Snapshot after(simulation);
-    carry_out(simulation, commands::SwapState{1});
+    exchange(simulation, 1);
     RC_ASSERT(Snapshot(simulation).same_object(before));
     RC_ASSERT(simulation.valid() == before.valid);
-    carry_out(simulation, commands::SwapState{1});
+    exchange(simulation, 1);
     RC_ASSERT(Snapshot(simulation).same_object(after));
   };
   QVERIFY(rc::check("undo and redo of cuts, softness, drags and relaxation are exact", holds));
@@ -136,9 +136,9 @@ void UndoTest::whether_the_object_is_valid_comes_back_too() {
   drag_by(simulation, 0, Point(0, 0, 9));  // Generalized leaves links of it invalid
   simulation.refresh_statistics(true);
   QVERIFY(!simulation.valid());
-  carry_out(simulation, commands::SwapState{1});
+  exchange(simulation, 1);
   QVERIFY(simulation.valid());
-  carry_out(simulation, commands::SwapState{1});
+  exchange(simulation, 1);
   QVERIFY(!simulation.valid());
 }
 
@@ -150,11 +150,11 @@ void UndoTest::states_have_names_of_their_own() {
   const Snapshot second(simulation);
   carry_out(simulation, commands::KeepState{2});
   drag_by(simulation, 9, Point(-1, 1, 0));
-  carry_out(simulation, commands::SwapState{2});  // undo the second step, then the first
+  exchange(simulation, 2);  // undo the second step, then the first
   QVERIFY(Snapshot(simulation).same_object(second));
-  carry_out(simulation, commands::SwapState{1});
+  exchange(simulation, 1);
   QVERIFY(Snapshot(simulation).same_object(first));
-  carry_out(simulation, commands::SwapState{1});  // and redo the first
+  exchange(simulation, 1);  // and redo the first
   QVERIFY(Snapshot(simulation).same_object(second));
 }
 
@@ -184,7 +184,7 @@ void UndoTest::states_come_back_in_any_order() {
         carry_out(simulation, commands::KeepState{state});
       } else if (*rc::gen::arbitrary<bool>()) {
         const Snapshot now(simulation);
-        carry_out(simulation, commands::SwapState{state});
+        exchange(simulation, state);
         RC_ASSERT(Snapshot(simulation).same_object(kept[state]));
         kept[state] = now;
       } else {
@@ -216,10 +216,10 @@ void UndoTest::a_change_to_exact_is_undone_with_it() {
     const Snapshot exact(simulation);
     carry_out(simulation, commands::KeepState{2});
     drag_by(simulation, 20, Point(-3, 2, 0));
-    carry_out(simulation, commands::SwapState{2});
+    exchange(simulation, 2);
     QVERIFY(Snapshot(simulation).same_object(exact));
     carry_out(simulation, commands::SetAlgorithm{Algorithm::natural_queue});
-    carry_out(simulation, commands::SwapState{1});
+    exchange(simulation, 1);
     QVERIFY(Snapshot(simulation).same_object(before));
     // Taken back by an algorithm that holds positions otherwise, they are rounded, and kept as they are then.
     carry_out(simulation, commands::SetAlgorithm{Algorithm::exact});
@@ -227,7 +227,7 @@ void UndoTest::a_change_to_exact_is_undone_with_it() {
     const Snapshot rounded(simulation);
     carry_out(simulation, commands::KeepState{3});
     drag_by(simulation, 20, Point(-3, 2, 0));
-    carry_out(simulation, commands::SwapState{3});
+    exchange(simulation, 3);
     QVERIFY(Snapshot(simulation).same_object(rounded));
   }
 }
@@ -238,7 +238,7 @@ void UndoTest::a_dropped_state_is_gone() {
   carry_out(simulation, commands::DropState{1});
   carry_out(simulation, commands::DropState{1});  // does no harm
   const Snapshot before(simulation);
-  QVERIFY_EXCEPTION_THROWN(carry_out(simulation, commands::SwapState{1}), Error);
+  QVERIFY_EXCEPTION_THROWN(exchange(simulation, 1), Error);
   QVERIFY(Snapshot(simulation) == before);
 }
 
@@ -248,7 +248,7 @@ void UndoTest::the_hand_lets_go_and_relaxation_sleeps() {
   const Snapshot kept(simulation);
   carry_out(simulation, commands::SetRelaxation{true, 1});
   drag_by(simulation, 20, Point(-3, 2, 0));
-  carry_out(simulation, commands::SwapState{1});
+  exchange(simulation, 1);
   QVERIFY(!simulation.grabbed());
   QVERIFY(!simulation.statistics().relaxing);
   QVERIFY(!simulation.step());  // or the state that undo brought back would creep away

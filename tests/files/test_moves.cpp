@@ -61,7 +61,7 @@ void MovesTest::commands_are_read() {
   QCOMPARE(std::get<commands::Pin>(moves[5]).elements, (std::vector<ElementId>{3, 0}));
   QCOMPARE(std::get<commands::Unpin>(moves[6]).elements, std::vector<ElementId>{3});
   QVERIFY(std::holds_alternative<commands::Reset>(moves[7]));
-  QVERIFY((std::get<commands::SetSoftness>(moves[8]).softness == Softness{{0.5, 2, 0}, {{1, {1, 1, 0.25}}}}));
+  QVERIFY((*std::get<commands::SetSoftness>(moves[8]).softness == Softness{{0.5, 2, 0}, {{1, {1, 1, 0.25}}}}));
   // A simulation takes what was read.
   Simulation simulation(mesh_, Algorithm::exact, Precision::double_precision);
   for (const Command& move : moves) {
@@ -94,8 +94,8 @@ void MovesTest::what_is_written_reads_back() {
   QCOMPARE(written(again), text);
   QVERIFY(std::get<commands::Drag>(again[1]).target == odd);
   QVERIFY(std::get<commands::Drag>(again[2]).target == large);
-  QVERIFY(std::get<commands::SetSoftness>(again[6]).softness == std::get<commands::SetSoftness>(moves[6]).softness);
-  QVERIFY(std::get<commands::SetSoftness>(again[7]).softness == std::get<commands::SetSoftness>(moves[7]).softness);
+  QVERIFY(*std::get<commands::SetSoftness>(again[6]).softness == *std::get<commands::SetSoftness>(moves[6]).softness);
+  QVERIFY(*std::get<commands::SetSoftness>(again[7]).softness == *std::get<commands::SetSoftness>(moves[7]).softness);
   QCOMPARE(written(read(written(read(every_command)))), written(read(every_command)));
 }
 
@@ -109,7 +109,7 @@ void MovesTest::what_is_not_the_objects_is_left_out() {
 
 void MovesTest::a_change_of_mesh_is_not_written() {
   QVERIFY(error_of([&] { written({commands::ReplaceMesh{mesh_}}); }).startsWith("moves: "));
-  QVERIFY(error_of([&] { written({commands::SwapState{1}}); }).startsWith("moves: "));
+  QVERIFY(error_of([&] { written({commands::RestoreState{1}}); }).startsWith("moves: "));
 }
 
 void MovesTest::other_files_are_refused_data() {

@@ -1,6 +1,8 @@
 #include <QtTest>
+#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 
 #include "core/families.h"
 #include "files/session_support.h"
@@ -29,7 +31,7 @@ class SessionTest : public QObject {
  private:
   static void compare(const Session& again, const Session& session);
   static bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+    return std::ranges::equal(a, b, {}, std::bit_cast<std::uint64_t, double>, std::bit_cast<std::uint64_t, double>);
   }
 };
 

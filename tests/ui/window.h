@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QApplication>
+#include <QMenu>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QTest>
@@ -61,6 +62,25 @@ struct Workbench {
       QTest::mouseRelease(&at, Qt::LeftButton, {}, places.last());
       settle();
     }
+  }
+
+  /// So far that every element of the grid moves.
+  void dragFar() {
+    const QPoint from = place(0, 31);
+    stroke(0, {from, from + QPoint(170, -170), from + QPoint(-60, -100)});
+    document().setHighlight({});  // whose mark hides what is below
+  }
+
+  /// Opens the menu of a panel's ghost button, as a click does, and chooses by the text.
+  void chooseGhost(int panel, const QString& begin) {
+    auto* menu = window.panel(panel).findChild<QMenu*>();
+    emit menu->aboutToShow();
+    for (QAction* action : menu->actions()) {
+      if (action->text().remove(QLatin1Char('&')).startsWith(begin)) {
+        action->trigger();
+      }
+    }
+    settle();
   }
 
   void open(const QString& path) {

@@ -26,12 +26,6 @@ QPointF middleOf(Workbench& bench, int panel, ElementId a, ElementId b) {
 
 QString shown(double value) { return QLocale().toString(value, 'g', 3); }
 
-void dragFar(Workbench& bench) {
-  const QPoint from = bench.place(0, 31);
-  bench.stroke(0, {from, from + QPoint(170, -170), from + QPoint(-60, -100)});
-  bench.document().setHighlight({});  // whose mark hides what is below
-}
-
 }  // namespace
 
 class WindowColour : public QObject {
@@ -115,7 +109,7 @@ class WindowColour : public QObject {
     QVERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("live")));
     QVERIFY(bench.distanceFromColour(0, middleOf(bench, 0, 31, 32), colour_map::neutral) < alike);  // at rest
     bench.document().setPinned({40}, true);  // a link that the sequential algorithms tear at
-    dragFar(bench);
+    bench.dragFar();
     double largest = 0;
     std::array<LinkId, 2> worst{};
     for (int p = 0; p < 2; ++p) {
@@ -142,7 +136,7 @@ class WindowColour : public QObject {
     Workbench bench;
     colourBy(bench, "colourBy-distance");
     QCOMPARE(bench.window.panel(0).legend().highest(), shown(0));
-    dragFar(bench);
+    bench.dragFar();
     double largest = 0;
     ElementId furthest = 0;
     for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {

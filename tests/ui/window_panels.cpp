@@ -1,0 +1,156 @@
+// Panels are swapped, added, taken away and shown alone, in a real window.
+
+#include <QToolButton>
+
+#include "legend.h"
+#include "window.h"
+
+using namespace chainmail;
+
+class WindowPanels : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  void placesAreSwappedAndStatesStay() {
+    Workbench bench;
+    bench.dragFar();
+    const Point before = bench.position(0, 40);
+    bench.trigger("swapPanels");
+    bench.settle();
+    QVERIFY(bench.window.panel(1).mapToGlobal(QPoint()).x() < bench.window.panel(0).mapToGlobal(QPoint()).x());
+    QCOMPARE(bench.position(0, 40), before);
+    QCOMPARE(bench.document().algorithm(0), Algorithm::generalized);
+    const QPoint from = bench.place(1, 31);  // the hand works where it is seen
+    bench.stroke(1, {from, from + QPoint(40, 40)});
+    QVERIFY(bench.position(0, 40) != before || bench.document().frame(0)->statistics.last_pass.moved > 0);
+    bench.trigger("swapPanels");
+    bench.settle();
+    QVERIFY(bench.window.panel(0).mapToGlobal(QPoint()).x() < bench.window.panel(1).mapToGlobal(QPoint()).x());
+  }
+
+  void panelsAreAddedAsTheObjectStands() {
+    Workbench bench;
+    Document& document = bench.document();
+    document.cut({0, 5});
+    document.setPinned({8}, true);
+    bench.dragFar();
+    bench.trigger("addPanel");
+    bench.settle();
+    QCOMPARE(document.panels(), 3);
+    QCOMPARE(document.algorithm(2), Algorithm::exact);
+    bench.trigger("addPanel");
+    bench.settle();
+    QCOMPARE(document.algorithm(3), Algorithm::enhanced);
+    QVERIFY(!bench.find<QAction>("addPanel")->isEnabled());
+    for (ElementId e = 0; e < document.mesh()->element_count(); ++e) {
+      // Exact holds displacements from rest, rounded to floats.
+      QVERIFY((bench.position(2, e) - bench.position(0, e)).norm() < 1e-5);
+      QCOMPARE(bench.position(3, e), bench.position(0, e));
+      // One camera, whatever the views' sizes: places are apart alike.
+      const auto place = [&](int panel, ElementId one) { return bench.view(panel).placeOf(one); };
+      const QPointF off = (place(3, e) - place(3, 0)) * bench.view(0).height() / bench.view(3).height();
+      QVERIFY((off - (place(0, e) - place(0, 0))).manhattanLength() < 0.1);
+    }
+    // Under the same hand, and back with it: also through what was done before they came.
+    const QPoint from = bench.place(3, 12);
+    bench.stroke(3, {from, from + QPoint(40, 30)});
+    for (int p = 0; p < 4; ++p) {
+      QVERIFY(document.frame(p)->statistics.passes > 0);
+    }
+    while (document.undoStack().canUndo()) {
+      document.undoStack().undo();
+    }
+    bench.settle();
+    for (int p = 0; p < 4; ++p) {
+      for (ElementId e = 0; e < document.mesh()->element_count(); ++e) {
+        QCOMPARE(bench.position(p, e), document.mesh()->rest_position(e));
+      }
+    }
+  }
+
+  void panelsStandTwoInARowAndGoAgain() {
+    Workbench bench;
+    bench.trigger("ghosts");
+    bench.trigger("addPanel");
+    bench.trigger("addPanel");
+    bench.settle();
+    const auto at = [&](int panel) { return bench.window.panel(panel).mapTo(&bench.window, QPoint()); };
+    QCOMPARE(at(0).y(), at(1).y());
+    QCOMPARE(at(2).y(), at(3).y());
+    QCOMPARE(at(0).x(), at(2).x());
+    QVERIFY(at(2).y() > at(0).y() && at(1).x() > at(0).x());
+    bench.chooseGhost(0, QStringLiteral("Panel D"));
+    QVERIFY(bench.view(0).ghost().of == 3);
+    bench.trigger("colourBy-distance");
+    bench.trigger("compareWithD");
+    bench.dragFar();
+    QTRY_VERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("from D")));
+    QTest::mouseClick(&bench.window.panel(3).head(), Qt::LeftButton);  // nothing: the buttons are beside
+    QVERIFY(bench.find<QToolButton>("removeButton3")->isVisible());
+    QVERIFY(!bench.find<QToolButton>("removeButton2")->isVisible());
+    QTest::mouseClick(bench.find<QToolButton>("removeButton3"), Qt::LeftButton);
+    QTRY_COMPARE(bench.document().panels(), 3);
+    bench.settle();
+    QVERIFY(!bench.view(0).ghost().of);
+    QVERIFY(bench.window.panel(1).legend().title().contains(QStringLiteral("from A")));
+    QVERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("furthest")));
+    bench.trigger("removePanel");
+    QTRY_COMPARE(bench.document().panels(), 2);
+    QVERIFY(!bench.find<QAction>("removePanel")->isEnabled());
+    const QPoint from = bench.place(1, 12);
+    bench.stroke(1, {from, from + QPoint(40, 30)});
+    QVERIFY(bench.document().frame(0)->statistics.last_pass.moved > 0);
+  }
+
+  void theDistanceOfTheReferenceIsThatOfTheFurthest() {
+    Workbench bench;
+    bench.trigger("addPanel");
+    bench.trigger("colourBy-distance");
+    bench.dragFar();
+    bench.trigger("linkColours");  // the panels' own ranges
+    const auto furthest = [&](int a, int b) {
+      double largest = 0;
+      for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
+        largest = std::max(largest, (bench.position(a, e) - bench.position(b, e)).norm());  // links are of length 1
+      }
+      return QLocale().toString(largest, 'g', 3);
+    };
+    const auto highest = [&](int p) { return bench.window.panel(p).legend().highest(); };
+    QTRY_COMPARE(highest(1), furthest(1, 0));
+    QTRY_COMPARE(highest(2), furthest(2, 0));
+    bench.trigger("compareWithC");
+    QTRY_COMPARE(highest(1), furthest(1, 2));
+    QTRY_COMPARE(highest(0), furthest(0, 2));
+  }
+
+  void aPanelAloneAndAllBack() {
+    Workbench bench;
+    Panel &a = bench.window.panel(0), &b = bench.window.panel(1);
+    const int half = a.width();
+    QTest::mouseDClick(&b.head(), Qt::LeftButton, {}, b.head().rect().center());
+    bench.settle();
+    QVERIFY(!a.isVisible());
+    QVERIFY(b.width() > 1.8 * half);
+    QVERIFY(bench.find<QAction>("showAloneB")->isChecked());
+    const QPoint from = bench.place(1, 31);
+    bench.stroke(1, {from, from + QPoint(60, 40)});
+    QVERIFY(bench.document().frame(0)->statistics.passes > 0);  // out of sight, and as far as the other
+    QTest::mouseClick(bench.find<QToolButton>("aloneButton1"), Qt::LeftButton);
+    bench.settle();
+    QVERIFY(a.isVisible() && b.isVisible());
+    QVERIFY(std::abs(a.width() - b.width()) <= 1);
+    bench.trigger("showPanelA");
+    QVERIFY(!a.isVisible());
+    QVERIFY(!bench.find<QAction>("showPanelB")->isEnabled());  // the last one stays
+    bench.trigger("showPanelA");
+    QVERIFY(a.isVisible());
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowPanels>(argc, argv); }
+#include "window_panels.moc"

@@ -1,0 +1,130 @@
+// The main window's docks.
+
+#include <QActionGroup>
+#include <QMenuBar>
+
+#include "colours.h"
+#include "element_dock.h"
+#include "file_actions.h"
+#include "frame_rate_dock.h"
+#include "icons.h"
+#include "main_window.h"
+#include "mesh_dock.h"
+#include "message_bar.h"
+#include "panel.h"
+#include "propagation_dock.h"
+#include "relaxation_dock.h"
+#include "replay_dock.h"
+#include "report_dock.h"
+#include "size_test_dock.h"
+#include "stiffness_dock.h"
+#include "tools_dock.h"
+#include "undo_actions.h"
+
+namespace chainmail {
+
+void MainWindow::makeDocks() {
+  auto* meshDock = new MeshDock(document_, jobs_);
+  connect(meshDock, &MeshDock::openRequested, files_, &FileActions::open);
+  connect(meshDock, &MeshDock::saveRequested, files_, &FileActions::save);
+  addDockWidget(Qt::LeftDockWidgetArea, new ToolsDock(*toolActions_, selectTool_, *toolActions_->actions().last()));
+  addDockWidget(Qt::LeftDockWidgetArea, meshDock);
+  makeStiffnessDock();
+  addDockWidget(Qt::RightDockWidgetArea, new RelaxationDock(document_));
+  makeFrameRateDock();
+  makeReportDock();
+  makeSizeTestDock();
+  makePropagationDock();
+  makeReplayDock();
+  auto* history = new HistoryDock(document_);
+  addDockWidget(Qt::LeftDockWidgetArea, history);
+  history->hide();
+  auto* element = new ElementDock(document_);
+  addDockWidget(Qt::LeftDockWidgetArea, element);  // the other column is full
+  element->hide();
+  element->fill(*findChild<QMenu*>(QStringLiteral("viewMenu")));
+  auto* menu = menuBar()->addMenu(QStringLiteral("&Docks"));
+  for (QDockWidget* dock : findChildren<QDockWidget*>()) {
+    menu->addAction(dock->toggleViewAction());
+  }
+}
+
+void MainWindow::makeStiffnessDock() {
+  auto* dock = new StiffnessDock(document_);
+  addDockWidget(Qt::RightDockWidgetArea, dock);
+  findChild<QMenu*>(QStringLiteral("objectMenu"))->addMenu(&dock->presets().menu());
+  connect(&dock->presets(), &PresetRow::failed, messages_, &MessageBar::say);
+  connect(&dock->presets(), &PresetRow::told, this, &MainWindow::tell);
+}
+
+void MainWindow::makeFrameRateDock() {
+  auto* dock = new FrameRateDock(document_, area_->panels());
+  addDockWidget(Qt::RightDockWidgetArea, dock);
+  findChild<QMenu*>(QStringLiteral("viewMenu"))->addMenu(&dock->menu());
+  connect(dock, &FrameRateDock::failed, messages_, &MessageBar::say);
+  connect(dock, &FrameRateDock::saved, files_, &FileActions::saved);
+}
+
+/// Beside the panels, and out of sight until it is asked for.
+void MainWindow::makePropagationDock() {
+  auto* dock = new PropagationDock(document_, propagation_, propagationOverlay_);
+  connect(dock, &PropagationDock::changed, area_, &PanelArea::refresh);
+  addDockWidget(Qt::LeftDockWidgetArea, dock);
+  dock->hide();
+  dock->fill(*findChild<QMenu*>(QStringLiteral("viewMenu")));
+}
+
+/// Under the panels, and out of sight until it is asked for.
+void MainWindow::makeReplayDock() {
+  auto* dock = new ReplayDock(document_, *area_);
+  connect(dock, &ReplayDock::failed, messages_, &MessageBar::say);
+  connect(dock, &ReplayDock::saved, files_, &FileActions::saved);
+  addDockWidget(Qt::BottomDockWidgetArea, dock);
+  dock->hide();
+  QAction* show = dock->toggleViewAction();
+  show->setObjectName(QStringLiteral("showReplay"));
+  show->setShortcut(QKeySequence(QStringLiteral("Ctrl+R")));
+  show->setStatusTip(QStringLiteral("What was done to the object: gone back and forth in, played, saved, filmed"));
+  findChild<QMenu*>(QStringLiteral("objectMenu"))->addMenu(&dock->menu());
+}
+
+/// Under the panels, and out of sight until it is asked for.
+void MainWindow::makeReportDock() {
+  auto* dock = new ReportDock(document_);
+  connect(dock, &ReportDock::failed, messages_, &MessageBar::say);
+  connect(dock, &ReportDock::saved, files_, &FileActions::saved);
+  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);  // that column is the taller one
+  addDockWidget(Qt::BottomDockWidgetArea, dock);
+  dock->hide();
+  QAction* show = dock->toggleViewAction();
+  show->setObjectName(QStringLiteral("showReport"));
+  show->setText(QStringLiteral("&Report: speed against error"));
+  show->setShortcut(Qt::Key_E);
+  show->setStatusTip(QStringLiteral("Time per move and errors of the algorithms on this object"));
+  findChild<QMenu*>(QStringLiteral("viewMenu"))->addAction(show);
+}
+
+void MainWindow::makeSizeTestDock() {
+  auto* dock = new SizeTestDock(*this, document_, *area_, [this] {
+    std::vector<SizeTestContestant> inSight;
+    for (const int panel : area_->inSight()) {
+      inSight.push_back({panel, document_.algorithm(panel), colours::ofPanel(panel)});
+    }
+    return inSight;
+  });
+  connect(dock, &SizeTestDock::failed, messages_, &MessageBar::say);
+  connect(dock, &SizeTestDock::saved, files_, &FileActions::saved);
+  addDockWidget(Qt::BottomDockWidgetArea, dock);
+  tabifyDockWidget(findChild<QDockWidget*>(QStringLiteral("reportDock")), dock);
+  dock->hide();
+  QAction* show = dock->toggleViewAction();
+  connect(show, &QAction::triggered, dock, &QWidget::raise);  // in front of the report
+  show->setIcon(icon("grow"));
+  show->setObjectName(QStringLiteral("showSizeTest"));
+  show->setText(QStringLiteral("&Size test: until real time is lost"));
+  show->setShortcut(Qt::SHIFT | Qt::Key_E);
+  show->setStatusTip(QStringLiteral("Grids grow under a scripted hand until each panel has lost real time"));
+  findChild<QMenu*>(QStringLiteral("viewMenu"))->addAction(show);
+}
+
+}  // namespace chainmail
