@@ -17,25 +17,32 @@ double eyeDistance(double height) { return height / 2 / std::tan(fieldOfView / 2
 
 void Camera::fit(const std::array<Point, 2>& box, std::span<const int> axes, QSizeF view) {
   const auto carries = [axes](int k) { return std::find(axes.begin(), axes.end(), k) != axes.end(); };
-  const Point centre = (box[0] + box[1]) / 2;
-  const Point extent = box[1] - box[0];
-  const double aspect = view.width() / std::max(view.height(), 1.0);
-  centre_ = QVector3D(float(centre.x()), float(centre.y()), float(centre.z()));
-  radius_ = std::max(extent.norm() / 2, 1e-9);
   spatial_ = axes.size() == 3;
   // A plane of x and z is seen from above, one of y and z from the side.
   const bool fromAbove = !spatial_ && carries(2) && carries(0), fromSide = !spatial_ && carries(2) && !carries(0);
   yaw_ = spatial_ ? -30 : fromSide ? -90 : 0;
   pitch_ = spatial_ ? 25 : fromAbove ? 90 : 0;
+  frame(box, view);
+}
+
+void Camera::frame(const std::array<Point, 2>& box, QSizeF view) {
+  const Point centre = (box[0] + box[1]) / 2;
+  const Point extent = box[1] - box[0];
+  const double aspect = view.width() / std::max(view.height(), 1.0);
+  centre_ = QVector3D(float(centre.x()), float(centre.y()), float(centre.z()));
+  radius_ = std::max(extent.norm() / 2, 1e-9);
+  const bool fromAbove = !spatial_ && pitch_ != 0, fromSide = !spatial_ && yaw_ != 0;
   const double across = fromSide ? extent.z() : extent.x(), up = fromAbove ? extent.z() : extent.y();
   const double flat = std::max(up, across / aspect);
   const double round = 2 * radius_ / std::min(aspect, 1.0) * 0.85;
   height_ = margin * (spatial_ ? round : flat > 0 ? flat : 2 * radius_);
+  framed_ = true;
 }
 
 void Camera::setPose(const Pose& pose) {
   centre_ = pose.centre;
   parallel_ = pose.parallel;
+  framed_ = pose.framed;
   height_ = std::clamp(pose.height, radius_ * nearest, radius_ * farthest);
   if (spatial_) {
     yaw_ = pose.yaw;
@@ -50,6 +57,11 @@ void Camera::orbit(QPointF pixels) {
   }
 }
 
+void Camera::centreOn(const QVector3D& centre) {
+  centre_ = centre;
+  framed_ = false;
+}
+
 void Camera::lookFrom(double yaw, double pitch) {
   if (spatial_) {
     yaw_ = yaw;
@@ -61,12 +73,14 @@ void Camera::pan(QPointF pixels, QSizeF view) {
   const QVector3D before = pointAt({0, 0}, centre_, view);
   const QVector3D after = pointAt(pixels, centre_, view);
   centre_ -= after - before;
+  framed_ = false;
 }
 
 void Camera::zoom(double factor, QPointF cursor, QSizeF view) {
   const QVector3D before = pointAt(cursor, centre_, view);
   height_ = std::clamp(height_ / factor, radius_ * nearest, radius_ * farthest);
   centre_ += before - pointAt(cursor, centre_, view);
+  framed_ = false;
 }
 
 QMatrix4x4 Camera::toView() const {

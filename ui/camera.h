@@ -20,6 +20,10 @@ class Camera {
   /// Shows the whole box: straight down on the plane of the axes that the scene carries, or obliquely
   /// from above where it carries all three.
   void fit(const std::array<Point, 2>& box, std::span<const int> axes, QSizeF view);
+  /// The same from the side it looks from now.
+  void frame(const std::array<Point, 2>& box, QSizeF view);
+  /// Whether nobody has shifted it or changed what it shows since then: a view that changes its size may frame again.
+  bool framed() const { return framed_; }
   void orbit(QPointF pixels);
   void pan(QPointF pixels, QSizeF view);
   /// Brings the object nearer (factor > 1) about the place under the cursor.
@@ -29,7 +33,7 @@ class Camera {
   void lookFrom(double yaw, double pitch);
   const QVector3D& centre() const { return centre_; }
   /// What is turned about comes into the middle of the view.
-  void centreOn(const QVector3D& centre) { centre_ = centre; }
+  void centreOn(const QVector3D& centre);
   /// Parallel rays where a scene has depth, instead of perspective.
   void setParallel(bool parallel) { parallel_ = parallel; }
   bool parallel() const { return parallel_; }
@@ -39,9 +43,9 @@ class Camera {
   struct Pose {
     QVector3D centre;
     double height = 2, yaw = 0, pitch = 0;
-    bool parallel = false;
+    bool parallel = false, framed = false;
   };
-  Pose pose() const { return {centre_, height_, yaw_, pitch_, parallel_}; }
+  Pose pose() const { return {centre_, height_, yaw_, pitch_, parallel_, framed_}; }
   void setPose(const Pose& pose);
 
   bool spatial() const { return spatial_; }
@@ -62,6 +66,7 @@ class Camera {
   double pitch_ = 0;
   bool spatial_ = false;
   bool parallel_ = false;
+  bool framed_ = false;
 };
 
 }  // namespace chainmail

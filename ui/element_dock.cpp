@@ -2,9 +2,9 @@
 
 #include <QHBoxLayout>
 #include <QHeaderView>
-#include <QScrollArea>
 #include <QVBoxLayout>
 
+#include "dock_scroll.h"
 #include "element_facts.h"
 #include "icons.h"
 #include "parameter_row.h"
@@ -109,14 +109,7 @@ void ElementDock::arrange() {
   column->addStretch();
   const int row = neighbours_->verticalHeader()->defaultSectionSize();
   neighbours_->setFixedHeight((shownRows + 1) * row + 10);
-  // A low window scrolls: the docks must not make it taller than a screen.
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(content);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setMinimumWidth(dockWidth);
-  setWidget(scroll);
+  setWidget(new DockScroll(content));
 }
 
 void ElementDock::listen() {

@@ -4,8 +4,8 @@
 
 namespace chainmail {
 
-HelpMenu::HelpMenu(QMainWindow& window, Document& document, QWidget& views)
-    : QObject(&window), window_(window), shortcuts_(window), example_(document, nullptr), hints_(new Hints(views)) {}
+HelpMenu::HelpMenu(QMainWindow& window, Document& document)
+    : QObject(&window), window_(window), shortcuts_(window), example_(document, nullptr), hints_(new Hints) {}
 
 void HelpMenu::fill(QMenu& menu) {
   auto* keys = menu.addAction(QStringLiteral("&Keyboard shortcuts…"), this, &HelpMenu::showShortcuts);
@@ -14,7 +14,7 @@ void HelpMenu::fill(QMenu& menu) {
   keys->setStatusTip(QStringLiteral("All actions with their keys and effects; keys can be changed there"));
   auto* again = menu.addAction(QStringLiteral("Show the &hints again"), hints_, &Hints::present);
   again->setObjectName(QStringLiteral("showHints"));
-  again->setStatusTip(QStringLiteral("The three hints of the first start, over the views"));
+  again->setStatusTip(QStringLiteral("The three hints of the first start, under the views"));
 }
 
 void HelpMenu::welcome() {

@@ -16,13 +16,14 @@ class HelpMenu : public QObject {
   Q_OBJECT
 
  public:
-  /// The hints stand over `views`.
-  HelpMenu(QMainWindow& window, Document& document, QWidget& views);
+  HelpMenu(QMainWindow& window, Document& document);
   void fill(QMenu& menu);
   Shortcuts& shortcuts() { return shortcuts_; }
   /// To who sees the workbench for the first time, an example and hints.
   void welcome();
   void dismissHints() { hints_->hide(); }
+  /// To be placed in the window, which owns it then.
+  QWidget& hints() { return *hints_; }
 
  private:
   void showShortcuts();

@@ -1,6 +1,5 @@
 #include "hints.h"
 
-#include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -12,8 +11,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int iconSize = 20,
-              distance = 62;  // pixels; the distance is that to the panels' lower edge, below their figures
+constexpr int iconSize = 20;  // pixels
 
 QString seenKey() { return QStringLiteral("hintsSeen"); }
 
@@ -22,20 +20,19 @@ struct Hint {
   const char* words;
 };
 constexpr std::array hints{
-    Hint{"drag", "<b>Drag</b> an element in either panel: both algorithms answer, side by side."},
+    Hint{"drag", "<b>Drag</b> an element in any panel: all algorithms answer, side by side."},
     Hint{"fit", "The <b>wheel</b> zooms, the middle button shifts, the right one turns; <b>F</b> shows all again."},
     Hint{"keyboard", "<b>F1</b> lists every action and its keys; the tools on the left cut, pin and select."}};
 
 }  // namespace
 
-Hints::Hints(QWidget& over) : QFrame(&over) {
+Hints::Hints() {
   setObjectName(QStringLiteral("hints"));
   setAccessibleName(QStringLiteral("Hints for the start"));
   setFrameShape(QFrame::StyledPanel);
   setAutoFillBackground(true);
-  setBackgroundRole(QPalette::ToolTipBase);
   auto* grid = new QGridLayout(this);
-  grid->setContentsMargins(14, 10, 14, 10);
+  grid->setContentsMargins(12, 6, 12, 6);
   grid->setHorizontalSpacing(10);
   for (int row = 0; row < int(hints.size()); ++row) {
     auto* sign = new QLabel;
@@ -48,9 +45,14 @@ Hints::Hints(QWidget& over) : QFrame(&over) {
   auto* done = new QPushButton(QStringLiteral("Got it"));
   done->setObjectName(QStringLiteral("hintsDone"));
   done->setToolTip(QStringLiteral("Takes the hints away (Esc); Help > Show the hints again brings them back"));
+  grid->setColumnStretch(1, 1);
   grid->addWidget(done, 0, 2, int(hints.size()), 1, Qt::AlignVCenter);
   connect(done, &QPushButton::clicked, this, &QWidget::hide);
-  over.installEventFilter(this);
+  followTheme(*this, [this] {
+    QPalette own;
+    own.setColor(QPalette::Window, colours::infoGround);
+    setPalette(own);
+  });
   hide();
 }
 
@@ -59,21 +61,6 @@ bool Hints::seen() { return QSettings().value(seenKey()).toBool(); }
 void Hints::present() {
   QSettings().setValue(seenKey(), true);
   show();
-  place();
-}
-
-bool Hints::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize && isVisible()) {
-    place();
-  }
-  return QFrame::eventFilter(watched, event);
-}
-
-void Hints::place() {
-  const QSize size = sizeHint().boundedTo(parentWidget()->size());
-  setGeometry((parentWidget()->width() - size.width()) / 2, parentWidget()->height() - size.height() - distance,
-              size.width(), size.height());
-  raise();
 }
 
 }  // namespace chainmail

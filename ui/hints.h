@@ -4,22 +4,16 @@
 
 namespace chainmail {
 
-/// Three short hints for the first start, over the views' lower edge.
+/// Three short hints for the first start, in a row of their own under the views: they cover nothing.
 class Hints : public QFrame {
   Q_OBJECT
 
  public:
-  explicit Hints(QWidget& over);
+  Hints();
 
   /// Whether they were shown on this machine before.
   static bool seen();
   void present();
-
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
- private:
-  void place();
 };
 
 }  // namespace chainmail

@@ -2,6 +2,7 @@
 
 #include <QActionGroup>
 #include <QCloseEvent>
+#include <QDockWidget>
 #include <QFileInfo>
 #include <QMenuBar>
 #include <QMimeData>
@@ -30,8 +31,10 @@ namespace chainmail {
 namespace {
 
 // To be raised when the docks change, so that an older layout is not restored over them.
-constexpr int layoutVersion = 3;
+constexpr int layoutVersion = 4;
 constexpr int toldMilliseconds = 4000;
+// Of the room that the two share: the values of selected links are seen whole where a screen has 900 pixels.
+const QList<int> stiffnessAndRate{385, 285};
 
 }  // namespace
 
@@ -53,7 +56,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       cameraActions_(new CameraActions(this)),
       messages_(new MessageBar),
       area_(new PanelArea(document_, colouring_)),
-      help_(new HelpMenu(*this, document_, *area_)),
+      help_(new HelpMenu(*this, document_)),
       toolActions_(new QActionGroup(this)),
       colourBy_(new ColourSelector(colouring_)),
       axisViews_(new AxisViews(this, document_, *area_)),
@@ -67,6 +70,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   column->addWidget(&sessions_->recoveryBar());
   column->addWidget(messages_);
   column->addWidget(area_, 1);
+  column->addWidget(&help_->hints());
   setCentralWidget(central);
   statusBar()->addWidget(readout_, 1);
   statusBar()->addPermanentWidget(new JobBar(jobs_));
@@ -169,6 +173,10 @@ void MainWindow::takeLayout(const QByteArray& layout) { restoreState(layout, lay
 void MainWindow::restoreLayout() {
   resize(QSize(1600, 900).boundedTo(screen()->availableSize()));
   const QSettings settings;
+  resizeDocks({findChild<QDockWidget*>(QStringLiteral("stiffnessDock")),
+               findChild<QDockWidget*>(QStringLiteral("frameRateDock"))},
+              stiffnessAndRate, Qt::Vertical);
+  resizeDocks({findChild<QDockWidget*>(QStringLiteral("meshDock"))}, {1}, Qt::Horizontal);  // as narrow as it can be
   restoreGeometry(settings.value(QStringLiteral("geometry")).toByteArray());
   takeLayout(settings.value(QStringLiteral("layout")).toByteArray());
 }

@@ -65,6 +65,7 @@ class MainWindow : public QMainWindow {
   void listen();
   void makeTools();
   void makeDocks();
+  void shareRoom(QDockWidget& other, QDockWidget& dock);
   void makeStiffnessDock();
   void makeFrameRateDock();
   void makeReportDock();

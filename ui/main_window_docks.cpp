@@ -36,17 +36,31 @@ void MainWindow::makeDocks() {
   makeSizeTestDock();
   makePropagationDock();
   makeReplayDock();
-  auto* history = new HistoryDock(document_);
-  addDockWidget(Qt::LeftDockWidgetArea, history);
-  history->hide();
   auto* element = new ElementDock(document_);
-  addDockWidget(Qt::LeftDockWidgetArea, element);  // the other column is full
-  element->hide();
+  shareRoom(*meshDock, *element);
+  shareRoom(*meshDock, *new HistoryDock(document_));
   element->fill(*findChild<QMenu*>(QStringLiteral("viewMenu")));
   auto* menu = menuBar()->addMenu(QStringLiteral("&Docks"));
   for (QDockWidget* dock : findChildren<QDockWidget*>()) {
     menu->addAction(dock->toggleViewAction());
   }
+}
+
+/// Where another dock is, out of sight until it is asked for: then it is in front. Asked for while it is behind, it
+/// comes to the front as well, and only then goes.
+void MainWindow::shareRoom(QDockWidget& other, QDockWidget& dock) {
+  addDockWidget(dockWidgetArea(&other), &dock);
+  tabifyDockWidget(&other, &dock);
+  dock.hide();
+  const auto behind = std::make_shared<bool>(false);
+  connect(&dock, &QDockWidget::visibilityChanged, &dock,
+          [&dock, behind](bool seen) { *behind = !seen && (*behind || !dock.isHidden()); });
+  connect(dock.toggleViewAction(), &QAction::triggered, &dock, [&dock, behind](bool shown) {
+    if (shown || *behind) {
+      dock.show();
+      dock.raise();
+    }
+  });
 }
 
 void MainWindow::makeStiffnessDock() {
@@ -69,8 +83,7 @@ void MainWindow::makeFrameRateDock() {
 void MainWindow::makePropagationDock() {
   auto* dock = new PropagationDock(document_, propagation_, propagationOverlay_);
   connect(dock, &PropagationDock::changed, area_, &PanelArea::refresh);
-  addDockWidget(Qt::LeftDockWidgetArea, dock);
-  dock->hide();
+  shareRoom(*findChild<QDockWidget*>(QStringLiteral("meshDock")), *dock);
   dock->fill(*findChild<QMenu*>(QStringLiteral("viewMenu")));
 }
 
@@ -115,10 +128,8 @@ void MainWindow::makeSizeTestDock() {
   connect(dock, &SizeTestDock::failed, messages_, &MessageBar::say);
   connect(dock, &SizeTestDock::saved, files_, &FileActions::saved);
   addDockWidget(Qt::BottomDockWidgetArea, dock);
-  tabifyDockWidget(findChild<QDockWidget*>(QStringLiteral("reportDock")), dock);
-  dock->hide();
+  shareRoom(*findChild<QDockWidget*>(QStringLiteral("reportDock")), *dock);
   QAction* show = dock->toggleViewAction();
-  connect(show, &QAction::triggered, dock, &QWidget::raise);  // in front of the report
   show->setIcon(icon("grow"));
   show->setObjectName(QStringLiteral("showSizeTest"));
   show->setText(QStringLiteral("&Size test: until real time is lost"));

@@ -46,6 +46,7 @@ void Panel::listen() {
     }
   });
   connect(view_, &View::drawnStepChanged, &refresh_, qOverload<>(&QTimer::start));
+  connect(view_, &View::resized, &refresh_, qOverload<>(&QTimer::start));
   connect(view_, &View::ghostChanged, &refresh_, qOverload<>(&QTimer::start));
   connect(&document_, &Document::pinsChanged, &refresh_, qOverload<>(&QTimer::start));
   connect(&colouring_, &Colouring::modeChanged, this, &Panel::showStatistics);
@@ -70,17 +71,28 @@ void Panel::arrange() {
   column->addLayout(foot);
 }
 
-QString Panel::describe(const Statistics& statistics) const {
+QString Panel::describe(const Statistics& statistics, bool briefly) const {
   const QLocale locale;
   const Violation& violation = statistics.violation;
-  return QStringLiteral(
-             "moved <b>%1</b> · links looked at <b>%2</b> · <b>%3</b> ms a pass<br>"
-             "violation of %4: max <b>%5</b> · RMS <b>%6</b> · <b>%7</b> %")
+  const QString of = briefly                              ? QString()
+                     : statistics.violation_of_whole_mesh ? QStringLiteral(" of all links:")
+                                                          : QStringLiteral(" of touched links:");
+  const QString words = briefly
+                            ? QStringLiteral("moved <b>%1</b> · looked at <b>%2</b> · <b>%3</b> ms<br>")
+                            : QStringLiteral("moved <b>%1</b> · links looked at <b>%2</b> · <b>%3</b> ms a pass<br>");
+  return (words + QStringLiteral("violation%4 max <b>%5</b> · RMS <b>%6</b> · <b>%7</b> %"))
       .arg(locale.toString(qulonglong(statistics.last_pass.moved)),
            locale.toString(qulonglong(statistics.last_pass.checked)), locale.toString(statistics.last_pass_ms, 'f', 3),
-           statistics.violation_of_whole_mesh ? QStringLiteral("all links") : QStringLiteral("touched links"),
-           locale.toString(violation.max, 'g', 3), locale.toString(violation.rms, 'g', 3),
+           of, locale.toString(violation.max, 'g', 3), locale.toString(violation.rms, 'g', 3),
            locale.toString(100 * violation.fraction, 'f', 1));
+}
+
+/// In fewer words where the panel is narrow.
+void Panel::showFigures(const Statistics& statistics) {
+  statistics_->setText(describe(statistics, false));
+  if (statistics_->sizeHint().width() > statistics_->width()) {
+    statistics_->setText(describe(statistics, true));
+  }
 }
 
 QStringList Panel::states(const Statistics& statistics) const {
@@ -117,7 +129,7 @@ void Panel::showStatistics() {
     legend_->follow(colouring_, panel_);
   }
   if (const Frame* frame = document_.frame(panel_)) {
-    statistics_->setText(describe(frame->statistics));
+    showFigures(frame->statistics);
     head_->showState(states(frame->statistics).join(QStringLiteral(" · ")));
   }
 }

@@ -31,7 +31,8 @@ class Panel : public QFrame {
   void arrange();
   void listen();
   void showStatistics();
-  QString describe(const Statistics& statistics) const;
+  QString describe(const Statistics& statistics, bool briefly) const;
+  void showFigures(const Statistics& statistics);
   QStringList states(const Statistics& statistics) const;
 
   Document& document_;

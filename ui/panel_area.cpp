@@ -39,6 +39,16 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
   for (QSplitter* row : rows_) {
     column_->addWidget(row);
   }
+  refit_.setSingleShot(true);
+  refit_.setInterval(0);  // once all views have their sizes
+  connect(&refit_, &QTimer::timeout, this, &PanelArea::fitAgain);
+  for (const auto& [moved, other] : {std::pair(rows_[0], rows_[1]), std::pair(rows_[1], rows_[0])}) {
+    connect(moved, &QSplitter::splitterMoved, this, [this, moved = moved, other = other] {
+      if (inSight().size() == rows_.size() * inARow) {
+        other->setSizes(moved->sizes());  // what stands one above the other is as wide
+      }
+    });
+  }
   followPanels();
   connect(&links_, &PanelLinks::camerasLinked, this, &PanelArea::linkCameras);
   connect(&document, &Document::meshChanged, this, &PanelArea::fit);
@@ -78,6 +88,7 @@ void PanelArea::addPanel() {
 void PanelArea::listenTo(Panel& panel, int number) {
   View& view = panel.view();
   connect(&view, &View::failed, this, &PanelArea::failed);
+  connect(&view, &View::resized, &refit_, qOverload<>(&QTimer::start));
   connect(&view, &View::ghostChanged, this, &PanelArea::ghostsChanged);
   connect(&view, &View::cameraChanged, this, [this, &view] {
     for (Panel* other : panels_) {
@@ -126,13 +137,30 @@ void PanelArea::setTool(Tool& tool) {
 }
 
 /// Of linked views the one with the least room at its sides comes last: what it shows whole, all do.
-void PanelArea::fit() {
+std::vector<Panel*> PanelArea::byAspect() const {
   auto all = panels_;
   const auto hidden =
       std::stable_partition(all.begin(), all.end(), [](const Panel* panel) { return panel->isHidden(); });
   std::stable_sort(hidden, all.end(), [](const Panel* a, const Panel* b) { return aspect(*a) > aspect(*b); });
-  for (Panel* panel : all) {
+  return all;
+}
+
+void PanelArea::fit() {
+  for (Panel* panel : byAspect()) {
     panel->view().fit();
+  }
+}
+
+/// Under the hand the object stays where it is.
+void PanelArea::fitAgain() {
+  const auto all = byAspect();
+  if (document_.highlight().grabbed) {
+    return;
+  }
+  for (Panel* panel : all) {
+    if (!panel->isHidden() && (!links_.cameras() || panel == all.back())) {
+      panel->view().fitAgain();
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QSplitter>
+#include <QTimer>
 #include <QWidget>
 #include <optional>
 #include <vector>
@@ -68,6 +69,8 @@ class PanelArea : public QWidget {
   void place(const std::vector<int>& seen);
   void arrange();
   void linkCameras(bool linked);
+  std::vector<Panel*> byAspect() const;
+  void fitAgain();
 
   Document& document_;
   Colouring& colouring_;
@@ -83,6 +86,7 @@ class PanelArea : public QWidget {
   std::vector<int> places_;  // which panel stands where
   std::vector<bool> shown_;
   std::optional<int> alone_;
+  QTimer refit_;
 };
 
 }  // namespace chainmail

@@ -12,6 +12,11 @@
 #include "text.h"
 
 namespace chainmail {
+namespace {
+
+constexpr int smallestSelector = 90;  // pixels: a narrow panel shortens its name
+
+}  // namespace
 
 PanelHead::PanelHead(Document& document, View& view, int panel)
     : document_(document),
@@ -32,6 +37,7 @@ void PanelHead::fillSelector() {
   selector_->setObjectName(QStringLiteral("algorithm%1").arg(panel_));
   selector_->setAccessibleName(QStringLiteral("Algorithm of panel %1").arg(panelName(panel_)));
   selector_->setToolTip(QStringLiteral("The algorithm that deforms this panel's object"));
+  selector_->setMinimumWidth(smallestSelector);
   for (const auto& info : algorithms()) {
     selector_->addItem(text(info.label), int(info.algorithm));
   }

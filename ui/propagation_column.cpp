@@ -12,7 +12,7 @@ namespace chainmail {
 namespace {
 
 constexpr int smallestWidth = 198;  // pixels: what three columns take
-constexpr int smallestList = 180;   // pixels: some ten candidates
+constexpr int smallestList = 84;    // pixels: some four candidates, below which it scrolls
 constexpr int swatchSize = 10;
 constexpr int cellMargin = 4;
 

@@ -1,6 +1,7 @@
 #include "propagation_dock.h"
 
 #include <QAction>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::array speeds{1, 2, 5, 10, 30, 100, 1000, 10'000};  // steps a second
 constexpr int usualSpeed = 5;
+constexpr int columnsInARow = 2;
 
 }  // namespace
 
@@ -31,10 +33,10 @@ PropagationDock::PropagationDock(Document& document, Propagation& propagation, P
   auto* column = new QVBoxLayout(content);
   column->addWidget(makeButtons());
   column->addWidget(makeChoices());
-  auto* lists = new QHBoxLayout;
+  auto* lists = new QGridLayout;  // two in a row, as the panels are
   for (int panel = 0; panel < Document::mostPanels; ++panel) {
     columns_.push_back(new PropagationColumn(document, propagation, panel));
-    lists->addWidget(columns_.back(), 1);
+    lists->addWidget(columns_.back(), panel / columnsInARow, panel % columnsInARow);
   }
   const auto adapt = [this, &document] {
     for (int panel = 0; panel < Document::mostPanels; ++panel) {

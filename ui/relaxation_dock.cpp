@@ -25,7 +25,7 @@ RelaxationDock::RelaxationDock(Document& document)
   row->addWidget(scheme_);
   column->addLayout(row);
   column->addWidget(step_);
-  column->addStretch();
+  content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);  // more room is of use to the others
   setWidget(content);
   connect(on_, &QCheckBox::toggled, this, [this] { document_.setRelaxation(chosen()); });
   connect(scheme_, &QComboBox::currentIndexChanged, this, [this] { document_.setRelaxation(chosen()); });

@@ -54,7 +54,8 @@ void SelectedLinks::arrange() {
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(set_);
   buttons->addWidget(back_);
-  column->addLayout(buttons);
+  rows->addLayout(buttons);
+  setMinimumWidth(minimumSizeHint().width());  // the dock must not change its width with what is shown
 }
 
 void SelectedLinks::refresh() {
@@ -62,6 +63,7 @@ void SelectedLinks::refresh() {
   const LinkSoftness& global = document_.softness();
   const bool some = !document_.selection().links.empty();
   description_->setText(describe(all));
+  rows_->setVisible(!document_.selection().empty());  // else its room is the others'
   rows_->setEnabled(some);
   set_->setEnabled(some);
   back_->setEnabled(all.own);
@@ -98,8 +100,13 @@ QString SelectedLinks::describe(const Common& all) const {
     return QStringLiteral("Nothing selected: use Select (S).");
   }
   // Non-breaking spaces: where the line is too short it breaks between the two.
-  const auto figures = QStringLiteral("<b>%L1</b>\u00a0elements, <b>%L2</b>\u00a0links");
-  QString description = figures.arg(selection.elements.size()).arg(selection.links.size());
+  const auto some = [](std::size_t count, const char* one) {
+    return QStringLiteral("<b>%L1</b>\u00a0%2%3")
+        .arg(count)
+        .arg(QLatin1String(one), count == 1 ? QString() : QStringLiteral("s"));
+  };
+  QString description =
+      some(selection.elements.size(), "element") + QStringLiteral(", ") + some(selection.links.size(), "link");
   if (selection.links.empty()) {
     description += QStringLiteral("<br>A link counts with both its ends.");
   } else if (!(all.compression && all.stretch && all.shear)) {

@@ -1,9 +1,6 @@
 #include "stiffness_dock.h"
 
-#include <QScrollArea>
-#include <QScrollBar>
-#include <algorithm>
-
+#include "dock_scroll.h"
 #include "selected_links.h"
 
 namespace chainmail {
@@ -17,6 +14,7 @@ StiffnessDock::StiffnessDock(Document& document)
       stretch_(new ParameterRow(parameters::stretch)),
       shear_(new ParameterRow(parameters::shear)) {
   setObjectName(QStringLiteral("stiffnessDock"));
+  presets_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   column_->addWidget(presets_);
   addRow(compression_, &LinkSoftness::compression);
   addRow(stretch_, &LinkSoftness::stretch);
@@ -25,18 +23,9 @@ StiffnessDock::StiffnessDock(Document& document)
   column_->setSpacing(6);
   column_->setContentsMargins(9, 4, 9, 4);
   column_->addStretch();
-  // A low window scrolls: the docks must not make it taller than a screen.
   auto* content = new QWidget;
   content->setLayout(column_);
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(content);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  // The bar that scrolls must not lie over what it scrolls.
-  scroll->setMinimumWidth(
-      std::max(dockWidth, content->minimumSizeHint().width() + scroll->verticalScrollBar()->sizeHint().width()));
-  setWidget(scroll);
+  setWidget(new DockScroll(content));
   connect(&document, &Document::softnessChanged, this, &StiffnessDock::showSoftness);
   showSoftness();
 }

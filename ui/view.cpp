@@ -92,6 +92,13 @@ void View::fit() {
   announceCamera();
 }
 
+void View::fitAgain() {
+  if (camera_->framed()) {
+    camera_->frame(bounds(*document_.mesh()), size());
+    announceCamera();
+  }
+}
+
 void View::announceCamera() {
   emit cameraChanged();
   update();
@@ -290,6 +297,7 @@ void View::resizeEvent(QResizeEvent* event) {
   if (fitPending_ && isVisible()) {
     fit();
   }
+  emit resized();
 }
 
 }  // namespace chainmail

@@ -39,6 +39,8 @@ class View : public QOpenGLWidget {
   const std::shared_ptr<Camera>& camera() const { return camera_; }
   /// Shows the whole rest shape.
   void fit();
+  /// The same after a change of its size, from where it looks, as long as nobody has moved the camera.
+  void fitAgain();
   void setGhost(const Ghost& ghost);
   const Ghost& ghost() const { return ghost_; }
   /// Moves the camera, as travels of the mouse in logical pixels do; a zoom is about the view's centre or a place in
@@ -70,6 +72,7 @@ class View : public QOpenGLWidget {
 
  signals:
   void cameraChanged();
+  void resized();
   void failed(const QString& sentence);
   void drawnStepChanged();
   void ghostChanged();

@@ -21,14 +21,19 @@ QJsonObject toJson(const Camera::Pose& pose) {
           {QStringLiteral("height"), pose.height},
           {QStringLiteral("yaw"), pose.yaw},
           {QStringLiteral("pitch"), pose.pitch},
-          {QStringLiteral("parallel"), pose.parallel}};
+          {QStringLiteral("parallel"), pose.parallel},
+          {QStringLiteral("framed"), pose.framed}};
 }
 
 /// JSON holds no numbers that are none, but some that no float holds.
 Camera::Pose poseOf(const QJsonObject& json, const Camera::Pose& present) {
   const auto number = [&](const char* key, double otherwise) { return json[QLatin1String(key)].toDouble(otherwise); };
-  Camera::Pose pose{present.centre, number("height", present.height), number("yaw", present.yaw),
-                    number("pitch", present.pitch), json[QStringLiteral("parallel")].toBool(present.parallel)};
+  Camera::Pose pose{present.centre,
+                    number("height", present.height),
+                    number("yaw", present.yaw),
+                    number("pitch", present.pitch),
+                    json[QStringLiteral("parallel")].toBool(present.parallel),
+                    json[QStringLiteral("framed")].toBool()};
   const QJsonArray centre = json[QStringLiteral("centre")].toArray();
   for (int k = 0; k < 3 && centre.size() == 3; ++k) {
     const auto at = float(centre[k].toDouble(pose.centre[k]));
@@ -43,6 +48,7 @@ void takeCameras(MainWindow& window, const QJsonObject& look) {
   for (int panel = 0; panel < std::min(int(cameras.size()), window.document().panels()); ++panel) {
     View& view = window.panel(panel).view();
     view.camera()->setPose(poseOf(cameras[panel].toObject(), view.camera()->pose()));
+    view.fitAgain();  // this window may have another size
     emit view.cameraChanged();
     view.update();
   }

@@ -169,6 +169,8 @@ class WindowComfort : public QObject {
     bench.window.welcome();
     auto* hints = bench.find<QWidget>("hints");
     QVERIFY(hints->isVisible());
+    const QRect ofView(bench.view(0).mapToGlobal(QPoint()), bench.view(0).size());
+    QVERIFY(!QRect(hints->mapToGlobal(QPoint()), hints->size()).intersects(ofView));  // they cover nothing
     QTRY_VERIFY(bench.position(0, moved) != rest[0] && bench.position(1, moved) != rest[1]);
     QTest::mousePress(&bench.view(0), Qt::LeftButton, {}, {3, 3});
     QCOMPARE(bench.position(0, moved), rest[0]);  // when the press is acted on, not some time later

@@ -145,12 +145,13 @@ class WindowKeyboard : public QObject {
   void keysMoveTheCameraOfTheViewThatHasThem() {
     Workbench bench;  // in a plane: arrows shift
     bench.view(1).setFocus(Qt::TabFocusReason);
-    const QPoint before = bench.place(1, 31);
+    const auto middle = [&bench] { return bench.view(1).placeOf(ElementId(31)); };
+    const QPointF before = middle();
     QTest::keyClick(&bench.view(1), Qt::Key_Right);
-    QVERIFY(bench.place(1, 31).x() > before.x());
-    QCOMPARE(bench.place(1, 31).y(), before.y());
+    QVERIFY(middle().x() > before.x());
+    QVERIFY(std::abs(middle().y() - before.y()) < 0.01);  // single precision of places
     QTest::keyClick(&bench.view(1), Qt::Key_Left);
-    QCOMPARE(bench.place(1, 31), before);
+    QVERIFY((middle() - before).manhattanLength() < 0.01);
     const int across = bench.place(1, 8).x() - bench.place(1, 0).x();
     QTest::keyClick(&bench.view(1), Qt::Key_Plus);
     QVERIFY(bench.place(1, 8).x() - bench.place(1, 0).x() > across);

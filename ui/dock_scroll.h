@@ -1,0 +1,18 @@
+#pragma once
+
+#include <QScrollArea>
+
+namespace chainmail {
+
+/// The content of a dock that a low window scrolls: the docks must not make it taller than a screen. Where there is
+/// room it takes as much as its content, and its bar never lies over that.
+class DockScroll : public QScrollArea {
+  Q_OBJECT
+
+ public:
+  explicit DockScroll(QWidget* content);
+
+  QSize sizeHint() const override { return widget()->sizeHint(); }
+};
+
+}  // namespace chainmail
