@@ -55,14 +55,38 @@ Autosave::Autosave(MainWindow& window, QObject* parent)
   listen();
 }
 
+QString Autosave::closedPath() { return QDir(folder()).filePath(QStringLiteral("closed.chainmail")); }
+
 Autosave::~Autosave() {
+  endWriting();
+  remove();
+}
+
+void Autosave::endWriting() {
   if (writing_) {
     writing_->job.cancelled = true;
   }
   if (thread_.joinable()) {
     thread_.join();
   }
-  remove();
+}
+
+void Autosave::keep() {
+  if (!window_.document().isModified()) {
+    return;
+  }
+  endWriting();
+  try {
+    JobState job;
+    const Progress progress(job);
+    save_session(asPath(path_), SessionDraft(window_.document(), lookOf(window_)).finished(progress), progress);
+  } catch (const std::exception&) {
+    // Nobody is there to be told: what was on the disk before is kept instead.
+  }
+  if (QFile::exists(path_)) {
+    QFile::remove(closedPath());
+    QFile::rename(path_, closedPath());
+  }
 }
 
 void Autosave::listen() {

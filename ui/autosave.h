@@ -13,7 +13,7 @@ class MainWindow;
 
 /// Keeps a window's unsaved work on the disk, at most some seconds behind: written in the background, whole or not at
 /// all, beside a lock that tells a program that runs from one that has crashed. While nothing changes it does nothing;
-/// what is saved, or closed on purpose, is taken away.
+/// what is saved is taken away.
 class Autosave : public QObject {
   Q_OBJECT
 
@@ -22,10 +22,15 @@ class Autosave : public QObject {
   static QString folder();
   /// The lock that belongs to a file there.
   static QString lockOf(const QString& path) { return path + QStringLiteral(".lock"); }
+  /// The unsaved work of the window that was closed last: one file, so that what is never asked for does not pile up.
+  static QString closedPath();
 
   Autosave(MainWindow& window, QObject* parent);
-  /// Nothing is left behind.
+  /// Nothing is left behind but what was kept.
   ~Autosave() override;
+
+  /// To be called when the window is closed: nobody is asked, since what is unsaved is there at the next start.
+  void keep();
 
   /// Takes a file over that another program left; it is this window's work now.
   void adopt(const QString& path);
@@ -49,6 +54,7 @@ class Autosave : public QObject {
   void save();
   void receive();
   void remove();
+  void endWriting();
   Mark mark() const;
 
   MainWindow& window_;

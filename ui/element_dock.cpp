@@ -3,11 +3,13 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QVBoxLayout>
+#include <limits>
 
 #include "dock_scroll.h"
 #include "element_facts.h"
 #include "icons.h"
 #include "parameter_row.h"
+#include "text.h"
 
 namespace chainmail {
 namespace {
@@ -141,8 +143,8 @@ void ElementDock::adaptToMesh() {
   const Mesh& mesh = *document_.mesh();
   {
     const QSignalBlocker quiet(id_);
-    id_->setRange(0, int(mesh.element_count()) - 1);
-    id_->setSuffix(QStringLiteral(" of %L1").arg(mesh.element_count()));
+    id_->setRange(0, std::numeric_limits<int>::max());  // what is typed beyond the last one gets an answer
+    id_->setSuffix(QStringLiteral(" (0 to %1)").arg(mesh.element_count() - 1));
   }
   QStringList columns{QString()};
   for (int k = 0; k < mesh.space_dimension; ++k) {
@@ -164,13 +166,28 @@ void ElementDock::followSelection() {
   showElement();
 }
 
-void ElementDock::pick() { document_.select({ElementId(id_->value())}); }
+void ElementDock::pick() {
+  const auto count = document_.mesh()->element_count();
+  if (std::size_t(id_->value()) < count) {
+    if (element_ != ElementId(id_->value())) {
+      document_.select({ElementId(id_->value())});
+    }
+    return;
+  }
+  const int asked = id_->value();
+  {
+    const QSignalBlocker quiet(id_);
+    id_->setValue(element_ ? int(*element_) : int(count) - 1);
+  }
+  state_->setText(QStringLiteral("There is no element %1: ids go from 0 to %2.").arg(asked).arg(count - 1));
+}
 
 void ElementDock::showElement() {
   const std::size_t selected = document_.selection().elements.size();
-  state_->setText(element_ ? QStringLiteral("%L1 neighbours%2")
-                                 .arg(document_.mesh()->neighbours_of(*element_).size())
-                                 .arg(document_.isPinned(*element_) ? QStringLiteral(" · pinned") : QString())
+  state_->setText(element_
+                      ? QStringLiteral("%1%2").arg(
+                            counted(document_.mesh()->neighbours_of(*element_).size(), QStringLiteral("neighbour")),
+                            document_.isPinned(*element_) ? QStringLiteral(" · pinned") : QString())
                   : selected == 0 ? QStringLiteral("Type an id and press Enter, or select one element in a view.")
                                   : QStringLiteral("%L1 elements are selected: type an id to pick one.").arg(selected));
   move_->setElement(element_);

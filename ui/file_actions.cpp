@@ -66,7 +66,7 @@ void FileActions::addSaveActions(QMenu& menu) {
   add("saveSessionAs", QStringLiteral("Save session &as…"), Qt::CTRL | Qt::SHIFT | Qt::Key_S,
       &FileActions::saveSessionAs, QStringLiteral("The same into another file: ") + all);
   menu.addSeparator();
-  add("saveFile", QStringLiteral("Save &mesh…"), Qt::CTRL | Qt::Key_M, &FileActions::save,
+  add("saveFile", QStringLiteral("Save &mesh at rest…"), Qt::CTRL | Qt::Key_M, &FileActions::save,
       QStringLiteral("The object at rest alone, without its cut links, as .dat or .obj"));
 }
 
@@ -86,17 +86,17 @@ void FileActions::saveSessionAs() {
 }
 
 void FileActions::addShapeActions(QMenu& menu) {
-  auto* shapes = menu.addMenu(QStringLiteral("Save &deformed shape"));
+  auto* shapes = menu.addMenu(QStringLiteral("Save &deformed mesh"));
   for (int panel = 0; panel < Document::mostPanels; ++panel) {
     auto* action = shapes->addAction(QStringLiteral("Panel &%1…").arg(panelName(panel)));
     connect(action, &QAction::triggered, this, [this, panel] {
-      const QString path = askWhere(QStringLiteral("Save deformed shape"), {QStringLiteral("Wavefront OBJ (*.obj)")});
+      const QString path = askWhere(QStringLiteral("Save deformed mesh"), {QStringLiteral("Wavefront OBJ (*.obj)")});
       if (!path.isEmpty()) {
         saveShapePath(panel, path);
       }
     });
     action->setObjectName(QStringLiteral("saveShape%1").arg(panelName(panel)));
-    action->setStatusTip(QStringLiteral("The shape that this panel shows, in mesh units, as .obj"));
+    action->setStatusTip(QStringLiteral("Every element where this panel shows it, in mesh units, as .obj"));
     const auto adapt = [this, action, panel] { action->setVisible(panel < document_.panels()); };
     connect(&document_, &Document::panelsChanged, action, adapt);
     adapt();
@@ -151,7 +151,7 @@ void FileActions::save() {
   if (document_.mesh()->lattice) {
     filters << QStringLiteral("Links of a grid (*.dat)");
   }
-  const QString path = askWhere(QStringLiteral("Save mesh"), filters);
+  const QString path = askWhere(QStringLiteral("Save mesh at rest"), filters);
   if (!path.isEmpty()) {
     savePath(path);
   }
@@ -161,7 +161,7 @@ void FileActions::savePath(const QString& path) { write(path, nullptr); }
 
 void FileActions::saveShapePath(int panel, const QString& path) {
   if (QFileInfo(path).suffix().compare(QStringLiteral("obj"), Qt::CaseInsensitive) != 0) {
-    emit failed(path + QStringLiteral(": a deformed shape is saved as OBJ; choose a name that ends in .obj"));
+    emit failed(path + QStringLiteral(": a deformed mesh is saved as OBJ; choose a name that ends in .obj"));
   } else if (const Frame* frame = document_.frame(panel)) {
     write(path, std::make_shared<const Frame>(*frame));
   }

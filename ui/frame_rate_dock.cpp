@@ -10,6 +10,7 @@
 #include "icons.h"
 #include "mesh/error.h"
 #include "panel.h"
+#include "panel_names.h"
 #include "parameter_row.h"
 #include "text.h"
 
@@ -206,9 +207,11 @@ RatePicture FrameRateDock::picture() const {
   picture.to = shownTo_;
   picture.from = shownTo_ - span_->currentData().toDouble();
   for (std::size_t panel = 0; panel < panels_.size(); ++panel) {
-    picture.curves.push_back({text(info(document_.algorithm(int(panel))).label), colours::ofPanel(int(panel)),
-                              curveOf(histories_[panel].since(picture.from), *picture.quantity, picture.from,
-                                      picture.to, drawnPoints / panels_.size())});
+    picture.curves.push_back(
+        {QStringLiteral("%1 %2").arg(panelName(int(panel)), text(info(document_.algorithm(int(panel))).label)),
+         colours::ofPanel(int(panel)),
+         curveOf(histories_[panel].since(picture.from), *picture.quantity, picture.from, picture.to,
+                 drawnPoints / panels_.size())});
   }
   return picture;
 }

@@ -183,6 +183,7 @@ void MainWindow::restoreLayout() {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   jobs_.close();
+  sessions_->keep();
   sessions_->close();
   QSettings settings;
   settings.setValue(QStringLiteral("geometry"), saveGeometry());

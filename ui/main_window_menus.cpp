@@ -25,7 +25,8 @@ void MainWindow::makeMenus() {
   file->addSeparator();
   auto* quit = file->addAction(QStringLiteral("&Quit"), QKeySequence::Quit, this, &QWidget::close);
   quit->setObjectName(QStringLiteral("quit"));
-  quit->setStatusTip(QStringLiteral("Closes the window; its layout is remembered"));
+  quit->setStatusTip(
+      QStringLiteral("Closes the window; its layout is remembered, and what is unsaved is offered at the next start"));
   fillEditMenu(*menuBar()->addMenu(QStringLiteral("&Edit")));
   fillObjectMenu(*menuBar()->addMenu(QStringLiteral("&Object")));
   fillViewMenu(*menuBar()->addMenu(QStringLiteral("&View")));

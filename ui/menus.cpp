@@ -56,7 +56,7 @@ constexpr std::array actionIcons{ActionIcon{"openFile", "open"},
 
 /// Menus in menus, by what they are called.
 constexpr std::array menuIcons{ActionIcon{"Open recent", "history"},
-                               ActionIcon{"Save deformed shape", "shape"},
+                               ActionIcon{"Save deformed mesh", "shape"},
                                ActionIcon{"Panels", "panels"},
                                ActionIcon{"Compare with", "difference"},
                                ActionIcon{"Colour by", "colour"},

@@ -132,7 +132,7 @@ void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pi
   drawFaces(scene, paint);
   drawWires(scene, paint);
   if (step_ == 1 && mesh_->element_count() <= elementsMarked &&
-      mesh_->mean_link_length * pixelsPerUnit >= pixelsBetweenMarks * scene.pixelRatio) {
+      mesh_->mean_link_length * pixelsPerUnit >= pixelsBetweenMarks) {
     drawEveryElement(scene, paint);
   }
   vertexArray_.release();

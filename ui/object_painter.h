@@ -51,7 +51,7 @@ class ObjectPainter : protected QOpenGLExtraFunctions {
   /// Links were cut or uncut.
   void cutsChanged() { listsOutdated_ = true; }
 
-  /// The object itself. `pixelsPerUnit` decides how finely it is drawn.
+  /// The object itself. `pixelsPerUnit`, logical ones, decides how finely it is drawn.
   void drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit);
   void drawElements(const Scene& scene, std::span<const ElementId> elements, QColor colour, float diameter,
                     Mark mark = Mark::disc);

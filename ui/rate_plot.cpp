@@ -12,6 +12,7 @@
 #include "mesh/error.h"
 #include "report/format.h"
 #include "text.h"
+#include "theme.h"
 
 namespace chainmail {
 namespace {
@@ -21,7 +22,8 @@ constexpr QSizeF pictureSize{640, 360};  // logical pixels
 constexpr double picturePixelRatio = 3;
 constexpr double lineWidth = 1.4;
 constexpr int gridColumns = 4;
-constexpr double reach = 6;  // pixels from the cursor in which a point is read
+constexpr double keyWidth = 22, betweenKeys = 16;  // pixels
+constexpr double reach = 6;                        // pixels from the cursor in which a point is read
 
 /// The end of an axis from 0: 1, 2 or 5 times a power of ten.
 double axisEnd(double highest) {
@@ -94,20 +96,25 @@ class Drawing {
     painter_.restore();
   }
 
-  /// What is plotted, and whose the lines are.
-  void heading(const QRectF& area) {
+  /// What is plotted, and below it, as many in a line as there is room for, whose the lines are. Returns where it ends.
+  double heading(const QRectF& area) {
     const QFontMetricsF metrics(painter_.font(), painter_.device());
-    word(area, Qt::AlignLeft,
+    QRectF line(area.left(), area.top(), area.width(), metrics.height() + 3);
+    word(line, Qt::AlignLeft,
          QStringLiteral("%1 (%2)").arg(text(picture_.quantity->label), text(picture_.quantity->unit)));
-    double right = area.right();
-    for (auto curve = picture_.curves.rbegin(); curve != picture_.curves.rend(); ++curve) {
-      const double width = metrics.horizontalAdvance(curve->name);
-      word({right - width, area.top(), width, area.height()}, Qt::AlignLeft, curve->name);
-      const double y = area.center().y();
-      painter_.setPen(QPen(curve->colour.on(ground_), 2 * lineWidth));
-      painter_.drawLine(QPointF(right - width - 20, y), QPointF(right - width - 6, y));
-      right -= width + 34;
+    line.moveTop(line.bottom());
+    for (const RatePicture::Curve& curve : picture_.curves) {
+      const double width = keyWidth + metrics.horizontalAdvance(curve.name);
+      if (line.left() > area.left() && line.left() + width > area.right()) {
+        line.moveTopLeft({area.left(), line.bottom()});
+      }
+      painter_.setPen(QPen(curve.colour.on(ground_), 2 * lineWidth));
+      painter_.drawLine(QPointF(line.left(), line.center().y()),
+                        QPointF(line.left() + keyWidth - 6, line.center().y()));
+      word({line.left() + keyWidth, line.top(), width, line.height()}, Qt::AlignLeft, curve.name);
+      line.moveLeft(line.left() + width + betweenKeys);
     }
+    return line.bottom();
   }
 
  private:
@@ -134,17 +141,15 @@ class Drawing {
 
 /// On paper, in an area of the pictures' size.
 void drawPage(QPainter& painter, const RatePicture& picture) {
-  QPalette paper;
-  paper.setColor(QPalette::WindowText, Qt::black);
-  paper.setColor(QPalette::Mid, Qt::lightGray);
+  const QPalette paper = paletteOn(colours::Ground::light);
   QFont font;
   font.setPixelSize(13);
   painter.setFont(font);
   const QRectF area = QRectF({}, pictureSize).adjusted(14, 10, -16, -8);
   Drawing drawing(painter, paper, colours::Ground::light, picture);
-  drawing.axes(area.adjusted(0, 26, 0, 0));
+  const double below = drawing.heading(area);
+  drawing.axes(area.adjusted(0, below - area.top() + 4, 0, 0));
   drawing.curves();
-  drawing.heading({area.left(), area.top(), area.width(), 18});
 }
 
 bool writePdf(QIODevice& file, const RatePicture& picture) {
@@ -164,7 +169,7 @@ bool writePdf(QIODevice& file, const RatePicture& picture) {
 bool writePng(QIODevice& file, const RatePicture& picture) {
   QImage image((pictureSize * picturePixelRatio).toSize(), QImage::Format_RGB32);
   image.setDevicePixelRatio(picturePixelRatio);
-  image.fill(Qt::white);
+  image.fill(paletteOn(colours::Ground::light).color(QPalette::Base));
   QPainter painter(&image);
   drawPage(painter, picture);
   painter.end();

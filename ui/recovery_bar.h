@@ -9,8 +9,8 @@
 
 namespace chainmail {
 
-/// Offers the unsaved work of programs that have crashed, one after the other, the newest first, without standing in
-/// the way. What is neither restored nor discarded is offered again at the next start.
+/// Offers the unsaved work of programs that have crashed or were closed on it, one after the other, the newest first,
+/// without standing in the way. What is neither restored nor discarded is offered again at the next start.
 class RecoveryBar : public QFrame {
   Q_OBJECT
 

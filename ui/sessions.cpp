@@ -87,6 +87,12 @@ void Sessions::protect() {
   recovery_->offer();
 }
 
+void Sessions::keep() {
+  if (autosave_) {
+    autosave_->keep();
+  }
+}
+
 void Sessions::close() { autosave_.reset(); }
 
 /// What a crash left becomes this window's, and stays on the disk until this window has no more need of it.

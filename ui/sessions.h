@@ -12,7 +12,7 @@ class MainWindow;
 class RecoveryBar;
 
 /// Sessions of a window: opened and saved in the background, kept safe while there is something to lose, and offered
-/// after a crash.
+/// at the next start.
 class Sessions : public QObject {
   Q_OBJECT
 
@@ -28,7 +28,9 @@ class Sessions : public QObject {
   RecoveryBar& recoveryBar() { return *recovery_; }
   /// Begins to keep the window's work safe, and offers what a crash has left. Tests do without.
   void protect();
-  /// The window is closed on purpose: nothing is left to be offered.
+  /// The window is closed by the user: what is unsaved is offered at the next start.
+  void keep();
+  /// Work is kept safe no longer.
   void close();
 
  signals:

@@ -21,7 +21,8 @@ struct Role {
   Colour colour;
 };
 
-constexpr Colour boxGround(0xff6e7783, 0xffffffff), boxEdge(0xff6e7783, 0xff9aa1ab);
+constexpr Colour boxGround(0xff6e7783, 0xffffffff), boxEdge(0xff6e7783, 0xff9aa1ab),
+    listBoxEdge(0xffb4bcc8, 0xff9aa1ab);
 constexpr Colour faintText(0xff98a0ab, 0xff59616c), checkedEdge(0xff3f93cb, 0xff4a90c0),
     checked(0xff1f5f8b, 0xffb8dcf2);
 
@@ -46,6 +47,16 @@ constexpr std::array roles{Role{QPalette::Window, {0xff242930, 0xffeceef1}},
                            Role{QPalette::Link, {0xff56b4e9, 0xff0068a8}},
                            Role{QPalette::LinkVisited, {0xffc9a0e8, 0xff6b3fa0}}};
 
+std::optional<Ground> named(const QString& name) {
+  return name == darkName()    ? std::optional(Ground::dark)
+         : name == lightName() ? std::optional(Ground::light)
+                               : std::nullopt;
+}
+
+QString nameOf(Ground ground) { return ground == Ground::dark ? darkName() : lightName(); }
+
+}  // namespace
+
 QPalette paletteOn(Ground ground) {
   QPalette palette;
   for (const Role& one : roles) {
@@ -56,16 +67,6 @@ QPalette paletteOn(Ground ground) {
   }
   return palette;
 }
-
-std::optional<Ground> named(const QString& name) {
-  return name == darkName()    ? std::optional(Ground::dark)
-         : name == lightName() ? std::optional(Ground::light)
-                               : std::nullopt;
-}
-
-QString nameOf(Ground ground) { return ground == Ground::dark ? darkName() : lightName(); }
-
-}  // namespace
 
 Theme rememberedTheme() {
   const auto ground = named(QSettings().value(themeKey()).toString());
@@ -93,6 +94,10 @@ void applyGround(Ground ground) {
   boxes.setColor(QPalette::Base, boxGround.on(ground));
   boxes.setColor(QPalette::Window, boxEdge.on(ground));
   QApplication::setPalette(boxes, "QCheckBox");
+  // The same for the boxes in lists, whose ground is that of what is written there.
+  QPalette lists = paletteOn(ground);
+  lists.setColor(QPalette::Window, listBoxEdge.on(ground));
+  QApplication::setPalette(lists, "QListWidget");
   // Fusion hardly tells a checked button from an unchecked one.
   qApp->setStyleSheet(QStringLiteral("QToolButton:checked { background: %1; border: 1px solid %2; border-radius: 3px; "
                                      "padding: 3px 6px; }")

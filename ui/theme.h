@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QPalette>
 #include <QString>
 
 #include "colours.h"
@@ -17,6 +18,8 @@ void remember(Theme theme);
 /// What the system was last known to look like.
 void rememberSystem(colours::Ground ground);
 
+/// Of a ground that need not be the window's: a picture's, say.
+QPalette paletteOn(colours::Ground ground);
 /// Gives the whole application the palette for a ground, at once.
 void applyGround(colours::Ground ground);
 

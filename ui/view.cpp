@@ -1,5 +1,6 @@
 #include "view.h"
 
+#include <QGuiApplication>
 #include <QOpenGLContext>
 #include <algorithm>
 
@@ -51,6 +52,12 @@ void View::listen() {
     selectionOutdated_ = true;
     selectedHere_ = links_.pointed() == panel_;
     update();
+  });
+  // What an edit has put out is lit up again, without a move of the mouse.
+  connect(&document_.undoStack(), &QUndoStack::indexChanged, &hover_, [this] {
+    if (underMouse() && QGuiApplication::mouseButtons() == Qt::NoButton) {
+      hover_.start();
+    }
   });
   connect(&links_, &PanelLinks::marksLinked, this, qOverload<>(&View::update));
   connect(&colouring_, &Colouring::changed, this, qOverload<>(&View::update));

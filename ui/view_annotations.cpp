@@ -2,6 +2,7 @@
 
 #include <QPainter>
 #include <algorithm>
+#include <cmath>
 
 #include "colours.h"
 #include "view.h"
@@ -10,9 +11,12 @@ namespace chainmail {
 QRectF annotationBox(const Annotation& annotation, const QFontMetricsF& font, QSizeF view) {
   QRectF box = font.boundingRect(QRectF(0, 0, view.width(), view.height()), Qt::AlignLeft, annotation.words);
   box.adjust(-annotationPadding, -annotationPadding, annotationPadding, annotationPadding);
-  box.moveCenter(annotation.line.center());
-  // Beside the line and not over it, and inside the view.
-  box.moveBottom(annotation.line.center().y() - annotationEndDiameter);
+  // Beside the line, above it, however it slants: as far along its normal as the box reaches across. And inside the
+  // view.
+  const QLineF line = annotation.line.length() > 0 ? annotation.line.normalVector().unitVector() : QLineF(0, 0, 0, -1);
+  const QPointF normal = line.dy() > 0 ? QPointF(-line.dx(), -line.dy()) : QPointF(line.dx(), line.dy());
+  const double across = (std::abs(normal.x()) * box.width() + std::abs(normal.y()) * box.height()) / 2;
+  box.moveCenter(annotation.line.center() + normal * (across + annotationEndDiameter));
   box.moveLeft(std::clamp(box.left(), 0.0, std::max(0.0, view.width() - box.width())));
   box.moveTop(std::clamp(box.top(), 0.0, std::max(0.0, view.height() - box.height())));
   return box;

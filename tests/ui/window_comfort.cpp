@@ -5,6 +5,7 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "annotation.h"
 #include "colour_map.h"
 #include "icons.h"
 #include "message_bar.h"
@@ -146,6 +147,20 @@ class WindowComfort : public QObject {
     QTest::mouseClick(bench.find<QToolButton>("dismissAll"), Qt::LeftButton);
     QVERIFY(!bar.isVisible());
     QCOMPARE(bar.count(), 0);
+  }
+
+  void wordsOfALineStandBesideItHoweverItSlants() {
+    const QFontMetricsF font{QFont()};
+    const QSizeF view(600, 400);
+    for (int degrees = 0; degrees < 360; degrees += 15) {
+      QLineF line(300, 200, 450, 200);
+      line.setAngle(degrees);
+      const QRectF box = annotationBox({line, QStringLiteral("12.5 (× 1.250)\ndx 3, dy 4")}, font, view);
+      QVERIFY(QRectF({}, view).contains(box));
+      for (int i = 0; i <= 100; ++i) {
+        QVERIFY2(!box.contains(line.pointAt(i / 100.0)), qPrintable(QString::number(degrees)));
+      }
+    }
   }
 
   void messagesAreReadOnEitherGround() {

@@ -20,6 +20,25 @@ class WindowDocks : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
+  void anIdThatIsNoneGetsAnAnswer() {
+    Workbench bench;
+    bench.trigger("showElement");
+    auto* id = bench.find<QSpinBox>("elementId");
+    const auto enter = [&](const char* digits) {
+      id->setFocus();
+      id->selectAll();
+      QTest::keyClicks(id, QLatin1String(digits));
+      QTest::keyClick(id, Qt::Key_Return);
+      bench.settle();
+    };
+    enter("7");
+    QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{7});
+    enter("63");  // one beyond the last
+    QVERIFY(bench.find<QLabel>("elementState")->text().contains(QStringLiteral("from 0 to 62")));
+    QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{7});
+    QCOMPARE(id->value(), 7);
+  }
+
   void stiffness_data() {
     QTest::addColumn<QByteArray>("name");
     QTest::addColumn<double>("value");

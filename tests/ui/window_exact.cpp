@@ -195,7 +195,7 @@ class WindowExact : public QObject {
     QVERIFY(bench.find<QDockWidget>("elementDock")->isVisible());
     auto* id = bench.find<QSpinBox>("elementId");
     QTRY_VERIFY(id->hasFocus());
-    QCOMPARE(id->maximum(), 62);
+    QVERIFY(id->suffix().contains(QStringLiteral("0 to 62")));
     QVERIFY(!bench.find<QPushButton>("moveElement")->isEnabled());
     id->selectAll();
     QTest::keyClicks(id, QStringLiteral("31"));

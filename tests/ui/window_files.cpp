@@ -3,10 +3,14 @@
 #include <QDropEvent>
 #include <QFile>
 #include <QImage>
+#include <QLabel>
 #include <QMimeData>
+#include <QPushButton>
 
 #include "file_actions.h"
 #include "message_bar.h"
+#include "recovery_bar.h"
+#include "sessions.h"
 #include "window.h"
 
 using namespace chainmail;
@@ -114,6 +118,35 @@ class WindowFiles : public QObject {
     QVERIFY(bench.window.messages().sentence().contains(nowhere));
     files(bench).saveScreenshotPath(folder_.filePath(QStringLiteral("no/such/folder/x.png")));
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("x.png")));
+  }
+
+  void closingAsksNothingAndLosesNothing() {
+    Point moved;
+    {
+      Workbench bench;
+      bench.window.sessions().protect();
+      bench.document().setPinned({3}, true);
+      const QPoint from = bench.place(0, 31);
+      bench.stroke(0, {from, from + QPoint(60, 30)});
+      moved = bench.position(0, 31);
+      QVERIFY(bench.window.close());
+    }
+    for (const char* button : {"restoreWork", "discardWork"}) {
+      Workbench again;
+      again.window.sessions().protect();
+      QVERIFY(again.window.sessions().recoveryBar().isVisible());
+      QVERIFY(again.find<QLabel>("recovery")->text().contains(QStringLiteral("closed")));
+      again.find<QPushButton>(button)->click();
+      again.settle();
+      QVERIFY(!again.window.sessions().recoveryBar().isVisible());
+      const bool restored = QLatin1String(button) == QLatin1String("restoreWork");
+      QCOMPARE(again.document().isPinned(3), restored);
+      QCOMPARE(again.position(0, 31) == moved, restored);
+      QVERIFY(again.window.close());  // what was restored is unsaved still; what was discarded is gone
+    }
+    Workbench last;
+    last.window.sessions().protect();
+    QVERIFY(!last.window.sessions().recoveryBar().isVisible());
   }
 
   void theScreenshotShowsTheViews() {

@@ -51,6 +51,18 @@ class WindowPin : public QObject {
     QVERIFY(bench.position(1, pinned) != rest);  // it was the pin that held it
   }
 
+  void whatTheCursorIsAtStaysLitAfterAnEdit() {
+    Workbench bench;
+    bench.trigger("toolPin");
+    QTest::mouseMove(&bench.view(0), bench.place(0, 12));
+    QTest::mouseMove(&bench.view(0), bench.place(0, pinned));
+    QTRY_COMPARE(bench.document().highlight().element, std::optional<ElementId>(pinned));
+    bench.click(0, pinned);
+    QTRY_COMPARE(bench.document().highlight().element, std::optional<ElementId>(pinned));
+    bench.trigger("undo");
+    QTRY_COMPARE(bench.document().highlight().element, std::optional<ElementId>(pinned));
+  }
+
   void aSecondClickUnpins() {
     Workbench bench;
     bench.trigger("toolPin");

@@ -141,7 +141,7 @@ class WindowRate : public QObject {
       }
     }
     QVERIFY(QColor(bench.plot().curves[0].colour) != QColor(bench.plot().curves[1].colour));
-    QCOMPARE(bench.plot().curves[0].name, QStringLiteral("Generalized ChainMail"));
+    QCOMPARE(bench.plot().curves[0].name, QStringLiteral("A Generalized ChainMail"));
     QVERIFY(bench.find<QLabel>("rateName1")->text().contains(QStringLiteral("Natural Queue")));
     bench.set("rateSpan", 60);
     QCOMPARE(bench.plot().to - bench.plot().from, 60.0);
