@@ -35,4 +35,14 @@ QColor at(double share, const Stops& all) {
   return {mixed(0), mixed(1), mixed(2)};
 }
 
+const Stops& stopsOf(const ColourScale& scale) { return scale.diverging ? differenceStops() : stops(); }
+
+QColor of(float value, const ColourScale& scale) {
+  if (std::abs(value) <= scale.threshold) {
+    return neutral;
+  }
+  const float range = scale.highest - scale.lowest;
+  return at(range > 0 ? double((value - scale.lowest) / range) : 0, stopsOf(scale));
+}
+
 }  // namespace chainmail::colour_map

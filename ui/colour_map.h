@@ -3,6 +3,7 @@
 #include <QColor>
 #include <array>
 
+#include "colour_values.h"
 #include "colours.h"
 
 /// Numbers to colours: a map for either ground, read alike with every kind of colour vision and in grey, because its
@@ -23,5 +24,8 @@ inline constexpr colours::Colour neutral(0xff505660, 0xffa6acb5);
 /// The colour of a share of the way from the lowest value to the highest.
 QColor at(double share, colours::Ground ground = colours::ground());
 QColor at(double share, const Stops& stops);
+const Stops& stopsOf(const ColourScale& scale);
+/// The colour of a value.
+QColor of(float value, const ColourScale& scale);
 
 }  // namespace chainmail::colour_map

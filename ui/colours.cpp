@@ -5,6 +5,7 @@
 #include <QPalette>
 #include <QWidget>
 #include <cmath>
+#include <optional>
 
 namespace chainmail {
 namespace {
@@ -40,7 +41,19 @@ class ThemeFollower : public QObject {
 
 namespace colours {
 
+namespace {
+
+std::optional<Ground> forced;  // by the one OnGround there is; of the window's thread alone
+
+}  // namespace
+
+OnGround::OnGround(Ground ground) { forced = ground; }
+OnGround::~OnGround() { forced.reset(); }
+
 Ground ground() {
+  if (forced) {
+    return *forced;
+  }
   const int lightness = QGuiApplication::palette().color(QPalette::Window).lightness();
   return lightness < middleLightness ? Ground::dark : Ground::light;
 }

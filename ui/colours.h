@@ -16,6 +16,15 @@ enum class Ground { dark, light };
 /// That of the application's palette, as it is now.
 Ground ground();
 
+/// As long as it lives, the ground is this one whatever the palette: what is drawn meanwhile is for paper.
+class OnGround {
+ public:
+  explicit OnGround(Ground ground);
+  ~OnGround();
+  OnGround(const OnGround&) = delete;
+  OnGround& operator=(const OnGround&) = delete;
+};
+
 /// A colour for either ground. Where a QColor is asked for it is that of the present ground: who keeps one keeps this,
 /// or asks again when the theme changes (followTheme).
 class Colour {

@@ -3,11 +3,10 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QPixmap>
-#include <QSaveFile>
 #include <QSettings>
 #include <filesystem>
 
+#include "ask_where.h"
 #include "files/mesh_file.h"
 #include "files/session.h"
 #include "panel_names.h"
@@ -44,10 +43,6 @@ void FileActions::fill(QMenu& menu) {
   menu.addSeparator();
   addSaveActions(menu);
   addShapeActions(menu);
-  menu.addSeparator();
-  auto* picture = menu.addAction(QStringLiteral("Save s&creenshot…"), Qt::Key_F12, this, &FileActions::saveScreenshot);
-  picture->setObjectName(QStringLiteral("saveScreenshot"));
-  picture->setStatusTip(QStringLiteral("The window as it stands, as a PNG picture"));
   fillRecent();
 }
 
@@ -79,7 +74,8 @@ void FileActions::saveSession() {
 }
 
 void FileActions::saveSessionAs() {
-  const QString path = askWhere(QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")});
+  const QString path =
+      askWhere(window_, QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")}, startFolder());
   if (!path.isEmpty()) {
     sessions_.savePath(path);
   }
@@ -90,7 +86,8 @@ void FileActions::addShapeActions(QMenu& menu) {
   for (int panel = 0; panel < Document::mostPanels; ++panel) {
     auto* action = shapes->addAction(QStringLiteral("Panel &%1…").arg(panelName(panel)));
     connect(action, &QAction::triggered, this, [this, panel] {
-      const QString path = askWhere(QStringLiteral("Save deformed mesh"), {QStringLiteral("Wavefront OBJ (*.obj)")});
+      const QString path = askWhere(window_, QStringLiteral("Save deformed mesh"),
+                                    {QStringLiteral("Wavefront OBJ (*.obj)")}, startFolder());
       if (!path.isEmpty()) {
         saveShapePath(panel, path);
       }
@@ -101,19 +98,6 @@ void FileActions::addShapeActions(QMenu& menu) {
     connect(&document_, &Document::panelsChanged, action, adapt);
     adapt();
   }
-}
-
-/// Asks where to save; a name without an ending gets that of the filter chosen. Empty where given up.
-QString FileActions::askWhere(const QString& title, const QStringList& filters) {
-  QFileDialog dialog(&window_, title, startFolder());
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setNameFilters(filters);
-  const auto takeSuffix = [&dialog](const QString& filter) {
-    dialog.setDefaultSuffix(filter.section(QStringLiteral("*."), 1).chopped(1));
-  };
-  takeSuffix(filters.first());
-  connect(&dialog, &QFileDialog::filterSelected, &dialog, takeSuffix);
-  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().value(0) : QString();
 }
 
 void FileActions::open() {
@@ -151,7 +135,7 @@ void FileActions::save() {
   if (document_.mesh()->lattice) {
     filters << QStringLiteral("Links of a grid (*.dat)");
   }
-  const QString path = askWhere(QStringLiteral("Save mesh at rest"), filters);
+  const QString path = askWhere(window_, QStringLiteral("Save mesh at rest"), filters, startFolder());
   if (!path.isEmpty()) {
     savePath(path);
   }
@@ -178,27 +162,6 @@ void FileActions::write(const QString& path, const std::shared_ptr<const Frame>&
           emit saved(path);
         };
       });
-}
-
-void FileActions::saveScreenshot() {
-  // The window is taken before the dialog can cover it.
-  const QPixmap picture = window_.grab();
-  const QString path = askWhere(QStringLiteral("Save screenshot"), {QStringLiteral("PNG picture (*.png)")});
-  if (!path.isEmpty()) {
-    writePicture(picture, path);
-  }
-}
-
-void FileActions::saveScreenshotPath(const QString& path) { writePicture(window_.grab(), path); }
-
-void FileActions::writePicture(const QPixmap& picture, const QString& path) {
-  QSaveFile file(path);
-  if (!file.open(QIODevice::WriteOnly) || !picture.save(&file, "PNG") || !file.commit()) {
-    emit failed(QStringLiteral("%1: the picture could not be written (%2); choose another place")
-                    .arg(path, file.errorString()));
-    return;
-  }
-  emit saved(path);
 }
 
 void FileActions::fillRecent() {

@@ -10,7 +10,7 @@ namespace chainmail {
 
 class Sessions;
 
-/// The File menu: open, recent files, save, screenshot. Sessions and meshes are read and written in the background.
+/// The File menu: open, recent files, save. Sessions and meshes are read and written in the background.
 /// Nothing is lost when one of them fails.
 class FileActions : public QObject {
   Q_OBJECT
@@ -31,8 +31,6 @@ class FileActions : public QObject {
   void savePath(const QString& path);
   /// Saves the shape that a panel shows, as .obj.
   void saveShapePath(int panel, const QString& path);
-  /// Saves a picture of the window as it stands.
-  void saveScreenshotPath(const QString& path);
 
  signals:
   void failed(const QString& sentence);
@@ -43,11 +41,8 @@ class FileActions : public QObject {
   void addShapeActions(QMenu& menu);
   void show(const MeshPointer& mesh, const QString& path, bool first);
   void write(const QString& path, const std::shared_ptr<const Frame>& shape);
-  void saveScreenshot();
-  void writePicture(const QPixmap& picture, const QString& path);
   void fillRecent();
   void remember(const QString& path);
-  QString askWhere(const QString& title, const QStringList& filters);
   QString startFolder() const;
 
   QWidget& window_;

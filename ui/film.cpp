@@ -3,9 +3,10 @@
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
-#include <QPixmap>
 #include <QStandardPaths>
 #include <QWidget>
+
+#include "pictures.h"
 
 namespace chainmail {
 namespace {
@@ -92,7 +93,7 @@ void Film::goOn() {
 }
 
 void Film::take() {
-  QImage picture = scene_.grab().toImage();
+  QImage picture = pictureOf(scene_);
   if (size_.isEmpty()) {
     size_ = QSize(picture.width() & ~1, picture.height() & ~1);  // what most codecs ask for
     if (video_) {

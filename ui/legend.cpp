@@ -63,6 +63,10 @@ QString Legend::highest() const { return scale_.known() ? number(scale_.highest)
 void Legend::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   painter.setPen(palette().color(QPalette::WindowText));
+  draw(painter);
+}
+
+void Legend::draw(QPainter& painter) const {
   QRect line(margin, 0, width() - 2 * margin, fontMetrics().height());
   painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
                    fontMetrics().elidedText(title(), Qt::ElideRight, line.width()));
@@ -102,7 +106,7 @@ void Legend::drawMap(QPainter& painter, QRect line) const {
   }
   const QRect map = bar(line, width);
   QLinearGradient gradient(map.topLeft(), map.topRight());
-  const auto& stops = scale_.diverging ? colour_map::differenceStops() : colour_map::stops();
+  const auto& stops = colour_map::stopsOf(scale_);
   constexpr int steps = int(std::tuple_size_v<colour_map::Stops>) - 1;
   for (int i = 0; i <= steps; ++i) {
     const double share = double(i) / steps;

@@ -18,6 +18,8 @@ class Legend : public QWidget {
   void follow(const Colouring& colouring, int panel);
   /// Shows what the colours of something over the object mean.
   void show(const OverlayLegend& legend);
+  /// Draws it with the painter's pen and font, as wide as it is.
+  void draw(QPainter& painter) const;
   /// What it says; the numbers are empty as long as there are none.
   QString title() const { return title_; }
   QString lowest() const;

@@ -73,6 +73,7 @@ class MainWindow : public QMainWindow {
   void makePropagationDock();
   void makeReplayDock();
   void makeMenus();
+  void makePictures(QMenu& menu);
   void fillEditMenu(QMenu& menu);
   void fillObjectMenu(QMenu& menu);
   void fillViewMenu(QMenu& menu);

@@ -14,6 +14,7 @@
 #include "main_window.h"
 #include "message_bar.h"
 #include "panel_actions.h"
+#include "picture_actions.h"
 #include "theme_menu.h"
 #include "undo_actions.h"
 
@@ -23,6 +24,8 @@ void MainWindow::makeMenus() {
   auto* file = menuBar()->addMenu(QStringLiteral("&File"));
   files_->fill(*file);
   file->addSeparator();
+  makePictures(*file);
+  file->addSeparator();
   auto* quit = file->addAction(QStringLiteral("&Quit"), QKeySequence::Quit, this, &QWidget::close);
   quit->setObjectName(QStringLiteral("quit"));
   quit->setStatusTip(
@@ -31,6 +34,14 @@ void MainWindow::makeMenus() {
   fillObjectMenu(*menuBar()->addMenu(QStringLiteral("&Object")));
   fillViewMenu(*menuBar()->addMenu(QStringLiteral("&View")));
   makeToolBar();
+}
+
+void MainWindow::makePictures(QMenu& menu) {
+  auto* pictures = new PictureActions(*this, document_, *area_, jobs_);
+  pictures->fill(menu);
+  connect(pictures, &PictureActions::failed, messages_, &MessageBar::say);
+  connect(pictures, &PictureActions::told, this, &MainWindow::tell);
+  connect(pictures, &PictureActions::saved, files_, &FileActions::saved);
 }
 
 void MainWindow::fillEditMenu(QMenu& menu) {

@@ -5,21 +5,15 @@
 
 #include "colour_map.h"
 #include "mesh/error.h"
+#include "colours.h"
 #include "projection.h"
 #include "upload.h"
 
 namespace chainmail {
 namespace {
 
-// Elements are marked where there are few and they stand apart.
-constexpr ElementId elementsMarked = 20'000;
-constexpr double pixelsBetweenMarks = 9;
 // Smooth lines cost about twice as much; beyond this many links nobody sees the difference.
 constexpr GLsizei indicesSmoothed = 30'000;
-// A thinner line is blended with its background all over, and is no colour of the map any more (pixels).
-constexpr float valuedWidth = 2;
-// Of a face seen from the side, as a share of its colour: on a light ground shadows must not drown the links.
-constexpr float darkestOnDark = 0.55F, darkestOnLight = 0.82F;
 
 QVector4D asVector(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
 
@@ -61,7 +55,8 @@ void ObjectPainter::destroy() {
     buffer->destroy();
   }
   mesh_.reset();
-  level_.reset();
+  parts_.forget();
+  seeThrough_.destroy();
   frameNumber_ = 0;
   valuesNumber_ = 0;
   selectedIndices_ = 0;
@@ -69,7 +64,7 @@ void ObjectPainter::destroy() {
 
 void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
   frame_ = &frame;
-  cuts_ = &cuts;
+  parts_.setFrame(frame, cuts);
   if (frame.series != frameSeries_) {
     frameSeries_ = frame.series;
     frameNumber_ = 0;
@@ -79,7 +74,6 @@ void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
     frameNumber_ = 0;
     selectedIndices_ = 0;
     valuesNumber_ = 0;
-    level_.reset();
   }
   if (frame.number != frameNumber_) {
     uploadPositions(frame);
@@ -119,7 +113,7 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
   program_->setUniformValue("colour", asVector(colour));
   program_->setUniformValue("background", asVector(scene.background));
   program_->setUniformValue("fog", scene.fog);
-  program_->setUniformValue("darkest", colours::ground() == colours::Ground::dark ? darkestOnDark : darkestOnLight);
+  program_->setUniformValue("darkest", darkestFace());
   vertexArray_.bind();
   program_->enableAttributeArray(0);
   program_->setAttributeBuffer(0, GL_FLOAT, 0, dimension);
@@ -127,15 +121,23 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
 }
 
 void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
-  chooseStep(scene, pixelsPerUnit);
-  makeLists(scene);
+  if (parts_.choose(scene, pixelsPerUnit)) {
+    sendParts();
+  }
   drawFaces(scene, paint);
   drawWires(scene, paint);
-  if (step_ == 1 && mesh_->element_count() <= elementsMarked &&
-      mesh_->mean_link_length * pixelsPerUnit >= pixelsBetweenMarks) {
+  if (step() == 1 && marksElements(*mesh_, pixelsPerUnit)) {
     drawEveryElement(scene, paint);
   }
   vertexArray_.release();
+}
+
+void ObjectPainter::sendParts() {
+  auto drawn = parts_.links();
+  drawnLinks_ = std::move(drawn.numbers);
+  upload(links_, drawn.ends);
+  faceIndices_ = upload(faces_, parts_.faces());
+  valuesNumber_ = 0;
 }
 
 void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
@@ -146,7 +148,7 @@ void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
   } else {
     use(scene, byValues ? QColor(colour_map::neutral) : colours::stronger(paint.colour), 2, mesh_->space_dimension);
   }
-  program_->setUniformValue("point_size", 4.5F * scene.pixelRatio);
+  program_->setUniformValue("point_size", elementSize * scene.pixelRatio);
   glDrawArrays(GL_POINTS, 0, GLsizei(mesh_->element_count()));
 }
 
@@ -162,13 +164,7 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
     glPolygonOffset(1, 1);
   }
   positions_.bind();
-  // A plane object's faces are only hinted at; in space they hide what lies behind them.
-  // Beside the colour map they stay grey.
-  const bool grey = valuesFit(paint);
-  QColor face = grey ? QColor(colour_map::neutral) : paint.colour;
-  face = spatial ? colours::faint(face) : face;
-  face.setAlphaF(spatial ? 1.0F : 0.08F);
-  use(scene, face, spatial ? 1 : 0, mesh_->space_dimension);
+  use(scene, faceColour(*mesh_, paint), spatial ? 1 : 0, mesh_->space_dimension);
   faces_.bind();
   glDrawElements(GL_TRIANGLES, faceIndices_, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_POLYGON_OFFSET_FILL);

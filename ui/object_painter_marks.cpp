@@ -1,5 +1,8 @@
 // What is drawn over the object: marks of elements and links, and the tools' strokes.
 
+#include <QOpenGLPaintDevice>
+#include <QPainter>
+
 #include "drawn_indices.h"
 #include "object_painter.h"
 #include "upload.h"
@@ -7,10 +10,8 @@
 namespace chainmail {
 namespace {
 
-constexpr float litWidth = 3;  // pixels, where the driver draws wide lines
 // More marks hide each other, and cost time.
 constexpr std::size_t ringsDrawn = 50'000;
-constexpr float smallestRing = 6;  // pixels: below, a ring has no hole to be seen
 
 }  // namespace
 
@@ -55,6 +56,13 @@ void ObjectPainter::drawLinks(const Scene& scene, std::span<const LinkId> links,
   glLineWidth(litWidth * scene.pixelRatio);
   drawOwn(scene, places, GL_LINES, colour, 0, 1);
   glLineWidth(1);
+}
+
+void ObjectPainter::drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) {
+  QOpenGLPaintDevice device(scene.size.toSize());
+  device.setDevicePixelRatio(double(scene.pixelRatio));
+  QPainter painter(&device);
+  draw(painter);
 }
 
 /// Draws positions that are not the object's buffer, over everything else.

@@ -1,7 +1,6 @@
 // The values that colour an object, on the graphics card: a texture for links, an attribute for elements.
 
 #include <algorithm>
-#include <cmath>
 
 #include "colour_map.h"
 #include "object_painter.h"
@@ -28,7 +27,7 @@ void ObjectPainter::useValues(const Scene& scene, const Paint& paint, int shadin
 
 /// The colour map, for a program that takes its colours from values.
 void ObjectPainter::useMap(const ColourScale& scale) {
-  const auto& map = scale.diverging ? colour_map::differenceStops() : colour_map::stops();
+  const auto& map = colour_map::stopsOf(scale);
   std::array<QVector3D, std::tuple_size_v<colour_map::Stops>> stops;
   std::transform(map.begin(), map.end(), stops.begin(),
                  [](const auto& stop) { return QVector3D(float(stop[0]), float(stop[1]), float(stop[2])) / 255; });
@@ -38,27 +37,14 @@ void ObjectPainter::useMap(const ColourScale& scale) {
   program_->setUniformValue("neutral", QColor(colour_map::neutral));
 }
 
-/// A value for each link that is drawn, the largest of those that it stands for, or a value for each element.
+/// A value for each link that is drawn, or for each element.
 void ObjectPainter::uploadValues(const ColourValues& values) {
   valuesNumber_ = values.number;
   if (!values.ofLinks) {
     upload(values_, values.values);
     return;
   }
-  std::vector<float> drawn;
-  drawn.reserve(drawnLinks_.size());
-  for (const std::uint32_t link : drawnLinks_) {
-    if (level_->step == 1) {
-      drawn.push_back(values.values[link]);
-      continue;
-    }
-    float largest = 0;
-    for (const LinkId one : level_->paths[link]) {
-      largest = std::max(largest, values.values[one], [](float a, float b) { return std::abs(a) < std::abs(b); });
-    }
-    drawn.push_back(largest);
-  }
-  upload(values_, drawn);
+  upload(values_, parts_.valuesOf(drawnLinks_, values));
   glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
   glTexBuffer(GL_TEXTURE_BUFFER, GL_R32F, values_.bufferId());
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "annotation.h"
-#include "object_painter.h"
+#include "object_drawing.h"
 
 namespace chainmail {
 
@@ -22,10 +22,10 @@ struct OverlayLegend {
 /// Whoever adds one to a view lets it live as long as the view.
 class Overlay {
  public:
-  /// One view as it is painted, its context current.
+  /// One view as it is drawn.
   struct Canvas {
-    ObjectPainter& painter;
-    const ObjectPainter::Scene& scene;
+    ObjectDrawing& painter;
+    const ObjectDrawing::Scene& scene;
     const Frame& frame;  // what the painter shows
     int panel;
     double unitsPerPixel;  // mesh units that a logical pixel spans, in the plane through the view's centre
@@ -37,7 +37,7 @@ class Overlay {
   virtual ~Overlay() = default;
 
   /// How a panel's object is painted under it; none: as without it.
-  virtual std::optional<ObjectPainter::Paint> paint(int /*panel*/) const { return std::nullopt; }
+  virtual std::optional<ObjectDrawing::Paint> paint(int /*panel*/) const { return std::nullopt; }
   virtual void draw(const Canvas& canvas) = 0;
   /// Lines with words, over all that is drawn.
   virtual std::vector<Annotation> annotations(const View& /*view*/) const { return {}; }

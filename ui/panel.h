@@ -24,6 +24,8 @@ class Panel : public QFrame {
   Legend& legend() { return *legend_; }
   /// Draws it over the panel's object, and says what it notes.
   void addOverlay(Overlay& overlay) { view_->addOverlay(overlay); }
+  /// In lines and words on paper, in logical pixels: without what is to be clicked at.
+  void drawIn(QPainter& painter, const QColor& ground);
   /// Paints and says anew what an overlay has changed.
   void refresh();
 
@@ -34,6 +36,8 @@ class Panel : public QFrame {
   QString describe(const Statistics& statistics, bool briefly) const;
   void showFigures(const Statistics& statistics);
   QStringList states(const Statistics& statistics) const;
+  void drawHead(QPainter& painter) const;
+  void drawStatistics(QPainter& painter) const;
 
   Document& document_;
   Colouring& colouring_;

@@ -31,11 +31,11 @@ const PassPlayer* PropagationOverlay::player(int panel) const {
   return propagation_.isOpen() ? propagation_.player(panel) : nullptr;
 }
 
-std::optional<ObjectPainter::Paint> PropagationOverlay::paint(int panel) const {
+std::optional<ObjectDrawing::Paint> PropagationOverlay::paint(int panel) const {
   if (player(panel) == nullptr) {
     return std::nullopt;
   }
-  return ObjectPainter::Paint{QColor(colour_map::neutral), nullptr, {}};
+  return ObjectDrawing::Paint{QColor(colour_map::neutral), nullptr, {}};
 }
 
 ColourScale PropagationOverlay::scale() const {
@@ -87,7 +87,7 @@ void PropagationOverlay::drawArrows(const Canvas& canvas, const PassPlayer& play
   for (std::size_t row = 0; row < player.step(); row += stride(player)) {
     arrows.add(player.pass().trace[row], row + 1);
   }
-  canvas.painter.drawValued(canvas.scene, arrows.places(), arrows.values(), scale(), ObjectPainter::Shape::segments,
+  canvas.painter.drawValued(canvas.scene, arrows.places(), arrows.values(), scale(), ObjectDrawing::Shape::segments,
                             arrowWidth);
 }
 
@@ -103,17 +103,17 @@ void PropagationOverlay::drawElements(const Canvas& canvas, const PassPlayer& pl
       }
     }
     canvas.painter.drawValued(canvas.scene, places, values, scale(),
-                              moved ? ObjectPainter::Shape::discs : ObjectPainter::Shape::rings, discSize(canvas));
+                              moved ? ObjectDrawing::Shape::discs : ObjectDrawing::Shape::rings, discSize(canvas));
   }
 }
 
 /// The hand, what waits, and the candidate that was taken last.
 void PropagationOverlay::drawFront(const Canvas& canvas, const PassPlayer& player) const {
-  const auto mark = [&](std::span<const ElementId> elements, QColor colour, float size, ObjectPainter::Mark shape) {
+  const auto mark = [&](std::span<const ElementId> elements, QColor colour, float size, ObjectDrawing::Mark shape) {
     canvas.painter.drawElements(canvas.scene, elements, colour, size, shape);
   };
   const float disc = discSize(canvas);
-  mark(std::span(&player.pass().grabbed, 1), colours::lit, grabbedSize, ObjectPainter::Mark::disc);
+  mark(std::span(&player.pass().grabbed, 1), colours::lit, grabbedSize, ObjectDrawing::Mark::disc);
   if (propagation_.follows()) {
     return;
   }
@@ -124,13 +124,13 @@ void PropagationOverlay::drawFront(const Canvas& canvas, const PassPlayer& playe
       waiting.push_back(element);
     }
   }
-  mark(waiting, colours::marked, disc, ObjectPainter::Mark::ring);
+  mark(waiting, colours::marked, disc, ObjectDrawing::Mark::ring);
   if (player.step() > 0) {
     const TraceRow& current = player.pass().trace[player.step() - 1];
-    mark(std::span(&current.element, 1), colours::marked, disc + currentRing, ObjectPainter::Mark::ring);
+    mark(std::span(&current.element, 1), colours::marked, disc + currentRing, ObjectDrawing::Mark::ring);
     SponsorArrows arrow(canvas, disc);
     arrow.add(current, player.step());
-    canvas.painter.drawInSpace(canvas.scene, arrow.places(), ObjectPainter::Shape::segments, colours::marked,
+    canvas.painter.drawInSpace(canvas.scene, arrow.places(), ObjectDrawing::Shape::segments, colours::marked,
                                currentWidth);
   }
 }

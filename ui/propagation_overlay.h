@@ -14,7 +14,7 @@ class PropagationOverlay : public Overlay {
   void setArrows(bool arrows) { arrows_ = arrows; }
   bool arrows() const { return arrows_; }
 
-  std::optional<ObjectPainter::Paint> paint(int panel) const override;
+  std::optional<ObjectDrawing::Paint> paint(int panel) const override;
   void draw(const Canvas& canvas) override;
   QString note(int panel) const override;
   std::optional<OverlayLegend> legend(int panel) const override;

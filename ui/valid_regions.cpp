@@ -87,16 +87,16 @@ void ValidRegions::draw(const Canvas& canvas, const NeighbourRegion& region) con
   const RegionShape shape(region, canvas.scene.toView, canvas.frame.mesh->space_dimension, canvas.unitsPerPixel);
   QColor faint = colour;
   faint.setAlphaF(float(faceOpacity));
-  canvas.painter.drawInSpace(canvas.scene, shape.faces(), ObjectPainter::Shape::triangles, faint);
+  canvas.painter.drawInSpace(canvas.scene, shape.faces(), ObjectDrawing::Shape::triangles, faint);
   canvas.painter.drawInSpace(canvas.scene, region.inside ? shape.edges() : shape.dashedEdges(),
-                             ObjectPainter::Shape::segments, colour, region.inside ? insideWidth : outsideWidth);
+                             ObjectDrawing::Shape::segments, colour, region.inside ? insideWidth : outsideWidth);
   if (!region.inside) {
-    canvas.painter.drawInSpace(canvas.scene, shape.wayIn(), ObjectPainter::Shape::segments, colour, outsideWidth);
-    canvas.painter.drawInSpace(canvas.scene, shape.cross(crossSize), ObjectPainter::Shape::segments, colour,
+    canvas.painter.drawInSpace(canvas.scene, shape.wayIn(), ObjectDrawing::Shape::segments, colour, outsideWidth);
+    canvas.painter.drawInSpace(canvas.scene, shape.cross(crossSize), ObjectDrawing::Shape::segments, colour,
                                outsideWidth);
   } else {
     canvas.painter.drawElements(canvas.scene, std::span(&region.neighbour, 1), colour, ringSize,
-                                ObjectPainter::Mark::ring);
+                                ObjectDrawing::Mark::ring);
   }
 }
 

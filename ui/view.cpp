@@ -169,13 +169,13 @@ QPointF View::placeOf(const Point& point) const {
 
 Projection View::projection() const { return {*document_.mesh(), camera_->toView(), camera_->toClip(size()), size()}; }
 
-ObjectPainter::Scene View::scene() const {
-  ObjectPainter::Scene scene;
+ObjectDrawing::Scene View::scene(double pixelRatio) const {
+  ObjectDrawing::Scene scene;
   scene.toView = camera_->toView();
   scene.toClip = camera_->toClip(size());
-  scene.size = QSizeF(size()) * devicePixelRatioF();
+  scene.size = QSizeF(size()) * pixelRatio;
   scene.background = colours::background;
-  scene.pixelRatio = float(devicePixelRatioF());
+  scene.pixelRatio = float(pixelRatio);
   if (camera_->spatial()) {
     const auto [near, far] = camera_->depthRange();
     scene.fog = QVector2D(float(near), float(far));
@@ -205,29 +205,48 @@ void View::paintGL() {
   if (fitPending_) {
     fit();  // no resize came once it could be seen
   }
-  auto* gl = context()->functions();
-  const QColor ground = colours::background;
-  gl->glClearColor(ground.redF(), ground.greenF(), ground.blueF(), 1);
-  gl->glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  gl->glDisable(GL_DEPTH_TEST);
-  const Frame* frame = document_.frame(panel_);
-  meter_.painted();
-  if (!painterReady_ || frame == nullptr) {
-    return;
-  }
-  painter_.setFrame(*frame, document_.cuts());
   const unsigned stepBefore = painter_.step();
-  const auto in = scene();
-  drawObjects(in);
-  drawOverlays(in, *frame);
-  drawMarks(in);
+  meter_.painted();
+  paint(devicePixelRatioF(), colours::background);
+  if (document_.frame(panel_) != nullptr) {
+    drawFocus();
+  }
   if (painter_.step() != stepBefore) {
     emit drawnStepChanged();
   }
 }
 
+/// On what the context is bound to.
+void View::paint(double pixelRatio, const QColor& ground) {
+  auto* gl = context()->functions();
+  const float opacity = ground.alphaF();
+  gl->glClearColor(opacity * ground.redF(), opacity * ground.greenF(), opacity * ground.blueF(), opacity);
+  gl->glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl->glDisable(GL_DEPTH_TEST);
+  const Frame* frame = document_.frame(panel_);
+  if (!painterReady_ || frame == nullptr) {
+    return;
+  }
+  if (selectionOutdated_) {
+    painter_.setSelection(document_.selection().elements);
+    selectionOutdated_ = false;
+  }
+  Easel easel{painter_, [this]() -> ObjectDrawing& { return ghostPainter(); }, scene(pixelRatio)};
+  easel.scene.background = ground;
+  draw(easel, *frame);
+}
+
+void View::draw(const Easel& on, const Frame& frame) {
+  drawObjects(on, frame);
+  on.own.setFrame(frame, document_.cuts());
+  for (Overlay* overlay : overlays_) {
+    overlay->draw({on.own, on.scene, frame, panel_, camera_->unitsPerPixel(size())});
+  }
+  drawMarks(on);
+}
+
 /// How the object is painted: as an overlay wants it, or by its values, or in the panel's colour.
-ObjectPainter::Paint View::paint() {
+ObjectDrawing::Paint View::paint() {
   for (const Overlay* overlay : overlays_) {
     if (const auto paint = overlay->paint(panel_)) {
       return *paint;
@@ -235,12 +254,6 @@ ObjectPainter::Paint View::paint() {
   }
   const ColourValues* values = colouring_.follow(panel_);
   return {colour_, values, colouring_.scale(panel_)};
-}
-
-void View::drawOverlays(const ObjectPainter::Scene& in, const Frame& frame) {
-  for (Overlay* overlay : overlays_) {
-    overlay->draw({painter_, in, frame, panel_, camera_->unitsPerPixel(size())});
-  }
 }
 
 std::optional<OverlayLegend> View::overlayLegend() const {
@@ -265,37 +278,36 @@ QStringList View::notes() const {
 double View::pixelsPerLink() const { return document_.mesh()->mean_link_length / camera_->unitsPerPixel(size()); }
 
 /// The selection, what the cursor is at, and the pins, which a cursor must not hide.
-void View::drawMarks(const ObjectPainter::Scene& in) {
-  if (selectionOutdated_) {
-    painter_.setSelection(document_.selection().elements);
-    selectionOutdated_ = false;
-  }
+void View::drawMarks(const Easel& on) {
+  ObjectDrawing& own = on.own;
+  const auto& in = on.scene;
   const double room = pixelsPerLink() * 0.7;
   if (links_.marks() || selectedHere_) {
-    painter_.drawSelection(in, colours::selected, float(std::clamp(room, smallestMark, largestRing)));
+    own.drawSelection(in, colours::selected, float(std::clamp(room, smallestMark, largestRing)));
   }
-  drawHighlight(in);
-  painter_.drawElements(in, document_.pins(), colours::background, pinSize + 5, ObjectPainter::Mark::diamond);
-  painter_.drawElements(in, document_.pins(), colours::pinned, pinSize, ObjectPainter::Mark::diamond);
+  drawHighlight(on);
+  own.drawElements(in, document_.pins(), in.background, pinSize + 5, ObjectDrawing::Mark::diamond);
+  own.drawElements(in, document_.pins(), colours::pinned, pinSize, ObjectDrawing::Mark::diamond);
   if (tool_ != nullptr) {
-    painter_.drawStroke(in, tool_->stroke(*this), colours::marked);
+    own.drawStroke(in, tool_->stroke(*this), colours::marked);
   }
-  drawAnnotations(in);
-  drawFocus(in);
+  drawAnnotations(on);
 }
 
-void View::drawHighlight(const ObjectPainter::Scene& in) {
+void View::drawHighlight(const Easel& on) {
+  ObjectDrawing& own = on.own;
+  const auto& in = on.scene;
   const Highlight& highlight = document_.highlight();
   // What the hand holds, or would cut, it does in all panels.
   const bool mirrored = links_.marks() || highlight.grabbed || !highlight.links.empty();
   if (!mirrored && links_.pointed() != panel_) {
     return;
   }
-  painter_.drawLinks(in, highlight.links, colours::lit);
+  own.drawLinks(in, highlight.links, colours::lit);
   if (highlight.element) {
     const ElementId element = *highlight.element;
-    painter_.drawElements(in, std::span(&element, 1), colours::background, 17);
-    painter_.drawElements(in, std::span(&element, 1), highlight.grabbed ? colours::lit : colours::marked, 13);
+    own.drawElements(in, std::span(&element, 1), in.background, 17);
+    own.drawElements(in, std::span(&element, 1), highlight.grabbed ? colours::lit : colours::marked, 13);
   }
 }
 

@@ -10,10 +10,10 @@
 #include "document.h"
 #include "frame_meter.h"
 #include "ghost.h"
+#include "object_painter.h"
 #include "overlay.h"
 #include "panel_links.h"
 #include "picking.h"
-#include "see_through.h"
 #include "tool.h"
 
 namespace chainmail {
@@ -62,6 +62,13 @@ class View : public QOpenGLWidget {
   Point position(ElementId element) const;
   QVector3D pointAt(QPointF place, const Point& through) const;
 
+  /// A picture of it with `pixelRatio` device pixels to a logical one, drawn anew so that lines are sharp; transparent,
+  /// without its ground. The frame of the keyboard's focus is not in it. Throws Error where it is larger than the
+  /// graphics card can draw.
+  QImage picture(double pixelRatio, bool transparent);
+  /// The same in lines and areas, in logical pixels.
+  void drawIn(QPainter& painter, const QColor& ground);
+
   /// Where an element appears (logical pixels).
   QPointF placeOf(ElementId element) const;
   QPointF placeOf(const Point& point) const;
@@ -91,20 +98,30 @@ class View : public QOpenGLWidget {
   void focusOutEvent(QFocusEvent* event) override;
 
  private:
-  ObjectPainter::Scene scene() const;
+  /// What the view is drawn with.
+  struct Easel {
+    ObjectDrawing& own;
+    std::function<ObjectDrawing&()> ghost;  // asked where there is one
+    ObjectDrawing::Scene scene;
+  };
+
+  void draw(const Easel& on, const Frame& frame);
+  void paint(double pixelRatio, const QColor& ground);
+  /// With `pixelRatio` device pixels to a logical one.
+  ObjectDrawing::Scene scene(double pixelRatio) const;
   Projection projection() const;
   const CellBoxes& boxes(const Frame& frame) const;
   void listen();
   double pixelsPerLink() const;
-  void drawOverlays(const ObjectPainter::Scene& scene, const Frame& frame);
-  ObjectPainter::Paint paint();
-  void drawObjects(const ObjectPainter::Scene& scene);
+  ObjectDrawing::Paint paint();
+  void drawObjects(const Easel& on, const Frame& frame);
+  ObjectPainter& ghostPainter();
   void forgetGhost();
-  void drawMarks(const ObjectPainter::Scene& scene);
-  void drawHighlight(const ObjectPainter::Scene& scene);
-  void drawFocus(const ObjectPainter::Scene& scene);
+  void drawMarks(const Easel& on);
+  void drawHighlight(const Easel& on);
+  void drawFocus();
   std::vector<Annotation> annotations() const;
-  void drawAnnotations(const ObjectPainter::Scene& scene);
+  void drawAnnotations(const Easel& on);
   void announceCamera();
   void moveCamera(QPointF travel, Qt::MouseButtons buttons);
 
@@ -121,7 +138,6 @@ class View : public QOpenGLWidget {
   ObjectPainter painter_;
   Ghost ghost_;
   std::unique_ptr<ObjectPainter> ghostPainter_;  // as long as there is a ghost
-  SeeThrough seeThrough_;
   FrameMeter meter_;
   QTimer hover_;  // the search for the element under the cursor runs once a frame, not once an event
   QPointF cursor_;

@@ -22,6 +22,24 @@ QRectF annotationBox(const Annotation& annotation, const QFontMetricsF& font, QS
   return box;
 }
 
+namespace {
+
+constexpr float groundOpacity = 0.8F;
+
+void drawAnnotation(QPainter& painter, const Annotation& annotation, QColor ground, QSizeF view) {
+  painter.setPen(QPen(QColor(colours::marked), 1.5));
+  for (const QPointF& end : {annotation.line.p1(), annotation.line.p2()}) {
+    painter.drawEllipse(end, annotationEndDiameter / 2, annotationEndDiameter / 2);
+  }
+  const QRectF box = annotationBox(annotation, QFontMetricsF(painter.font()), view);
+  ground.setAlphaF(groundOpacity * ground.alphaF());
+  painter.fillRect(box, ground);
+  painter.drawText(box.adjusted(annotationPadding, annotationPadding, -annotationPadding, -annotationPadding),
+                   Qt::AlignLeft, annotation.words);
+}
+
+}  // namespace
+
 std::vector<Annotation> View::annotations() const {
   std::vector<Annotation> all;
   for (const Overlay* overlay : overlays_) {
@@ -31,27 +49,19 @@ std::vector<Annotation> View::annotations() const {
   return all;
 }
 
-void View::drawAnnotations(const ObjectPainter::Scene& in) {
+void View::drawAnnotations(const Easel& on) {
   const auto annotations = this->annotations();
   if (annotations.empty()) {
     return;
   }
   for (const Annotation& annotation : annotations) {
-    painter_.drawStroke(in, std::array{annotation.line.p1(), annotation.line.p2()}, colours::marked);
+    on.own.drawStroke(on.scene, std::array{annotation.line.p1(), annotation.line.p2()}, colours::marked);
   }
-  QPainter painter(this);
-  for (const Annotation& annotation : annotations) {
-    painter.setPen(QPen(QColor(colours::marked), 1.5));
-    for (const QPointF& end : {annotation.line.p1(), annotation.line.p2()}) {
-      painter.drawEllipse(end, annotationEndDiameter / 2, annotationEndDiameter / 2);
+  on.own.drawWords(on.scene, [&](QPainter& painter) {
+    for (const Annotation& annotation : annotations) {
+      drawAnnotation(painter, annotation, on.scene.background, size());
     }
-    const QRectF box = annotationBox(annotation, QFontMetricsF(painter.font()), size());
-    QColor ground = colours::background;
-    ground.setAlphaF(0.8F);
-    painter.fillRect(box, ground);
-    painter.drawText(box.adjusted(annotationPadding, annotationPadding, -annotationPadding, -annotationPadding),
-                     Qt::AlignLeft, annotation.words);
-  }
+  });
 }
 
 }  // namespace chainmail

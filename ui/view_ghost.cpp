@@ -25,27 +25,35 @@ void View::forgetGhost() {
     ghostPainter_->destroy();
     ghostPainter_.reset();
   }
-  seeThrough_.destroy();
 }
 
-void View::drawObjects(const ObjectPainter::Scene& in) {
+ObjectPainter& View::ghostPainter() {
+  if (ghostPainter_ == nullptr) {
+    ghostPainter_ = std::make_unique<ObjectPainter>(levels_);
+    ghostPainter_->initialize();
+  }
+  return *ghostPainter_;
+}
+
+void View::drawObjects(const Easel& on, const Frame& frame) {
   const double pixelsPerUnit = 1 / camera_->unitsPerPixel(size());
-  const ObjectPainter::Paint ownPaint = paint();
-  const auto drawOwn = [&] { painter_.drawObject(in, ownPaint, pixelsPerUnit); };
+  const ObjectDrawing::Paint ownPaint = paint();
+  const auto drawOwn = [&] {
+    on.own.setFrame(frame, document_.cuts());
+    on.own.drawObject(on.scene, ownPaint, pixelsPerUnit);
+  };
   const Frame* other = ghost_.of ? document_.frame(*ghost_.of) : nullptr;
   if (other == nullptr) {
     drawOwn();
     return;
   }
-  if (ghostPainter_ == nullptr) {
-    ghostPainter_ = std::make_unique<ObjectPainter>(levels_);
-    ghostPainter_->initialize();
-  }
-  ghostPainter_->setFrame(*other, document_.cuts());
-  const ObjectPainter::Paint otherPaint{colours::ofPanel(*ghost_.of), nullptr, {}};
-  const QSize pixels = in.size.toSize();
-  seeThrough_.draw(pixels, ghost_.ownOpacity(), drawOwn);
-  seeThrough_.draw(pixels, ghost_.opacity(), [&] { ghostPainter_->drawObject(in, otherPaint, pixelsPerUnit); });
+  ObjectDrawing& ghost = on.ghost();
+  const ObjectDrawing::Paint otherPaint{colours::ofPanel(*ghost_.of), nullptr, {}};
+  ghost.drawSeeThrough(on.scene, ghost_.ownOpacity(), drawOwn);
+  ghost.drawSeeThrough(on.scene, ghost_.opacity(), [&] {
+    ghost.setFrame(*other, document_.cuts());
+    ghost.drawObject(on.scene, otherPaint, pixelsPerUnit);
+  });
 }
 
 }  // namespace chainmail

@@ -41,12 +41,12 @@ void View::focusOutEvent(QFocusEvent* event) {
   update();
 }
 
-void View::drawFocus(const ObjectPainter::Scene& in) {
+void View::drawFocus() {
   if (framed_) {
     const QRectF inner = QRectF(rect()).adjusted(1, 1, -1, -1);
     const std::array corners{inner.topLeft(), inner.topRight(), inner.bottomRight(), inner.bottomLeft(),
                              inner.topLeft()};
-    painter_.drawStroke(in, corners, colours::focus);
+    painter_.drawStroke(scene(devicePixelRatioF()), corners, colours::focus);
   }
 }
 

@@ -116,8 +116,6 @@ class WindowFiles : public QObject {
     bench.settle();
     QVERIFY(bench.window.messages().isVisible());
     QVERIFY(bench.window.messages().sentence().contains(nowhere));
-    files(bench).saveScreenshotPath(folder_.filePath(QStringLiteral("no/such/folder/x.png")));
-    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("x.png")));
   }
 
   void closingAsksNothingAndLosesNothing() {
@@ -147,20 +145,6 @@ class WindowFiles : public QObject {
     Workbench last;
     last.window.sessions().protect();
     QVERIFY(!last.window.sessions().recoveryBar().isVisible());
-  }
-
-  void theScreenshotShowsTheViews() {
-    Workbench bench;
-    const QString path = folder_.filePath(QStringLiteral("window.png"));
-    files(bench).saveScreenshotPath(path);
-    const QImage picture(path);
-    QCOMPARE(picture.size(), bench.window.size() * bench.window.devicePixelRatioF());
-    for (int p = 0; p < 2; ++p) {
-      const double ratio = bench.window.devicePixelRatioF();
-      const QPoint corner = bench.view(p).mapTo(&bench.window, QPoint(0, 0)) * ratio;
-      const QImage shown = bench.view(p).grabFramebuffer().convertToFormat(QImage::Format_RGB32);
-      QCOMPARE(picture.copy(QRect(corner, shown.size())).convertToFormat(QImage::Format_RGB32), shown);
-    }
   }
 
  private:

@@ -1,12 +1,11 @@
-// How finely an object is drawn, and which parts of it.
+#include "drawn_parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "object_painter.h"
 #include "picking.h"
-#include "upload.h"
+#include "projection.h"
 
 namespace chainmail {
 namespace {
@@ -42,14 +41,14 @@ double shapesPerElement(const Mesh& mesh, unsigned step) {
 }  // namespace
 
 /// Which share of the elements may be seen.
-double ObjectPainter::shareInView(const Scene& scene) {
+double DrawnParts::shareInView(const ObjectDrawing::Scene& scene) {
   const auto whole = levels_->at(mesh_, 1);
   const auto seen = visibleCells(scene, whole, wholeBoxes_);
   return double(seen.size()) / double(whole->cellCount());
 }
 
 /// As finely as its links can be told apart; more coarsely where too many would be seen at once, as in a volume.
-void ObjectPainter::chooseStep(const Scene& scene, double pixelsPerUnit) {
+void DrawnParts::chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit) {
   step_ = 1;
   const double pixels = mesh_->mean_link_length * pixelsPerUnit;
   if (mesh_->links.size() + mesh_->triangles.size() <= shapesDrawn || !(pixels > 0)) {
@@ -68,8 +67,7 @@ void ObjectPainter::chooseStep(const Scene& scene, double pixelsPerUnit) {
   }
 }
 
-std::vector<std::uint32_t> ObjectPainter::visibleCells(const Scene& scene, const MeshLevelPointer& level,
-                                                       CellBoxes& boxes) const {
+std::vector<std::uint32_t> DrawnParts::visibleCells(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level, CellBoxes& boxes) const {
   if (level->links.size() + level->faces.size() <= shapesDrawn) {
     std::vector<std::uint32_t> all(level->cellCount());
     std::iota(all.begin(), all.end(), 0U);
@@ -79,23 +77,45 @@ std::vector<std::uint32_t> ObjectPainter::visibleCells(const Scene& scene, const
   return cellsSeen(boxes, Projection(*mesh_, scene.toView, scene.toClip, scene.size));
 }
 
-/// Costs what is drawn, not what there is, and only when another part is seen or a link was cut.
-void ObjectPainter::makeLists(const Scene& scene) {
+void DrawnParts::setFrame(const Frame& frame, const Cuts& cuts) {
+  frame_ = &frame;
+  cuts_ = &cuts;
+  if (frame.mesh != mesh_) {
+    mesh_ = frame.mesh;
+    level_.reset();
+  }
+}
+
+bool DrawnParts::choose(const ObjectDrawing::Scene& scene, double pixelsPerUnit) {
+  chooseStep(scene, pixelsPerUnit);
   if (level_ == nullptr || level_->step != step_) {
     level_ = levels_->at(mesh_, step_);
-    listsOutdated_ = true;
+    outdated_ = true;
   }
   auto cells = visibleCells(scene, level_, boxes_);
-  if (!listsOutdated_ && cells == cells_) {
-    return;
+  if (!outdated_ && cells == cells_) {
+    return false;
   }
-  listsOutdated_ = false;
+  outdated_ = false;
   cells_ = std::move(cells);
-  auto drawn = drawnLinks(*level_, *cuts_, cells_);
-  drawnLinks_ = std::move(drawn.numbers);
-  upload(links_, drawn.ends);
-  faceIndices_ = upload(faces_, drawnFaces(*level_, *cuts_, cells_));
-  valuesNumber_ = 0;
+  return true;
+}
+
+std::vector<float> DrawnParts::valuesOf(const std::vector<std::uint32_t>& links, const ColourValues& values) const {
+  std::vector<float> drawn;
+  drawn.reserve(links.size());
+  for (const std::uint32_t link : links) {
+    if (level_->step == 1) {
+      drawn.push_back(values.values[link]);
+      continue;
+    }
+    float largest = 0;
+    for (const LinkId one : level_->paths[link]) {
+      largest = std::max(largest, values.values[one], [](float a, float b) { return std::abs(a) < std::abs(b); });
+    }
+    drawn.push_back(largest);
+  }
+  return drawn;
 }
 
 }  // namespace chainmail

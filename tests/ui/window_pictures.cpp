@@ -1,0 +1,203 @@
+// Pictures of the window and its parts, copied and saved, in a real window.
+
+#include <QClipboard>
+#include <QPainter>
+#include <QSvgRenderer>
+
+#include "colours.h"
+#include "message_bar.h"
+#include "picture_actions.h"
+#include "pictures.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+QImage plain(const QImage& image) {
+  QImage same = image.convertToFormat(QImage::Format_RGB32);
+  same.setDevicePixelRatio(1);
+  return same;
+}
+
+/// The share of the pixels in which two pictures differ by more than what a renderer rounds.
+double difference(const QImage& one, const QImage& other) {
+  constexpr int rounded = 40;
+  int different = 0;
+  for (int y = 0; y < one.height(); ++y) {
+    for (int x = 0; x < one.width(); ++x) {
+      const QRgb a = one.pixel(x, y), b = other.pixel(x, y);
+      different += std::abs(qRed(a) - qRed(b)) > rounded || std::abs(qGreen(a) - qGreen(b)) > rounded ||
+                   std::abs(qBlue(a) - qBlue(b)) > rounded;
+    }
+  }
+  return double(different) / (double(one.width()) * one.height());
+}
+
+/// How much of a picture is not its ground.
+double drawn(const QImage& picture, QRgb ground) {
+  QImage empty(picture.size(), QImage::Format_RGB32);
+  empty.fill(ground);
+  return difference(picture, empty);
+}
+
+PictureActions& pictures(Workbench& bench) { return *bench.window.findChild<PictureActions*>(); }
+
+}  // namespace
+
+class WindowPictures : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  void atItsOwnScaleAPictureIsTheScreen() {
+    Workbench bench;
+    bench.dragFar();
+    bench.trigger("colourBy-violation");
+    bench.trigger("ghosts");
+    bench.settle();
+    QTest::qWait(200);
+    QCOMPARE(plain(pictureOf(bench.view(0))), plain(bench.view(0).grabFramebuffer()));
+    QCOMPARE(plain(pictureOf(bench.window)), plain(bench.window.grab().toImage()));
+  }
+
+  void largerOnesShowTheSameFiner() {
+    Workbench bench;
+    bench.dragFar();
+    const QImage one = plain(pictureOf(bench.window)), two = plain(pictureOf(bench.window, 2));
+    QCOMPARE(two.size(), 2 * one.size());
+    // Thin lines fall otherwise between pixels; what is elsewhere would differ at least twice as much.
+    const QImage again = two.scaled(one.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+    QVERIFY2(difference(one, again) < 0.03, qPrintable(QString::number(difference(one, again))));
+    // Drawn anew: enlarged pixels come in equal pairs.
+    const QRect view(bench.view(0).mapTo(&bench.window, QPoint()) * 2, bench.view(0).size() * 2);
+    const QImage enlarged = one.scaled(two.size(), Qt::IgnoreAspectRatio, Qt::FastTransformation);
+    QVERIFY(difference(two.copy(view), enlarged.copy(view)) > 0.005);
+  }
+
+  void aTransparentOneIsTheObjectAlone() {
+    Workbench bench(generate({MeshKind::tetra, {4, 3, 3}, 1, {}}));
+    const QImage opaque = pictureOf(bench.view(0)), clear = pictureOf(bench.view(0), 1, true);
+    QVERIFY(clear.hasAlphaChannel());
+    QCOMPARE(qAlpha(clear.pixel(2, 2)), 0);
+    QImage laidOver(opaque.size(), QImage::Format_RGB32);
+    laidOver.fill(QColor(colours::background));
+    QPainter(&laidOver).drawImage(QRect(QPoint(), laidOver.size()), clear);
+    QVERIFY(drawn(plain(opaque), QColor(colours::background).rgb()) > 0.02);
+    // Depth fades into the ground that is there, or lets through the one laid under: the same within rounding.
+    QVERIFY2(difference(laidOver, plain(opaque)) < 0.002,
+             qPrintable(QString::number(difference(laidOver, plain(opaque)))));
+  }
+
+  void whatIsChosenIsSavedAndCopied() {
+    Workbench bench;
+    const QString path = folder_.filePath(QStringLiteral("object.png"));
+    bench.trigger("pictureOfObjectB");
+    bench.trigger("pictureScale4");
+    pictures(bench).savePath(path);
+    bench.settle();
+    QCOMPARE(QImage(path).size(), bench.view(1).size() * 4 * bench.window.devicePixelRatioF());
+    bench.trigger("pictureScale1");
+    bench.trigger("copyPicture");
+    QCOMPARE(plain(QGuiApplication::clipboard()->image()), plain(bench.view(1).grabFramebuffer()));
+    bench.trigger("addPanel");
+    bench.trigger("pictureOfPanelC");
+    bench.trigger("removePanel");
+    bench.settle();
+    QVERIFY(bench.find<QAction>("pictureOfWindow")->isChecked());  // there is no C
+    QVERIFY(!bench.find<QAction>("pictureOfObjectC")->isVisible());
+  }
+
+  void choicesAreRemembered() {
+    {
+      Workbench bench;
+      bench.trigger("pictureOfPanels");
+      bench.trigger("pictureScale2");
+      bench.trigger("pictureTransparent");
+    }
+    Workbench bench;
+    QVERIFY(bench.find<QAction>("pictureOfPanels")->isChecked());
+    QVERIFY(bench.find<QAction>("pictureScale2")->isChecked());
+    QVERIFY(bench.find<QAction>("pictureTransparent")->isChecked());
+  }
+
+  void aPlaceThatCannotBeWrittenGetsASentence() {
+    Workbench bench;
+    for (const char* name : {"no/such/folder/x.png", "no/such/folder/x.svg", "no/such/folder/x.pdf"}) {
+      const QString nowhere = folder_.filePath(QLatin1String(name));
+      pictures(bench).savePath(nowhere);
+      bench.settle();
+      QVERIFY(bench.window.messages().isVisible());
+      QVERIFY(bench.window.messages().sentence().contains(nowhere));
+      bench.window.messages().clear();
+    }
+  }
+
+  void aDrawingHoldsLinesThatStandWhereTheScreenHasThem_data() {
+    QTest::addColumn<int>("kind");
+    QTest::newRow("plane") << int(MeshKind::grid);
+    QTest::newRow("in space") << int(MeshKind::tetra);
+  }
+  void aDrawingHoldsLinesThatStandWhereTheScreenHasThem() {
+    QFETCH(int, kind);
+    Workbench bench(generate({MeshKind(kind), {5, 4, MeshKind(kind) == MeshKind::tetra ? 3U : 1U}, 1, {}}));
+    applyGround(colours::Ground::light);
+    bench.document().setPinned({3}, true);
+    bench.settle();
+    bench.document().cut({0});
+    bench.settle();
+    const QString path = folder_.filePath(QStringLiteral("object.svg"));
+    bench.trigger("pictureOfObjectA");
+    pictures(bench).savePath(path);
+    bench.settle();
+    QSvgRenderer svg(path);
+    QVERIFY(svg.isValid());
+    QCOMPARE(svg.viewBox().size(), bench.view(0).size());
+    QImage again(bench.view(0).size(), QImage::Format_RGB32);
+    again.fill(Qt::white);
+    QPainter painter(&again);
+    svg.render(&painter);
+    painter.end();
+    const QImage screen = plain(bench.view(0).grabFramebuffer());
+    const double ofScreen = drawn(screen, QColor(colours::background).rgb());
+    const double apart = difference(screen, again);
+    applyGround(colours::Ground::dark);
+    QVERIFY(ofScreen > 0.005);
+    // Edges are smoothed otherwise, and nothing else: as much of the picture, were the lines elsewhere.
+    QVERIFY2(apart < ofScreen / 2, qPrintable(QStringLiteral("%1 of %2").arg(apart).arg(ofScreen)));
+  }
+
+  void drawingsOfPanelsSayWhatTheyShow() {
+    Workbench bench;
+    bench.trigger("colourBy-violation");
+    bench.document().setPinned({40}, true);
+    bench.dragFar();
+    QTest::qWait(200);
+    bench.trigger("pictureOfPanels");
+    const QString svg = folder_.filePath(QStringLiteral("panels.svg")), pdf = folder_.filePath(QStringLiteral("p.pdf"));
+    pictures(bench).savePath(svg);
+    bench.settle();
+    pictures(bench).savePath(pdf);
+    bench.settle();
+    QFile file(svg);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QString text = QString::fromUtf8(file.readAll());
+    for (const char* word : {"Generalized ChainMail", "Natural Queue ChainMail", "violation of", "links looked at"}) {
+      QVERIFY2(text.contains(QLatin1String(word)), word);
+    }
+    QVERIFY(!text.contains(QStringLiteral("<image")));  // lines, no pixels
+    QFile document(pdf);
+    QVERIFY(document.open(QIODevice::ReadOnly));
+    QVERIFY(document.read(5) == "%PDF-");
+  }
+
+ private:
+  QTemporaryDir folder_;
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowPictures>(argc, argv); }
+#include "window_pictures.moc"

@@ -1,0 +1,150 @@
+// What the views show, compared with pictures that were looked at: tests/ui/pictures.
+
+#include <QDir>
+#include <QFileInfo>
+
+#include "pictures.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+// Renderers round differently, a line a little further to one side: pixels may differ this much (of 255), and this
+// share of them more.
+constexpr int mostApart = 48;
+constexpr double mostDifferent = 0.002;
+
+constexpr QSize viewSize(280, 210);  // logical pixels
+
+/// Pixels that differ, marked on a picture of the same size.
+std::pair<double, QImage> compared(const QImage& now, const QImage& looked) {
+  QImage marked = now;
+  int different = 0;
+  for (int y = 0; y < now.height(); ++y) {
+    for (int x = 0; x < now.width(); ++x) {
+      const QRgb a = now.pixel(x, y), b = looked.pixel(x, y);
+      const int apart =
+          std::max({std::abs(qRed(a) - qRed(b)), std::abs(qGreen(a) - qGreen(b)), std::abs(qBlue(a) - qBlue(b))});
+      if (apart > mostApart) {
+        marked.setPixel(x, y, qRgb(255, 0, 255));
+        ++different;
+      }
+    }
+  }
+  return {double(different) / (double(now.width()) * now.height()), marked};
+}
+
+/// Empty where the picture is as it was when it was looked at; else what is wrong. One that is missing is saved, to be
+/// looked at.
+QString differs(const QImage& picture, const QString& name) {
+  const QImage now = picture.convertToFormat(QImage::Format_RGB32);
+  const QString path = QDir(QStringLiteral(PICTURES)).filePath(name + QStringLiteral(".png"));
+  if (!QFile::exists(path)) {
+    QDir().mkpath(QStringLiteral(PICTURES));
+    now.save(path);
+    return QStringLiteral("there was no %1: look at the one that was saved there now, and keep it if it is right")
+        .arg(path);
+  }
+  const QImage looked = QImage(path).convertToFormat(QImage::Format_RGB32);
+  if (looked.size() != now.size()) {
+    return QStringLiteral("%1 has other pixels: %2 x %3").arg(path).arg(looked.width()).arg(looked.height());
+  }
+  const auto [share, marked] = compared(now, looked);
+  if (share <= mostDifferent) {
+    return {};
+  }
+  QDir().mkpath(QStringLiteral(PICTURES_NOW));
+  const QString here = QDir(QStringLiteral(PICTURES_NOW)).filePath(name);
+  now.save(here + QStringLiteral(".png"));
+  marked.save(here + QStringLiteral("-differs.png"));
+  return QStringLiteral(
+             "%1 % of the pixels differ from %2: see %3.png and %3-differs.png; if it is right now, it takes its place")
+      .arg(100 * share, 0, 'f', 2)
+      .arg(path, here);
+}
+
+/// A view of a size of its own, whatever the window's: there is nothing about it in a picture.
+QString differs(Workbench& bench, int panel, const QString& name) {
+  for (int each = 0; each < bench.document().panels(); ++each) {
+    bench.view(each).setFixedSize(viewSize);  // they share a camera
+  }
+  bench.trigger("fitView");
+  bench.view(panel).zoom(0.6);  // it is the rest shape that fits
+  bench.settle();
+  QTest::qWait(200);  // legends and colours follow at a rate that can be read
+  bench.document().setHighlight({});
+  return differs(pictureOf(bench.view(panel)), name);
+}
+
+enum Object { plane, block, surface };
+
+MeshPointer make(int object) {
+  static const std::array recipes{MeshRecipe{MeshKind::grid, {9, 7, 1}, 1, {}},
+                                  MeshRecipe{MeshKind::tetra, {6, 4, 3}, 1, {}},
+                                  MeshRecipe{MeshKind::cloth, {9, 7, 1}, 1, 3}};
+  return generate(recipes[std::size_t(object)]);
+}
+
+}  // namespace
+
+class WindowViews : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  void theyAreAsTheyWereLookedAt_data() {
+    QTest::addColumn<int>("object");
+    QTest::addColumn<QStringList>("actions");
+    QTest::addColumn<int>("panel");
+    const auto add = [](const char* name, Object object, const QStringList& actions, int panel = 0) {
+      QTest::newRow(name) << int(object) << actions << panel;
+    };
+    add("grid", plane, {});
+    add("grid-light", plane, {QStringLiteral("themeLight")}, 1);
+    add("block", block, {});
+    add("block-light", block, {QStringLiteral("themeLight")}, 1);
+    add("surface", surface, {});
+    add("surface-violation", surface, {QStringLiteral("colourBy-violation")});
+    add("violation", plane, {QStringLiteral("colourBy-violation")});
+    add("distance", block, {QStringLiteral("colourBy-distance")}, 1);
+    add("ghost", plane, {QStringLiteral("ghosts")});
+    add("regions", plane, {QStringLiteral("showValidRegions")});
+    add("regions-in-space", block, {QStringLiteral("showValidRegions")});
+    add("tree", plane, {QStringLiteral("showPropagation"), QStringLiteral("passLast")});
+    add("spiral", plane, {QStringLiteral("showPropagation"), QStringLiteral("passLast")}, 1);
+  }
+  void theyAreAsTheyWereLookedAt() {
+    QFETCH(int, object);
+    QFETCH(QStringList, actions);
+    QFETCH(int, panel);
+    Workbench bench(make(object));
+    bench.document().setPinned({8}, true);
+    bench.document().cut({20});
+    bench.settle();
+    bench.document().select({31});
+    for (const QString& action : actions) {
+      bench.trigger(action.toUtf8().constData());
+    }
+    bench.settle();
+    // By numbers, not by the mouse: a view's size must not matter.
+    const Point from = bench.document().mesh()->rest_position(31);
+    bench.document().grab(31);
+    for (const double share : {0.5, 1.0}) {
+      bench.document().drag(from + share * Point(1.3, 1.6, object == plane ? 0 : 0.8));
+      bench.settle();
+    }
+    bench.document().release();
+    bench.settle();
+    const QString wrong = differs(bench, panel, QString::fromLatin1(QTest::currentDataTag()));
+    bench.trigger("themeDark");
+    QVERIFY2(wrong.isEmpty(), qPrintable(wrong));
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowViews>(argc, argv); }
+#include "window_views.moc"

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "cell_boxes.h"
+#include "drawn_indices.h"
+#include "mesh_levels.h"
+#include "object_drawing.h"
+
+namespace chainmail {
+
+/// How finely an object is drawn, and which parts of it: what its view can show of a frame.
+class DrawnParts {
+ public:
+  /// `levels` of the mesh may be shared.
+  explicit DrawnParts(std::shared_ptr<MeshLevels> levels) : levels_(std::move(levels)) {}
+
+  /// Both must stay as they are until the next one, the cuts but for cutsChanged.
+  void setFrame(const Frame& frame, const Cuts& cuts);
+  void cutsChanged() { outdated_ = true; }
+  void forget() { level_.reset(); }
+
+  /// True where other links or faces are to be drawn than the last time. Costs what is drawn, not what there is.
+  bool choose(const ObjectDrawing::Scene& scene, double pixelsPerUnit);
+
+  /// 1 where every link is drawn; k where about k links in a row are drawn as one.
+  unsigned step() const { return step_; }
+  DrawnLinks links() const { return drawnLinks(*level_, *cuts_, cells_); }
+  std::vector<ElementId> faces() const { return drawnFaces(*level_, *cuts_, cells_); }
+  /// A value for each of the links with these numbers: the largest of those that it stands for.
+  std::vector<float> valuesOf(const std::vector<std::uint32_t>& links, const ColourValues& values) const;
+
+ private:
+  void chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit);
+  double shareInView(const ObjectDrawing::Scene& scene);
+  /// The cells of a level that may be seen.
+  std::vector<std::uint32_t> visibleCells(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
+                                          CellBoxes& boxes) const;
+
+  std::shared_ptr<MeshLevels> levels_;
+  MeshPointer mesh_;
+  const Cuts* cuts_ = nullptr;
+  const Frame* frame_ = nullptr;
+  unsigned step_ = 1;
+  MeshLevelPointer level_;
+  CellBoxes boxes_;       // of that level
+  CellBoxes wholeBoxes_;  // of every element
+  std::vector<std::uint32_t> cells_;
+  bool outdated_ = true;
+};
+
+}  // namespace chainmail
