@@ -67,7 +67,8 @@ void DrawnParts::chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerU
   }
 }
 
-std::vector<std::uint32_t> DrawnParts::visibleCells(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level, CellBoxes& boxes) const {
+std::vector<std::uint32_t> DrawnParts::visibleCells(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
+                                                    CellBoxes& boxes) const {
   if (level->links.size() + level->faces.size() <= shapesDrawn) {
     std::vector<std::uint32_t> all(level->cellCount());
     std::iota(all.begin(), all.end(), 0U);

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "colour_map.h"
-#include "mesh/error.h"
 #include "colours.h"
+#include "mesh/error.h"
 #include "projection.h"
 #include "upload.h"
 

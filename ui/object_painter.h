@@ -12,8 +12,8 @@
 namespace chainmail {
 
 /// Draws with OpenGL. It holds what the graphics card holds and sends only what changed: of positions the blocks that
-/// did, of links and faces those that the camera sees, as finely as it can show them. All calls but cutsChanged need the
-/// context current.
+/// did, of links and faces those that the camera sees, as finely as it can show them. All calls but cutsChanged need
+/// the context current.
 class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
  public:
   /// `levels` of the mesh may be shared with other painters.
