@@ -18,8 +18,6 @@ constexpr float ringHole = 0.64F;  // of its diameter
 constexpr double soft = 0.5;       // pixels: the screen's marks fade inside their edges
 constexpr float seam = 0.4F;       // pixels: faces meet without a gap of the paper's colour
 constexpr int shadesOfALink = 8;   // at most, where its ends differ in value
-// What lies this far outside the view (pixels) is left out.
-constexpr double margin = 20;
 
 }  // namespace
 
@@ -62,11 +60,10 @@ QColor VectorPainter::faded(const Scene& scene, const QColor& colour, float dist
                           mixed(colour.blueF(), ground.blueF()), colour.alphaF());
 }
 
-/// Nothing of what is behind the eye or out of the view.
+/// Nothing of what is behind the eye or out of the view: not all that hold drawings can clip.
 void VectorPainter::add(const Scene& scene, std::span<const QVector3D> places, const QColor& colour, float width,
                         Mark mark, float lift) {
   Piece piece{{}, int(places.size()), -lift, colour, width, mark};
-  QRectF bounds;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Seen corner = seen(scene, places[i]);
     if (!corner.before) {
@@ -74,11 +71,46 @@ void VectorPainter::add(const Scene& scene, std::span<const QVector3D> places, c
     }
     piece.corners[i] = corner.at;
     piece.distance += corner.distance / float(places.size());
-    const QRectF around(corner.at.x() - margin, corner.at.y() - margin, 2 * margin, 2 * margin);
-    bounds = i == 0 ? around : bounds.united(around);
   }
-  if (bounds.intersects(QRectF(QPointF(), scene.logicalSize()))) {
-    piece.colour = faded(scene, colour, piece.distance + lift);
+  piece.colour = faded(scene, colour, piece.distance + lift);
+  const QRectF view(QPointF(), scene.logicalSize());
+  const auto corners = std::span(piece.corners).first(places.size());
+  if (std::ranges::all_of(corners, [&](const QPointF& corner) { return view.contains(corner); })) {
+    pieces_.push_back(piece);
+  } else if (piece.count == 2) {
+    addClipped(piece, view);
+  } else if (piece.count == 3) {
+    addFaceClipped(piece, view);
+  }
+}
+
+void VectorPainter::addClipped(Piece piece, const QRectF& view) {
+  const QPointF from = piece.corners[0], way = piece.corners[1] - from;
+  double first = 0, last = 1;                         // the share of the line that is in the view
+  const auto keep = [&](double along, double room) {  // along * share <= room
+    if (along > 0) {
+      last = std::min(last, room / along);
+    } else if (along < 0) {
+      first = std::max(first, room / along);
+    } else if (room < 0) {
+      last = -1;
+    }
+  };
+  keep(way.x(), view.right() - from.x());
+  keep(-way.x(), from.x() - view.left());
+  keep(way.y(), view.bottom() - from.y());
+  keep(-way.y(), from.y() - view.top());
+  if (first < last) {
+    piece.corners[0] = from + first * way;
+    piece.corners[1] = from + last * way;
+    pieces_.push_back(piece);
+  }
+}
+
+void VectorPainter::addFaceClipped(Piece piece, const QRectF& view) {
+  const auto part = QPolygonF(QList<QPointF>(piece.corners.begin(), piece.corners.end())).intersected(view);
+  for (qsizetype i = 2; i < part.size(); ++i) {
+    piece.corners = {part[0], part[i - 1], part[i]};
     pieces_.push_back(piece);
   }
 }

@@ -51,6 +51,8 @@ class VectorPainter : public ObjectDrawing {
   static QColor faded(const Scene& scene, const QColor& colour, float distance);
   void add(const Scene& scene, std::span<const QVector3D> places, const QColor& colour, float width,
            Mark mark = Mark::disc, float lift = 0);
+  void addClipped(Piece piece, const QRectF& view);
+  void addFaceClipped(Piece piece, const QRectF& view);
   void addFaces(const Scene& scene, const Paint& paint);
   void addLinks(const Scene& scene, const Paint& paint);
   void addLink(const Scene& scene, const std::array<QVector3D, 2>& ends, const std::array<float, 2>& values,

@@ -171,6 +171,29 @@ class WindowPictures : public QObject {
     QVERIFY2(apart < ofScreen / 2, qPrintable(QStringLiteral("%1 of %2").arg(apart).arg(ofScreen)));
   }
 
+  void drawingsEndWhereTheViewsEnd() {
+    Workbench bench(generate({MeshKind::cloth, {6, 6, 1}, 1, {}}));
+    bench.view(0).zoom(3);
+    bench.trigger("pictureOfObjectA");
+    const QString path = folder_.filePath(QStringLiteral("part.svg"));
+    pictures(bench).savePath(path);
+    bench.settle();
+    QSvgRenderer svg(path);
+    QVERIFY(svg.isValid());
+    // Half a line's width, and how an SVG rounds, on each side.
+    const QRectF view = QRectF(bench.view(0).rect()).adjusted(-1, -1, 1, 1);
+    QImage wider(bench.view(0).size() + QSize(200, 200), QImage::Format_RGB32);
+    wider.fill(Qt::white);
+    QPainter painter(&wider);
+    svg.setViewBox(bench.view(0).rect().adjusted(-100, -100, 100, 100));
+    svg.render(&painter);
+    painter.fillRect(view.translated(100, 100), Qt::white);
+    painter.end();
+    QImage empty(wider.size(), QImage::Format_RGB32);
+    empty.fill(Qt::white);
+    QCOMPARE(wider, empty);
+  }
+
   void drawingsOfPanelsSayWhatTheyShow() {
     Workbench bench;
     bench.trigger("colourBy-violation");
