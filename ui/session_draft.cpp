@@ -9,6 +9,8 @@ SessionDraft::SessionDraft(Document& document, std::string look) {
   session_.pins = document.pins();
   session_.softness = document.wholeSoftness();
   session_.relaxation = document.relaxation();
+  session_.moves = document.tape().commands();
+  session_.moves_done = document.tape().position();
   session_.ui = std::move(look);
   for (int panel = 0; panel < document.panels(); ++panel) {
     session_.panels.push_back({document.algorithm(panel), Precision::single_precision, {}});

@@ -35,14 +35,25 @@ int SessionEdit::count() const { return std::min(document_.panels(), int(other_.
 void SessionEdit::carryOut() {
   document_.post(commands::ReplaceMesh{other_.mesh});
   document_.post(other_.relaxation);
-  document_.post(commands::SetSoftness{other_.softness});
-  document_.post(commands::Cut{session_->cuts});
-  document_.post(commands::Pin{session_->pins});
+  const std::vector<Command> object{commands::SetSoftness{other_.softness}, commands::Cut{session_->cuts},
+                                    commands::Pin{session_->pins}};
+  for (const Command& command : object) {
+    document_.log_->replay(command);
+  }
+  takeMoves(object);
   for (int panel = 0; panel < count(); ++panel) {
     document_.log_->post_to(*document_.solvers_[panel], commands::SetAlgorithm{other_.algorithms[panel]});
     place(panel);  // last: relaxation sleeps then, and leaves everything where it stood
   }
   session_.reset();
+}
+
+/// Where nothing is told of what was done, it begins with the object as it is, at rest.
+void SessionEdit::takeMoves(const std::vector<Command>& object) {
+  const bool told = !session_->moves.empty();
+  Tape& tape = document_.log_->tape();
+  tape.load(told ? session_->moves : object);
+  tape.go_to(told ? session_->moves_done : object.size());
 }
 
 void SessionEdit::place(int panel) {

@@ -28,6 +28,7 @@ class SessionEdit : public Edit {
   void prepare(bool done) override;
   void show(bool done) override;
   int count() const;
+  void takeMoves(const std::vector<Command>& object);
   void place(int panel);
   void tell() const;
 

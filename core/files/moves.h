@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <ostream>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +28,9 @@ std::vector<Command> read_moves(std::string_view text, const std::filesystem::pa
 
 /// The same from a file.
 std::vector<Command> read_moves(const std::filesystem::path& path, const Mesh& mesh);
+
+/// The same from JSON that is part of another file; `where` appears in errors.
+std::vector<Command> read_moves(const nlohmann::json& json, const std::string& where, const Mesh& mesh);
 
 /// Writes moves, a line a command. What is not the object's but the solver's (the algorithm, relaxation,
 /// states kept for undo) is left out. Throws Error for a change of mesh or state, which no script can hold.

@@ -16,7 +16,7 @@ constexpr std::uint64_t most_sweeps = 1'000'000;
 
 class MovesReader {
  public:
-  MovesReader(const std::filesystem::path& path, const Mesh& mesh) : file_(shown(path)), fields_(file_, mesh) {}
+  MovesReader(const std::string& where, const Mesh& mesh) : where_(where), fields_(where_, mesh) {}
 
   std::vector<Command> read(const Json& json);
 
@@ -34,7 +34,7 @@ class MovesReader {
   Command reset(const Json& object);
   Command relax(const Json& object);
 
-  std::string file_;
+  std::string where_;
   MoveFields fields_;  // of the file, then of each command
   // As a simulation would stand here.
   std::optional<ElementId> grabbed_;
@@ -157,7 +157,7 @@ std::vector<Command> MovesReader::read(const Json& json) {
   check_version(json);
   std::vector<Command> result;
   for (const Json& one : fields_.array(json, "commands")) {
-    fields_.say_at(file_ + ": command " + std::to_string(result.size()));
+    fields_.say_at(where_ + ": command " + std::to_string(result.size()));
     result.push_back(command(one));
   }
   return result;
@@ -165,8 +165,12 @@ std::vector<Command> MovesReader::read(const Json& json) {
 
 }  // namespace
 
+std::vector<Command> read_moves(const nlohmann::json& json, const std::string& where, const Mesh& mesh) {
+  return MovesReader(where, mesh).read(json);
+}
+
 std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const Mesh& mesh) {
-  return MovesReader(path, mesh).read(parse_moves(text, path));
+  return read_moves(parse_moves(text, path), shown(path), mesh);
 }
 
 std::vector<Command> read_moves(const std::filesystem::path& path, const Mesh& mesh) {

@@ -33,6 +33,10 @@ struct Session {
   std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   commands::SetRelaxation relaxation;
   std::vector<Panel> panels;  // 1 to session_panels
+  /// What was done since the object was at rest and whole, and how many of it: the others were taken back and lie
+  /// ahead.
+  std::vector<Command> moves;
+  std::size_t moves_done = 0;
   /// A JSON object that is the window's alone: cameras, layout.
   std::string ui = "{}";
 };
@@ -56,11 +60,12 @@ bool is_session(const std::filesystem::path& path);
 ///      "relaxation": {"on": false, "scheme": "mean" or "link", "step": 1},
 ///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
 ///        "runs": [first, end of each run of elements that are given…], "held": [their coordinates…]}],
+///      "moves": {as recorded moves are written}, "moves_done": how many of them,
 ///      "ui": {…}}
 ///
-/// Where neighbours stand in an order of their own, "counts" (of each element) and "neighbours" (its ids) take the
-/// place of "links". "lattice" is left out where there is none. Throws Error for a number that is not finite, and
-/// Cancelled.
+/// The moves may be left out, and "lattice" is where there is none. Where neighbours stand in an order of their own,
+/// "counts" (of each element) and "neighbours" (its ids) take the place of "links". Throws Error for a number that is
+/// not finite, and Cancelled.
 void write_session(std::ostream& out, const Session& session, const Progress& progress = {});
 
 /// The same into a file, whole or not at all.

@@ -20,7 +20,11 @@ constexpr std::size_t most_values = 10'000'000;
 
 enum class Packed { no, ids, reals };
 
-Packed packed_as(const std::string& key) {
+/// What a member of the session that `top` is, or is part of, holds as numbers alone.
+Packed packed_as(const std::string& top, const std::string& key) {
+  if (top == "ui" || top == "moves") {
+    return Packed::no;
+  }
   for (const char* ids :
        {"links", "counts", "neighbours", "triangles", "polygons", "tetrahedra", "cuts", "pins", "runs"}) {
     if (key == ids) {
@@ -148,7 +152,7 @@ bool Scanner::put(Json value) {
   if (packed_ != Packed::no) {
     refuse_in_array();
   }
-  if (!open_.empty() && open_.back()->is_object() && top_ != "ui" && packed_as(key_) != Packed::no) {
+  if (!open_.empty() && open_.back()->is_object() && packed_as(top_, key_) != Packed::no) {
     fail("'" + key_ + "' is not an array", "write it in [ ]");
   }
   place(std::move(value));
@@ -183,8 +187,8 @@ bool Scanner::key(std::string& key) {
 }
 
 bool Scanner::start_array(std::size_t) {
-  const bool named = !open_.empty() && open_.back()->is_object() && top_ != "ui";
-  const Packed packed = named && packed_ == Packed::no ? packed_as(key_) : Packed::no;
+  const bool named = !open_.empty() && open_.back()->is_object();
+  const Packed packed = named && packed_ == Packed::no ? packed_as(top_, key_) : Packed::no;
   if (packed == Packed::no) {
     return open(Json::array());
   }

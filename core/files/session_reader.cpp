@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "files/moves.h"
 #include "files/session.h"
 #include "files/session_fields.h"
 #include "files/text.h"
@@ -27,6 +28,7 @@ class SessionReader {
   void take_own(Softness& softness, const Json& object);
   void take_relaxation();
   void take_panels();
+  void take_moves();
   Session::Panel panel(const Json& object);
   Placement placement(const Json& object, Precision precision) const;
 
@@ -42,8 +44,8 @@ void SessionReader::check_kind() const {
     fields_.fail("it holds no session", "give one that the workbench has saved");
   }
   fields_.count(tree_, "version", session_version);
-  fields_.check_keys(tree_,
-                     {"format", "version", "name", "mesh", "cuts", "pins", "softness", "relaxation", "panels", "ui"});
+  fields_.check_keys(tree_, {"format", "version", "name", "mesh", "cuts", "pins", "softness", "relaxation", "panels",
+                             "moves", "moves_done", "ui"});
 }
 
 void SessionReader::take_cuts() {
@@ -162,6 +164,19 @@ void SessionReader::take_panels() {
   }
 }
 
+void SessionReader::take_moves() {
+  if (!tree_.contains("moves")) {
+    return;
+  }
+  result_.moves = read_moves(tree_["moves"], file_ + ": moves", *result_.mesh);
+  const Json& done = fields_.member(tree_, "moves_done");
+  if (!done.is_number_unsigned() || done.get<std::uint64_t>() > result_.moves.size()) {
+    fields_.fail("'moves_done' is not a whole number up to how many moves there are",
+                 "write how many were carried out");
+  }
+  result_.moves_done = done.get<std::size_t>();
+}
+
 Session SessionReader::read(const Progress& progress) {
   check_kind();
   result_.name = fields_.text(tree_, "name");
@@ -177,6 +192,8 @@ Session SessionReader::read(const Progress& progress) {
   fields_.say_at(file_);
   progress.report(0.85);
   take_panels();
+  fields_.say_at(file_);
+  take_moves();
   return std::move(result_);
 }
 

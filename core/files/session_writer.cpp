@@ -4,8 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
+#include "files/moves.h"
 #include "files/outputs.h"
 #include "files/session.h"
 #include "files/session_json.h"
@@ -62,6 +64,7 @@ class SessionWriter {
   void write_links(const Progress& progress);
   void write_state();
   void write_softness();
+  void write_moves();
   void write_panel(const Session::Panel& panel, const Progress& progress);
   /// A member and its numbers, of which `put(i)` writes the next.
   template <class Put>
@@ -179,6 +182,15 @@ void SessionWriter::write_panel(const Session::Panel& panel, const Progress& pro
   out_ << "}";
 }
 
+void SessionWriter::write_moves() {
+  if (!session_.moves.empty()) {
+    std::ostringstream moves;
+    chainmail::write_moves(moves, session_.moves, mesh_);
+    out_ << ",\n\"moves\": " << std::string_view(moves.str())
+         << ",\"moves_done\": " << static_cast<std::uint32_t>(session_.moves_done);
+  }
+}
+
 void SessionWriter::write(const Progress& progress) {
   const std::string name = Json(session_.name).dump(-1, ' ', false, Json::error_handler_t::replace);
   out_ << "{\"format\": \"chainmail session\", \"version\": " << std::uint32_t{session_version}
@@ -193,7 +205,9 @@ void SessionWriter::write(const Progress& progress) {
     }
     write_panel(session_.panels[i], progress.part(0.5 + share * double(i), 0.5 + share * double(i + 1)));
   }
-  out_ << "],\n\"ui\": " << session_.ui << "}\n";
+  out_ << "]";
+  write_moves();
+  out_ << ",\n\"ui\": " << session_.ui << "}\n";
   out_.flush();
 }
 

@@ -45,6 +45,9 @@ inline Session session_on(const MeshPointer& mesh) {
                     {Algorithm::generalized, Precision::single_precision, {}}};
   session.panels[1].placement.held = {1.0 / 3, -0.0, 1e300};
   session.panels[1].placement.held.resize(dimension);
+  session.moves = {commands::Cut{{0, 3}}, commands::Pin{{1, 8}}, commands::Grab{2}, commands::Drag{{0.1, 1.0 / 3, 0}},
+                   commands::Release{}};
+  session.moves_done = 4;
   session.ui = R"({"cameras":[{"yaw":0.1}],"layout":"AAE="})";
   return session;
 }

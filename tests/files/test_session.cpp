@@ -64,6 +64,8 @@ void SessionTest::compare(const Session& again, const Session& session) {
     QVERIFY(panel.algorithm == one.algorithm && panel.precision == one.precision);
     QVERIFY(panel.placement == one.placement && same_bits(panel.placement.held, one.placement.held));
   }
+  QCOMPARE(again.moves.size(), session.moves.size());
+  QCOMPARE(again.moves_done, session.moves_done);
   QCOMPARE(again.name, session.name);
   QCOMPARE(again.ui, session.ui);
 }
@@ -130,6 +132,8 @@ void SessionTest::the_file_is_json_as_it_is_documented() {
   QCOMPARE(document["pins"].toArray(), (QJsonArray{1, 8}));
   QCOMPARE(document["softness"]["own"].toArray(), (QJsonArray{1, 2, 0, 1, 7, 2, 5, 0.8, 1.2, 0.1}));
   QCOMPARE(document["relaxation"]["scheme"].toString(), QStringLiteral("link"));
+  QCOMPARE(document["moves"]["commands"][3]["target"].toArray(), (QJsonArray{0.1, 1.0 / 3, 0}));
+  QCOMPARE(document["moves_done"].toInt(), 4);
   QCOMPARE(document["panels"][0]["algorithm"].toString(), QStringLiteral("exact"));
   QCOMPARE(document["panels"][0]["runs"].toArray(), (QJsonArray{0, 2, 5, 9}));
   QCOMPARE(document["panels"][0]["held"].toArray(), (QJsonArray{0, 0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));

@@ -85,6 +85,14 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"name\": ", "\"nam\": ", "'nam' is not known here; ");
   row("\"name\": ", "\"format\": 1, \"name\": ", "'format' stands twice; ");
   row("\"cloth 3 × 3\"", "3", "'name' is not a text; ");
+  row("\"name\": ", "\"moves\": 3, \"name\": ", "moves: it holds no moves; ");
+  row("\"name\": ", R"("moves": {"version": 1, "commands": [{"do": "grab", "element": 9}]}, "name": )",
+      "moves: command 0: ");
+  row("\"name\": ", R"("moves": {"version": 1, "commands": [{"do": "cut", "links": [[0, 5]]}]}, "name": )",
+      "moves: command 0: ");
+  row("\"name\": ", R"("moves": {"version": 1, "commands": []}, "name": )", "'moves_done' is missing; ");
+  row("\"name\": ", R"("moves": {"version": 1, "commands": []}, "moves_done": 1, "name": )",
+      "'moves_done' is not a whole number up to ");
   row("\"elements\": 9", "\"elements\": 8", "mesh: 'rest' holds 27 numbers, and 8 elements have 24; ");
   row("\"elements\": 9", "\"elements\": 0", "mesh: 'elements' is no whole number from 1 to 20000000; ");
   row("\"elements\": 9", "\"elements\": -9", "mesh: 'elements' is no whole number from 1 to 20000000; ");

@@ -102,6 +102,36 @@ class WindowSession : public QObject {
     }
   }
 
+  void whatWasDoneIsGoneBackInAndForth() {
+    const QString path = folder_.filePath(QStringLiteral("moves.chainmail"));
+    Workbench bench(cloth());
+    work(bench);
+    bench.document().undo();  // the last drag lies ahead
+    bench.settle();
+    bench.window.sessions().savePath(path);
+    bench.settle();
+    const Session saved = sessionOf(bench);
+    QVERIFY(saved.moves_done < saved.moves.size());
+    bench.document().redo();
+    bench.settle();
+    const Session ahead = sessionOf(bench);
+
+    Workbench again;
+    again.open(path);
+    Document& document = again.document();
+    QCOMPARE(document.tape().position(), saved.moves_done);
+    document.goTo(0);
+    again.settle();
+    QVERIFY((again.position(0, 50) - document.mesh()->rest_position(50)).norm() < 1e-6);  // floats of some units
+    QVERIFY(document.cuts().links().empty() && document.pins().empty());
+    document.goTo(saved.moves_done);
+    again.settle();
+    compare(sessionOf(again), saved);
+    document.goTo(saved.moves.size());
+    again.settle();
+    compare(sessionOf(again), ahead);
+  }
+
   void openingIsOneStepOfUndo() {
     const QString path = folder_.filePath(QStringLiteral("b.chainmail"));
     Workbench bench(cloth());
