@@ -108,9 +108,12 @@ QString Colouring::title(int panel) const {
   QString what = text(mode.title);
   if (comparesPanels(mode_)) {
     const auto others = comparedWith(panel);
-    const QString other = others.size() == 1 ? panelName(others.front()) : QStringLiteral("the furthest of the others");
-    what = mode_ == ColourMode::distance ? QStringLiteral("%1 from %2").arg(what, other)
-                                         : QStringLiteral("%1, %2 less that of %3").arg(what, panelName(panel), other);
+    const bool distance = mode_ == ColourMode::distance;
+    const QString other = others.size() == 1 ? panelName(others.front())
+                          : distance         ? QStringLiteral("the furthest of the others")
+                                             : QStringLiteral("the one that differs most");
+    what = distance ? QStringLiteral("%1 from %2").arg(what, other)
+                    : QStringLiteral("%1, %2 less that of %3").arg(what, panelName(panel), other);
   }
   return QStringLiteral("%1 (%2)").arg(what, text(mode.unit));
 }

@@ -15,10 +15,13 @@ class MeshLevels {
     const bool power = std::has_single_bit(step);
     return mesh.lattice && step > 1 ? (power ? step * 3 / 2 : step * 4 / 3) : step * 2;
   }
+  /// The whole of the mesh that comes next, as a job has made it meanwhile.
+  void await(MeshLevelPointer whole) { next_ = std::move(whole); }
   MeshLevelPointer at(const MeshPointer& mesh, unsigned step) {
     if (mesh != mesh_) {
       levels_.clear();
       mesh_ = mesh;
+      levels_[1] = next_ != nullptr && next_->mesh == mesh ? next_ : nullptr;
     }
     auto& level = levels_[step];
     if (level == nullptr) {
@@ -29,6 +32,7 @@ class MeshLevels {
 
  private:
   MeshPointer mesh_;
+  MeshLevelPointer next_;
   std::map<unsigned, MeshLevelPointer> levels_;
 };
 

@@ -177,10 +177,10 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
     use(scene, paint.colour, 0, mesh_->space_dimension);
   } else {
     useValues(scene, paint, 0);
-    glLineWidth(count <= indicesSmoothed ? valuedWidth * scene.pixelRatio : 1);
   }
   links_.bind();
   if (count <= indicesSmoothed) {
+    glLineWidth((valuesFit(paint) ? valuedWidth : 1) * scene.pixelRatio);  // as wide on every screen
     glEnable(GL_LINE_SMOOTH);
   }
   glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);

@@ -97,7 +97,9 @@ void ObjectPainter::drawStroke(const Scene& scene, std::span<const QPointF> plac
   use(scene, colour, 0, 2);
   program_->setUniformValue("to_view", QMatrix4x4());
   program_->setUniformValue("to_clip", QMatrix4x4());
+  glLineWidth(scene.pixelRatio);
   glDrawArrays(GL_LINE_STRIP, 0, GLsizei(places.size()));
+  glLineWidth(1);
   vertexArray_.release();
 }
 

@@ -45,7 +45,7 @@ void drawView(QPainter& painter, View& view, QWidget& root, double pixelRatio, b
 /// On white paper, whatever the theme.
 Drawing drawingOf(QSize size, bool transparent, const std::function<void(QPainter&, const QColor&)>& draw) {
   const colours::OnGround light(colours::Ground::light);
-  Drawing drawing{{}, size, QStringLiteral("ChainMail workbench")};
+  Drawing drawing{QPicture(), size, QStringLiteral("ChainMail workbench")};
   QPainter painter(&drawing.picture);
   draw(painter, transparent ? QColor(255, 255, 255, 0) : QColor(Qt::white));
   return drawing;

@@ -27,6 +27,14 @@ void removeRests(const QDir& folder) {
       QFile::remove(file.filePath());
     }
   }
+  const QString ending = Autosave::lockOf({});
+  for (const QFileInfo& file : folder.entryInfoList({QLatin1Char('*') + ending}, QDir::Files)) {
+    QLockFile lock(file.filePath());
+    lock.setStaleLockTime(0);
+    if (!QFile::exists(file.filePath().chopped(ending.size()))) {
+      lock.tryLock();  // which takes it away again, unless a program that runs holds it
+    }
+  }
 }
 
 }  // namespace

@@ -62,9 +62,21 @@ SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidge
   setWidget(content);
   // Closed, it takes what it began with it.
   connect(toggleViewAction(), &QAction::toggled, this, [this](bool shown) { shown ? void() : cancel(); });
-  table_->begin(inSight_());
-  table_->setGrowing(false);
+  // What no test has filled speaks of the panels as they are.
+  connect(this, &QDockWidget::visibilityChanged, this, [this](bool seen) { seen ? followPanels() : void(); });
+  for (const auto& changed : {&Document::panelsChanged, &Document::meshChanged}) {
+    connect(&document, changed, this, &SizeTestDock::followPanels, Qt::QueuedConnection);  // after the panels
+  }
+  connect(&document, &Document::algorithmChanged, this, &SizeTestDock::followPanels);
+  followPanels();
   showState();
+}
+
+void SizeTestDock::followPanels() {
+  if (!running() && table_->rows().empty()) {
+    table_->begin(inSight_());
+    table_->setGrowing(false);
+  }
 }
 
 SizeTestDock::~SizeTestDock() = default;

@@ -40,6 +40,7 @@ class SizeTestDock : public QDockWidget {
   void failed(const QString& sentence);
 
  private:
+  void followPanels();
   QWidget* makeControls();
   void listen(const SizeTestStage& stage);
   void leave();

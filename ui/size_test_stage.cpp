@@ -20,10 +20,9 @@ SizeTestStage::SizeTestStage(const SizeTestOptions& options, const std::vector<S
   auto* grid = new QGridLayout(this);  // two in a row, as the panels
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setSpacing(3);
-  const auto levels = std::make_shared<MeshLevels>();
   const MeshPointer none = generate(gridOf(2));
   for (const SizeTestContestant& contestant : contestants) {
-    auto* panel = new SizeTestPanel(contestant, options.softness, none, levels);
+    auto* panel = new SizeTestPanel(contestant, options.softness, none, levels_);
     const int place = int(panels_.size());
     panels_.push_back(panel);
     grid->addWidget(panel, place / 2, place % 2);
@@ -72,8 +71,9 @@ void SizeTestStage::build() {
   jobs_.start(Jobs::Kind::load, QStringLiteral("Building %1").arg(sizeOf(width)),
               [this, width](const Progress& progress) -> Jobs::Finish {
                 const MeshPointer mesh = generate(gridOf(width), progress);
-                return [this, mesh] {
+                return [this, mesh, whole = wholeLevel(mesh)] {
                   mesh_ = mesh;
+                  levels_->await(whole);
                   rows_.clear();
                   attempt(0, racing_);
                 };

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "jobs.h"
+#include "mesh_levels.h"
 #include "size_test_panel.h"
 
 namespace chainmail {
@@ -44,6 +45,7 @@ class SizeTestStage : public QWidget {
   std::vector<std::uint32_t> widths_;
   std::size_t size_ = 0;  // which of them
   MeshPointer mesh_;
+  std::shared_ptr<MeshLevels> levels_ = std::make_shared<MeshLevels>();
   std::vector<SizeTestPanel*> panels_;  // all
   std::vector<SizeTestPanel*> racing_;
   std::vector<SizeTestPanel*> running_;  // of this attempt

@@ -100,7 +100,9 @@ void applyGround(Ground ground) {
   QApplication::setPalette(lists, "QListWidget");
   // Fusion hardly tells a checked button from an unchecked one.
   qApp->setStyleSheet(QStringLiteral("QToolButton:checked { background: %1; border: 1px solid %2; border-radius: 3px; "
-                                     "padding: 3px 6px; }")
+                                     "padding: 3px 6px; } "
+                                     // Around a picture alone there is less room, and none of it is to spare.
+                                     "chainmail--PanelHead QToolButton:checked { padding: 1px; }")
                           .arg(checked.on(ground).name(), checkedEdge.on(ground).name()));
 }
 

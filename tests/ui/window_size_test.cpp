@@ -65,6 +65,15 @@ class WindowSizeTest : public QObject {
     QVERIFY(widthsOf(options).empty());
   }
 
+  void aTableThatIsStillEmptyFollowsThePanels() {
+    SizeBench bench;
+    QVERIFY(!bench.verdicts().contains(QStringLiteral("<b>C: ")));
+    bench.trigger("addPanel");
+    bench.choose(2, "Spiral");
+    QTRY_VERIFY(bench.verdicts().contains(QStringLiteral("C: Spiral</b>")));
+    QCOMPARE(bench.table().columnCount(), 2 + 3 * columnsOfAPanel);
+  }
+
   void aTestFillsTheTableAndTheOwnObjectIsBackAsItWas() {
     SizeBench bench;
     const QPoint from = bench.place(0, 31);
