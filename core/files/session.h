@@ -42,6 +42,9 @@ struct Session {
 };
 
 inline constexpr std::size_t session_panels = 16;
+/// A session holds moves as long as they, and the links and elements that they name, are no more than these: some hours
+/// of dragging.
+inline constexpr std::size_t session_moves = 1'000'000;
 
 /// What the names of sessions end in, with the dot.
 inline constexpr std::string_view session_ending = ".chainmail";
@@ -63,9 +66,9 @@ bool is_session(const std::filesystem::path& path);
 ///      "moves": {as recorded moves are written}, "moves_done": how many of them,
 ///      "ui": {…}}
 ///
-/// The moves may be left out, and "lattice" is where there is none. Where neighbours stand in an order of their own,
-/// "counts" (of each element) and "neighbours" (its ids) take the place of "links". Throws Error for a number that is
-/// not finite, and Cancelled.
+/// The moves may be left out, as they are beyond session_moves, and "lattice" is where there is none. Where neighbours
+/// stand in an order of their own, "counts" (of each element) and "neighbours" (its ids) take the place of "links".
+/// Throws Error for a number that is not finite, and Cancelled.
 void write_session(std::ostream& out, const Session& session, const Progress& progress = {});
 
 /// The same into a file, whole or not at all.

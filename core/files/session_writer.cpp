@@ -51,6 +51,23 @@ class Digits {
   std::array<char, 32> digits_;
 };
 
+/// How much a command takes, in drags.
+std::size_t weight(const Command& command) {
+  return std::visit(
+      [](const auto& one) -> std::size_t {
+        if constexpr (requires { one.links; }) {
+          return 1 + one.links.size();
+        } else if constexpr (requires { one.elements; }) {
+          return 1 + one.elements.size();
+        } else if constexpr (requires { one.softness; }) {
+          return 1 + one.softness->links.size();
+        } else {
+          return 1;
+        }
+      },
+      command);
+}
+
 class SessionWriter {
  public:
   SessionWriter(std::ostream& out, const Session& session) : out_(out), session_(session), mesh_(*session.mesh) {}
@@ -183,7 +200,11 @@ void SessionWriter::write_panel(const Session::Panel& panel, const Progress& pro
 }
 
 void SessionWriter::write_moves() {
-  if (!session_.moves.empty()) {
+  std::size_t all = 0;
+  for (const Command& command : session_.moves) {
+    all += weight(command);
+  }
+  if (all > 0 && all <= session_moves) {
     std::ostringstream moves;
     chainmail::write_moves(moves, session_.moves, mesh_);
     out_ << ",\n\"moves\": " << std::string_view(moves.str())

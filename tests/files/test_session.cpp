@@ -23,6 +23,7 @@ class SessionTest : public QObject {
   void every_float_comes_back_to_the_bit();
   void what_was_written_once_opens();
   void the_file_is_json_as_it_is_documented();
+  void moves_without_end_are_left_out();
   void numbers_that_are_none_are_not_written();
   void saving_is_whole_or_not_at_all();
   void long_work_comes_to_its_end_and_is_cancelled();
@@ -137,6 +138,26 @@ void SessionTest::the_file_is_json_as_it_is_documented() {
   QCOMPARE(document["panels"][0]["algorithm"].toString(), QStringLiteral("exact"));
   QCOMPARE(document["panels"][0]["runs"].toArray(), (QJsonArray{0, 2, 5, 9}));
   QCOMPARE(document["panels"][0]["held"].toArray(), (QJsonArray{0, 0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+}
+
+/// What would be too much to open again is not saved: the object itself always is.
+void SessionTest::moves_without_end_are_left_out() {
+  Session session = session_on(made(MeshKind::grid, {40, 40, 1}));
+  session.panels.resize(1);
+  session.panels[0].placement = {};
+  Softness softness;
+  for (LinkId link = 0; link < 3000; ++link) {
+    softness.links[link] = {1, 1, 0};
+  }
+  const commands::SetSoftness own{softness};
+  session.moves.assign(session_moves / 3001, own);
+  session.moves_done = 1;
+  const Session most = parse_session(session_text(session), "a.chainmail");
+  QCOMPARE(most.moves.size(), session.moves.size());
+  session.moves.push_back(own);
+  const Session beyond = parse_session(session_text(session), "a.chainmail");
+  QVERIFY(beyond.moves.empty());
+  QCOMPARE(beyond.cuts, session.cuts);
 }
 
 void SessionTest::numbers_that_are_none_are_not_written() {
