@@ -1,71 +1,15 @@
 // Sessions in a real window: saved, opened, dropped, and what a crash leaves.
 
-#include <QDir>
 #include <QDropEvent>
 #include <QFile>
 #include <QMimeData>
-#include <QProcess>
-#include <QPushButton>
-#include <csignal>
 
-#include "autosave.h"
 #include "file_actions.h"
 #include "message_bar.h"
-#include "recovery_bar.h"
-#include "session_draft.h"
+#include "session_bench.h"
 #include "sessions.h"
-#include "window.h"
-#include "window_look.h"
 
 using namespace chainmail;
-
-namespace {
-
-MeshPointer cloth() { return generate({MeshKind::cloth, {12, 9, 1}, 0.7, {}}); }
-
-void drag(Document& document, ElementId element, const Point& by) {
-  document.grab(element);
-  document.drag(document.mesh()->rest_position(element) + by);
-  document.release();
-}
-
-/// A bit of everything that a session holds.
-void work(Workbench& bench) {
-  Document& document = bench.document();
-  document.setAlgorithm(0, Algorithm::exact);
-  document.setAlgorithm(1, Algorithm::spiral);
-  document.setPinned({0, 11}, true);
-  document.cut({3, 40});
-  document.setSoftness({0.7, 1.3, 0.15}, QStringLiteral("softness"));
-  document.setSoftnessOf({5, 6}, LinkSoftness{1, 1, 0});
-  document.setRelaxation({false, 0.5, RelaxationScheme::link});
-  drag(document, 50, {1.3, -0.9, 0});
-  drag(document, 100, {-0.1, 1.0 / 3, 0});
-  bench.settle();
-}
-
-Session sessionOf(Workbench& bench) { return SessionDraft(bench.document(), lookOf(bench.window)).finished({}); }
-
-QStringList autosaved() { return QDir(Autosave::folder()).entryList({QStringLiteral("*.chainmail")}, QDir::Files); }
-
-/// Works, says what there is when it is on the disk, and goes on until it is killed.
-int crashingProgram(int argc, char** argv) {
-  prepareApplication();
-  QTemporaryDir settings;
-  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
-  QApplication application(argc, argv);
-  styleApplication();
-  Workbench bench(cloth());
-  bench.window.sessions().protect();
-  bench.document().setSessionFile(QStringLiteral("/somewhere/mine.chainmail"));
-  work(bench);
-  save_session(argv[2], sessionOf(bench));
-  std::puts("worked");
-  std::fflush(stdout);
-  return QApplication::exec();
-}
-
-}  // namespace
 
 class WindowSession : public QObject {
   Q_OBJECT
@@ -220,108 +164,9 @@ class WindowSession : public QObject {
     QCOMPARE(bench.document().undoStack().count(), steps);
   }
 
-  void whatACrashLeftIsOffered() {
-    const QString expected = folder_.filePath(QStringLiteral("expected.chainmail"));
-    QProcess program;
-    program.start(QApplication::applicationFilePath(), {QStringLiteral("--crash"), expected});
-    QByteArray said;
-    QTRY_VERIFY_WITH_TIMEOUT((said += program.readAllStandardOutput()).contains("worked"), 30000);
-    QTest::qWait(5000);  // what is promised: no more is lost
-    QVERIFY(::kill(pid_t(program.processId()), SIGKILL) == 0);
-    QVERIFY(program.waitForFinished());
-    QCOMPARE(autosaved().size(), 1);
-
-    Workbench bench;
-    bench.window.sessions().protect();
-    QVERIFY(bench.window.sessions().recoveryBar().isVisible());
-    bench.find<QPushButton>("restoreWork")->click();
-    bench.settle();
-    compare(sessionOf(bench), read_session(expected.toStdString()));
-    QCOMPARE(bench.document().sessionFile(), QStringLiteral("/somewhere/mine.chainmail"));
-    QVERIFY(bench.window.isWindowModified());
-    QVERIFY(!bench.window.sessions().recoveryBar().isVisible());
-    QCOMPARE(autosaved().size(), 1);  // this window's own: safe from the first moment
-    {
-      Workbench second;  // what a running window holds is nobody else's
-      second.window.sessions().protect();
-      QVERIFY(!second.window.sessions().recoveryBar().isVisible());
-    }
-    QCOMPARE(autosaved().size(), 1);
-    bench.window.close();  // and still unsaved
-    QCOMPARE(autosaved(), QStringList{QStringLiteral("closed.chainmail")});
-    QVERIFY(QFile::remove(Autosave::closedPath()));
-  }
-
-  void whatIsDiscardedIsGone() {
-    for (const char* name : {"one.chainmail", "two.chainmail"}) {
-      QFile file(QDir(Autosave::folder()).filePath(QLatin1String(name)));
-      QVERIFY(file.open(QIODevice::WriteOnly) && file.write("{") > 0);
-    }
-    Workbench bench;
-    const MeshPointer before = bench.document().mesh();
-    bench.window.sessions().protect();
-    auto& bar = bench.window.sessions().recoveryBar();
-    QVERIFY(bar.isVisible());
-    bench.find<QPushButton>("restoreWork")->click();  // damaged: a sentence, and it may still be discarded
-    bench.settle();
-    QVERIFY(bench.window.messages().isVisible() && bar.isVisible());
-    QCOMPARE(bench.document().mesh(), before);
-    bench.find<QPushButton>("discardWork")->click();
-    QVERIFY(bar.isVisible());
-    bench.find<QPushButton>("discardWork")->click();
-    QVERIFY(!bar.isVisible());
-    QCOMPARE(autosaved().size(), 0);
-  }
-
-  void workIsKeptSafeWhileThereIsSomeToLose() {
-    const QString path = folder_.filePath(QStringLiteral("f.chainmail"));
-    Workbench bench;
-    bench.window.sessions().protect();
-    auto* timer = bench.find<QTimer>("autosaveTimer");
-    const auto passTime = [&] {
-      timer->start(0);
-      QTRY_VERIFY(!timer->isActive());
-      bench.settle();
-    };
-    passTime();
-    QCOMPARE(autosaved().size(), 0);  // nothing was done
-    bench.document().setPinned({3}, true);
-    QVERIFY(timer->isActive());
-    passTime();
-    QTRY_COMPARE(autosaved().size(), 1);
-    QTRY_VERIFY(!timer->isActive());  // a still scene costs nothing
-    const QString file = QDir(Autosave::folder()).filePath(autosaved().first());
-    QCOMPARE(read_session(file.toStdString()).pins, std::vector<ElementId>{3});
-    bench.window.sessions().savePath(path);
-    bench.settle();
-    passTime();
-    QTRY_COMPARE(autosaved().size(), 0);
-  }
-
  private:
-  static void compare(const Session& again, const Session& before) {
-    QCOMPARE(again.name, before.name);
-    QVERIFY(again.mesh->rest == before.mesh->rest && again.mesh->links == before.mesh->links);
-    QVERIFY(again.mesh->triangles == before.mesh->triangles && again.mesh->neighbours == before.mesh->neighbours);
-    QCOMPARE(again.cuts, before.cuts);
-    QCOMPARE(again.pins, before.pins);
-    QVERIFY(*again.softness == *before.softness);
-    QVERIFY(again.relaxation == before.relaxation);
-    QCOMPARE(again.panels.size(), before.panels.size());
-    for (std::size_t panel = 0; panel < again.panels.size(); ++panel) {
-      QVERIFY(again.panels[panel].algorithm == before.panels[panel].algorithm);
-      QVERIFY(!again.panels[panel].placement.runs.empty());
-      QVERIFY(again.panels[panel].placement == before.panels[panel].placement);
-    }
-  }
-
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) {
-  if (argc > 2 && std::string_view(argv[1]) == "--crash") {
-    return crashingProgram(argc, argv);
-  }
-  return runWindowTest<WindowSession>(argc, argv);
-}
+int main(int argc, char** argv) { return runWindowTest<WindowSession>(argc, argv); }
 #include "window_session.moc"

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "session_draft.h"
+#include "window.h"
+#include "window_look.h"
+
+namespace chainmail {
+
+inline MeshPointer cloth() { return generate({MeshKind::cloth, {12, 9, 1}, 0.7, {}}); }
+
+inline void drag(Document& document, ElementId element, const Point& by) {
+  document.grab(element);
+  document.drag(document.mesh()->rest_position(element) + by);
+  document.release();
+}
+
+/// A bit of everything that a session holds.
+inline void work(Workbench& bench) {
+  Document& document = bench.document();
+  document.setAlgorithm(0, Algorithm::exact);
+  document.setAlgorithm(1, Algorithm::spiral);
+  document.setPinned({0, 11}, true);
+  document.cut({3, 40});
+  document.setSoftness({0.7, 1.3, 0.15}, QStringLiteral("softness"));
+  document.setSoftnessOf({5, 6}, LinkSoftness{1, 1, 0});
+  document.setRelaxation({false, 0.5, RelaxationScheme::link});
+  drag(document, 50, {1.3, -0.9, 0});
+  drag(document, 100, {-0.1, 1.0 / 3, 0});
+  bench.settle();
+}
+
+inline Session sessionOf(Workbench& bench) { return SessionDraft(bench.document(), lookOf(bench.window)).finished({}); }
+
+inline void compare(const Session& again, const Session& before) {
+  QCOMPARE(again.name, before.name);
+  QVERIFY(again.mesh->rest == before.mesh->rest && again.mesh->links == before.mesh->links);
+  QVERIFY(again.mesh->triangles == before.mesh->triangles && again.mesh->neighbours == before.mesh->neighbours);
+  QCOMPARE(again.cuts, before.cuts);
+  QCOMPARE(again.pins, before.pins);
+  QVERIFY(*again.softness == *before.softness);
+  QVERIFY(again.relaxation == before.relaxation);
+  QCOMPARE(again.panels.size(), before.panels.size());
+  for (std::size_t panel = 0; panel < again.panels.size(); ++panel) {
+    QVERIFY(again.panels[panel].algorithm == before.panels[panel].algorithm);
+    QVERIFY(!again.panels[panel].placement.runs.empty());
+    QVERIFY(again.panels[panel].placement == before.panels[panel].placement);
+  }
+}
+
+}  // namespace chainmail
