@@ -175,9 +175,9 @@ void ElementDock::pick() {
     return;
   }
   const int asked = id_->value();
-  {
+  if (element_) {
     const QSignalBlocker quiet(id_);
-    id_->setValue(element_ ? int(*element_) : int(count) - 1);
+    id_->setValue(int(*element_));
   }
   state_->setText(QStringLiteral("There is no element %1: ids go from 0 to %2.").arg(asked).arg(count - 1));
 }

@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 #include <array>
 
+#include "dock_scroll.h"
 #include "icons.h"
 
 namespace chainmail {
@@ -46,7 +47,7 @@ PropagationDock::PropagationDock(Document& document, Propagation& propagation, P
   connect(&document, &Document::panelsChanged, this, adapt);
   adapt();
   column->addLayout(lists, 1);
-  setWidget(content);
+  setWidget(new DockScroll(content));
   connect(this, &QDockWidget::visibilityChanged, this, [this](bool) { propagation_.setOpen(!isHidden()); });
   connect(toggleViewAction(), &QAction::toggled, &propagation, &Propagation::setOpen);
   connect(&propagation, &Propagation::changed, this, &PropagationDock::refresh);

@@ -68,7 +68,7 @@ void ReportChoices::fillAlgorithms() {
        QStringLiteral("Who takes part; the marks are those of the plot"));
   algorithms_->setIconSize({markSize, markSize});
   algorithms_->setUniformItemSizes(true);
-  algorithms_->setMinimumHeight(60);
+  algorithms_->setMinimumHeight(48);
   for (const AlgorithmInfo& one : algorithms()) {
     auto* item = new QListWidgetItem(text(one.label), algorithms_);
     item->setData(Qt::UserRole, int(one.algorithm));

@@ -63,7 +63,7 @@ void SelectedLinks::refresh() {
   const LinkSoftness& global = document_.softness();
   const bool some = !document_.selection().links.empty();
   description_->setText(describe(all));
-  rows_->setVisible(!document_.selection().empty());  // else its room is the others'
+  rows_->setVisible(some);  // else its room is the others'
   rows_->setEnabled(some);
   set_->setEnabled(some);
   back_->setEnabled(all.own);

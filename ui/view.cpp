@@ -1,6 +1,5 @@
 #include "view.h"
 
-#include <QGuiApplication>
 #include <QOpenGLContext>
 #include <algorithm>
 
@@ -26,7 +25,7 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
       painter_(levels_) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);  // a click here takes the keyboard from the field last typed in
-  setMinimumSize(160, 120);
+  setMinimumSize(160, 90);
   hover_.setSingleShot(true);
   hover_.setInterval(hoverMilliseconds);
   connect(&hover_, &QTimer::timeout, this, [this] {
@@ -51,11 +50,12 @@ void View::listen() {
     update();
   });
   // What an edit has put out is lit up again, without a move of the mouse.
-  connect(&document_.undoStack(), &QUndoStack::indexChanged, &hover_, [this] {
-    if (underMouse() && QGuiApplication::mouseButtons() == Qt::NoButton) {
-      hover_.start();
+  const auto lightUp = [this] {
+    if (underMouse() && tool_ != nullptr && !tool_->busy()) {
+      tool_->hover(*this, cursor_);
     }
-  });
+  };
+  connect(&document_.undoStack(), &QUndoStack::indexChanged, this, lightUp, Qt::QueuedConnection);
   connect(&links_, &PanelLinks::marksLinked, this, qOverload<>(&View::update));
   connect(&colouring_, &Colouring::changed, this, qOverload<>(&View::update));
   connect(&document_, &Document::cutsChanged, this, [this] {
@@ -81,41 +81,6 @@ View::~View() {
 void View::setTool(Tool* tool) {
   tool_ = tool;
   setCursor(tool->cursor());
-}
-
-void View::setCamera(std::shared_ptr<Camera> camera) {
-  camera_ = std::move(camera);
-  fitPending_ = false;
-  update();
-}
-
-void View::fit() {
-  const Mesh& mesh = *document_.mesh();
-  camera_->fit(bounds(mesh), std::span(mesh.axes).first(std::size_t(mesh.space_dimension)), size());
-  fitPending_ = false;
-  announceCamera();
-}
-
-void View::fitAgain() {
-  if (camera_->framed()) {
-    camera_->frame(bounds(*document_.mesh()), size());
-    announceCamera();
-  }
-}
-
-void View::announceCamera() {
-  emit cameraChanged();
-  update();
-}
-
-void View::lookFrom(double yaw, double pitch) {
-  camera_->lookFrom(yaw, pitch);
-  announceCamera();
-}
-
-void View::setParallel(bool parallel) {
-  camera_->setParallel(parallel);
-  announceCamera();
 }
 
 const CellBoxes& View::boxes(const Frame& frame) const {

@@ -1,31 +1,10 @@
-// The keyboard in a view: the camera's moves, and a frame that says where the keys go.
+// The keyboard in a view: a frame that says where the keys go.
 
-#include <QApplication>
 #include <QFocusEvent>
 
 #include "view.h"
 
 namespace chainmail {
-
-void View::orbit(QPointF pixels) {
-  camera_->orbit(pixels);
-  emit cameraChanged();
-  update();
-}
-
-void View::pan(QPointF pixels) {
-  camera_->pan(pixels, size());
-  emit cameraChanged();
-  update();
-}
-
-void View::zoom(double factor) { zoom(factor, QRectF(rect()).center()); }
-
-void View::zoom(double factor, QPointF about) {
-  camera_->zoom(factor, about, size());
-  emit cameraChanged();
-  update();
-}
 
 /// A click needs no frame to say where it went.
 void View::focusInEvent(QFocusEvent* event) {

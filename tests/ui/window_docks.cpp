@@ -31,6 +31,8 @@ class WindowDocks : public QObject {
       QTest::keyClick(id, Qt::Key_Return);
       bench.settle();
     };
+    enter("99");
+    QVERIFY(bench.document().selection().empty());  // not the last one instead
     enter("7");
     QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{7});
     enter("63");  // one beyond the last

@@ -69,7 +69,7 @@ class WindowLayout : public QObject {
     bench.trigger("addPanel");
     bench.trigger("addPanel");
     bench.window.resize(1366, 768);
-    for (const char* show : {"showPropagation", "showElement", "showPropagation"}) {
+    for (const char* show : {"showReport", "showPropagation", "showElement", "showPropagation"}) {
       bench.trigger(show);  // the last one while it is behind
       bench.settle();
       QCOMPARE(bench.window.size(), QSize(1366, 768));
