@@ -194,7 +194,7 @@ void PresetRow::takeName() {
   const std::string name = name_->text().trimmed().toStdString();
   const bool done = attempt([&] {
     if (naming_ == Naming::rename) {
-      store_.rename(chosen()->name, name);
+      store_.rename(renamed_, name);
     } else {
       store_.save({name, document_.softness()});
     }
@@ -213,11 +213,15 @@ void PresetRow::endNaming() {
 
 void PresetRow::saveAs() { ask(Naming::save, {}); }
 
-void PresetRow::rename() { ask(Naming::rename, QString::fromStdString(chosen()->name)); }
+void PresetRow::rename() {
+  renamed_ = chosen()->name;
+  ask(Naming::rename, QString::fromStdString(renamed_));
+}
 
 void PresetRow::remove() {
   const std::string name = chosen()->name;
   store_.remove(name);
+  endNaming();  // it may have been about to be renamed
   fill();
   emit told(QStringLiteral("Deleted the preset '%1'").arg(QString::fromStdString(name)));
 }

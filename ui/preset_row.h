@@ -64,6 +64,7 @@ class PresetRow : public QWidget {
   std::vector<SoftnessPreset> all_;  // as the field lists them, first those built in
   std::string last_;                 // the name of the one chosen last: of several that are equal, it is shown
   Naming naming_ = Naming::none;
+  std::string renamed_;  // which one gets the name that is typed; another may be chosen meanwhile
   QStackedLayout* fields_;
   QComboBox* field_;
   QLineEdit* name_;

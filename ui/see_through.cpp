@@ -36,22 +36,23 @@ void SeeThrough::draw(QSize size, double opacity, const std::function<void()>& d
 /// The picture's colours carry their own opacity already: it begins empty, and what is drawn on it is blended.
 void SeeThrough::layOver(double opacity) {
   auto* gl = QOpenGLContext::currentContext()->functions();
-  if (!blitter_.isCreated()) {
-    blitter_.create();
+  if (blitter_ == nullptr) {
+    blitter_ = std::make_unique<QOpenGLTextureBlitter>();
+    blitter_->create();
   }
   gl->glDisable(GL_DEPTH_TEST);
   gl->glEnable(GL_BLEND);
   gl->glBlendColor(0, 0, 0, float(opacity));
   gl->glBlendFuncSeparate(GL_CONSTANT_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  blitter_.bind();
-  blitter_.setOpacity(float(opacity));  // of the alpha that hides what lies below
-  blitter_.blit(picture_->texture(), QMatrix4x4(), QOpenGLTextureBlitter::OriginBottomLeft);
-  blitter_.release();
+  blitter_->bind();
+  blitter_->setOpacity(float(opacity));  // of the alpha that hides what lies below
+  blitter_->blit(picture_->texture(), QMatrix4x4(), QOpenGLTextureBlitter::OriginBottomLeft);
+  blitter_->release();
 }
 
 void SeeThrough::destroy() {
   picture_.reset();
-  blitter_.destroy();
+  blitter_.reset();
 }
 
 }  // namespace chainmail

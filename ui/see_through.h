@@ -25,7 +25,7 @@ class SeeThrough {
   void layOver(double opacity);
 
   std::unique_ptr<QOpenGLFramebufferObject> picture_;
-  QOpenGLTextureBlitter blitter_;
+  std::unique_ptr<QOpenGLTextureBlitter> blitter_;  // Qt's cannot be created again once it was destroyed
 };
 
 }  // namespace chainmail

@@ -129,8 +129,8 @@ struct Workbench {
 };
 
 /// Runs a test class in an application set up as the workbench is; an unexpected warning fails it.
-template <class Test>
-int runWindowTest(int argc, char** argv) {
+template <class Test, class... Arguments>
+int runWindowTest(int argc, char** argv, const Arguments&... arguments) {
   prepareApplication();
   QTemporaryDir settings;
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
@@ -142,7 +142,7 @@ int runWindowTest(int argc, char** argv) {
     qCritical("%s", qPrintable(why));
     return 1;
   }
-  Test test;
+  Test test(arguments...);
   return QTest::qExec(&test, argc, argv);
 }
 

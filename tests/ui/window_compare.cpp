@@ -176,6 +176,11 @@ class WindowCompare : public QObject {
     QVERIFY(bench.view(1).ghost().of == 0);
     bench.trigger("ghosts");
     QVERIFY(!bench.view(1).ghost().of);
+    bench.settle();
+    const QImage without = bench.view(0).grabFramebuffer();
+    bench.trigger("ghosts");  // what they held of the graphics card is made again
+    bench.settle();
+    QVERIFY(bench.view(0).grabFramebuffer() != without);
   }
 };
 

@@ -111,6 +111,30 @@ class WindowPresets : public QObject {
     QVERIFY(!bench.enabled("exportPresets"));
   }
 
+  void theOneThatWasChosenIsRenamedWhateverIsUndoneMeanwhile() {
+    PresetBench bench;
+    bench.set("stretchSpin", 1.25);
+    bench.name("savePreset", "clay");
+    bench.trigger("renamePreset");
+    bench.trigger("undo");  // a click on the tool bar leaves the keys where they are
+    QCOMPARE(bench.shown(), QStringLiteral("Standard"));
+    auto* line = bench.find<QLineEdit>("presetName");
+    QVERIFY(line->isVisible());
+    line->setText(QStringLiteral("dry clay"));
+    QTest::keyClick(line, Qt::Key_Return);
+    QVERIFY(bench.has("dry clay") && !bench.has("clay"));
+  }
+
+  void whatIsDeletedIsNotRenamed() {
+    PresetBench bench;
+    bench.set("stretchSpin", 1.25);
+    bench.name("savePreset", "clay");
+    bench.trigger("renamePreset");
+    bench.trigger("deletePreset");
+    QVERIFY(bench.field().isVisible());
+    QVERIFY(!bench.has("clay"));
+  }
+
   void namesThatAreTakenAreRefusedWithASentence() {
     PresetBench bench;
     bench.set("stretchSpin", 1.25);
