@@ -213,6 +213,12 @@ void Document::select(std::vector<ElementId> elements) {
   }
 }
 
+/// Before another mesh is there: who is told of this still asks for elements of the present one.
+void Document::letGoOfElements() {
+  setHighlight({});
+  select({});
+}
+
 void Document::showCuts(const std::vector<LinkId>& links, bool cut) {
   for (const LinkId link : links) {
     cut ? cuts_.cut(link) : cuts_.uncut(link);

@@ -170,6 +170,7 @@ class Document : public QObject {
   friend class SessionEdit;
 
   // The document's own side of edits; the solvers are told beside.
+  void letGoOfElements();
   void showCuts(const std::vector<LinkId>& links, bool cut);
   void showPins(const std::vector<ElementId>& elements, bool pinned);
   void showSoftness(std::shared_ptr<const Softness> softness);

@@ -119,6 +119,7 @@ MeshEdit::MeshEdit(Document& document, MeshPointer mesh, const QString& name, co
 void MeshEdit::carryOut() { document_.post(commands::ReplaceMesh{mesh_}); }
 
 void MeshEdit::show(bool done) {
+  document_.letGoOfElements();
   std::swap(mesh_, document_.mesh_);
   std::swap(name_, document_.name_);
   std::swap(cuts_, document_.cuts_);
@@ -126,8 +127,6 @@ void MeshEdit::show(bool done) {
   Softness softness = *document_.softness_;
   std::swap(softness_, softness.links);  // the global one is no part of the object
   document_.softness_ = std::make_shared<const Softness>(std::move(softness));
-  document_.setHighlight({});
-  document_.select({});
   emit document_.meshChanged();
   if (done) {
     document_.followFallback();

@@ -94,6 +94,9 @@ class DrawnIcon : public QIconEngine {
 
   QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
     QPixmap picture(size);
+    if (picture.isNull()) {
+      return picture;  // there is no room: nothing to paint on
+    }
     picture.fill(Qt::transparent);
     QPainter painter(&picture);
     paint(&painter, picture.rect(), mode, state);

@@ -76,6 +76,7 @@ void SessionEdit::prepare(bool /*done*/) {
 }
 
 void SessionEdit::show(bool /*done*/) {
+  document_.letGoOfElements();
   std::swap(other_.mesh, document_.mesh_);
   std::swap(other_.name, document_.name_);
   std::swap(other_.file, document_.sessionFile_);
@@ -91,8 +92,6 @@ void SessionEdit::show(bool /*done*/) {
 }
 
 void SessionEdit::tell() const {
-  document_.setHighlight({});
-  document_.select({});
   emit document_.meshChanged();
   emit document_.softnessChanged();
   emit document_.relaxationChanged();

@@ -117,6 +117,7 @@ class WindowComfort : public QObject {
     }
     QVERIFY(icon("no such icon").isNull());
     const QIcon any = icon("fit");
+    QVERIFY(any.pixmap(QSize(0, 16)).isNull());  // squeezed out of a narrow dock
     const QImage dark = any.pixmap(QSize(16, 16), 1.0).toImage();
     applyGround(Ground::light);
     QVERIFY(any.pixmap(QSize(16, 16), 1.0).toImage() != dark);

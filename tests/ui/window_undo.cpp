@@ -1,5 +1,6 @@
 // Undo in a real window: whatever changed the object or its parameters comes back, positions to the bit.
 
+#include <QLabel>
 #include <QUndoView>
 
 #include "parameter_row.h"
@@ -172,6 +173,20 @@ class WindowUndo : public QObject {
     bench.settle();
     QCOMPARE(bench.document().algorithm(0), Algorithm::original);
     QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::original);
+  }
+
+  void whatIsMeasuredGoesWithItsMesh() {
+    Workbench bench;
+    bench.trigger("toolMeasure");
+    bench.click(0, 60);
+    bench.click(0, 62);
+    bench.document().setHighlight({62, false, {}});
+    bench.document().replaceMesh(generate({MeshKind::line, {3, 1, 1}, 1, {}}), QStringLiteral("line"),
+                                 QStringLiteral("build line"));
+    QVERIFY(!bench.document().highlight().element);
+    QVERIFY(!bench.find<QLabel>("readout")->text().contains(QStringLiteral("62")));
+    bench.trigger("undo");
+    bench.settle();
   }
 
   void aClickInTheUndoListGoesThere() {
