@@ -25,7 +25,12 @@ Session SessionDraft::finished(const Progress& progress) const {
     while (placements_[panel].wait_for(patience) != std::future_status::ready) {
       progress.report(0);
     }
-    result.panels[panel].placement = placements_[panel].get();
+    try {
+      result.panels[panel].placement = placements_[panel].get();
+    } catch (const std::future_error&) {
+      result.panels.resize(panel);  // it was removed before its solver answered; those after it too
+      break;
+    }
   }
   return result;
 }

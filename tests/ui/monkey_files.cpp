@@ -7,6 +7,7 @@
 
 #include "file_actions.h"
 #include "monkey.h"
+#include "picture_actions.h"
 #include "replay_dock.h"
 #include "sessions.h"
 
@@ -62,6 +63,7 @@ void Monkey::saveSomething() {
   const QString path = anyPath();
   auto& files = *bench_.window.findChild<FileActions*>();
   auto& replay = *bench_.window.findChild<ReplayDock*>();
+  const QString drawing = once(2) ? QStringLiteral("png") : once(2) ? QStringLiteral("svg") : QStringLiteral("pdf");
   const std::size_t what = below(7);
   say(QStringLiteral("save %1: %2").arg(what).arg(path));
   switch (what) {
@@ -70,7 +72,7 @@ void Monkey::saveSomething() {
     case 1:
       return files.saveShapePath(int(below(Document::mostPanels)), path);
     case 2:
-      return files.saveScreenshotPath(folder_ + QStringLiteral("/picture.png"));
+      return bench_.window.findChild<PictureActions*>()->savePath(folder_ + QStringLiteral("/picture.") + drawing);
     case 3:
       return replay.saveMoves(folder_ + QStringLiteral("/moves.json"));
     case 4:

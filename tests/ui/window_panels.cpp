@@ -3,6 +3,8 @@
 #include <QToolButton>
 
 #include "legend.h"
+#include "mesh/progress.h"
+#include "session_draft.h"
 #include "window.h"
 
 using namespace chainmail;
@@ -149,6 +151,20 @@ class WindowPanels : public QObject {
     QVERIFY(!bench.find<QAction>("showPanelB")->isEnabled());  // the last one stays
     bench.trigger("showPanelA");
     QVERIFY(a.isVisible());
+  }
+
+  void onePanelMayGoWhileItIsSaved() {
+    Workbench bench;
+    bench.trigger("addPanel");
+    // To take it up keeps the solvers: the panel is gone before it has said where its elements stand.
+    bench.document().replaceMesh(generate({MeshKind::grid, {400, 400, 1}, 1, {}}), QStringLiteral("large"),
+                                 QStringLiteral("build"));
+    const SessionDraft draft(bench.document(), {});
+    bench.document().removePanel();
+    JobState job;
+    const Session session = draft.finished(Progress(job));
+    QVERIFY(session.panels.size() == 2 || session.panels.size() == 3);
+    QCOMPARE(session.mesh, bench.document().mesh());
   }
 };
 
