@@ -168,7 +168,13 @@ void MainWindow::showTitle() {
 
 QByteArray MainWindow::savedLayout() const { return saveState(layoutVersion); }
 
-void MainWindow::takeLayout(const QByteArray& layout) { restoreState(layout, layoutVersion); }
+void MainWindow::takeLayout(const QByteArray& layout) {
+  // Qt shows the tabs of docks one by one; a layout that answers at once takes some away meanwhile, and Qt crashes.
+  this->layout()->setEnabled(false);
+  restoreState(layout, layoutVersion);
+  this->layout()->setEnabled(true);
+  this->layout()->activate();
+}
 
 void MainWindow::restoreLayout() {
   resize(QSize(1600, 900).boundedTo(screen()->availableSize()));

@@ -74,7 +74,8 @@ void Monkey::stroke() {
   const auto held = once(4) ? Qt::ShiftModifier : once(8) ? Qt::ControlModifier : Qt::NoModifier;
   say(QStringLiteral("stroke in %1 from element %2").arg(view.objectName()).arg(element));
   send(view, QEvent::MouseButtonPress, once(6) ? anywhere(view) : view.placeOf(element), Qt::LeftButton, held);
-  for (std::size_t i = below(6); i > 0; --i) {
+  const QPointer<View> still = &view;  // a session that is opened meanwhile may have fewer panels
+  for (std::size_t i = below(6); i > 0 && still; --i) {
     send(view, QEvent::MouseMove, anywhere(view), Qt::LeftButton, held);
     if (once(25)) {
       say(QStringLiteral("  Escape in its middle"));
@@ -85,7 +86,7 @@ void Monkey::stroke() {
       QCoreApplication::processEvents();
     }
   }
-  if (!once(12)) {
+  if (!once(12) && still) {
     send(view, QEvent::MouseButtonRelease, anywhere(view), Qt::LeftButton);
   }
 }
