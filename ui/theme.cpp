@@ -98,6 +98,10 @@ void applyGround(Ground ground) {
   QPalette lists = paletteOn(ground);
   lists.setColor(QPalette::Window, listBoxEdge.on(ground));
   QApplication::setPalette(lists, "QListWidget");
+  // And in menus, where what is checked and has an icon is drawn as a pressed button.
+  QPalette menus = lists;
+  menus.setColor(QPalette::Button, checked.on(ground));
+  QApplication::setPalette(menus, "QMenu");
   // Fusion hardly tells a checked button from an unchecked one.
   qApp->setStyleSheet(QStringLiteral("QToolButton:checked { background: %1; border: 1px solid %2; border-radius: 3px; "
                                      "padding: 3px 6px; } "
