@@ -59,6 +59,10 @@ inline constexpr Colour infoSign(0xff8ccbf2, 0xff0068a8);
 inline constexpr Colour warningSign(0xfff0c84a, 0xff7a5800);
 inline constexpr Colour errorSign(0xffff9a80, 0xffb32000);
 
+// Of tool buttons.
+inline constexpr Colour checked(0xff1f5f8b, 0xffb8dcf2);
+inline constexpr Colour checkedEdge(0xff3f93cb, 0xff4a90c0);
+
 /// The same colour further from the ground, for what stands out among its like.
 QColor stronger(const QColor& colour);
 /// The same colour near the ground, for the faces between links of that colour.

@@ -4,10 +4,10 @@
 #include <QIcon>
 #include <QOpenGLContext>
 #include <QSettings>
-#include <QStyleFactory>
 #include <QSurfaceFormat>
 
 #include "theme.h"
+#include "workbench_style.h"
 
 // The shaders lie in a static library: they must be asked for, outside any namespace.
 static void loadResources() { Q_INIT_RESOURCE(workbench); }
@@ -32,7 +32,7 @@ void prepareApplication() {
 void styleApplication() {
   QGuiApplication::setDesktopFileName(QStringLiteral("org.chainmail.workbench"));
   QApplication::setWindowIcon(QIcon(QStringLiteral(":/org.chainmail.workbench.png")));
-  QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+  QApplication::setStyle(new WorkbenchStyle);
   applyGround(rememberedGround());
 }
 

@@ -23,8 +23,7 @@ struct Role {
 
 constexpr Colour boxGround(0xff6e7783, 0xffffffff), boxEdge(0xff6e7783, 0xff9aa1ab),
     listBoxEdge(0xffb4bcc8, 0xff9aa1ab);
-constexpr Colour faintText(0xff98a0ab, 0xff59616c), checkedEdge(0xff3f93cb, 0xff4a90c0),
-    checked(0xff1f5f8b, 0xffb8dcf2);
+constexpr Colour faintText(0xff98a0ab, 0xff59616c);
 
 constexpr std::array roles{Role{QPalette::Window, {0xff242930, 0xffeceef1}},
                            Role{QPalette::WindowText, {0xffe4e7eb, 0xff1a1e24}},
@@ -100,14 +99,8 @@ void applyGround(Ground ground) {
   QApplication::setPalette(lists, "QListWidget");
   // And in menus, where what is checked and has an icon is drawn as a pressed button.
   QPalette menus = lists;
-  menus.setColor(QPalette::Button, checked.on(ground));
+  menus.setColor(QPalette::Button, colours::checked.on(ground));
   QApplication::setPalette(menus, "QMenu");
-  // Fusion hardly tells a checked button from an unchecked one.
-  qApp->setStyleSheet(QStringLiteral("QToolButton:checked { background: %1; border: 1px solid %2; border-radius: 3px; "
-                                     "padding: 3px 6px; } "
-                                     // Around a picture alone there is less room, and none of it is to spare.
-                                     "chainmail--PanelHead QToolButton:checked { padding: 1px; }")
-                          .arg(checked.on(ground).name(), checkedEdge.on(ground).name()));
 }
 
 }  // namespace chainmail
