@@ -159,7 +159,7 @@ struct Body {
 
   /// Calls visit(neighbour, entry) for each neighbour to which the link is not cut, in the file's order.
   template <class Visit>
-  void for_each_neighbour(ElementId element, Visit visit) const {
+  [[gnu::always_inline]] void for_each_neighbour(ElementId element, Visit visit) const {
     chainmail::for_each_neighbour(*mesh, cuts, element, visit);
   }
 
