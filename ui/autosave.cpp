@@ -21,6 +21,18 @@ using std::chrono::milliseconds;
 // From a change to the time when it is on the disk: the wait, and what writing takes, at worst twice.
 constexpr milliseconds mostBehind(4500), shortestWait(500), longestWait(4000);
 
+constexpr QLatin1String closedEnding(".closed.chainmail");
+constexpr int mostClosed = 5;  // what is never asked for does not pile up
+
+/// The oldest of the work of closed windows makes room.
+void dropOldest() {
+  const auto closed =
+      QDir(Autosave::folder()).entryInfoList({QLatin1Char('*') + closedEnding}, QDir::Files, QDir::Time);
+  for (const QFileInfo& file : closed.mid(mostClosed)) {
+    QFile::remove(file.filePath());
+  }
+}
+
 std::filesystem::path asPath(const QString& path) { return std::filesystem::path(path.toStdU16String()); }
 
 QString newPath() {
@@ -55,7 +67,7 @@ Autosave::Autosave(MainWindow& window, QObject* parent)
   listen();
 }
 
-QString Autosave::closedPath() { return QDir(folder()).filePath(QStringLiteral("closed.chainmail")); }
+bool Autosave::isClosed(const QString& path) { return path.endsWith(closedEnding); }
 
 Autosave::~Autosave() {
   endWriting();
@@ -84,8 +96,8 @@ void Autosave::keep() {
     // Nobody is there to be told: what was on the disk before is kept instead.
   }
   if (QFile::exists(path_)) {
-    QFile::remove(closedPath());
-    QFile::rename(path_, closedPath());
+    QFile::rename(path_, path_.chopped(qsizetype(session_ending.size())) + closedEnding);
+    dropOldest();
   }
 }
 

@@ -22,8 +22,8 @@ class Autosave : public QObject {
   static QString folder();
   /// The lock that belongs to a file there.
   static QString lockOf(const QString& path) { return path + QStringLiteral(".lock"); }
-  /// The unsaved work of the window that was closed last: one file, so that what is never asked for does not pile up.
-  static QString closedPath();
+  /// Whether a file is the unsaved work of a window that was closed, not of one that crashed.
+  static bool isClosed(const QString& path);
 
   Autosave(MainWindow& window, QObject* parent);
   /// Nothing is left behind but what was kept.

@@ -85,7 +85,7 @@ void RecoveryBar::show() {
   }
   const QString time = QLocale().toString(QFileInfo(found_.back().path).lastModified(), QLocale::ShortFormat);
   const QString others = found_.size() > 1 ? QStringLiteral(" (1 of %1)").arg(found_.size()) : QString();
-  const bool closed = found_.back().path == Autosave::closedPath();
+  const bool closed = Autosave::isClosed(found_.back().path);
   text_->setText((closed ? QStringLiteral("Unsaved work of %1 is still there: the window was closed on it%2")
                          : QStringLiteral("Unsaved work of %1 was found: the workbench ended before it was saved%2"))
                      .arg(time, others));

@@ -71,8 +71,28 @@ class WindowRecovery : public QObject {
     }
     QCOMPARE(autosaved().size(), 1);
     bench.window.close();  // and still unsaved
-    QCOMPARE(autosaved(), QStringList{QStringLiteral("closed.chainmail")});
-    QVERIFY(QFile::remove(Autosave::closedPath()));
+    QCOMPARE(autosaved().size(), 1);
+    const QString kept = QDir(Autosave::folder()).filePath(autosaved().first());
+    QVERIFY(Autosave::isClosed(kept));
+    QVERIFY(QFile::remove(kept));
+  }
+
+  void whatSeveralWindowsWereClosedOnIsAllThere() {
+    for (const ElementId pinned : {3U, 4U}) {
+      Workbench bench;
+      bench.window.sessions().protect();
+      bench.document().setPinned({pinned}, true);
+      bench.settle();
+      QVERIFY(bench.window.close());
+    }
+    Workbench again;
+    again.window.sessions().protect();
+    for (const ElementId pinned : {4U, 3U}) {  // the newest first
+      again.find<QPushButton>("restoreWork")->click();
+      again.settle();
+      QCOMPARE(again.document().pins(), std::vector<ElementId>{pinned});
+    }
+    QVERIFY(!again.window.sessions().recoveryBar().isVisible());
   }
 
   void whatIsDiscardedIsGone() {
