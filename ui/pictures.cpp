@@ -97,6 +97,9 @@ QImage pictureOf(QWidget& widget, double scale, bool transparent) {
   image.fill(Qt::transparent);
   widget.render(&image, {}, {},
                 transparent ? QWidget::DrawChildren : QWidget::DrawChildren | QWidget::DrawWindowBackground);
+  if (scale == 1 && !transparent) {
+    return image;  // the views too are as on the screen
+  }
   QPainter painter(&image);
   painter.setCompositionMode(QPainter::CompositionMode_Source);
   auto views = widget.findChildren<View*>();
