@@ -153,10 +153,10 @@ void PanelArea::fit() {
 
 /// Under the hand the object stays where it is.
 void PanelArea::fitAgain() {
-  const auto all = byAspect();
   if (document_.highlight().grabbed) {
     return;
   }
+  const auto all = byAspect();
   for (Panel* panel : all) {
     if (!panel->isHidden() && (!links_.cameras() || panel == all.back())) {
       panel->view().fitAgain();

@@ -121,25 +121,34 @@ const PictureActions::Subject& PictureActions::subject() const {
   return *std::ranges::find_if(subjects_, [](const Subject& one) { return one.action->isChecked(); });
 }
 
+/// Of a panel that is out of sight there is nothing to take a picture of.
+Panel& PictureActions::shownPanel() const {
+  const int number = subject().panel;
+  Panel& panel = *area_.panels()[std::size_t(number)];
+  if (!panel.isVisible()) {
+    throw Error("picture", "panel " + panelName(number).toStdString() + " is not in sight",
+                "show it, or choose another under File > Picture");
+  }
+  return panel;
+}
+
 QImage PictureActions::picture() const {
-  const auto& [action, what, panel] = subject();
-  Panel& shown = *area_.panels()[std::size_t(panel)];
+  const What what = subject().what;
   QWidget& drawn = what == What::window   ? window_
                    : what == What::panels ? static_cast<QWidget&>(area_)
-                   : what == What::panel  ? static_cast<QWidget&>(shown)
-                                          : shown.view();
+                   : what == What::panel  ? static_cast<QWidget&>(shownPanel())
+                                          : shownPanel().view();
   return pictureOf(drawn, scales_->checkedAction()->data().toDouble(), transparent_->isChecked());
 }
 
 /// Of the window it holds the panels: docks are no drawing.
 Drawing PictureActions::drawing() const {
-  const auto& [action, what, panel] = subject();
   const bool transparent = transparent_->isChecked();
-  switch (what) {
+  switch (subject().what) {
     case What::panel:
-      return drawingOf(*area_.panels()[std::size_t(panel)], transparent);
+      return drawingOf(shownPanel(), transparent);
     case What::object:
-      return drawingOf(area_.panels()[std::size_t(panel)]->view(), transparent);
+      return drawingOf(shownPanel().view(), transparent);
     default:
       return drawingOf(area_, transparent);
   }

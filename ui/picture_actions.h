@@ -46,6 +46,7 @@ class PictureActions : public QObject {
   void followPanels();
   void save();
   const Subject& subject() const;
+  Panel& shownPanel() const;
   QImage picture() const;
   Drawing drawing() const;
 

@@ -112,6 +112,21 @@ class WindowPictures : public QObject {
     QVERIFY(!bench.find<QAction>("pictureOfObjectC")->isVisible());
   }
 
+  void ofAPanelOutOfSightThereIsNone() {
+    Workbench bench;
+    bench.trigger("pictureOfPanelB");
+    bench.trigger("showAloneA");
+    bench.settle();
+    for (const char* name : {"hidden.png", "hidden.svg"}) {
+      const QString path = folder_.filePath(QLatin1String(name));
+      pictures(bench).savePath(path);
+      bench.settle();
+      QVERIFY(!QFile::exists(path));
+      QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("panel B is not in sight")));
+      bench.window.messages().clear();
+    }
+  }
+
   void choicesAreRemembered() {
     {
       Workbench bench;
