@@ -4,6 +4,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "mesh/cells.h"
 #include "simulate/frame.h"
 
 namespace chainmail {
@@ -87,11 +88,6 @@ Groups cellsOf(const MeshLevel& level) {
   return cells;
 }
 
-bool isCut(const Mesh& mesh, const Cuts& cuts, ElementId a, ElementId b) {
-  const auto link = find_link(mesh, a, b);
-  return link && cuts.is_cut(*link);
-}
-
 /// Which cells each cell reaches, and its links in the order of those.
 void findReached(MeshLevel& level, const std::vector<std::uint32_t>& cellOf) {
   std::vector<std::uint32_t> slotOf(level.cellCount()), seenBy(level.cellCount(), MeshLevel::none), ends, sorted;
@@ -160,9 +156,7 @@ bool MeshLevel::isWhole(std::uint32_t face, const Cuts& cuts) const {
                        [&](std::uint32_t side) { return side == none || isUncut(side, cuts); });
   }
   const auto& [a, b, c] = faces[face];
-  // Most corners touch no cut: that is seen without looking for links.
-  return !(cuts.touches(a) || cuts.touches(b) || cuts.touches(c)) ||
-         !(isCut(*mesh, cuts, a, b) || isCut(*mesh, cuts, b, c) || isCut(*mesh, cuts, c, a));
+  return !is_cut_between(*mesh, cuts, a, b) && !is_cut_between(*mesh, cuts, b, c) && !is_cut_between(*mesh, cuts, c, a);
 }
 
 void makeCells(MeshLevel& level) {

@@ -26,7 +26,7 @@ Packed packed_as(const std::string& top, const std::string& key) {
     return Packed::no;
   }
   for (const char* ids :
-       {"links", "counts", "neighbours", "triangles", "polygons", "tetrahedra", "cuts", "pins", "runs"}) {
+       {"links", "counts", "neighbours", "triangles", "polygons", "tetrahedra", "hexahedra", "cuts", "pins", "runs"}) {
     if (key == ids) {
       return Packed::ids;
     }

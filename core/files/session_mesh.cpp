@@ -178,13 +178,16 @@ void MeshReader::check_polygons() const {
 void MeshReader::take_faces(const Progress& progress) {
   parts_.triangles = groups<3>("triangles", progress);
   parts_.tetrahedra = groups<4>("tetrahedra", progress);
+  if (object_.contains("hexahedra")) {  // not so where an older program wrote it
+    parts_.hexahedra = groups<8>("hexahedra", progress);
+  }
   parts_.polygons = fields_.ids(object_, "polygons");
   check_polygons();
 }
 
 MeshPointer MeshReader::read(const Progress& progress) {
   fields_.check_keys(object_, {"elements", "space", "lattice", "rest", "links", "counts", "neighbours", "triangles",
-                               "polygons", "tetrahedra"});
+                               "polygons", "tetrahedra", "hexahedra"});
   parts_.space_dimension = static_cast<int>(fields_.count(object_, "space", 3));
   take_rest(progress.part(0, 0.1));
   take_lattice();

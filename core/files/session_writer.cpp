@@ -157,6 +157,9 @@ void SessionWriter::write_mesh(const Progress& progress) {
   write_groups<3>("triangles", std::span(mesh_.triangles).first(mesh_.own_triangles), progress.part(0.8, 0.9));
   write_ids("polygons", mesh_.polygons);
   write_groups<4>("tetrahedra", mesh_.tetrahedra, progress.part(0.9, 1));
+  if (!mesh_.hexahedra.empty()) {
+    write_groups<8>("hexahedra", mesh_.hexahedra, progress);
+  }
   out_ << "}";
 }
 

@@ -131,7 +131,7 @@ void split_polygons(Mesh& mesh) {
 }
 
 int object_dimension(const Mesh& mesh) {
-  if (!mesh.tetrahedra.empty()) {
+  if (!mesh.tetrahedra.empty() || !mesh.hexahedra.empty()) {
     return 3;
   }
   if (!mesh.triangles.empty()) {
@@ -242,6 +242,8 @@ MeshPointer build_mesh(MeshParts parts, const Progress& progress) {
   mesh->triangles = std::move(parts.triangles);
   mesh->polygons = std::move(parts.polygons);
   mesh->tetrahedra = std::move(parts.tetrahedra);
+  mesh->hexahedra = std::move(parts.hexahedra);
+  mesh->texture = std::move(parts.texture);
   mesh->lattice = parts.lattice;
   split_polygons(*mesh);
   mesh->object_dimension = object_dimension(*mesh);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/progress.h"
+#include "mesh/texture.h"
 
 namespace chainmail {
 
@@ -18,9 +19,6 @@ using ElementId = std::uint32_t;
 using LinkId = std::uint32_t;
 /// A place in the neighbour table: a link as seen from one of its two elements.
 using EntryId = std::uint32_t;
-/// A position or displacement in mesh units, on the axes x, y and z.
-using Point = Eigen::Vector3d;
-
 /// More elements than this are refused before memory is taken.
 inline constexpr std::uint64_t element_limit = 20'000'000;
 
@@ -50,12 +48,16 @@ struct MeshParts {
   /// Faces of more than three corners: count, corner…, count, corner…
   std::vector<ElementId> polygons;
   std::vector<std::array<ElementId, 4>> tetrahedra;
+  /// The corners of one side in a row about it, then those opposite of them, as in VTK and Gmsh.
+  std::vector<std::array<ElementId, 8>> hexahedra;
   std::optional<Lattice> lattice;
+  /// What its faces or sections show, if anything.
+  std::shared_ptr<const Texture> texture;
   /// Space dimension asked for; by default the axes on which the rest positions are not constant.
   std::optional<int> space_dimension;
 };
 
-/// What is there: rest positions, neighbour table, triangles and tetrahedra. Immutable and shared by
+/// What is there: rest positions, neighbour table, faces and cells. Immutable and shared by
 /// everything that deforms it; it knows neither softness nor algorithms.
 struct Mesh {
   /// 1 chain, 2 surface, 3 volume.
@@ -87,7 +89,9 @@ struct Mesh {
   std::size_t own_triangles = 0;
   std::vector<ElementId> polygons;
   std::vector<std::array<ElementId, 4>> tetrahedra;
+  std::vector<std::array<ElementId, 8>> hexahedra;
   std::optional<Lattice> lattice;
+  std::shared_ptr<const Texture> texture;
   /// Whether it is rectangular: elements in a lattice, and links along its axes alone, one step each.
   bool is_grid = false;
   /// Mean rest length over the links (mesh units); 0 without links.
