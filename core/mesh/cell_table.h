@@ -1,0 +1,88 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "mesh/cells.h"
+
+namespace chainmail {
+
+/// A cell by number: the tetrahedra, then the hexahedra.
+using CellId = std::uint32_t;
+/// A side by number, cell by cell: four of each tetrahedron, then six of each hexahedron.
+using SideId = std::uint32_t;
+
+/// A side's corners: three, or four in a row about it.
+struct Side {
+  std::array<ElementId, 4> corner{};
+  int count = 0;
+
+  std::span<const ElementId> corners() const { return std::span(corner).first(std::size_t(count)); }
+};
+
+/// How the cells of a mesh lie beside each other. Immutable, made once a mesh: 16 bytes a tetrahedron and as much again
+/// for the cells of each element; nothing for a mesh without cells.
+class CellTable {
+ public:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  /// Throws Cancelled.
+  explicit CellTable(MeshPointer mesh, const Progress& progress = {});
+
+  const MeshPointer& mesh() const { return mesh_; }
+  CellId cell_count() const { return static_cast<CellId>(mesh_->tetrahedra.size() + mesh_->hexahedra.size()); }
+  SideId side_count() const { return static_cast<SideId>(twins_.size()); }
+  bool empty() const { return twins_.empty(); }
+
+  std::span<const ElementId> corners_of(CellId cell) const;
+  /// As places among its corners.
+  std::span<const CellEdge> edges_of(CellId cell) const;
+  SideId first_side(CellId cell) const { return cell < tetrahedra_ ? 4 * cell : 6 * cell - 2 * tetrahedra_; }
+  SideId end_side(CellId cell) const { return first_side(cell) + (cell < tetrahedra_ ? 4 : 6); }
+  CellId cell_of(SideId side) const { return side < 4 * tetrahedra_ ? side / 4 : (side + 2 * tetrahedra_) / 6; }
+  /// As seen from outside its cell, counterclockwise, at rest.
+  Side side(SideId side) const;
+  bool has_corner(SideId side, ElementId element) const;
+  /// The side of another cell that has the same corners, or none. Where more than two have, they are taken in pairs.
+  SideId twin(SideId side) const { return twins_[side]; }
+  /// The cells that have this corner, ascending.
+  std::span<const CellId> cells_of(ElementId element) const {
+    return {cells_.data() + first_cell_[element], cells_.data() + first_cell_[element + 1]};
+  }
+  /// Calls visit(cell) for each cell that has this link for an edge.
+  template <class Visit>
+  void for_each_cell(LinkId link, Visit visit) const {
+    if (empty()) {
+      return;
+    }
+    const auto [a, b] = mesh_->links[link];
+    for (const CellId cell : cells_of(a)) {
+      if (has_edge(cell, a, b)) {
+        visit(cell);
+      }
+    }
+  }
+  /// The links that are no cell's edge, ascending.
+  const std::vector<LinkId>& loose_links() const { return loose_links_; }
+
+ private:
+  Side side_by_number(SideId side) const;
+  bool is_inverted(CellId cell) const;
+  bool has_edge(CellId cell, ElementId a, ElementId b) const;
+  void list_cells();
+  void pair_sides(const Progress& progress);
+  void find_loose_links();
+
+  MeshPointer mesh_;
+  std::uint32_t tetrahedra_ = 0;
+  std::vector<SideId> twins_;
+  std::vector<std::uint32_t> first_cell_;  // of each element, among cells_, and the end
+  std::vector<CellId> cells_;
+  std::vector<LinkId> loose_links_;
+};
+
+using CellTablePointer = std::shared_ptr<const CellTable>;
+
+}  // namespace chainmail
