@@ -9,6 +9,8 @@
 #include "ask_where.h"
 #include "files/mesh_file.h"
 #include "files/session.h"
+#include "mesh/error.h"
+#include "mesh_filters.h"
 #include "panel_names.h"
 #include "sessions.h"
 
@@ -18,6 +20,8 @@ namespace {
 constexpr int recentFiles = 8;
 
 std::filesystem::path asPath(const QString& path) { return std::filesystem::path(path.toStdU16String()); }
+
+QString endings(FormatUse use) { return QString::fromStdString(mesh_endings(use)); }
 
 QString recentKey() { return QStringLiteral("recentFiles"); }
 
@@ -37,8 +41,8 @@ void FileActions::fill(QMenu& menu) {
   auto* openAction = menu.addAction(QStringLiteral("&Open…"), QKeySequence::Open, this, &FileActions::open);
   openAction->setObjectName(QStringLiteral("openFile"));
   openAction->setIconText(QStringLiteral("Open"));
-  openAction->setStatusTip(
-      QStringLiteral("A session (.chainmail), or a mesh (.dat, .obj), in place of the present object"));
+  openAction->setStatusTip(QStringLiteral("A session (.chainmail), or a mesh (%1), in place of the present object")
+                               .arg(endings(FormatUse::read)));
   recent_ = menu.addMenu(QStringLiteral("Open &recent"));
   menu.addSeparator();
   addSaveActions(menu);
@@ -62,7 +66,7 @@ void FileActions::addSaveActions(QMenu& menu) {
       &FileActions::saveSessionAs, QStringLiteral("The same into another file: ") + all);
   menu.addSeparator();
   add("saveFile", QStringLiteral("Save &mesh at rest…"), Qt::CTRL | Qt::Key_M, &FileActions::save,
-      QStringLiteral("The object at rest alone, without its cut links, as .dat or .obj"));
+      QStringLiteral("The object at rest alone, without its cut links, as %1").arg(endings(FormatUse::write)));
 }
 
 void FileActions::saveSession() {
@@ -87,13 +91,14 @@ void FileActions::addShapeActions(QMenu& menu) {
     auto* action = shapes->addAction(QStringLiteral("Panel &%1…").arg(panelName(panel)));
     connect(action, &QAction::triggered, this, [this, panel] {
       const QString path = askWhere(window_, QStringLiteral("Save deformed mesh"),
-                                    {QStringLiteral("Wavefront OBJ (*.obj)")}, startFolder());
+                                    saveFilters(FormatUse::write_positions), startFolder());
       if (!path.isEmpty()) {
         saveShapePath(panel, path);
       }
     });
     action->setObjectName(QStringLiteral("saveShape%1").arg(panelName(panel)));
-    action->setStatusTip(QStringLiteral("Every element where this panel shows it, in mesh units, as .obj"));
+    action->setStatusTip(QStringLiteral("Every element where this panel shows it, in mesh units, as %1")
+                             .arg(endings(FormatUse::write_positions)));
     const auto adapt = [this, action, panel] { action->setVisible(panel < document_.panels()); };
     connect(&document_, &Document::panelsChanged, action, adapt);
     adapt();
@@ -102,8 +107,7 @@ void FileActions::addShapeActions(QMenu& menu) {
 
 void FileActions::open() {
   const QString path =
-      QFileDialog::getOpenFileName(&window_, QStringLiteral("Open session or mesh"), startFolder(),
-                                   QStringLiteral("Sessions and meshes (*.chainmail *.dat *.obj);;All files (*)"));
+      QFileDialog::getOpenFileName(&window_, QStringLiteral("Open session or mesh"), startFolder(), openFilter());
   if (!path.isEmpty()) {
     openPath(path);
   }
@@ -131,11 +135,8 @@ void FileActions::show(const MeshPointer& mesh, const QString& path, bool first)
 }
 
 void FileActions::save() {
-  QStringList filters{QStringLiteral("Wavefront OBJ (*.obj)")};
-  if (document_.mesh()->lattice) {
-    filters << QStringLiteral("Links of a grid (*.dat)");
-  }
-  const QString path = askWhere(window_, QStringLiteral("Save mesh at rest"), filters, startFolder());
+  const QString path = askWhere(window_, QStringLiteral("Save mesh at rest"),
+                                saveFilters(FormatUse::write, document_.mesh()->lattice.has_value()), startFolder());
   if (!path.isEmpty()) {
     savePath(path);
   }
@@ -144,9 +145,13 @@ void FileActions::save() {
 void FileActions::savePath(const QString& path) { write(path, nullptr); }
 
 void FileActions::saveShapePath(int panel, const QString& path) {
-  if (QFileInfo(path).suffix().compare(QStringLiteral("obj"), Qt::CaseInsensitive) != 0) {
-    emit failed(path + QStringLiteral(": a deformed mesh is saved as OBJ; choose a name that ends in .obj"));
-  } else if (const Frame* frame = document_.frame(panel)) {
+  try {
+    mesh_format(asPath(path), FormatUse::write_positions);
+  } catch (const Error& error) {
+    emit failed(QString::fromUtf8(error.what()));
+    return;
+  }
+  if (const Frame* frame = document_.frame(panel)) {
     write(path, std::make_shared<const Frame>(*frame));
   }
 }
@@ -155,8 +160,9 @@ void FileActions::saveShapePath(int panel, const QString& path) {
 void FileActions::write(const QString& path, const std::shared_ptr<const Frame>& shape) {
   jobs_.start(
       Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
-      [this, path, mesh = document_.mesh(), cuts = document_.cuts(), shape](const Progress& progress) -> Jobs::Finish {
-        save_mesh(asPath(path), *mesh, cuts, shape ? shape->view() : rest_positions(*mesh), progress);
+      [this, path, mesh = document_.mesh(), cuts = document_.cuts(), softness = document_.wholeSoftness(),
+       shape](const Progress& progress) -> Jobs::Finish {
+        save_mesh(asPath(path), {*mesh, cuts, shape ? shape->view() : rest_positions(*mesh), *softness}, progress);
         return [this, path] {
           remember(path);
           emit saved(path);

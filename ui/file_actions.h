@@ -27,9 +27,9 @@ class FileActions : public QObject {
   /// before the start.
   void openPath(const QString& path, bool first = false);
   void save();
-  /// Saves the object, without its cut links: .dat its links, .obj its rest shape.
+  /// Saves the object at rest, without its cut links, in the format that the name ends in.
   void savePath(const QString& path);
-  /// Saves the shape that a panel shows, as .obj.
+  /// Saves the shape that a panel shows, in a format that holds positions.
   void saveShapePath(int panel, const QString& path);
 
  signals:

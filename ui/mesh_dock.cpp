@@ -90,9 +90,9 @@ void MeshDock::arrange() {
   auto* open = new QPushButton(QStringLiteral("Open…"));
   auto* save = new QPushButton(QStringLiteral("Save…"));
   open->setIcon(icon("open"));
-  open->setToolTip(QStringLiteral("A mesh from a .dat or .obj file, in place of the present object"));
+  open->setToolTip(QStringLiteral("A mesh from a file, in place of the present object"));
   save->setIcon(icon("save"));
-  save->setToolTip(QStringLiteral("The object at rest, without its cut links, as .dat or .obj"));
+  save->setToolTip(QStringLiteral("The object at rest, without its cut links, into a file"));
   build_->setIcon(icon("mesh"));
   connect(open, &QPushButton::clicked, this, &MeshDock::openRequested);
   connect(save, &QPushButton::clicked, this, &MeshDock::saveRequested);

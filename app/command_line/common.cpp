@@ -112,7 +112,7 @@ std::optional<int> space_of(const CLI::Option* option) {
 
 MeshOptions add_mesh_options(CLI::App& app) {
   MeshOptions options;
-  options.path = add_value(app, "MESH", "", "the mesh, a .dat or .obj file")->required();
+  options.path = add_value(app, "MESH", "", "the mesh, a file " + mesh_endings(FormatUse::read))->required();
   options.size = add_value(app, "--size", "WxH[xD]", "how many elements a .dat file has along each axis");
   options.spacing = add_value(app, "--spacing", "NUMBER", "their distance, before what the file states");
   return options;
@@ -145,10 +145,6 @@ MeshPointer in_options(const std::map<std::string, std::string>& options, const 
     }
     throw;
   }
-}
-
-void refuse_unbuilt(const std::string& where, const std::string& remedy) {
-  throw Error(where, "it is not built yet", remedy);
 }
 
 }  // namespace chainmail::command_line

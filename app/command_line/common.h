@@ -59,7 +59,4 @@ MeshPointer read_mesh(const MeshOptions& options);
 /// Calls a function of the core and has its errors name the option that a value came from.
 MeshPointer in_options(const std::map<std::string, std::string>& options, const std::function<MeshPointer()>& make);
 
-/// Throws the error for what is planned and not there.
-[[noreturn]] void refuse_unbuilt(const std::string& where, const std::string& remedy);
-
 }  // namespace chainmail::command_line

@@ -118,7 +118,7 @@ std::vector<report::Case> read_cases(const Options& options) {
                               value_of(options.shear, parameters::shear)};
   const auto recorded = value_of(options.moves);
   if (options.meshes->count() == 0 && recorded) {
-    throw Error("--moves", "the mesh that they were recorded on is missing", "name it, a .dat or .obj file");
+    throw Error("--moves", "the mesh that they were recorded on is missing", "name its file");
   }
   if (options.meshes->count() == 0) {
     return report::default_cases(softness);
@@ -199,7 +199,8 @@ Command add_compare(CLI::App& root, const std::string& command_line) {
   CLI::App* app = root.add_subcommand("compare", "Report speed against error");
   Options options{};
   options.app = app;
-  options.meshes = app->add_option("MESH", "meshes, .dat or .obj files")
+  const std::string help = "meshes, files " + mesh_endings(FormatUse::read);
+  options.meshes = app->add_option("MESH", help)
                        ->type_name("")
                        ->expected(-1)
                        ->allow_extra_args(true)

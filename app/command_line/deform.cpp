@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <ostream>
 
@@ -100,16 +99,13 @@ std::vector<Act> read_acts(const Options& options) {
   return acts;
 }
 
-bool positions_as_obj(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (ending == ".vtu") {
-    refuse_unbuilt("--positions " + path, "use .csv or .obj");
+/// Positions on standard output are a table.
+MeshFormat positions_format(const std::string& path) {
+  try {
+    return path == "-" ? MeshFormat::csv : mesh_format(path, FormatUse::write_positions);
+  } catch (const Error& error) {
+    throw error.at("--positions " + printable(path));
   }
-  if (path != "-" && ending != ".csv" && ending != ".obj") {
-    throw Error("--positions " + path, "its ending is not known", "use .csv or .obj");
-  }
-  return ending == ".obj";
 }
 
 Targets read_targets(const Options& options) {
@@ -121,7 +117,7 @@ Targets read_targets(const Options& options) {
     }
   }
   if (targets.positions) {
-    positions_as_obj(*targets.positions);
+    positions_format(*targets.positions);
   }
   return targets;
 }
@@ -141,12 +137,9 @@ DeformSummary summarize(Simulation& simulation, const Run& run) {
 }
 
 void write_positions(std::ostream& out, const std::string& path, const Simulation& simulation) {
-  const auto positions = simulation.solver().positions();
-  if (positions_as_obj(path)) {
-    write_mesh(out, MeshFormat::obj, simulation.mesh(), simulation.solver().cuts(), positions);
-  } else {
-    write_positions_csv(out, simulation.mesh(), positions);
-  }
+  const Solver& solver = simulation.solver();
+  write_mesh(out, positions_format(path),
+             {simulation.mesh(), solver.cuts(), solver.positions(), simulation.softness()});
 }
 
 void write_text(std::ostream& out, const DeformSummary& summary) {
@@ -243,7 +236,8 @@ void add_model(CLI::App& app, Options& options) {
 }
 
 void add_outputs(CLI::App& app, Options& options) {
-  options.positions = add_value(app, "--positions", "FILE", "where the elements end: .csv (id,x,y,z) or .obj");
+  options.positions =
+      add_value(app, "--positions", "FILE", "where the elements end: " + mesh_endings(FormatUse::write_positions));
   options.trace =
       add_value(app, "--trace", "FILE", "every candidate processed, as CSV pass,order,element,sponsor,moved");
   options.json = add_value(app, "--json", "FILE", "passes, violation, energy and displacement as JSON");

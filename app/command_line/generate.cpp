@@ -53,10 +53,10 @@ MeshRecipe read_recipe(const Options& options) {
 void generate_to_file(const Options& options) {
   const MeshRecipe recipe = read_recipe(options);
   const std::filesystem::path path = *value_of(options.output);
-  const MeshFormat format = path == "-" ? MeshFormat::dat : mesh_format(path);
+  const MeshFormat format = path == "-" ? MeshFormat::dat : mesh_format(path, FormatUse::write);
   const MeshPointer mesh = in_options({{"size", "SIZE"}, {"spacing", "--spacing"}, {"space dimension", "--space"}},
                                       [&] { return generate(recipe); });
-  write_file(path, [&](std::ostream& out) { write_mesh(out, format, *mesh, Cuts(mesh), rest_positions(*mesh)); });
+  write_file(path, [&](std::ostream& out) { write_mesh(out, format, {*mesh, {}, rest_positions(*mesh), {}}); });
 }
 
 }  // namespace
@@ -68,7 +68,9 @@ Command add_generate(CLI::App& root) {
   options.size = add_value(*app, "SIZE", "", "elements along each axis")->required();
   options.spacing = add_parameter(*app, parameters::spacing);
   options.space = add_value(*app, "--space", "1|2|3", "space dimension [the axes on which the mesh extends]");
-  options.output = add_value(*app, "-o", "FILE", "where to: .dat or .obj, - for .dat on standard output")->required();
+  options.output =
+      add_value(*app, "-o", "FILE", "where to: " + mesh_endings(FormatUse::write) + "; - for .dat on standard output")
+          ->required();
   app->footer("Example:\n  chainmail generate cloth 24x16 --spacing 0.5 -o cloth.obj");
   return {app, [options] { generate_to_file(options); }};
 }

@@ -1,31 +1,16 @@
 #include "files/mesh_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
 #include "files/dat.h"
 #include "files/obj.h"
 #include "files/outputs.h"
+#include "files/tables.h"
 #include "files/text.h"
 #include "mesh/error.h"
 
 namespace chainmail {
-
-MeshFormat mesh_format(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".dat") {
-    return MeshFormat::dat;
-  }
-  if (ending == ".obj") {
-    return MeshFormat::obj;
-  }
-  throw Error(shown(path),
-              ending.empty() ? "its name has no ending" : "the ending " + printable(ending) + " is not known",
-              "meshes are .dat or .obj");
-}
 
 MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
   require_file(path);
@@ -60,22 +45,23 @@ PositionView rest_positions(const Mesh& mesh) {
   return {mesh.rest.data(), sizeof(double) * mesh.space_dimension, Precision::double_precision};
 }
 
-void write_mesh(std::ostream& out, MeshFormat format, const Mesh& mesh, const Cuts& cuts, const PositionView& positions,
-                const Progress& progress) {
-  if (format == MeshFormat::dat) {
-    write_dat(out, mesh, cuts, progress);
-  } else {
-    write_obj(out, mesh, cuts, positions, progress);
+void write_mesh(std::ostream& out, MeshFormat format, const MeshState& state, const Progress& progress) {
+  switch (format) {
+    case MeshFormat::dat:
+      return write_dat(out, state.mesh, state.cuts, progress);
+    case MeshFormat::obj:
+      return write_obj(out, state.mesh, state.cuts, state.positions, progress);
+    case MeshFormat::csv:
+      return write_positions_csv(out, state.mesh, state.positions, progress);
   }
 }
 
-void save_mesh(const std::filesystem::path& path, const Mesh& mesh, const Cuts& cuts, const PositionView& positions,
-               const Progress& progress) {
-  const MeshFormat format = mesh_format(path);
-  if (format == MeshFormat::dat && !mesh.lattice) {
+void save_mesh(const std::filesystem::path& path, const MeshState& state, const Progress& progress) {
+  const MeshFormat format = mesh_format(path, FormatUse::write);
+  if (!info(format).holds_positions && !state.mesh.lattice) {
     throw Error(shown(path), "a .dat file holds lattices alone, and this mesh stands in none", "save it as .obj");
   }
-  write_file(path, [&](std::ostream& out) { write_mesh(out, format, mesh, cuts, positions, progress); });
+  write_file(path, [&](std::ostream& out) { write_mesh(out, format, state, progress); });
 }
 
 }  // namespace chainmail

@@ -7,8 +7,10 @@
 #include <ostream>
 #include <string_view>
 
+#include "files/mesh_formats.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
+#include "solve/softness.h"
 #include "solve/solver.h"
 
 namespace chainmail {
@@ -22,11 +24,6 @@ struct ReadOptions {
   std::optional<int> space_dimension;
 };
 
-enum class MeshFormat { dat, obj };
-
-/// The format that a file's ending names, in any case of letters. Throws Error for all others.
-MeshFormat mesh_format(const std::filesystem::path& path);
-
 /// Reads a mesh, in the format that its ending names. Throws Error, with the line where there is one, and Cancelled.
 MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& options = {},
                       const Progress& progress = {});
@@ -38,13 +35,19 @@ std::optional<std::array<std::uint32_t, 3>> parse_size(std::string_view text, in
 /// The rest positions as they are read in place; valid as long as the mesh.
 PositionView rest_positions(const Mesh& mesh);
 
+/// An object as it is to be written. All must outlive the writing.
+struct MeshState {
+  const Mesh& mesh;
+  const Cuts& cuts;
+  PositionView positions;
+  const Softness& softness;  // what formats that tell the violation of links measure it by
+};
+
 /// Writes the object as it is cut and stands; .dat holds no positions and takes those of its lattice.
 /// Throws Error where the format cannot hold the mesh, and Cancelled.
-void write_mesh(std::ostream& out, MeshFormat format, const Mesh& mesh, const Cuts& cuts, const PositionView& positions,
-                const Progress& progress = {});
+void write_mesh(std::ostream& out, MeshFormat format, const MeshState& state, const Progress& progress = {});
 
 /// The same into a file, in the format that its ending names, whole or not at all.
-void save_mesh(const std::filesystem::path& path, const Mesh& mesh, const Cuts& cuts, const PositionView& positions,
-               const Progress& progress = {});
+void save_mesh(const std::filesystem::path& path, const MeshState& state, const Progress& progress = {});
 
 }  // namespace chainmail

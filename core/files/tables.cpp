@@ -6,18 +6,18 @@
 
 namespace chainmail {
 
-void write_positions_csv(std::ostream& out, const Mesh& mesh, const PositionView& positions) {
-  out << "id,x,y,z\n";
-  std::string row;
+void write_positions_csv(std::ostream& out, const Mesh& mesh, const PositionView& positions, const Progress& progress) {
+  TextBlocks text(out);
+  text << "id,x,y,z\n";
   for (ElementId element = 0; element < mesh.element_count(); ++element) {
-    row.clear();
-    append_number(row, std::uint64_t{element});
+    progress.report(element, mesh.element_count());
+    text << element;
     for (const double coordinate : point_of(mesh, positions, element)) {
-      row += ',';
-      append_number(row, coordinate);
+      text << ',' << coordinate;
     }
-    out << (row += '\n');
+    text << '\n';
   }
+  text.flush();
 }
 
 void write_trace_csv(std::ostream& out, const std::vector<Trace>& passes) {

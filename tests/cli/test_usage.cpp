@@ -16,8 +16,6 @@ class UsageTest : public QObject {
   void version();
   void wrong_arguments_data();
   void wrong_arguments();
-  void later_work_is_refused_data();
-  void later_work_is_refused();
   void odd_names_stay_one_line();
 
  private:
@@ -101,21 +99,6 @@ void UsageTest::wrong_arguments() {
   QCOMPARE(outcome.code, 2);
   QVERIFY2(is_one_sentence(outcome), outcome.error);
   QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where), outcome.error);
-  QCOMPARE(program_->files(), QStringList{"grid.dat"});
-}
-
-void UsageTest::later_work_is_refused_data() {
-  QTest::addColumn<QString>("line");
-  for (const char* line : {"deform grid.dat --algorithm spiral --positions a.vtu"}) {
-    QTest::newRow(line) << line;
-  }
-}
-
-void UsageTest::later_work_is_refused() {
-  QFETCH(QString, line);
-  const auto outcome = program_->run(line.toUtf8().constData());
-  QCOMPARE(outcome.code, 2);
-  QVERIFY2(is_one_sentence(outcome) && outcome.error.contains("it is not built yet; "), outcome.error);
   QCOMPARE(program_->files(), QStringList{"grid.dat"});
 }
 

@@ -142,7 +142,7 @@ void DatTest::a_mesh_without_lattice_is_refused() {
   QVERIFY(error_of([&] { dat_text(*mesh); }).contains("it holds lattices alone"));
   const QTemporaryDir folder;
   const std::string path = folder.filePath("a.dat").toStdString();
-  const auto error = error_of([&] { save_mesh(path, *mesh, {}, rest_positions(*mesh)); });
+  const auto error = error_of([&] { save_mesh(path, {*mesh, {}, rest_positions(*mesh), {}}); });
   QVERIFY2(error.startsWith(QString::fromStdString(path) + ": a .dat file holds lattices alone"), qPrintable(error));
   QVERIFY(!std::filesystem::exists(path));
 }

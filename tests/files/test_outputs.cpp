@@ -26,6 +26,7 @@ class OutputsTest : public QObject {
   void a_link_stays_a_link_and_permissions_stay();
   void a_long_name_is_written();
   void a_mesh_is_saved_by_its_ending();
+  void endings_are_known_by_their_use();
 
  private:
   fs::path path(const std::string& name) const { return fs::path(folder_->path().toStdString()) / name; }
@@ -127,10 +128,30 @@ void OutputsTest::a_long_name_is_written() {
 void OutputsTest::a_mesh_is_saved_by_its_ending() {
   const auto mesh = made(MeshKind::grid, {3, 2, 1});
   for (const char* name : {"a.dat", "a.OBJ"}) {
-    save_mesh(path(name), *mesh, {}, rest_positions(*mesh));
+    save_mesh(path(name), {*mesh, {}, rest_positions(*mesh), {}});
     QCOMPARE(read_mesh(path(name))->links, mesh->links);
   }
-  QVERIFY(error_of([&] { save_mesh(path("a.vtk"), *mesh, {}, rest_positions(*mesh)); }).contains("the ending .vtk"));
+  save_mesh(path("a.csv"), {*mesh, {}, rest_positions(*mesh), {}});
+  QVERIFY(file_text(path("a.csv")).starts_with("id,x,y,z\n0,0,0,0\n"));
+  const auto error = error_of([&] { save_mesh(path("a.doc"), {*mesh, {}, rest_positions(*mesh), {}}); });
+  QVERIFY2(error.contains("a.doc: the ending .doc is not known; meshes are written as .obj"), qPrintable(error));
+}
+
+void OutputsTest::endings_are_known_by_their_use() {
+  for (const MeshFormatInfo& format : mesh_formats()) {
+    for (const FormatUse use : {FormatUse::read, FormatUse::write, FormatUse::write_positions}) {
+      for (const QString& ending : QString::fromUtf8(format.endings.data(), format.endings.size()).split(' ')) {
+        const std::string name = "a" + ending.toUpper().toStdString();
+        const auto error = error_of([&] { QVERIFY(mesh_format(name, use) == format.format); });
+        QCOMPARE(error.isEmpty(), format.allows(use));
+        QCOMPARE(QString::fromStdString(mesh_endings(use)).contains(ending), format.allows(use));
+      }
+    }
+  }
+  const auto error = [](const char* name, FormatUse use) { return error_of([&] { mesh_format(name, use); }); };
+  QVERIFY(error("a.csv", FormatUse::read).startsWith("a.csv: a .csv file is written, not opened; meshes are .obj"));
+  QVERIFY(
+      error("a.dat", FormatUse::write_positions).startsWith("a.dat: a .dat file holds no positions; positions are"));
 }
 
 QTEST_APPLESS_MAIN(OutputsTest)

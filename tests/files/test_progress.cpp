@@ -58,7 +58,7 @@ void ProgressTest::what_is_read_comes_to_its_end_data() {
 void ProgressTest::what_is_read_comes_to_its_end() {
   QFETCH(QString, name);
   JobState saving, reading;
-  save_mesh(path(name), *mesh_, {}, rest_positions(*mesh_), Progress(saving));
+  save_mesh(path(name), {*mesh_, {}, rest_positions(*mesh_), {}}, Progress(saving));
   QVERIFY(saving.share > 0.5 && saving.share <= 1);
   const auto again = read_mesh(path(name), {}, Progress(reading));
   QVERIFY(reading.share > 0.9 && reading.share <= 1);
@@ -73,7 +73,7 @@ void ProgressTest::cancelled_building_builds_nothing() {
 
 void ProgressTest::cancelled_reading_reads_nothing() {
   QFETCH(QString, name);
-  save_mesh(path(name), *mesh_, {}, rest_positions(*mesh_));
+  save_mesh(path(name), {*mesh_, {}, rest_positions(*mesh_), {}});
   JobState job;
   job.cancelled = true;
   QVERIFY_THROWS_EXCEPTION(Cancelled, read_mesh(path(name), {}, Progress(job)));
@@ -85,7 +85,7 @@ void ProgressTest::cancelled_saving_leaves_the_file_that_was_there() {
   const fs::path there = fs::path(folder.filePath(name).toStdString());
   JobState job;
   job.cancelled = true;
-  const auto save = [&] { save_mesh(there, *mesh_, {}, rest_positions(*mesh_), Progress(job)); };
+  const auto save = [&] { save_mesh(there, {*mesh_, {}, rest_positions(*mesh_), {}}, Progress(job)); };
   QVERIFY_THROWS_EXCEPTION(Cancelled, save());
   QCOMPARE(files_in(folder.path().toStdString()), 0);
   put_file(there, "before");
