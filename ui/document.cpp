@@ -14,7 +14,8 @@ constexpr int undoSteps = 30;
 
 }  // namespace
 
-Document::Document(MeshPointer mesh, const QString& name) : mesh_(std::move(mesh)), name_(name), cuts_(mesh_) {
+Document::Document(MeshPointer mesh, const QString& name)
+    : mesh_(std::move(mesh)), name_(name), cuts_(mesh_), parts_(mesh_) {
   log_ = std::make_unique<CommandLog>(std::vector<SolverThread*>());
   for (int panel = 0; panel < fewestPanels; ++panel) {
     takeOn(std::make_unique<SolverThread>(mesh_, algorithms_[panel], announcer(panel)));
@@ -220,9 +221,7 @@ void Document::letGoOfElements() {
 }
 
 void Document::showCuts(const std::vector<LinkId>& links, bool cut) {
-  for (const LinkId link : links) {
-    cut ? cuts_.cut(link) : cuts_.uncut(link);
-  }
+  cut ? parts_.cut(cuts_, links) : parts_.uncut(cuts_, links);
   emit cutsChanged();
   if (!selection_.empty()) {
     selection_.links = linksAmong(*mesh_, cuts_, selection_.elements);

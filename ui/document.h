@@ -9,7 +9,7 @@
 #include <memory>
 #include <optional>
 
-#include "mesh/cuts.h"
+#include "mesh/parts.h"
 #include "selection.h"
 #include "simulate/command_log.h"
 #include "simulate/solver_thread.h"
@@ -44,6 +44,8 @@ class Document : public QObject {
   const MeshPointer& mesh() const { return mesh_; }
   const QString& name() const { return name_; }
   const Cuts& cuts() const { return cuts_; }
+  /// How many parts it has that no uncut link joins.
+  std::uint32_t parts() const { return parts_.count(); }
   /// The pinned elements, ascending.
   const std::vector<ElementId>& pins() const { return pins_; }
   bool isPinned(ElementId element) const;
@@ -199,6 +201,7 @@ class Document : public QObject {
   MeshPointer mesh_;
   QString name_, sessionFile_;
   Cuts cuts_;
+  Parts parts_;
   std::vector<ElementId> pins_;
   std::shared_ptr<const Softness> softness_ = std::make_shared<Softness>();  // shared with the edits
   commands::SetRelaxation relaxation_;

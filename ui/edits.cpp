@@ -114,6 +114,7 @@ MeshEdit::MeshEdit(Document& document, MeshPointer mesh, const QString& name, co
       mesh_(std::move(mesh)),
       name_(name),
       cuts_(mesh_),
+      parts_(mesh_),
       algorithms_(document.algorithms_.begin(), document.algorithms_.begin() + document.panels()) {}
 
 void MeshEdit::carryOut() { document_.post(commands::ReplaceMesh{mesh_}); }
@@ -123,6 +124,7 @@ void MeshEdit::show(bool done) {
   std::swap(mesh_, document_.mesh_);
   std::swap(name_, document_.name_);
   std::swap(cuts_, document_.cuts_);
+  std::swap(parts_, document_.parts_);
   std::swap(pins_, document_.pins_);
   Softness softness = *document_.softness_;
   std::swap(softness_, softness.links);  // the global one is no part of the object

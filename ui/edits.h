@@ -165,6 +165,7 @@ class MeshEdit : public Edit {
   MeshPointer mesh_;
   QString name_;
   Cuts cuts_;
+  Parts parts_;
   std::vector<ElementId> pins_;
   std::map<LinkId, LinkSoftness> softness_;  // of the links that have their own
   std::vector<Algorithm> algorithms_;        // that ran before

@@ -156,6 +156,9 @@ void MeshDock::describe() {
   if (document_.cuts().count() != 0) {
     what += QStringLiteral(", %1 cut").arg(locale.toString(document_.cuts().count()));
   }
+  if (document_.parts() > 1) {
+    what += QStringLiteral(", %1 parts").arg(locale.toString(document_.parts()));
+  }
   // A file that lists links alone, with no faces and no lattice, may hold anything.
   const bool linksAlone = mesh.object_dimension == 1 && !mesh.lattice;
   const QStringList kinds{linksAlone ? QStringLiteral("links") : QStringLiteral("a chain"), QStringLiteral("a surface"),

@@ -49,6 +49,7 @@ void Panel::listen() {
   connect(view_, &View::resized, &refresh_, qOverload<>(&QTimer::start));
   connect(view_, &View::ghostChanged, &refresh_, qOverload<>(&QTimer::start));
   connect(&document_, &Document::pinsChanged, &refresh_, qOverload<>(&QTimer::start));
+  connect(&document_, &Document::cutsChanged, &refresh_, qOverload<>(&QTimer::start));
   connect(&colouring_, &Colouring::modeChanged, this, &Panel::showStatistics);
   connect(&colouring_, &Colouring::changed, this, [this] {
     if (!refresh_.isActive()) {
@@ -99,6 +100,9 @@ QStringList Panel::states(const Statistics& statistics) const {
   QStringList states;
   if (statistics.last_pass.stopped) {
     states << QStringLiteral("taut: pins hold the hand");
+  }
+  if (document_.parts() > 1) {
+    states << QStringLiteral("%L1 parts").arg(document_.parts());
   }
   if (!document_.pins().empty()) {
     states << QStringLiteral("%L1 pinned").arg(document_.pins().size());

@@ -13,14 +13,13 @@ SessionEdit::SessionEdit(Document& document, const std::shared_ptr<const Session
              QString::fromStdString(session->name),
              file,
              Cuts(session->mesh),
+             Parts(session->mesh),
              session->pins,
              session->softness,
              session->relaxation,
              {document.algorithms_.begin(), document.algorithms_.begin() + document.panels()}},
       session_(session) {
-  for (const LinkId link : session->cuts) {
-    other_.cuts.cut(link);
-  }
+  other_.parts.cut(other_.cuts, session->cuts);
   for (std::size_t panel = 0; panel < other_.algorithms.size(); ++panel) {
     Algorithm& algorithm = other_.algorithms[panel];
     algorithm = panel < session->panels.size()    ? session->panels[panel].algorithm
@@ -81,6 +80,7 @@ void SessionEdit::show(bool /*done*/) {
   std::swap(other_.name, document_.name_);
   std::swap(other_.file, document_.sessionFile_);
   std::swap(other_.cuts, document_.cuts_);
+  std::swap(other_.parts, document_.parts_);
   std::swap(other_.pins, document_.pins_);
   std::swap(other_.softness, document_.softness_);
   std::swap(other_.relaxation, document_.relaxation_);

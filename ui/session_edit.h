@@ -18,6 +18,7 @@ class SessionEdit : public Edit {
     MeshPointer mesh;
     QString name, file;
     Cuts cuts;
+    Parts parts;
     std::vector<ElementId> pins;
     std::shared_ptr<const Softness> softness;
     commands::SetRelaxation relaxation;

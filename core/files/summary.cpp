@@ -9,31 +9,6 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const Point& point) { return {point.x(), point.y(), point.z()}; }
 
-std::uint64_t count_components(const Mesh& mesh) {
-  std::vector<bool> seen(mesh.element_count(), false);
-  std::vector<ElementId> open;
-  std::uint64_t count = 0;
-  for (ElementId first = 0; first < mesh.element_count(); ++first) {
-    if (seen[first]) {
-      continue;
-    }
-    ++count;
-    seen[first] = true;
-    open.push_back(first);
-    while (!open.empty()) {
-      const ElementId element = open.back();
-      open.pop_back();
-      for (const ElementId neighbour : mesh.neighbours_of(element)) {
-        if (!seen[neighbour]) {
-          seen[neighbour] = true;
-          open.push_back(neighbour);
-        }
-      }
-    }
-  }
-  return count;
-}
-
 }  // namespace
 
 MeshSummary summarize(const Mesh& mesh) {
@@ -44,7 +19,7 @@ MeshSummary summarize(const Mesh& mesh) {
   summary.tetrahedra = mesh.tetrahedra.size();
   summary.object_dimension = mesh.object_dimension;
   summary.space_dimension = mesh.space_dimension;
-  summary.components = count_components(mesh);
+  summary.components = mesh.part_count;
   summary.bounds = bounds(mesh);
   summary.mean_link_length = mesh.mean_link_length;
   return summary;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mesh/error.h"
+#include "mesh/parts.h"
 #include "mesh/shapes.h"
 
 namespace chainmail {
@@ -247,7 +248,8 @@ MeshPointer build_mesh(MeshParts parts, const Progress& progress) {
   mesh->lattice = parts.lattice;
   split_polygons(*mesh);
   mesh->object_dimension = object_dimension(*mesh);
-  mesh->mean_link_length = mean_link_length(*mesh, progress.part(0.8, 1));
+  mesh->mean_link_length = mean_link_length(*mesh, progress.part(0.8, 0.9));
+  mesh->part_count = count_parts(*mesh, {}, progress.part(0.9, 1));
   mesh->box = box_of(*mesh);
   mesh->is_grid = is_grid(*mesh);
   return mesh;

@@ -92,6 +92,8 @@ struct Mesh {
   std::vector<std::array<ElementId, 8>> hexahedra;
   std::optional<Lattice> lattice;
   std::shared_ptr<const Texture> texture;
+  /// How many parts there are that no link joins.
+  std::uint32_t part_count = 0;
   /// Whether it is rectangular: elements in a lattice, and links along its axes alone, one step each.
   bool is_grid = false;
   /// Mean rest length over the links (mesh units); 0 without links.

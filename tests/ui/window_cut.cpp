@@ -1,6 +1,7 @@
 // The cut tool in a real window.
 
 #include <QDoubleSpinBox>
+#include <QLabel>
 
 #include "window.h"
 
@@ -39,7 +40,10 @@ class WindowCut : public QObject {
     }
     QVERIFY(bench.document().highlight().links.empty());
 
-    // The halves are apart: dragging one leaves the other where it is.
+    // The halves are apart, as both panels and the Mesh dock say: dragging one leaves the other where it is.
+    for (const char* label : {"state0", "state1", "meshDescription"}) {
+      QTRY_VERIFY(bench.find<QLabel>(label)->text().contains(QStringLiteral("2 parts")));
+    }
     bench.trigger("toolDrag");
     const QPoint from = bench.place(1, 35);
     bench.stroke(1, {from, from + QPoint(100, -120)});
@@ -72,8 +76,11 @@ class WindowCut : public QObject {
     QTest::keyClick(&bench.window, Qt::Key_Z, Qt::ControlModifier);
     bench.settle();
     QCOMPARE(bench.document().cuts().count(), 0U);
+    QCOMPARE(bench.document().parts(), 1U);
+    QTRY_VERIFY(!bench.find<QLabel>("state0")->text().contains(QStringLiteral("parts")));
     bench.trigger("redo");
     QCOMPARE(bench.document().cuts().count(), 7U);
+    QCOMPARE(bench.document().parts(), 2U);
     bench.trigger("undo");
     bench.trigger("toolDrag");
     const QPoint from = bench.place(0, 35);
