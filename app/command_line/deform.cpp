@@ -253,7 +253,7 @@ Command add_deform(CLI::App& root) {
   add_model(*app, options);
   add_acts(*app, options);
   add_outputs(*app, options);
-  app->footer(example);
+  app->footer("Formats of positions:\n" + mesh_formats_help(FormatUse::write_positions) + "\n" + example);
   return {app, [options] { deform(options); }};
 }
 

@@ -71,7 +71,8 @@ Command add_generate(CLI::App& root) {
   options.output =
       add_value(*app, "-o", "FILE", "where to: " + mesh_endings(FormatUse::write) + "; - for .dat on standard output")
           ->required();
-  app->footer("Example:\n  chainmail generate cloth 24x16 --spacing 0.5 -o cloth.obj");
+  app->footer("Formats:\n" + mesh_formats_help(FormatUse::write) +
+              "\nExample:\n  chainmail generate cloth 24x16 --spacing 0.5 -o cloth.obj");
   return {app, [options] { generate_to_file(options); }};
 }
 

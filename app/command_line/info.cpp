@@ -36,7 +36,7 @@ Command add_info(CLI::App& root) {
   CLI::App* app = root.add_subcommand("info", "Say what a mesh holds");
   const MeshOptions mesh = add_mesh_options(*app);
   CLI::Option* json = add_value(*app, "--json", "FILE", "write it as JSON instead");
-  app->footer("Example:\n  chainmail info 3x3.dat --json -");
+  app->footer("Formats:\n" + mesh_formats_help(FormatUse::read) + "\nExample:\n  chainmail info 3x3.dat --json -");
   return {app, [mesh, json] {
             const MeshSummary summary = summarize(*read_mesh(mesh));
             if (const auto path = value_of(json)) {

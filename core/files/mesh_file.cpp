@@ -4,10 +4,13 @@
 #include <string>
 
 #include "files/dat.h"
+#include "files/msh.h"
 #include "files/obj.h"
 #include "files/outputs.h"
+#include "files/ply.h"
 #include "files/tables.h"
 #include "files/text.h"
+#include "files/vtu.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -51,6 +54,12 @@ void write_mesh(std::ostream& out, MeshFormat format, const MeshState& state, co
       return write_dat(out, state.mesh, state.cuts, progress);
     case MeshFormat::obj:
       return write_obj(out, state.mesh, state.cuts, state.positions, progress);
+    case MeshFormat::ply:
+      return write_ply(out, state, progress);
+    case MeshFormat::vtu:
+      return write_vtu(out, state, progress);
+    case MeshFormat::msh:
+      return write_msh(out, state, progress);
     case MeshFormat::csv:
       return write_positions_csv(out, state.mesh, state.positions, progress);
   }

@@ -13,6 +13,12 @@ namespace {
 
 constexpr std::array formats{
     MeshFormatInfo{MeshFormat::obj, "Wavefront OBJ", ".obj", true, true, true, "surfaces and lines"},
+    MeshFormatInfo{MeshFormat::ply, "Stanford PLY", ".ply", false, true, true,
+                   "surfaces; links along no face as edges"},
+    MeshFormatInfo{MeshFormat::vtu, "ParaView", ".vtu", false, true, true,
+                   "all cells, with displacement and violation as fields"},
+    MeshFormatInfo{MeshFormat::msh, "Gmsh", ".msh", false, true, true,
+                   "lines, triangles, quadrangles, tetrahedra and hexahedra"},
     MeshFormatInfo{MeshFormat::dat, "Links of a lattice", ".dat", true, true, false,
                    "the links of a line, a grid or a block, as in Dean's thesis"},
     MeshFormatInfo{MeshFormat::csv, "Table of positions", ".csv", false, true, true, "a row id,x,y,z an element"},
@@ -73,6 +79,17 @@ std::string mesh_endings(FormatUse use, std::string_view last) {
   for (std::size_t i = 0; i < endings.size(); ++i) {
     text += i == 0 ? "" : i + 1 == endings.size() ? " " + std::string(last) + " " : ", ";
     text += endings[i];
+  }
+  return text;
+}
+
+std::string mesh_formats_help(FormatUse use) {
+  std::string text;
+  for (const MeshFormatInfo& format : formats) {
+    if (format.allows(use)) {
+      text +=
+          "  " + std::string(format.endings) + ", " + std::string(format.name) + ": " + std::string(format.help) + "\n";
+    }
   }
   return text;
 }

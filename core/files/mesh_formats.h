@@ -7,7 +7,7 @@
 
 namespace chainmail {
 
-enum class MeshFormat { dat, obj, csv };
+enum class MeshFormat { obj, ply, vtu, msh, dat, csv };
 
 /// What is to be done with a file: an object read from it or written to it, or where its elements stand written.
 enum class FormatUse { read, write, write_positions };
@@ -33,6 +33,9 @@ const MeshFormatInfo& info(MeshFormat format);
 
 /// The endings of the formats of a use in a row: `.dat or .obj`.
 std::string mesh_endings(FormatUse use, std::string_view last = "or");
+
+/// The formats of a use with what they hold, a line each, for help texts.
+std::string mesh_formats_help(FormatUse use);
 
 /// The format that a file's ending names, in any case of letters. Throws Error for endings of no format, and of one
 /// that is not of this use.

@@ -91,6 +91,10 @@ class WindowFiles : public QObject {
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(140, -90)});
     const Point shown = bench.position(1, 31);
+    files(bench).saveShapePath(1, folder_.filePath(QStringLiteral("shape.vtu")));
+    bench.settle();
+    QVERIFY(!bench.window.messages().isVisible());
+    QVERIFY(QFile(folder_.filePath(QStringLiteral("shape.vtu"))).size() > 0);
     const QString path = folder_.filePath(QStringLiteral("shape.obj"));
     files(bench).saveShapePath(1, path);
     bench.settle();

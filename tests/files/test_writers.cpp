@@ -1,0 +1,243 @@
+#include <QByteArray>
+#include <QtTest>
+#include <cstring>
+#include <sstream>
+
+#include "files/outputs.h"
+#include "files/support.h"
+#include "measure/violation.h"
+#include "mesh/cells.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The first two elements 0.3 apart from where they were, a number that takes all its digits.
+std::vector<double> pulled(const Mesh& mesh) {
+  std::vector<double> positions = mesh.rest;
+  for (int k = 0; k < 2 * mesh.space_dimension; ++k) {
+    positions[k] += 0.1 + 0.2;
+  }
+  return positions;
+}
+
+PositionView view(const Mesh& mesh, const std::vector<double>& positions) {
+  return {positions.data(), mesh.space_dimension * sizeof(double), Precision::double_precision};
+}
+
+/// A tetrahedron, a hexahedron, a pentagon and a link that is along none of them.
+MeshPointer one_of_each() {
+  MeshParts parts;
+  for (int z = 0; z < 2; ++z) {
+    for (const auto& [x, y] : {std::array{0, 0}, std::array{1, 0}, std::array{1, 1}, std::array{0, 1}}) {
+      parts.rest.emplace_back(x, y, z);
+    }
+  }
+  parts.rest.emplace_back(0.5, 0.5, 2);
+  parts.rest.emplace_back(0.5, 0.5, 3);
+  parts.hexahedra.push_back({0, 1, 2, 3, 4, 5, 6, 7});
+  parts.tetrahedra.push_back({4, 5, 6, 8});
+  parts.polygons = {5, 0, 3, 7, 8, 4, 4, 0, 1, 2, 3};
+  add_links_along_edges(parts);
+  parts.links.push_back({8, 9});
+  return build_mesh(std::move(parts));
+}
+
+std::string written(MeshFormat format, const MeshState& state) {
+  std::ostringstream out;
+  write_mesh(out, format, state);
+  return out.str();
+}
+
+/// The numbers of a text's lines from the one after `begin` to the one before `end`.
+QList<QList<double>> rows(const std::string& text, const std::string& begin, const std::string& end) {
+  QList<QList<double>> result;
+  std::istringstream lines(text.substr(text.find(begin + "\n") + begin.size() + 1));
+  for (std::string line; std::getline(lines, line) && line != end;) {
+    result.append(QList<double>{});
+    for (const QString& word : QString::fromStdString(line).split(' ')) {
+      result.last().append(word.toDouble());
+    }
+  }
+  return result;
+}
+
+/// An array of a .vtu file, by its name.
+template <class Number>
+QList<Number> array(const std::string& text, const std::string& name) {
+  const auto begin = text.find('\n', text.find("Name=\"" + name + "\"")) + 1;
+  const auto bytes =
+      QByteArray::fromBase64(QByteArray::fromStdString(text.substr(begin, text.find('\n', begin) - begin)),
+                             QByteArray::AbortOnBase64DecodingErrors);
+  std::uint64_t size = 0;
+  std::memcpy(&size, bytes.data(), sizeof size);
+  QList<Number> numbers(qsizetype(size / sizeof(Number)));
+  if (std::uint64_t(bytes.size()) == size + sizeof size) {
+    std::memcpy(numbers.data(), bytes.data() + sizeof size, size);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+/// What is written, as a reader of each format takes it.
+class WritersTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void ply_holds_faces_and_edges();
+  void ply_without_edges_names_none();
+  void vtu_holds_every_piece();
+  void vtu_holds_both_fields();
+  void msh_is_as_documented();
+  void msh_tells_large_faces_by_their_links();
+  void msh_of_elements_alone();
+  void cut_pieces_are_gone();
+  void positions_are_told_to_the_bit();
+  void a_full_disk_is_told_data();
+  void a_full_disk_is_told();
+
+ private:
+  MeshPointer mesh_ = one_of_each();
+  Softness softness_;
+};
+
+void WritersTest::ply_holds_faces_and_edges() {
+  const std::string text = written(MeshFormat::ply, {*mesh_, {}, rest_positions(*mesh_), softness_});
+  QVERIFY(text.starts_with("ply\nformat ascii 1.0\n"));
+  QVERIFY(text.find("element vertex 10\n") != text.npos && text.find("element face 2\n") != text.npos);
+  const auto body = rows(text, "end_header", "");
+  QCOMPARE(body.mid(10, 2), (QList<QList<double>>{{5, 0, 3, 7, 8, 4}, {4, 0, 1, 2, 3}}));
+  // Both faces together have all their links but one twice.
+  QCOMPARE(body.size(), 10 + 2 + qsizetype(mesh_->link_count()) - (5 + 4 - 1));
+  QCOMPARE(body.last(), (QList<double>{8, 9}));
+  QVERIFY(text.find("element edge " + std::to_string(body.size() - 12) + "\n") != text.npos);
+}
+
+void WritersTest::ply_without_edges_names_none() {
+  const auto cloth = made(MeshKind::cloth, {3, 2, 1});
+  const std::string text = written(MeshFormat::ply, {*cloth, {}, rest_positions(*cloth), softness_});
+  QVERIFY(text.find("element edge") == text.npos);
+  QCOMPARE(rows(text, "end_header", "").size(), 6 + 4);
+}
+
+void WritersTest::vtu_holds_every_piece() {
+  const std::string text = written(MeshFormat::vtu, {*mesh_, {}, rest_positions(*mesh_), softness_});
+  QVERIFY(text.find("NumberOfPoints=\"10\" NumberOfCells=\"5\"") != text.npos);
+  // A line, for 8-9; pentagon, quadrangle, tetrahedron, hexahedron.
+  QCOMPARE(array<std::uint8_t>(text, "types"), (QList<std::uint8_t>{3, 7, 9, 10, 12}));
+}
+
+void WritersTest::vtu_holds_both_fields() {
+  const auto positions = pulled(*mesh_);
+  Softness softness{{1, 1, 0}, {}};
+  softness.links[*find_link(*mesh_, 0, 3)] = {0, 100, 100};
+  const PositionView at = view(*mesh_, positions);
+  const std::string text = written(MeshFormat::vtu, {*mesh_, {}, at, softness});
+  const auto displacement = array<double>(text, "displacement");
+  const auto violation = array<double>(text, "violation");
+  QCOMPARE(displacement.size(), 30);
+  QCOMPARE(violation.size(), 10);
+  QCOMPARE(displacement[4], positions[4] - mesh_->rest[4]);
+  QCOMPARE(displacement[6], 0.0);
+  // Element 3 hangs on 0, which moved and may, and on 2 and 7, which did not; 4 on 0, which may not.
+  QCOMPARE(violation[3], 0.0);
+  QCOMPARE(violation[4], link_violation(*mesh_, softness, at, *find_link(*mesh_, 0, 4)));
+  QVERIFY(violation[4] > 0.1);
+}
+
+void WritersTest::msh_is_as_documented() {
+  const auto cloth = made(MeshKind::cloth, {2, 2, 1}, 0.5);
+  QCOMPARE(written(MeshFormat::msh, {*cloth, {}, rest_positions(*cloth), softness_}),
+           std::string("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+                       "$Entities\n0 0 1 0\n1 0 0 0 0.5 0.5 0 0 0\n$EndEntities\n"
+                       "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n0.5 0 0\n0 0.5 0\n0.5 0.5 0\n$EndNodes\n"
+                       "$Elements\n1 2 1 2\n2 1 2 2\n1 1 2 4\n2 1 4 3\n$EndElements\n"));
+}
+
+void WritersTest::msh_tells_large_faces_by_their_links() {
+  const auto elements =
+      rows(written(MeshFormat::msh, {*mesh_, {}, rest_positions(*mesh_), softness_}), "$Elements", "$EndElements");
+  // Lines: 7-8, of the pentagon alone, and 8-9; then the quadrangle and the cells.
+  QCOMPARE(elements, (QList<QList<double>>{{4, 5, 1, 5},
+                                           {1, 1, 1, 2},
+                                           {1, 8, 9},
+                                           {2, 9, 10},
+                                           {2, 1, 3, 1},
+                                           {3, 1, 2, 3, 4},
+                                           {3, 1, 4, 1},
+                                           {4, 5, 6, 7, 9},
+                                           {3, 1, 5, 1},
+                                           {5, 1, 2, 3, 4, 5, 6, 7, 8}}));
+}
+
+void WritersTest::msh_of_elements_alone() {
+  const auto line = made(MeshKind::line, {2, 1, 1});
+  Cuts cuts(line);
+  cuts.cut(0);
+  const std::string text = written(MeshFormat::msh, {*line, cuts, rest_positions(*line), softness_});
+  QVERIFY(text.find("$Entities\n0 1 0 0\n1 0 0 0 1 0 0 0 0\n") != text.npos);
+  QVERIFY(text.ends_with("$Elements\n0 0 0 0\n$EndElements\n"));
+}
+
+/// Whatever used a cut link is gone; its other links are there as lines.
+void WritersTest::cut_pieces_are_gone() {
+  Cuts cuts(mesh_);
+  cuts.cut(*find_link(*mesh_, 4, 5));  // of the tetrahedron and the hexahedron
+  const MeshState state{*mesh_, cuts, rest_positions(*mesh_), softness_};
+  const auto types = array<std::uint8_t>(written(MeshFormat::vtu, state), "types");
+  QVERIFY(!types.contains(10) && !types.contains(12));
+  QVERIFY(types.contains(7) && types.contains(9));
+  // Each remaining link once: five along the pentagon, four along the quadrangle, which share one.
+  QCOMPARE(types.count(3), qsizetype(mesh_->link_count()) - 1 - 8);
+  const auto lines = rows(written(MeshFormat::msh, state), "$Elements", "$EndElements");
+  QCOMPARE(lines[1][3], double(mesh_->link_count() - 1 - 4));
+  cuts.cut(*find_link(*mesh_, 0, 3));  // of both faces
+  QVERIFY(written(MeshFormat::ply, {*mesh_, cuts, rest_positions(*mesh_), softness_}).find("element face 0\n") !=
+          std::string::npos);
+}
+
+void WritersTest::positions_are_told_to_the_bit() {
+  const auto positions = pulled(*mesh_);
+  const MeshState state{*mesh_, {}, view(*mesh_, positions), softness_};
+  const QList<double> expected(positions.begin(), positions.end());
+  QCOMPARE(array<double>(written(MeshFormat::vtu, state), "Points"), expected);
+  QList<double> ply, msh;
+  for (const auto& row : rows(written(MeshFormat::ply, state), "end_header", "").mid(0, 10)) {
+    ply += row;
+  }
+  for (const auto& row : rows(written(MeshFormat::msh, state), "$Nodes", "$EndNodes").mid(2 + 10)) {
+    msh += row;
+  }
+  QCOMPARE(ply, expected);
+  QCOMPARE(msh, expected);
+}
+
+void WritersTest::a_full_disk_is_told_data() {
+  QTest::addColumn<int>("format");
+  for (const MeshFormatInfo& format : mesh_formats()) {
+    if (format.writes) {
+      QTest::newRow(format.endings.data()) << int(format.format);
+    }
+  }
+}
+
+void WritersTest::a_full_disk_is_told() {
+  QFETCH(int, format);
+  if (!fs::exists("/dev/full")) {
+    QSKIP("there is no device that is full");
+  }
+  const auto grid = made(MeshKind::grid, {60, 50, 1});  // more than one block of text
+  const auto error = error_of([&] {
+    write_file("/dev/full", [&](std::ostream& out) {
+      write_mesh(out, MeshFormat(format), {*grid, {}, rest_positions(*grid), softness_});
+    });
+  });
+  QVERIFY2(error.contains("it cannot be written to its end"), qPrintable(error));
+}
+
+QTEST_APPLESS_MAIN(WritersTest)
+#include "test_writers.moc"
