@@ -33,7 +33,7 @@ void describe(QCommandLineParser& parser) {
   parser.addHelpOption();
   parser.addVersionOption();
   parser.addPositionalArgument(QStringLiteral("FILE"),
-                               QStringLiteral("a session (.chainmail) or a mesh (.dat, .obj) to open"),
+                               QStringLiteral("a session (.chainmail), a mesh or a picture (.png, .jpg) to open"),
                                QStringLiteral("[FILE]"));
 }
 

@@ -12,7 +12,9 @@
 #include "mesh/error.h"
 #include "mesh_filters.h"
 #include "panel_names.h"
+#include "picture_file.h"
 #include "sessions.h"
+#include "sheets.h"
 
 namespace chainmail {
 namespace {
@@ -28,7 +30,15 @@ QString recentKey() { return QStringLiteral("recentFiles"); }
 }  // namespace
 
 FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessions& sessions)
-    : QObject(&window), window_(window), document_(document), jobs_(jobs), sessions_(sessions) {
+    : QObject(&window),
+      window_(window),
+      document_(document),
+      jobs_(jobs),
+      sessions_(sessions),
+      sheets_(new Sheets(window, document, jobs)) {
+  connect(sheets_, &Sheets::failed, this, &FileActions::failed);
+  connect(sheets_, &Sheets::opened, this, &FileActions::remember);
+  connect(sheets_, &Sheets::saved, this, &FileActions::saved);
   connect(&sessions_, &Sessions::failed, this, &FileActions::failed);
   connect(&sessions_, &Sessions::opened, this, &FileActions::remember);
   connect(&sessions_, &Sessions::saved, this, [this](const QString& path) {
@@ -41,12 +51,15 @@ void FileActions::fill(QMenu& menu) {
   auto* openAction = menu.addAction(QStringLiteral("&Open…"), QKeySequence::Open, this, &FileActions::open);
   openAction->setObjectName(QStringLiteral("openFile"));
   openAction->setIconText(QStringLiteral("Open"));
-  openAction->setStatusTip(QStringLiteral("A session (.chainmail), or a mesh (%1), in place of the present object")
-                               .arg(endings(FormatUse::read)));
+  openAction->setStatusTip(
+      QStringLiteral("A session (.chainmail), a mesh (%1) or a picture (.png .jpg), in place of the "
+                     "present object")
+          .arg(endings(FormatUse::read)));
   recent_ = menu.addMenu(QStringLiteral("Open &recent"));
   menu.addSeparator();
   addSaveActions(menu);
   addShapeActions(menu);
+  sheets_->fill(menu);
   fillRecent();
 }
 
@@ -106,8 +119,8 @@ void FileActions::addShapeActions(QMenu& menu) {
 }
 
 void FileActions::open() {
-  const QString path =
-      QFileDialog::getOpenFileName(&window_, QStringLiteral("Open session or mesh"), startFolder(), openFilter());
+  const QString path = QFileDialog::getOpenFileName(&window_, QStringLiteral("Open session, mesh or picture"),
+                                                    startFolder(), openFilter());
   if (!path.isEmpty()) {
     openPath(path);
   }
@@ -116,6 +129,10 @@ void FileActions::open() {
 void FileActions::openPath(const QString& path, bool first) {
   if (is_session(asPath(path))) {
     sessions_.openPath(path, first);
+    return;
+  }
+  if (isPicture(path)) {
+    sheets_->openPath(path, first);
     return;
   }
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),

@@ -9,8 +9,9 @@
 namespace chainmail {
 
 class Sessions;
+class Sheets;
 
-/// The File menu: open, recent files, save. Sessions and meshes are read and written in the background.
+/// The File menu: open, recent files, save. Sessions, meshes and pictures are read and written in the background.
 /// Nothing is lost when one of them fails.
 class FileActions : public QObject {
   Q_OBJECT
@@ -19,12 +20,13 @@ class FileActions : public QObject {
   FileActions(QWidget& window, Document& document, Jobs& jobs, Sessions& sessions);
 
   void fill(QMenu& menu);
+  Sheets& sheets() { return *sheets_; }
   void open();
   /// Saves the session where it is kept; one that is kept nowhere yet is asked for its place.
   void saveSession();
   void saveSessionAs();
-  /// A session or a mesh, by its ending. The first object of a window is no step of undo: there is no way back to
-  /// before the start.
+  /// A session or a mesh, by its ending, or a picture, by what it holds. The first object of a window is no step of
+  /// undo: there is no way back to before the start.
   void openPath(const QString& path, bool first = false);
   void save();
   /// Saves the object at rest, without its cut links, in the format that the name ends in.
@@ -49,6 +51,7 @@ class FileActions : public QObject {
   Document& document_;
   Jobs& jobs_;
   Sessions& sessions_;
+  Sheets* sheets_;
   QMenu* recent_ = nullptr;
 };
 

@@ -25,6 +25,8 @@
 #include "panel.h"
 #include "recovery_bar.h"
 #include "sessions.h"
+#include "sheet_bar.h"
+#include "sheets.h"
 #include "undo_actions.h"
 
 namespace chainmail {
@@ -69,6 +71,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   column->setSpacing(0);
   column->addWidget(&sessions_->recoveryBar());
   column->addWidget(messages_);
+  column->addWidget(&files_->sheets().bar());
   column->addWidget(area_, 1);
   column->addWidget(&help_->hints());
   setCentralWidget(central);

@@ -90,7 +90,7 @@ void MeshDock::arrange() {
   auto* open = new QPushButton(QStringLiteral("Open…"));
   auto* save = new QPushButton(QStringLiteral("Save…"));
   open->setIcon(icon("open"));
-  open->setToolTip(QStringLiteral("A mesh from a file, in place of the present object"));
+  open->setToolTip(QStringLiteral("A mesh, a session or a picture from a file, in place of the present object"));
   save->setIcon(icon("save"));
   save->setToolTip(QStringLiteral("The object at rest, without its cut links, into a file"));
   build_->setIcon(icon("mesh"));

@@ -26,7 +26,7 @@ QString openFilter() {
       endings += QStringLiteral(" *") + endingsOf(format).join(QStringLiteral(" *"));
     }
   }
-  return QStringLiteral("Sessions and meshes (%1);;All files (*)").arg(endings);
+  return QStringLiteral("Sessions, meshes and pictures (%1 *.png *.jpg *.jpeg);;All files (*)").arg(endings);
 }
 
 }  // namespace chainmail

@@ -10,7 +10,7 @@ namespace chainmail {
 /// lattice.
 QStringList saveFilters(FormatUse use, bool lattice = false);
 
-/// What a file dialog offers for opening: sessions and all meshes, one filter.
+/// What a file dialog offers for opening: sessions, all meshes and pictures, one filter.
 QString openFilter();
 
 }  // namespace chainmail

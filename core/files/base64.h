@@ -3,7 +3,10 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "files/text.h"
 
@@ -37,5 +40,8 @@ class Base64Writer {
   std::uint32_t group_ = 0;
   int bytes_ = 0;
 };
+
+/// Bytes of a text, if it is just as Base64Writer writes it.
+std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
 
 }  // namespace chainmail

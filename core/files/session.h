@@ -58,7 +58,9 @@ bool is_session(const std::filesystem::path& path);
 ///      "mesh": {"elements": n, "space": 1 to 3, "lattice": {"size": [w, h, d], "spacing": s},
 ///        "rest": [x, y, z of each element…], "links": [a, b of each link…], "triangles": [three ids each…],
 ///        "polygons": [count, id…], "tetrahedra": [four ids each…],
-///        "hexahedra": [eight ids each…]},
+///        "hexahedra": [eight ids each…],
+///        "texture": {"size": [w, h, d], "channels": 1 or 4, "box": [lowest x, y, z, highest x, y, z],
+///          "texels": bytes in base 64}},
 ///      "cuts": [a, b of each cut link…], "pins": [id…],
 ///      "softness": {"compression": c, "stretch": s, "shear": h, "own": [a, b, c, s, h of each link with its own…]},
 ///      "relaxation": {"on": false, "scheme": "mean" or "link", "step": 1},
@@ -67,7 +69,7 @@ bool is_session(const std::filesystem::path& path);
 ///      "moves": {as recorded moves are written}, "moves_done": how many of them,
 ///      "ui": {…}}
 ///
-/// The moves may be left out, as they are beyond session_moves, and "lattice" and "hexahedra" are where there are none.
+/// The moves may be left out, as they are beyond session_moves, and "lattice", "hexahedra" and "texture" where there are none.
 /// Where neighbours stand in an order of their own, "counts" (of each element) and "neighbours" (its ids) take the
 /// place of "links". Throws Error for a number that is not finite, and Cancelled.
 void write_session(std::ostream& out, const Session& session, const Progress& progress = {});

@@ -4,6 +4,7 @@
 
 #include "files/neighbour_rows.h"
 #include "files/session_fields.h"
+#include "files/session_texture.h"
 #include "mesh/error.h"
 
 // The mesh of a session.
@@ -187,7 +188,7 @@ void MeshReader::take_faces(const Progress& progress) {
 
 MeshPointer MeshReader::read(const Progress& progress) {
   fields_.check_keys(object_, {"elements", "space", "lattice", "rest", "links", "counts", "neighbours", "triangles",
-                               "polygons", "tetrahedra", "hexahedra"});
+                               "polygons", "tetrahedra", "hexahedra", "texture"});
   parts_.space_dimension = static_cast<int>(fields_.count(object_, "space", 3));
   take_rest(progress.part(0, 0.1));
   take_lattice();
@@ -195,9 +196,10 @@ MeshPointer MeshReader::read(const Progress& progress) {
   const std::size_t links = ordered ? 0 : fields_.ids(object_, "links").size() / 2;
   ordered ? take_neighbours(progress.part(0.1, 0.2)) : take_links(progress.part(0.1, 0.2));
   take_faces(progress.part(0.2, 0.3));
+  parts_.texture = read_session_texture(fields_, object_, progress.part(0.3, 0.4));
   MeshPointer mesh;
   try {
-    mesh = build_mesh(std::move(parts_), progress.part(0.3, 1));
+    mesh = build_mesh(std::move(parts_), progress.part(0.4, 1));
   } catch (const Error& error) {
     throw error.at(fields_.where() + ": " + error.where());
   }

@@ -11,6 +11,7 @@
 #include "files/outputs.h"
 #include "files/session.h"
 #include "files/session_json.h"
+#include "files/session_texture.h"
 #include "files/text.h"
 #include "mesh/error.h"
 
@@ -159,6 +160,10 @@ void SessionWriter::write_mesh(const Progress& progress) {
   write_groups<4>("tetrahedra", mesh_.tetrahedra, progress.part(0.9, 1));
   if (!mesh_.hexahedra.empty()) {
     write_groups<8>("hexahedra", mesh_.hexahedra, progress);
+  }
+  if (mesh_.texture) {
+    out_ << ",\n\"texture\": ";
+    write_session_texture(out_, *mesh_.texture, progress.part(0.9, 1));
   }
   out_ << "}";
 }

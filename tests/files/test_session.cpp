@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/families.h"
+#include "files/base64.h"
 #include "files/session_support.h"
 
 using namespace chainmail;
@@ -20,6 +21,8 @@ class SessionTest : public QObject {
   void what_is_written_reads_back_data();
   void what_is_written_reads_back();
   void polygons_and_loose_elements_do_too();
+  void a_picture_comes_back_with_its_sheet();
+  void bytes_are_written_in_base_64();
   void every_float_comes_back_to_the_bit();
   void what_was_written_once_opens();
   void the_file_is_json_as_it_is_documented();
@@ -87,6 +90,46 @@ void SessionTest::polygons_and_loose_elements_do_too() {
   compare(parse_session(session_text(session), "a.chainmail"), session);
   session.mesh = obj("v 0.5 0 0\n");
   compare(parse_session(session_text(session), "a.chainmail"), session);
+}
+
+void SessionTest::a_picture_comes_back_with_its_sheet() {
+  std::mt19937_64 random(9);
+  for (const auto& size : {std::array<std::uint32_t, 3>{21, 13, 1}, {3, 4, 5}}) {
+    Texture texture{size, size[2] == 1 ? 4 : 1, {}, {Point(-0.1, 0, 1.0 / 3), Point(21, 13, 1.0 / 3)}};
+    for (std::size_t i = 0; i < texture.byte_count(); ++i) {
+      texture.texels.push_back(static_cast<std::uint8_t>(random()));
+    }
+    Session session = session_on(made(MeshKind::cloth, {4, 4, 1}));
+    auto mesh = std::make_shared<Mesh>(*session.mesh);
+    mesh->texture = std::make_shared<const Texture>(texture);
+    session.mesh = mesh;
+    const Session again = parse_session(session_text(session), "a.chainmail");
+    compare(again, session);
+    QCOMPARE(again.mesh->texture->size, texture.size);
+    QCOMPARE(again.mesh->texture->channels, texture.channels);
+    QVERIFY(again.mesh->texture->texels == texture.texels && again.mesh->texture->box == texture.box);
+  }
+}
+
+void SessionTest::bytes_are_written_in_base_64() {
+  const auto bytes = [](const char* text) { return std::vector<std::uint8_t>(text, text + std::strlen(text)); };
+  // The examples of RFC 4648.
+  for (const auto& [plain, text] : std::vector<std::pair<const char*, const char*>>{
+           {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}}) {
+    std::ostringstream out;
+    TextBlocks blocks(out);
+    Base64Writer writer(blocks);
+    for (const std::uint8_t byte : bytes(plain)) {
+      writer.add(byte);
+    }
+    writer.finish();
+    blocks.flush();
+    QCOMPARE(out.str(), std::string(text));
+    QVERIFY(from_base64(text) == bytes(plain));
+  }
+  for (const char* wrong : {"Zg=", "Zg", "Z===", "====", "Zm9=Zm9v", "Zm9\n", "Zm 9", "Zh==", "Zm9v\xff\xff\xff\xff"}) {
+    QVERIFY2(!from_base64(wrong), wrong);
+  }
 }
 
 void SessionTest::every_float_comes_back_to_the_bit() {

@@ -126,6 +126,22 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"polygons\": []", "\"polygons\": [2,0,1]", "mesh: 'polygons' has a count of 2 at number 0; ");
   row("\"polygons\": []", "\"polygons\": [3,0,1,9]", "mesh: 'polygons' names element 9, which ");
   row("\"tetrahedra\": []", "\"tetrahedra\": [1]", "mesh: 'tetrahedra' ends within a group of 4; ");
+  const auto texture = [&](const char* members, const char* said) {
+    const QString of = QStringLiteral("\"tetrahedra\": [], \"texture\": {%1}").arg(QLatin1String(members));
+    row("\"tetrahedra\": []", qPrintable(of), said);
+  };
+  texture("", "mesh: 'size' is missing; ");
+  texture(R"("size": [1,1,1], "channels": 3, "box": [0,0,0,1,1,0], "texels": "AAAA")",
+          "mesh: the texture has no size ");
+  texture(R"("size": [1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "AA==")", "mesh: the texture has no size ");
+  texture(R"("size": [4294967295,4294967295,4294967295], "channels": 4, "box": [0,0,0,1,1,0], "texels": "AA==")",
+          "mesh: 'texels' does not hold one byte ");
+  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,0,0], "texels": "AA==")", "mesh: 'box' is none of a ");
+  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1], "texels": "AA==")", "mesh: 'box' holds 5 numbers; ");
+  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "AAAA")", "mesh: 'texels' does not hold ");
+  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "A!==")", "mesh: 'texels' does not hold ");
+  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": [0])", "mesh: 'texels' does not hold ");
+  texture(R"("size": [1,1,1], "colour": 1)", "mesh: 'colour' is not known here; ");
   row("\"cuts\": [0,1,", "\"cuts\": [0,2,", "the elements 0 and 2 are not linked; ");
   row("\"cuts\": [0,1,", "\"cuts\": [5,4,", "'cuts' holds a link twice; ");
   row("\"pins\": [0,8]", "\"pins\": [0,9]", "'pins' names element 9, which is not there; ");

@@ -1,0 +1,221 @@
+// Pictures as sheets in a real window: opened, warped, saved.
+
+#include <QDropEvent>
+#include <QFile>
+#include <QImage>
+#include <QLabel>
+#include <QMimeData>
+#include <QPushButton>
+#include <QSpinBox>
+
+#include "file_actions.h"
+#include "message_bar.h"
+#include "sessions.h"
+#include "sheet_bar.h"
+#include "sheets.h"
+#include "window.h"
+
+using namespace chainmail;
+
+class WindowSheet : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void aPictureOpensAsASheetOfTheSizeChosen() {
+    Workbench bench;
+    const MeshPointer before = bench.document().mesh();
+    bench.open(picture("a.png"));
+    auto& bar = sheets(bench).bar();
+    QVERIFY(bar.isVisible());
+    QCOMPARE(bench.document().mesh(), before);
+    QVERIFY(bench.find<QLabel>("sheetPicture")->text().contains(QStringLiteral("a.png as a sheet: 120 × 80 pixels")));
+    QCOMPARE(bench.find<QSpinBox>("sheetAcross")->value(), 32);
+    bench.find<QSpinBox>("sheetAcross")->setValue(13);
+    QCOMPARE(bench.find<QLabel>("sheetSize")->text(), QStringLiteral("13 × 9 elements, one every 10 pixels"));
+    bench.find<QPushButton>("sheetOpen")->click();
+    bench.settle();
+    QVERIFY(!bar.isVisible());
+    const Mesh& mesh = *bench.document().mesh();
+    QCOMPARE(mesh.element_count(), 13U * 9U);
+    QCOMPARE(mesh.rest_position(13 * 9 - 1), Point(120, 80, 0));
+    QCOMPARE(mesh.texture->size, (std::array<std::uint32_t, 3>{120, 80, 1}));
+    // The first texel is the lowest: the picture's last row.
+    const QImage image(picture("a.png"));
+    const QColor lowest = image.pixelColor(0, 79);
+    QCOMPARE(int(mesh.texture->texels[0]), lowest.red());
+    QCOMPARE(int(mesh.texture->texels[2]), lowest.blue());
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("open a.png"));
+    bench.trigger("undo");
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), before);
+  }
+
+  void droppedWithAWrongNameItIsAPictureStillAndTheKeyboardAnswers() {
+    Workbench bench;
+    const QString path = folder_.filePath(QStringLiteral("picture.dat"));
+    QFile::remove(path);
+    QVERIFY(QFile::copy(picture("b.png"), path));
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(path)});
+    QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&bench.window, &enter);
+    QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&bench.window, &drop);
+    auto& bar = sheets(bench).bar();
+    QVERIFY(bar.isVisible());
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Escape);
+    QVERIFY(!bar.isVisible());
+    QVERIFY(!bench.document().undoStack().canUndo());
+    bench.open(path);
+    QTest::keyClicks(QApplication::focusWidget(), QStringLiteral("7"));
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Return);
+    bench.settle();
+    QCOMPARE(bench.document().mesh()->element_count(), 7U * 5U);
+  }
+
+  void damagedAndHugePicturesGetASentence_data() {
+    QTest::addColumn<QByteArray>("bytes");
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<QString>("said");
+    const auto all = [this](const char* name) {
+      QFile file(picture(name));
+      return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+    };
+    QByteArray huge = all("a.png");
+    // Its head says 65,536 × 65,536 pixels, and its sum is right.
+    huge.replace(16, 17, QByteArray::fromHex("00010000000100000802000000") + QByteArray::fromHex("e3e6a7b4"));
+    QTest::newRow("nothing in it") << QByteArray() << QStringLiteral("none.png") << QStringLiteral("it is no picture");
+    QTest::newRow("text") << QByteArray("v 0 0 0\n") << QStringLiteral("text.jpg") << QStringLiteral("no picture");
+    QTest::newRow("half a JPEG") << all("c.jpg").chopped(900) << QStringLiteral("half.jpg")
+                                 << QStringLiteral("it is damaged");
+    QTest::newRow("huge") << huge << QStringLiteral("huge.png") << QStringLiteral("more than 200 million");
+  }
+  void damagedAndHugePicturesGetASentence() {
+    QFETCH(QByteArray, bytes);
+    QFETCH(QString, name);
+    QFETCH(QString, said);
+    Workbench bench;
+    const MeshPointer before = bench.document().mesh();
+    const QString path = folder_.filePath(name);
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size());
+    file.close();
+    bench.open(path);
+    if (sheets(bench).bar().isVisible()) {
+      bench.find<QPushButton>("sheetOpen")->click();  // its head was whole
+      bench.settle();
+    }
+    QVERIFY2(bench.window.messages().sentence().contains(said), qPrintable(bench.window.messages().sentence()));
+    QVERIFY(bench.window.messages().sentence().contains(name));
+    QCOMPARE(bench.document().mesh(), before);
+  }
+
+  /// Undeformed it comes back as it was; dragged, what is pinned stays and the rest is elsewhere.
+  void theWarpedPictureIsSaved() {
+    Workbench bench;
+    QVERIFY(!bench.find<QAction>("saveWarpedA")->isEnabled());
+    openSheet(bench, picture("a.png"), 13);
+    QVERIFY(bench.find<QAction>("saveWarpedA")->isEnabled());
+    const QImage image = QImage(picture("a.png")).convertToFormat(QImage::Format_RGBA8888);
+    QCOMPARE(warped(bench, 1, "rest.png"), image);
+
+    std::vector<ElementId> border;
+    for (ElementId e = 0; e < 13 * 9; ++e) {
+      if (e % 13 == 0 || e % 13 == 12 || e < 13 || e >= 13 * 8) {
+        border.push_back(e);
+      }
+    }
+    bench.document().setPinned(border, true);
+    const QPoint from = bench.place(0, 13 * 4 + 6);
+    bench.stroke(0, {from, from + QPoint(60, 30)});
+    QVERIFY(bench.position(1, 13 * 4 + 6) != bench.document().mesh()->rest_position(13 * 4 + 6));
+    const QImage dragged = warped(bench, 1, "dragged.png");
+    QCOMPARE(dragged.size(), image.size());  // the border holds it
+    QVERIFY(dragged != image);
+    for (const QPoint corner : {QPoint(0, 0), QPoint(119, 0), QPoint(0, 79), QPoint(119, 79)}) {
+      QCOMPARE(dragged.pixelColor(corner), image.pixelColor(corner));
+    }
+    QVERIFY(warped(bench, 0, "dragged.jpg").size() == image.size());
+  }
+
+  void aCutIsAHoleAndTheFrameIsChosen() {
+    Workbench bench;
+    openSheet(bench, picture("a.png"), 13);
+    const Mesh& mesh = *bench.document().mesh();
+    bench.document().cut({*find_link(mesh, 0, 14)});  // the diagonal of the lowest square on the left
+    bench.document().grab(13 * 9 - 1);
+    bench.document().drag(Point(180, 80, 0));
+    bench.document().release();
+    bench.settle();
+    QCOMPARE(warped(bench, 0, "all.png").width(), 180);
+    bench.trigger("warpOwnFrame");
+    const QImage own = warped(bench, 0, "own.png");
+    QCOMPARE(own.size(), QSize(120, 80));
+    QCOMPARE(own.pixelColor(2, 77).alpha(), 0);
+    QCOMPARE(own.pixelColor(2, 60).alpha(), 255);
+  }
+
+  void whereItCannotBeSavedNothingIsTouched() {
+    Workbench bench;
+    openSheet(bench, picture("a.png"), 13);
+    for (const char* name : {"no/such/folder.png", "no.tiff"}) {
+      sheets(bench).saveWarpedPath(0, folder_.filePath(QLatin1String(name)));
+      bench.settle();
+      QVERIFY(bench.window.messages().sentence().contains(QLatin1String(name)));
+      QVERIFY(!QFile::exists(folder_.filePath(QLatin1String(name))));
+    }
+  }
+
+  void aSessionKeepsThePicture() {
+    Workbench bench;
+    openSheet(bench, picture("a.png"), 13);
+    const auto texture = bench.document().mesh()->texture;
+    const QString path = folder_.filePath(QStringLiteral("sheet.chainmail"));
+    bench.window.sessions().savePath(path);
+    bench.settle();
+    Workbench again;
+    again.open(path);
+    QVERIFY(again.document().mesh()->texture != nullptr);
+    QVERIFY(again.document().mesh()->texture->texels == texture->texels);
+    QVERIFY(again.find<QAction>("saveWarpedA")->isEnabled());
+  }
+
+ private:
+  static Sheets& sheets(Workbench& bench) { return bench.window.findChild<FileActions*>()->sheets(); }
+
+  /// A colourful one of 120 × 80 pixels, made once.
+  QString picture(const char* name) const {
+    const QString path = folder_.filePath(QLatin1String(name));
+    if (!QFile::exists(path)) {
+      QImage image(120, 80, QImage::Format_RGB888);
+      for (int y = 0; y < 80; ++y) {
+        for (int x = 0; x < 120; ++x) {
+          image.setPixelColor(x, y, QColor(2 * x, 3 * y, (x * y) % 256));
+        }
+      }
+      if (!image.save(path)) {
+        qFatal("cannot write %s", name);
+      }
+    }
+    return path;
+  }
+
+  static void openSheet(Workbench& bench, const QString& path, int across) {
+    sheets(bench).open(path, across);
+    bench.settle();
+  }
+
+  QImage warped(Workbench& bench, int panel, const char* name) const {
+    const QString path = folder_.filePath(QLatin1String(name));
+    sheets(bench).saveWarpedPath(panel, path);
+    bench.settle();
+    return QImage(path).convertToFormat(QImage::Format_RGBA8888);
+  }
+
+  QTemporaryDir folder_;
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowSheet>(argc, argv); }
+#include "window_sheet.moc"
