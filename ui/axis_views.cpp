@@ -7,7 +7,7 @@
 namespace chainmail {
 namespace {
 
-struct Side {
+struct LookedFrom {
   const char* name;
   const char* text;
   const char* from;
@@ -16,12 +16,12 @@ struct Side {
 };
 // The axis that is looked along is the key, with Shift for the side that lies toward its lower end.
 constexpr std::array sides{
-    Side{"viewFront", "From the &front", "+z", Qt::Key_Z, 0, 0},
-    Side{"viewBack", "From the &back", "−z", Qt::SHIFT | Qt::Key_Z, 180, 0},
-    Side{"viewRight", "From the &right", "+x", Qt::Key_X, -90, 0},
-    Side{"viewLeft", "From the &left", "−x", Qt::SHIFT | Qt::Key_X, 90, 0},
-    Side{"viewTop", "From the &top", "+y", Qt::Key_Y, 0, 90},
-    Side{"viewBottom", "From b&elow", "−y", Qt::SHIFT | Qt::Key_Y, 0, -90},
+    LookedFrom{"viewFront", "From the &front", "+z", Qt::Key_Z, 0, 0},
+    LookedFrom{"viewBack", "From the &back", "−z", Qt::SHIFT | Qt::Key_Z, 180, 0},
+    LookedFrom{"viewRight", "From the &right", "+x", Qt::Key_X, -90, 0},
+    LookedFrom{"viewLeft", "From the &left", "−x", Qt::SHIFT | Qt::Key_X, 90, 0},
+    LookedFrom{"viewTop", "From the &top", "+y", Qt::Key_Y, 0, 90},
+    LookedFrom{"viewBottom", "From b&elow", "−y", Qt::SHIFT | Qt::Key_Y, 0, -90},
 };
 
 }  // namespace
@@ -35,7 +35,7 @@ void AxisViews::fill(QMenu& menu) {
   auto* from = menu.addMenu(QStringLiteral("Look &from"));
   from->setIcon(icon("axes"));
   from->setToolTipsVisible(true);
-  for (const Side& side : sides) {
+  for (const LookedFrom& side : sides) {
     auto* action = from->addAction(QString::fromUtf8(side.text), this, [this, side] {
       for (Panel* panel : area_.panels()) {
         panel->view().lookFrom(side.yaw, side.pitch);

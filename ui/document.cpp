@@ -222,7 +222,7 @@ void Document::letGoOfElements() {
 
 void Document::showCuts(const std::vector<LinkId>& links, bool cut) {
   cut ? parts_.cut(cuts_, links) : parts_.uncut(cuts_, links);
-  emit cutsChanged();
+  emit cutsChanged(links, cut);
   if (!selection_.empty()) {
     selection_.links = linksAmong(*mesh_, cuts_, selection_.elements);
     emit selectionChanged();

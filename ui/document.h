@@ -141,7 +141,8 @@ class Document : public QObject {
   /// There is one more, or one less.
   void panelsChanged();
   void meshChanged();
-  void cutsChanged();
+  /// These links were cut, or uncut.
+  void cutsChanged(const std::vector<LinkId>& links, bool cut);
   void softnessChanged();
   void relaxationChanged();
   void algorithmChanged(int panel);

@@ -36,6 +36,31 @@ std::vector<ElementId> drawnFaces(const MeshLevel& level, const Cuts& cuts, cons
   return indices;
 }
 
+DrawnLinks surfaceLinks(const Surface& surface, const Cuts& cuts) {
+  const CellTable& table = surface.table();
+  DrawnLinks drawn;
+  drawn.numbers.assign(surface.links().begin(), surface.links().end());
+  std::ranges::copy_if(table.loose_links(), std::back_inserter(drawn.numbers),
+                       [&](LinkId link) { return !cuts.is_cut(link); });
+  drawn.ends.reserve(2 * drawn.numbers.size());
+  for (const LinkId link : drawn.numbers) {
+    const auto& ends = table.mesh()->links[link];
+    drawn.ends.insert(drawn.ends.end(), ends.begin(), ends.end());
+  }
+  return drawn;
+}
+
+std::vector<ElementId> surfaceFaces(const Surface& surface, const Cuts& cuts) {
+  const CellTable& table = surface.table();
+  auto corners = surface.triangles();
+  for (const std::uint32_t i : table.loose_triangles()) {
+    if (const auto& face = table.mesh()->triangles[i]; isWholeFace(*table.mesh(), cuts, face)) {
+      corners.insert(corners.end(), face.begin(), face.end());
+    }
+  }
+  return corners;
+}
+
 std::vector<ElementId> thinned(const std::vector<ElementId>& elements, std::size_t atMost) {
   const std::size_t share = (elements.size() + atMost - 1) / atMost;
   if (share <= 1) {

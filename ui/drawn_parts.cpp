@@ -84,10 +84,29 @@ void DrawnParts::setFrame(const Frame& frame, const Cuts& cuts) {
   if (frame.mesh != mesh_) {
     mesh_ = frame.mesh;
     level_.reset();
+    outdated_ = true;
   }
 }
 
-bool DrawnParts::choose(const ObjectDrawing::Scene& scene, double pixelsPerUnit) {
+/// Links on a surface that are too many and too close to each other to be told apart would hide it.
+DrawnParts::Parts DrawnParts::partsOf(const Look& look, double pixelsPerUnit) const {
+  const bool ofSurface =
+      look.faces && mesh_->space_dimension == 3 && (!mesh_->tetrahedra.empty() || !mesh_->hexahedra.empty());
+  const bool tooFine =
+      ofSurface && surface().links().size() > shapesDrawn && mesh_->mean_link_length * pixelsPerUnit < pixelsPerLink;
+  return {look.faces, look.links && !tooFine, ofSurface};
+}
+
+bool DrawnParts::choose(const ObjectDrawing::Scene& scene, const Look& look, double pixelsPerUnit) {
+  const Parts parts = partsOf(look, pixelsPerUnit);
+  if (parts != parts_) {
+    parts_ = parts;
+    outdated_ = true;
+  }
+  if (parts_.ofSurface) {
+    step_ = 1;
+    return std::exchange(outdated_, false);
+  }
   chooseStep(scene, pixelsPerUnit);
   if (level_ == nullptr || level_->step != step_) {
     level_ = levels_->at(mesh_, step_);
@@ -102,11 +121,23 @@ bool DrawnParts::choose(const ObjectDrawing::Scene& scene, double pixelsPerUnit)
   return true;
 }
 
+DrawnLinks DrawnParts::links() const {
+  return !parts_.links      ? DrawnLinks()
+         : parts_.ofSurface ? surfaceLinks(surface(), *cuts_)
+                            : drawnLinks(*level_, *cuts_, cells_);
+}
+
+std::vector<ElementId> DrawnParts::faces() const {
+  return !parts_.faces      ? std::vector<ElementId>()
+         : parts_.ofSurface ? surfaceFaces(surface(), *cuts_)
+                            : drawnFaces(*level_, *cuts_, cells_);
+}
+
 std::vector<float> DrawnParts::valuesOf(const std::vector<std::uint32_t>& links, const ColourValues& values) const {
   std::vector<float> drawn;
   drawn.reserve(links.size());
   for (const std::uint32_t link : links) {
-    if (level_->step == 1) {
+    if (step_ == 1) {
       drawn.push_back(values.values[link]);
       continue;
     }

@@ -16,19 +16,32 @@ class DrawnParts {
   /// Both must stay as they are until the next one, the cuts but for cutsChanged.
   void setFrame(const Frame& frame, const Cuts& cuts);
   void cutsChanged() { outdated_ = true; }
-  void forget() { level_.reset(); }
+  void forget() {
+    level_.reset();
+    outdated_ = true;
+  }
 
   /// True where other links or faces are to be drawn than the last time. Costs what is drawn, not what there is.
-  bool choose(const ObjectDrawing::Scene& scene, double pixelsPerUnit);
+  bool choose(const ObjectDrawing::Scene& scene, const Look& look, double pixelsPerUnit);
 
   /// 1 where every link is drawn; k where about k links in a row are drawn as one.
   unsigned step() const { return step_; }
-  DrawnLinks links() const { return drawnLinks(*level_, *cuts_, cells_); }
-  std::vector<ElementId> faces() const { return drawnFaces(*level_, *cuts_, cells_); }
+  DrawnLinks links() const;
+  /// Three corners each.
+  std::vector<ElementId> faces() const;
   /// A value for each of the links with these numbers: the largest of those that it stands for.
   std::vector<float> valuesOf(const std::vector<std::uint32_t>& links, const ColourValues& values) const;
 
  private:
+  /// Which of the object's parts are drawn, and whether they are those of a volume's surface: it is drawn in full, as
+  /// it is far less than the volume.
+  struct Parts {
+    bool faces = true, links = true, ofSurface = false;
+    bool operator==(const Parts&) const = default;
+  };
+
+  Parts partsOf(const Look& look, double pixelsPerUnit) const;
+  const Surface& surface() const { return levels_->surface(mesh_, *cuts_); }
   void chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit);
   double shareInView(const ObjectDrawing::Scene& scene);
   /// The cells of a level that may be seen.
@@ -39,6 +52,7 @@ class DrawnParts {
   MeshPointer mesh_;
   const Cuts* cuts_ = nullptr;
   const Frame* frame_ = nullptr;
+  Parts parts_;
   unsigned step_ = 1;
   MeshLevelPointer level_;
   CellBoxes boxes_;       // of that level

@@ -131,9 +131,10 @@ void ElementDock::listen() {
     }
   };
   connect(this, &QDockWidget::visibilityChanged, this, later);
-  for (const auto signal : {&Document::cutsChanged, &Document::softnessChanged, &Document::pinsChanged}) {
+  for (const auto signal : {&Document::softnessChanged, &Document::pinsChanged}) {
     connect(&document_, signal, this, later);
   }
+  connect(&document_, &Document::cutsChanged, this, later);
   connect(&document_, &Document::frameReady, this, later);
   connect(&document_, &Document::meshChanged, this, &ElementDock::adaptToMesh);
   connect(&document_, &Document::selectionChanged, this, &ElementDock::followSelection);

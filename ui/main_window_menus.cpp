@@ -15,6 +15,7 @@
 #include "message_bar.h"
 #include "panel_actions.h"
 #include "picture_actions.h"
+#include "show_menu.h"
 #include "theme_menu.h"
 #include "undo_actions.h"
 
@@ -100,6 +101,9 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   panelActions_->fill(menu);
   regions_.fill(menu);
   axisViews_->fill(menu);
+  auto* show = new ShowMenu(document_, this);
+  connect(show, &ShowMenu::changed, area_, [this, show] { area_->setLook(show->look()); });
+  show->fill(menu);
   menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
   menu.addSeparator();
   (new ThemeMenu(this))->fill(menu);

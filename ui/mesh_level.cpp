@@ -155,8 +155,12 @@ bool MeshLevel::isWhole(std::uint32_t face, const Cuts& cuts) const {
     return std::all_of(faceSides[face].begin(), faceSides[face].end(),
                        [&](std::uint32_t side) { return side == none || isUncut(side, cuts); });
   }
-  const auto& [a, b, c] = faces[face];
-  return !is_cut_between(*mesh, cuts, a, b) && !is_cut_between(*mesh, cuts, b, c) && !is_cut_between(*mesh, cuts, c, a);
+  return isWholeFace(*mesh, cuts, faces[face]);
+}
+
+bool isWholeFace(const Mesh& mesh, const Cuts& cuts, const MeshLevel::Face& face) {
+  const auto& [a, b, c] = face;
+  return !is_cut_between(mesh, cuts, a, b) && !is_cut_between(mesh, cuts, b, c) && !is_cut_between(mesh, cuts, c, a);
 }
 
 void makeCells(MeshLevel& level) {

@@ -48,6 +48,9 @@ struct MeshLevel {
   bool isWhole(std::uint32_t face, const Cuts& cuts) const;
 };
 
+/// Whether no side of a triangle is cut.
+bool isWholeFace(const Mesh& mesh, const Cuts& cuts, const MeshLevel::Face& face);
+
 using MeshLevelPointer = std::shared_ptr<const MeshLevel>;
 
 /// Every element, link and face.

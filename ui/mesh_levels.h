@@ -4,10 +4,12 @@
 #include <map>
 
 #include "coarse_level.h"
+#include "mesh/surface.h"
 
 namespace chainmail {
 
-/// The levels of detail of one mesh at a time, made when first asked for; the panels share them.
+/// What panels share of how one mesh at a time is drawn, made when first asked for: its levels of detail, and its outer
+/// surface under the cuts that they have in common.
 class MeshLevels {
  public:
   /// The next coarser step that there is: powers of two, and on a lattice one between each.
@@ -30,7 +32,23 @@ class MeshLevels {
     return level;
   }
 
+  /// Of its cells; they are asked for with the cuts as they are at first, and told of later ones.
+  const Surface& surface(const MeshPointer& mesh, const Cuts& cuts) {
+    if (surface_ == nullptr || surface_->table().mesh() != mesh) {
+      surface_ = std::make_unique<Surface>(std::make_shared<CellTable>(mesh), cuts);
+    }
+    return *surface_;
+  }
+  void showCuts(const std::vector<LinkId>& links, bool cut) {
+    for (const LinkId link : surface_ == nullptr ? std::vector<LinkId>() : links) {
+      cut ? surface_->cut(link) : surface_->uncut(link);
+    }
+  }
+  /// Another mesh, or other cuts, have taken the place of those that the surface was told of.
+  void forgetSurface() { surface_.reset(); }
+
  private:
+  std::unique_ptr<Surface> surface_;
   MeshPointer mesh_;
   MeshLevelPointer next_;
   std::map<unsigned, MeshLevelPointer> levels_;

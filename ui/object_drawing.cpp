@@ -20,7 +20,7 @@ bool ObjectDrawing::marksElements(const Mesh& mesh, double pixelsPerUnit) {
 
 QColor ObjectDrawing::faceColour(const Mesh& mesh, const Paint& paint) {
   QColor face = valuesFit(&mesh, paint) ? QColor(colour_map::neutral) : paint.colour;
-  if (mesh.space_dimension == 3) {
+  if (mesh.space_dimension == 3 || !paint.look.links) {
     return colours::faint(face);
   }
   face.setAlphaF(planeFace);

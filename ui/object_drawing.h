@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "colour_values.h"
+#include "look.h"
 #include "mesh/cuts.h"
 #include "simulate/frame.h"
 
@@ -30,11 +31,12 @@ class ObjectDrawing {
 
     QSizeF logicalSize() const { return size / double(pixelRatio); }
   };
-  /// What colours the object: one colour or, where there are values of its mesh, the colour map.
+  /// What the object is drawn with: one colour or, where there are values of its mesh, the colour map.
   struct Paint {
     QColor colour;
     const ColourValues* values = nullptr;
     ColourScale scale;
+    Look look = {};
   };
   /// Marks are told apart by shape, not by colour alone.
   enum class Mark { disc = 2, diamond = 3, ring = 4 };

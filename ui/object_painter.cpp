@@ -121,12 +121,12 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
 }
 
 void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
-  if (parts_.choose(scene, pixelsPerUnit)) {
+  if (parts_.choose(scene, paint.look, pixelsPerUnit)) {
     sendParts();
   }
   drawFaces(scene, paint);
   drawWires(scene, paint);
-  if (step() == 1 && marksElements(*mesh_, pixelsPerUnit)) {
+  if (paint.look.links && step() == 1 && marksElements(*mesh_, pixelsPerUnit)) {
     drawEveryElement(scene, paint);
   }
   vertexArray_.release();
@@ -172,6 +172,9 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
 
 void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
   const auto count = GLsizei(2 * drawnLinks_.size());
+  if (count == 0) {
+    return;
+  }
   positions_.bind();
   if (!valuesFit(paint)) {
     use(scene, paint.colour, 0, mesh_->space_dimension);

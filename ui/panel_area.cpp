@@ -3,6 +3,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "mesh_levels.h"
 #include "panel.h"
 
 namespace chainmail {
@@ -51,7 +52,12 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
   }
   followPanels();
   connect(&links_, &PanelLinks::camerasLinked, this, &PanelArea::linkCameras);
-  connect(&document, &Document::meshChanged, this, &PanelArea::fit);
+  connect(&document, &Document::cutsChanged, this,
+          [this](const std::vector<LinkId>& links, bool cut) { levels_->showCuts(links, cut); });
+  connect(&document, &Document::meshChanged, this, [this] {
+    levels_->forgetSurface();
+    fit();
+  });
   connect(&document, &Document::panelsChanged, this, &PanelArea::followPanels);
   connect(&document, &Document::panelLeaves, this, &PanelArea::removePanel);
 }
@@ -81,6 +87,7 @@ void PanelArea::addPanel() {
   if (tool_ != nullptr) {
     panel->view().setTool(tool_);
   }
+  panel->view().setLook(look_);
   panel->head().setActions(headActions_);
   listenTo(*panel, number);
 }
@@ -133,6 +140,13 @@ void PanelArea::setTool(Tool& tool) {
   tool_ = &tool;
   for (Panel* panel : panels_) {
     panel->view().setTool(&tool);
+  }
+}
+
+void PanelArea::setLook(const Look& look) {
+  look_ = look;
+  for (Panel* panel : panels_) {
+    panel->view().setLook(look);
   }
 }
 

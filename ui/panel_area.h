@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "colouring.h"
+#include "look.h"
 #include "panel_links.h"
 
 namespace chainmail {
@@ -35,6 +36,8 @@ class PanelArea : public QWidget {
   void setHeadActions(const QList<QAction*>& actions);
   /// Paints and says anew what an overlay has changed.
   void refresh();
+  /// What every panel shows of its object.
+  void setLook(const Look& look);
   /// Shows the whole rest shape in every panel.
   void fit();
 
@@ -77,6 +80,7 @@ class PanelArea : public QWidget {
   PanelLinks links_;
   std::shared_ptr<Camera> camera_;  // of all panels whose cameras are linked
   std::shared_ptr<MeshLevels> levels_;
+  Look look_;
   Tool* tool_ = nullptr;
   std::vector<Overlay*> overlays_;
   QList<QAction*> headActions_;

@@ -116,10 +116,10 @@ void VectorPainter::addFaceClipped(Piece piece, const QRectF& view) {
 }
 
 void VectorPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
-  parts_.choose(scene, pixelsPerUnit);
+  parts_.choose(scene, paint.look, pixelsPerUnit);
   addFaces(scene, paint);
   addLinks(scene, paint);
-  if (parts_.step() == 1 && marksElements(*frame_->mesh, pixelsPerUnit)) {
+  if (paint.look.links && parts_.step() == 1 && marksElements(*frame_->mesh, pixelsPerUnit)) {
     addElements(scene, paint);
   }
 }

@@ -41,6 +41,11 @@ class View : public QOpenGLWidget {
   void fit();
   /// The same after a change of its size, from where it looks, as long as nobody has moved the camera.
   void fitAgain();
+  /// What it shows of its object and its ghost.
+  void setLook(const Look& look) {
+    look_ = look;
+    update();
+  }
   void setGhost(const Ghost& ghost);
   const Ghost& ghost() const { return ghost_; }
   /// Moves the camera, as travels of the mouse in logical pixels do; a zoom is about the view's centre or a place in
@@ -114,6 +119,7 @@ class View : public QOpenGLWidget {
   void listen();
   double pixelsPerLink() const;
   ObjectDrawing::Paint paint();
+  ObjectDrawing::Paint colouredPaint();
   void drawObjects(const Easel& on, const Frame& frame);
   ObjectPainter& ghostPainter();
   void forgetGhost();
@@ -136,6 +142,7 @@ class View : public QOpenGLWidget {
   std::shared_ptr<MeshLevels> levels_;
   mutable CellBoxes boxes_;  // for the search under the cursor, as of the last one
   ObjectPainter painter_;
+  Look look_;
   Ghost ghost_;
   std::unique_ptr<ObjectPainter> ghostPainter_;  // as long as there is a ghost
   FrameMeter meter_;

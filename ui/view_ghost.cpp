@@ -48,7 +48,7 @@ void View::drawObjects(const Easel& on, const Frame& frame) {
     return;
   }
   ObjectDrawing& ghost = on.ghost();
-  const ObjectDrawing::Paint otherPaint{colours::ofPanel(*ghost_.of), nullptr, {}};
+  const ObjectDrawing::Paint otherPaint{colours::ofPanel(*ghost_.of), nullptr, {}, look_};
   ghost.drawSeeThrough(on.scene, ghost_.ownOpacity(), drawOwn);
   ghost.drawSeeThrough(on.scene, ghost_.opacity(), [&] {
     ghost.setFrame(*other, document_.cuts());

@@ -77,8 +77,16 @@ void View::draw(const Easel& on, const Frame& frame) {
   drawMarks(on);
 }
 
-/// How the object is painted: as an overlay wants it, or by its values, or in the panel's colour.
+/// Where links are coloured by a value they are what is to be seen.
 ObjectDrawing::Paint View::paint() {
+  auto paint = colouredPaint();
+  paint.look = look_;
+  paint.look.links = look_.links || (paint.values != nullptr && paint.values->ofLinks);
+  return paint;
+}
+
+/// What colours the object: an overlay, its values, or its panel.
+ObjectDrawing::Paint View::colouredPaint() {
   for (const Overlay* overlay : overlays_) {
     if (const auto paint = overlay->paint(panel_)) {
       return *paint;

@@ -9,6 +9,7 @@
 
 #include "main_window.h"
 #include "panel.h"
+#include "show_menu.h"
 #include "text.h"
 
 namespace chainmail {
@@ -73,6 +74,7 @@ std::string lookOf(MainWindow& window) {
   const QJsonObject look{{QStringLiteral("cameras"), cameras},
                          {QStringLiteral("linked"), linkCameras(window).isChecked()},
                          {QStringLiteral("colour"), text(info(window.colouring().mode()).name)},
+                         {QStringLiteral("show"), window.findChild<ShowMenu*>()->chosen()},
                          {QStringLiteral("layout"), layout},
                          {QStringLiteral("file"), window.document().sessionFile()}};
   return QJsonDocument(look).toJson(QJsonDocument::Compact).toStdString();
@@ -83,6 +85,7 @@ void takeLook(MainWindow& window, const std::string& json) {
   if (const QString layout = look[QStringLiteral("layout")].toString(); !layout.isEmpty()) {
     window.takeLayout(QByteArray::fromBase64(layout.toLatin1()));
   }
+  window.findChild<ShowMenu*>()->choose(look[QStringLiteral("show")].toString());
   takeColours(window, look[QStringLiteral("colour")].toString());
   takeCameras(window, look);
 }

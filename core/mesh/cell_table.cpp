@@ -55,6 +55,7 @@ CellTable::CellTable(MeshPointer mesh, const Progress& progress)
   progress.report(0.1);
   pair_sides(progress.part(0.1, 0.9));
   find_loose_links();
+  find_loose_triangles();
 }
 
 std::span<const ElementId> CellTable::corners_of(CellId cell) const {
@@ -177,6 +178,24 @@ void CellTable::find_loose_links() {
     }
   }
   std::sort(loose_links_.begin(), loose_links_.end());
+}
+
+void CellTable::find_loose_triangles() {
+  for (std::uint32_t i = 0; i < mesh_->triangles.size(); ++i) {
+    const auto [a, b, c] = mesh_->triangles[i];
+    const auto cells = cells_of(a);
+    const bool on_side = std::any_of(cells.begin(), cells.end(), [&, b = b, c = c](CellId cell) {
+      for (SideId side = first_side(cell); side < end_side(cell); ++side) {
+        if (has_corner(side, mesh_->triangles[i][0]) && has_corner(side, b) && has_corner(side, c)) {
+          return true;
+        }
+      }
+      return false;
+    });
+    if (!on_side) {
+      loose_triangles_.push_back(i);
+    }
+  }
 }
 
 }  // namespace chainmail

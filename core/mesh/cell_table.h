@@ -66,6 +66,8 @@ class CellTable {
   }
   /// The links that are no cell's edge, ascending.
   const std::vector<LinkId>& loose_links() const { return loose_links_; }
+  /// The triangles of the mesh that lie on no cell's side, ascending.
+  const std::vector<std::uint32_t>& loose_triangles() const { return loose_triangles_; }
 
  private:
   Side side_by_number(SideId side) const;
@@ -74,6 +76,7 @@ class CellTable {
   void list_cells();
   void pair_sides(const Progress& progress);
   void find_loose_links();
+  void find_loose_triangles();
 
   MeshPointer mesh_;
   std::uint32_t tetrahedra_ = 0;
@@ -81,6 +84,7 @@ class CellTable {
   std::vector<std::uint32_t> first_cell_;  // of each element, among cells_, and the end
   std::vector<CellId> cells_;
   std::vector<LinkId> loose_links_;
+  std::vector<std::uint32_t> loose_triangles_;
 };
 
 using CellTablePointer = std::shared_ptr<const CellTable>;

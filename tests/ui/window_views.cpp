@@ -77,13 +77,25 @@ QString differs(Workbench& bench, int panel, const QString& name) {
   return differs(pictureOf(bench.view(panel)), name);
 }
 
-enum Object { plane, block, surface };
+enum Object { plane, block, surface, volume };
 
 MeshPointer make(int object) {
-  static const std::array recipes{MeshRecipe{MeshKind::grid, {9, 7, 1}, 1, {}},
-                                  MeshRecipe{MeshKind::tetra, {6, 4, 3}, 1, {}},
-                                  MeshRecipe{MeshKind::cloth, {9, 7, 1}, 1, 3}};
+  static const std::array recipes{
+      MeshRecipe{MeshKind::grid, {9, 7, 1}, 1, {}}, MeshRecipe{MeshKind::tetra, {6, 4, 3}, 1, {}},
+      MeshRecipe{MeshKind::cloth, {9, 7, 1}, 1, 3}, MeshRecipe{MeshKind::tetra, {9, 5, 4}, 1, {}}};
   return generate(recipes[std::size_t(object)]);
+}
+
+/// A cleft from above, half through, beside the element that is dragged.
+std::vector<LinkId> cleft(const Mesh& mesh) {
+  std::vector<LinkId> links;
+  for (LinkId link = 0; link < mesh.link_count(); ++link) {
+    const Point a = mesh.rest_position(mesh.links[link][0]), b = mesh.rest_position(mesh.links[link][1]);
+    if ((a.x() < 3.5) != (b.x() < 3.5) && std::min(a.y(), b.y()) > 1.5) {
+      links.push_back(link);
+    }
+  }
+  return links;
 }
 
 }  // namespace
@@ -108,6 +120,8 @@ class WindowViews : public QObject {
     add("grid-light", plane, {QStringLiteral("themeLight")}, 1);
     add("block", block, {});
     add("block-light", block, {QStringLiteral("themeLight")}, 1);
+    add("volume-cut", volume, {});
+    add("volume-cut-light", volume, {QStringLiteral("themeLight"), QStringLiteral("showSurface")}, 1);
     add("surface", surface, {});
     add("surface-violation", surface, {QStringLiteral("colourBy-violation")});
     add("violation", plane, {QStringLiteral("colourBy-violation")});
@@ -124,7 +138,7 @@ class WindowViews : public QObject {
     QFETCH(int, panel);
     Workbench bench(make(object));
     bench.document().setPinned({8}, true);
-    bench.document().cut({20});
+    bench.document().cut(object == volume ? cleft(*bench.document().mesh()) : std::vector<LinkId>{20});
     bench.settle();
     bench.document().select({31});
     for (const QString& action : actions) {
@@ -132,8 +146,9 @@ class WindowViews : public QObject {
     }
     bench.settle();
     // By numbers, not by the mouse: a view's size must not matter.
-    const Point from = bench.document().mesh()->rest_position(31);
-    bench.document().grab(31);
+    const ElementId grabbed = object == volume ? 40 : 31;
+    const Point from = bench.document().mesh()->rest_position(grabbed);
+    bench.document().grab(grabbed);
     for (const double share : {0.5, 1.0}) {
       bench.document().drag(from + share * Point(1.3, 1.6, object == plane ? 0 : 0.8));
       bench.settle();

@@ -1,0 +1,182 @@
+// What is shown of a volume, in a real window: its outer surface, its links, and what a cut opens.
+
+#include "colours.h"
+#include "sessions.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+constexpr ElementId middleOfTheFront = 7 + 15 * 3 + 15 * 9 * 4;  // of the block below
+
+/// Seen from the front, its near side fills the middle of the view.
+MeshPointer tetraBlock() { return generate({MeshKind::tetra, {15, 9, 5}, 1, {}}); }
+
+bool isGround(QRgb pixel) {
+  const QColor ground = colours::background;
+  return std::max({std::abs(qRed(pixel) - ground.red()), std::abs(qGreen(pixel) - ground.green()),
+                   std::abs(qBlue(pixel) - ground.blue())}) < 6;
+}
+
+/// The share of the pixels about an element that show the ground.
+double groundAbout(Workbench& bench, ElementId element, int reach = 60) {
+  bench.settle();
+  const QImage picture = bench.view(0).grabFramebuffer();
+  const QPoint centre = bench.place(0, element);
+  int ground = 0;
+  for (int dx = -reach; dx < reach; ++dx) {
+    for (int dy = -reach; dy < reach; ++dy) {
+      ground += isGround(picture.pixel(centre + QPoint(dx, dy)));
+    }
+  }
+  return double(ground) / (4.0 * reach * reach);
+}
+
+QImage picture(Workbench& bench) {
+  bench.settle();
+  return bench.view(0).grabFramebuffer();
+}
+
+/// Every link of an element: the cells about it are gone.
+void cutOut(Workbench& bench, ElementId element) {
+  const Mesh& mesh = *bench.document().mesh();
+  const auto* row = mesh.entry_link.data();
+  bench.document().cut({row + mesh.first_entry[element], row + mesh.first_entry[element + 1]});
+}
+
+}  // namespace
+
+class WindowSurface : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  void aVolumeIsSolidUnlessItsLinksAreChosen() {
+    Workbench bench(tetraBlock());
+    bench.trigger("viewFront");
+    QVERIFY(bench.find<QAction>("showSurfaceAndLinks")->isChecked());
+    QCOMPARE(groundAbout(bench, middleOfTheFront), 0.0);
+    const QImage both = picture(bench);
+    bench.trigger("showSurface");
+    QCOMPARE(groundAbout(bench, middleOfTheFront), 0.0);
+    const QImage surface = picture(bench);
+    QVERIFY(surface != both);
+    bench.trigger("showLinks");
+    QVERIFY(groundAbout(bench, middleOfTheFront) > 0.2);  // between links a square of about 20 pixels is empty
+    bench.trigger("showSurface");
+    QCOMPARE(picture(bench), surface);
+  }
+
+  void aCutShowsTheInsideAtOnceAndUndoClosesIt() {
+    Workbench bench(tetraBlock());
+    bench.trigger("viewFront");
+    bench.trigger("showSurface");
+    const QImage whole = picture(bench);
+    const QPoint at = bench.place(0, middleOfTheFront);
+    // The front is flat and evenly lit: about one of its elements there is one colour.
+    const QRect about(at - QPoint(8, 8), QSize(16, 16));
+    const QRgb face = whole.pixel(at + QPoint(5, 2));
+    const auto ofTheFace = [&](const QImage& now) {
+      int alike = 0;
+      for (int x = about.left(); x <= about.right(); ++x) {
+        for (int y = about.top(); y <= about.bottom(); ++y) {
+          alike += now.pixel(x, y) == face;
+        }
+      }
+      return double(alike) / (about.width() * about.height());
+    };
+    QVERIFY(ofTheFace(whole) > 0.95);
+    cutOut(bench, middleOfTheFront);
+    const QImage open = picture(bench);
+    QVERIFY(ofTheFace(open) < 0.5);                           // slanted sides inside take the light otherwise
+    QVERIFY(groundAbout(bench, middleOfTheFront, 8) < 0.01);  // and close the view to what lies behind
+    bench.document().undoStack().undo();
+    QCOMPARE(picture(bench), whole);
+    bench.document().undoStack().redo();
+    QCOMPARE(picture(bench), open);
+    // As it is drawn anew, without having seen the cut happen.
+    bench.document().replaceMesh(tetraBlock(), QStringLiteral("other"), QStringLiteral("build"));
+    bench.settle();
+    bench.document().undoStack().undo();
+    bench.settle();
+    bench.trigger("viewFront");
+    QCOMPARE(picture(bench), open);
+  }
+
+  void linksThatAreColouredAreDrawnOnTheSurface() {
+    Workbench bench(tetraBlock());
+    bench.trigger("showSurface");
+    const QImage plain = picture(bench);
+    bench.trigger("colourBy-shear");
+    QTest::qWait(200);  // colours follow at a rate that can be read
+    const QImage coloured = picture(bench);
+    bench.trigger("showSurfaceAndLinks");
+    QVERIFY(coloured != plain);
+    bench.document().setHighlight({});
+    QVERIFY(picture(bench) != plain);
+  }
+
+  void anObjectOfLinksAloneHasNoSurfaceToChoose() {
+    Workbench bench(generate({MeshKind::block, {4, 4, 4}, 1, {}}));
+    QVERIFY(bench.find<QAction>("showLinks")->isChecked());
+    for (const char* name : {"showSurface", "showSurfaceAndLinks"}) {
+      QVERIFY(!bench.find<QAction>(name)->isEnabled());
+      QVERIFY(bench.find<QAction>(name)->toolTip().contains(QStringLiteral("links alone")));
+    }
+    bench.document().replaceMesh(tetraBlock(), QStringLiteral("tetra"), QStringLiteral("build"));
+    QVERIFY(bench.find<QAction>("showSurface")->isEnabled());
+    QVERIFY(bench.find<QAction>("showSurfaceAndLinks")->isChecked());
+  }
+
+  void theChoiceIsThatOfAllPanelsAndRemembered() {
+    {
+      Workbench bench(tetraBlock());
+      bench.trigger("showLinks");
+      bench.trigger("addPanel");
+      bench.settle();
+      QVERIFY(bench.view(2).grabFramebuffer() != QImage());
+      bench.trigger("showSurface");
+      for (int panel = 0; panel < 3; ++panel) {
+        bench.settle();
+        const QImage shown = bench.view(panel).grabFramebuffer();
+        QVERIFY(!isGround(shown.pixel(bench.place(panel, middleOfTheFront))));
+      }
+    }
+    Workbench again(tetraBlock());
+    QVERIFY(again.find<QAction>("showSurface")->isChecked());
+    // A picture on a sheet is a matter of its own: links would cover it.
+    again.trigger("showLinks");
+    MeshParts parts;
+    parts.rest = {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(0, 1, 0)};
+    parts.triangles = {{0, 1, 2}, {0, 2, 3}};
+    parts.links = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}};
+    auto texture = std::make_shared<Texture>();
+    texture->texels.resize(texture->byte_count());
+    texture->box = {Point(0, 0, 0), Point(1, 1, 0)};
+    parts.texture = texture;
+    again.document().replaceMesh(build_mesh(std::move(parts)), QStringLiteral("picture"), QStringLiteral("build"));
+    QVERIFY(again.find<QAction>("showSurface")->isChecked());
+    again.document().undoStack().undo();
+    QVERIFY(again.find<QAction>("showLinks")->isChecked());
+  }
+
+  void aSessionKeepsIt() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("volume.chainmail"));
+    Workbench bench(tetraBlock());
+    bench.trigger("showSurface");
+    bench.window.sessions().savePath(path);
+    bench.settle();
+    bench.trigger("showLinks");
+    bench.open(path);
+    QVERIFY(bench.find<QAction>("showSurface")->isChecked());
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowSurface>(argc, argv); }
+#include "window_surface.moc"
