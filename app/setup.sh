@@ -14,6 +14,7 @@ window_packages=(libgl1-mesa-dri fonts-dejavu-core)
 test_packages=(librapidcheck-dev xvfb clang-format)
 check_packages=(clang-tidy)
 bench_packages=(libbenchmark-dev libbullet-dev)
+fuzz_packages=(clang libclang-rt-14-dev)
 
 # Another checkout's build, or one that was here before, fills the cache for this one.
 # The last two let it cache what uses a precompiled header.

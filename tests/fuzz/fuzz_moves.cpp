@@ -1,0 +1,18 @@
+#include "files/moves.h"
+#include "fuzz/target.h"
+#include "mesh/generate.h"
+
+using namespace chainmail;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text = fuzz::text_of(data, size);
+  static const MeshPointer mesh = generate({MeshKind::cloth, {3, 3, 1}, 1, {}});
+  fuzz::read_or_refuse([&] {
+    const auto write = [](const std::vector<Command>& commands) {
+      return fuzz::written([&](auto& out) { write_moves(out, commands, *mesh); });
+    };
+    const std::string once = write(read_moves(text, "fuzz.json", *mesh));
+    fuzz::expect(write(read_moves(once, "again.json", *mesh)) == once, "what was written reads differently");
+  });
+  return 0;
+}

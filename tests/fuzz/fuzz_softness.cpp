@@ -1,0 +1,17 @@
+#include "files/softness_csv.h"
+#include "fuzz/target.h"
+#include "mesh/generate.h"
+
+using namespace chainmail;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text = fuzz::text_of(data, size);
+  static const MeshPointer mesh = generate({MeshKind::cloth, {3, 3, 1}, 1, {}});
+  fuzz::read_or_refuse([&] {
+    for (const auto& [link, softness] : read_softness(text, "fuzz.csv", *mesh)) {
+      fuzz::expect(link < mesh->link_count(), "a link that is not there");
+      check(softness);
+    }
+  });
+  return 0;
+}

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "mesh/error.h"
+#include "mesh/progress.h"
+
+namespace chainmail::fuzz {
+
+inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+/// Ends the program, so that the fuzzer keeps the input.
+[[noreturn]] inline void fail(const std::string& what) {
+  std::fprintf(stderr, "%s\n", what.c_str());
+  std::abort();
+}
+
+inline void expect(bool holds, const char* what) {
+  if (!holds) {
+    fail(what);
+  }
+}
+
+/// An error is one line that steers no terminal.
+inline void check_sentence(const std::string& sentence) {
+  for (const unsigned char character : sentence) {
+    if (character < ' ' || character == 0x7f) {
+      fail("control characters in a sentence: " + sentence);
+    }
+  }
+}
+
+/// Calls a reader: it returns, or it refuses what it is given. Any other exception ends the program.
+template <class Read>
+void read_or_refuse(Read read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    check_sentence(error.what());
+  } catch (const Cancelled&) {
+  }
+}
+
+/// What a function writes, as a string.
+template <class Write>
+std::string written(Write write) {
+  std::ostringstream out;
+  write(out);
+  return out.str();
+}
+
+}  // namespace chainmail::fuzz
