@@ -132,28 +132,31 @@ def write_jittered(path, size=(11, 9, 8), jitter=0.25):
         out.write(f"CELL_TYPES {len(cells)}\n" + "10\n" * len(cells))
 
 
-# A soft block with a stiff ball in it.
+# A soft sheet with a stiff disc in it.
 
-def write_inclusion(path, size=(16, 12, 10), middle=(6.5, 5.5, 4.5), radius=3.1):
-    places = [(x, y, z) for z in range(size[2]) for y in range(size[1]) for x in range(size[0])]
-    strides = (1, size[0], size[0] * size[1])
-    links = [(i, i + strides[k]) for i, place in enumerate(places) for k in range(3) if place[k] + 1 < size[k]]
-    stiff = [math.dist(place, middle) <= radius for place in places]
+def write_inclusion(path, size=(32, 24), middle=(13.5, 11.5), radius=4.6):
+    width, height = size
+    places = [(x, y, 0) for y in range(height) for x in range(width)]
+    squares = [i for i, place in enumerate(places) if place[0] + 1 < width and place[1] + 1 < height]
+    triangles = [corners for i in squares
+                 for corners in ((i, i + 1, i + width + 1), (i, i + width + 1, i + width))]
+    links = sorted({tuple(sorted(pair)) for a, b, c in triangles for pair in ((a, b), (b, c), (c, a))})
+    stiff = [math.dist(place[:2], middle) <= radius for place in places]
     own = [[a, b, 1, 1, 0] for a, b in links if stiff[a] and stiff[b]]
 
     def numbers(rows):
         return "[\n" + ",\n".join(",".join(map(str, row)) for row in rows) + "]"
 
-    lattice = json.dumps({"size": size, "spacing": 1})
+    lattice = json.dumps({"size": [width, height, 1], "spacing": 1})
     panels = [{"algorithm": algorithm, "precision": "float", "from_rest": algorithm == "exact", "runs": [], "held": []}
               for algorithm in ("natural-queue", "exact")]
     path.write_text(
         '{"format": "chainmail session", "version": 1, "name": "stiff inclusion",\n'
-        f'"mesh": {{"elements": {len(places)}, "space": 3, "lattice": {lattice},\n"rest": {numbers(places)},\n'
-        f'"links": {numbers(links)},\n"triangles": [], "polygons": [], "tetrahedra": []}},\n'
-        '"cuts": [], "pins": [],\n"softness": {"compression": 0.5, "stretch": 1.5, "shear": 0.4,\n'
+        f'"mesh": {{"elements": {len(places)}, "space": 2, "lattice": {lattice},\n"rest": {numbers(places)},\n'
+        f'"links": {numbers(links)},\n"triangles": {numbers(triangles)}, "polygons": [], "tetrahedra": []}},\n'
+        '"cuts": [], "pins": [],\n"softness": {"compression": 0.4, "stretch": 1.6, "shear": 0.5,\n'
         f'"own": {numbers(own)}}},\n"relaxation": {{"on": false, "scheme": "mean", "step": 1}},\n'
-        f'"panels": {json.dumps(panels)},\n"ui": {{}}}}\n', encoding="utf-8")
+        f'"panels": {json.dumps(panels)},\n"ui": {{"colour": "shear"}}}}\n', encoding="utf-8")
 
 
 # A picture: a face behind a grid, whose lines show how it is warped.

@@ -49,13 +49,12 @@ void SamplesTest::samples() {
 
 void SamplesTest::the_inclusion_is_stiff_and_its_body_is_not() {
   const Session session = read_session(std::filesystem::path(SAMPLES) / "inclusion.chainmail");
-  QCOMPARE(session.mesh->element_count(), 16U * 12 * 10);
-  QVERIFY(session.mesh->is_grid);
+  QCOMPARE(session.mesh->element_count(), 32U * 24);
   const LinkSoftness stiff{1, 1, 0};
   QVERIFY(session.softness->links.size() > 100 && session.softness->links.size() < session.mesh->link_count() / 10);
   QVERIFY(std::all_of(session.softness->links.begin(), session.softness->links.end(),
                       [&](const auto& link) { return link.second == stiff; }));
-  QVERIFY(session.softness->global.compression <= 0.5);
+  QVERIFY(session.softness->global.compression < 0.5);
 }
 
 void SamplesTest::every_file_in_the_folder_opens() {
