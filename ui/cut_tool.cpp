@@ -33,7 +33,7 @@ void CutTool::move(View& view, QPointF place) {
     return;
   }
   stroke_.push_back(place);
-  const auto crossed = view.linksCrossing(segment);
+  const auto crossed = frontOnly_ ? view.frontLinksCrossing(segment) : view.linksCrossing(segment);
   crossed_.insert(crossed.begin(), crossed.end());
   document_.setHighlight({std::nullopt, false, {crossed_.begin(), crossed_.end()}});
   view.update();

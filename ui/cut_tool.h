@@ -8,10 +8,13 @@
 
 namespace chainmail {
 
-/// Draws a stroke; the links that it crosses light up, and are cut in all panels on release.
+/// Draws a stroke; the links that it crosses light up, and are cut in all panels on release: through the whole object,
+/// or in its front layer alone.
 class CutTool : public Tool {
  public:
   explicit CutTool(Document& document) : document_(document) {}
+
+  void setFrontOnly(bool frontOnly) { frontOnly_ = frontOnly; }
 
   QString name() const override { return QStringLiteral("Cut"); }
   QString hint() const override;
@@ -27,6 +30,7 @@ class CutTool : public Tool {
 
  private:
   Document& document_;
+  bool frontOnly_ = false;
   const View* at_ = nullptr;  // the view that the stroke is drawn in
   std::vector<QPointF> stroke_;
   std::set<LinkId> crossed_;

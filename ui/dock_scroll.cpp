@@ -1,5 +1,6 @@
 #include "dock_scroll.h"
 
+#include <QEvent>
 #include <QScrollBar>
 #include <algorithm>
 
@@ -12,7 +13,20 @@ DockScroll::DockScroll(QWidget* content) {
   setWidgetResizable(true);
   setFrameShape(QFrame::NoFrame);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  setMinimumWidth(std::max(dockWidth, content->minimumSizeHint().width() + verticalScrollBar()->sizeHint().width()));
+  content->installEventFilter(this);
+  fitWidth();
+}
+
+/// What the content shows may need more room, or less, than at first.
+bool DockScroll::eventFilter(QObject* content, QEvent* event) {
+  if (event->type() == QEvent::LayoutRequest) {
+    fitWidth();
+  }
+  return QScrollArea::eventFilter(content, event);
+}
+
+void DockScroll::fitWidth() {
+  setMinimumWidth(std::max(dockWidth, widget()->minimumSizeHint().width() + verticalScrollBar()->sizeHint().width()));
 }
 
 }  // namespace chainmail

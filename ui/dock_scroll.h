@@ -13,6 +13,12 @@ class DockScroll : public QScrollArea {
   explicit DockScroll(QWidget* content);
 
   QSize sizeHint() const override { return widget()->sizeHint(); }
+
+ protected:
+  bool eventFilter(QObject* content, QEvent* event) override;
+
+ private:
+  void fitWidth();
 };
 
 }  // namespace chainmail

@@ -13,7 +13,9 @@
 #include "mesh_filters.h"
 #include "panel_names.h"
 #include "picture_file.h"
+#include "samples.h"
 #include "sessions.h"
+#include "sheet_bar.h"
 #include "sheets.h"
 
 namespace chainmail {
@@ -142,6 +144,10 @@ void FileActions::openPath(const QString& path, bool first) {
               });
 }
 
+void FileActions::openSample(const QString& path) {
+  isPicture(path) ? sheets_->open(path, SheetBar::standardAcross) : openPath(path);
+}
+
 void FileActions::show(const MeshPointer& mesh, const QString& path, bool first) {
   const QString name = QFileInfo(path).fileName();
   document_.replaceMesh(mesh, name, QStringLiteral("open %1").arg(name));
@@ -197,7 +203,11 @@ void FileActions::fillRecent() {
   recent_->setEnabled(!recent_->isEmpty());
 }
 
+/// Samples have their gallery, and their folder is no place for others.
 void FileActions::remember(const QString& path) {
+  if (isSample(path)) {
+    return;
+  }
   QSettings settings;
   const QString absolute = QFileInfo(path).absoluteFilePath();
   QStringList recent = settings.value(recentKey()).toStringList();

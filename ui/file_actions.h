@@ -28,6 +28,8 @@ class FileActions : public QObject {
   /// A session or a mesh, by its ending, or a picture, by what it holds. The first object of a window is no step of
   /// undo: there is no way back to before the start.
   void openPath(const QString& path, bool first = false);
+  /// One of the samples, of which nothing is asked.
+  void openSample(const QString& path);
   void save();
   /// Saves the object at rest, without its cut links, in the format that the name ends in.
   void savePath(const QString& path);

@@ -27,7 +27,10 @@ void MainWindow::makeDocks() {
   auto* meshDock = new MeshDock(document_, jobs_);
   connect(meshDock, &MeshDock::openRequested, files_, &FileActions::open);
   connect(meshDock, &MeshDock::saveRequested, files_, &FileActions::save);
-  addDockWidget(Qt::LeftDockWidgetArea, new ToolsDock(*toolActions_, selectTool_, *toolActions_->actions().last()));
+  connect(meshDock, &MeshDock::sampleRequested, files_, &FileActions::openSample);
+  auto* tools = new ToolsDock(*toolActions_, document_, cutTool_, selectTool_);
+  addDockWidget(Qt::LeftDockWidgetArea, tools);
+  tools->fill(*findChild<QMenu*>(QStringLiteral("editMenu")));
   addDockWidget(Qt::LeftDockWidgetArea, meshDock);
   makeStiffnessDock();
   addDockWidget(Qt::RightDockWidgetArea, new RelaxationDock(document_));

@@ -46,6 +46,7 @@ void MainWindow::makePictures(QMenu& menu) {
 }
 
 void MainWindow::fillEditMenu(QMenu& menu) {
+  menu.setObjectName(QStringLiteral("editMenu"));
   undoActions_->fill(menu);
   menu.addSeparator();
   menu.addActions(toolActions_->actions());

@@ -6,7 +6,10 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "dock_scroll.h"
+#include "gallery.h"
 #include "icons.h"
+#include "samples.h"
 #include "text.h"
 
 namespace chainmail {
@@ -66,7 +69,6 @@ MeshDock::MeshDock(Document& document, Jobs& jobs)
   connect(build_, &QPushButton::clicked, this, &MeshDock::build);
   connect(&document, &Document::meshChanged, this, &MeshDock::describe);
   connect(&document, &Document::cutsChanged, this, &MeshDock::describe);
-  adaptToKind();
   describe();
 }
 
@@ -97,7 +99,6 @@ void MeshDock::arrange() {
   connect(open, &QPushButton::clicked, this, &MeshDock::openRequested);
   connect(save, &QPushButton::clicked, this, &MeshDock::saveRequested);
   auto* content = new QWidget;
-  content->setMinimumWidth(dockWidth);
   auto* column = new QVBoxLayout(content);
   auto* form = new QFormLayout;
   form->addRow(QStringLiteral("Kind"), kind_);
@@ -111,8 +112,12 @@ void MeshDock::arrange() {
   files->addWidget(open);
   files->addWidget(save);
   column->addLayout(files);
-  column->addStretch();
-  setWidget(content);
+  column->addWidget(new QLabel(QStringLiteral("Samples")));
+  auto* gallery = new Gallery(samplesFolder());
+  connect(gallery, &Gallery::chosen, this, &MeshDock::sampleRequested);
+  column->addWidget(gallery, 1);
+  adaptToKind();
+  setWidget(new DockScroll(content));  // a screen of 768 pixels has no room for all of it
 }
 
 void MeshDock::adaptToKind() {

@@ -24,7 +24,7 @@ inline MeshRecipe sampleRecipe() {
 /// How a generated object is called.
 QString recipeName(const MeshRecipe& recipe);
 
-/// What object is there: build one by kind and size, open or save one.
+/// What object is there: build one by kind and size, open or save one, take a sample.
 class MeshDock : public QDockWidget {
   Q_OBJECT
 
@@ -34,6 +34,8 @@ class MeshDock : public QDockWidget {
  signals:
   void openRequested();
   void saveRequested();
+  /// One of the gallery's files.
+  void sampleRequested(const QString& path);
 
  private:
   const MeshKindInfo& kind() const { return mesh_kinds()[std::size_t(kind_->currentIndex())]; }

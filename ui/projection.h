@@ -42,6 +42,10 @@ class Projection {
   Place operator()(const float* carried) const;
   /// Depth in pixels, growing away from the eye.
   float depth(const Place& place) const;
+  /// How many pixels a mesh unit spans there, across the view and in depth.
+  float pixelsPerUnit(const Place& place) const {
+    return pixelsPerZ_ != 0 ? pixelsPerDepth_ : pixelsPerDepth_ / place.distance;
+  }
   /// Sides of the view, as bits, beyond which all of a box lies. What lies between two boxes is beyond those that they
   /// have in common, where one of them is behind the eye too.
   unsigned beyond(const CellBoxes::Box& box) const;

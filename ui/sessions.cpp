@@ -8,6 +8,7 @@
 #include "autosave.h"
 #include "main_window.h"
 #include "recovery_bar.h"
+#include "samples.h"
 #include "session_draft.h"
 #include "window_look.h"
 
@@ -52,10 +53,10 @@ void Sessions::openPath(const QString& path, bool first) {
 }
 
 void Sessions::show(const std::shared_ptr<const Session>& session, const QString& path, bool first) {
-  const QString absolute = QFileInfo(path).absoluteFilePath();
+  const QString file = isSample(path) ? QString() : QFileInfo(path).absoluteFilePath();
   Document& document = window_.document();
   showPanels(document, *session);
-  document.restore(session, absolute, QStringLiteral("open %1").arg(QFileInfo(path).fileName()));
+  document.restore(session, file, QStringLiteral("open %1").arg(QFileInfo(path).fileName()));
   if (first) {
     document.undoStack().clear();
   }

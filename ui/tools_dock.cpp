@@ -4,9 +4,12 @@
 #include <QButtonGroup>
 #include <QGridLayout>
 #include <QLabel>
+#include <QMenu>
 #include <QSpinBox>
 #include <QToolButton>
+#include <QVBoxLayout>
 
+#include "cut_tool.h"
 #include "icons.h"
 #include "select_tool.h"
 
@@ -25,11 +28,11 @@ QToolButton* wideButton() {
 
 }  // namespace
 
-ToolsDock::ToolsDock(const QActionGroup& tools, SelectTool& select, const QAction& selectAction)
+ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select)
     : QDockWidget(QStringLiteral("Tools")) {
   setObjectName(QStringLiteral("toolsDock"));
   auto* content = new QWidget;
-  auto* column = new QVBoxLayout(content);
+  column_ = new QVBoxLayout(content);
   auto* grid = new QGridLayout;
   for (QAction* action : tools.actions()) {
     auto* button = wideButton();
@@ -38,22 +41,59 @@ ToolsDock::ToolsDock(const QActionGroup& tools, SelectTool& select, const QActio
     const int i = int(tools.actions().indexOf(action));
     grid->addWidget(button, i / columns, i % columns);
   }
-  column->addLayout(grid);
-  QWidget* options = makeOptions(select);
-  column->addWidget(options);
+  column_->addLayout(grid);
   setWidget(content);
   // The buttons need no more height, however tall the column of docks is.
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-  const auto adapt = [content, column, options, &selectAction] {
-    options->setVisible(selectAction.isChecked());
-    content->setFixedHeight(column->sizeHint().height());
+  for (QAction* action : tools.actions()) {
+    if (action->text() == cut.name()) {
+      showFor(*action, makeCutOptions(document, cut));
+    } else if (action->text() == select.name()) {
+      showFor(*action, makeSelectOptions(select));
+    }
+  }
+}
+
+/// As long as the tool is the one in use.
+void ToolsDock::showFor(QAction& tool, QWidget* options) {
+  column_->addWidget(options);
+  const auto adapt = [this, options](bool on) {
+    options->setVisible(on);
+    widget()->setFixedHeight(column_->sizeHint().height());
   };
-  connect(&selectAction, &QAction::toggled, this, adapt);
+  connect(&tool, &QAction::toggled, this, adapt);
+  adapt(tool.isChecked());
+}
+
+/// After the tools, before what gives them up.
+void ToolsDock::fill(QMenu& menu) { menu.insertAction(menu.actions().constLast(), frontOnly_); }
+
+/// Through the whole object, or its front layer alone: where nothing lies behind, there is nothing to choose.
+QWidget* ToolsDock::makeCutOptions(Document& document, CutTool& cut) {
+  frontOnly_ = new QAction(QStringLiteral("Cut the &front layer only"), this);
+  frontOnly_->setObjectName(QStringLiteral("cutFrontOnly"));
+  frontOnly_->setIconText(QStringLiteral("Front layer only"));
+  frontOnly_->setCheckable(true);
+  frontOnly_->setShortcut(Qt::SHIFT | Qt::Key_K);
+  connect(frontOnly_, &QAction::toggled, this, [&cut](bool on) { cut.setFrontOnly(on); });
+  const auto adapt = [this, &document] {
+    const bool spatial = document.mesh()->space_dimension == 3;
+    frontOnly_->setEnabled(spatial);
+    frontOnly_->setStatusTip(
+        spatial ? QStringLiteral("On: a stroke cuts what one sees and nothing behind it. Off: through the whole object")
+                : QStringLiteral("In a plane nothing lies behind: a stroke cuts all that it crosses"));
+    frontOnly_->setToolTip(frontOnly_->statusTip() + QStringLiteral(" (Shift+K)"));
+  };
+  connect(&document, &Document::meshChanged, this, adapt);
   adapt();
+  auto* button = wideButton();
+  button->setDefaultAction(frontOnly_);
+  button->setObjectName(QStringLiteral("cutFrontOnlyButton"));
+  return button;
 }
 
 /// Rectangle or brush, and the brush's radius.
-QWidget* ToolsDock::makeOptions(SelectTool& select) {
+QWidget* ToolsDock::makeSelectOptions(SelectTool& select) {
   auto* options = new QWidget;
   auto* grid = new QGridLayout(options);
   grid->setContentsMargins(0, 0, 0, 0);

@@ -3,7 +3,9 @@
 #include <QOpenGLContext>
 #include <algorithm>
 
+#include "front_links.h"
 #include "mesh/error.h"
+#include "mesh/surface.h"
 
 namespace chainmail {
 namespace {
@@ -97,6 +99,22 @@ std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
   const Frame* frame = document_.frame(panel_);
   return frame == nullptr ? std::vector<LinkId>()
                           : crossedLinks(*frame, boxes(*frame), document_.cuts(), projection(), stroke);
+}
+
+std::vector<LinkId> View::frontLinksCrossing(QLineF stroke) const {
+  const std::vector<LinkId> crossed = linksCrossing(stroke);
+  const Frame* frame = document_.frame(panel_);
+  if (crossed.empty() || !camera_->spatial()) {
+    return crossed;
+  }
+  const Surface& surface = levels_->surface(frame->mesh, document_.cuts());
+  if (frame->mesh->triangles.empty() && surface.table().empty()) {
+    return nearestLinks(*frame, boxes(*frame), projection(), stroke, crossed);
+  }
+  auto faces =
+      wholeFaces(*frame, boxes(*frame), document_.cuts(), projection(), QRectF(stroke.p1(), stroke.p2()).normalized());
+  appendFaces(surface, faces);
+  return unhiddenLinks(*frame, projection(), stroke, crossed, faces);
 }
 
 std::vector<ElementId> View::elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const {

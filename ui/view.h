@@ -62,6 +62,8 @@ class View : public QOpenGLWidget {
   /// For tools: what is under a place of this view, and where an element is.
   std::optional<ElementId> elementAt(QPointF place) const;
   std::vector<LinkId> linksCrossing(QLineF stroke) const;
+  /// Of them those of the front layer, where the scene has depth.
+  std::vector<LinkId> frontLinksCrossing(QLineF stroke) const;
   /// `inside` is asked of places in `bounds`.
   std::vector<ElementId> elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const;
   Point position(ElementId element) const;

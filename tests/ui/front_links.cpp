@@ -1,0 +1,133 @@
+// What a stroke crosses in the front layer alone.
+
+#include "front_links.h"
+
+#include <QTest>
+
+#include "core/families.h"
+#include "scene.h"
+
+using namespace chainmail;
+
+namespace {
+
+/// Seen from +z or somewhat beside it, by parallel rays.
+struct Front : Scene {
+  explicit Front(const MeshPointer& mesh, double yaw = 0, double pitch = 0) : Scene(mesh), cuts(mesh) {
+    camera.setParallel(true);
+    camera.lookFrom(yaw, pitch);
+  }
+  std::vector<LinkId> crossedHere() const { return crossed(cuts, stroke); }
+  std::vector<LinkId> unhidden(const std::vector<Face>& faces) const {
+    return unhiddenLinks(frame, projection(), stroke, crossedHere(), faces);
+  }
+  std::vector<LinkId> unhidden() const {
+    return unhidden(wholeFaces(frame, boxes, cuts, projection(), QRectF(stroke.p1(), stroke.p2()).normalized()));
+  }
+  /// Of the links crossed, those whose ends both stand where `holds` says.
+  template <class Holds>
+  std::vector<LinkId> crossedWhere(Holds holds) const {
+    std::vector<LinkId> links;
+    for (const LinkId link : crossedHere()) {
+      const auto [a, b] = frame.mesh->links[link];
+      if (holds(frame.mesh->rest_position(a)) && holds(frame.mesh->rest_position(b))) {
+        links.push_back(link);
+      }
+    }
+    return links;
+  }
+
+  Cuts cuts;
+  QLineF stroke{330, 310, 480, 290};  // about the middle of the view
+};
+
+/// Two sheets of triangles, the second three behind the first; both fill the middle of the view.
+MeshPointer twoSheets() {
+  MeshParts parts;
+  const auto sheet = test::make_mesh(MeshKind::cloth, {6, 6, 1}, 3);
+  for (const double z : {0.0, -3.0}) {
+    const auto first = ElementId(parts.rest.size());
+    for (ElementId e = 0; e < sheet->element_count(); ++e) {
+      parts.rest.push_back(sheet->rest_position(e) + Point(z / 10, z / 20, z));
+    }
+    for (const auto& [a, b, c] : sheet->triangles) {
+      test::add_triangle(parts, first + a, first + b, first + c);
+    }
+  }
+  return build_mesh(std::move(parts));
+}
+
+}  // namespace
+
+class FrontLinks : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void aSphereIsCrossedOnItsNearHalf_data() {
+    QTest::addColumn<bool>("parallel");
+    QTest::newRow("parallel rays") << true;
+    QTest::newRow("perspective") << false;
+  }
+  void aSphereIsCrossedOnItsNearHalf() {
+    QFETCH(bool, parallel);
+    Front scene(test::sphere(24, 12), 20, 35);
+    scene.camera.setParallel(parallel);
+    const Projection projection = scene.projection();
+    const float centre[3]{};
+    const float middle = projection.depth(projection(centre));
+    std::vector<LinkId> near;
+    for (const LinkId link : scene.crossedHere()) {
+      const auto [a, b] = scene.frame.mesh->links[link];
+      if (projection.depth(plain::placeOf(scene.frame, projection, a)) < middle &&
+          projection.depth(plain::placeOf(scene.frame, projection, b)) < middle) {
+        near.push_back(link);  // the stroke ends well before the outline
+      }
+    }
+    QVERIFY(near.size() > 4 && near.size() < scene.crossedHere().size());
+    QCOMPARE(scene.unhidden(), near);
+  }
+
+  void whatAHoleShowsIsInFront() {
+    Front scene(twoSheets());
+    const auto first = scene.crossedWhere([](const Point& p) { return p.z() == 0; });
+    const auto second = scene.crossedWhere([](const Point& p) { return p.z() < 0; });
+    QVERIFY(!first.empty() && !second.empty());
+    QCOMPARE(scene.unhidden(), first);
+    for (const LinkId link : first) {
+      scene.cuts.cut(link);  // and with them the faces
+    }
+    QCOMPARE(scene.unhidden(), second);
+  }
+
+  void ofAVolumeOnlyItsSurfaceInSight() {
+    Front scene(test::make_mesh(MeshKind::tetra, {4, 4, 4}));
+    const auto table = std::make_shared<CellTable>(scene.frame.mesh);
+    const auto facesOf = [](const Surface& surface) {
+      std::vector<Face> faces;
+      appendFaces(surface, faces);
+      return faces;
+    };
+    const auto front = scene.unhidden(facesOf(Surface(table)));
+    QCOMPARE(front, scene.crossedWhere([](const Point& p) { return p.z() == 3; }));
+    for (const LinkId link : front) {
+      scene.cuts.cut(link);
+    }
+    // The cut shows what was inside: a second stroke goes deeper.
+    const auto deeper = scene.unhidden(facesOf(Surface(table, scene.cuts)));
+    QVERIFY(!deeper.empty());
+    QVERIFY(deeper.size() < scene.crossedHere().size());
+  }
+
+  void ofLinksAloneTheNearestLayer() {
+    const Front scene(test::make_mesh(MeshKind::block, {5, 5, 5}), 12, 8);
+    const auto nearest = nearestLinks(scene.frame, scene.boxes, scene.projection(), scene.stroke, scene.crossedHere());
+    const auto first = scene.crossedWhere([](const Point& p) { return p.z() == 4; });
+    QVERIFY(!first.empty());
+    QVERIFY(std::ranges::includes(nearest, first));
+    const auto behind = scene.crossedWhere([](const Point& p) { return p.z() <= 3; });
+    QVERIFY(std::ranges::none_of(nearest, [&](LinkId link) { return std::ranges::binary_search(behind, link); }));
+  }
+};
+
+QTEST_GUILESS_MAIN(FrontLinks)
+#include "front_links.moc"

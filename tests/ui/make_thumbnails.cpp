@@ -1,0 +1,75 @@
+// Makes the thumbnails of the samples: the target `thumbnails`.
+
+#include <QImage>
+#include <QPainter>
+
+#include "file_actions.h"
+#include "picture_file.h"
+#include "samples.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+constexpr QSize thumbnail{120, 90};  // device pixels, two to a logical one
+constexpr QSize drawn{200, 150};     // links that are a pixel wide there are seen in the thumbnail
+
+QImage pictureOf(const QString& path) {
+  if (isPicture(path)) {
+    return QImage(path);
+  }
+  Workbench bench;
+  bench.window.findChild<FileActions*>()->openSample(path);
+  bench.settle();
+  View& view = bench.view(0);
+  view.setFixedSize(drawn);
+  bench.settle();
+  view.fit();
+  return view.picture(1, true);
+}
+
+/// The part of a picture that something is drawn in.
+QRect drawnPart(const QImage& picture) {
+  QRect part;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      if (picture.pixelColor(x, y).alpha() != 0) {
+        part |= QRect(x, y, 1, 1);
+      }
+    }
+  }
+  return part;
+}
+
+/// As large as it goes, in the middle.
+QImage framed(const QImage& picture) {
+  QImage result(thumbnail, QImage::Format_ARGB32_Premultiplied);
+  result.fill(Qt::transparent);
+  const QImage scaled =
+      picture.copy(drawnPart(picture)).scaled(thumbnail, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+  QPainter(&result).drawImage((thumbnail.width() - scaled.width()) / 2, (thumbnail.height() - scaled.height()) / 2,
+                              scaled);
+  return result;
+}
+
+}  // namespace
+
+/// Takes the resources' folder.
+int main(int argc, char** argv) {
+  prepareApplication();
+  const QTemporaryDir settings;
+  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
+  QApplication application(argc, argv);
+  remember(Theme::dark);
+  styleApplication();
+  for (const Sample& sample : samples()) {
+    const QString path = samplesFolder() + QLatin1Char('/') + QString::fromUtf8(sample.file);
+    const QString to = QString::fromLocal8Bit(argv[1]) + QLatin1Char('/') + thumbnailOf(sample);
+    if (!framed(pictureOf(path)).save(to)) {
+      qCritical("%s cannot be written", qPrintable(to));
+      return 1;
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,72 @@
+// The gallery of samples in a real window.
+
+#include <QLabel>
+#include <QToolButton>
+
+#include "gallery.h"
+#include "message_bar.h"
+#include "samples.h"
+#include "sheet_bar.h"
+#include "window.h"
+
+using namespace chainmail;
+
+class WindowGallery : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void aClickOpensASampleAsOneStep_data() {
+    QTest::addColumn<int>("which");
+    for (std::size_t i = 0; i < samples().size(); ++i) {
+      QTest::newRow(samples()[i].file) << int(i);
+    }
+  }
+  void aClickOpensASampleAsOneStep() {
+    QFETCH(int, which);
+    const Sample& sample = samples()[std::size_t(which)];
+    Workbench bench;
+    const MeshPointer before = bench.document().mesh();
+    auto* button = bench.find<QToolButton>(qPrintable(QStringLiteral("sample %1").arg(QLatin1String(sample.file))));
+    QVERIFY(button != nullptr && button->isVisible());
+    button->click();
+    bench.settle();
+    QVERIFY2(!bench.window.messages().isVisible(), qPrintable(bench.window.messages().sentence()));
+    QCOMPARE(bench.document().mesh()->element_count(), sample.elements);  // as its tooltip says
+    QVERIFY(bench.document().sessionFile().isEmpty());                    // nobody's own, to be saved over
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("open ") + QString::fromUtf8(sample.file));
+    bench.trigger("undo");
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), before);
+  }
+
+  void eachHasAThumbnailATitleAndATooltip() {
+    Workbench bench;
+    const auto buttons = bench.window.findChild<Gallery*>()->findChildren<QToolButton*>();
+    QCOMPARE(std::size_t(buttons.size()), samples().size());
+    for (const QToolButton* button : buttons) {
+      QVERIFY(!button->toolTip().isEmpty() && !button->accessibleName().isEmpty());
+      const QImage picture = button->icon().pixmap(button->iconSize(), 2).toImage();
+      bool drawn = false;
+      for (int y = 0; y < picture.height() && !drawn; ++y) {
+        for (int x = 0; x < picture.width() && !drawn; ++x) {
+          drawn = picture.pixelColor(x, y).alpha() > 64;
+        }
+      }
+      QVERIFY2(drawn, qPrintable(button->text()));
+      QVERIFY2(button->fontMetrics().horizontalAdvance(button->text()) <= button->width() - 4,
+               qPrintable(button->text()));
+    }
+  }
+
+  void withoutSamplesItSaysSo() {
+    Gallery gallery{QString()};
+    gallery.show();
+    QTRY_VERIFY(gallery.findChild<QLabel*>(QStringLiteral("noSamples")) != nullptr);
+    QVERIFY(gallery.findChildren<QToolButton*>().isEmpty());
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowGallery>(argc, argv); }
+#include "window_gallery.moc"
