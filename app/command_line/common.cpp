@@ -115,10 +115,29 @@ MeshOptions add_mesh_options(CLI::App& app) {
   options.path = add_value(app, "MESH", "", "the mesh, a file " + mesh_endings(FormatUse::read))->required();
   options.size = add_value(app, "--size", "WxH[xD]", "how many elements a .dat file has along each axis");
   options.spacing = add_value(app, "--spacing", "NUMBER", "their distance, before what the file states");
+  options.threshold = add_value(app, "--threshold", "D", "the lowest density of a volume that is there [Otsu's]");
+  options.voxels = add_value(app, "--voxels", "N", "how many voxels along each axis make an element [few enough]");
+  options.by_density =
+      add_value(app, "--density-softness", "on|off", "whether a volume is the stiffer where it is denser [on]");
   return options;
 }
 
-MeshPointer read_mesh(const MeshOptions& options) {
+VoxelOptions voxels_of(const MeshOptions& options) {
+  VoxelOptions voxels;
+  if (const auto threshold = value_of(options.threshold)) {
+    voxels.threshold = parse_number_of("--threshold", *threshold);
+  }
+  if (options.voxels->count() > 0) {
+    voxels.every = whole_number_of(options.voxels, 1, 1);
+  }
+  if (const auto word = value_of(options.by_density)) {
+    check_word("--density-softness", *word, {"on", "off"});
+    voxels.stiff_where_dense = *word == "on";
+  }
+  return voxels;
+}
+
+OpenedMesh open_mesh(const MeshOptions& options) {
   ReadOptions how;
   if (const auto size = value_of(options.size)) {
     how.size = parse_size(*size);
@@ -130,21 +149,16 @@ MeshPointer read_mesh(const MeshOptions& options) {
     how.spacing = spacing;
   }
   how.space_dimension = options.space == nullptr ? std::nullopt : space_of(options.space);
+  how.voxels = voxels_of(options);
   const std::filesystem::path path = *value_of(options.path);
-  return in_options({{"space dimension", "--space"}}, [&] { return chainmail::read_mesh(path, how); });
+  return in_options({{"space dimension", "--space"}}, [&] { return chainmail::open_mesh(path, how); });
 }
 
-MeshPointer in_options(const std::map<std::string, std::string>& options, const std::function<MeshPointer()>& make) {
-  try {
-    return make();
-  } catch (const Error& error) {
-    // What the core says of a value, `size` or `space dimension 2`, stands without the number in the table.
-    const std::string what = error.where().substr(0, error.where().find_last_not_of(" 0123456789") + 1);
-    if (const auto option = options.find(what); option != options.end()) {
-      throw error.at(option->second + error.where().substr(what.size()));
-    }
-    throw;
-  }
+Error at_option(const Error& error, const std::map<std::string, std::string>& options) {
+  // What the core says of a value, `size` or `space dimension 2`, stands without the number in the table.
+  const std::string what = error.where().substr(0, error.where().find_last_not_of(" 0123456789") + 1);
+  const auto option = options.find(what);
+  return option == options.end() ? error : error.at(option->second + error.where().substr(what.size()));
 }
 
 }  // namespace chainmail::command_line

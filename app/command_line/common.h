@@ -7,7 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "files/mesh_file.h"
+#include "files/open_mesh.h"
+#include "mesh/error.h"
 #include "simulate/parameters.h"
 
 namespace chainmail::command_line {
@@ -21,6 +22,8 @@ struct Command {
   std::function<void()> run;
 };
 Command add_generate(CLI::App& root);
+Command add_convert(CLI::App& root);
+Command add_fill(CLI::App& root);
 Command add_info(CLI::App& root);
 Command add_deform(CLI::App& root);
 /// `command_line` is what a report says of its own making.
@@ -52,11 +55,23 @@ struct MeshOptions {
   CLI::Option* size = nullptr;
   CLI::Option* spacing = nullptr;
   CLI::Option* space = nullptr;
+  CLI::Option* threshold = nullptr;
+  CLI::Option* voxels = nullptr;
+  CLI::Option* by_density = nullptr;
 };
 MeshOptions add_mesh_options(CLI::App& app);
-MeshPointer read_mesh(const MeshOptions& options);
+OpenedMesh open_mesh(const MeshOptions& options);
 
+/// The same error, said of the option that the value which it names came from, if any.
+Error at_option(const Error& error, const std::map<std::string, std::string>& options);
 /// Calls a function of the core and has its errors name the option that a value came from.
-MeshPointer in_options(const std::map<std::string, std::string>& options, const std::function<MeshPointer()>& make);
+template <class Make>
+auto in_options(const std::map<std::string, std::string>& options, Make make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    throw at_option(error, options);
+  }
+}
 
 }  // namespace chainmail::command_line

@@ -126,12 +126,13 @@ std::vector<report::Case> read_cases(const Options& options) {
   std::vector<report::Case> cases;
   for (const std::string& name : options.meshes->results()) {
     const std::filesystem::path path = name;
+    OpenedMesh opened = chainmail::open_mesh(path);
     report::Case object{printable(path.filename().string()),
                         "as the file has it",
-                        chainmail::read_mesh(path),
+                        opened.mesh,
                         {},
                         {},
-                        {softness, {}},
+                        {softness, std::move(opened.softness)},
                         {}};
     object.drags = drags_of(object, recorded);
     cases.push_back(std::move(object));

@@ -186,11 +186,15 @@ void deform(const Options& options) {
   const Targets targets = read_targets(options);
   const Schedule schedule = read_schedule(options, targets);
   const std::vector<Act> acts = read_acts(options);
-  const MeshPointer mesh = read_mesh(options.mesh);
+  OpenedMesh opened = open_mesh(options.mesh);
+  const MeshPointer mesh = opened.mesh;
+  softness.links = std::move(opened.softness);
   check_algorithm(algorithm, *mesh);
   check_acts(acts, *mesh);
   if (const auto file = value_of(options.softness)) {
-    softness.links = read_softness(std::filesystem::path(*file), *mesh);
+    for (const auto& [link, own] : read_softness(std::filesystem::path(*file), *mesh)) {
+      softness.links.insert_or_assign(link, own);
+    }
   }
   std::vector<chainmail::Command> moves;
   if (const auto file = value_of(options.script)) {

@@ -23,11 +23,18 @@ void write_text(std::ostream& out, const MeshSummary& summary) {
       << "links             " << summary.links << '\n'
       << "triangles         " << summary.triangles << '\n'
       << "tetrahedra        " << summary.tetrahedra << '\n'
+      << "hexahedra         " << summary.hexahedra << '\n'
       << "object dimension  " << summary.object_dimension << '\n'
       << "space dimension   " << summary.space_dimension << '\n'
       << "components        " << summary.components << '\n'
       << "bounds            " << digits(summary.bounds[0]) << " to " << digits(summary.bounds[1]) << '\n'
       << "mean link length  " << digits(summary.mean_link_length) << '\n';
+  for (const auto& [title, words] :
+       {std::pair("taken as          ", summary.remark), std::pair("note              ", in_words(summary.flaws))}) {
+    if (!words.empty()) {
+      out << title << words << '\n';
+    }
+  }
 }
 
 }  // namespace
@@ -38,7 +45,7 @@ Command add_info(CLI::App& root) {
   CLI::Option* json = add_value(*app, "--json", "FILE", "write it as JSON instead");
   app->footer("Formats:\n" + mesh_formats_help(FormatUse::read) + "\nExample:\n  chainmail info 3x3.dat --json -");
   return {app, [mesh, json] {
-            const MeshSummary summary = summarize(*read_mesh(mesh));
+            const MeshSummary summary = summarize(open_mesh(mesh));
             if (const auto path = value_of(json)) {
               Outputs outputs;
               outputs.keep(*value_of(mesh.path));

@@ -1,11 +1,13 @@
 #include "files/mesh_file.h"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 
 #include "files/dat.h"
 #include "files/msh.h"
 #include "files/obj.h"
+#include "files/open_mesh.h"
 #include "files/outputs.h"
 #include "files/ply.h"
 #include "files/tables.h"
@@ -16,14 +18,7 @@
 namespace chainmail {
 
 MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
-  require_file(path);
-  const MeshFormat format = mesh_format(path);
-  if (format == MeshFormat::obj && (options.size || options.spacing)) {
-    throw Error(shown(path), "a .obj file holds its own positions", "leave size and spacing out");
-  }
-  const std::string text = read_text(path, "a mesh", progress.part(0, 0.05));
-  const Progress rest = progress.part(0.05, 1);
-  return format == MeshFormat::dat ? read_dat(text, path, options, rest) : read_obj(text, path, options, rest);
+  return open_mesh(path, options, progress).mesh;
 }
 
 std::optional<std::array<std::uint32_t, 3>> parse_size(std::string_view text, int sizes) {
@@ -62,6 +57,8 @@ void write_mesh(std::ostream& out, MeshFormat format, const MeshState& state, co
       return write_msh(out, state, progress);
     case MeshFormat::csv:
       return write_positions_csv(out, state.mesh, state.positions, progress);
+    default:
+      assert(false && "mesh_format gives none but those that are written");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "files/mesh_formats.h"
+#include "files/voxel_block.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "solve/softness.h"
@@ -22,9 +23,12 @@ struct ReadOptions {
   std::optional<double> spacing;
   /// By default what the file says, else the axes on which the mesh is not constant.
   std::optional<int> space_dimension;
+  /// How the voxels of a volume are taken.
+  VoxelOptions voxels;
 };
 
-/// Reads a mesh, in the format that its ending names. Throws Error, with the line where there is one, and Cancelled.
+/// The mesh alone of what open_mesh reads (files/open_mesh.h). Throws Error, with the line where there is one, and
+/// Cancelled.
 MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& options = {},
                       const Progress& progress = {});
 

@@ -7,7 +7,7 @@
 
 namespace chainmail {
 
-enum class MeshFormat { obj, ply, vtu, msh, dat, csv };
+enum class MeshFormat { obj, ply, vtu, off, stl, msh, vtk, medit, tetgen, dat, nrrd, metaimage, csv };
 
 /// What is to be done with a file: an object read from it or written to it, or where its elements stand written.
 enum class FormatUse { read, write, write_positions };

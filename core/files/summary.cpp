@@ -17,6 +17,7 @@ MeshSummary summarize(const Mesh& mesh) {
   summary.links = mesh.link_count();
   summary.triangles = mesh.triangles.size();
   summary.tetrahedra = mesh.tetrahedra.size();
+  summary.hexahedra = mesh.hexahedra.size();
   summary.object_dimension = mesh.object_dimension;
   summary.space_dimension = mesh.space_dimension;
   summary.components = mesh.part_count;
@@ -25,16 +26,27 @@ MeshSummary summarize(const Mesh& mesh) {
   return summary;
 }
 
+MeshSummary summarize(const OpenedMesh& opened) {
+  MeshSummary summary = summarize(*opened.mesh);
+  summary.flaws = opened.flaws;
+  summary.remark = opened.remark;
+  return summary;
+}
+
 void write_json(std::ostream& out, const MeshSummary& summary) {
+  const MeshFlaws& flaws = summary.flaws;
   const Json json{{"elements", summary.elements},
                   {"links", summary.links},
                   {"triangles", summary.triangles},
                   {"tetrahedra", summary.tetrahedra},
+                  {"hexahedra", summary.hexahedra},
                   {"object_dimension", summary.object_dimension},
                   {"space_dimension", summary.space_dimension},
                   {"components", summary.components},
                   {"bounds", {to_json(summary.bounds[0]), to_json(summary.bounds[1])}},
-                  {"mean_link_length", summary.mean_link_length}};
+                  {"mean_link_length", summary.mean_link_length},
+                  {"left_out", {{"unused", flaws.unused}, {"collapsed", flaws.collapsed}, {"doubled", flaws.doubled}}},
+                  {"flaws", {{"flat", flaws.flat}, {"inverted", flaws.inverted}, {"coincident", flaws.coincident}}}};
   out << json.dump(2) << '\n';
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "files/open_mesh.h"
 #include "measure/violation.h"
 #include "mesh/mesh.h"
 
@@ -18,13 +19,17 @@ struct MeshSummary {
   std::uint64_t links = 0;
   std::uint64_t triangles = 0;  // as they are drawn: those that polygons are split into count
   std::uint64_t tetrahedra = 0;
+  std::uint64_t hexahedra = 0;
   int object_dimension = 1;
   int space_dimension = 1;
   std::uint64_t components = 0;  // parts that no link joins
   std::array<Point, 2> bounds{Point::Zero(), Point::Zero()};
   double mean_link_length = 0;
+  MeshFlaws flaws;
+  std::string remark;  // how a volume was taken, or empty
 };
 MeshSummary summarize(const Mesh& mesh);
+MeshSummary summarize(const OpenedMesh& opened);
 void write_json(std::ostream& out, const MeshSummary& summary);
 
 /// What a deformation did, pass by pass, and how the object stands after it.

@@ -89,7 +89,11 @@ void require_file(const std::filesystem::path& path) {
   }
 }
 
-std::string read_text(const std::filesystem::path& path, const std::string& content, const Progress& progress) {
+namespace {
+
+/// With no byte 0 in it, where it is text.
+std::string read_whole(const std::filesystem::path& path, bool is_text, const std::string& content,
+                       const Progress& progress) {
   require_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) {
@@ -105,7 +109,7 @@ std::string read_text(const std::filesystem::path& path, const std::string& cont
   while (file.read(part.data(), static_cast<std::streamsize>(part.size())), file.gcount() > 0) {
     text.append(part.data(), static_cast<std::size_t>(file.gcount()));
     progress.report(unknown ? 0 : std::min(1.0, double(text.size()) / double(size)));
-    if (text.find('\0', text.size() - static_cast<std::size_t>(file.gcount())) != std::string::npos) {
+    if (is_text && text.find('\0', text.size() - static_cast<std::size_t>(file.gcount())) != std::string::npos) {
       throw Error(shown(path), "it is not a text file", "give " + content + " as text");
     }
     if (text.size() > largest_text) {
@@ -119,6 +123,16 @@ std::string read_text(const std::filesystem::path& path, const std::string& cont
     throw Error(shown(path), "it is empty", "give a file that holds " + content);
   }
   return text;
+}
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& path, const std::string& content, const Progress& progress) {
+  return read_whole(path, true, content, progress);
+}
+
+std::string read_bytes(const std::filesystem::path& path, const std::string& content, const Progress& progress) {
+  return read_whole(path, false, content, progress);
 }
 
 Lines::Lines(std::string_view text) : size_(text.size()), rest_(text) {

@@ -29,6 +29,9 @@ void require_file(const std::filesystem::path& path);
 /// not text; `content` is what the file should hold.
 std::string read_text(const std::filesystem::path& path, const std::string& content = "a mesh",
                       const Progress& progress = {});
+/// The same of a file that need not be text.
+std::string read_bytes(const std::filesystem::path& path, const std::string& content = "a mesh",
+                       const Progress& progress = {});
 
 /// Walks through a text line by line; lines end in \n, \r\n or \r and count from 1.
 class Lines {

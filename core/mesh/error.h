@@ -16,6 +16,8 @@ class Error : public std::runtime_error {
       : std::runtime_error(where + ": " + problem + "; " + remedy), where_(where), rest_(problem, remedy) {}
 
   const std::string& where() const { return where_; }
+  const std::string& problem() const { return rest_.first; }
+  const std::string& remedy() const { return rest_.second; }
   /// The same error, said of another place.
   Error at(const std::string& where) const { return {where, rest_.first, rest_.second}; }
 

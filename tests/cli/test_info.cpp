@@ -21,8 +21,8 @@ void InfoCommandTest::json_has_the_keys_of_the_contract() {
   QCOMPARE(outcome.code, 0);
   const auto info = QJsonDocument::fromJson(outcome.out).object();
   QStringList keys = info.keys();
-  QCOMPARE(keys, (QStringList{"bounds", "components", "elements", "links", "mean_link_length", "object_dimension",
-                              "space_dimension", "tetrahedra", "triangles"}));
+  QCOMPARE(keys, (QStringList{"bounds", "components", "elements", "flaws", "hexahedra", "left_out", "links",
+                              "mean_link_length", "object_dimension", "space_dimension", "tetrahedra", "triangles"}));
   QCOMPARE(info["elements"].toInt(), 5);
   QCOMPARE(info["links"].toInt(), 4);
   QCOMPARE(info["triangles"].toInt(), 2);
@@ -62,7 +62,7 @@ void InfoCommandTest::bad_files_are_refused_data() {
   row("a.dat", "0 0\n", "a.dat: the size of its lattice is not known; ");
   row("a.obj", "v 0 0 0\nf 1 2 3\n", "a.obj:2: there is no vertex 3; ");
   row("b.obj", QByteArray("\0\1\2", 3), "b.obj: it is not a text file; ");
-  row("a.ply", "ply\n", "a.ply: the ending .ply is not known; ");
+  row("a.ply", "ply\n", "a.ply: it is damaged, or no ply file: ");
   row("c.obj", "v 0 0 0\nv 1 2 nan\n", "c.obj:2: 'nan' is not a number");
 }
 

@@ -1,0 +1,77 @@
+#include <iostream>
+#include <optional>
+
+#include "command_line/common.h"
+#include "files/fill.h"
+#include "files/outputs.h"
+#include "files/text.h"
+#include "mesh/error.h"
+
+// Meshes from one format to another, and surfaces to volumes.
+namespace chainmail::command_line {
+namespace {
+
+/// What was left out of the file goes to standard error: the result has other ids, or less.
+void say_flaws(const OpenedMesh& opened) {
+  const std::string words = in_words(opened.flaws);
+  if (!words.empty()) {
+    std::cerr << "chainmail: note: " << words << '\n';
+  }
+}
+
+void write(const MeshOptions& options, const std::string& target, const Mesh& mesh,
+           const std::map<LinkId, LinkSoftness>& softness) {
+  const MeshFormat format = mesh_format(target, FormatUse::write);
+  Outputs outputs;
+  outputs.keep(*value_of(options.path));
+  outputs.add(target, [&](std::ostream& out) {
+    write_mesh(out, format, {mesh, {}, rest_positions(mesh), {{}, softness}});
+  });
+  outputs.commit();
+}
+
+CLI::Option* add_target(CLI::App& app) {
+  return add_value(app, "-o", "FILE", "where to: " + mesh_endings(FormatUse::write))->required();
+}
+
+/// The size of the edges within: by default that of the surface's own.
+double size_of(const CLI::Option* option, const Mesh& surface) {
+  const auto text = value_of(option);
+  return text ? parse_number_of("--edge", *text) : surface.mean_link_length;
+}
+
+}  // namespace
+
+Command add_convert(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("convert", "Write a mesh in another format");
+  MeshOptions options = add_mesh_options(*app);
+  const CLI::Option* target = add_target(*app);
+  app->footer("Example:\n  chainmail convert liver.msh -o liver.vtu");
+  return {app, [options, target] {
+            mesh_format(*value_of(target), FormatUse::write);
+            const OpenedMesh opened = open_mesh(options);
+            say_flaws(opened);
+            write(options, *value_of(target), *opened.mesh, opened.softness);
+          }};
+}
+
+Command add_fill(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("fill", "Fill a closed surface with tetrahedra");
+  MeshOptions options;
+  options.path = add_value(*app, "MESH", "", "the surface, a file " + mesh_endings(FormatUse::read))->required();
+  const CLI::Option* size =
+      add_value(*app, "--edge", "LENGTH", "about how long edges within become, in mesh units [the surface's mean]");
+  const CLI::Option* target = add_target(*app);
+  app->footer("Example:\n  chainmail fill sphere.obj --edge 0.8 -o ball.msh");
+  return {app, [options, size, target] {
+            const std::string path = *value_of(options.path);
+            mesh_format(*value_of(target), FormatUse::write);
+            const OpenedMesh surface = chainmail::open_mesh(path);
+            say_flaws(surface);
+            const MeshPointer filled = in_options({{"size", "--edge"}, {"surface", printable(path)}},
+                                                  [&] { return fill(*surface.mesh, size_of(size, *surface.mesh)); });
+            write(options, *value_of(target), *filled, {});
+          }};
+}
+
+}  // namespace chainmail::command_line

@@ -1,0 +1,105 @@
+// chainmail-import BYTES SECONDS TASK PATH [ARGUMENT…]: the program that core's readers start (files/import_process.h).
+
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <new>
+
+#include "files/import/channels.h"
+#include "files/import/tasks.h"
+#include "mesh/error.h"
+
+namespace chainmail::import {
+namespace {
+
+void limit(int resource, rlim_t to) {
+  const rlimit both{to, to};
+  setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
+}
+
+void set_limits(const char* bytes, const char* seconds) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // who asked is gone: so is the reason
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, std::strtoull(seconds, nullptr, 10));
+#ifndef __SANITIZE_ADDRESS__  // which takes more address space than any machine has memory
+  limit(RLIMIT_AS, std::strtoull(bytes, nullptr, 10));
+#else
+  static_cast<void>(bytes);
+#endif
+}
+
+void report_share(double share) {
+  if (write(share_channel, &share, sizeof share) < 0) {
+    std::_Exit(1);  // nobody listens any more
+  }
+}
+
+using Task = std::function<Imported(const std::filesystem::path&, const std::vector<std::string>&)>;
+
+const std::map<std::string, Task>& tasks() {
+  static const auto polygons = [](const char* name) {
+    return [name](const auto& path, const auto&) { return Imported(read_polygons(name, path)); };
+  };
+  static const auto by_gmsh = [](const char* name) {
+    return [name](const auto& path, const auto&) { return Imported(read_by_gmsh(name, path)); };
+  };
+  static const std::map<std::string, Task> all{
+      {"off", polygons("off")},
+      {"ply", polygons("ply")},
+      {"stl", polygons("stl")},
+      {"msh", by_gmsh("msh")},
+      {"mesh", by_gmsh("mesh")},
+      {"nrrd", [](const auto& path, const auto&) { return Imported(read_nrrd(path)); }},
+      {"fill",
+       [](const auto& path, const auto& arguments) {
+         return Imported(fill_surface(path, std::strtod(arguments.at(0).c_str(), nullptr), report_share));
+       }},
+  };
+  return all;
+}
+
+Imported carry_out(const std::string& task, const std::filesystem::path& path,
+                   const std::vector<std::string>& arguments) {
+  try {
+    return tasks().at(task)(path, arguments);
+  } catch (const Error& error) {
+    return Refusal{error.problem(), error.remedy()};
+  }
+}
+
+bool hand_over(const std::vector<std::byte>& bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t written = write(result_channel, bytes.data() + done, bytes.size() - done);
+    if (written <= 0) {
+      return false;
+    }
+    done += static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+}  // namespace
+}  // namespace chainmail::import
+
+int main(int count, char** words) {
+  using namespace chainmail::import;
+  if (count < 5) {
+    std::fputs("chainmail-import: it is started by chainmail and workbench, which read meshes through it\n", stderr);
+    return 2;
+  }
+  set_limits(words[1], words[2]);
+  try {
+    const auto imported = carry_out(words[3], words[4], {words + 5, words + count});
+    // Without the libraries' own clearing up: what they have read may be damaged.
+    std::_Exit(hand_over(chainmail::encode_imported(imported)) ? 0 : 1);
+  } catch (const std::bad_alloc&) {
+    std::_Exit(out_of_memory);
+  } catch (...) {
+    std::_Exit(1);
+  }
+}

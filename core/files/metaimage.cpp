@@ -1,0 +1,128 @@
+#include "files/metaimage.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "files/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+/// A type of numbers: how many bytes one takes, and how it is read.
+struct NumberType {
+  std::string_view name;
+  std::size_t bytes;
+  double (*read)(const char* bytes);
+};
+
+template <class Number>
+double read_as(const char* bytes) {
+  Number number;
+  std::memcpy(&number, bytes, sizeof number);
+  return static_cast<double>(number);
+}
+
+template <class Number>
+constexpr NumberType type(std::string_view name) {
+  return {name, sizeof(Number), read_as<Number>};
+}
+
+constexpr std::array number_types{
+    type<std::int8_t>("MET_CHAR"),         type<std::uint8_t>("MET_UCHAR"),  type<std::int16_t>("MET_SHORT"),
+    type<std::uint16_t>("MET_USHORT"),     type<std::int32_t>("MET_INT"),    type<std::uint32_t>("MET_UINT"),
+    type<std::int32_t>("MET_LONG"),        type<std::uint32_t>("MET_ULONG"), type<std::int64_t>("MET_LONG_LONG"),
+    type<std::uint64_t>("MET_ULONG_LONG"), type<float>("MET_FLOAT"),         type<double>("MET_DOUBLE"),
+};
+
+const NumberType& type_of(const MetaImageHead& head, const std::filesystem::path& path) {
+  const auto found =
+      std::find_if(number_types.begin(), number_types.end(), [&](const auto& one) { return one.name == head.type; });
+  if (found == number_types.end()) {
+    throw Error(shown(path), "numbers of type " + in_quotes(head.type) + " are not known",
+                "export it as MET_UCHAR, MET_SHORT or MET_FLOAT");
+  }
+  return *found;
+}
+
+/// What zlib (Gailly and Adler) has packed; no more than it should be is taken.
+std::vector<char> unpacked(std::span<const char> data, std::size_t size, const std::filesystem::path& path,
+                           const Progress& progress) {
+  z_stream stream{};
+  if (inflateInit2(&stream, 15 + 32) != Z_OK) {  // either of its two formats
+    throw std::bad_alloc();
+  }
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
+  static constexpr std::size_t piece = std::size_t{1} << 20;
+  std::vector<char> result;
+  int state = Z_OK;
+  for (std::size_t taken = 0; state == Z_OK && result.size() < size;) {
+    progress.report(double(result.size()) / double(size));
+    const std::size_t before = result.size();
+    result.resize(std::min(size, before + piece));
+    const std::size_t in = std::min(data.size() - taken, piece);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data() + taken));  // it is only read
+    stream.avail_in = static_cast<uInt>(in);
+    stream.next_out = reinterpret_cast<Bytef*>(result.data() + before);
+    stream.avail_out = static_cast<uInt>(result.size() - before);
+    state = inflate(&stream, Z_NO_FLUSH);
+    taken += in - stream.avail_in;
+    result.resize(result.size() - stream.avail_out);
+    if (state == Z_OK && in == 0 && result.size() == before) {
+      break;
+    }
+  }
+  if (result.size() != size) {
+    throw Error(shown(path), "its packed data are damaged, or fewer than its size says", "export it anew");
+  }
+  return result;
+}
+
+}  // namespace
+
+Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, const std::filesystem::path& path,
+                        const Progress& progress) {
+  const NumberType& type = type_of(head, path);
+  Volume volume;
+  volume.size = checked_volume_size(shown(path), head.size);
+  volume.spacing = head.spacing;
+  volume.origin = head.origin;
+  const std::size_t size = volume.voxel_count() * type.bytes;
+  std::vector<char> plain;
+  if (head.compressed) {
+    plain = unpacked(data, size, path, progress.part(0, 0.5));
+    data = plain;
+  }
+  if (data.size() < size) {
+    throw Error(shown(path),
+                "its data end after " + std::to_string(data.size()) + " of " + std::to_string(size) + " bytes",
+                "export it anew");
+  }
+  const bool swapped = head.big_endian == (std::endian::native == std::endian::little);
+  std::array<char, 8> bytes{};
+  take_densities(volume, shown(path), [&](std::size_t i) {
+    progress.part(0.5, 1).report(i, volume.voxel_count());
+    const auto number = data.subspan(i * type.bytes, type.bytes);
+    swapped ? std::reverse_copy(number.begin(), number.end(), bytes.begin())
+            : std::copy(number.begin(), number.end(), bytes.begin());
+    return type.read(bytes.data());
+  });
+  return volume;
+}
+
+Volume read_metaimage(const std::filesystem::path& path, const Progress& progress) {
+  const std::string file = read_bytes(path, "a volume", progress.part(0, 0.2));
+  const MetaImageHead head = read_metaimage_head(file, path);
+  if (head.data_file == "LOCAL") {
+    return metaimage_volume(head, std::span(file).subspan(head.length), path, progress.part(0.2, 1));
+  }
+  const auto data = path.parent_path() / head.data_file;
+  return metaimage_volume(head, read_bytes(data, "voxels"), data, progress.part(0.2, 1));
+}
+
+}  // namespace chainmail

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "files/flaws.h"
+#include "files/imported.h"
+#include "files/mesh_file.h"
+#include "mesh/mesh.h"
+#include "mesh/progress.h"
+#include "solve/softness.h"
+
+namespace chainmail {
+
+/// What a file holds, and what there is to say of it.
+struct OpenedMesh {
+  MeshPointer mesh;
+  std::map<LinkId, LinkSoftness> softness;  // of links with their own: a volume's, which are stiff where it is dense
+  MeshFlaws flaws;
+  std::string remark;  // how a volume was taken, or empty
+};
+
+/// Reads a mesh, a volume, or a pair of TetGen's files, in the format that its content tells, else its ending.
+///
+/// Throws Error, with the line where there is one, and Cancelled. What libraries read they read in a process of their
+/// own, within limits of memory and time.
+OpenedMesh open_mesh(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});
+
+/// What an import gave, as a mesh: flawed parts left out, links along all edges.
+OpenedMesh opened(ImportedMesh imported, const std::filesystem::path& path, const ReadOptions& options,
+                  const Progress& progress);
+
+}  // namespace chainmail

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// A medical or other volume: a density for each voxel of a regular arrangement.
+struct Volume {
+  std::array<std::uint32_t, 3> size{1, 1, 1};  // voxels along x, y and z
+  Point spacing = Point::Ones();               // from voxel to voxel (mesh units)
+  Point origin = Point::Zero();                // where the first voxel's centre stands (mesh units)
+  /// Along x, then y, then z, in at most 65,535 steps from the lowest to the highest: whole numbers of 16 bits stay
+  /// exact.
+  std::vector<std::uint16_t> densities;
+  double lowest = 0;
+  double step = 1;
+
+  std::size_t voxel_count() const { return std::size_t{size[0]} * size[1] * size[2]; }
+  double density(std::size_t voxel) const { return lowest + step * densities[voxel]; }
+};
+
+inline constexpr double most_density_steps = 65535;
+
+/// More voxels than this are refused before memory is taken: 2 GiB of them.
+inline constexpr std::uint64_t voxel_limit = std::uint64_t{1} << 30;
+
+/// From the lowest to the highest of some numbers: in steps of 1 where they are whole and near enough.
+class DensityScale {
+ public:
+  explicit DensityScale(std::string where) : where_(std::move(where)) {}
+  void widen(std::size_t voxel, double number);
+  double lowest() const { return lowest_; }
+  double step() const;
+
+ private:
+  std::string where_;
+  double lowest_ = 0, highest_ = 0;
+  bool whole_ = true;
+};
+
+/// Throws Error, said of `where`, where a size is 0 or they make more than voxel_limit.
+std::array<std::uint32_t, 3> checked_volume_size(const std::string& where, const std::array<std::uint64_t, 3>& size);
+
+/// Fills the densities in from the numbers of a file, of which `number(i)` gives the i-th as double. Throws Error, said
+/// of `where`, where one is not finite.
+template <class Number>
+void take_densities(Volume& volume, const std::string& where, Number number) {
+  DensityScale scale(where);
+  for (std::size_t i = 0; i < volume.voxel_count(); ++i) {
+    scale.widen(i, number(i));
+  }
+  volume.lowest = scale.lowest();
+  volume.step = scale.step();
+  volume.densities.resize(volume.voxel_count());
+  for (std::size_t i = 0; i < volume.voxel_count(); ++i) {
+    volume.densities[i] = static_cast<std::uint16_t>(std::lround((number(i) - volume.lowest) / volume.step));
+  }
+}
+
+}  // namespace chainmail

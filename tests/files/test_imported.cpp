@@ -1,0 +1,111 @@
+#include <QtTest>
+#include <random>
+
+#include "files/imported.h"
+#include "files/support.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace {
+
+ImportedMesh sample() {
+  ImportedMesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.parts.rest.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+  }
+  mesh.parts.links = {{0, 7}};
+  mesh.parts.triangles = {{0, 1, 2}};
+  mesh.parts.polygons = {4, 0, 1, 3, 2};
+  mesh.parts.tetrahedra = {{0, 1, 2, 4}};
+  mesh.parts.hexahedra = {{0, 1, 3, 2, 4, 5, 7, 6}};
+  mesh.unused = 3;
+  return mesh;
+}
+
+}  // namespace
+
+/// What the import program hands over: as it was given, and never believed.
+class ImportedTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_mesh_comes_over_whole();
+  void a_volume_comes_over_whole();
+  void a_refusal_comes_over_in_one_line();
+  void cut_off_anywhere_it_is_damaged();
+  void changed_anywhere_it_is_damaged_or_another_mesh();
+  void coordinates_must_be_finite();
+};
+
+void ImportedTest::a_mesh_comes_over_whole() {
+  const auto mesh = std::get<ImportedMesh>(decode_imported(encode_imported(sample()), "a.msh"));
+  const auto expected = sample();
+  QCOMPARE(mesh.parts.rest, expected.parts.rest);
+  QCOMPARE(mesh.parts.links, expected.parts.links);
+  QCOMPARE(mesh.parts.triangles, expected.parts.triangles);
+  QCOMPARE(mesh.parts.polygons, expected.parts.polygons);
+  QCOMPARE(mesh.parts.tetrahedra, expected.parts.tetrahedra);
+  QCOMPARE(mesh.parts.hexahedra, expected.parts.hexahedra);
+  QCOMPARE(mesh.unused, std::uint64_t{3});
+}
+
+void ImportedTest::a_volume_comes_over_whole() {
+  Volume volume;
+  volume.size = {2, 1, 1};
+  volume.spacing = Point(1, 2, 3);
+  volume.origin = Point(-1, 0, 1);
+  volume.densities = {7, 65535};
+  volume.lowest = -2;
+  volume.step = 0.5;
+  const auto again = std::get<Volume>(decode_imported(encode_imported(volume), "a.nrrd"));
+  QVERIFY(again.size == volume.size && again.spacing == volume.spacing && again.origin == volume.origin);
+  QCOMPARE(again.densities, volume.densities);
+  QCOMPARE(again.density(0), 1.5);
+}
+
+void ImportedTest::a_refusal_comes_over_in_one_line() {
+  const auto refusal = std::get<Refusal>(decode_imported(encode_imported(Refusal{"bad\nline", "mend it"}), "a"));
+  QCOMPARE(refusal.problem, std::string("bad\\x0aline"));
+  QCOMPARE(refusal.remedy, std::string("mend it"));
+}
+
+void ImportedTest::cut_off_anywhere_it_is_damaged() {
+  const auto bytes = encode_imported(sample());
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    const auto part = std::span(bytes).first(size);
+    QVERIFY(error_of([&] { decode_imported(part, "a.msh"); }).startsWith("a.msh: what the import program says"));
+  }
+}
+
+void ImportedTest::changed_anywhere_it_is_damaged_or_another_mesh() {
+  const auto whole = encode_imported(sample());
+  std::mt19937 random(1);
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    auto bytes = whole;
+    bytes[at] = std::byte(random() & 255);
+    try {
+      const auto imported = decode_imported(bytes, "a.msh");
+      if (const auto* mesh = std::get_if<ImportedMesh>(&imported)) {
+        for (const auto& link : mesh->parts.links) {
+          QVERIFY(link[0] < mesh->parts.rest.size() && link[1] < mesh->parts.rest.size());
+        }
+      }
+    } catch (const Error& error) {
+      QVERIFY(QString(error.what()).startsWith("a.msh: "));
+    }
+  }
+}
+
+void ImportedTest::coordinates_must_be_finite() {
+  for (const double bad : {std::nan(""), HUGE_VAL, -1e101}) {
+    auto mesh = sample();
+    mesh.parts.rest[2][1] = bad;
+    QVERIFY(error_of([&] {
+              decode_imported(encode_imported(mesh), "a.ply");
+            }).startsWith("a.ply: point 2 has a coordinate that is no number, or beyond 1e100; "));
+  }
+}
+
+QTEST_APPLESS_MAIN(ImportedTest)
+#include "test_imported.moc"

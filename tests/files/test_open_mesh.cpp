@@ -1,0 +1,235 @@
+#include <Eigen/Geometry>
+#include <QtTest>
+#include <numeric>
+
+#include "files/open_mesh.h"
+#include "files/support.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace {
+
+/// What the tetrahedra and hexahedra of a mesh fill (mesh units cubed).
+double volume_of(const Mesh& mesh) {
+  const auto tetrahedron = [&](ElementId a, ElementId b, ElementId c, ElementId d) {
+    const Point from = mesh.rest_position(a);
+    return (mesh.rest_position(b) - from).cross(mesh.rest_position(c) - from).dot(mesh.rest_position(d) - from) / 6;
+  };
+  double sum = 0;
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    sum += tetrahedron(a, b, c, d);
+  }
+  for (const auto& h : mesh.hexahedra) {  // five tetrahedra
+    sum += tetrahedron(h[0], h[1], h[3], h[4]) + tetrahedron(h[2], h[3], h[1], h[6]) +
+           tetrahedron(h[5], h[4], h[6], h[1]) + tetrahedron(h[7], h[6], h[4], h[3]) +
+           tetrahedron(h[1], h[3], h[4], h[6]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+/// Files of other programs: what they say is what is there, ids in their order, and nothing lost in silence.
+class OpenMeshTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void files_of_other_programs_data();
+  void files_of_other_programs();
+  void ids_are_the_files_order_data();
+  void ids_are_the_files_order();
+  void content_goes_before_the_name();
+  void what_we_write_comes_back_data();
+  void what_we_write_comes_back();
+  void flaws_are_told();
+  void what_others_hold_and_we_do_not_is_refused_data();
+  void what_others_hold_and_we_do_not_is_refused();
+  void damaged_files_give_one_sentence();
+  void halves_of_a_pair_are_missed();
+  void cancelling_ends_the_import_at_once();
+
+ private:
+  std::filesystem::path path(const std::string& name) const {
+    return std::filesystem::path(folder_.path().toStdString()) / name;
+  }
+  QString refusal(const std::string& name, const std::string& text) {
+    put_file(path(name), text);
+    return error_of([&] { open_mesh(path(name)); });
+  }
+
+  QTemporaryDir folder_;
+};
+
+void OpenMeshTest::files_of_other_programs_data() {
+  QTest::addColumn<unsigned>("elements");
+  QTest::addColumn<unsigned>("links");
+  QTest::addColumn<unsigned>("triangles");
+  QTest::addColumn<unsigned>("tetrahedra");
+  QTest::addColumn<unsigned>("hexahedra");
+  QTest::addColumn<double>("volume");
+  const auto row = [](const char* name, unsigned elements, unsigned links, unsigned triangles, unsigned tetrahedra,
+                      unsigned hexahedra, double volume) {
+    QTest::newRow(name) << elements << links << triangles << tetrahedra << hexahedra << volume;
+  };
+  // Of a ball: elements - links + sides - cells is 1, and four sides of a cell, or one on the surface, are two.
+  const unsigned sides = (4 * 91 + 84) / 2;
+  for (const char* name :
+       {"gmsh22.msh", "gmsh41.msh", "gmsh41_binary.msh", "gmsh.mesh", "gmsh_binary.vtk", "meshio_51.vtk"}) {
+    row(name, 44, 44 + sides - 91 - 1, 84, 91, 0, 2);
+  }
+  // Of its surface: elements - links + triangles is 2.
+  for (const char* name : {"gmsh_binary.stl", "assimp.obj", "meshio.off"}) {
+    row(name, 44, 44 + 84 - 2, 84, 0, 0, 0);
+  }
+  row("assimp_binary.ply", 3 * 84, 3 * 84, 84, 0, 0, 0);
+  row("vtk.ply", 20, 20 + 36 - 2, 36, 0, 0, 0);
+  row("vtk_sphere.vtk", 20, 20 + 36 - 2, 36, 0, 0, 0);
+  row("vtk_line.vtk", 4, 3, 0, 0, 0, 0);
+  // 4 x 3 x 2 points; its 22 quadrangles outside are drawn as two triangles each.
+  const unsigned grid = 3 * 3 * 2 + 4 * 2 * 2 + 4 * 3;
+  row("gmsh_hexahedra.msh", 24, grid, 2 * 22, 0, 6, 6);
+  row("gmsh_hexahedra.vtk", 24, grid, 2 * 22, 0, 6, 6);
+  row("tetgen.node", 28, 87, 0, 34, 0, 2);  // 28 - 87 + (4·34 + 52)/2 - 34 = 1
+  row("tetgen.ele", 28, 87, 0, 34, 0, 2);
+  for (const char* name : {"vtk.mha", "vtk.mhd", "teem.nrrd", "teem.nhdr"}) {
+    row(name, 24, grid, 0, 0, 6, 12);  // 4 x 3 x 2 voxels, two units apart along z
+  }
+}
+
+void OpenMeshTest::files_of_other_programs() {
+  const auto opened = open_mesh(std::filesystem::path(FOREIGN) / QTest::currentDataTag());
+  const Mesh& mesh = *opened.mesh;
+  QTEST(unsigned(mesh.element_count()), "elements");
+  QTEST(unsigned(mesh.link_count()), "links");
+  QTEST(unsigned(mesh.triangles.size()), "triangles");
+  QTEST(unsigned(mesh.tetrahedra.size()), "tetrahedra");
+  QTEST(unsigned(mesh.hexahedra.size()), "hexahedra");
+  QFETCH(double, volume);
+  QVERIFY(std::abs(volume_of(mesh) - volume) < 1e-6);  // some of the files give seven digits
+  QCOMPARE(opened.flaws.coincident, std::uint64_t(mesh.element_count() == 3 * 84 ? 3 * 84 - 44 : 0));
+  QCOMPARE(opened.flaws.collapsed + opened.flaws.doubled + opened.flaws.flat + opened.flaws.inverted, std::uint64_t{0});
+}
+
+void OpenMeshTest::ids_are_the_files_order_data() {
+  QTest::addColumn<QByteArray>("text");
+  QTest::newRow("a.off") << QByteArray(
+      "OFF\n# c\n5 1 0\n5 5 5\n0 0 0\n2 0 0\n1 1.0000000000000002 0\n7 7 10000000.001\n3 1 2 3\n");
+  QTest::newRow("a.ply") << QByteArray(
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double y\nproperty double z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "5 5 5\n0 0 0\n2 0 0\n1 1.0000000000000002 0\n7 7 10000000.001\n3 1 2 3\n");
+  QTest::newRow("a.vtk") << QByteArray(
+      "# vtk DataFile Version 3.0\na\nASCII\nDATASET POLYDATA\nPOINTS 5 double\n5 5 5\n0 0 0\n2 0 0\n"
+      "1 1.0000000000000002 0\n7 7 10000000.001\nPOLYGONS 1 4\n3 1 2 3\n");
+}
+
+/// Points that nothing uses are elements too, and the digits of a double are all there.
+void OpenMeshTest::ids_are_the_files_order() {
+  QFETCH(QByteArray, text);
+  put_file(path(QTest::currentDataTag()), text.toStdString());
+  const auto mesh = open_mesh(path(QTest::currentDataTag())).mesh;
+  QCOMPARE(mesh->element_count(), 5U);
+  QCOMPARE(mesh->rest_position(0), Point(5, 5, 5));
+  QCOMPARE(mesh->rest_position(3), Point(1, 1.0000000000000002, 0));
+  QCOMPARE(mesh->rest_position(4), Point(7, 7, 10000000.001));
+  QCOMPARE(mesh->links, (std::vector<std::array<ElementId, 2>>{{1, 2}, {1, 3}, {2, 3}}));
+}
+
+void OpenMeshTest::content_goes_before_the_name() {
+  const std::filesystem::path folder = FOREIGN;
+  std::filesystem::copy(folder / "gmsh22.msh", path("box.obj"));
+  std::filesystem::copy(folder / "meshio.off", path("box"));
+  std::filesystem::copy(folder / "gmsh.mesh", path("box.vtk"));
+  QCOMPARE(open_mesh(path("box.obj")).mesh->tetrahedra.size(), std::size_t{91});
+  QCOMPARE(open_mesh(path("box")).mesh->triangles.size(), std::size_t{84});
+  QCOMPARE(open_mesh(path("box.vtk")).mesh->tetrahedra.size(), std::size_t{91});
+}
+
+void OpenMeshTest::what_we_write_comes_back_data() {
+  QTest::addColumn<QString>("source");
+  QTest::newRow("a.msh") << "gmsh22.msh";
+  QTest::newRow("b.msh") << "gmsh_hexahedra.vtk";
+  QTest::newRow("c.msh") << "vtk_line.vtk";
+  QTest::newRow("a.obj") << "meshio.off";
+  QTest::newRow("a.ply") << "meshio.off";
+}
+
+void OpenMeshTest::what_we_write_comes_back() {
+  QFETCH(QString, source);
+  const auto mesh = open_mesh(std::filesystem::path(FOREIGN) / source.toStdString()).mesh;
+  const auto written = path(QTest::currentDataTag());
+  save_mesh(written, {*mesh, {}, rest_positions(*mesh), {}});
+  const auto again = open_mesh(written).mesh;
+  QCOMPARE(again->links, mesh->links);
+  QCOMPARE(again->rest, mesh->rest);  // to the bit
+  QCOMPARE(again->triangles.size(), mesh->triangles.size());
+  QCOMPARE(again->tetrahedra, mesh->tetrahedra);
+  QCOMPARE(again->hexahedra, mesh->hexahedra);
+}
+
+void OpenMeshTest::flaws_are_told() {
+  // A triangle, again in another order, one that names a point twice, one without an area, two elements at one place.
+  put_file(path("flawed.off"),
+           "OFF\n6 5 0\n0 0 0\n1 0 0\n0 1 0\n2 0 0\n2 0 0\n5 5 0\n3 0 1 2\n3 2 0 1\n3 3 3 5\n3 0 1 3\n3 1 4 5\n");
+  const auto opened = open_mesh(path("flawed.off"));
+  QCOMPARE(opened.flaws, (MeshFlaws{0, 1, 1, 1, 0, 1}));
+  QCOMPARE(opened.mesh->triangles.size(), std::size_t{3});
+  QVERIFY2(find_link(*opened.mesh, 3, 5), "the edges of what is left out are links all the same");
+  QCOMPARE(QString::fromStdString(in_words(opened.flaws)),
+           QString("1 face or cell with a point named twice, 1 face or cell there already left out; 1 face or cell is "
+                   "flat, 1 element stands where another does"));
+  QCOMPARE(in_words(open_mesh(std::filesystem::path(FOREIGN) / "gmsh22.msh").flaws), std::string());
+}
+
+void OpenMeshTest::what_others_hold_and_we_do_not_is_refused_data() {
+  QTest::addColumn<QByteArray>("text");
+  QTest::addColumn<QString>("sentence");
+  const QByteArray msh =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+      "5 1 0 1\n6 0 1 1\n$EndNodes\n$Elements\n1\n";
+  QTest::newRow("prism.msh") << msh + "1 6 2 0 1 1 2 3 4 5 6\n$EndElements\n"
+                             << "it holds prisms or pyramids; ";
+  QTest::newRow("second.msh") << msh + "1 9 2 0 1 1 2 3 4 5 6\n$EndElements\n"
+                              << "elements of higher order";
+  const QByteArray vtk = "# vtk DataFile Version 2.0\na\nASCII\nDATASET ";
+  QTest::newRow("grid.vtk") << vtk + "STRUCTURED_POINTS\n"
+                            << "'STRUCTURED_POINTS' has no links of its own; ";
+  QTest::newRow("cloud.vtk") << vtk + "POLYDATA\nPOINTS 2 float\n0 0 0 1 1 1\n"
+                             << "it holds points and nothing that joins them; ";
+  QTest::newRow("cloud.off") << QByteArray("OFF\n2 0 0\n0 0 0\n1 1 1\n") << "points and nothing that joins them; ";
+}
+
+void OpenMeshTest::what_others_hold_and_we_do_not_is_refused() {
+  QFETCH(QByteArray, text);
+  QFETCH(QString, sentence);
+  const QString error = refusal(QTest::currentDataTag(), text.toStdString());
+  QVERIFY2(error.contains(sentence), qPrintable(error));
+}
+
+/// Cut off anywhere: a sentence or less of the mesh, from libraries that may crash or hang on it, and no more.
+void OpenMeshTest::damaged_files_give_one_sentence() {
+  for (const char* name : {"gmsh41_binary.msh", "assimp_binary.ply", "gmsh_binary.stl", "gmsh.mesh", "teem.nrrd"}) {
+    const std::string whole = file_text(std::filesystem::path(FOREIGN) / name);
+    for (const double share : {0.3, 0.9}) {
+      const auto cut = path(std::string("cut_") + name);
+      put_file(cut, whole.substr(0, std::size_t(share * double(whole.size()))));
+      const QString error = error_of([&] { open_mesh(cut); });
+      QVERIFY2(!error.isEmpty() && !error.contains('\n') && error.contains(name), name);
+    }
+  }
+}
+
+void OpenMeshTest::halves_of_a_pair_are_missed() {
+  std::filesystem::copy(std::filesystem::path(FOREIGN) / "tetgen.node", path("half.node"));
+  QVERIFY(error_of([&] { open_mesh(path("half.node")); }).contains("its other half, half.ele, is not beside it; "));
+}
+
+void OpenMeshTest::cancelling_ends_the_import_at_once() {
+  JobState job;
+  job.cancelled = true;
+  QVERIFY_THROWS_EXCEPTION(Cancelled, open_mesh(std::filesystem::path(FOREIGN) / "gmsh22.msh", {}, Progress(job)));
+}
+
+QTEST_APPLESS_MAIN(OpenMeshTest)
+#include "test_open_mesh.moc"

@@ -1,0 +1,150 @@
+#include <QtTest>
+
+#include "files/metaimage.h"
+#include "files/open_mesh.h"
+#include "files/support.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace {
+
+Volume volume_of(const std::array<std::uint32_t, 3>& size, const std::vector<double>& densities) {
+  Volume volume;
+  volume.size = size;
+  take_densities(volume, "volume", [&](std::size_t i) { return densities[i]; });
+  return volume;
+}
+
+const std::string head =
+    "ObjectType = Image\nNDims = 3\nDimSize = 2 2 1\nElementSpacing = 0.5 1 2\nOffset = 1 2 3\n"
+    "ElementType = MET_USHORT\nBinaryDataByteOrderMSB = True\n";
+
+}  // namespace
+
+/// Volumes of voxels: read with their places and densities, and made into objects.
+class VolumesTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void densities_of_16_bits_are_exact();
+  void others_are_near_to_a_65535th();
+  void a_head_says_what_the_data_are();
+  void heads_that_do_not_are_refused_data();
+  void heads_that_do_not_are_refused();
+  void data_that_end_too_soon_are_refused();
+  void voxels_above_a_threshold_are_elements();
+  void several_voxels_make_one_element();
+  void what_is_dense_is_stiff();
+  void otsu_parts_two_heaps();
+  void nothing_above_the_threshold_is_said();
+};
+
+void VolumesTest::densities_of_16_bits_are_exact() {
+  const auto volume = volume_of({3, 1, 1}, {-1000, 64535, 12});
+  QCOMPARE(volume.density(0), -1000.0);
+  QCOMPARE(volume.density(1), 64535.0);
+  QCOMPARE(volume.density(2), 12.0);
+}
+
+void VolumesTest::others_are_near_to_a_65535th() {
+  const auto volume = volume_of({3, 1, 1}, {0.25, 1e-3, 7});
+  for (const auto& [voxel, density] : {std::pair(0, 0.25), {1, 1e-3}, {2, 7.0}}) {
+    QVERIFY(std::abs(volume.density(std::size_t(voxel)) - density) <= 7.0 / 65535 / 2 * 1.01);  // half a step
+  }
+  QVERIFY(error_of([] { volume_of({2, 1, 1}, {1, std::nan("")}); }).startsWith("volume: the density of voxel 1 is no"));
+}
+
+void VolumesTest::a_head_says_what_the_data_are() {
+  const std::string text = head + "ElementDataFile = LOCAL\n";
+  const std::string data{"\x01\x00\x00\x02\x00\x03\x10\x00", 8};
+  const auto read = read_metaimage_head(text + data, "a.mha");
+  QCOMPARE(read.length, text.size());
+  const auto volume = metaimage_volume(read, data, "a.mha");
+  QCOMPARE(volume.size, (std::array<std::uint32_t, 3>{2, 2, 1}));
+  QCOMPARE(volume.spacing, Point(0.5, 1, 2));
+  QCOMPARE(volume.origin, Point(1, 2, 3));
+  QCOMPARE(volume.density(0), 256.0);  // the highest byte first
+  QCOMPARE(volume.density(1), 2.0);
+  QCOMPARE(volume.density(3), 4096.0);
+}
+
+void VolumesTest::heads_that_do_not_are_refused_data() {
+  QTest::addColumn<QByteArray>("text");
+  QTest::addColumn<QString>("sentence");
+  QTest::newRow("no data") << QByteArray::fromStdString(head)
+                           << "a.mha:8: the head ends before its line 'ElementDataFile = …'; ";
+  QTest::newRow("no line") << QByteArray("NDims = 3\nfoo\n") << "a.mha:2: 'foo' is no line of a head; ";
+  QTest::newRow("plane") << QByteArray("NDims = 2\nElementDataFile = LOCAL\n") << "does not have 3 dimensions; ";
+  QTest::newRow("size") << QByteArray("NDims = 3\nDimSize = 2 -1 1\n") << "a.mha:2: a size is no whole number";
+  QTest::newRow("huge") << QByteArray("NDims = 3\nDimSize = 2 1e300 1\n") << "a.mha:2: ";
+  QTest::newRow("channels") << QByteArray("NDims = 3\nElementNumberOfChannels = 3\nElementDataFile = LOCAL\n")
+                            << "the image has 3 numbers a voxel; ";
+  QTest::newRow("list") << QByteArray::fromStdString(head + "ElementDataFile = LIST\n") << "lie in several files; ";
+}
+
+void VolumesTest::heads_that_do_not_are_refused() {
+  QFETCH(QByteArray, text);
+  QFETCH(QString, sentence);
+  const QString error = error_of([&] { read_metaimage_head(text.toStdString(), "a.mha"); });
+  QVERIFY2(error.contains(sentence), qPrintable(error));
+}
+
+void VolumesTest::data_that_end_too_soon_are_refused() {
+  auto read = read_metaimage_head(head + "ElementDataFile = LOCAL\n", "a.mha");
+  QVERIFY(error_of([&] {
+            metaimage_volume(read, std::string(7, 'x'), "a.mha");
+          }).startsWith("a.mha: its data end after 7 of 8 bytes; "));
+  read.compressed = true;
+  QVERIFY(error_of([&] { metaimage_volume(read, std::string(7, 'x'), "a.mha"); }).contains("packed data are damaged"));
+  read.size = {1'000'000, 1'000'000, 1'000'000};
+  QVERIFY(error_of([&] { metaimage_volume(read, std::string(7, 'x'), "a.mha"); }).contains("there are more than"));
+}
+
+void VolumesTest::voxels_above_a_threshold_are_elements() {
+  // A square of four, one more beside, and one apart.
+  const auto volume = volume_of({3, 3, 1}, {5, 5, 5, 5, 5, 0, 0, 0, 5});
+  const auto block = voxel_block(volume, {4.0, 1, true}, "v");
+  QCOMPARE(block.mesh->element_count(), 6U);
+  QCOMPARE(block.mesh->links, (std::vector<std::array<ElementId, 2>>{{0, 1}, {0, 3}, {1, 2}, {1, 4}, {3, 4}}));
+  QCOMPARE(block.mesh->rest_position(5), Point(2, 2, 0));
+  QVERIFY(block.mesh->texture != nullptr && block.mesh->texture->size == volume.size);
+  const auto cube = voxel_block(volume_of({2, 2, 2}, std::vector<double>(8, 3.0)), {3.0, 1, true}, "v");
+  QCOMPARE(cube.mesh->hexahedra.size(), std::size_t{1});
+  QCOMPARE(cube.mesh->object_dimension, 3);
+}
+
+void VolumesTest::several_voxels_make_one_element() {
+  // 4 x 2: means of the two squares 2.5 and 10; the second alone is dense enough.
+  const auto block = voxel_block(volume_of({4, 2, 1}, {1, 2, 10, 10, 3, 4, 10, 10}), {2.6, 2, true}, "v");
+  QCOMPARE(block.mesh->element_count(), 1U);
+  QCOMPARE(block.mesh->rest_position(0), Point(2.5, 0.5, 0.5));
+  std::vector<double> many(std::size_t{60} * 60 * 60, 1.0);
+  const auto coarser = voxel_block(volume_of({60, 60, 60}, many), {0.5, {}, true}, "v");
+  QCOMPARE(coarser.every, 2U);  // 216,000 voxels are more than answer a hand at once
+  QCOMPARE(coarser.mesh->element_count(), 27'000U);
+}
+
+void VolumesTest::what_is_dense_is_stiff() {
+  const auto volume = volume_of({4, 1, 1}, {10, 10, 20, 20});
+  const auto block = voxel_block(volume, {10.0, 1, true}, "v");
+  QCOMPARE(block.softness.count(0), std::size_t{0});               // at the threshold: the standard
+  QCOMPARE(block.softness.at(1), (LinkSoftness{0.9, 1.1, 0.05}));  // halfway, exact in binary steps of 1/32
+  QCOMPARE(block.softness.at(2), (LinkSoftness{1, 1, 0}));
+  QVERIFY(voxel_block(volume, {10.0, 1, false}, "v").softness.empty());
+}
+
+void VolumesTest::otsu_parts_two_heaps() {
+  const double threshold = otsu_threshold(volume_of({6, 1, 1}, {0, 1, 2, 100, 101, 102}));
+  QVERIFY(threshold > 2 && threshold <= 100);
+}
+
+void VolumesTest::nothing_above_the_threshold_is_said() {
+  QCOMPARE(error_of([] {
+             voxel_block(volume_of({2, 1, 1}, {1, 2}), {3.5, 1, true}, "a.nrrd");
+           }),
+           QString("a.nrrd: no voxel is above the threshold of 3.5; choose a lower one"));
+}
+
+QTEST_APPLESS_MAIN(VolumesTest)
+#include "test_volumes.moc"
