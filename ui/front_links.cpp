@@ -1,7 +1,6 @@
 #include "front_links.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "mesh/cells.h"
 
@@ -91,16 +90,54 @@ std::vector<SeenFace> facesAt(const Frame& frame, const Projection& projection, 
   return seen;
 }
 
-ViewBounds boundsOf(const CellBoxes& boxes, const Projection& projection, std::size_t cell) {
-  ViewBounds bounds = projection.bounds(boxes[cell]);
-  for (const std::uint32_t other : boxes.level().reached[cell]) {
-    const ViewBounds more = projection.bounds(boxes[other]);
-    if (bounds.empty() != more.empty()) {
-      return ViewBounds::everywhere();  // from before the eye to behind it
+/// Where the faces of each cell may appear: they lead to the cells that it reaches.
+std::vector<ViewBounds> faceBounds(const CellBoxes& boxes, const Projection& projection) {
+  const MeshLevel& level = boxes.level();
+  std::vector<ViewBounds> own(level.cellCount());
+  for (std::size_t cell = 0; cell < own.size(); ++cell) {
+    own[cell] = projection.bounds(boxes[cell]);
+  }
+  std::vector<ViewBounds> bounds = own;
+  for (std::size_t cell = 0; cell < own.size(); ++cell) {
+    for (const std::uint32_t other : level.reached[cell]) {
+      if (own[cell].empty() != own[other].empty()) {
+        bounds[cell] = ViewBounds::everywhere();  // from before the eye to behind it
+      }
+      bounds[cell].unite(own[other]);
     }
-    bounds.unite(more);
   }
   return bounds;
+}
+
+/// Where a link crosses a stroke, and how deep (pixels both).
+struct Crossing {
+  QPointF at;
+  double depth = 0;
+  double radius = 0;  // of what is about there
+};
+
+Crossing crossingOf(const Frame& frame, const Projection& projection, QLineF stroke, LinkId link) {
+  const auto a = placeOf(frame, projection, frame.mesh->links[link][0]);
+  const auto b = placeOf(frame, projection, frame.mesh->links[link][1]);
+  const QPointF first(a.x, a.y), second(b.x, b.y);
+  const double share = shareAt(stroke, first, second);
+  const double perUnit = std::max(projection.pixelsPerUnit(a), projection.pixelsPerUnit(b));
+  return {first + share * (second - first),
+          projection.depth(a) + share * double(projection.depth(b) - projection.depth(a)),
+          layer * frame.mesh->mean_link_length * perUnit};
+}
+
+/// The elements that appear no further than `about` from a stroke, each with its depth in pixels.
+std::vector<Spot> elementsAbout(const Frame& frame, const CellBoxes& boxes, const Projection& projection, QLineF stroke,
+                                double about) {
+  const QRectF bounds = QRectF(stroke.p1(), stroke.p2()).normalized().adjusted(-about, -about, about, about);
+  std::vector<Spot> spots;
+  for (const ElementId element :
+       elementsWhere(frame, boxes, projection, bounds, [&](QPointF at) { return bounds.contains(at); })) {
+    const auto place = placeOf(frame, projection, element);
+    spots.push_back({{place.x, place.y}, projection.depth(place)});
+  }
+  return spots;
 }
 
 }  // namespace
@@ -109,8 +146,9 @@ std::vector<Face> wholeFaces(const Frame& frame, const CellBoxes& boxes, const C
                              QRectF part) {
   const MeshLevel& level = boxes.level();
   std::vector<Face> faces;
+  const auto bounds = faceBounds(boxes, projection);
   for (std::size_t cell = 0; cell < level.cellCount(); ++cell) {
-    if (level.cellFaces[cell].empty() || !boundsOf(boxes, projection, cell).meets(part)) {
+    if (!bounds[cell].meets(part)) {
       continue;
     }
     for (const std::uint32_t face : level.cellFaces[cell]) {
@@ -148,24 +186,20 @@ std::vector<LinkId> unhiddenLinks(const Frame& frame, const Projection& projecti
 
 std::vector<LinkId> nearestLinks(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
                                  QLineF stroke, std::span<const LinkId> crossed) {
-  std::vector<LinkId> nearest;
+  std::vector<Crossing> crossings;
+  double about = 0;
   for (const LinkId link : crossed) {
-    const auto a = placeOf(frame, projection, frame.mesh->links[link][0]);
-    const auto b = placeOf(frame, projection, frame.mesh->links[link][1]);
-    const double share = shareAt(stroke, {a.x, a.y}, {b.x, b.y});
-    const QPointF at = QPointF(a.x, a.y) + share * (QPointF(b.x, b.y) - QPointF(a.x, a.y));
-    const double depth = projection.depth(a) + share * double(projection.depth(b) - projection.depth(a));
-    const double perUnit = std::max(projection.pixelsPerUnit(a), projection.pixelsPerUnit(b));
-    const double radius = layer * frame.mesh->mean_link_length * perUnit;
-    double front = std::numeric_limits<double>::max();
-
-    for (const ElementId element :
-         elementsWhere(frame, boxes, projection, QRectF(at - QPointF(radius, radius), at + QPointF(radius, radius)),
-                       [&](QPointF other) { return QLineF(at, other).length() <= radius; })) {
-      front = std::min(front, double(projection.depth(placeOf(frame, projection, element))));
-    }
-    if (depth <= front + radius) {
-      nearest.push_back(link);
+    crossings.push_back(crossingOf(frame, projection, stroke, link));
+    about = std::max(about, crossings.back().radius);
+  }
+  const auto spots = elementsAbout(frame, boxes, projection, stroke, about);
+  std::vector<LinkId> nearest;
+  for (std::size_t i = 0; i < crossed.size(); ++i) {
+    const auto& [at, depth, radius] = crossings[i];
+    const bool behind = std::ranges::any_of(
+        spots, [&](const Spot& spot) { return spot.depth < depth - radius && QLineF(at, spot.at).length() <= radius; });
+    if (!behind) {
+      nearest.push_back(crossed[i]);
     }
   }
   return nearest;

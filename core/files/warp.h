@@ -9,8 +9,9 @@
 
 namespace chainmail {
 
-/// More pixels than this are refused before memory is taken, of pictures that are read and of those that are made.
-inline constexpr double picture_limit = 200e6;
+/// More pixels than this are refused before memory is taken, of pictures that are read and of those that are made: one
+/// takes up to 12 bytes while it is decoded, whatever little its file may be.
+inline constexpr double picture_limit = 100e6;
 
 /// A part of the plane to make a picture of, in whole texels from the first corner of a sheet's picture: its lowest
 /// corner and its size.

@@ -90,7 +90,9 @@ class WindowSheet : public QObject {
     QTest::newRow("text") << QByteArray("v 0 0 0\n") << QStringLiteral("text.jpg") << QStringLiteral("no picture");
     QTest::newRow("half a JPEG") << all("c.jpg").chopped(900) << QStringLiteral("half.jpg")
                                  << QStringLiteral("it is damaged");
-    QTest::newRow("huge") << huge << QStringLiteral("huge.png") << QStringLiteral("more than 200 million");
+    QTest::newRow("half a PNG") << all("a.png").chopped(900) << QStringLiteral("half.png")
+                                << QStringLiteral("it is damaged");
+    QTest::newRow("huge") << huge << QStringLiteral("huge.png") << QStringLiteral("more than 100 million");
   }
   void damagedAndHugePicturesGetASentence() {
     QFETCH(QByteArray, bytes);
@@ -110,6 +112,27 @@ class WindowSheet : public QObject {
     QVERIFY2(bench.window.messages().sentence().contains(said), qPrintable(bench.window.messages().sentence()));
     QVERIFY(bench.window.messages().sentence().contains(name));
     QCOMPARE(bench.document().mesh(), before);
+  }
+
+  void aPictureIsTurnedAsItsCameraSays() {
+    QFile file(picture("c.jpg"));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QByteArray bytes = file.readAll();
+    // After the mark of its beginning: an Exif block of one entry, orientation 6, a quarter to the right.
+    bytes.insert(2, QByteArray::fromHex("ffe1002245786966000049492a000800000001001201030001000000060000000000"
+                                        "0000"));
+    QFile turned(folder_.filePath(QStringLiteral("turned.jpg")));
+    QVERIFY(turned.open(QIODevice::WriteOnly) && turned.write(bytes) == bytes.size());
+    turned.close();
+    Workbench bench;
+    bench.open(turned.fileName());
+    QVERIFY(bench.find<QLabel>("sheetPicture")->text().contains(QStringLiteral("80 × 120 pixels")));
+    openSheet(bench, turned.fileName(), 5);
+    QCOMPARE(bench.document().mesh()->texture->size, (std::array<std::uint32_t, 3>{80, 120, 1}));
+    // What was at its lower left is at the upper left: the last of its rows upward.
+    const auto& texels = bench.document().mesh()->texture->texels;
+    const QColor was = QImage(picture("c.jpg")).pixelColor(0, 79);
+    QVERIFY(std::abs(int(texels[std::size_t{4} * 80 * 119 + 1]) - was.green()) < 12);  // JPEG is not exact
   }
 
   /// Undeformed it comes back as it was; dragged, what is pinned stays and the rest is elsewhere.
