@@ -64,7 +64,8 @@ std::shared_ptr<const Texture> texture_of(const Volume& volume, const Progress& 
   auto texture = std::make_shared<Texture>();
   texture->size = bricks.size;
   texture->channels = 1;
-  const auto [lowest, highest] = std::minmax_element(bricks.densities.begin(), bricks.densities.end());
+  const auto lowest = std::min_element(bricks.densities.begin(), bricks.densities.end());
+  const auto highest = std::max_element(bricks.densities.begin(), bricks.densities.end());
   const float range = std::max(*highest - *lowest, std::numeric_limits<float>::min());
   texture->texels.resize(bricks.densities.size());
   std::transform(bricks.densities.begin(), bricks.densities.end(), texture->texels.begin(), [&](float density) {

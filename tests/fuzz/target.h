@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include <string_view>
 
 #include "mesh/error.h"
+#include "mesh/mesh.h"
 #include "mesh/progress.h"
 
 namespace chainmail::fuzz {
@@ -36,6 +38,26 @@ inline void check_sentence(const std::string& sentence) {
       fail("control characters in a sentence: " + sentence);
     }
   }
+}
+
+/// What every object holds, whatever it was read from.
+inline void check_mesh(const Mesh& mesh) {
+  for (const double coordinate : mesh.rest) {
+    expect(std::abs(coordinate) <= coordinate_limit, "a coordinate that is none");  // NaN is not either
+  }
+  for (const auto& [a, b] : mesh.links) {
+    expect(a < b && b < mesh.element_count(), "a link of no elements");
+  }
+  const auto expect_ids = [&](const auto& groups) {
+    for (const auto& group : groups) {
+      for (const ElementId id : group) {
+        expect(id < mesh.element_count(), "a face or cell of no elements");
+      }
+    }
+  };
+  expect_ids(mesh.triangles);
+  expect_ids(mesh.tetrahedra);
+  expect_ids(mesh.hexahedra);
 }
 
 /// Calls a reader: it returns, or it refuses what it is given. Any other exception ends the program.

@@ -1,0 +1,17 @@
+#include "files/metaimage.h"
+#include "files/voxel_block.h"
+#include "fuzz/target.h"
+
+using namespace chainmail;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::read_or_refuse([&] {
+    const std::string_view file = fuzz::text_of(data, size);
+    const MetaImageHead head = read_metaimage_head(file, "fuzz.mha");
+    fuzz::expect(head.length <= file.size(), "a head longer than its file");
+    const Volume volume = metaimage_volume(head, file.substr(head.length), "fuzz.mha");
+    fuzz::expect(volume.densities.size() == volume.voxel_count(), "a volume that is not full");
+    fuzz::check_mesh(*voxel_block(volume, {}, "fuzz.mha").mesh);
+  });
+  return 0;
+}

@@ -1,0 +1,19 @@
+#include "files/open_mesh.h"
+#include "files/tetgen.h"
+#include "fuzz/target.h"
+
+using namespace chainmail;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  // Two files in one: what follows a line of three dashes is the second.
+  const std::string_view text = fuzz::text_of(data, size);
+  constexpr std::string_view between = "---\n";
+  const std::size_t end = text.find(between);
+  const std::string_view nodes = text.substr(0, end);
+  const std::string_view elements = end == text.npos ? std::string_view() : text.substr(end + between.size());
+  const std::filesystem::path path = "fuzz.node", other = "fuzz.ele";
+  fuzz::read_or_refuse([&] {
+    fuzz::check_mesh(*opened(read_tetgen({nodes, path}, {elements, other}), path, {}, {}).mesh);
+  });
+  return 0;
+}
