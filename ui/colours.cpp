@@ -10,8 +10,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int strongerPercent = 125, darkerFace = 320;
-constexpr double faceOnLight = 0.22;  // of the links' colour; the rest is the background's
+constexpr int strongerPercent = 125;
 constexpr int middleLightness = 128;
 
 /// Hears of every change of the palette, and tells of those that change the ground.
@@ -62,15 +61,24 @@ QColor stronger(const QColor& colour) {
   return ground() == Ground::dark ? colour.lighter(strongerPercent) : colour.darker(strongerPercent);
 }
 
-QColor faint(const QColor& colour) {
+namespace {
+
+/// On a dark ground so many hundredths darker, on a light one with so much of the ground's colour.
+QColor nearer(const QColor& colour, int darker, double own) {
   if (ground() == Ground::dark) {
-    return colour.darker(darkerFace);
+    return colour.darker(darker);
   }
   const QColor behind = background;
-  const auto mixed = [](float of, float with) { return float(with + faceOnLight * (of - with)); };
+  const auto mixed = [own](float of, float with) { return float(with + own * (of - with)); };
   return QColor::fromRgbF(mixed(colour.redF(), behind.redF()), mixed(colour.greenF(), behind.greenF()),
                           mixed(colour.blueF(), behind.blueF()));
 }
+
+}  // namespace
+
+QColor faint(const QColor& colour) { return nearer(colour, 320, 0.22); }
+QColor solid(const QColor& colour) { return nearer(colour, 190, 0.45); }
+QColor bright(const QColor& colour) { return nearer(colour, 125, 0.75); }
 
 }  // namespace colours
 

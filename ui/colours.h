@@ -68,6 +68,10 @@ QColor stronger(const QColor& colour);
 /// The same colour near the ground, for the faces between links of that colour.
 QColor faint(const QColor& colour);
 
+/// The same for faces that stand for themselves, and for those that a section lays open.
+QColor solid(const QColor& colour);
+QColor bright(const QColor& colour);
+
 /// Of a panel and all that speaks of it, by its number from 0.
 inline constexpr Colour ofPanel(int panel) { return std::array{left, right, third, fourth}[std::size_t(panel)]; }
 

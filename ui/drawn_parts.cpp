@@ -84,7 +84,7 @@ void DrawnParts::setFrame(const Frame& frame, const Cuts& cuts) {
   if (frame.mesh != mesh_) {
     mesh_ = frame.mesh;
     level_.reset();
-    outdated_ = true;
+    outdated_ = sectionOutdated_ = true;
   }
 }
 
@@ -97,12 +97,31 @@ DrawnParts::Parts DrawnParts::partsOf(const Look& look, double pixelsPerUnit) co
   return {look.faces, look.links && !tooFine, ofSurface};
 }
 
-bool DrawnParts::choose(const ObjectDrawing::Scene& scene, const Look& look, double pixelsPerUnit) {
+void DrawnParts::chooseParts(const Look& look, double pixelsPerUnit) {
   const Parts parts = partsOf(look, pixelsPerUnit);
-  if (parts != parts_) {
-    parts_ = parts;
-    outdated_ = true;
+  outdated_ = outdated_ || parts != parts_;
+  parts_ = parts;
+  const auto plane = parts_.ofSurface ? look.section : std::nullopt;
+  sectionOutdated_ = sectionOutdated_ || plane != plane_;
+  plane_ = plane;
+}
+
+const Section* DrawnParts::section() const { return plane_ ? &levels_->section(mesh_, *cuts_, *plane_) : nullptr; }
+
+std::vector<QVector3D> placesOf(const Section& section, const Frame& frame) {
+  std::vector<QVector3D> places;
+  places.reserve(section.points().size());
+  for (const SectionPoint& point : section.points()) {
+    const float* from = frame.positions.data() + std::size_t{3} * point.from;
+    const float* to = frame.positions.data() + std::size_t{3} * point.to;
+    const auto at = [&](int k) { return from[k] + point.share * (to[k] - from[k]); };
+    places.emplace_back(at(0), at(1), at(2));
   }
+  return places;
+}
+
+bool DrawnParts::choose(const ObjectDrawing::Scene& scene, const Look& look, double pixelsPerUnit) {
+  chooseParts(look, pixelsPerUnit);
   if (parts_.ofSurface) {
     step_ = 1;
     return std::exchange(outdated_, false);

@@ -15,10 +15,10 @@ class DrawnParts {
 
   /// Both must stay as they are until the next one, the cuts but for cutsChanged.
   void setFrame(const Frame& frame, const Cuts& cuts);
-  void cutsChanged() { outdated_ = true; }
+  void cutsChanged() { outdated_ = sectionOutdated_ = true; }
   void forget() {
     level_.reset();
-    outdated_ = true;
+    outdated_ = sectionOutdated_ = true;
   }
 
   /// True where other links or faces are to be drawn than the last time. Costs what is drawn, not what there is.
@@ -29,6 +29,12 @@ class DrawnParts {
   DrawnLinks links() const;
   /// Three corners each.
   std::vector<ElementId> faces() const;
+  /// The section, where one closes a volume.
+  const Section* section() const;
+  /// Whether it has another face than the last time this was asked.
+  bool takeSectionChange() { return std::exchange(sectionOutdated_, false); }
+  const Surface& surface() const { return levels_->surface(mesh_, *cuts_); }
+  MeshLevels& levels() { return *levels_; }
   /// A value for each of the links with these numbers: the largest of those that it stands for.
   std::vector<float> valuesOf(const std::vector<std::uint32_t>& links, const ColourValues& values) const;
 
@@ -39,9 +45,9 @@ class DrawnParts {
     bool faces = true, links = true, ofSurface = false;
     bool operator==(const Parts&) const = default;
   };
+  void chooseParts(const Look& look, double pixelsPerUnit);
 
   Parts partsOf(const Look& look, double pixelsPerUnit) const;
-  const Surface& surface() const { return levels_->surface(mesh_, *cuts_); }
   void chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit);
   double shareInView(const ObjectDrawing::Scene& scene);
   /// The cells of a level that may be seen.
@@ -58,7 +64,11 @@ class DrawnParts {
   CellBoxes boxes_;       // of that level
   CellBoxes wholeBoxes_;  // of every element
   std::vector<std::uint32_t> cells_;
-  bool outdated_ = true;
+  std::optional<SectionPlane> plane_;  // of the section that closes a volume
+  bool outdated_ = true, sectionOutdated_ = true;
 };
+
+/// Where the points of a section are in a frame.
+std::vector<QVector3D> placesOf(const Section& section, const Frame& frame);
 
 }  // namespace chainmail

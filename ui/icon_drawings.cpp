@@ -51,6 +51,8 @@ constexpr std::array drawings{
     IconDrawing{"fit",
                 "M 2 5.5 L 2 2 L 5.5 2 M 10.5 2 L 14 2 L 14 5.5 M 14 10.5 L 14 14 L 10.5 14 M 5.5 14 L 2 14 L 2 10.5",
                 "E 8 8 2 2"},
+    IconDrawing{"section", "M 2 4.6 L 8 1.6 L 14 4.6 L 14 11.4 L 8 14.4 L 2 11.4 Z M 8 1.6 L 8 14.4",
+                "M 2 4.6 L 8 1.6 L 8 14.4 L 2 11.4 Z"},
     IconDrawing{"link", "E 5.5 8 4 2.9 E 10.5 8 4 2.9"},
     IconDrawing{"zoomIn", "E 6.8 6.8 4.8 4.8 M 10.4 10.4 L 14.2 14.2 M 4.8 6.8 L 8.8 6.8 M 6.8 4.8 L 6.8 8.8"},
     IconDrawing{"zoomOut", "E 6.8 6.8 4.8 4.8 M 10.4 10.4 L 14.2 14.2 M 4.8 6.8 L 8.8 6.8"},

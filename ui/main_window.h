@@ -72,6 +72,7 @@ class MainWindow : public QMainWindow {
   void makeSizeTestDock();
   void makePropagationDock();
   void makeReplayDock();
+  void makeSectionDock();
   void makeMenus();
   void makePictures(QMenu& menu);
   void fillEditMenu(QMenu& menu);

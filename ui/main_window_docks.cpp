@@ -16,6 +16,7 @@
 #include "relaxation_dock.h"
 #include "replay_dock.h"
 #include "report_dock.h"
+#include "section_dock.h"
 #include "size_test_dock.h"
 #include "stiffness_dock.h"
 #include "tools_dock.h"
@@ -39,6 +40,7 @@ void MainWindow::makeDocks() {
   makeSizeTestDock();
   makePropagationDock();
   makeReplayDock();
+  makeSectionDock();
   auto* element = new ElementDock(document_);
   shareRoom(*meshDock, *element);
   shareRoom(*meshDock, *new HistoryDock(document_));
@@ -102,6 +104,15 @@ void MainWindow::makeReplayDock() {
   show->setShortcut(QKeySequence(QStringLiteral("Ctrl+R")));
   show->setStatusTip(QStringLiteral("What was done to the object: gone back and forth in, played, saved, filmed"));
   findChild<QMenu*>(QStringLiteral("objectMenu"))->addMenu(&dock->menu());
+}
+
+/// Under the panels, and out of sight until there is a section.
+void MainWindow::makeSectionDock() {
+  auto* dock = new SectionDock(document_);
+  addDockWidget(Qt::BottomDockWidgetArea, dock);
+  dock->hide();
+  dock->fill(*findChild<QMenu*>(QStringLiteral("viewMenu")));
+  connect(dock, &SectionDock::changed, area_, [this, dock] { area_->setSection(dock->plane()); });
 }
 
 /// Under the panels, and out of sight until it is asked for.

@@ -3,8 +3,9 @@
 #include <bit>
 #include <map>
 
+#include "card_texture.h"
 #include "coarse_level.h"
-#include "mesh/surface.h"
+#include "mesh/section.h"
 
 namespace chainmail {
 
@@ -44,11 +45,25 @@ class MeshLevels {
       cut ? surface_->cut(link) : surface_->uncut(link);
     }
   }
+  /// The section of its cells.
+  const Section& section(const MeshPointer& mesh, const Cuts& cuts, const SectionPlane& plane) {
+    const auto& table = surface(mesh, cuts).table_pointer();
+    if (section_ == nullptr || &section_->table() != table.get() || section_->plane() != plane) {
+      section_ = std::make_unique<Section>(table, plane);
+    }
+    return *section_;
+  }
+  CardTextures& textures() { return textures_; }
   /// Another mesh, or other cuts, have taken the place of those that the surface was told of.
-  void forgetSurface() { surface_.reset(); }
+  void forgetSurface() {
+    surface_.reset();
+    section_.reset();
+  }
 
  private:
   std::unique_ptr<Surface> surface_;
+  std::unique_ptr<Section> section_;
+  CardTextures textures_;
   MeshPointer mesh_;
   MeshLevelPointer next_;
   std::map<unsigned, MeshLevelPointer> levels_;

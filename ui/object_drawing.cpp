@@ -10,7 +10,7 @@ constexpr ElementId elementsMarked = 20'000;
 constexpr double pixelsBetweenMarks = 9;
 constexpr float planeFace = 0.08F;  // opacity
 // On a light ground shadows must not drown the links.
-constexpr float darkestOnDark = 0.55F, darkestOnLight = 0.82F;
+constexpr float darkest = 0.55F, darkestUnderLinks = 0.82F;
 
 }  // namespace
 
@@ -19,16 +19,27 @@ bool ObjectDrawing::marksElements(const Mesh& mesh, double pixelsPerUnit) {
 }
 
 QColor ObjectDrawing::faceColour(const Mesh& mesh, const Paint& paint) {
-  QColor face = valuesFit(&mesh, paint) ? QColor(colour_map::neutral) : paint.colour;
-  if (mesh.space_dimension == 3 || !paint.look.links) {
+  QColor face = ownColour(mesh, paint);
+  if (!paint.look.links) {
+    return colours::solid(face);
+  }
+  if (mesh.space_dimension == 3) {
     return colours::faint(face);
   }
   face.setAlphaF(planeFace);
   return face;
 }
 
-float ObjectDrawing::darkestFace() {
-  return colours::ground() == colours::Ground::dark ? darkestOnDark : darkestOnLight;
+QColor ObjectDrawing::sectionColour(const Mesh& mesh, const Paint& paint) {
+  return colours::bright(ownColour(mesh, paint));
+}
+
+QColor ObjectDrawing::ownColour(const Mesh& mesh, const Paint& paint) {
+  return valuesFit(&mesh, paint) ? QColor(colour_map::neutral) : paint.colour;
+}
+
+float ObjectDrawing::darkestFace(const Look& look) {
+  return colours::ground() == colours::Ground::dark || !look.links ? darkest : darkestUnderLinks;
 }
 
 }  // namespace chainmail

@@ -85,12 +85,22 @@ class ObjectDrawing {
   /// What faces are filled with, where they are not lit. In a plane they are only hinted at; in space they hide what
   /// lies behind them. Beside the colour map they stay grey.
   static QColor faceColour(const Mesh& mesh, const Paint& paint);
+  /// What a section's face is filled with, where it is not lit: one sees that it is none of the object's own.
+  static QColor sectionColour(const Mesh& mesh, const Paint& paint);
   /// Of a face seen from the side, as a share of its colour.
-  static float darkestFace();
+  static float darkestFace(const Look& look);
+  /// Whether faces show a picture, or sections the slices of a volume.
+  static bool showsPicture(const Mesh& mesh) { return mesh.texture != nullptr && mesh.texture->size[2] == 1; }
+  static bool showsSlices(const Mesh& mesh) { return mesh.texture != nullptr && mesh.texture->size[2] > 1; }
 
  protected:
   static bool valuesFit(const Mesh* mesh, const Paint& paint) {
     return paint.values != nullptr && paint.values->mesh.get() == mesh;
+  }
+  static QColor ownColour(const Mesh& mesh, const Paint& paint);
+  /// Whether faces take the colours of their elements' values, as no link does.
+  static bool facesByValues(const Mesh* mesh, const Paint& paint) {
+    return valuesFit(mesh, paint) && !paint.values->ofLinks && !paint.look.links && !showsPicture(*mesh);
   }
 };
 

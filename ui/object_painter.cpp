@@ -38,7 +38,7 @@ void ObjectPainter::initialize() {
     build(programs_[i], variants[i]);
   }
   vertexArray_.create();
-  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &faces_, &selected_, &values_}) {
+  for (QOpenGLBuffer* buffer : buffers()) {
     buffer->create();
     buffer->setUsagePattern(QOpenGLBuffer::DynamicDraw);
   }
@@ -51,10 +51,12 @@ void ObjectPainter::destroy() {
   }
   vertexArray_.destroy();
   glDeleteTextures(1, &valuesTexture_);
-  for (QOpenGLBuffer* buffer : {&positions_, &scratch_, &links_, &faces_, &selected_, &values_}) {
+  for (QOpenGLBuffer* buffer : buffers()) {
     buffer->destroy();
   }
   mesh_.reset();
+  restMesh_.reset();
+  texture_.reset();
   parts_.forget();
   seeThrough_.destroy();
   frameNumber_ = 0;
@@ -71,6 +73,7 @@ void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
   }
   if (frame.mesh != mesh_) {
     mesh_ = frame.mesh;
+    texture_.reset();
     frameNumber_ = 0;
     selectedIndices_ = 0;
     valuesNumber_ = 0;
@@ -78,6 +81,7 @@ void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
   if (frame.number != frameNumber_) {
     uploadPositions(frame);
     frameNumber_ = frame.number;
+    capMoved_ = true;
   }
 }
 
@@ -113,14 +117,18 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
   program_->setUniformValue("colour", asVector(colour));
   program_->setUniformValue("background", asVector(scene.background));
   program_->setUniformValue("fog", scene.fog);
-  program_->setUniformValue("darkest", darkestFace());
+  program_->setUniformValue("darkest", darkestFace(look_));
+  program_->setUniformValue("section",
+                            QVector4D(0, 0, 0, 1));  // takes nothing away, whatever the driver has switched on
   vertexArray_.bind();
   program_->enableAttributeArray(0);
   program_->setAttributeBuffer(0, GL_FLOAT, 0, dimension);
   program_->disableAttributeArray(1);
+  program_->disableAttributeArray(2);
 }
 
 void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
+  look_ = paint.look;
   if (parts_.choose(scene, paint.look, pixelsPerUnit)) {
     sendParts();
   }
@@ -129,6 +137,7 @@ void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pi
   if (paint.look.links && step() == 1 && marksElements(*mesh_, pixelsPerUnit)) {
     drawEveryElement(scene, paint);
   }
+  glDisable(GL_CLIP_DISTANCE0);
   vertexArray_.release();
 }
 
@@ -148,6 +157,7 @@ void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
   } else {
     use(scene, byValues ? QColor(colour_map::neutral) : colours::stronger(paint.colour), 2, mesh_->space_dimension);
   }
+  useRest(paint.look);
   program_->setUniformValue("point_size", elementSize * scene.pixelRatio);
   glDrawArrays(GL_POINTS, 0, GLsizei(mesh_->element_count()));
 }
@@ -164,9 +174,20 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
     glPolygonOffset(1, 1);
   }
   positions_.bind();
-  use(scene, faceColour(*mesh_, paint), spatial ? 1 : 0, mesh_->space_dimension);
+  const bool pictured = showsPicture(*mesh_);
+  if (facesByValues(mesh_.get(), paint)) {
+    useValues(scene, paint, 0);
+  } else {
+    use(scene, faceColour(*mesh_, paint), spatial && !pictured ? 1 : 0, mesh_->space_dimension, pictured ? 3 : 0);
+  }
+  if (pictured) {
+    useTexture();
+  }
+  useRest(paint.look);
   faces_.bind();
   glDrawElements(GL_TRIANGLES, faceIndices_, GL_UNSIGNED_INT, nullptr);
+  glDisable(GL_CLIP_DISTANCE0);
+  drawCap(scene, paint);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
@@ -181,6 +202,7 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
   } else {
     useValues(scene, paint, 0);
   }
+  useRest(paint.look);
   links_.bind();
   if (count <= indicesSmoothed) {
     glLineWidth((valuesFit(paint) ? valuedWidth : 1) * scene.pixelRatio);  // as wide on every screen

@@ -47,6 +47,9 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   unsigned step() const { return parts_.step(); }
 
  private:
+  std::array<QOpenGLBuffer*, 10> buffers() {
+    return {&positions_, &scratch_, &links_, &faces_, &selected_, &values_, &rest_, &cap_, &capPlaces_, &capRest_};
+  }
   void uploadPositions(const Frame& frame);
   void sendParts();
   void use(const Scene& scene, QColor colour, int shading, int dimension, int colouredBy = 0);
@@ -55,15 +58,18 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   void useMap(const ColourScale& scale);
   void uploadValues(const ColourValues& values);
   bool valuesFit(const Paint& paint) const { return ObjectDrawing::valuesFit(mesh_.get(), paint); }
+  void useRest(const Look& look);
+  void useTexture();
   void drawFaces(const Scene& scene, const Paint& paint);
+  void drawCap(const Scene& scene, const Paint& paint);
   void drawWires(const Scene& scene, const Paint& paint);
   void drawEveryElement(const Scene& scene, const Paint& paint);
   void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour, int shading,
                float diameter);
 
   // The shaders, compiled for each pair of their SHADING and COLOURED_BY that is drawn with.
-  static constexpr std::array<std::array<int, 2>, 9> variants{
-      {{0, 0}, {0, 1}, {0, 2}, {1, 0}, {2, 0}, {2, 1}, {3, 0}, {4, 0}, {4, 1}}};
+  static constexpr std::array<std::array<int, 2>, 11> variants{
+      {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 0}, {2, 0}, {2, 1}, {3, 0}, {4, 0}, {4, 1}}};
   std::array<QOpenGLShaderProgram, variants.size()> programs_;
   QOpenGLShaderProgram* program_ = nullptr;  // the one in use
   QOpenGLVertexArrayObject vertexArray_;
@@ -73,6 +79,11 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   QOpenGLBuffer faces_{QOpenGLBuffer::IndexBuffer};
   QOpenGLBuffer selected_{QOpenGLBuffer::IndexBuffer};
   QOpenGLBuffer values_{QOpenGLBuffer::VertexBuffer};
+  QOpenGLBuffer rest_{QOpenGLBuffer::VertexBuffer};  // of the elements of restMesh_, where something goes by it
+  MeshPointer restMesh_;
+  QOpenGLBuffer cap_{QOpenGLBuffer::IndexBuffer};  // a section's face, of points of its own
+  QOpenGLBuffer capPlaces_{QOpenGLBuffer::VertexBuffer}, capRest_{QOpenGLBuffer::VertexBuffer};
+  std::shared_ptr<CardTexture> texture_;
   GLuint valuesTexture_ = 0;  // values_ as the fragment shader reads it
   SeeThrough seeThrough_;
   DrawnParts parts_;
@@ -80,7 +91,9 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   const Frame* frame_ = nullptr;
   std::uint64_t frameNumber_ = 0, frameSeries_ = 0;
   std::vector<std::uint32_t> drawnLinks_;  // what links_ was filled with
-  GLsizei faceIndices_ = 0, selectedIndices_ = 0;
+  GLsizei faceIndices_ = 0, selectedIndices_ = 0, capIndices_ = 0;
+  bool capMoved_ = true;  // its points are elsewhere in the newest frame
+  Look look_;             // of the object as it is drawn now
   std::uint64_t valuesNumber_ = 0;
 };
 

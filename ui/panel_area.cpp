@@ -144,10 +144,16 @@ void PanelArea::setTool(Tool& tool) {
 }
 
 void PanelArea::setLook(const Look& look) {
-  look_ = look;
+  look_.faces = look.faces;
+  look_.links = look.links;
   for (Panel* panel : panels_) {
-    panel->view().setLook(look);
+    panel->view().setLook(look_);
   }
+}
+
+void PanelArea::setSection(const std::optional<SectionPlane>& section) {
+  look_.section = section;
+  setLook(look_);
 }
 
 /// Of linked views the one with the least room at its sides comes last: what it shows whole, all do.

@@ -36,8 +36,9 @@ class PanelArea : public QWidget {
   void setHeadActions(const QList<QAction*>& actions);
   /// Paints and says anew what an overlay has changed.
   void refresh();
-  /// What every panel shows of its object.
+  /// What every panel shows of its object, beside the section; and the section.
   void setLook(const Look& look);
+  void setSection(const std::optional<SectionPlane>& section);
   /// Shows the whole rest shape in every panel.
   void fit();
 

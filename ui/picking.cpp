@@ -47,7 +47,7 @@ std::vector<ViewBounds> cellBounds(const CellBoxes& boxes, const Projection& pro
 }  // namespace
 
 std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
-                                        QPointF place, double reach) {
+                                        QPointF place, double reach, const std::function<bool(ElementId)>& shown) {
   const int dimension = frame.mesh->space_dimension;
   const QRectF within(place - QPointF(reach, reach), place + QPointF(reach, reach));
   std::optional<ElementId> best;
@@ -59,7 +59,7 @@ std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& box
     for (const ElementId e : boxes.level().cells[cell]) {
       const auto at = projection(frame.positions.data() + std::size_t{e} * dimension);
       const float dx = at.x - float(place.x()), dy = at.y - float(place.y());
-      if (!(dx * dx + dy * dy <= float(reach * reach)) || !at.visible()) {
+      if (!(dx * dx + dy * dy <= float(reach * reach)) || !at.visible() || (shown && !shown(e))) {
         continue;
       }
       const float score = std::hypot(dx, dy) + depthWeight * projection.depth(at);
@@ -74,7 +74,8 @@ std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& box
 }
 
 std::vector<ElementId> elementsWhere(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
-                                     QRectF bounds, const std::function<bool(QPointF)>& inside) {
+                                     QRectF bounds, const std::function<bool(QPointF)>& inside,
+                                     const std::function<bool(ElementId)>& shown) {
   std::vector<ElementId> found;
   for (std::size_t cell = 0; cell < boxes.level().cellCount(); ++cell) {
     if (!projection.bounds(boxes[cell]).meets(bounds)) {
@@ -82,7 +83,7 @@ std::vector<ElementId> elementsWhere(const Frame& frame, const CellBoxes& boxes,
     }
     for (const ElementId e : boxes.level().cells[cell]) {
       const auto at = projection(frame.positions.data() + std::size_t{e} * frame.mesh->space_dimension);
-      if (at.visible() && inside(QPointF(at.x, at.y))) {
+      if (at.visible() && inside(QPointF(at.x, at.y)) && (!shown || shown(e))) {
         found.push_back(e);
       }
     }

@@ -3,6 +3,7 @@
 #include <QActionGroup>
 
 #include "icons.h"
+#include "object_drawing.h"
 
 namespace chainmail {
 namespace {
@@ -34,10 +35,8 @@ bool hasFaces(const Mesh& mesh) {
   return !mesh.triangles.empty() || !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
 }
 
-bool hasPicture(const Mesh& mesh) { return mesh.texture != nullptr && mesh.texture->size[2] == 1; }
-
 QString settingsKey(const Mesh& mesh) {
-  return hasPicture(mesh) ? QStringLiteral("showOfPictures") : QStringLiteral("show");
+  return ObjectDrawing::showsPicture(mesh) ? QStringLiteral("showOfPictures") : QStringLiteral("show");
 }
 
 }  // namespace
@@ -66,7 +65,7 @@ void ShowMenu::fill(QMenu& menu) {
 
 QString ShowMenu::chosen() const {
   const Mesh& mesh = *document_.mesh();
-  const QString otherwise = hasPicture(mesh) ? QStringLiteral("surface") : QStringLiteral("both");
+  const QString otherwise = ObjectDrawing::showsPicture(mesh) ? QStringLiteral("surface") : QStringLiteral("both");
   const QString remembered = QSettings().value(settingsKey(mesh), otherwise).toString();
   return actions_.count(remembered) != 0 ? remembered : otherwise;
 }

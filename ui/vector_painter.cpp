@@ -16,7 +16,6 @@ constexpr float mostFaded = 0.75F;
 constexpr float liftOfLines = 0.5F;
 constexpr float ringHole = 0.64F;  // of its diameter
 constexpr double soft = 0.5;       // pixels: the screen's marks fade inside their edges
-constexpr float seam = 0.4F;       // pixels: faces meet without a gap of the paper's colour
 constexpr int shadesOfALink = 8;   // at most, where its ends differ in value
 
 }  // namespace
@@ -118,25 +117,10 @@ void VectorPainter::addFaceClipped(Piece piece, const QRectF& view) {
 void VectorPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
   parts_.choose(scene, paint.look, pixelsPerUnit);
   addFaces(scene, paint);
+  addCap(scene, paint);
   addLinks(scene, paint);
   if (paint.look.links && parts_.step() == 1 && marksElements(*frame_->mesh, pixelsPerUnit)) {
     addElements(scene, paint);
-  }
-}
-
-void VectorPainter::addFaces(const Scene& scene, const Paint& paint) {
-  const QColor colour = faceColour(*frame_->mesh, paint);
-  const bool lit = frame_->mesh->space_dimension == 3;
-  const auto corners = parts_.faces();
-  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-    const std::array places{inSpace(corners[i]), inSpace(corners[i + 1]), inSpace(corners[i + 2])};
-    QColor face = colour;
-    if (lit) {
-      const QVector3D normal = QVector3D::normal(places[0], places[1], places[2]);
-      const float share = std::lerp(darkestFace(), 1.0F, std::abs(scene.toView.mapVector(normal).z()));
-      face = QColor::fromRgbF(share * face.redF(), share * face.greenF(), share * face.blueF());
-    }
-    add(scene, places, face, lit ? seam : 0);
   }
 }
 
@@ -148,13 +132,19 @@ void VectorPainter::addLinks(const Scene& scene, const Paint& paint) {
       byValues && paint.values->ofLinks ? parts_.valuesOf(links.numbers, *paint.values) : std::vector<float>();
   for (std::size_t i = 0; i < links.numbers.size(); ++i) {
     const ElementId a = links.ends[2 * i], b = links.ends[2 * i + 1];
-    const std::array ends{inSpace(a), inSpace(b)};
+    const auto [first, last] = shown(a, b, paint.look);
+    if (!(first < last)) {
+      continue;
+    }
+    const auto along = [&](float share) { return inSpace(a) + share * (inSpace(b) - inSpace(a)); };
+    const std::array ends{along(first), along(last)};
     if (!byValues) {
       add(scene, ends, paint.colour, 1, Mark::disc, liftOfLines * float(mesh.mean_link_length));
     } else if (paint.values->ofLinks) {
       addLink(scene, ends, {values[i], values[i]}, paint.scale, valuedWidth);
     } else {
-      addLink(scene, ends, {paint.values->values[a], paint.values->values[b]}, paint.scale, valuedWidth);
+      const float from = paint.values->values[a], to = paint.values->values[b];
+      addLink(scene, ends, {std::lerp(from, to, first), std::lerp(from, to, last)}, paint.scale, valuedWidth);
     }
   }
 }
@@ -179,6 +169,9 @@ void VectorPainter::addElements(const Scene& scene, const Paint& paint) {
   const bool byValues = valuesFit(&mesh, paint), ofElements = byValues && !paint.values->ofLinks;
   const QColor colour = byValues ? QColor(colour_map::neutral) : colours::stronger(paint.colour);
   for (ElementId element = 0; element < mesh.element_count(); ++element) {
+    if (beforeSection(element, paint.look) > 0) {
+      continue;
+    }
     const QVector3D place = inSpace(element);
     add(scene, std::span(&place, 1), ofElements ? colour_map::of(paint.values->values[element], paint.scale) : colour,
         elementSize, Mark::disc, 2 * liftOfLines * float(mesh.mean_link_length));

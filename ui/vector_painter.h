@@ -53,7 +53,14 @@ class VectorPainter : public ObjectDrawing {
            Mark mark = Mark::disc, float lift = 0);
   void addClipped(Piece piece, const QRectF& view);
   void addFaceClipped(Piece piece, const QRectF& view);
+  /// How far in front of the section an element lies at rest (mesh units); 0 without one.
+  double beforeSection(ElementId element, const Look& look) const;
+  /// What a section leaves: of a line, from which share of the way to which; of a face, its corners.
+  std::array<float, 2> shown(ElementId from, ElementId to, const Look& look) const;
+  std::vector<QVector3D> shown(std::span<const ElementId> corners, const Look& look) const;
+  static QColor lit(const Scene& scene, std::span<const QVector3D> places, const QColor& colour, const Look& look);
   void addFaces(const Scene& scene, const Paint& paint);
+  void addCap(const Scene& scene, const Paint& paint);
   void addLinks(const Scene& scene, const Paint& paint);
   void addLink(const Scene& scene, const std::array<QVector3D, 2>& ends, const std::array<float, 2>& values,
                const ColourScale& scale, float width);

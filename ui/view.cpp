@@ -90,9 +90,18 @@ const CellBoxes& View::boxes(const Frame& frame) const {
   return boxes_;
 }
 
+std::function<bool(ElementId)> View::shown() const {
+  if (!look_.section) {
+    return {};
+  }
+  return [mesh = document_.mesh(), plane = *look_.section](ElementId element) {
+    return !(plane.before(mesh->rest_position(element)) > 0);
+  };
+}
+
 std::optional<ElementId> View::elementAt(QPointF place) const {
   const Frame* frame = document_.frame(panel_);
-  return frame == nullptr ? std::nullopt : nearestElement(*frame, boxes(*frame), projection(), place, reach);
+  return frame == nullptr ? std::nullopt : nearestElement(*frame, boxes(*frame), projection(), place, reach, shown());
 }
 
 std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
@@ -120,7 +129,7 @@ std::vector<LinkId> View::frontLinksCrossing(QLineF stroke) const {
 std::vector<ElementId> View::elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const {
   const Frame* frame = document_.frame(panel_);
   return frame == nullptr ? std::vector<ElementId>()
-                          : chainmail::elementsWhere(*frame, boxes(*frame), projection(), bounds, inside);
+                          : chainmail::elementsWhere(*frame, boxes(*frame), projection(), bounds, inside, shown());
 }
 
 Point View::position(ElementId element) const {

@@ -117,6 +117,8 @@ class View : public QOpenGLWidget {
   /// With `pixelRatio` device pixels to a logical one.
   ObjectDrawing::Scene scene(double pixelRatio) const;
   Projection projection() const;
+  /// Whether a section leaves an element; none where there is no section.
+  std::function<bool(ElementId)> shown() const;
   const CellBoxes& boxes(const Frame& frame) const;
   void listen();
   double pixelsPerLink() const;

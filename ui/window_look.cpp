@@ -9,6 +9,7 @@
 
 #include "main_window.h"
 #include "panel.h"
+#include "section_dock.h"
 #include "show_menu.h"
 #include "text.h"
 
@@ -75,6 +76,7 @@ std::string lookOf(MainWindow& window) {
                          {QStringLiteral("linked"), linkCameras(window).isChecked()},
                          {QStringLiteral("colour"), text(info(window.colouring().mode()).name)},
                          {QStringLiteral("show"), window.findChild<ShowMenu*>()->chosen()},
+                         {QStringLiteral("section"), window.findChild<SectionDock*>()->toJson()},
                          {QStringLiteral("layout"), layout},
                          {QStringLiteral("file"), window.document().sessionFile()}};
   return QJsonDocument(look).toJson(QJsonDocument::Compact).toStdString();
@@ -86,6 +88,7 @@ void takeLook(MainWindow& window, const std::string& json) {
     window.takeLayout(QByteArray::fromBase64(layout.toLatin1()));
   }
   window.findChild<ShowMenu*>()->choose(look[QStringLiteral("show")].toString());
+  window.findChild<SectionDock*>()->take(look[QStringLiteral("section")].toObject());
   takeColours(window, look[QStringLiteral("colour")].toString());
   takeCameras(window, look);
 }

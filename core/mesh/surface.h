@@ -29,6 +29,7 @@ class Surface {
   Surface(CellTablePointer table, const Cuts& cuts);
 
   const CellTable& table() const { return *table_; }
+  const CellTablePointer& table_pointer() const { return table_; }
   /// Cuts a link that is not cut.
   void cut(LinkId link) { change(link, true); }
   /// Uncuts one that is.

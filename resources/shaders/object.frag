@@ -1,10 +1,11 @@
 // What follows is compiled once for each pair of SHADING and COLOURED_BY: a software renderer takes every branch
 // at every pixel.
 //   SHADING: 0 plain, 1 a face lit from the eye; points: 2 a disc, 3 a diamond, 4 a ring
-//   COLOURED_BY: 0 `colour`, 1 the elements' values, 2 the links' (a primitive is a link)
+//   COLOURED_BY: 0 `colour`, 1 the elements' values, 2 the links' (a primitive is a link), 3 a picture, 4 a volume
 
 in vec3 in_view;
 in float value_here;
+in vec3 rest_here;
 
 uniform vec4 colour;
 uniform vec4 background;
@@ -12,6 +13,9 @@ uniform float darkest; // how dark a face is that is seen from its side, of 1
 uniform vec2 fog;    // distances from the eye at which fading begins and ends; equal: none
 
 uniform samplerBuffer link_values;
+uniform sampler2D picture;
+uniform sampler3D volume;
+uniform vec3 texture_scale, texture_offset; // from places at rest to those in the texture, 0 to 1
 uniform vec3 stops[6];   // the colour map's control points
 uniform vec2 range;      // the values at its two ends
 uniform float threshold; // a value that is no larger, whatever its sign, is neutral
@@ -44,6 +48,10 @@ void main() {
   vec4 result = mapped(value_here);
 #elif COLOURED_BY == 2
   vec4 result = mapped(texelFetch(link_values, gl_PrimitiveID).r);
+#elif COLOURED_BY == 3
+  vec4 result = texture(picture, (rest_here * texture_scale + texture_offset).xy);
+#elif COLOURED_BY == 4
+  vec4 result = vec4(texture(volume, rest_here * texture_scale + texture_offset).rgb, 1.0);
 #else
   vec4 result = colour;
 #endif

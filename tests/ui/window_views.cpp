@@ -77,12 +77,13 @@ QString differs(Workbench& bench, int panel, const QString& name) {
   return differs(pictureOf(bench.view(panel)), name);
 }
 
-enum Object { plane, block, surface, volume };
+enum Object { plane, block, surface, volume, whole };
 
 MeshPointer make(int object) {
   static const std::array recipes{
       MeshRecipe{MeshKind::grid, {9, 7, 1}, 1, {}}, MeshRecipe{MeshKind::tetra, {6, 4, 3}, 1, {}},
-      MeshRecipe{MeshKind::cloth, {9, 7, 1}, 1, 3}, MeshRecipe{MeshKind::tetra, {9, 5, 4}, 1, {}}};
+      MeshRecipe{MeshKind::cloth, {9, 7, 1}, 1, 3}, MeshRecipe{MeshKind::tetra, {9, 5, 4}, 1, {}},
+      MeshRecipe{MeshKind::tetra, {9, 5, 4}, 1, {}}};
   return generate(recipes[std::size_t(object)]);
 }
 
@@ -122,6 +123,9 @@ class WindowViews : public QObject {
     add("block-light", block, {QStringLiteral("themeLight")}, 1);
     add("volume-cut", volume, {});
     add("volume-cut-light", volume, {QStringLiteral("themeLight"), QStringLiteral("showSurface")}, 1);
+    add("section", whole, {QStringLiteral("section")});
+    add("section-light", whole,
+        {QStringLiteral("themeLight"), QStringLiteral("section"), QStringLiteral("showSurface")}, 1);
     add("surface", surface, {});
     add("surface-violation", surface, {QStringLiteral("colourBy-violation")});
     add("violation", plane, {QStringLiteral("colourBy-violation")});
@@ -146,7 +150,7 @@ class WindowViews : public QObject {
     }
     bench.settle();
     // By numbers, not by the mouse: a view's size must not matter.
-    const ElementId grabbed = object == volume ? 40 : 31;
+    const ElementId grabbed = object == volume || object == whole ? 40 : 31;
     const Point from = bench.document().mesh()->rest_position(grabbed);
     bench.document().grab(grabbed);
     for (const double share : {0.5, 1.0}) {

@@ -1,0 +1,277 @@
+// What goes with the material, in a real window: sections of it, and what is pictured on it.
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QPainter>
+#include <QSlider>
+
+#include "section_dock.h"
+#include "sessions.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+constexpr std::uint32_t width = 15, height = 9, depth = 5;
+constexpr ElementId middle = 7 + width * 4;  // of a layer
+
+/// Seen from the front, its near side at z = 4 fills the middle of the view.
+MeshPointer tetraBlock() { return generate({MeshKind::tetra, {width, height, depth}, 1, {}}); }
+
+ElementId inLayer(std::uint32_t z, ElementId element = middle) { return element + width * height * z; }
+
+/// With half of it taken away, seen from that side.
+struct SectionBench : Workbench {
+  explicit SectionBench(const MeshPointer& mesh = tetraBlock()) : Workbench(mesh) {
+    trigger("viewFront");
+    trigger("showSurface");
+    find<QComboBox>("sectionAxis")->setCurrentIndex(2);
+    settle();
+  }
+
+  QImage picture() {
+    settle();
+    document().setHighlight({});
+    return view(0).grabFramebuffer();
+  }
+  QColor colourAt(QPointF place) { return picture().pixelColor(place.toPoint()); }
+  QColor colourIn(const QImage& image, const Point& place) {
+    return image.pixelColor(view(0).placeOf(place).toPoint());
+  }
+};
+
+/// As it is drawn for print, on the same pixels.
+QImage inLines(View& view) {
+  QImage image(view.size(), QImage::Format_RGB32);
+  QPainter painter(&image);
+  view.drawIn(painter, colours::background);
+  return image;
+}
+
+int apart(const QColor& a, const QColor& b) {
+  return std::max({std::abs(a.red() - b.red()), std::abs(a.green() - b.green()), std::abs(a.blue() - b.blue())});
+}
+
+/// Four squares of colour: below red and green, above blue and white.
+std::shared_ptr<Texture> fourSquares(double size) {
+  auto texture = std::make_shared<Texture>();
+  texture->size = {64, 64, 1};
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const bool right = x >= 32, above = y >= 32;
+      const auto on = [](bool lit) { return std::uint8_t(lit ? 255 : 0); };
+      texture->texels.insert(texture->texels.end(), {on(right == above), on(right), on(above), 255});
+    }
+  }
+  texture->box = {Point(0, 0, 0), Point(size, size, 0)};
+  return texture;
+}
+const QColor lowLeft(255, 0, 0), lowRight(0, 255, 0), highLeft(0, 0, 255), highRight(255, 255, 255);
+
+MeshPointer picturedSheet() {
+  const auto cloth = generate({MeshKind::cloth, {9, 9, 1}, 1, {}});
+  MeshParts parts;
+  for (ElementId e = 0; e < cloth->element_count(); ++e) {
+    parts.rest.push_back(cloth->rest_position(e));
+  }
+  parts.links = cloth->links;
+  parts.triangles = cloth->triangles;
+  parts.texture = fourSquares(8);
+  return build_mesh(std::move(parts));
+}
+
+/// Dark below the middle of x, light above.
+MeshPointer slicedVolume() {
+  const auto block = tetraBlock();
+  MeshParts parts;
+  for (ElementId e = 0; e < block->element_count(); ++e) {
+    parts.rest.push_back(block->rest_position(e));
+  }
+  parts.links = block->links;
+  parts.tetrahedra = block->tetrahedra;
+  auto texture = std::make_shared<Texture>();
+  texture->size = {28, 8, 4};
+  texture->channels = 1;
+  for (std::size_t i = 0; i < texture->byte_count(); ++i) {
+    texture->texels.push_back(i % 28 < 14 ? 40 : 220);
+  }
+  texture->box = {Point(0, 0, 0), Point(width - 1, height - 1, depth - 1)};
+  parts.texture = texture;
+  return build_mesh(std::move(parts));
+}
+
+}  // namespace
+
+class WindowSection : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  void itTakesAwayWhatLiesInFrontAndShowsTheInside() {
+    SectionBench bench;
+    const QImage whole = bench.picture();
+    const QPoint at = bench.place(0, inLayer(2));
+    bench.trigger("section");
+    QVERIFY(bench.find<SectionDock>("sectionDock")->isVisible());
+    bench.settle();
+    // The panels are smaller now that the dock is there.
+    const QImage open = bench.picture();
+    const QPoint now = bench.place(0, inLayer(2));
+    QVERIFY(open.pixelColor(now).lightnessF() > 1.2 * whole.pixelColor(at).lightnessF());
+    bench.find<QSlider>("sectionSlider")->setValue(1000);  // behind the plane lies all
+    const QImage closed = bench.picture();
+    QVERIFY(closed.pixelColor(now) != open.pixelColor(now));
+    bench.trigger("section");
+    QCOMPARE(bench.picture(), closed);
+  }
+
+  void theOtherSideIsSeenFromTheBack() {
+    SectionBench bench;
+    bench.trigger("section");
+    const QColor open = bench.colourAt(bench.place(0, inLayer(2)));
+    bench.trigger("viewBack");
+    const QColor back = bench.colourAt(bench.place(0, inLayer(2)));
+    QVERIFY(back.lightnessF() * 1.2 < open.lightnessF());
+    bench.trigger("flipSection");
+    QVERIFY(bench.find<QCheckBox>("sectionFlip")->isChecked());
+    const QColor other = bench.colourAt(bench.place(0, inLayer(2)));
+    QVERIFY2(apart(other, open) <= 2, qPrintable(other.name() + open.name()));
+  }
+
+  void whatIsNotSeenIsNotPicked() {
+    SectionBench bench;
+    bench.trigger("viewRight");  // along x: every layer shows
+    bench.settle();
+    const QPointF front = bench.view(0).placeOf(inLayer(4, width - 1 + width * 4));
+    QCOMPARE(bench.view(0).elementAt(front), std::optional(inLayer(4, width - 1 + width * 4)));
+    bench.trigger("section");
+    bench.settle();
+    const QPointF now = bench.view(0).placeOf(inLayer(4, width - 1 + width * 4));
+    const auto found = bench.view(0).elementAt(now);
+    QVERIFY(!found || bench.document().mesh()->rest_position(*found).z() <= 2);
+    for (const ElementId e : bench.view(0).elementsWhere(QRectF(bench.view(0).rect()), [](QPointF) { return true; })) {
+      QVERIFY(bench.document().mesh()->rest_position(e).z() <= 2);
+    }
+  }
+
+  void itGoesWithTheMaterialAndItsCuts() {
+    SectionBench bench;
+    bench.trigger("section");
+    const QColor face = bench.colourAt(bench.place(0, inLayer(2)));
+    const Mesh& mesh = *bench.document().mesh();
+    const auto* row = mesh.entry_link.data();
+    bench.document().cut({row + mesh.first_entry[inLayer(2)], row + mesh.first_entry[inLayer(2) + 1]});
+    QVERIFY(apart(bench.colourAt(bench.place(0, inLayer(2))), face) > 10);
+    bench.document().undoStack().undo();
+    QCOMPARE(bench.colourAt(bench.place(0, inLayer(2))), face);
+    // Far to the side, where there was nothing, and still open.
+    bench.document().setSoftness({1, 1, 0}, QStringLiteral("rigid"));
+    bench.document().grab(inLayer(2));
+    bench.document().drag(mesh.rest_position(inLayer(2)) + Point(0, 3, 0));
+    bench.document().release();
+    QVERIFY(apart(bench.colourAt(bench.view(0).placeOf(inLayer(2, 7 + width * 8)) + QPointF(3, 8)), face) <= 2);
+  }
+
+  void printShowsTheSame() {
+    SectionBench bench;
+    bench.trigger("section");
+    const QImage screen = bench.picture(), print = inLines(bench.view(0));
+    for (const Point& place : {Point(7.3, 4.4, 2), Point(2.3, 2.6, 2), Point(12.4, 6.7, 2)}) {
+      QVERIFY(apart(bench.colourIn(screen, place), bench.colourIn(print, place)) <=
+              6);  // fog by the face, not the pixel
+    }
+  }
+
+  void figuresAndSliderAgreeAndTellWhyTheyAreOff() {
+    SectionBench bench;
+    auto* spin = bench.find<QDoubleSpinBox>("sectionPlace");
+    auto* slider = bench.find<QSlider>("sectionSlider");
+    QVERIFY(!slider->isEnabled() && slider->toolTip().contains(QStringLiteral("off")));
+    bench.trigger("section");
+    QVERIFY(slider->isEnabled());
+    slider->setValue(250);
+    QCOMPARE(spin->value(), 1.0);
+    spin->setValue(3);
+    QCOMPARE(slider->value(), 750);
+    QCOMPARE(bench.find<SectionDock>("sectionDock")->plane(), std::optional(SectionPlane{2, 3, false}));
+    bench.find<QComboBox>("sectionAxis")->setCurrentIndex(0);
+    QCOMPARE(spin->value(), 10.5);
+    bench.document().replaceMesh(generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("flat"),
+                                 QStringLiteral("build"));
+    QVERIFY(!bench.find<QAction>("section")->isEnabled());
+    QVERIFY(slider->toolTip().contains(QStringLiteral("no depth")));
+    QVERIFY(!bench.find<SectionDock>("sectionDock")->plane());
+    bench.document().undoStack().undo();
+    QVERIFY(bench.find<SectionDock>("sectionDock")->plane().has_value());
+    bench.find<SectionDock>("sectionDock")->close();
+    QVERIFY(!bench.find<QAction>("section")->isChecked());
+  }
+
+  void aSessionKeepsIt() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("section.chainmail"));
+    SectionBench bench;
+    bench.trigger("section");
+    bench.trigger("flipSection");
+    bench.find<QSlider>("sectionSlider")->setValue(300);
+    const auto plane = bench.find<SectionDock>("sectionDock")->plane();
+    bench.window.sessions().savePath(path);
+    bench.settle();
+    bench.trigger("section");
+    bench.find<QComboBox>("sectionAxis")->setCurrentIndex(0);
+    bench.open(path);
+    QCOMPARE(bench.find<SectionDock>("sectionDock")->plane(), plane);
+  }
+
+  void aPictureLiesOnItsSheetAndIsWarpedWithIt() {
+    Workbench bench(picturedSheet());
+    const auto holds = [&](const QImage& image) {
+      // Places inside the squares' outermost links, wherever those are now.
+      const auto colour = [&](ElementId e) { return image.pixelColor(bench.place(0, e) + QPoint(2, 1)); };
+      return apart(colour(1 + 9), lowLeft) <= 3 && apart(colour(7 + 9), lowRight) <= 3 &&
+             apart(colour(1 + 9 * 7), highLeft) <= 3 && apart(colour(7 + 9 * 7), highRight) <= 3;
+    };
+    const auto picture = [&](int panel) {
+      bench.settle();
+      bench.document().setHighlight({});
+      return bench.view(panel).grabFramebuffer();
+    };
+    for (int panel = 0; panel < 2; ++panel) {
+      QVERIFY(holds(picture(panel)));
+    }
+    const QPoint before = bench.place(0, 7 + 9 * 7);
+    bench.document().grab(8 + 9 * 8);
+    bench.document().drag(Point(11, 11, 0));
+    bench.document().release();
+    QVERIFY(holds(picture(0)));
+    QVERIFY(bench.place(0, 7 + 9 * 7) != before);
+    QVERIFY(holds(inLines(bench.view(0))));
+    bench.trigger("showLinks");
+    QVERIFY(!holds(picture(0)));
+    bench.trigger("showSurfaceAndLinks");
+    const QImage both = picture(0);
+    QVERIFY(apart(both.pixelColor((bench.place(0, 20) + bench.place(0, 21)) / 2), lowLeft) > 40);  // a link
+    QVERIFY(apart(both.pixelColor((bench.place(0, 20) * 3 + bench.place(0, 21) * 2 + bench.place(0, 30)) / 6),
+                  lowLeft) <= 3);
+  }
+
+  void slicesOfAVolumeAreSeenInItsSections() {
+    SectionBench bench(slicedVolume());
+    bench.trigger("section");
+    const QImage screen = bench.picture(), print = inLines(bench.view(0));
+    const auto grey = [&](const QImage& image, double x) { return bench.colourIn(image, Point(x, 4.4, 2)); };
+    for (const QImage& image : {screen, print}) {
+      QVERIFY(grey(image, 3.4).saturation() < 30 && grey(image, 11.4).saturation() < 30);
+      QVERIFY(grey(image, 11.4).lightness() > grey(image, 3.4).lightness() + 60);  // fog takes something of both
+    }
+    QVERIFY(apart(grey(screen, 3.4), grey(print, 3.4)) <= 6 && apart(grey(screen, 11.4), grey(print, 11.4)) <= 6);
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowSection>(argc, argv); }
+#include "window_section.moc"
