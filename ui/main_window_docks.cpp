@@ -111,7 +111,7 @@ void MainWindow::makeSectionDock() {
   auto* dock = new SectionDock(document_);
   addDockWidget(Qt::BottomDockWidgetArea, dock);
   dock->hide();
-  dock->fill(*findChild<QMenu*>(QStringLiteral("viewMenu")));
+  dock->fill(*findChild<QMenu*>(QStringLiteral("showMenu")));
   connect(dock, &SectionDock::changed, area_, [this, dock] { area_->setSection(dock->plane()); });
 }
 

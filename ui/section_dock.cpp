@@ -93,6 +93,7 @@ void SectionDock::arrange() {
 }
 
 void SectionDock::fill(QMenu& menu) {
+  menu.addSeparator();
   menu.addAction(on_);
   menu.addAction(flip_);
 }

@@ -46,14 +46,15 @@ ShowMenu::ShowMenu(const Document& document, QObject* parent) : QObject(parent),
 }
 
 void ShowMenu::fill(QMenu& menu) {
-  auto* show = menu.addMenu(icon("mesh"), QStringLiteral("S&how"));
+  auto* show = menu.addMenu(icon("mesh"), QStringLiteral("Sho&w"));
+  show->setObjectName(QStringLiteral("showMenu"));
   show->setToolTipsVisible(true);
   auto* group = new QActionGroup(this);
   for (const Choice& one : choices) {
     auto* action = group->addAction(QString::fromUtf8(one.text));
     action->setObjectName(QLatin1String(one.action));
     action->setCheckable(true);
-    action->setShortcut(Qt::CTRL | one.key);
+    action->setShortcut(one.key);
     action->setStatusTip(QString::fromUtf8(one.tip));
     const QString name = QLatin1String(one.name);
     connect(action, &QAction::triggered, this, [this, name] { choose(name); });
