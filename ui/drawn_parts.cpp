@@ -90,8 +90,9 @@ void DrawnParts::setFrame(const Frame& frame, const Cuts& cuts) {
 
 /// Links on a surface that are too many and too close to each other to be told apart would hide it.
 DrawnParts::Parts DrawnParts::partsOf(const Look& look, double pixelsPerUnit) const {
-  const bool ofSurface =
-      look.faces && mesh_->space_dimension == 3 && (!mesh_->tetrahedra.empty() || !mesh_->hexahedra.empty());
+  const bool hasCells = !mesh_->tetrahedra.empty() || !mesh_->hexahedra.empty();
+  // Links alone are shown while the surface of a large mesh is being made.
+  const bool ofSurface = look.faces && mesh_->space_dimension == 3 && hasCells && levels_->hasSurface(mesh_);
   const bool tooFine =
       ofSurface && surface().links().size() > shapesDrawn && mesh_->mean_link_length * pixelsPerUnit < pixelsPerLink;
   return {look.faces, look.links && !tooFine, ofSurface};

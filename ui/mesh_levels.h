@@ -6,6 +6,7 @@
 #include "card_texture.h"
 #include "coarse_level.h"
 #include "mesh/section.h"
+#include "surface_maker.h"
 
 namespace chainmail {
 
@@ -33,13 +34,21 @@ class MeshLevels {
     return level;
   }
 
-  /// Of its cells; they are asked for with the cuts as they are at first, and told of later ones.
+  /// Of its cells, waited for unless it is there; made with the cuts as they are, and told of later ones.
   const Surface& surface(const MeshPointer& mesh, const Cuts& cuts) {
     if (surface_ == nullptr || surface_->table().mesh() != mesh) {
-      surface_ = std::make_unique<Surface>(std::make_shared<CellTable>(mesh), cuts);
+      surface_ = maker_.take(mesh);
+      for (const LinkId link : cuts.links()) {
+        surface_->cut(link);
+      }
     }
     return *surface_;
   }
+  /// Whether it is there; SurfaceMaker::made tells when it is.
+  bool hasSurface(const MeshPointer& mesh) {
+    return (surface_ != nullptr && surface_->table().mesh() == mesh) || maker_.has(mesh);
+  }
+  SurfaceMaker& maker() { return maker_; }
   void showCuts(const std::vector<LinkId>& links, bool cut) {
     for (const LinkId link : surface_ == nullptr ? std::vector<LinkId>() : links) {
       cut ? surface_->cut(link) : surface_->uncut(link);
@@ -61,6 +70,7 @@ class MeshLevels {
   }
 
  private:
+  SurfaceMaker maker_;
   std::unique_ptr<Surface> surface_;
   std::unique_ptr<Section> section_;
   CardTextures textures_;

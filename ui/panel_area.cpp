@@ -52,6 +52,7 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
   }
   followPanels();
   connect(&links_, &PanelLinks::camerasLinked, this, &PanelArea::linkCameras);
+  connect(&levels_->maker(), &SurfaceMaker::made, this, &PanelArea::refresh);
   connect(&document, &Document::cutsChanged, this,
           [this](const std::vector<LinkId>& links, bool cut) { levels_->showCuts(links, cut); });
   connect(&document, &Document::meshChanged, this, [this] {

@@ -106,8 +106,17 @@ std::optional<ElementId> View::elementAt(QPointF place) const {
 
 std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
   const Frame* frame = document_.frame(panel_);
-  return frame == nullptr ? std::vector<LinkId>()
-                          : crossedLinks(*frame, boxes(*frame), document_.cuts(), projection(), stroke);
+  if (frame == nullptr) {
+    return {};
+  }
+  auto crossed = crossedLinks(*frame, boxes(*frame), document_.cuts(), projection(), stroke);
+  if (const auto isShown = shown()) {
+    std::erase_if(crossed, [&](LinkId link) {
+      const auto& [a, b] = frame->mesh->links[link];
+      return !isShown(a) && !isShown(b);
+    });
+  }
+  return crossed;
 }
 
 std::vector<LinkId> View::frontLinksCrossing(QLineF stroke) const {
@@ -123,6 +132,9 @@ std::vector<LinkId> View::frontLinksCrossing(QLineF stroke) const {
   auto faces =
       wholeFaces(*frame, boxes(*frame), document_.cuts(), projection(), QRectF(stroke.p1(), stroke.p2()).normalized());
   appendFaces(surface, faces);
+  if (const auto isShown = shown()) {
+    std::erase_if(faces, [&](const Face& face) { return std::ranges::none_of(face, isShown); });
+  }
   return unhiddenLinks(*frame, projection(), stroke, crossed, faces);
 }
 

@@ -159,6 +159,20 @@ class WindowSection : public QObject {
     }
   }
 
+  void aKnifeCutsNothingThatIsTakenAway() {
+    SectionBench bench;
+    bench.trigger("section");
+    bench.settle();
+    const QPointF at = bench.view(0).placeOf(inLayer(2));
+    const auto crossed = bench.view(0).linksCrossing(QLineF(at - QPointF(40, 33), at + QPointF(40, 35)));
+    QVERIFY(!crossed.empty());
+    const Mesh& mesh = *bench.document().mesh();
+    for (const LinkId link : crossed) {
+      const auto [a, b] = mesh.links[link];
+      QVERIFY(std::min(mesh.rest_position(a).z(), mesh.rest_position(b).z()) <= 2);
+    }
+  }
+
   void itGoesWithTheMaterialAndItsCuts() {
     SectionBench bench;
     bench.trigger("section");

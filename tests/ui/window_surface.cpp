@@ -108,6 +108,22 @@ class WindowSurface : public QObject {
     QCOMPARE(picture(bench), open);
   }
 
+  void aLargeVolumesSurfaceIsMadeMeanwhile() {
+    Workbench bench(generate({MeshKind::tetra, {60, 30, 12}, 1, {}}));
+    bench.trigger("viewFront");
+    const ElementId front = 30 + 60 * 15 + 60 * 30 * 11;
+    QTRY_COMPARE(groundAbout(bench, front), 0.0);
+    // It is given up where the mesh goes before it is there, and comes with the mesh again, with its cuts.
+    cutOut(bench, front);
+    const QImage open = picture(bench);
+    bench.document().replaceMesh(generate({MeshKind::tetra, {50, 30, 14}, 1, {}}), QStringLiteral("other"),
+                                 QStringLiteral("build"));
+    bench.document().undoStack().undo();
+    bench.settle();
+    bench.trigger("viewFront");
+    QTRY_COMPARE(picture(bench), open);
+  }
+
   void linksThatAreColouredAreDrawnOnTheSurface() {
     Workbench bench(tetraBlock());
     bench.trigger("showSurface");
