@@ -15,7 +15,7 @@ namespace chainmail {
 namespace {
 
 constexpr int columns = 3;
-constexpr QSize thumbnail{60, 45};  // logical pixels
+constexpr QSize thumbnail{52, 39};  // logical pixels: all of them are seen on a screen of 900
 constexpr int pixelRatio = 2;       // of the pictures shipped
 constexpr int smallestHeight = 76;  // a row of them
 

@@ -16,6 +16,10 @@ constexpr std::array table{
     Sample{"sphere.obj", "Sphere", "A closed surface of triangles", 266},
     Sample{"torus.obj", "Torus", "A closed surface of quadrangles", 384},
     Sample{"organ.obj", "Organ", "A closed surface like a kidney's", 1212},
+    Sample{"organ.msh", "Full organ", "The same, filled with tetrahedra: cut it open", 2240},
+    Sample{"jittered.vtk", "Jittered", "A block of tetrahedra, no two links alike", 792},
+    Sample{"phantom.nrrd", "Volume", "A volume of densities: a soft body with a hard core", 8120},
+    Sample{"scan.mha", "Scan", "The same as a scanner has it, slices two units apart", 2624},
     Sample{"inclusion.chainmail", "Inclusion", "A session: a soft sheet with a rigid disc in it", 768},
     Sample{"face.png", "Picture", "A picture on a sheet, to be warped", 768},
 };

@@ -12,7 +12,7 @@ using namespace chainmail;
 
 namespace {
 
-constexpr QSize thumbnail{120, 90};  // device pixels, two to a logical one
+constexpr QSize thumbnail{104, 78};  // device pixels, two to a logical one
 constexpr QSize drawn{200, 150};     // links that are a pixel wide there are seen in the thumbnail
 
 QImage pictureOf(const QString& path) {
@@ -22,6 +22,9 @@ QImage pictureOf(const QString& path) {
   Workbench bench;
   bench.window.findChild<FileActions*>()->openSample(path);
   bench.settle();
+  if (const Mesh& mesh = *bench.document().mesh(); mesh.texture || !mesh.tetrahedra.empty()) {
+    bench.trigger("section");  // what is inside tells it from a surface
+  }
   View& view = bench.view(0);
   view.setFixedSize(drawn);
   bench.settle();
