@@ -225,6 +225,17 @@ std::string Decoder::take_text() {
 
 }  // namespace
 
+void add_face(MeshParts& parts, std::span<const ElementId> corners) {
+  if (corners.size() == 2) {
+    parts.links.push_back({corners[0], corners[1]});
+  } else if (corners.size() == 3) {
+    parts.triangles.push_back({corners[0], corners[1], corners[2]});
+  } else {
+    parts.polygons.push_back(static_cast<ElementId>(corners.size()));
+    parts.polygons.insert(parts.polygons.end(), corners.begin(), corners.end());
+  }
+}
+
 std::vector<std::byte> encode_imported(const Imported& imported) {
   Encoder encoder(imported.index());
   std::visit(encoder, imported);

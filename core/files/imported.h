@@ -24,6 +24,9 @@ struct ImportedMesh {
   std::uint64_t unused = 0;  // points of the file that nothing uses, and that are left out
 };
 
+/// A face of so many corners: two are a line.
+void add_face(MeshParts& parts, std::span<const ElementId> corners);
+
 /// What the import program hands over on its way through a pipe.
 using Imported = std::variant<ImportedMesh, Volume, Refusal>;
 

@@ -8,6 +8,7 @@
 #include "files/import_process.h"
 #include "files/metaimage.h"
 #include "files/obj.h"
+#include "files/ply.h"
 #include "files/temporary_folder.h"
 #include "files/tetgen.h"
 #include "files/text.h"
@@ -84,9 +85,12 @@ OpenedMesh open_text(MeshFormat format, const std::filesystem::path& path, const
   return result;
 }
 
-OpenedMesh open_vtk(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
+/// By a reader of ours that takes the whole file.
+template <class Read>
+OpenedMesh open_bytes(Read read, const std::filesystem::path& path, const ReadOptions& options,
+                      const Progress& progress) {
   const std::string bytes = read_bytes(path, "a mesh", progress.part(0, 0.1));
-  return opened(read_vtk(bytes, path, progress.part(0.1, 0.5)), path, options, progress.part(0.5, 1));
+  return opened(read(bytes, path, progress.part(0.1, 0.5)), path, options, progress.part(0.5, 1));
 }
 
 OpenedMesh open_as(MeshFormat format, const std::filesystem::path& path, const ReadOptions& options,
@@ -98,7 +102,9 @@ OpenedMesh open_as(MeshFormat format, const std::filesystem::path& path, const R
     case MeshFormat::tetgen:
       return open_tetgen(path, options, progress);
     case MeshFormat::vtk:
-      return open_vtk(path, options, progress);
+      return open_bytes(read_vtk, path, options, progress);
+    case MeshFormat::ply:
+      return open_bytes(read_ply, path, options, progress);
     case MeshFormat::metaimage:
       return opened(read_metaimage(path, progress.part(0, 0.5)), path, options, progress.part(0.5, 1));
     default:

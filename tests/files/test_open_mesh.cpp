@@ -153,6 +153,7 @@ void OpenMeshTest::what_we_write_comes_back_data() {
   QTest::newRow("c.msh") << "vtk_line.vtk";
   QTest::newRow("a.obj") << "meshio.off";
   QTest::newRow("a.ply") << "meshio.off";
+  QTest::newRow("b.ply") << "gmsh_hexahedra.vtk";  // the links of its cells as edges
 }
 
 void OpenMeshTest::what_we_write_comes_back() {
@@ -164,8 +165,10 @@ void OpenMeshTest::what_we_write_comes_back() {
   QCOMPARE(again->links, mesh->links);
   QCOMPARE(again->rest, mesh->rest);  // to the bit
   QCOMPARE(again->triangles.size(), mesh->triangles.size());
-  QCOMPARE(again->tetrahedra, mesh->tetrahedra);
-  QCOMPARE(again->hexahedra, mesh->hexahedra);
+  if (written.extension() == ".msh") {  // the others hold no cells
+    QCOMPARE(again->tetrahedra, mesh->tetrahedra);
+    QCOMPARE(again->hexahedra, mesh->hexahedra);
+  }
 }
 
 void OpenMeshTest::flaws_are_told() {

@@ -50,7 +50,6 @@ const std::map<std::string, Task>& tasks() {
   };
   static const std::map<std::string, Task> all{
       {"off", polygons("off")},
-      {"ply", polygons("ply")},
       {"stl", polygons("stl")},
       {"msh", by_gmsh("msh")},
       {"mesh", by_gmsh("mesh")},
