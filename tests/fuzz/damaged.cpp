@@ -24,8 +24,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr double most_seconds = 20;  // for one small file, on a busy machine
 
-/// A file, or TetGen's pair: its parts by their endings.
-using Sample = std::map<std::string, std::string>;
+/// A file and those that belong to it, by their names.
+struct Sample {
+  std::string name;  // of the one to open
+  std::map<std::string, std::string> parts;
+};
 
 std::string content(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -41,18 +44,31 @@ bool is_mesh(const fs::path& path) {
   }
 }
 
+/// TetGen's other half, or data that a head names.
+bool belongs_to(const fs::path& other, const fs::path& path, const std::string& head) {
+  const auto ending = path.extension();
+  return other != path &&
+         ((ending == ".node" && other == fs::path(path).replace_extension(".ele")) ||
+          ((ending == ".mhd" || ending == ".nhdr") && head.find(other.filename().string()) != std::string::npos));
+}
+
+Sample sample_of(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  Sample sample{"damaged" + ending, {{"damaged" + ending, content(path)}}};
+  for (const auto& entry : fs::directory_iterator(path.parent_path())) {
+    if (belongs_to(entry.path(), path, sample.parts[sample.name])) {
+      sample.parts[ending == ".node" ? "damaged.ele" : entry.path().filename().string()] = content(entry.path());
+    }
+  }
+  return sample;
+}
+
 std::vector<Sample> samples_in(const fs::path& folder) {
   std::vector<Sample> samples;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const fs::path& path = entry.path();
-    if (!entry.is_regular_file() || !is_mesh(path) || path.extension() == ".ele") {
-      continue;
+    if (entry.is_regular_file() && is_mesh(entry.path()) && entry.path().extension() != ".ele") {
+      samples.push_back(sample_of(entry.path()));
     }
-    Sample sample{{path.extension().string(), content(path)}};
-    if (path.extension() == ".node") {
-      sample[".ele"] = content(fs::path(path).replace_extension(".ele"));
-    }
-    samples.push_back(std::move(sample));
   }
   return samples;
 }
@@ -130,7 +146,7 @@ Outcome open_one(const fs::path& path) {
     outcome.opened = open_mesh(path).mesh->element_count() > 0;
   } catch (const Error& error) {
     const std::string sentence = error.what();
-    if (sentence.find('\n') != std::string::npos || sentence.find(path.stem().string()) == std::string::npos) {
+    if (sentence.find('\n') != std::string::npos || !sentence.starts_with(path.parent_path().string())) {
       outcome.fault = "no sentence about the file: " + sentence;
     }
   } catch (const std::exception& error) {
@@ -156,13 +172,13 @@ bool run(double seconds, unsigned seed, const fs::path& kept, const std::vector<
   for (unsigned number = 0; Clock::now() < end; ++number) {
     fs::create_directories(folder);
     Sample sample = samples[damage.below(samples.size())];
-    damage.apply(std::next(sample.begin(), std::ptrdiff_t(damage.below(sample.size())))->second);
-    for (const auto& [ending, bytes] : sample) {
-      std::ofstream(folder / ("damaged" + ending), std::ios::binary) << bytes;
+    damage.apply(std::next(sample.parts.begin(), std::ptrdiff_t(damage.below(sample.parts.size())))->second);
+    for (const auto& [name, bytes] : sample.parts) {
+      std::ofstream(folder / name, std::ios::binary) << bytes;
     }
-    const std::string ending = sample.begin()->first;
-    const Outcome outcome = open_one(folder / ("damaged" + ending));
-    ++(outcome.opened ? tallies[ending].opened : tallies[ending].refused);
+    const Outcome outcome = open_one(folder / sample.name);
+    Tally& tally = tallies[fs::path(sample.name).extension().string()];
+    ++(outcome.opened ? tally.opened : tally.refused);
     if (!outcome.fault.empty()) {
       well = false;
       const fs::path place = kept / ("failed-damaged-" + std::to_string(seed) + "-" + std::to_string(number));
