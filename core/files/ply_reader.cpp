@@ -108,11 +108,11 @@ void PlyReader::read_property(const PlyProperty& property) {
   double count = 1;
   if (property.count != nullptr) {
     count = number(*property.count);
-    if (!(count >= 0) || count != std::floor(count)) {
-      fail("a list has no whole number of entries", "export it anew");
+    if (!(count >= 0 && count <= double(bytes_.size())) || count != std::floor(count)) {
+      fail("a list has no whole number of entries, or more than the file holds", "export it anew");
     }
   }
-  for (double i = 0; i < count; ++i) {  // ends with the file, whatever the count
+  for (auto i = static_cast<std::size_t>(count); i > 0; --i) {
     numbers_.push_back(number(*property.type));
   }
 }
