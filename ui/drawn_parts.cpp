@@ -88,21 +88,27 @@ void DrawnParts::setFrame(const Frame& frame, const Cuts& cuts) {
   }
 }
 
-/// Links on a surface that are too many and too close to each other to be told apart would hide it.
-DrawnParts::Parts DrawnParts::partsOf(const Look& look, double pixelsPerUnit) const {
+DrawnParts::Parts DrawnParts::partsOf(const ObjectDrawing::Paint& paint, double pixelsPerUnit) const {
+  const Look& look = paint.look;
   const bool hasCells = !mesh_->tetrahedra.empty() || !mesh_->hexahedra.empty();
   // Links alone are shown while the surface of a large mesh is being made.
   const bool ofSurface = look.faces && mesh_->space_dimension == 3 && hasCells && levels_->hasSurface(mesh_);
-  const bool tooFine =
-      ofSurface && surface().links().size() > shapesDrawn && mesh_->mean_link_length * pixelsPerUnit < pixelsPerLink;
-  return {look.faces, look.links && !tooFine, ofSurface};
+  const bool valued = paint.values != nullptr && paint.values->ofLinks;
+  const bool tooFine = ofSurface && look.links && !valued && hidesSurface(surface().links().size(), pixelsPerUnit);
+  return {look.faces, look.links && !tooFine, ofSurface, tooFine};
 }
 
-void DrawnParts::chooseParts(const Look& look, double pixelsPerUnit) {
-  const Parts parts = partsOf(look, pixelsPerUnit);
+/// Whether links are too many, and the closer to each other the more they are: they would hide what they lie on.
+bool DrawnParts::hidesSurface(std::size_t links, double pixelsPerUnit) const {
+  return links > shapesDrawn &&
+         mesh_->mean_link_length * pixelsPerUnit < pixelsPerLink * double(links) / double(shapesDrawn);
+}
+
+void DrawnParts::chooseParts(const ObjectDrawing::Paint& paint, double pixelsPerUnit) {
+  const Parts parts = partsOf(paint, pixelsPerUnit);
   outdated_ = outdated_ || parts != parts_;
   parts_ = parts;
-  const auto plane = parts_.ofSurface ? look.section : std::nullopt;
+  const auto plane = parts_.ofSurface ? paint.look.section : std::nullopt;
   sectionOutdated_ = sectionOutdated_ || plane != plane_;
   plane_ = plane;
 }
@@ -121,8 +127,8 @@ std::vector<QVector3D> placesOf(const Section& section, const Frame& frame) {
   return places;
 }
 
-bool DrawnParts::choose(const ObjectDrawing::Scene& scene, const Look& look, double pixelsPerUnit) {
-  chooseParts(look, pixelsPerUnit);
+bool DrawnParts::choose(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint, double pixelsPerUnit) {
+  chooseParts(paint, pixelsPerUnit);
   if (parts_.ofSurface) {
     step_ = 1;
     return std::exchange(outdated_, false);

@@ -22,10 +22,12 @@ class DrawnParts {
   }
 
   /// True where other links or faces are to be drawn than the last time. Costs what is drawn, not what there is.
-  bool choose(const ObjectDrawing::Scene& scene, const Look& look, double pixelsPerUnit);
+  bool choose(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint, double pixelsPerUnit);
 
   /// 1 where every link is drawn; k where about k links in a row are drawn as one.
   unsigned step() const { return step_; }
+  /// Whether links on a surface are left out, as they would hide it.
+  bool leavesLinksOut() const { return parts_.tooFine; }
   DrawnLinks links() const;
   /// Three corners each.
   std::vector<ElementId> faces() const;
@@ -42,12 +44,13 @@ class DrawnParts {
   /// Which of the object's parts are drawn, and whether they are those of a volume's surface: it is drawn in full, as
   /// it is far less than the volume.
   struct Parts {
-    bool faces = true, links = true, ofSurface = false;
+    bool faces = true, links = true, ofSurface = false, tooFine = false;
     bool operator==(const Parts&) const = default;
   };
-  void chooseParts(const Look& look, double pixelsPerUnit);
+  void chooseParts(const ObjectDrawing::Paint& paint, double pixelsPerUnit);
 
-  Parts partsOf(const Look& look, double pixelsPerUnit) const;
+  Parts partsOf(const ObjectDrawing::Paint& paint, double pixelsPerUnit) const;
+  bool hidesSurface(std::size_t links, double pixelsPerUnit) const;
   void chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit);
   double shareInView(const ObjectDrawing::Scene& scene);
   /// The cells of a level that may be seen.

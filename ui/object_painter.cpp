@@ -127,11 +127,13 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
   program_->disableAttributeArray(2);
 }
 
-void ObjectPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
-  look_ = paint.look;
-  if (parts_.choose(scene, paint.look, pixelsPerUnit)) {
+void ObjectPainter::drawObject(const Scene& scene, const Paint& wanted, double pixelsPerUnit) {
+  if (parts_.choose(scene, wanted, pixelsPerUnit)) {
     sendParts();
   }
+  Paint paint = wanted;
+  paint.look.links = paint.look.links && !leavesLinksOut();
+  look_ = paint.look;
   drawFaces(scene, paint);
   drawWires(scene, paint);
   if (paint.look.links && step() == 1 && marksElements(*mesh_, pixelsPerUnit)) {

@@ -45,6 +45,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
 
   /// As DrawnParts::step.
   unsigned step() const { return parts_.step(); }
+  bool leavesLinksOut() const { return parts_.leavesLinksOut(); }
 
  private:
   std::array<QOpenGLBuffer*, 10> buffers() {

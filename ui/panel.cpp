@@ -116,6 +116,9 @@ QStringList Panel::states(const Statistics& statistics) const {
   if (view_->drawnStep() > 1) {
     states << QStringLiteral("drawn coarsely, 1 in %1").arg(view_->drawnStep());
   }
+  if (view_->leavesLinksOut()) {
+    states << QStringLiteral("links show when nearer");
+  }
   return states + view_->notes();
 }
 

@@ -114,8 +114,10 @@ void VectorPainter::addFaceClipped(Piece piece, const QRectF& view) {
   }
 }
 
-void VectorPainter::drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
-  parts_.choose(scene, paint.look, pixelsPerUnit);
+void VectorPainter::drawObject(const Scene& scene, const Paint& wanted, double pixelsPerUnit) {
+  parts_.choose(scene, wanted, pixelsPerUnit);
+  Paint paint = wanted;
+  paint.look.links = paint.look.links && !parts_.leavesLinksOut();
   addFaces(scene, paint);
   addCap(scene, paint);
   addLinks(scene, paint);

@@ -83,6 +83,7 @@ class View : public QOpenGLWidget {
   FrameMeter& meter() { return meter_; }
   /// How coarsely the object is drawn, as ObjectPainter::step.
   unsigned drawnStep() const { return painter_.step(); }
+  bool leavesLinksOut() const { return painter_.leavesLinksOut(); }
 
  signals:
   void cameraChanged();

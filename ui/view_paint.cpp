@@ -37,13 +37,13 @@ void View::paintGL() {
   if (fitPending_) {
     fit();  // no resize came once it could be seen
   }
-  const unsigned stepBefore = painter_.step();
+  const auto before = std::pair(painter_.step(), painter_.leavesLinksOut());
   meter_.painted();
   paint(devicePixelRatioF(), colours::background);
   if (document_.frame(panel_) != nullptr) {
     drawFocus();
   }
-  if (painter_.step() != stepBefore) {
+  if (std::pair(painter_.step(), painter_.leavesLinksOut()) != before) {
     emit drawnStepChanged();
   }
 }

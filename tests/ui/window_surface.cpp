@@ -113,6 +113,7 @@ class WindowSurface : public QObject {
     bench.trigger("viewFront");
     const ElementId front = 30 + 60 * 15 + 60 * 30 * 11;
     QTRY_COMPARE(groundAbout(bench, front), 0.0);
+    QVERIFY(!bench.view(0).leavesLinksOut());
     // It is given up where the mesh goes before it is there, and comes with the mesh again, with its cuts.
     cutOut(bench, front);
     const QImage open = picture(bench);
@@ -135,6 +136,18 @@ class WindowSurface : public QObject {
     QVERIFY(coloured != plain);
     bench.document().setHighlight({});
     QVERIFY(picture(bench) != plain);
+  }
+
+  void linksThatWouldHideTheSurfaceWaitForANearerLook() {
+    Workbench bench(generate({MeshKind::tetra, {140, 140, 3}, 1, {}}));  // some 120,000 links in sight
+    bench.trigger("viewFront");
+    QTRY_VERIFY(bench.view(0).leavesLinksOut());
+    bench.view(0).zoom(8);
+    QTRY_VERIFY(!bench.view(0).leavesLinksOut());
+    bench.view(0).zoom(1.0 / 8);
+    QTRY_VERIFY(bench.view(0).leavesLinksOut());
+    bench.trigger("colourBy-shear");  // links are what is to be seen
+    QTRY_VERIFY(!bench.view(0).leavesLinksOut());
   }
 
   void anObjectOfLinksAloneHasNoSurfaceToChoose() {
