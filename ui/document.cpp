@@ -181,8 +181,9 @@ void Document::cut(const std::vector<LinkId>& links) {
 
 void Document::resetObject() { push(new ResetEdit(*this)); }
 
-void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text) {
-  push(new MeshEdit(*this, mesh, name, text));
+void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text,
+                           std::map<LinkId, LinkSoftness> own) {
+  push(new MeshEdit(*this, mesh, name, text, std::move(own)));
 }
 
 void Document::setRelaxation(const commands::SetRelaxation& relaxation, int gesture) {

@@ -120,7 +120,9 @@ class Document : public QObject {
   void setPinned(const std::vector<ElementId>& elements, bool pinned);
   void cut(const std::vector<LinkId>& links);
   void resetObject();
-  void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text);
+  /// `own` is the softness of links that have their own.
+  void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text,
+                   std::map<LinkId, LinkSoftness> own = {});
   /// All that the session holds of an object; `file` is where it is kept, if anywhere.
   void restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text);
 

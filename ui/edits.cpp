@@ -109,15 +109,22 @@ void TravelEdit::show(bool /*done*/) {
   document_.showTape();
 }
 
-MeshEdit::MeshEdit(Document& document, MeshPointer mesh, const QString& name, const QString& text)
+MeshEdit::MeshEdit(Document& document, MeshPointer mesh, const QString& name, const QString& text,
+                   std::map<LinkId, LinkSoftness> own)
     : Edit(document, text, document.newState()),
       mesh_(std::move(mesh)),
       name_(name),
       cuts_(mesh_),
       parts_(mesh_),
+      softness_(std::move(own)),
       algorithms_(document.algorithms_.begin(), document.algorithms_.begin() + document.panels()) {}
 
-void MeshEdit::carryOut() { document_.post(commands::ReplaceMesh{mesh_}); }
+void MeshEdit::carryOut() {
+  document_.post(commands::ReplaceMesh{mesh_});
+  if (!softness_.empty()) {
+    document_.post(commands::SetSoftness(Softness{document_.softness(), softness_}));
+  }
+}
 
 void MeshEdit::show(bool done) {
   document_.letGoOfElements();

@@ -155,7 +155,8 @@ class TravelEdit : public Edit {
 
 class MeshEdit : public Edit {
  public:
-  MeshEdit(Document& document, MeshPointer mesh, const QString& name, const QString& text);
+  MeshEdit(Document& document, MeshPointer mesh, const QString& name, const QString& text,
+           std::map<LinkId, LinkSoftness> own);
 
  private:
   void carryOut() override;

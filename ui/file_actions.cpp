@@ -7,16 +7,18 @@
 #include <filesystem>
 
 #include "ask_where.h"
-#include "files/mesh_file.h"
+#include "files/open_mesh.h"
 #include "files/session.h"
 #include "mesh/error.h"
 #include "mesh_filters.h"
+#include "opening_report.h"
 #include "panel_names.h"
 #include "picture_file.h"
 #include "samples.h"
 #include "sessions.h"
 #include "sheet_bar.h"
 #include "sheets.h"
+#include "volumes.h"
 
 namespace chainmail {
 namespace {
@@ -37,7 +39,9 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
       document_(document),
       jobs_(jobs),
       sessions_(sessions),
-      sheets_(new Sheets(window, document, jobs)) {
+      sheets_(new Sheets(window, document, jobs)),
+      volumes_(new Volumes(document, jobs)) {
+  connect(volumes_, &Volumes::opened, this, &FileActions::remember);
   connect(sheets_, &Sheets::failed, this, &FileActions::failed);
   connect(sheets_, &Sheets::opened, this, &FileActions::remember);
   connect(sheets_, &Sheets::saved, this, &FileActions::saved);
@@ -54,7 +58,7 @@ void FileActions::fill(QMenu& menu) {
   openAction->setObjectName(QStringLiteral("openFile"));
   openAction->setIconText(QStringLiteral("Open"));
   openAction->setStatusTip(
-      QStringLiteral("A session (.chainmail), a mesh (%1) or a picture (.png .jpg), in place of the "
+      QStringLiteral("A session (.chainmail), a mesh or volume (%1) or a picture (.png .jpg), in place of the "
                      "present object")
           .arg(endings(FormatUse::read)));
   recent_ = menu.addMenu(QStringLiteral("Open &recent"));
@@ -137,10 +141,19 @@ void FileActions::openPath(const QString& path, bool first) {
     sheets_->openPath(path, first);
     return;
   }
+  try {
+    if (is_volume(asPath(path))) {
+      volumes_->openPath(path, first);
+      return;
+    }
+  } catch (const Error& error) {
+    emit failed(QString::fromUtf8(error.what()));
+    return;
+  }
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
               [this, path, first](const Progress& progress) -> Jobs::Finish {
-                const MeshPointer mesh = read_mesh(asPath(path), {}, progress);
-                return [this, mesh, path, first] { show(mesh, path, first); };
+                const OpenedMesh opened = open_mesh(asPath(path), {}, progress);
+                return [this, opened, path, first] { show(opened, path, first); };
               });
 }
 
@@ -148,13 +161,16 @@ void FileActions::openSample(const QString& path) {
   isPicture(path) ? sheets_->open(path, SheetBar::standardAcross) : openPath(path);
 }
 
-void FileActions::show(const MeshPointer& mesh, const QString& path, bool first) {
+void FileActions::show(const OpenedMesh& opened, const QString& path, bool first) {
   const QString name = QFileInfo(path).fileName();
-  document_.replaceMesh(mesh, name, QStringLiteral("open %1").arg(name));
+  document_.replaceMesh(opened.mesh, name, QStringLiteral("open %1").arg(name));
   if (first) {
     document_.undoStack().clear();
   }
   remember(path);
+  if (!isSample(path)) {
+    emit told(openingReport(name, opened, document_.parts()));
+  }
 }
 
 void FileActions::save() {

@@ -10,6 +10,8 @@ namespace chainmail {
 
 class Sessions;
 class Sheets;
+class Volumes;
+struct OpenedMesh;
 
 /// The File menu: open, recent files, save. Sessions, meshes and pictures are read and written in the background.
 /// Nothing is lost when one of them fails.
@@ -21,12 +23,13 @@ class FileActions : public QObject {
 
   void fill(QMenu& menu);
   Sheets& sheets() { return *sheets_; }
+  Volumes& volumes() { return *volumes_; }
   void open();
   /// Saves the session where it is kept; one that is kept nowhere yet is asked for its place.
   void saveSession();
   void saveSessionAs();
-  /// A session or a mesh, by its ending, or a picture, by what it holds. The first object of a window is no step of
-  /// undo: there is no way back to before the start.
+  /// A session, by its ending, or a mesh, a volume or a picture, by what it holds. The first object of a window is no
+  /// step of undo: there is no way back to before the start.
   void openPath(const QString& path, bool first = false);
   /// One of the samples, of which nothing is asked.
   void openSample(const QString& path);
@@ -38,12 +41,14 @@ class FileActions : public QObject {
 
  signals:
   void failed(const QString& sentence);
+  /// What was opened, in a sentence.
+  void told(const QString& sentence);
   void saved(const QString& path);
 
  private:
   void addSaveActions(QMenu& menu);
   void addShapeActions(QMenu& menu);
-  void show(const MeshPointer& mesh, const QString& path, bool first);
+  void show(const OpenedMesh& opened, const QString& path, bool first);
   void write(const QString& path, const std::shared_ptr<const Frame>& shape);
   void fillRecent();
   void remember(const QString& path);
@@ -54,6 +59,7 @@ class FileActions : public QObject {
   Jobs& jobs_;
   Sessions& sessions_;
   Sheets* sheets_;
+  Volumes* volumes_;
   QMenu* recent_ = nullptr;
 };
 

@@ -17,6 +17,7 @@
 #include "colour_selector.h"
 #include "element_readout.h"
 #include "file_actions.h"
+#include "filling.h"
 #include "help_menu.h"
 #include "icons.h"
 #include "job_bar.h"
@@ -28,6 +29,8 @@
 #include "sheet_bar.h"
 #include "sheets.h"
 #include "undo_actions.h"
+#include "volume_bar.h"
+#include "volumes.h"
 
 namespace chainmail {
 namespace {
@@ -58,6 +61,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       cameraActions_(new CameraActions(this)),
       messages_(new MessageBar),
       area_(new PanelArea(document_, colouring_)),
+      filling_(new Filling(document_, jobs_)),
       help_(new HelpMenu(*this, document_)),
       toolActions_(new QActionGroup(this)),
       colourBy_(new ColourSelector(colouring_)),
@@ -72,6 +76,8 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   column->addWidget(&sessions_->recoveryBar());
   column->addWidget(messages_);
   column->addWidget(&files_->sheets().bar());
+  column->addWidget(&files_->volumes().bar());
+  column->addWidget(filling_);
   column->addWidget(area_, 1);
   column->addWidget(&help_->hints());
   setCentralWidget(central);
@@ -104,6 +110,7 @@ void MainWindow::listen() {
   std::ranges::for_each(area_->panels(), attach);
   connect(area_, &PanelArea::added, this, attach);
   connect(files_, &FileActions::failed, messages_, &MessageBar::say);
+  connect(files_, &FileActions::told, messages_, &MessageBar::note);
   connect(&jobs_, &Jobs::failed, messages_, &MessageBar::say);
   connect(files_, &FileActions::saved, this, [this](const QString& path) {
     messages_->clear();

@@ -26,6 +26,7 @@ class CameraActions;
 class ColourSelector;
 class ElementReadout;
 class FileActions;
+class Filling;
 class HelpMenu;
 class MessageBar;
 class PanelActions;
@@ -105,6 +106,7 @@ class MainWindow : public QMainWindow {
   CameraActions* cameraActions_;
   MessageBar* messages_;
   PanelArea* area_;
+  Filling* filling_;
   HelpMenu* help_;
   PanelActions* panelActions_;
   QActionGroup* toolActions_;

@@ -10,6 +10,7 @@
 #include "camera_actions.h"
 #include "colour_selector.h"
 #include "file_actions.h"
+#include "filling.h"
 #include "help_menu.h"
 #include "main_window.h"
 #include "message_bar.h"
@@ -85,6 +86,7 @@ void MainWindow::fillObjectMenu(QMenu& menu) {
       menu.addAction(QStringLiteral("&Unpin all"), this, [this] { document_.setPinned(document_.pins(), false); });
   unpin->setObjectName(QStringLiteral("unpinAll"));
   unpin->setStatusTip(QStringLiteral("Every pinned element may move again"));
+  filling_->fill(menu);
   const auto adapt = [this, unpin] { unpin->setEnabled(!document_.pins().empty()); };
   connect(&document_, &Document::pinsChanged, unpin, adapt);
   connect(&document_, &Document::meshChanged, unpin, adapt);

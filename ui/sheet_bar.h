@@ -1,14 +1,14 @@
 #pragma once
 
-#include <QFrame>
-#include <QLabel>
 #include <QSize>
 #include <QSpinBox>
 
+#include "ask_bar.h"
+
 namespace chainmail {
 
-/// Asks how many elements across a picture's sheet has, without standing in the way.
-class SheetBar : public QFrame {
+/// Asks how many elements across a picture's sheet has.
+class SheetBar : public AskBar {
   Q_OBJECT
 
  public:
@@ -18,23 +18,13 @@ class SheetBar : public QFrame {
 
   /// About a picture of so many pixels.
   void ask(const QString& name, QSize picture);
-
- signals:
-  void answered(int across);
-
- protected:
-  bool event(QEvent* event) override;
-  void keyPressEvent(QKeyEvent* event) override;
+  int across() const { return across_->value(); }
 
  private:
-  void arrange();
   void describe();
-  void answer();
 
   QSize picture_;
-  QLabel* text_;
   QSpinBox* across_;
-  QLabel* result_;
 };
 
 }  // namespace chainmail

@@ -21,7 +21,7 @@ QString folderKey() { return QStringLiteral("picture/folder"); }
 
 Sheets::Sheets(QWidget& window, Document& document, Jobs& jobs)
     : QObject(&window), window_(window), document_(document), jobs_(jobs), bar_(new SheetBar) {
-  connect(bar_, &SheetBar::answered, this, [this](int across) { open(asked_, across, first_); });
+  connect(bar_, &AskBar::agreed, this, [this] { open(asked_, bar_->across(), first_); });
 }
 
 void Sheets::fill(QMenu& menu) {

@@ -47,15 +47,19 @@ Imported import(MeshFormat format, const std::filesystem::path& path, const Prog
   }
 }
 
-OpenedMesh opened(const Volume& volume, const std::filesystem::path& path, const ReadOptions& options,
-                  const Progress& progress) {
-  VoxelBlock block = voxel_block(volume, options.voxels, shown(path), progress);
-  OpenedMesh result{std::move(block.mesh), std::move(block.softness), {}, "voxels from a density of "};
-  append_number(result.remark, double(float(block.threshold)));
-  if (block.every > 1) {
-    result.remark += ", " + std::to_string(block.every) + " along each axis to an element";
-  }
-  return result;
+bool is_volume(MeshFormat format) { return format == MeshFormat::nrrd || format == MeshFormat::metaimage; }
+
+Volume read_volume(MeshFormat format, const std::filesystem::path& path, const Progress& progress) {
+  return format == MeshFormat::metaimage ? read_metaimage(path, progress)
+                                         : std::get<Volume>(import(format, path, progress));
+}
+
+OpenedMesh open_volume(MeshFormat format, const std::filesystem::path& path, const ReadOptions& options,
+                       const Progress& progress) {
+  const Volume volume = read_volume(format, path, progress.part(0, 0.5));
+  VoxelBlock block = voxel_block(volume, options.voxels, shown(path), progress.part(0.5, 1));
+  std::string words = in_words(block);
+  return {std::move(block.mesh), std::move(block.softness), {}, std::move(words)};
 }
 
 /// Either of the two files was named: the other is beside it.
@@ -105,15 +109,13 @@ OpenedMesh open_as(MeshFormat format, const std::filesystem::path& path, const R
       return open_bytes(read_vtk, path, options, progress);
     case MeshFormat::ply:
       return open_bytes(read_ply, path, options, progress);
+    case MeshFormat::nrrd:
     case MeshFormat::metaimage:
-      return opened(read_metaimage(path, progress.part(0, 0.5)), path, options, progress.part(0.5, 1));
+      return open_volume(format, path, options, progress);
     default:
       break;
   }
-  Imported imported = import(format, path, progress.part(0, 0.5));
-  if (const auto* volume = std::get_if<Volume>(&imported)) {
-    return opened(*volume, path, options, progress.part(0.5, 1));
-  }
+  auto imported = import(format, path, progress.part(0, 0.5));
   return opened(std::move(std::get<ImportedMesh>(imported)), path, options, progress.part(0.5, 1));
 }
 
@@ -121,13 +123,27 @@ void check_options(MeshFormat format, const std::filesystem::path& path, const R
   if (format != MeshFormat::dat && (options.size || options.spacing)) {
     throw Error(shown(path), "it holds its own positions", "leave size and spacing out");
   }
-  const bool is_volume = format == MeshFormat::nrrd || format == MeshFormat::metaimage;
-  if (!is_volume && (options.voxels.threshold || options.voxels.every)) {
+  if (!is_volume(format) && (options.voxels.threshold || options.voxels.every)) {
     throw Error(shown(path), "it is no volume of voxels", "leave the threshold and the voxels to an element out");
   }
 }
 
 }  // namespace
+
+bool is_volume(const std::filesystem::path& path) { return is_volume(detect_format(path)); }
+
+Volume read_volume(const std::filesystem::path& path, const Progress& progress) {
+  return read_volume(detect_format(path), path, progress);
+}
+
+std::string in_words(const VoxelBlock& block) {
+  std::string words = "voxels from a density of ";
+  append_number(words, double(float(block.threshold)));
+  if (block.every > 1) {
+    words += ", " + std::to_string(block.every) + " along each axis to an element";
+  }
+  return words;
+}
 
 OpenedMesh opened(ImportedMesh imported, const std::filesystem::path& path, const ReadOptions& options,
                   const Progress& progress) {

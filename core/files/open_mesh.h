@@ -27,6 +27,15 @@ struct OpenedMesh {
 /// own, within limits of memory and time.
 OpenedMesh open_mesh(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});
 
+/// Whether a file's content, else its ending, tells that it is a volume of voxels. Throws as detect_format.
+bool is_volume(const std::filesystem::path& path);
+
+/// The voxels of such a file. Throws as open_mesh.
+Volume read_volume(const std::filesystem::path& path, const Progress& progress = {});
+
+/// What voxels are taken as, in words: 'voxels from a density of 250, 2 along each axis to an element'.
+std::string in_words(const VoxelBlock& block);
+
 /// What an import gave, as a mesh: flawed parts left out, links along all edges.
 OpenedMesh opened(ImportedMesh imported, const std::filesystem::path& path, const ReadOptions& options,
                   const Progress& progress);

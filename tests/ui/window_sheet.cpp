@@ -30,11 +30,11 @@ class WindowSheet : public QObject {
     auto& bar = sheets(bench).bar();
     QVERIFY(bar.isVisible());
     QCOMPARE(bench.document().mesh(), before);
-    QVERIFY(bench.find<QLabel>("sheetPicture")->text().contains(QStringLiteral("a.png as a sheet: 120 × 80 pixels")));
+    QVERIFY(bench.find<QLabel>("sheetAbout")->text().contains(QStringLiteral("a.png as a sheet: 120 × 80 pixels")));
     QCOMPARE(bench.find<QSpinBox>("sheetAcross")->value(), 32);
     bench.find<QSpinBox>("sheetAcross")->setValue(13);
-    QCOMPARE(bench.find<QLabel>("sheetSize")->text(), QStringLiteral("13 × 9 elements, one every 10 pixels"));
-    bench.find<QPushButton>("sheetOpen")->click();
+    QCOMPARE(bench.find<QLabel>("sheetResult")->text(), QStringLiteral("13 × 9 elements, one every 10 pixels"));
+    bench.find<QPushButton>("sheetAgree")->click();
     bench.settle();
     QVERIFY(!bar.isVisible());
     const Mesh& mesh = *bench.document().mesh();
@@ -106,7 +106,7 @@ class WindowSheet : public QObject {
     file.close();
     bench.open(path);
     if (sheets(bench).bar().isVisible()) {
-      bench.find<QPushButton>("sheetOpen")->click();  // its head was whole
+      bench.find<QPushButton>("sheetAgree")->click();  // its head was whole
       bench.settle();
     }
     QVERIFY2(bench.window.messages().sentence().contains(said), qPrintable(bench.window.messages().sentence()));
@@ -126,7 +126,7 @@ class WindowSheet : public QObject {
     turned.close();
     Workbench bench;
     bench.open(turned.fileName());
-    QVERIFY(bench.find<QLabel>("sheetPicture")->text().contains(QStringLiteral("80 × 120 pixels")));
+    QVERIFY(bench.find<QLabel>("sheetAbout")->text().contains(QStringLiteral("80 × 120 pixels")));
     openSheet(bench, turned.fileName(), 5);
     QCOMPARE(bench.document().mesh()->texture->size, (std::array<std::uint32_t, 3>{80, 120, 1}));
     // What was at its lower left is at the upper left: the last of its rows upward.

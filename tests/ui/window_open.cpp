@@ -1,0 +1,137 @@
+// Files that people have, in a real window: what is said of them, volumes of voxels, surfaces that are filled.
+
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QLabel>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTemporaryDir>
+
+#include "file_actions.h"
+#include "message_bar.h"
+#include "volume_bar.h"
+#include "volumes.h"
+#include "window.h"
+
+using namespace chainmail;
+
+class WindowOpen : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void whatIsOpenedIsToldWithItsFlaws() {
+    Workbench bench;
+    const QString path = folder_.filePath(QStringLiteral("flawed.off"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("OFF\n5 4 0\n0 0 0\n2 0 0\n0 1 0\n9 9 9\n9 9 8\n3 0 1 2\n3 2 1 0\n3 0 3 3\n3 0 3 4\n");
+    file.close();
+    bench.open(path);
+    QCOMPARE(
+        messages(bench).sentence(),
+        QStringLiteral("flawed.off: 5 elements, 6 links, 2 triangles, 1 part, 9 × 9 × 9 units. 1 face or cell with "
+                       "a point named twice, 1 face or cell there already left out"));
+    QCOMPARE(messages(bench).severity(), Severity::info);
+  }
+
+  void aFileOfAnotherProgramThatIsDamagedLosesNothing() {
+    Workbench bench;
+    const MeshPointer before = bench.document().mesh();
+    const QString path = folder_.filePath(QStringLiteral("damaged.msh"));
+    QFile whole(QStringLiteral(FOREIGN "/gmsh41_binary.msh")), file(path);
+    QVERIFY(whole.open(QIODevice::ReadOnly) && file.open(QIODevice::WriteOnly));
+    file.write(whole.read(4000));
+    file.close();
+    bench.open(path);
+    QVERIFY2(messages(bench).sentence().startsWith(path), qPrintable(messages(bench).sentence()));
+    QCOMPARE(bench.document().mesh(), before);
+  }
+
+  void aVolumeAsksForItsThresholdAndBecomesABlock() {
+    Workbench bench;
+    const MeshPointer before = bench.document().mesh();
+    bench.open(QStringLiteral(FOREIGN "/vtk.mha"));
+    auto& bar = bench.window.findChild<FileActions*>()->volumes().bar();
+    QVERIFY(bar.isVisible());
+    QCOMPARE(bench.find<QLabel>("volumeAbout")->text(), QStringLiteral("vtk.mha: 6 × 5 × 4 voxels"));
+    auto* threshold = bench.find<QDoubleSpinBox>("volumeThreshold");
+    threshold->setValue(-1000);
+    QCOMPARE(bench.find<QLabel>("volumeResult")->text(), QStringLiteral("120 voxels"));
+    threshold->setValue(500);
+    QCOMPARE(bench.find<QLabel>("volumeResult")->text(), QStringLiteral("24 voxels"));
+    bench.find<QPushButton>("volumeAgree")->click();
+    bench.settle();
+    QVERIFY(!bar.isVisible());
+    QCOMPARE(bench.document().mesh()->element_count(), 24U);
+    QCOMPARE(bench.document().mesh()->hexahedra.size(), std::size_t{6});
+    const auto stiff = bench.document().wholeSoftness()->links;
+    QVERIFY(!stiff.empty());  // about the voxel of 1000
+    bench.trigger("undo");
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), before);
+    QVERIFY(bench.document().wholeSoftness()->links.empty());
+    bench.trigger("redo");
+    bench.settle();
+    QCOMPARE(bench.document().wholeSoftness()->links, stiff);
+  }
+
+  void nothingDenseEnoughIsNoAnswer() {
+    Workbench bench;
+    bench.open(QStringLiteral(FOREIGN "/vtk.mha"));
+    auto* every = bench.find<QSpinBox>("volumeEvery");
+    every->setValue(2);
+    QCOMPARE(bench.find<QLabel>("volumeResult")->text(), QStringLiteral("24 voxels, about 3 elements"));
+    bench.find<QCheckBox>("volumeStiff")->setChecked(false);
+    QVERIFY(bench.find<QPushButton>("volumeAgree")->isEnabled());
+    bench.find<QPushButton>("volumeCancel")->click();
+    QVERIFY(!bench.window.findChild<FileActions*>()->volumes().bar().isVisible());
+  }
+
+  void aClosedSurfaceIsFilled() {
+    Workbench bench;
+    auto* fill = bench.window.findChild<QAction*>(QStringLiteral("fillSurface"));
+    QVERIFY(!fill->isEnabled());  // a plane grid
+    bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+    QVERIFY(fill->isEnabled());
+    fill->trigger();
+    auto* size = bench.find<QDoubleSpinBox>("fillSize");
+    const QString coarse = bench.find<QLabel>("fillResult")->text();
+    size->setValue(size->value() / 2);
+    QVERIFY(bench.find<QLabel>("fillResult")->text() != coarse);
+    bench.find<QPushButton>("fillAgree")->click();
+    bench.settle();
+    const Mesh& mesh = *bench.document().mesh();
+    QVERIFY(mesh.tetrahedra.size() > 1000);
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("fill sphere.obj"));
+    QVERIFY(!fill->isEnabled());
+  }
+
+  void anOpenSurfaceSaysWhereItIsOpen() {
+    Workbench bench;
+    const QString path = folder_.filePath(QStringLiteral("open.off"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("OFF\n4 3 0\n0 0 0\n2 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");
+    file.close();
+    bench.open(path);
+    const MeshPointer before = bench.document().mesh();
+    bench.trigger("fillSurface");
+    bench.find<QPushButton>("fillAgree")->click();
+    bench.settle();
+    QVERIFY2(messages(bench).sentence().contains(
+                 QStringLiteral("the surface is open: it has 1 hole, the first at element 0")),
+             qPrintable(messages(bench).sentence()));
+    QCOMPARE(bench.document().mesh(), before);
+  }
+
+ private:
+  static MessageBar& messages(Workbench& bench) { return *bench.window.findChild<MessageBar*>(); }
+
+  QTemporaryDir folder_;
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowOpen>(argc, argv); }
+#include "window_open.moc"
