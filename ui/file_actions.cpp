@@ -158,7 +158,13 @@ void FileActions::openPath(const QString& path, bool first) {
 }
 
 void FileActions::openSample(const QString& path) {
-  isPicture(path) ? sheets_->open(path, SheetBar::standardAcross) : openPath(path);
+  if (isPicture(path)) {
+    sheets_->open(path, SheetBar::standardAcross);
+  } else if (!is_session(asPath(path)) && is_volume(asPath(path))) {
+    volumes_->open(path);
+  } else {
+    openPath(path);
+  }
 }
 
 void FileActions::show(const OpenedMesh& opened, const QString& path, bool first) {

@@ -35,19 +35,32 @@ void Volumes::openPath(const QString& path, bool first) {
 
 void Volumes::build() {
   const QString name = QFileInfo(path_).fileName();
-  jobs_.start(
-      Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
-      [this, path = path_, name, first = first_, volume = std::move(volume_),
-       options = bar_->options()](const Progress& progress) -> Jobs::Finish {
-        auto block = std::make_shared<VoxelBlock>(voxel_block(volume->volume, options, shown(asPath(path)), progress));
-        return [this, path, name, first, block] {
-          document_.replaceMesh(block->mesh, name, QStringLiteral("open %1").arg(name), std::move(block->softness));
-          if (first) {
-            document_.undoStack().clear();
-          }
-          emit opened(path);
-        };
-      });
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
+              [this, path = path_, first = first_, volume = std::move(volume_),
+               options = bar_->options()](const Progress& progress) -> Jobs::Finish {
+                auto block =
+                    std::make_shared<VoxelBlock>(voxel_block(volume->volume, options, shown(asPath(path)), progress));
+                return [this, path, first, block] { show(*block, path, first); };
+              });
+}
+
+void Volumes::open(const QString& path) {
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
+              [this, path](const Progress& progress) -> Jobs::Finish {
+                const auto volume = read_volume(asPath(path), progress.part(0, 0.5));
+                auto block =
+                    std::make_shared<VoxelBlock>(voxel_block(volume, {}, shown(asPath(path)), progress.part(0.5, 1)));
+                return [this, path, block] { show(*block, path, false); };
+              });
+}
+
+void Volumes::show(VoxelBlock& block, const QString& path, bool first) {
+  const QString name = QFileInfo(path).fileName();
+  document_.replaceMesh(block.mesh, name, QStringLiteral("open %1").arg(name), std::move(block.softness));
+  if (first) {
+    document_.undoStack().clear();
+  }
+  emit opened(path);
 }
 
 }  // namespace chainmail

@@ -9,6 +9,7 @@
 namespace chainmail {
 
 struct OpenedVolume;
+struct VoxelBlock;
 class VolumeBar;
 
 /// Volumes of voxels: read in the background, and made into objects as their bar is told.
@@ -21,12 +22,15 @@ class Volumes : public QObject {
   VolumeBar& bar() { return *bar_; }
   /// Reads it and asks; as one step of undo, or as the window's first object.
   void openPath(const QString& path, bool first = false);
+  /// Opens it as it is offered first, and asks nothing.
+  void open(const QString& path);
 
  signals:
   void opened(const QString& path);
 
  private:
   void build();
+  void show(VoxelBlock& block, const QString& path, bool first);
 
   Document& document_;
   Jobs& jobs_;
