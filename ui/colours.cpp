@@ -77,7 +77,7 @@ QColor nearer(const QColor& colour, int darker, double own) {
 }  // namespace
 
 QColor faint(const QColor& colour) { return nearer(colour, 320, 0.22); }
-QColor solid(const QColor& colour) { return nearer(colour, 190, 0.45); }
+QColor solid(const QColor& colour) { return nearer(colour, 190, 0.6); }
 QColor bright(const QColor& colour) { return nearer(colour, 125, 0.75); }
 
 }  // namespace colours

@@ -6,29 +6,12 @@
 
 #include "files/text.h"
 #include "files/vtk.h"
+#include "files/vtk_cells.h"
 #include "files/vtk_cursor.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
-
-/// VTK's numbers of the types of cells.
-enum VtkCell {
-  vertex = 1,
-  vertices,
-  line,
-  lines,
-  triangle,
-  strip,
-  polygon,
-  pixel,
-  quad,
-  tetrahedron,
-  voxel,
-  hexahedron
-};
-
-using Corners = std::span<const std::uint64_t>;
 
 /// Cells one after another: cell i has the corners ids[first[i] .. first[i + 1]).
 struct CellRows {
@@ -36,7 +19,9 @@ struct CellRows {
   std::vector<std::uint64_t> ids;
 
   std::size_t count() const { return first.size() - 1; }
-  Corners operator[](std::size_t i) const { return Corners(ids).subspan(first[i], first[i + 1] - first[i]); }
+  VtkCells::Corners operator[](std::size_t i) const {
+    return VtkCells::Corners(ids).subspan(first[i], first[i + 1] - first[i]);
+  }
 };
 
 class VtkReader {
@@ -62,17 +47,12 @@ class VtkReader {
   CellRows read_offsets(std::uint64_t offsets, std::uint64_t size);
   void read_types();
   void add_all(const CellRows& rows, int type);
-  void add(Corners corners, int type);
-  void add_chain(Corners corners);
-  void add_face(Corners corners);
-  template <std::size_t Size>
-  void add_group(std::vector<std::array<ElementId, Size>>& groups, Corners corners, const std::array<int, Size>& order);
-  ElementId id(std::uint64_t point) const;
 
   VtkCursor cursor_;
   bool has_offsets_ = false;  // from version 5 on
   CellRows cells_;            // of an unstructured grid, whose types come behind
   ImportedMesh mesh_;
+  VtkCells into_{mesh_.parts, cursor_};
 };
 
 std::string capitals(std::string_view word) {
@@ -114,11 +94,11 @@ bool VtkReader::read_section() {
   } else if (section == "CELL_TYPES") {
     read_types();
   } else if (section == "LINES") {
-    add_all(read_rows(), lines);
+    add_all(read_rows(), VtkCells::lines);
   } else if (section == "POLYGONS") {
-    add_all(read_rows(), polygon);
+    add_all(read_rows(), VtkCells::polygon);
   } else if (section == "TRIANGLE_STRIPS") {
-    add_all(read_rows(), strip);
+    add_all(read_rows(), VtkCells::strip);
   } else if (section == "VERTICES") {
     read_rows();
   } else if (section == "FIELD") {
@@ -217,87 +197,13 @@ void VtkReader::read_types() {
   }
   const auto types = cursor_.wholes(count, "int");
   for (std::size_t i = 0; i < types.size(); ++i) {
-    add(cells_[i], int(std::min<std::uint64_t>(types[i], 1000)));
+    into_.add(cells_[i], int(std::min<std::uint64_t>(types[i], 1000)));
   }
 }
 
 void VtkReader::add_all(const CellRows& rows, int type) {
   for (std::size_t i = 0; i < rows.count(); ++i) {
-    add(rows[i], type);
-  }
-}
-
-ElementId VtkReader::id(std::uint64_t point) const {
-  if (point >= mesh_.parts.rest.size()) {
-    cursor_.fail("a cell names point " + std::to_string(point) + ", which is not there", "export it anew");
-  }
-  return static_cast<ElementId>(point);
-}
-
-void VtkReader::add_chain(Corners corners) {
-  for (std::size_t i = 1; i < corners.size(); ++i) {
-    mesh_.parts.links.push_back({id(corners[i - 1]), id(corners[i])});
-  }
-}
-
-void VtkReader::add_face(Corners corners) {
-  if (corners.size() < 3) {
-    cursor_.fail("a face has fewer than 3 corners", "export it anew");
-  }
-  if (corners.size() == 3) {
-    mesh_.parts.triangles.push_back({id(corners[0]), id(corners[1]), id(corners[2])});
-    return;
-  }
-  mesh_.parts.polygons.push_back(static_cast<ElementId>(corners.size()));
-  for (const std::uint64_t corner : corners) {
-    mesh_.parts.polygons.push_back(id(corner));
-  }
-}
-
-template <std::size_t Size>
-void VtkReader::add_group(std::vector<std::array<ElementId, Size>>& groups, Corners corners,
-                          const std::array<int, Size>& order) {
-  if (corners.size() != Size) {
-    cursor_.fail("a cell has " + std::to_string(corners.size()) + " corners, and its type has " + std::to_string(Size),
-                 "export it anew");
-  }
-  std::array<ElementId, Size> group{};
-  std::transform(order.begin(), order.end(), group.begin(), [&](int place) { return id(corners[place]); });
-  groups.push_back(group);
-}
-
-void VtkReader::add(Corners corners, int type) {
-  MeshParts& parts = mesh_.parts;
-  switch (type) {
-    case vertex:
-    case vertices:
-      return;
-    case line:
-    case lines:
-      return add_chain(corners);
-    case strip:
-      for (std::size_t i = 2; i < corners.size(); ++i) {
-        add_face(corners.subspan(i - 2, 3));
-      }
-      return;
-    case triangle:
-    case polygon:
-    case quad:
-      return add_face(corners);
-    case pixel:
-      if (corners.size() == 4) {
-        return add_face(std::array{corners[0], corners[1], corners[3], corners[2]});
-      }
-      return add_face(corners);
-    case tetrahedron:
-      return add_group(parts.tetrahedra, corners, {0, 1, 2, 3});
-    case voxel:
-      return add_group(parts.hexahedra, corners, {0, 1, 3, 2, 4, 5, 7, 6});
-    case hexahedron:
-      return add_group(parts.hexahedra, corners, {0, 1, 2, 3, 4, 5, 6, 7});
-    default:
-      cursor_.fail("it holds cells of VTK's type " + std::to_string(type),
-                   "split them into tetrahedra, or save them as cells of first order");
+    into_.add(rows[i], type);
   }
 }
 

@@ -1,0 +1,111 @@
+#include <QtTest>
+
+#include "cli/chainmail_program.h"
+#include "files/mesh_file.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// `chainmail convert` and `fill`: meshes in other formats, and surfaces as volumes.
+class ConvertCommandTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_mesh_goes_to_another_format();
+  void what_was_left_out_is_noted();
+  void a_volume_is_taken_as_asked();
+  void a_closed_surface_is_filled();
+  void bad_usage_is_one_sentence_and_leaves_no_file_data();
+  void bad_usage_is_one_sentence_and_leaves_no_file();
+};
+
+namespace {
+
+const QByteArray tetrahedron = "OFF\n4 4 0\n0 0 0\n3 0 0\n0 3 0\n0 0 3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+
+const QByteArray volume =
+    "ObjectType = Image\nNDims = 3\nDimSize = 4 1 1\nElementType = MET_UCHAR\nElementDataFile = "
+    "LOCAL\n\x0a\x14\x1e\x28";
+
+}  // namespace
+
+void ConvertCommandTest::a_mesh_goes_to_another_format() {
+  const Program program;
+  program.write("a.off", tetrahedron);
+  const auto outcome = program.run("convert a.off -o a.msh");
+  QCOMPARE(outcome.code, 0);
+  QCOMPARE(outcome.error, QByteArray());
+  const auto mesh = read_mesh(program.path("a.msh").toStdString());
+  QCOMPARE(mesh->triangles.size(), std::size_t{4});
+  QCOMPARE(mesh->links.size(), std::size_t{6});
+}
+
+void ConvertCommandTest::what_was_left_out_is_noted() {
+  const Program program;
+  program.write("a.off", "OFF\n3 2 0\n0 0 0\n3 0 0\n0 3 0\n3 0 1 2\n3 2 1 0\n");
+  const auto outcome = program.run("convert a.off -o a.obj");
+  QCOMPARE(outcome.code, 0);
+  QCOMPARE(outcome.error, QByteArray("chainmail: note: 1 face or cell there already left out\n"));
+}
+
+void ConvertCommandTest::a_volume_is_taken_as_asked() {
+  const Program program;
+  program.write("a.mha", volume);
+  QCOMPARE(program.run("convert a.mha --threshold 20 --voxels 1 -o a.csv").code, 0);
+  QCOMPARE(program.read("a.csv"), QByteArray("id,x,y,z\n0,1,0,0\n1,2,0,0\n2,3,0,0\n"));
+  const auto stiff = program.run("deform a.mha --threshold 20 --algorithm exact --by 2:1 --positions b.csv");
+  QCOMPARE(stiff.code, 0);
+  // The link of 30 and 40 is three quarters rigid (1.05), that of 20 and 30 one quarter (1.15).
+  const auto rows = program.read("b.csv").split('\n');
+  for (const auto& [row, x] : {std::pair(1, 1.8), {2, 2.95}, {3, 4.0}}) {
+    QVERIFY(std::abs(rows[row].split(',')[1].toDouble() - x) < 1e-12);  // sums of a few doubles
+  }
+}
+
+void ConvertCommandTest::a_closed_surface_is_filled() {
+  const Program program;
+  program.write("a.off", tetrahedron);
+  const auto outcome = program.run("fill a.off --edge 1 -o a.msh");
+  QVERIFY2(outcome.code == 0, outcome.error);
+  QVERIFY(read_mesh(program.path("a.msh").toStdString())->tetrahedra.size() > 1);
+}
+
+void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
+  QTest::addColumn<QString>("arguments");
+  QTest::addColumn<QString>("sentence");
+  QTest::newRow("format") << "convert a.off -o a.xyz"
+                          << "a.xyz: the ending .xyz is not known; ";
+  QTest::newRow("read only") << "convert a.off -o a.stl"
+                             << "a.stl: a .stl file is opened, not written; ";
+  QTest::newRow("itself") << "convert a.off -o a.off"
+                          << "a.off: a .off file is opened, not written; ";
+  QTest::newRow("no volume") << "convert a.off --threshold 3 -o a.obj"
+                             << "a.off: it is no volume of voxels; ";
+  QTest::newRow("threshold") << "convert a.mha --threshold dense -o a.obj"
+                             << "--threshold: ";
+  QTest::newRow("voxels") << "convert a.mha --voxels 0 -o a.obj"
+                          << "--voxels: ";
+  QTest::newRow("nothing") << "convert a.mha --threshold 41 -o a.obj"
+                           << "a.mha: no voxel is above the threshold of 41; ";
+  QTest::newRow("open") << "fill open.off -o a.msh"
+                        << "open.off: the surface is open: it has 1 hole, ";
+  QTest::newRow("size") << "fill a.off --edge -1 -o a.msh"
+                        << "--edge: it must be a number above 0; ";
+}
+
+void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file() {
+  QFETCH(QString, arguments);
+  QFETCH(QString, sentence);
+  const Program program;
+  program.write("a.off", tetrahedron);
+  program.write("a.mha", volume);
+  program.write("open.off", "OFF\n3 1 0\n0 0 0\n3 0 0\n0 3 0\n3 0 1 2\n");
+  const auto outcome = program.run(arguments.split(' '));
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + sentence), outcome.error);
+  QCOMPARE(program.files(), (QStringList{"a.mha", "a.off", "open.off"}));
+}
+
+QTEST_GUILESS_MAIN(ConvertCommandTest)
+#include "test_convert.moc"
