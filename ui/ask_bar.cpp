@@ -2,6 +2,7 @@
 
 #include <QKeyEvent>
 #include <QPushButton>
+#include <QVBoxLayout>
 
 #include "colours.h"
 
@@ -21,14 +22,17 @@ AskBar::AskBar(const QString& name, const QString& agree, const QString& help)
   auto* leave = new QPushButton(QStringLiteral("&Cancel"));
   leave->setObjectName(name + QStringLiteral("Cancel"));
   leave->setToolTip(QStringLiteral("Leaves the object as it is"));
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(10, 4, 6, 4);
-  row->addWidget(about_, 1);
-  row->addLayout(fields_);
-  row->addWidget(result_);
-  row->addSpacing(8);
-  row->addWidget(agree_);
-  row->addWidget(leave);
+  // In two rows: what it needs must not push the window over the screen.
+  auto* words = new QHBoxLayout;
+  words->addWidget(about_, 1);
+  words->addWidget(result_);
+  fields_->addStretch(1);
+  fields_->addWidget(agree_);
+  fields_->addWidget(leave);
+  auto* rows = new QVBoxLayout(this);
+  rows->setContentsMargins(10, 4, 6, 4);
+  rows->addLayout(words);
+  rows->addLayout(fields_);
   connect(agree_, &QPushButton::clicked, this, &AskBar::agree);
   connect(leave, &QPushButton::clicked, this, &QWidget::hide);
   hide();
@@ -40,12 +44,13 @@ AskBar::AskBar(const QString& name, const QString& agree, const QString& help)
 }
 
 void AskBar::addField(const QString& label, QWidget* field) {
+  const auto add = [this](QWidget* one) { fields_->insertWidget(fields_->count() - 3, one); };
   if (!label.isEmpty()) {
     auto* text = new QLabel(label);
     text->setBuddy(field);
-    fields_->addWidget(text);
+    add(text);
   }
-  fields_->addWidget(field);
+  add(field);
 }
 
 void AskBar::ask(const QString& about, QWidget* field) {

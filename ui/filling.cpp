@@ -57,7 +57,7 @@ void Filling::makeFields() {
   slider_->setAccessibleName(QStringLiteral("Length of edges within, on a slider"));
   slider_->setToolTip(QStringLiteral("From a third of the surface's mean link to three of them"));
   slider_->setRange(-sliderSteps, sliderSteps);
-  slider_->setMinimumWidth(120);
+  slider_->setMinimumWidth(60);
   addField(QStringLiteral("&Edges of"), size_);
   addField({}, slider_);
 }

@@ -48,7 +48,7 @@ void VolumeBar::makeFields() {
   slider_->setObjectName(QStringLiteral("volumeSlider"));
   slider_->setAccessibleName(QStringLiteral("Lowest density, on a slider"));
   slider_->setRange(0, sliderSteps);
-  slider_->setMinimumWidth(120);
+  slider_->setMinimumWidth(60);
   threshold_->setObjectName(QStringLiteral("volumeThreshold"));
   threshold_->setAccessibleName(QStringLiteral("Lowest density"));
   every_->setObjectName(QStringLiteral("volumeEvery"));
