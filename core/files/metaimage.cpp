@@ -3,47 +3,34 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <memory>
 #include <vector>
 
+#include "files/number_type.h"
 #include "files/text.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
 
-/// A type of numbers: how many bytes one takes, and how it is read.
-struct NumberType {
-  std::string_view name;
-  std::size_t bytes;
-  double (*read)(const char* bytes);
-};
-
-template <class Number>
-double read_as(const char* bytes) {
-  Number number;
-  std::memcpy(&number, bytes, sizeof number);
-  return static_cast<double>(number);
-}
-
-template <class Number>
-constexpr NumberType type(std::string_view name) {
-  return {name, sizeof(Number), read_as<Number>};
-}
-
-constexpr std::array number_types{
-    type<std::int8_t>("MET_CHAR"),         type<std::uint8_t>("MET_UCHAR"),  type<std::int16_t>("MET_SHORT"),
-    type<std::uint16_t>("MET_USHORT"),     type<std::int32_t>("MET_INT"),    type<std::uint32_t>("MET_UINT"),
-    type<std::int32_t>("MET_LONG"),        type<std::uint32_t>("MET_ULONG"), type<std::int64_t>("MET_LONG_LONG"),
-    type<std::uint64_t>("MET_ULONG_LONG"), type<float>("MET_FLOAT"),         type<double>("MET_DOUBLE"),
+constexpr std::array metaimage_types{
+    number_type<std::int8_t>("MET_CHAR"),
+    number_type<std::uint8_t>("MET_UCHAR"),
+    number_type<std::int16_t>("MET_SHORT"),
+    number_type<std::uint16_t>("MET_USHORT"),
+    number_type<std::int32_t>("MET_INT"),
+    number_type<std::uint32_t>("MET_UINT"),
+    number_type<std::int32_t>("MET_LONG"),
+    number_type<std::uint32_t>("MET_ULONG"),
+    number_type<std::int64_t>("MET_LONG_LONG"),
+    number_type<std::uint64_t>("MET_ULONG_LONG"),
+    number_type<float>("MET_FLOAT"),
+    number_type<double>("MET_DOUBLE"),
 };
 
 const NumberType& type_of(const MetaImageHead& head, const std::filesystem::path& path) {
-  const auto found =
-      std::find_if(number_types.begin(), number_types.end(), [&](const auto& one) { return one.name == head.type; });
-  if (found == number_types.end()) {
+  const NumberType* found = find_number_type(metaimage_types, head.type);
+  if (found == nullptr) {
     throw Error(shown(path), "numbers of type " + in_quotes(head.type) + " are not known",
                 "export it as MET_UCHAR, MET_SHORT or MET_FLOAT");
   }
@@ -103,14 +90,9 @@ Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, c
                 "its data end after " + std::to_string(data.size()) + " of " + std::to_string(size) + " bytes",
                 "export it anew");
   }
-  const bool swapped = head.big_endian == (std::endian::native == std::endian::little);
-  std::array<char, 8> bytes{};
   take_densities(volume, shown(path), [&](std::size_t i) {
     progress.part(0.5, 1).report(i, volume.voxel_count());
-    const auto number = data.subspan(i * type.bytes, type.bytes);
-    swapped ? std::reverse_copy(number.begin(), number.end(), bytes.begin())
-            : std::copy(number.begin(), number.end(), bytes.begin());
-    return type.read(bytes.data());
+    return type.read(data.data() + i * type.bytes, head.big_endian);
   });
   return volume;
 }

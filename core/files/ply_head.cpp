@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "files/text.h"
 #include "mesh/error.h"
@@ -10,22 +9,13 @@
 namespace chainmail {
 namespace {
 
-template <class Number>
-double read_as(const char* bytes) {
-  Number number;
-  std::memcpy(&number, bytes, sizeof number);
-  return static_cast<double>(number);
-}
-template <class Number>
-constexpr PlyType type(std::string_view name, std::string_view other_name) {
-  return {name, other_name, sizeof(Number), read_as<Number>};
-}
-
 constexpr std::array types{
-    type<std::int8_t>("char", "int8"),    type<std::uint8_t>("uchar", "uint8"),
-    type<std::int16_t>("short", "int16"), type<std::uint16_t>("ushort", "uint16"),
-    type<std::int32_t>("int", "int32"),   type<std::uint32_t>("uint", "uint32"),
-    type<float>("float", "float32"),      type<double>("double", "float64"),
+    number_type<std::int8_t>("char"),     number_type<std::int8_t>("int8"),     number_type<std::uint8_t>("uchar"),
+    number_type<std::uint8_t>("uint8"),   number_type<std::int16_t>("short"),   number_type<std::int16_t>("int16"),
+    number_type<std::uint16_t>("ushort"), number_type<std::uint16_t>("uint16"), number_type<std::int32_t>("int"),
+    number_type<std::int32_t>("int32"),   number_type<std::uint32_t>("uint"),   number_type<std::uint32_t>("uint32"),
+    number_type<float>("float"),          number_type<float>("float32"),        number_type<double>("double"),
+    number_type<double>("float64"),
 };
 
 class HeadReader {
@@ -55,7 +45,7 @@ class HeadReader {
   void take_form(std::string_view rest);
   void take_element(std::string_view rest);
   void take_property(std::string_view rest);
-  const PlyType& type_of(std::string_view name) const;
+  const NumberType& type_of(std::string_view name) const;
 
   std::string_view bytes_;
   const std::filesystem::path& path_;
@@ -134,10 +124,9 @@ void HeadReader::take_property(std::string_view rest) {
   head_.elements.back().properties.push_back(std::move(property));
 }
 
-const PlyType& HeadReader::type_of(std::string_view name) const {
-  const auto found = std::find_if(types.begin(), types.end(),
-                                  [&](const PlyType& one) { return one.name == name || one.other_name == name; });
-  if (found == types.end()) {
+const NumberType& HeadReader::type_of(std::string_view name) const {
+  const NumberType* found = find_number_type(types, name);
+  if (found == nullptr) {
     fail("numbers of type " + in_quotes(name) + " are not known", "save it with floats and ints");
   }
   return *found;

@@ -6,19 +6,14 @@
 #include <string_view>
 #include <vector>
 
-namespace chainmail {
+#include "files/number_type.h"
 
-/// A type of numbers, by its size and kind: how many bytes it takes in a binary file, and how they are read.
-struct PlyType {
-  std::string_view name, other_name;
-  std::size_t bytes;
-  double (*read)(const char* in_native_order);
-};
+namespace chainmail {
 
 struct PlyProperty {
   std::string name;
-  const PlyType* type = nullptr;
-  const PlyType* count = nullptr;  // of a list, else none
+  const NumberType* type = nullptr;
+  const NumberType* count = nullptr;  // of a list, else none
 };
 
 struct PlyElement {

@@ -38,8 +38,8 @@ class PlyReader {
  private:
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
 
-  double number(const PlyType& type);
-  double binary_number(const PlyType& type);
+  double number(const NumberType& type);
+  double binary_number(const NumberType& type);
   /// The numbers of one property of an element.
   void read_property(const PlyProperty& property);
   void read_elements(const PlyElement& element, const Progress& progress);
@@ -70,23 +70,16 @@ void PlyReader::fail(const std::string& problem, const std::string& remedy) cons
   throw Error(head_.form == PlyForm::text ? shown(path_, line) : shown(path_), problem, remedy);
 }
 
-double PlyReader::binary_number(const PlyType& type) {
+double PlyReader::binary_number(const NumberType& type) {
   if (bytes_.size() - at_ < type.bytes) {
     fail("it ends before the elements that its head states", "export it anew");
   }
-  std::array<char, 8> native{};
-  const std::string_view number = bytes_.substr(at_, type.bytes);
-  const bool little = head_.form == PlyForm::little_endian;
-  if (little == (std::endian::native == std::endian::little)) {
-    std::copy(number.begin(), number.end(), native.begin());
-  } else {
-    std::reverse_copy(number.begin(), number.end(), native.begin());
-  }
+  const double number = type.read(bytes_.data() + at_, head_.form == PlyForm::big_endian);
   at_ += type.bytes;
-  return type.read(native.data());
+  return number;
 }
 
-double PlyReader::number(const PlyType& type) {
+double PlyReader::number(const NumberType& type) {
   if (head_.form != PlyForm::text) {
     return binary_number(type);
   }

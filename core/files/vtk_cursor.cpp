@@ -4,8 +4,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstring>
 
+#include "files/number_type.h"
 #include "files/text.h"
 #include "mesh/error.h"
 
@@ -14,38 +14,21 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 
-struct BinaryType {
-  std::string_view name;
-  std::size_t bytes;
-  double (*read)(const char* in_native_order);
-};
-
-template <class Number>
-double read_as(const char* bytes) {
-  Number number;
-  std::memcpy(&number, bytes, sizeof number);
-  return static_cast<double>(number);
-}
-template <class Number>
-constexpr BinaryType type(std::string_view name) {
-  return {name, sizeof(Number), read_as<Number>};
-}
-
 /// As VTK's legacy readers have them on machines of 64 bits.
 constexpr std::array types{
-    type<float>("float"),
-    type<double>("double"),
-    type<std::int32_t>("int"),
-    type<std::uint32_t>("unsigned_int"),
-    type<std::int64_t>("long"),
-    type<std::uint64_t>("unsigned_long"),
-    type<std::int64_t>("vtktypeint64"),
-    type<std::uint64_t>("vtktypeuint64"),
-    type<std::int64_t>("vtkidtype"),
-    type<std::int16_t>("short"),
-    type<std::uint16_t>("unsigned_short"),
-    type<std::int8_t>("char"),
-    type<std::uint8_t>("unsigned_char"),
+    number_type<float>("float"),
+    number_type<double>("double"),
+    number_type<std::int32_t>("int"),
+    number_type<std::uint32_t>("unsigned_int"),
+    number_type<std::int64_t>("long"),
+    number_type<std::uint64_t>("unsigned_long"),
+    number_type<std::int64_t>("vtktypeint64"),
+    number_type<std::uint64_t>("vtktypeuint64"),
+    number_type<std::int64_t>("vtkidtype"),
+    number_type<std::int16_t>("short"),
+    number_type<std::uint16_t>("unsigned_short"),
+    number_type<std::int8_t>("char"),
+    number_type<std::uint8_t>("unsigned_char"),
 };
 
 std::string small(std::string_view word) {
@@ -92,21 +75,18 @@ std::uint64_t VtkCursor::count(const std::string& what) {
 
 template <class Visit>
 void VtkCursor::visit_binary(std::uint64_t count, std::string_view type, Visit visit) {
-  const std::string name = small(type);
-  const auto found = std::find_if(types.begin(), types.end(), [&](const auto& one) { return one.name == name; });
-  if (found == types.end()) {
+  const NumberType* found = find_number_type(types, small(type));
+  if (found == nullptr) {
     fail("numbers of type " + in_quotes(type) + " are not known", "save it with floats or doubles");
   }
   line();  // which the numbers begin behind
   if (count > (bytes_.size() - at_) / found->bytes) {
     fail("it ends within its numbers", "export it anew");
   }
-  std::array<char, 8> native{};
   for (std::uint64_t i = 0; i < count; ++i, at_ += found->bytes) {
     progress_.report(at_, bytes_.size());
-    const auto number = bytes_.substr(at_, found->bytes);
-    std::reverse_copy(number.begin(), number.end(), native.begin());  // the highest byte comes first
-    visit(found->read(native.data()));
+    constexpr bool big_endian = true;
+    visit(found->read(bytes_.data() + at_, big_endian));
   }
 }
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string_view>
+
+namespace chainmail {
+
+/// A type of numbers in binary files: how they are called, how many bytes one takes, and how it is read.
+struct NumberType {
+  std::string_view name;
+  std::size_t bytes;
+  double (*read_native)(const char* in_native_order);
+
+  /// The number at the beginning of `from`, which holds as many bytes; the highest comes first where it is big-endian.
+  double read(const char* from, bool big_endian) const {
+    if (big_endian == (std::endian::native == std::endian::big)) {
+      return read_native(from);
+    }
+    std::array<char, 8> native{};
+    std::reverse_copy(from, from + bytes, native.begin());
+    return read_native(native.data());
+  }
+};
+
+template <class Number>
+constexpr NumberType number_type(std::string_view name) {
+  return {name, sizeof(Number), [](const char* bytes) {
+            Number number;
+            std::memcpy(&number, bytes, sizeof number);
+            return static_cast<double>(number);
+          }};
+}
+
+/// The type of a name, or none.
+inline const NumberType* find_number_type(std::span<const NumberType> types, std::string_view name) {
+  const auto found = std::find_if(types.begin(), types.end(), [&](const auto& type) { return type.name == name; });
+  return found == types.end() ? nullptr : &*found;
+}
+
+}  // namespace chainmail
