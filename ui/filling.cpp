@@ -15,9 +15,6 @@ namespace {
 constexpr double widest = 3;
 constexpr int sliderSteps = 200;  // to either side
 
-// Points for each cube of an edge's length, in a mesh of good tetrahedra.
-constexpr double pointsPerCube = 1.4;
-
 double enclosedVolume(const Mesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -96,7 +93,7 @@ void Filling::describe() {
   const QSignalBlocker quiet(slider_);
   slider_->setValue(
       int(std::lround(sliderSteps * std::log(size / document_.mesh()->mean_link_length) / std::log(widest))));
-  const double within = pointsPerCube * volume_ / (size * size * size);
+  const double within = points_per_cube * volume_ / (size * size * size);
   const double elements = double(document_.mesh()->element_count()) + within;
   showResult(QStringLiteral("about %1 elements").arg(QLocale().toString(elements, 'g', 2)), elements < 2e6);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "command_line/watched.h"
 #include "files/text.h"
 #include "mesh/error.h"
 
@@ -151,7 +152,9 @@ OpenedMesh open_mesh(const MeshOptions& options) {
   how.space_dimension = options.space == nullptr ? std::nullopt : space_of(options.space);
   how.voxels = voxels_of(options);
   const std::filesystem::path path = *value_of(options.path);
-  return in_options({{"space dimension", "--space"}}, [&] { return chainmail::open_mesh(path, how); });
+  Watch watch("reading " + shown(path));
+  return in_options({{"space dimension", "--space"}},
+                    [&] { return chainmail::open_mesh(path, how, watch.progress()); });
 }
 
 Error at_option(const Error& error, const std::map<std::string, std::string>& options) {

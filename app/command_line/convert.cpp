@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "command_line/common.h"
+#include "command_line/watched.h"
 #include "files/fill.h"
 #include "files/outputs.h"
 #include "files/text.h"
@@ -68,8 +69,10 @@ Command add_fill(CLI::App& root) {
             mesh_format(*value_of(target), FormatUse::write);
             const OpenedMesh surface = chainmail::open_mesh(path);
             say_flaws(surface);
-            const MeshPointer filled = in_options({{"size", "--edge"}, {"surface", printable(path)}},
-                                                  [&] { return fill(*surface.mesh, size_of(size, *surface.mesh)); });
+            Watch watch("filling " + shown(path));
+            const MeshPointer filled = in_options({{"size", "--edge"}, {"surface", shown(path)}}, [&] {
+              return fill(*surface.mesh, size_of(size, *surface.mesh), watch.progress());
+            });
             write(options, *value_of(target), *filled, {});
           }};
 }

@@ -1,3 +1,5 @@
+#include "files/fill.h"
+
 #include <gmsh.h>
 #include <unistd.h>
 
@@ -150,8 +152,7 @@ ImportedMesh fill_surface(const std::filesystem::path& path, double size, const 
   const GmshSession session;
   give_surface(surface.parts, triangles);
   set_size(size);
-  // As many as of tetrahedra whose edges have that length, a sixth of them at each point.
-  const double expected = enclosed_volume(surface.parts, triangles) / (size * size * size) * 1.4;
+  const double expected = enclosed_volume(surface.parts, triangles) / (size * size * size) * points_per_cube;
   if (expected > double(element_limit)) {
     refuse("filled with edges of that size it would have more than " + std::to_string(element_limit) + " elements",
            "choose a larger size");
