@@ -1,7 +1,6 @@
 #include "filling.h"
 
 #include <Eigen/Geometry>
-#include <QLocale>
 #include <QSignalBlocker>
 #include <cmath>
 
@@ -14,6 +13,15 @@ namespace {
 // takes minutes.
 constexpr double widest = 3;
 constexpr int sliderSteps = 200;  // to either side
+
+// More take minutes and are too many for a hand.
+constexpr double mostElements = 2e6;
+
+/// To two digits.
+double roughly(double number) {
+  const double unit = std::pow(10, std::floor(std::log10(number)) - 1);
+  return unit * std::round(number / unit);
+}
 
 double enclosedVolume(const Mesh& mesh) {
   double sum = 0;
@@ -95,7 +103,7 @@ void Filling::describe() {
       int(std::lround(sliderSteps * std::log(size / document_.mesh()->mean_link_length) / std::log(widest))));
   const double within = points_per_cube * volume_ / (size * size * size);
   const double elements = double(document_.mesh()->element_count()) + within;
-  showResult(QStringLiteral("about %1 elements").arg(QLocale().toString(elements, 'g', 2)), elements < 2e6);
+  showResult(QStringLiteral("about %L1 elements").arg(qlonglong(roughly(elements))), elements < mostElements);
 }
 
 void Filling::start() {
