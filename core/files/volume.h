@@ -27,6 +27,8 @@ struct Volume {
 };
 
 inline constexpr double most_density_steps = 65535;
+/// Densities beyond this are refused: their sums must stay finite in single precision.
+inline constexpr double density_limit = 1e30;
 
 /// More voxels than this are refused before memory is taken: 2 GiB of them.
 inline constexpr std::uint64_t voxel_limit = std::uint64_t{1} << 30;
