@@ -1,5 +1,7 @@
 #include <QtTest>
+#include <atomic>
 #include <chrono>
+#include <ctime>
 #include <thread>
 
 #include "core/comparisons.h"
@@ -67,21 +69,20 @@ void CompareRunTest::stops_between_repetitions() {
 }
 
 void CompareRunTest::stops_between_sweeps() {
-  using Clock = std::chrono::steady_clock;
   const auto grid = make_mesh(MeshKind::grid, {64, 64, 1});
   const Case one = object(grid, drag(*grid, 2080, {40, 20, 0}));
   std::stop_source stop;
-  Clock::time_point asked;
+  std::atomic<std::clock_t> asked = 0;
   const std::jthread hand([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(30));
-    asked = Clock::now();
+    asked = std::clock();
     stop.request_stop();
   });
   // So many sweeps would take hours.
   const auto comparison = compare({one}, quick({Algorithm::exact}, {100'000'000}), {}, stop.get_token());
   QVERIFY(comparison.stopped);
-  // What a user still takes for at once; a sweep takes a hundredth of it.
-  QVERIFY(Clock::now() - asked < std::chrono::milliseconds(100));
+  // What a user still takes for at once; a sweep takes a hundredth of it. In this program's own time: others may run.
+  QVERIFY(std::clock() - asked < CLOCKS_PER_SEC / 10);
 }
 
 void CompareRunTest::progress_goes_from_0_to_1() {
