@@ -141,30 +141,29 @@ void FileActions::openPath(const QString& path, bool first) {
     sheets_->openPath(path, first);
     return;
   }
-  try {
-    if (is_volume(asPath(path))) {
-      volumes_->openPath(path, first);
-      return;
-    }
-  } catch (const Error& error) {
-    emit failed(QString::fromUtf8(error.what()));
-    return;
-  }
-  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
-              [this, path, first](const Progress& progress) -> Jobs::Finish {
-                const OpenedMesh opened = open_mesh(asPath(path), {}, progress);
-                return [this, opened, path, first] { show(opened, path, first); };
-              });
+  read(path, first, true);
 }
 
 void FileActions::openSample(const QString& path) {
   if (isPicture(path)) {
     sheets_->open(path, SheetBar::standardAcross);
-  } else if (!is_session(asPath(path)) && is_volume(asPath(path))) {
-    volumes_->open(path);
+  } else if (is_session(asPath(path))) {
+    sessions_.openPath(path, false);
   } else {
-    openPath(path);
+    read(path, false, false);
   }
+}
+
+/// A mesh or a volume, of which it may be asked how.
+void FileActions::read(const QString& path, bool first, bool ask) {
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
+              [this, path, first, ask](const Progress& progress) -> Jobs::Finish {
+                if (is_volume(asPath(path))) {
+                  return ask ? volumes_->read(path, first, progress) : volumes_->readAsOffered(path, progress);
+                }
+                const OpenedMesh opened = open_mesh(asPath(path), {}, progress);
+                return [this, opened, path, first] { show(opened, path, first); };
+              });
 }
 
 void FileActions::show(const OpenedMesh& opened, const QString& path, bool first) {

@@ -48,6 +48,7 @@ class FileActions : public QObject {
  private:
   void addSaveActions(QMenu& menu);
   void addShapeActions(QMenu& menu);
+  void read(const QString& path, bool first, bool ask);
   void show(const OpenedMesh& opened, const QString& path, bool first);
   void write(const QString& path, const std::shared_ptr<const Frame>& shape);
   void fillRecent();

@@ -19,18 +19,14 @@ Volumes::Volumes(Document& document, Jobs& jobs)
   connect(bar_, &AskBar::agreed, this, &Volumes::build);
 }
 
-void Volumes::openPath(const QString& path, bool first) {
-  const QString name = QFileInfo(path).fileName();
-  jobs_.start(Jobs::Kind::load, QStringLiteral("Reading %1").arg(name),
-              [this, path, name, first](const Progress& progress) -> Jobs::Finish {
-                auto volume = std::make_shared<const OpenedVolume>(read_volume(asPath(path), progress));
-                return [this, path, name, first, volume] {
-                  path_ = path;
-                  first_ = first;
-                  volume_ = volume;
-                  bar_->ask(name, volume);
-                };
-              });
+Jobs::Finish Volumes::read(const QString& path, bool first, const Progress& progress) {
+  auto volume = std::make_shared<const OpenedVolume>(read_volume(asPath(path), progress));
+  return [this, path, first, volume] {
+    path_ = path;
+    first_ = first;
+    volume_ = volume;
+    bar_->ask(QFileInfo(path).fileName(), volume);
+  };
 }
 
 void Volumes::build() {
@@ -44,14 +40,10 @@ void Volumes::build() {
               });
 }
 
-void Volumes::open(const QString& path) {
-  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
-              [this, path](const Progress& progress) -> Jobs::Finish {
-                const auto volume = read_volume(asPath(path), progress.part(0, 0.5));
-                auto block =
-                    std::make_shared<VoxelBlock>(voxel_block(volume, {}, shown(asPath(path)), progress.part(0.5, 1)));
-                return [this, path, block] { show(*block, path, false); };
-              });
+Jobs::Finish Volumes::readAsOffered(const QString& path, const Progress& progress) {
+  const auto volume = read_volume(asPath(path), progress.part(0, 0.5));
+  auto block = std::make_shared<VoxelBlock>(voxel_block(volume, {}, shown(asPath(path)), progress.part(0.5, 1)));
+  return [this, path, block] { show(*block, path, false); };
 }
 
 void Volumes::show(VoxelBlock& block, const QString& path, bool first) {

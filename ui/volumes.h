@@ -20,10 +20,11 @@ class Volumes : public QObject {
   Volumes(Document& document, Jobs& jobs);
 
   VolumeBar& bar() { return *bar_; }
-  /// Reads it and asks; as one step of undo, or as the window's first object.
-  void openPath(const QString& path, bool first = false);
-  /// Opens it as it is offered first, and asks nothing.
-  void open(const QString& path);
+  /// What a job does that opens one: it reads it, on its own thread, and asks in the end. It becomes one step of undo,
+  /// or the window's first object.
+  Jobs::Finish read(const QString& path, bool first, const Progress& progress);
+  /// The same as it would be offered first, with nothing asked.
+  Jobs::Finish readAsOffered(const QString& path, const Progress& progress);
 
  signals:
   void opened(const QString& path);
