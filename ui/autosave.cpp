@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "as_path.h"
 #include "files/session.h"
 #include "main_window.h"
 #include "mesh/progress.h"
@@ -32,8 +33,6 @@ void dropOldest() {
     QFile::remove(file.filePath());
   }
 }
-
-std::filesystem::path asPath(const QString& path) { return std::filesystem::path(path.toStdU16String()); }
 
 QString newPath() {
   return QDir(Autosave::folder())

@@ -6,6 +6,7 @@
 #include <QSettings>
 #include <filesystem>
 
+#include "as_path.h"
 #include "ask_where.h"
 #include "files/open_mesh.h"
 #include "files/session.h"
@@ -24,8 +25,6 @@ namespace chainmail {
 namespace {
 
 constexpr int recentFiles = 8;
-
-std::filesystem::path asPath(const QString& path) { return std::filesystem::path(path.toStdU16String()); }
 
 QString endings(FormatUse use) { return QString::fromStdString(mesh_endings(use)); }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "as_path.h"
 #include "files/outputs.h"
 #include "mesh/error.h"
 
@@ -11,8 +12,6 @@ namespace chainmail {
 namespace {
 
 QString key() { return QStringLiteral("softnessPresets"); }
-
-std::filesystem::path asPath(const QString& path) { return std::filesystem::path(path.toStdU16String()); }
 
 bool isBuiltIn(const std::string& name) {
   return std::ranges::any_of(built_in_presets(), [&](const BuiltInPreset& one) { return one.name == name; });

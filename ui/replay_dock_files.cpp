@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 
+#include "as_path.h"
 #include "files/moves.h"
 #include "files/outputs.h"
 #include "icons.h"
@@ -14,8 +15,6 @@ namespace chainmail {
 namespace {
 
 QString movesFilter() { return QStringLiteral("Recorded moves (*.json)"); }
-std::filesystem::path asPath(const QString& path) { return std::filesystem::path(path.toStdU16String()); }
-
 }  // namespace
 
 QAction* ReplayDock::add(const char* name, const QString& text, const char* drawing, const QKeySequence& key,

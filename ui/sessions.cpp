@@ -5,6 +5,7 @@
 #include <QJsonObject>
 #include <algorithm>
 
+#include "as_path.h"
 #include "autosave.h"
 #include "main_window.h"
 #include "recovery_bar.h"
@@ -14,8 +15,6 @@
 
 namespace chainmail {
 namespace {
-
-std::filesystem::path asPath(const QString& path) { return std::filesystem::path(path.toStdU16String()); }
 
 /// The file that an autosaved session was opened from or saved to, if any.
 QString ownFile(const Session& session) {

@@ -3,17 +3,12 @@
 #include <QFileInfo>
 #include <filesystem>
 
+#include "as_path.h"
 #include "files/open_mesh.h"
 #include "files/text.h"
 #include "volume_bar.h"
 
 namespace chainmail {
-namespace {
-
-std::filesystem::path asPath(const QString& path) { return {path.toStdU16String()}; }
-
-}  // namespace
-
 Volumes::Volumes(Document& document, Jobs& jobs)
     : QObject(&jobs), document_(document), jobs_(jobs), bar_(new VolumeBar) {
   connect(bar_, &AskBar::agreed, this, &Volumes::build);

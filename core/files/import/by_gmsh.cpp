@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <numeric>
-#include <optional>
-#include <sstream>
 
 #include "files/import/counts.h"
 #include "files/import/gmsh_session.h"

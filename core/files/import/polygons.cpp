@@ -3,7 +3,7 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
-#include <fstream>
+#include <iterator>
 
 #include "files/import/tasks.h"
 #include "mesh/error.h"
