@@ -41,7 +41,8 @@ SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidge
       cancel_(new QPushButton(QStringLiteral("Cancel"))),
       copy_(new QPushButton(icon("copy"), QStringLiteral("Copy table"))),
       save_(new QPushButton(icon("save"), QStringLiteral("Save…"))),
-      progress_(new QProgressBar) {
+      progress_(new QProgressBar),
+      escape_(new QShortcut(Qt::Key_Escape, &window)) {
   setObjectName(QStringLiteral("sizeTestDock"));
   auto* note = new QLabel(QStringLiteral("Times measured here share the machine with the window."));
   note->setToolTip(QStringLiteral("For times to quote, run 'chainmail ramp' on a quiet machine"));
@@ -68,6 +69,7 @@ SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidge
     connect(&document, changed, this, &SizeTestDock::followPanels, Qt::QueuedConnection);  // after the panels
   }
   connect(&document, &Document::algorithmChanged, this, &SizeTestDock::followPanels);
+  connect(escape_, &QShortcut::activated, this, &SizeTestDock::cancel);
   followPanels();
   showState();
 }
@@ -129,8 +131,6 @@ void SizeTestDock::start() {
   area_.hide();
   stage_->show();
   rest_ = std::make_unique<WindowRest>(window_, *this, QStringList{QStringLiteral("quit")});
-  escape_ = std::make_unique<QShortcut>(Qt::Key_Escape, &window_);
-  connect(escape_.get(), &QShortcut::activated, this, &SizeTestDock::cancel);
   showState();
   stage_->start();
 }
@@ -159,7 +159,6 @@ void SizeTestDock::leave() {
   disconnect(stage, nullptr, table_, nullptr);
   stage->hide();
   area_.show();
-  escape_.reset();
   rest_.reset();
   table_->setGrowing(false);
   showState();
@@ -176,6 +175,7 @@ void SizeTestDock::showState() {
   choices_->setEnabled(!running());
   run_->setEnabled(!running());
   cancel_->setEnabled(running());
+  escape_->setEnabled(running());
   const bool empty = table_->rows().empty();
   copy_->setEnabled(!empty);
   save_->setEnabled(!empty && !running());

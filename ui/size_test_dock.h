@@ -63,7 +63,7 @@ class SizeTestDock : public QDockWidget {
   QProgressBar* progress_;
   QPointer<SizeTestStage> stage_;  // a closing window takes it along with the panels
   std::unique_ptr<WindowRest> rest_;
-  std::unique_ptr<QShortcut> escape_;
+  QShortcut* escape_;         // acts while a test runs; made once, as a window that hides looks at each child it had
   QElapsedTimer sinceShown_;  // since the last progress
 };
 
