@@ -6,7 +6,7 @@ set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chainmail)
 install(TARGETS chainmail_core EXPORT chainmail
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core)
-foreach(room IN ITEMS mesh solve measure simulate report)
+foreach(room IN ITEMS mesh elastic solve measure simulate report)
   install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/chainmail COMPONENT core
     FILES_MATCHING PATTERN "*.h")
 endforeach()

@@ -48,6 +48,8 @@ class MoveWriter {
   Json operator()(const commands::Place&) const { refuse(); }
   Json operator()(const commands::RestoreState&) const { refuse(); }
   Json operator()(const commands::SetRelaxation&) const { return {}; }
+  Json operator()(const commands::SetElastic&) const { return {}; }
+  Json operator()(const commands::MoveControlPoint&) const { return {}; }
   Json operator()(const commands::SetAlgorithm&) const { return {}; }
   Json operator()(const commands::KeepState&) const { return {}; }
   Json operator()(const commands::DropState&) const { return {}; }

@@ -25,6 +25,7 @@ struct Case {
   std::vector<ElementId> pins;
   Softness softness;
   std::vector<RecordedMoves> drags;
+  ElasticOptions elastic = {};
 };
 
 /// The objects on which the algorithms are compared where nobody says otherwise, each with its three drags.

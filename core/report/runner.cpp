@@ -28,6 +28,7 @@ Runner::Runner(const Case& object, Algorithm algorithm, Precision precision, con
       relax_step_(options.relax_step),
       simulation_(object.mesh, algorithm, precision) {
   simulation_.apply(commands::SetRelaxation{false, options.relax_step, options.scheme});
+  simulation_.apply(commands::SetElastic{object.elastic});
 }
 
 void Runner::go_to_rest() {
@@ -64,7 +65,7 @@ Runner::Run Runner::run(const RecordedMoves& moves, int sweeps, const std::stop_
 
 void Runner::carry_out(const Command& command, int sweeps, const std::stop_token& stop, Run& run) {
   using namespace commands;
-  if (is_one_of<SetAlgorithm, SetRelaxation, KeepState, DropState>(command)) {
+  if (is_one_of<SetAlgorithm, SetRelaxation, SetElastic, MoveControlPoint, KeepState, DropState>(command)) {
     return;
   }
   const double applying = 1e3 * seconds_of(clocks_, [&] { simulation_.apply(command); });

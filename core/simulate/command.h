@@ -49,6 +49,15 @@ struct Relax {
   double step = 1;
   RelaxationScheme scheme = RelaxationScheme::mean;
 };
+/// What methods of elasticity and free-form deformation go by.
+struct SetElastic {
+  ElasticOptions options;
+};
+/// Puts a control point of free-form deformation somewhere (mesh units).
+struct MoveControlPoint {
+  std::uint32_t point = 0;
+  Point target = Point::Zero();
+};
 struct SetAlgorithm {
   Algorithm algorithm = Algorithm::natural_queue;
 };
@@ -95,9 +104,10 @@ struct DropState {
 
 }  // namespace commands
 
-using Command = std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness,
-                             commands::SetRelaxation, commands::Relax, commands::SetAlgorithm, commands::Cut,
-                             commands::Uncut, commands::Pin, commands::Unpin, commands::Reset, commands::ReplaceMesh,
-                             commands::Place, commands::KeepState, commands::RestoreState, commands::DropState>;
+using Command =
+    std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness, commands::SetRelaxation,
+                 commands::Relax, commands::SetAlgorithm, commands::Cut, commands::Uncut, commands::Pin,
+                 commands::Unpin, commands::Reset, commands::ReplaceMesh, commands::Place, commands::KeepState,
+                 commands::RestoreState, commands::DropState, commands::SetElastic, commands::MoveControlPoint>;
 
 }  // namespace chainmail

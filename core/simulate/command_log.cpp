@@ -25,7 +25,9 @@ void CommandLog::flush() {
 void CommandLog::post(const Command& command) {
   const bool sampled = std::holds_alternative<commands::Drag>(command) ||
                        std::holds_alternative<commands::SetSoftness>(command) ||
-                       std::holds_alternative<commands::SetRelaxation>(command);
+                       std::holds_alternative<commands::SetRelaxation>(command) ||
+                       std::holds_alternative<commands::SetElastic>(command) ||
+                       std::holds_alternative<commands::MoveControlPoint>(command);
   if (waiting_ && waiting_->index() != command.index()) {
     flush();
   }

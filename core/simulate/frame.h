@@ -19,6 +19,8 @@ struct Frame {
   /// One a block of block_elements elements, in id order: the number of the frame in which a position of the block
   /// last changed. Whoever has shown frame n needs the blocks above n alone; of another mesh, all of them.
   std::vector<std::uint64_t> changed;
+  /// The control points of free-form deformation, space_dimension coordinates each (mesh units); none by others.
+  std::vector<float> control_points;
   Statistics statistics;
   std::uint64_t number = 0;
   /// Numbers of frames of another series say nothing of this one's: whoever has shown one needs all blocks.

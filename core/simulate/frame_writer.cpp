@@ -38,7 +38,7 @@ void FrameWriter::note_changes(Simulation& simulation) {
   simulation.forget_changes();
 }
 
-void FrameWriter::fill(Frame& frame, ElementBlocks& pending, const Simulation& simulation) {
+void FrameWriter::fill(Frame& frame, ElementBlocks& pending, Simulation& simulation) {
   const auto coordinates = static_cast<std::size_t>(mesh_->space_dimension);
   frame.mesh = mesh_;
   frame.positions.resize(mesh_->rest.size());
@@ -49,6 +49,8 @@ void FrameWriter::fill(Frame& frame, ElementBlocks& pending, const Simulation& s
     std::ranges::copy(blocks_of(changed_, first, end), blocks_of(frame.changed, first, end).begin());
   });
   pending.clear();
+  const auto control_points = simulation.control_points();
+  frame.control_points.assign(control_points.begin(), control_points.end());
   frame.statistics = simulation.statistics();
   frame.number = number_;
 }

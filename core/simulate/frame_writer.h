@@ -19,7 +19,7 @@ class FrameWriter {
 
  private:
   void note_changes(Simulation& simulation);
-  void fill(Frame& frame, ElementBlocks& pending, const Simulation& simulation);
+  void fill(Frame& frame, ElementBlocks& pending, Simulation& simulation);
 
   TripleBuffer& frames_;
   std::uint64_t number_ = 0;

@@ -26,6 +26,7 @@ struct Handover {
   ObjectState object;
   std::map<commands::StateId, ObjectState> kept;  // for undo
   commands::SetRelaxation relaxation;
+  ElasticOptions elastic;
   std::optional<ElementId> grabbed;
   std::optional<ElementId> last_moved;  // the element of the last pass
 };

@@ -39,9 +39,20 @@ void Simulation::apply(const Command& command) {
 }
 
 void Simulation::pass(ElementId element, const Point& target) {
+  time_pass([&] { return solver_->move(element, target, trace_); });
+  last_moved_ = element;
+  valid_ = algorithm_ == Algorithm::exact;
+  for (const auto& moved : {std::span<const ElementId>(&element, 1), solver_->moved()}) {
+    mark(moved);
+    wake(moved);
+  }
+}
+
+template <class Move>
+void Simulation::time_pass(Move move) {
   const auto start = Clock::now();
   try {
-    statistics_.last_pass = solver_->move(element, target, trace_);
+    statistics_.last_pass = move();
   } catch (const std::bad_alloc&) {
     mark_all();  // it may have ended in the middle
     throw;
@@ -50,12 +61,16 @@ void Simulation::pass(ElementId element, const Point& target) {
   statistics_.last_pass_ms = std::chrono::duration<double, std::milli>(end - start).count();
   times_.add(end, statistics_.last_pass_ms);
   ++statistics_.passes;
-  last_moved_ = element;
-  valid_ = algorithm_ == Algorithm::exact;
-  for (const auto& moved : {std::span<const ElementId>(&element, 1), solver_->moved()}) {
-    mark(moved);
-    wake(moved);
+  statistics_.remark = solver_->remark();
+}
+
+void Simulation::carry_out(const commands::MoveControlPoint& command) {
+  if (algorithm_ != Algorithm::free_form) {
+    return;  // the others have none
   }
+  time_pass([&] { return solver_->move_control_point(command.point, command.target); });
+  valid_ = false;
+  mark(solver_->moved());
 }
 
 void Simulation::mark(std::span<const ElementId> moved) {
@@ -92,8 +107,8 @@ bool Simulation::step() {
 }
 
 void Simulation::relax(int count, double step, const std::stop_token& stop) {
-  if (count == 0) {
-    return;
+  if (count == 0 || elastic_method(algorithm_)) {
+    return;  // a static answer is where it should be
   }
   measure_.reset();
   if (last_moved_) {
@@ -160,6 +175,7 @@ void Simulation::take_mesh(MeshPointer mesh) {
   const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
   solver_ = make_solver(mesh, algorithm, precision_);  // may find no memory: nothing has changed yet
   solver_->set_relaxation(relaxation_scheme_);
+  solver_->set_elastic(elastic_);
   softness_ = std::make_shared<const Softness>();  // as every solver begins
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
@@ -177,11 +193,12 @@ void Simulation::take_mesh(MeshPointer mesh) {
 void Simulation::forget_passes() {
   statistics_.last_pass = {};
   statistics_.last_pass_ms = 0;
+  statistics_.remark.clear();
   times_.clear();
 }
 
 void Simulation::wake(std::span<const ElementId> elements) {
-  if (relaxation_on_) {
+  if (relaxation_on_ && !elastic_method(algorithm_)) {
     solver_->wake(elements);
     woken_ = true;
     relaxation_deadline_ = Clock::now() + relaxation_time;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "measure/pass_times.h"
@@ -26,6 +27,8 @@ struct Statistics {
   bool violation_of_whole_mesh = false;  // else of the links that the last pass touched
   bool relaxing = false;
   std::uint64_t sweeps = 0;  // since the last pass
+  /// Why the last pass did not end where it should have; empty mostly.
+  std::string remark;
 };
 
 /// An object in time: commands in, positions and statistics out. It knows no thread.
@@ -56,7 +59,10 @@ class Simulation {
   const MeshPointer& mesh_pointer() const { return mesh_; }
   const Solver& solver() const { return *solver_; }
   const Softness& softness() const { return *softness_; }
+  const ElasticOptions& elastic() const { return elastic_; }
   std::optional<ElementId> grabbed() const { return grabbed_; }
+  /// Those of free-form deformation, which is prepared for them; none by other algorithms.
+  std::span<const double> control_points() { return solver_->control_points(); }
   /// The element that the last pass was about.
   std::optional<ElementId> last_moved() const { return last_moved_; }
   /// Where the elements stand, to be placed there again.
@@ -92,6 +98,8 @@ class Simulation {
   void carry_out(const commands::Reset& command);
   void carry_out(const commands::ReplaceMesh& command);
   void carry_out(const commands::Place& command);
+  void carry_out(const commands::SetElastic& command);
+  void carry_out(const commands::MoveControlPoint& command);
   void carry_out(const commands::KeepState& command);
   void carry_out(const commands::RestoreState& command);
   void carry_out(const commands::DropState& command);
@@ -100,6 +108,8 @@ class Simulation {
   void forget_passes();
   void set_softness(std::shared_ptr<const Softness> softness);
   void pass(ElementId element, const Point& target);
+  template <class Move>
+  void time_pass(Move move);
   void mark(std::span<const ElementId> moved);
   void mark_all();
   State& kept(commands::StateId state);
@@ -119,6 +129,7 @@ class Simulation {
   Precision precision_;
   std::unique_ptr<Solver> solver_;
   std::shared_ptr<const Softness> softness_ = std::make_shared<const Softness>();
+  ElasticOptions elastic_;
   ElementBlocks changed_;    // since they were last forgotten
   ElementBlocks away_;       // no element outside them stands away from rest
   KeptPositions last_kept_;  // as positions were last kept or taken back

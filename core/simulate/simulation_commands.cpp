@@ -71,6 +71,17 @@ void Simulation::answer() {
   }
 }
 
+void Simulation::carry_out(const commands::SetElastic& command) {
+  check(command.options);
+  if (command.options != elastic_) {
+    elastic_ = command.options;
+    solver_->set_elastic(elastic_);
+    if (elastic_method(algorithm_)) {
+      answer();
+    }
+  }
+}
+
 namespace {
 
 void check_step(double step) {
@@ -93,7 +104,7 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
   const bool was_on = std::exchange(relaxation_on_, command.on);
   relaxation_step_ = command.step;
   solver_->set_relaxation(relaxation_scheme_ = command.scheme);
-  if (command.on && !was_on) {
+  if (command.on && !was_on && !elastic_method(algorithm_)) {
     solver_->wake_all();
     wake({});
   } else if (!command.on) {
@@ -112,8 +123,11 @@ void Simulation::carry_out(const commands::SetAlgorithm& command) {
   }
   statistics_.algorithm = algorithm_;
   forget_passes();
-  if (algorithm_ == Algorithm::exact) {
-    answer();  // it holds every link, whatever state it takes over
+  if (elastic_method(algorithm_)) {
+    fall_asleep();
+  }
+  if (algorithm_ == Algorithm::exact || elastic_method(algorithm_)) {
+    answer();  // it holds every link, or is in balance, whatever state it takes over
   }
 }
 

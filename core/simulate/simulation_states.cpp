@@ -43,12 +43,14 @@ Simulation::State& Simulation::kept(commands::StateId state) {
 }
 
 Handover Simulation::hand_over() {
-  return {current_state(), kept_, {relaxation_on_, relaxation_step_, relaxation_scheme_}, grabbed_, last_moved_};
+  return {current_state(), kept_,    {relaxation_on_, relaxation_step_, relaxation_scheme_},
+          elastic_,        grabbed_, last_moved_};
 }
 
 void Simulation::take(const Handover& handover, Algorithm algorithm) {
   measure_.reset();
   algorithm_ = algorithm;
+  elastic_ = handover.elastic;
   take_mesh(handover.object.mesh);
   take_state(handover.object);
   kept_ = handover.kept;

@@ -25,7 +25,7 @@ void Tape::note(const Command& command) {
     kept_.erase(drop->state);
   } else if (std::holds_alternative<ReplaceMesh>(command)) {
     begin_mesh();
-  } else if (!is_one_of<SetAlgorithm, SetRelaxation>(command)) {
+  } else if (!is_one_of<SetAlgorithm, SetRelaxation, SetElastic, MoveControlPoint>(command)) {
     add(command);
   }
 }

@@ -40,8 +40,8 @@ class ListSolver {
       case Algorithm::original:
         directions_.propagate(body, record_, grabbed, moved);
         break;
-      case Algorithm::exact:
-        break;  // has no list
+      default:
+        break;  // the others have no list
     }
     return record_.steps();
   }

@@ -4,9 +4,11 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "elastic/elastic.h"
 #include "mesh/cuts.h"
 #include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
@@ -17,7 +19,18 @@
 
 namespace chainmail {
 
-enum class Algorithm { generalized, spiral, natural_queue, enhanced, original, exact };
+enum class Algorithm {
+  generalized,
+  spiral,
+  natural_queue,
+  enhanced,
+  original,
+  exact,
+  linear_fem,
+  neo_hookean,
+  boundary_elements,
+  free_form
+};
 
 /// How an algorithm is called: `name` on the command line, `label` in the window, and its source.
 struct AlgorithmInfo {
@@ -27,9 +40,15 @@ struct AlgorithmInfo {
   std::string_view source;
 };
 
-/// Every algorithm, in the order in which they are offered.
+/// Every algorithm of the ChainMail family, in the order in which they are offered.
 std::span<const AlgorithmInfo> algorithms();
+/// What they are compared with: methods of elasticity, and free-form deformation.
+std::span<const AlgorithmInfo> elastic_algorithms();
+/// First the ChainMail family, then the others.
+std::span<const AlgorithmInfo> every_algorithm();
 const AlgorithmInfo& info(Algorithm algorithm);
+/// The method of one that is none of the ChainMail family.
+std::optional<ElasticMethod> elastic_method(Algorithm algorithm);
 /// The algorithm of this name, if there is one.
 std::optional<Algorithm> find_algorithm(std::string_view name);
 
@@ -41,7 +60,7 @@ double position_limit(Precision precision);
 /// Throws Error, saying why, where a placement is none of this mesh, or holds numbers beyond that limit.
 void check(const Placement& placement, const Mesh& mesh, Precision precision);
 
-/// Whether an algorithm works on a mesh: 3D ChainMail does on grids alone.
+/// Whether an algorithm works on a mesh: 3D ChainMail does on grids alone, others need cells or faces.
 bool fits(Algorithm algorithm, const Mesh& mesh);
 /// Throws Error, saying why, where it does not.
 void check(Algorithm algorithm, const Mesh& mesh);
@@ -102,6 +121,8 @@ class Solver {
   /// Throws Error where the algorithm does not work on the mesh; nothing has changed then.
   virtual void set_algorithm(Algorithm algorithm) = 0;
   virtual void set_softness(const Softness& softness) = 0;
+  /// What the methods of elasticity go by; the ChainMail family does not look at it.
+  virtual void set_elastic(const ElasticOptions& options) = 0;
   virtual void cut(std::span<const LinkId> links) = 0;
   virtual void uncut(std::span<const LinkId> links) = 0;
   /// Pinned elements stay where they are; to move one is an error.
@@ -119,6 +140,12 @@ class Solver {
   /// pinned, where the target is not a finite number of the solver's scalar, and, with Exact ChainMail,
   /// where pins contradict each other; nothing has moved then.
   virtual PassCount move(ElementId element, const Point& target, Trace* trace = nullptr) = 0;
+  /// Where the last pass did not end where it should have: why. Empty mostly.
+  virtual const std::string& remark() const = 0;
+  /// The control points of free-form deformation, as ElasticSolver has them; none by other algorithms.
+  virtual std::span<const double> control_points() = 0;
+  /// Puts one of them somewhere (mesh units): a pass, about no element. Throws Error where there is no such point.
+  virtual PassCount move_control_point(std::size_t point, const Point& target) = 0;
   /// The elements that the last pass moved, in order of update, without the grabbed one.
   virtual std::span<const ElementId> moved() const = 0;
 

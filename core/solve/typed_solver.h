@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "mesh/error.h"
+#include "solve/elastic_body.h"
 #include "solve/exact_solver.h"
 #include "solve/list_solver.h"
 #include "solve/placing.h"
@@ -29,6 +30,7 @@ class TypedSolver final : public Solver {
     check(algorithm, *body_.mesh);
     algorithm_ = algorithm;
     forget();
+    elastic_.forget();
     if (body_.from_rest != (algorithm == Algorithm::exact)) {
       body_.hold_from_rest(algorithm == Algorithm::exact, softness_);
       exact_.set_valid(at_rest_);
@@ -46,11 +48,14 @@ class TypedSolver final : public Solver {
     exact_.set_valid(at_rest_);
   }
 
+  void set_elastic(const ElasticOptions& options) override { elastic_.set(options); }
+
   void cut(std::span<const LinkId> links) override {
     for (const LinkId link : links) {
       body_.cuts.cut(link);
     }
     forget();
+    elastic_.forget();
   }
 
   void uncut(std::span<const LinkId> links) override {
@@ -58,6 +63,7 @@ class TypedSolver final : public Solver {
       body_.cuts.uncut(link);
     }
     forget();
+    elastic_.forget();
     exact_.set_valid(at_rest_);
   }
 
@@ -87,6 +93,7 @@ class TypedSolver final : public Solver {
     away.for_each_run([this](ElementId first, ElementId end) { put_to_rest(first, end); });
     forget();
     relaxation_.sleep();
+    elastic_.reset();
     at_rest_ = true;
     exact_.set_valid(true);
   }
@@ -108,14 +115,39 @@ class TypedSolver final : public Solver {
       }
     }
     try {
-      const PassCount count = algorithm_ == Algorithm::exact ? exact_.move(body_, pins_, element, next, moved_, trace)
-                                                             : move_by_lists(element, next, trace);
+      const PassCount count = elastic_method(algorithm_)       ? move_elastically(element, next)
+                              : algorithm_ == Algorithm::exact ? exact_.move(body_, pins_, element, next, moved_, trace)
+                                                               : move_by_lists(element, next, trace);
       at_rest_ = false;
       return count;
     } catch (const std::bad_alloc&) {
       drop_pass();
       throw;
     }
+  }
+
+  const std::string& remark() const override { return elastic_.remark(); }
+  std::span<const double> control_points() override {
+    if (algorithm_ != Algorithm::free_form) {
+      return {};
+    }
+    elastic_.prepare(body_, ElasticMethod::free_form, pins_);
+    return elastic_.control_points();
+  }
+
+  PassCount move_control_point(std::size_t point, const Point& target) override {
+    if (point >= control_points().size() / Dimension) {
+      throw Error("control point " + std::to_string(point), "there is no such point",
+                  "choose free-form deformation, and one of its points");
+    }
+    double to[Dimension];
+    for (int k = 0; k < Dimension; ++k) {
+      to[k] = target[body_.mesh->axes[k]];
+    }
+    const PassCount count = elastic_.move_control_point(body_, point, to, moved_);
+    at_rest_ = false;
+    exact_.set_valid(false);
+    return count;
   }
 
   std::span<const ElementId> moved() const override { return moved_; }
@@ -215,6 +247,7 @@ class TypedSolver final : public Solver {
       body_.set_pinned(pin, true);
     }
     forget();
+    elastic_.forget();
   }
 
   void put_to_rest(ElementId first, ElementId end) {
@@ -239,8 +272,14 @@ class TypedSolver final : public Solver {
 
   void take_positions() {
     relaxation_.sleep();
+    elastic_.start_anew();
     at_rest_ = false;
     exact_.set_valid(false);
+  }
+
+  PassCount move_elastically(ElementId element, const Scalar (&target)[Dimension]) {
+    exact_.set_valid(false);
+    return elastic_.move(body_, *elastic_method(algorithm_), pins_, element, target, moved_);
   }
 
   PassCount move_by_lists(ElementId element, const Scalar (&target)[Dimension], Trace* trace) {
@@ -286,6 +325,7 @@ class TypedSolver final : public Solver {
   std::vector<ElementId> pins_;  // ascending
   ListSolver<Scalar, Dimension> lists_;
   ExactSolver<Scalar, Dimension> exact_;
+  ElasticBody elastic_;
   std::vector<ElementId> moved_;
   Relaxation<Scalar, Dimension> relaxation_;
   RelaxationScheme scheme_ = RelaxationScheme::mean;

@@ -145,7 +145,7 @@ void run_directions(Body& body, Outcomes& outcomes, Log& log, ElementId grabbed)
 WaitingHistory::WaitingHistory(const RecordedPass& pass) {
   if (pass.algorithm == Algorithm::natural_queue) {
     follow_natural_queue(pass);
-  } else if (pass.algorithm != Algorithm::exact) {
+  } else if (pass.algorithm != Algorithm::exact && !elastic_method(pass.algorithm)) {
     pass.mesh->space_dimension == 1   ? follow<1>(pass)
     : pass.mesh->space_dimension == 2 ? follow<2>(pass)
                                       : follow<3>(pass);

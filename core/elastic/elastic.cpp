@@ -1,0 +1,92 @@
+#include "elastic/elastic.h"
+
+#include <array>
+
+#include "elastic/methods.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+// By object dimension: what a factorization takes in seconds and in memory of a desktop, measured.
+constexpr std::array<std::uint64_t, 4> linear_limit{0, 1'000'000, 150'000, 30'000};
+constexpr std::array<std::uint64_t, 4> neo_hookean_limit{0, 200'000, 40'000, 12'000};
+constexpr std::uint64_t boundary_limit = 2'000;  // triangles
+
+[[noreturn]] void refuse_size(const std::string& where, std::uint64_t has, std::uint64_t most, const char* what) {
+  throw Error(
+      where,
+      "it takes objects of up to " + std::to_string(most) + " " + what + ", and this one has " + std::to_string(has),
+      "use a coarser mesh");
+}
+
+void check_fem(const std::string& where, const Mesh& mesh, const std::array<std::uint64_t, 4>& limits) {
+  const bool has_cells = !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
+  if (mesh.space_dimension == 3 && !has_cells && !mesh.is_grid) {
+    throw Error(where, "the object has no tetrahedra or hexahedra, so it is no solid",
+                "fill its surface with 'chainmail fill', or by Object > Fill surface");
+  }
+  if (mesh.space_dimension == 2 && mesh.triangles.empty() && !mesh.is_grid) {
+    throw Error(where, "the object has no triangles, so it is no sheet", "use a mesh with faces");
+  }
+  if (mesh.space_dimension == 3 && mesh.object_dimension < 3) {
+    throw Error(where, "a chain or a sheet in space does not resist bending, so it has no static answer",
+                "flatten it with --space, or use a solid");
+  }
+  const std::uint64_t most = limits[static_cast<std::size_t>(mesh.space_dimension)];
+  if (mesh.element_count() > most) {
+    refuse_size(where, mesh.element_count(), most, "elements");
+  }
+}
+
+void check_boundary(const Mesh& mesh) {
+  if (mesh.space_dimension != 3 || mesh.triangles.empty()) {
+    throw Error("BEM", "it works on closed surfaces of triangles in space, and this object is none",
+                "open a surface, or compare by linear FEM");
+  }
+  if (mesh.triangles.size() > boundary_limit) {
+    refuse_size("BEM", mesh.triangles.size(), boundary_limit, "triangles");
+  }
+}
+
+}  // namespace
+
+void check(ElasticMethod method, const Mesh& mesh) {
+  switch (method) {
+    case ElasticMethod::linear_fem:
+      return check_fem("linear FEM", mesh, linear_limit);
+    case ElasticMethod::neo_hookean:
+      return check_fem("neo-Hookean FEM", mesh, neo_hookean_limit);
+    case ElasticMethod::boundary:
+      return check_boundary(mesh);
+    case ElasticMethod::free_form:
+      return;
+  }
+}
+
+bool fits(ElasticMethod method, const Mesh& mesh) {
+  try {
+    check(method, mesh);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::unique_ptr<ElasticSolver> make_elastic(ElasticMethod method, const ElasticProblem& problem,
+                                            const Progress& progress) {
+  check(problem.options);
+  check(method, *problem.mesh);
+  switch (method) {
+    case ElasticMethod::linear_fem:
+      return make_linear_fem(problem, progress);
+    case ElasticMethod::neo_hookean:
+      return make_neo_hookean(problem, progress);
+    case ElasticMethod::boundary:
+      return make_boundary_elements(problem, progress);
+    default:
+      return make_free_form(problem, progress);
+  }
+}
+
+}  // namespace chainmail
