@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "command_line/common.h"
+#include "command_line/elastic.h"
 #include "command_line/script.h"
 #include "files/moves.h"
 #include "files/outputs.h"
@@ -17,6 +18,7 @@ namespace {
 struct Options {
   CLI::App* app = nullptr;
   MeshOptions mesh;
+  ElasticArguments elastic;
   CLI::Option *algorithm, *precision, *compression, *stretch, *shear, *softness;
   CLI::Option *move, *by, *cut, *pin;
   CLI::Option* script;
@@ -40,7 +42,7 @@ constexpr const char* example =
 
 std::vector<std::string> algorithm_names() {
   std::vector<std::string> names;
-  for (const AlgorithmInfo& one : algorithms()) {
+  for (const AlgorithmInfo& one : every_algorithm()) {
     names.emplace_back(one.name);
   }
   return names;
@@ -152,7 +154,7 @@ void write_text(std::ostream& out, const DeformSummary& summary) {
     if (const auto& at = pass.stopped_at) {
       out << ", stopped by pins at (" << at->x() << ", " << at->y() << ", " << at->z() << ")";
     }
-    out << '\n';
+    out << (pass.remark.empty() ? "" : ", ") << pass.remark << '\n';
   }
   out << "violation: max " << summary.violation.max << " rest lengths, rms " << summary.violation.rms << ", "
       << 100 * summary.violation.fraction << "% of links\n";
@@ -183,6 +185,7 @@ void deform(const Options& options) {
   const Precision precision = read_precision(options);
   const RelaxationScheme relaxation = read_relaxation(options);
   Softness softness{read_global_softness(options), {}};
+  const ElasticOptions elastic = elastic_of(options.elastic);
   const Targets targets = read_targets(options);
   const Schedule schedule = read_schedule(options, targets);
   const std::vector<Act> acts = read_acts(options);
@@ -203,6 +206,7 @@ void deform(const Options& options) {
 
   Simulation simulation(mesh, algorithm, precision);
   simulation.apply(commands::SetSoftness{softness});
+  simulation.apply(commands::SetElastic{elastic});
   simulation.apply(commands::SetRelaxation{false, schedule.relax_step, relaxation});
   const Run run = carry_out(simulation, moves, acts, schedule);
   write_results(targets, simulation, run, summarize(simulation, run));
@@ -212,7 +216,7 @@ void add_acts(CLI::App& app, Options& options) {
   options.move = add_value(app, "--move", "ID:X[,Y[,Z]]", "drag an element to a position; what is left out stays");
   options.by = add_value(app, "--by", "ID:DX[,DY[,DZ]]", "drag an element from where it is");
   options.cut = add_value(app, "--cut", "A-B", "cut the link of two elements");
-  options.pin = add_value(app, "--pin", "ID", "keep an element where it then is");
+  options.pin = add_value(app, "--pin", "ID|LAYER", "keep an element where it then is, or all of " + pin_names());
   for (CLI::Option* option : {options.move, options.by, options.cut, options.pin}) {
     option->group("Acts, repeated at will and carried out in the order given");
   }
@@ -236,6 +240,7 @@ void add_model(CLI::App& app, Options& options) {
       add_value(app, "--relaxation", "mean|link", "toward its neighbours' mean, or link by link [mean]");
   options.relax_step = add_parameter(app, parameters::relax_step);
   options.precision = add_value(app, "--precision", "double|float", "the numbers to compute in [double]");
+  options.elastic = add_elastic(app);
   options.mesh.space = add_value(app, "--space", "1|2|3", "space dimension [what the mesh states or extends along]");
 }
 

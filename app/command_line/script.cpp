@@ -9,6 +9,7 @@
 #include <set>
 
 #include "command_line/common.h"
+#include "command_line/elastic.h"
 #include "files/text.h"
 #include "mesh/error.h"
 
@@ -53,6 +54,19 @@ ElementId parse_id(const std::string& where, std::string_view text) {
     throw Error(where, in_quotes(text) + " is not an element's id", "ids are whole numbers from 0");
   }
   return *id;
+}
+
+/// What a pin pins.
+std::vector<ElementId> pins_of(const Act& act, const Mesh& mesh) {
+  if (act.layer.empty()) {
+    return {act.element};
+  }
+  const auto pins = pins_by_name(act.where, act.layer, mesh);
+  if (!pins) {
+    throw Error(act.where, in_quotes(act.layer) + " is not an element's id",
+                "ids are whole numbers from 0; or use " + pin_names());
+  }
+  return *pins;
 }
 
 void check_element(const Act& act, ElementId element, const Mesh& mesh) {
@@ -117,7 +131,7 @@ class Runner {
     if (act.kind == Act::Kind::cut) {
       simulation_.apply(commands::Cut{{*find_link(simulation_.mesh(), act.element, act.other)}});
     } else if (act.kind == Act::Kind::pin) {
-      simulation_.apply(commands::Pin{{act.element}});
+      simulation_.apply(commands::Pin{pins_of(act, simulation_.mesh())});
     } else {
       try {
         move(act);
@@ -176,6 +190,7 @@ void Runner::pass(ElementId element, const Point& target) {
   if (statistics.last_pass.stopped) {
     run_.passes.back().stopped_at = point_of(simulation_.mesh(), simulation_.solver().positions(), element);
   }
+  run_.passes.back().remark = statistics.remark;
   if (schedule_.trace) {
     run_.traces.push_back(std::move(trace));
   }
@@ -186,9 +201,13 @@ void Runner::pass(ElementId element, const Point& target) {
 }  // namespace
 
 Act parse_act(Act::Kind kind, const std::string& option, const std::string& text) {
-  Act act{kind, option + " " + text, 0, 0, {}};
+  Act act{kind, option + " " + text, 0, 0, {}, {}};
   if (kind == Act::Kind::pin) {
-    act.element = parse_id(act.where, text);
+    if (text.find_first_of("0123456789") == 0) {
+      act.element = parse_id(act.where, text);
+    } else {
+      act.layer = text;
+    }
     return act;
   }
   const bool is_cut = kind == Act::Kind::cut;
@@ -216,7 +235,9 @@ void check_acts(const std::vector<Act>& acts, const Mesh& mesh) {
         check_link(act, mesh);
         break;
       case Act::Kind::pin:
-        pinned.insert(act.element);
+        for (const ElementId pin : pins_of(act, mesh)) {
+          pinned.insert(pin);
+        }
         break;
       case Act::Kind::move:
       case Act::Kind::by:

@@ -18,9 +18,11 @@ struct Act {
   ElementId element = 0;
   ElementId other = 0;              // cut: the link's other end
   std::vector<double> coordinates;  // move, by: x, y, z as far as given
+  std::string layer;                // pin: of these elements, instead of one
 };
 
-/// Reads `ID:X[,Y[,Z]]` for a move, `A-B` for a cut, `ID` for a pin. Throws Error naming the option.
+/// Reads `ID:X[,Y[,Z]]` for a move, `A-B` for a cut, `ID` or the name of a layer for a pin. Throws Error naming the
+/// option.
 Act parse_act(Act::Kind kind, const std::string& option, const std::string& text);
 
 /// Throws Error where an act does not fit the mesh or the acts before it: an element or link that is not

@@ -51,7 +51,7 @@ class ElasticSolver {
   /// Control points that a user may drag: those of free-form deformation, displaced, space_dimension coordinates each
   /// (mesh units), the first axis running fastest.
   virtual std::span<const double> control_points() const { return {}; }
-  /// Puts one of them somewhere (mesh units); elements follow, pins too.
+  /// Puts one of them somewhere (mesh units); elements follow, pins stay.
   virtual void move_control_point(std::size_t /*point*/, std::span<const double> /*position*/) {}
 };
 

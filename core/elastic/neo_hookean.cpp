@@ -1,10 +1,130 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
 #include "elastic/methods.h"
+#include "elastic/newton.h"
 #include "mesh/error.h"
 
 namespace chainmail {
+namespace {
 
-std::unique_ptr<ElasticSolver> make_neo_hookean(const ElasticProblem& /*problem*/, const Progress& /*progress*/) {
-  throw Error("neo_hookean", "it is not built yet", "choose another method");
+// The hand's way is taken in one step where that converges, else in ever smaller ones, down to this share of it.
+constexpr double smallest_step = 1.0 / 512;
+
+std::string percent(double share) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%.3g %%", 100 * share);
+  return text.data();
+}
+
+/// Finite deformations on linear elements: Newton under a line search, the hand's way in load steps.
+class NeoHookean final : public ElasticSolver {
+ public:
+  NeoHookean(const ElasticProblem& problem, const Progress& progress)
+      : dimension_(static_cast<std::size_t>(problem.mesh->space_dimension)),
+        elements_(problem.mesh->element_count()),
+        pins_(problem.pins),
+        pinned_(problem.pinned),
+        simplices_(build_simplices(*problem.mesh, problem.cuts, progress.part(0, 0.1))),
+        lame_(lame(problem.options.material)),
+        base_(problem.mesh->rest.size(), 0.0) {
+    check_held(simplices_, *problem.mesh, problem.pins);
+    if (std::ranges::any_of(pinned_, [](double one) { return one != 0; })) {
+      Newton newton(simplices_, lame_, elements_, pins_);
+      const std::string stuck = carry(newton, pins_, pinned_, base_, progress.part(0.1, 1));
+      if (!stuck.empty()) {
+        throw Error("neo-Hookean FEM", "with the pins where they are " + stuck, "reset the object, then pin it");
+      }
+    }
+    reset();
+  }
+
+  void hold(ElementId element, const Progress& /*progress*/) override {
+    if (!newton_ || element != held_) {
+      std::vector<ElementId> prescribed = pins_;
+      prescribed.push_back(element);
+      newton_ = std::make_unique<Newton>(simplices_, lame_, elements_, prescribed);
+      held_ = element;
+    }
+  }
+
+  /// From the last answer on, which is near; where no step leads on from there, from the pins' own.
+  void move(std::span<const double> displacement, const Progress& progress) override {
+    const std::vector<ElementId> hand{held_};
+    const std::vector<double> target(displacement.begin(), displacement.end());
+    std::vector<double> answer = displacements_;
+    remark_ = carry(*newton_, hand, target, answer, progress.part(0, 0.5));
+    if (!remark_.empty()) {
+      std::vector<double> anew = base_;
+      const std::string from_base = carry(*newton_, hand, target, anew, progress.part(0.5, 1));
+      if (from_base.empty()) {
+        answer = std::move(anew);
+        remark_.clear();
+      }
+    }
+    displacements_ = std::move(answer);
+  }
+
+  void reset() override {
+    displacements_ = base_;
+    remark_.clear();
+  }
+  const std::vector<double>& displacements() const override { return displacements_; }
+  const std::string& remark() const override { return remark_; }
+
+ private:
+  /// Carries some prescribed elements from where `displacements` have them to their targets. Returns why it ended
+  /// before, with the last converged state in `displacements`, and nothing where it did not.
+  std::string carry(Newton& newton, const std::vector<ElementId>& carried, const std::vector<double>& target,
+                    std::vector<double>& displacements, const Progress& progress) {
+    std::vector<double> way;
+    for (std::size_t i = 0; i < target.size(); ++i) {
+      way.push_back(target[i] - displacements[carried[i / dimension_] * dimension_ + i % dimension_]);
+    }
+    double done = 0, step = 1;
+    int number = 1;
+    while (done < 1) {
+      progress.report(done);
+      const double next = std::min(1.0, done + step);
+      std::vector<double> trial = displacements;
+      std::vector<double> increment(displacements.size(), 0.0);
+      for (std::size_t i = 0; i < way.size(); ++i) {
+        increment[carried[i / dimension_] * dimension_ + i % dimension_] = way[i] * (next - done);
+      }
+      if (newton.solve(trial, increment, progress.part(done, next))) {
+        displacements = std::move(trial);
+        done = next;
+        step *= 2;
+        ++number;
+      } else if ((step /= 2) < smallest_step) {
+        return "Newton did not converge in load step " + std::to_string(number) + ", at " + percent(next) +
+               " of the hand's way; this is the last converged state, at " + percent(done);
+      }
+    }
+    for (std::size_t i = 0; i < target.size(); ++i) {
+      displacements[carried[i / dimension_] * dimension_ + i % dimension_] = target[i];  // to the bit
+    }
+    return {};
+  }
+
+  std::size_t dimension_;
+  ElementId elements_;
+  std::vector<ElementId> pins_;
+  std::vector<double> pinned_;
+  Simplices simplices_;
+  Lame lame_;
+  std::vector<double> base_, displacements_;
+  std::unique_ptr<Newton> newton_;  // of the element in the hand
+  ElementId held_ = 0;
+  std::string remark_;
+};
+
+}  // namespace
+
+std::unique_ptr<ElasticSolver> make_neo_hookean(const ElasticProblem& problem, const Progress& progress) {
+  return std::make_unique<NeoHookean>(problem, progress);
 }
 
 }  // namespace chainmail

@@ -1,1 +1,205 @@
-// Built next.
+#include "elastic/simplices.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "mesh/cells.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+// A cell whose volume is below this share of its longest edge's power is flat: its shape functions have lost half the
+// digits of a double.
+constexpr double flat_below = 1e-8;
+
+/// Links of a lattice's square or cube must all be there, and uncut.
+bool has_link(const Mesh& mesh, const Cuts& cuts, ElementId a, ElementId b) {
+  const auto link = find_link(mesh, a, b);
+  return link && !cuts.is_cut(*link);
+}
+
+class Builder {
+ public:
+  Builder(const Mesh& mesh, const Cuts& cuts, const Progress& progress)
+      : mesh_(mesh), cuts_(cuts), progress_(progress) {
+    simplices_.dimension = mesh.space_dimension;
+  }
+
+  Simplices build() {
+    switch (mesh_.space_dimension) {
+      case 1:
+        add_bars();
+        break;
+      case 2:
+        mesh_.triangles.empty() ? add_squares() : add_triangles();
+        break;
+      default:
+        mesh_.tetrahedra.empty() && mesh_.hexahedra.empty() ? add_cubes() : add_cells();
+    }
+    if (simplices_.corners.empty()) {
+      throw Error("object", "no cell is left that could resist", "uncut links, or use an object with cells");
+    }
+    find_shapes();
+    return std::move(simplices_);
+  }
+
+ private:
+  void add(std::initializer_list<ElementId> corners) { simplices_.corners.insert(simplices_.corners.end(), corners); }
+
+  void add_bars() {
+    for (LinkId link = 0; link < mesh_.link_count(); ++link) {
+      if (!cuts_.is_cut(link)) {
+        add({mesh_.links[link][0], mesh_.links[link][1]});
+      }
+    }
+  }
+
+  void add_triangles() {
+    for (const auto& [a, b, c] : mesh_.triangles) {
+      if (!is_cut_between(mesh_, cuts_, a, b) && !is_cut_between(mesh_, cuts_, b, c) &&
+          !is_cut_between(mesh_, cuts_, c, a)) {
+        add({a, b, c});
+      }
+    }
+  }
+
+  void add_cells() {
+    for (const auto& cell : mesh_.tetrahedra) {
+      if (is_whole(mesh_, cuts_, cell)) {
+        add({cell[0], cell[1], cell[2], cell[3]});
+      }
+    }
+    for (const auto& cell : mesh_.hexahedra) {
+      if (is_whole(mesh_, cuts_, cell)) {
+        add_hexahedron(cell);
+      }
+    }
+  }
+
+  /// A fan from the lowest corner over the sides that do not hold it; they are parted by diagonals from their own.
+  void add_hexahedron(const std::array<ElementId, 8>& cell) {
+    const ElementId lowest = *std::ranges::min_element(cell);
+    for (const auto& side : hexahedron_sides) {
+      std::array<ElementId, 4> corners{cell[side[0]], cell[side[1]], cell[side[2]], cell[side[3]]};
+      if (std::ranges::find(corners, lowest) == corners.end()) {
+        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        add({lowest, corners[0], corners[1], corners[2]});
+        add({lowest, corners[0], corners[2], corners[3]});
+      }
+    }
+  }
+
+  /// Diagonals alternate, so that the sheet leans to no side.
+  void add_squares() {
+    const auto [width, height, depth] = mesh_.lattice->size;
+    for (std::uint32_t y = 0; y + 1 < height; ++y) {
+      for (std::uint32_t x = 0; x + 1 < width; ++x) {
+        const ElementId a = y * width + x, b = a + 1, c = a + width, d = c + 1;
+        if (!has_link(mesh_, cuts_, a, b) || !has_link(mesh_, cuts_, c, d) || !has_link(mesh_, cuts_, a, c) ||
+            !has_link(mesh_, cuts_, b, d)) {
+          continue;
+        }
+        if ((x + y) % 2 == 0) {
+          add({a, b, d});
+          add({a, d, c});
+        } else {
+          add({a, b, c});
+          add({b, d, c});
+        }
+      }
+    }
+  }
+
+  void add_cubes() {
+    const auto [width, height, depth] = mesh_.lattice->size;
+    const ElementId row = width, slice = width * height;
+    for (std::uint32_t z = 0; z + 1 < depth; ++z) {
+      for (std::uint32_t y = 0; y + 1 < height; ++y) {
+        for (std::uint32_t x = 0; x + 1 < width; ++x) {
+          const ElementId a = z * slice + y * row + x, e = a + slice;
+          const std::array<ElementId, 8> cube{a, a + 1, a + row + 1, a + row, e, e + 1, e + row + 1, e + row};
+          if (std::ranges::all_of(hexahedron_edges, [&](const CellEdge& edge) {
+                return has_link(mesh_, cuts_, cube[edge[0]], cube[edge[1]]);
+              })) {
+            add_hexahedron(cube);
+          }
+        }
+      }
+    }
+  }
+
+  Eigen::Map<const Eigen::VectorXd> rest(ElementId element) const {
+    return {mesh_.rest.data() + std::size_t{element} * static_cast<std::size_t>(mesh_.space_dimension),
+            mesh_.space_dimension};
+  }
+
+  void find_shapes() {
+    const int n = simplices_.dimension;
+    const std::size_t width = static_cast<std::size_t>(n) + 1, count = simplices_.corners.size() / width;
+    simplices_.volumes.reserve(count);
+    simplices_.gradients.resize(count * width * static_cast<std::size_t>(n));
+    for (std::size_t s = 0; s < count; ++s) {
+      progress_.report(s, count);
+      find_shape(s);
+    }
+  }
+
+  void find_shape(std::size_t simplex) {
+    const int n = simplices_.dimension;
+    const std::span<ElementId> corners =
+        std::span(simplices_.corners)
+            .subspan(simplex * static_cast<std::size_t>(n + 1), static_cast<std::size_t>(n) + 1);
+    SmallMatrix edges(n, n);
+    double longest = 0;
+    for (int i = 0; i < n; ++i) {
+      edges.col(i) = rest(corners[static_cast<std::size_t>(i) + 1]) - rest(corners[0]);
+      longest = std::max(longest, edges.col(i).norm());
+    }
+    const double volume = edges.determinant() / (n == 3 ? 6 : n);
+    check_shape(corners, volume, std::pow(longest, n));
+    Eigen::Map<Eigen::MatrixXd> gradients(simplices_.gradients.data() + simplex * static_cast<std::size_t>(n * (n + 1)),
+                                          n, n + 1);
+    gradients.rightCols(n) = edges.inverse().transpose();
+    gradients.col(0) = -gradients.rightCols(n).rowwise().sum();
+    simplices_.volumes.push_back(std::abs(volume));
+  }
+
+  /// Which way round the cells are listed is the file's choice, but it must be one.
+  void check_shape(std::span<const ElementId> corners, double volume, double scale) {
+    const std::string where = "the cell of elements " + names(corners);
+    if (!(std::abs(volume) > flat_below * scale)) {
+      throw Error(where, "it is flat, so it cannot resist", "remove it, or mesh the object anew");
+    }
+    const bool has_way_round = simplices_.dimension == 3;  // a sheet is the same from behind
+    if (has_way_round && orientation_ != 0 && (volume > 0) != (orientation_ > 0)) {
+      throw Error(where, "it is inverted: its corners lie the other way round than those of the cells before it",
+                  "list its corners in the order of the others, or mesh the object anew");
+    }
+    orientation_ = volume > 0 ? 1 : -1;
+  }
+
+  static std::string names(std::span<const ElementId> corners) {
+    std::string all;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      all += (i == 0 ? "" : i + 1 == corners.size() ? " and " : ", ") + std::to_string(corners[i]);
+    }
+    return all;
+  }
+
+  const Mesh& mesh_;
+  const Cuts& cuts_;
+  const Progress& progress_;
+  Simplices simplices_;
+  int orientation_ = 0;  // of the cells so far
+};
+
+}  // namespace
+
+Simplices build_simplices(const Mesh& mesh, const Cuts& cuts, const Progress& progress) {
+  return Builder(mesh, cuts, progress).build();
+}
+
+}  // namespace chainmail

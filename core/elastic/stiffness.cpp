@@ -1,1 +1,98 @@
-// Built next.
+#include "elastic/stiffness.h"
+
+#include <algorithm>
+
+namespace chainmail {
+
+Unknowns::Unknowns(const Simplices& simplices, ElementId elements, std::span<const ElementId> prescribed)
+    : dimension_(simplices.dimension), first_(elements, none) {
+  constexpr std::int32_t wanted = 0;
+  for (const ElementId corner : simplices.corners) {
+    first_[corner] = wanted;
+  }
+  for (const ElementId element : prescribed) {
+    first_[element] = none;
+  }
+  for (std::int32_t& first : first_) {
+    if (first == wanted) {
+      first = static_cast<std::int32_t>(count_);
+      count_ += dimension_;
+    }
+  }
+}
+
+Eigen::VectorXd Unknowns::gather(const std::vector<double>& all) const {
+  Eigen::VectorXd unknown(count_);
+  for (std::size_t e = 0; e < first_.size(); ++e) {
+    if (first_[e] != none) {
+      std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(e) * dimension_, dimension_, unknown.data() + first_[e]);
+    }
+  }
+  return unknown;
+}
+
+void Unknowns::scatter(const Eigen::VectorXd& unknown, std::vector<double>& all) const {
+  for (std::size_t e = 0; e < first_.size(); ++e) {
+    if (first_[e] != none) {
+      std::copy_n(unknown.data() + first_[e], dimension_, all.begin() + static_cast<std::ptrdiff_t>(e) * dimension_);
+    }
+  }
+}
+
+Stiffness::Stiffness(const Simplices& simplices, const Unknowns& unknowns) : simplices_(simplices) {
+  const int n = simplices.dimension;
+  std::vector<Eigen::Triplet<double>> entries;
+  // The unknown of each coordinate of a simplex's corners.
+  const auto unknowns_of = [&](std::size_t simplex) {
+    std::array<std::int32_t, 12> all{};
+    const auto corners = simplices.corners_of(simplex);
+    for (int i = 0; i < n * (n + 1); ++i) {
+      const std::int32_t first = unknowns.of(corners[static_cast<std::size_t>(i / n)]);
+      all[static_cast<std::size_t>(i)] = first == Unknowns::none ? Unknowns::none : first + i % n;
+    }
+    return all;
+  };
+  const auto width = static_cast<std::size_t>(n * (n + 1));
+  const auto for_each_entry = [&](auto visit) {
+    for (std::size_t s = 0; s < simplices.count(); ++s) {
+      const auto all = unknowns_of(s);
+      for (std::size_t j = 0; j < width; ++j) {
+        for (std::size_t i = 0; i < width; ++i) {
+          const bool is_stored = all[i] != Unknowns::none && all[j] != Unknowns::none && all[i] >= all[j];
+          visit((s * width + j) * width + i, is_stored, all[i], all[j]);
+        }
+      }
+    }
+  };
+  for_each_entry([&](std::size_t, bool is_stored, std::int32_t row, std::int32_t column) {
+    if (is_stored) {
+      entries.emplace_back(row, column, 0);
+    }
+  });
+  matrix_.resize(unknowns.count(), unknowns.count());
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+  entries = {};
+  places_.assign(simplices.count() * width * width, Unknowns::none);
+  for_each_entry([&](std::size_t entry, bool is_stored, std::int32_t row, std::int32_t column) {
+    if (is_stored) {
+      const auto* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
+      const auto* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
+      places_[entry] = static_cast<std::int32_t>(std::lower_bound(begin, end, row) - matrix_.innerIndexPtr());
+    }
+  });
+}
+
+void Stiffness::clear() { std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0); }
+
+void Stiffness::add(std::size_t simplex, const CornerMatrix& stiffness) {
+  const auto width = static_cast<std::size_t>(stiffness.rows());
+  const std::int32_t* place = places_.data() + simplex * width * width;
+  for (const double value : stiffness.reshaped()) {
+    if (*place != Unknowns::none) {
+      matrix_.valuePtr()[*place] += value;
+    }
+    ++place;
+  }
+}
+
+}  // namespace chainmail

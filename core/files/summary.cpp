@@ -61,6 +61,9 @@ void write_json(std::ostream& out, const DeformSummary& summary) {
     if (pass.stopped_at) {
       one["stopped_at"] = to_json(*pass.stopped_at);
     }
+    if (!pass.remark.empty()) {
+      one["remark"] = pass.remark;
+    }
     passes.push_back(std::move(one));
   }
   const auto& violation = summary.violation;

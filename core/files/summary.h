@@ -41,6 +41,7 @@ struct DeformSummary {
     std::uint64_t moved = 0;
     double milliseconds = 0;
     std::optional<Point> stopped_at = {};  // where pins held the hand short of its target
+    std::string remark = {};               // why it ended otherwise than asked for
   };
 
   std::string algorithm;

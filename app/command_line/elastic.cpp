@@ -1,0 +1,77 @@
+#include "command_line/elastic.h"
+
+#include <algorithm>
+
+#include "files/text.h"
+#include "mesh/layers.h"
+
+namespace chainmail::command_line {
+namespace {
+
+std::array<std::uint32_t, 3> lattice_of(const std::string& text) {
+  std::array<std::uint32_t, 3> counts{};
+  std::size_t axis = 0;
+  for (std::size_t begin = 0; begin <= text.size(); ++axis) {
+    const std::size_t end = std::min(text.find('x', begin), text.size());
+    const auto count = parse_count(text.substr(begin, end - begin));
+    if (!count || axis == 3) {
+      throw Error("--lattice", in_quotes(text) + " is no number of control points",
+                  "write one number for all axes, or one for each, as 4x4x4");
+    }
+    counts[axis] = *count;
+    begin = end + 1;
+  }
+  if (axis == 1) {
+    counts = {counts[0], counts[0], counts[0]};
+  } else if (axis == 2) {
+    counts[2] = counts[1];  // a plane has no third axis to show it on
+  }
+  return counts;
+}
+
+}  // namespace
+
+ElasticArguments add_elastic(CLI::App& app) {
+  return {add_parameter(app, parameters::young), add_parameter(app, parameters::poisson),
+          add_value(app, "--lattice", "N|NxN[xN]", "control points of free-form deformation along each axis [4]")};
+}
+
+ElasticOptions elastic_of(const ElasticArguments& arguments) {
+  ElasticOptions options;
+  if (const auto young = value_of(arguments.young)) {
+    options.material.young = parse_number_of("--young", *young);
+  }
+  if (const auto poisson = value_of(arguments.poisson)) {
+    options.material.poisson = parse_number_of("--poisson", *poisson);
+  }
+  if (const auto lattice = value_of(arguments.lattice)) {
+    options.lattice = lattice_of(*lattice);
+  }
+  in_options({{"young", "--young"}, {"poisson", "--poisson"}, {"lattice", "--lattice"}},
+             [&] { return check(options), 0; });
+  return options;
+}
+
+std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, const std::string& word,
+                                                   const Mesh& mesh) {
+  const ObjectSide* side = find_side(word);
+  if (side == nullptr && word != "boundary") {
+    return std::nullopt;
+  }
+  std::vector<ElementId> pins = side == nullptr ? boundary(mesh) : layer(mesh, *side);
+  if (pins.empty()) {
+    throw Error(where, side == nullptr ? "the object is closed and has no boundary" : "the object has no such side",
+                "use another of " + pin_names() + ", or ids");
+  }
+  return pins;
+}
+
+std::string pin_names() {
+  std::string names;
+  for (const ObjectSide& side : object_sides) {
+    names += std::string(side.name) + "|";
+  }
+  return names + "boundary";
+}
+
+}  // namespace chainmail::command_line

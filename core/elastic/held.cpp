@@ -1,0 +1,107 @@
+// Whether pins leave a part of an object free to move as a rigid body.
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "elastic/simplices.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+// Pins closer to one line or point than this share of the object's size do not hold it.
+constexpr double apart_from = 1e-6;
+
+/// The elements joined by cells, as a forest: each element's root names its part.
+class Forest {
+ public:
+  explicit Forest(const Simplices& simplices, ElementId count) : parent_(count), in_cell_(count, false) {
+    for (ElementId e = 0; e < count; ++e) {
+      parent_[e] = e;
+    }
+    for (std::size_t s = 0; s < simplices.count(); ++s) {
+      const auto corners = simplices.corners_of(s);
+      for (const ElementId corner : corners) {
+        in_cell_[corner] = true;
+        join(corners[0], corner);
+      }
+    }
+  }
+
+  ElementId root(ElementId element) {
+    while (parent_[element] != element) {
+      element = parent_[element] = parent_[parent_[element]];
+    }
+    return element;
+  }
+  bool in_cell(ElementId element) const { return in_cell_[element]; }
+
+ private:
+  /// The lower id is the root, so that a part is called after its first element.
+  void join(ElementId a, ElementId b) {
+    const auto [low, high] = std::minmax({root(a), root(b)});
+    parent_[high] = low;
+  }
+
+  std::vector<ElementId> parent_;
+  std::vector<bool> in_cell_;
+};
+
+/// What is left of the points when the line through the origin along `unit` is taken out: the one furthest from it.
+Point furthest(const std::vector<Point>& from_first, const Point& unit) {
+  Point best = Point::Zero();
+  for (const Point& point : from_first) {
+    const Point across = point - point.dot(unit) * unit;
+    if (across.squaredNorm() > best.squaredNorm()) {
+      best = across;
+    }
+  }
+  return best;
+}
+
+bool holds(const Mesh& mesh, const std::vector<ElementId>& pins) {
+  if (pins.empty() || mesh.space_dimension == 1) {
+    return !pins.empty();
+  }
+  const double size = (mesh.box[1] - mesh.box[0]).norm();
+  std::vector<Point> from_first;
+  for (const ElementId pin : pins) {
+    from_first.push_back(mesh.rest_position(pin) - mesh.rest_position(pins.front()));
+  }
+  const Point along = furthest(from_first, Point::Zero());
+  if (along.norm() <= apart_from * size) {
+    return false;
+  }
+  return mesh.space_dimension == 2 || furthest(from_first, along.normalized()).norm() > apart_from * size;
+}
+
+std::string too_few(int dimension) {
+  return dimension == 1   ? "no pin holds it"
+         : dimension == 2 ? "fewer than two pins at different places hold it"
+                          : "fewer than three pins that do not lie on one line hold it";
+}
+
+}  // namespace
+
+void check_held(const Simplices& simplices, const Mesh& mesh, std::span<const ElementId> pins) {
+  if (pins.empty()) {
+    throw Error("object", "nothing pins it, so there is no static answer",
+                "pin its bottom layer, its boundary, or elements by hand");
+  }
+  Forest forest(simplices, mesh.element_count());
+  std::map<ElementId, std::vector<ElementId>> pins_of;
+  for (const ElementId pin : pins) {
+    pins_of[forest.root(pin)].push_back(pin);
+  }
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    if (forest.in_cell(e) && forest.root(e) == e && !holds(mesh, pins_of[e])) {
+      throw Error("the part of element " + std::to_string(e),
+                  too_few(mesh.space_dimension) + ", so it has no static answer",
+                  "pin its bottom layer, its boundary, or elements by hand");
+    }
+  }
+}
+
+}  // namespace chainmail

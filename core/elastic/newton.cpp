@@ -1,0 +1,174 @@
+#include "elastic/newton.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace chainmail {
+namespace {
+
+constexpr int most_steps = 60;
+constexpr int most_halvings = 30;
+// Newton's convergence is quadratic: the step after one this short (in cell lengths) is rounding.
+constexpr double converged_below = 1e-9;
+// Armijo: what a step must gain of what its slope promises.
+constexpr double share_of_slope = 1e-4;
+
+Eigen::Map<const Eigen::MatrixXd> all_of(const std::vector<double>& displacements, int dimension) {
+  return {displacements.data(), dimension, static_cast<Eigen::Index>(displacements.size()) / dimension};
+}
+
+CornerDisplacements corners_of(const Simplices& simplices, std::size_t simplex,
+                               const std::vector<double>& displacements) {
+  const auto all = all_of(displacements, simplices.dimension);
+  CornerDisplacements at(simplices.dimension, simplices.dimension + 1);
+  for (int a = 0; a <= simplices.dimension; ++a) {
+    at.col(a) = all.col(simplices.corners_of(simplex)[static_cast<std::size_t>(a)]);
+  }
+  return at;
+}
+
+/// The nearest matrix without negative curvature (Teran et al. 2005).
+CornerMatrix convex_part(const CornerMatrix& hessian) {
+  const Eigen::SelfAdjointEigenSolver<CornerMatrix> modes(hessian);
+  const CornerMatrix vectors = modes.eigenvectors();
+  return vectors * modes.eigenvalues().cwiseMax(0).asDiagonal() * vectors.transpose();
+}
+
+double cell_length(const Simplices& simplices) {
+  double volume = 0;
+  for (const double one : simplices.volumes) {
+    volume += one;
+  }
+  return std::pow(volume / double(simplices.count()), 1.0 / simplices.dimension);
+}
+
+}  // namespace
+
+Newton::Newton(const Simplices& simplices, const Lame& lame, ElementId elements, std::span<const ElementId> prescribed)
+    : simplices_(simplices),
+      lame_(lame),
+      unknowns_(simplices, elements, prescribed),
+      stiffness_(simplices, unknowns_),
+      length_(cell_length(simplices)) {
+  if (unknowns_.count() > 0) {
+    factor_.analyzePattern(stiffness_.matrix());
+  }
+}
+
+std::optional<double> Newton::energy(const std::vector<double>& displacements) const {
+  double sum = 0;
+  for (std::size_t s = 0; s < simplices_.count(); ++s) {
+    const auto one = neo_hookean(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::energy);
+    if (one.inverted) {
+      return std::nullopt;
+    }
+    sum += one.energy;
+  }
+  return sum;
+}
+
+std::vector<double> Newton::gradient(const std::vector<double>& displacements) const {
+  const int n = simplices_.dimension;
+  std::vector<double> sum(displacements.size(), 0.0);
+  for (std::size_t s = 0; s < simplices_.count(); ++s) {
+    const auto one = neo_hookean(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::gradient);
+    for (int i = 0; i < n * (n + 1); ++i) {
+      const ElementId corner = simplices_.corners_of(s)[static_cast<std::size_t>(i / n)];
+      sum[std::size_t{corner} * static_cast<std::size_t>(n) + static_cast<std::size_t>(i % n)] += one.gradient[i];
+    }
+  }
+  return sum;
+}
+
+void Newton::assemble(const std::vector<double>& displacements, bool only_convex) {
+  stiffness_.clear();
+  for (std::size_t s = 0; s < simplices_.count(); ++s) {
+    const auto one = neo_hookean(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::hessian);
+    stiffness_.add(s, only_convex ? convex_part(one.hessian) : one.hessian);
+  }
+}
+
+bool Newton::factor(const std::vector<double>& displacements) {
+  for (const bool only_convex : {false, true}) {
+    assemble(displacements, only_convex);
+    factor_.factorize(stiffness_.matrix());
+    if (factor_.info() == Eigen::Success) {
+      convex_ = !only_convex;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Moves the prescribed, and all others as the tangent has them follow: a step that keeps cells from turning over.
+bool Newton::predict(std::vector<double>& displacements, const std::vector<double>& increment) {
+  if (!factor(displacements)) {
+    return false;
+  }
+  // K_ff u_f = −K_fp u_p, cell by cell.
+  std::vector<double> force(displacements.size(), 0.0);
+  const int n = simplices_.dimension;
+  for (std::size_t s = 0; s < simplices_.count(); ++s) {
+    const CornerDisplacements moved = corners_of(simplices_, s, increment);
+    if (moved.isZero(0)) {
+      continue;
+    }
+    const auto one = neo_hookean(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::hessian);
+    const CornerVector of_simplex = one.hessian * moved.reshaped();
+    for (int i = 0; i < n * (n + 1); ++i) {
+      const ElementId corner = simplices_.corners_of(s)[static_cast<std::size_t>(i / n)];
+      force[std::size_t{corner} * static_cast<std::size_t>(n) + static_cast<std::size_t>(i % n)] -= of_simplex[i];
+    }
+  }
+  for (std::size_t i = 0; i < displacements.size(); ++i) {
+    displacements[i] += increment[i];
+  }
+  const Eigen::VectorXd follow = factor_.solve(unknowns_.gather(force));
+  unknowns_.scatter(unknowns_.gather(displacements) + follow, displacements);
+  return energy(displacements).has_value();
+}
+
+/// Goes along a step as far as the energy falls. Returns false where it never does.
+bool Newton::descend(std::vector<double>& displacements, const Eigen::VectorXd& step, double slope) {
+  const double before = *energy(displacements);
+  const Eigen::VectorXd from = unknowns_.gather(displacements);
+  double share = 1;
+  for (int halving = 0; halving < most_halvings; ++halving, share /= 2) {
+    unknowns_.scatter(from + share * step, displacements);
+    const auto after = energy(displacements);
+    // Close to the minimum the gain is less than what rounding does to the energy.
+    if (after && *after <= before + share_of_slope * share * slope + 1e-14 * std::abs(before)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Newton::solve(std::vector<double>& displacements, const std::vector<double>& increment, const Progress& progress) {
+  if (unknowns_.count() == 0) {
+    for (std::size_t i = 0; i < displacements.size(); ++i) {
+      displacements[i] += increment[i];
+    }
+    return energy(displacements).has_value();
+  }
+  if (!predict(displacements, increment)) {
+    return false;
+  }
+  for (int i = 0; i < most_steps; ++i) {
+    progress.report(double(i) / most_steps);
+    const Eigen::VectorXd slope = unknowns_.gather(gradient(displacements));
+    if (!factor(displacements)) {
+      return false;
+    }
+    const Eigen::VectorXd step = -factor_.solve(slope);
+    if (!step.allFinite() || !descend(displacements, step, slope.dot(step))) {
+      return false;
+    }
+    if (convex_ && step.lpNorm<Eigen::Infinity>() <= converged_below * length_) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace chainmail
