@@ -1,0 +1,29 @@
+#include "measure/truth.h"
+
+#include <cmath>
+
+#include "mesh/error.h"
+
+namespace chainmail {
+
+TruthSolver::TruthSolver(const ElasticProblem& problem, const Progress& progress)
+    : mesh_(problem.mesh), solver_(make_elastic(ElasticMethod::neo_hookean, problem, progress)) {}
+
+Truth TruthSolver::at(ElementId hand, const Point& target, const Progress& progress) {
+  std::vector<double> displacement;
+  double square = 0;
+  for (int k = 0; k < mesh_->space_dimension; ++k) {
+    const double rest = mesh_->rest[std::size_t{hand} * static_cast<std::size_t>(mesh_->space_dimension) + k];
+    displacement.push_back(target[mesh_->axes[k]] - rest);
+    square += displacement.back() * displacement.back();
+  }
+  solver_->reset();
+  solver_->hold(hand, progress.part(0, 0.2));
+  solver_->move(displacement, progress.part(0.2, 1));
+  if (const std::string& remark = solver_->remark(); !remark.empty()) {
+    throw Error("neo-Hookean FEM", remark, "drag less far, or use a finer mesh");
+  }
+  return {solver_->displacements(), std::sqrt(square)};
+}
+
+}  // namespace chainmail
