@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <numeric>
 #include <set>
 
 #include "mesh/error.h"
 #include "report/errors.h"
+#include "report/move_times.h"
 #include "report/runner.h"
 
 namespace chainmail::report {
@@ -24,29 +24,6 @@ struct Participant {
   std::unique_ptr<Runner> runner;
   std::string refusal;
 };
-
-/// The repetitions' times, move by move.
-using Times = std::vector<std::vector<double>>;
-
-TimeSpread spread_over_repetitions(const Times& times) {
-  std::vector<double> means;
-  for (const auto& run : times) {
-    means.push_back(std::accumulate(run.begin(), run.end(), 0.0) / double(run.size()));
-  }
-  return spread_of(std::move(means));
-}
-
-double worst_move(const Times& times) {
-  double worst = 0;
-  for (std::size_t move = 0; !times.empty() && move < times.front().size(); ++move) {
-    std::vector<double> of_move;
-    for (const auto& run : times) {
-      of_move.push_back(run[move]);
-    }
-    worst = std::max(worst, spread_of(std::move(of_move)).median);
-  }
-  return worst;
-}
 
 /// One drag on one object, by all contestants.
 class Experiment {
@@ -72,8 +49,8 @@ class Experiment {
     }
     for (std::size_t i = 0; i < times_.size(); ++i) {
       if (auto& measurement = result_.entries[i].measurement) {
-        measurement->ms_per_move = spread_over_repetitions(times_[i]);
-        measurement->worst_move_ms = worst_move(times_[i]);
+        measurement->ms_per_move = times_[i].spread();
+        measurement->worst_move_ms = times_[i].worst();
       }
     }
     return stop_.stop_requested() ? std::nullopt : std::optional(std::move(result_));
@@ -134,7 +111,7 @@ class Experiment {
       if (result_.entries[i].measurement) {
         auto run = participant_of(i).runner->run(moves_, result_.entries[i].contestant.sweeps, stop_);
         if (!run.stopped) {
-          times_[i].push_back(std::move(run.ms));
+          times_[i].add(std::move(run.ms));
         }
       }
     }
@@ -146,7 +123,7 @@ class Experiment {
   const std::stop_token& stop_;
   DragResult result_;
   std::vector<Participant> participants_;  // one an algorithm
-  std::vector<Times> times_;               // one a contestant
+  std::vector<MoveTimes> times_;           // one a contestant
   int repetitions_ = 0;
 };
 

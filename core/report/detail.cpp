@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "report/figure_table.h"
 #include "report/format.h"
 
 namespace chainmail::report {
@@ -60,23 +61,6 @@ std::vector<Column> columns_for(const DragResult& drag) {
   return columns;
 }
 
-void write_head(std::ostream& out, const std::vector<Column>& columns) {
-  out << "<thead><tr><th></th>";
-  for (std::size_t i = 0; i < columns.size();) {
-    std::size_t end = i;
-    while (end < columns.size() && columns[end].group == columns[i].group) {
-      ++end;
-    }
-    out << "<th class=\"group\" colspan=\"" << end - i << "\">" << columns[i].group << "</th>";
-    i = end;
-  }
-  out << "</tr>\n<tr><th scope=\"col\">contestant</th>";
-  for (const Column& column : columns) {
-    out << "<th scope=\"col\">" << column.name << "</th>";
-  }
-  out << "</tr></thead>\n";
-}
-
 int repetitions_of(const DragResult& drag) {
   int most = 0;
   for (const Entry& entry : drag.entries) {
@@ -85,32 +69,33 @@ int repetitions_of(const DragResult& drag) {
   return most;
 }
 
-void write_drag(std::ostream& out, const CaseResult& object, const DragResult& drag) {
+std::string about(const DragResult& drag) {
+  return drag.description + "; " + std::to_string(drag.moves) + " moves, " + std::to_string(repetitions_of(drag)) +
+         " repetitions" + (drag.no_exact.empty() ? "" : "; no distance to Exact: " + drag.no_exact);
+}
+
+FigureTable table_of(const CaseResult& object, const DragResult& drag) {
+  FigureTable table{object.name + ", " + drag.name, about(drag), "detail", "contestant", {}, {}};
   const std::vector<Column> columns = columns_for(drag);
-  out << "<div class=\"wide\"><table class=\"detail\">\n<caption>" << escaped(object.name) << ", " << escaped(drag.name)
-      << " <span class=\"faint\">" << escaped(drag.description) << "; " << drag.moves << " moves, "
-      << repetitions_of(drag) << " repetitions"
-      << (drag.no_exact.empty() ? "" : "; no distance to Exact: " + escaped(drag.no_exact)) << "</span></caption>\n";
-  write_head(out, columns);
-  out << "<tbody>\n";
-  for (const Entry& entry : drag.entries) {
-    out << "<tr><th scope=\"row\">" << escaped(label(entry.contestant)) << "</th>";
-    if (!entry.measurement) {
-      out << "<td class=\"refusal\" colspan=\"" << columns.size() << "\">" << escaped(entry.refusal) << "</td>";
-    }
-    for (std::size_t i = 0; entry.measurement && i < columns.size(); ++i) {
-      out << "<td>" << columns[i].cell(*entry.measurement, drag) << "</td>";
-    }
-    out << "</tr>\n";
+  for (const Column& column : columns) {
+    table.columns.push_back({column.group, column.name});
   }
-  out << "</tbody></table></div>\n";
+  for (const Entry& entry : drag.entries) {
+    auto& row = table.rows.emplace_back();
+    row.label = label(entry.contestant);
+    row.refusal = entry.measurement ? "" : entry.refusal;
+    for (std::size_t i = 0; entry.measurement && i < columns.size(); ++i) {
+      row.cells.push_back(columns[i].cell(*entry.measurement, drag));
+    }
+  }
+  return table;
 }
 
 }  // namespace
 
 void write_details(std::ostream& out, const CaseResult& object) {
   for (const DragResult& drag : object.drags) {
-    write_drag(out, object, drag);
+    write_html(out, table_of(object, drag));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "report/figure_table.h"
 #include "report/format.h"
 
 namespace chainmail::report {
@@ -34,35 +35,10 @@ MainRow main_row(const CaseResult& object, std::size_t entry) {
   return row;
 }
 
-/// Characters, not bytes.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-/// Columns as wide as their widest cell, the first one to the left.
-void write_columns(std::ostream& out, const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      // A row of two is a name and a sentence, which no column needs to hold.
-      widths[i] = std::max(widths[i], row.size() == 2 && i == 1 ? 0 : width_of(row[i]));
-    }
-  }
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string blanks(widths[i] - std::min(widths[i], width_of(row[i])), ' ');
-      out << (i == 0 ? "  " + row[i] + blanks : "  " + (row.size() == 2 ? "" : blanks) + row[i]);
-    }
-    out << '\n';
-  }
-}
+}  // namespace
 
 std::vector<std::string> cells_of(const MainRow& row) {
-  if (!row.refusal.empty()) {
-    return {row.contestant, row.refusal};
-  }
-  std::vector<std::string> cells{row.contestant};
+  std::vector<std::string> cells;
   for (const auto& ms : row.ms_per_move) {
     cells.push_back(figure(ms));
   }
@@ -71,8 +47,6 @@ std::vector<std::string> cells_of(const MainRow& row) {
   cells.push_back(row.to_exact ? figure(row.to_exact->rms) : "n/a");
   return cells;
 }
-
-}  // namespace
 
 std::vector<MainTable> main_tables(const Comparison& comparison) {
   std::vector<MainTable> tables;
@@ -102,7 +76,9 @@ void write_text(std::ostream& out, const Comparison& comparison) {
     rows.front().insert(rows.front().end(), table.drags.begin(), table.drags.end());
     rows.front().insert(rows.front().end(), {"violation", "RMS", "links", "distance", "RMS"});
     for (const MainRow& row : table.rows) {
-      rows.push_back(cells_of(row));
+      rows.push_back({row.contestant});
+      const auto cells = row.refusal.empty() ? cells_of(row) : std::vector{row.refusal};
+      rows.back().insert(rows.back().end(), cells.begin(), cells.end());
     }
     out << '\n' << table.object << ": " << table.about << '\n';
     write_columns(out, rows);

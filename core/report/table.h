@@ -18,6 +18,9 @@ struct MainRow {
   std::optional<Distance> to_exact;
 };
 
+/// A row's figures as they are shown.
+std::vector<std::string> cells_of(const MainRow& row);
+
 /// The main table of one object.
 struct MainTable {
   std::string object;
