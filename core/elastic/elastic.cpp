@@ -21,17 +21,14 @@ constexpr std::uint64_t boundary_limit = 2'000;  // triangles
 }
 
 void check_fem(const std::string& where, const Mesh& mesh, const std::array<std::uint64_t, 4>& limits) {
-  const bool has_cells = !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
-  if (mesh.space_dimension == 3 && !has_cells && !mesh.is_grid) {
+  const bool is_full_grid = mesh.is_grid && mesh.object_dimension == mesh.space_dimension;
+  const bool has_cells = !mesh.tetrahedra.empty() || !mesh.hexahedra.empty() || is_full_grid;
+  if (mesh.space_dimension == 3 && !has_cells) {
     throw Error(where, "the object has no tetrahedra or hexahedra, so it is no solid",
                 "fill its surface with 'chainmail fill', or by Object > Fill surface");
   }
-  if (mesh.space_dimension == 2 && mesh.triangles.empty() && !mesh.is_grid) {
+  if (mesh.space_dimension == 2 && mesh.triangles.empty() && !is_full_grid) {
     throw Error(where, "the object has no triangles, so it is no sheet", "use a mesh with faces");
-  }
-  if (mesh.space_dimension == 3 && mesh.object_dimension < 3) {
-    throw Error(where, "a chain or a sheet in space does not resist bending, so it has no static answer",
-                "flatten it with --space, or use a solid");
   }
   const std::uint64_t most = limits[static_cast<std::size_t>(mesh.space_dimension)];
   if (mesh.element_count() > most) {

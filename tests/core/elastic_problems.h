@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <random>
+
+#include "elastic/elastic.h"
+#include "elastic/simplices.h"
+#include "mesh/layers.h"
+#include "support.h"
+
+namespace chainmail::test {
+
+using Field = std::function<Point(const Point&)>;
+
+/// The same mesh with its inner elements moved at random, up to a share of the spacing 1: no cell is like another.
+inline MeshPointer jittered(const MeshPointer& mesh, double share = 0.2) {
+  MeshParts parts;
+  std::mt19937_64 random(7);
+  const auto rim = boundary(*mesh);
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    Point at = mesh->rest_position(e);
+    for (int k = 0; k < mesh->space_dimension && !std::ranges::binary_search(rim, e); ++k) {
+      at[mesh->axes[k]] += uniform(random, -share, share);
+    }
+    parts.rest.push_back(at);
+  }
+  parts.links = mesh->links;
+  parts.triangles = mesh->triangles;
+  parts.tetrahedra = mesh->tetrahedra;
+  parts.space_dimension = mesh->space_dimension;
+  return build_mesh(std::move(parts));
+}
+
+/// An object with elements pinned where a displacement field has them.
+inline ElasticProblem pinned(const MeshPointer& mesh, std::vector<ElementId> pins, const Field& field, double poisson) {
+  ElasticProblem problem{mesh, Cuts(mesh), std::move(pins), {}, {}};
+  problem.options.material = {3, poisson};
+  for (const ElementId pin : problem.pins) {
+    const Point at = field(mesh->rest_position(pin));
+    for (int k = 0; k < mesh->space_dimension; ++k) {
+      problem.pinned.push_back(at[mesh->axes[k]]);
+    }
+  }
+  return problem;
+}
+inline ElasticProblem pinned(const MeshPointer& mesh, std::vector<ElementId> pins, double poisson = 0.3) {
+  return pinned(
+      mesh, std::move(pins), [](const Point&) { return Point(Point::Zero()); }, poisson);
+}
+
+/// The layers at both ends of x.
+inline std::vector<ElementId> both_ends(const Mesh& mesh) {
+  std::vector<ElementId> pins = layer(mesh, *find_side("left"));
+  const auto right = layer(mesh, *find_side("right"));
+  pins.insert(pins.end(), right.begin(), right.end());
+  std::ranges::sort(pins);
+  return pins;
+}
+
+/// The largest distance of displacements from a field (mesh units).
+inline double furthest_from(const Mesh& mesh, const std::vector<double>& displacements, const Field& field) {
+  double furthest = 0;
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    const Point at = field(mesh.rest_position(e));
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      const std::size_t i =
+          std::size_t{e} * static_cast<std::size_t>(mesh.space_dimension) + static_cast<std::size_t>(k);
+      furthest = std::max(furthest, std::abs(displacements[i] - at[mesh.axes[k]]));
+    }
+  }
+  return furthest;
+}
+
+/// The root of the mean square of the distances of displacements from a field (mesh units).
+inline double rms_from(const Mesh& mesh, const std::vector<double>& displacements, const Field& field) {
+  double sum = 0;
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    const Point at = field(mesh.rest_position(e));
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      const std::size_t i =
+          std::size_t{e} * static_cast<std::size_t>(mesh.space_dimension) + static_cast<std::size_t>(k);
+      sum += std::pow(displacements[i] - at[mesh.axes[k]], 2);
+    }
+  }
+  return std::sqrt(sum / mesh.element_count());
+}
+
+/// The slope of log error over log size, from the first to the last.
+inline double order_of(const std::vector<double>& sizes, const std::vector<double>& errors) {
+  return std::log(errors.front() / errors.back()) / std::log(sizes.front() / sizes.back());
+}
+
+}  // namespace chainmail::test
