@@ -1,5 +1,6 @@
 #include <Eigen/LU>
 
+#include "elastic/elimination.h"
 #include "elastic/energy.h"
 #include "elastic/methods.h"
 #include "elastic/response.h"
@@ -15,8 +16,8 @@ class LinearFem final : public LinearResponse {
   LinearFem(const ElasticProblem& problem, const Progress& progress)
       : LinearResponse(problem),
         simplices_(build_simplices(*problem.mesh, problem.cuts, progress.part(0, 0.1))),
-        unknowns_((check_held(simplices_, *problem.mesh, problem.pins), simplices_), problem.mesh->element_count(),
-                  problem.pins) {
+        unknowns_((check_held(simplices_, *problem.mesh, problem.pins), problem.mesh->space_dimension),
+                  problem.mesh->element_count(), elimination_order(simplices_, *problem.mesh), problem.pins) {
     Stiffness stiffness(simplices_, unknowns_);
     Eigen::VectorXd load = Eigen::VectorXd::Zero(unknowns_.count());
     const Lame material = lame(problem.options.material);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "elastic/elimination.h"
 #include "elastic/methods.h"
 #include "elastic/newton.h"
 #include "mesh/error.h"
@@ -28,11 +29,12 @@ class NeoHookean final : public ElasticSolver {
         pins_(problem.pins),
         pinned_(problem.pinned),
         simplices_(build_simplices(*problem.mesh, problem.cuts, progress.part(0, 0.1))),
+        order_(elimination_order(simplices_, *problem.mesh)),
         lame_(lame(problem.options.material)),
         base_(problem.mesh->rest.size(), 0.0) {
     check_held(simplices_, *problem.mesh, problem.pins);
     if (std::ranges::any_of(pinned_, [](double one) { return one != 0; })) {
-      Newton newton(simplices_, lame_, elements_, pins_);
+      Newton newton(simplices_, lame_, elements_, order_, pins_);
       const std::string stuck = carry(newton, pins_, pinned_, base_, progress.part(0.1, 1));
       if (!stuck.empty()) {
         throw Error("neo-Hookean FEM", "with the pins where they are " + stuck, "reset the object, then pin it");
@@ -45,7 +47,7 @@ class NeoHookean final : public ElasticSolver {
     if (!newton_ || element != held_) {
       std::vector<ElementId> prescribed = pins_;
       prescribed.push_back(element);
-      newton_ = std::make_unique<Newton>(simplices_, lame_, elements_, prescribed);
+      newton_ = std::make_unique<Newton>(simplices_, lame_, elements_, order_, prescribed);
       held_ = element;
     }
   }
@@ -114,6 +116,7 @@ class NeoHookean final : public ElasticSolver {
   std::vector<ElementId> pins_;
   std::vector<double> pinned_;
   Simplices simplices_;
+  std::vector<ElementId> order_;  // of the unknowns
   Lame lame_;
   std::vector<double> base_, displacements_;
   std::unique_ptr<Newton> newton_;  // of the element in the hand

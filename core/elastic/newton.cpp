@@ -44,10 +44,11 @@ double cell_length(const Simplices& simplices) {
 
 }  // namespace
 
-Newton::Newton(const Simplices& simplices, const Lame& lame, ElementId elements, std::span<const ElementId> prescribed)
+Newton::Newton(const Simplices& simplices, const Lame& lame, ElementId elements, std::span<const ElementId> order,
+               std::span<const ElementId> prescribed)
     : simplices_(simplices),
       lame_(lame),
-      unknowns_(simplices, elements, prescribed),
+      unknowns_(simplices.dimension, elements, order, prescribed),
       stiffness_(simplices, unknowns_),
       length_(cell_length(simplices)) {
   if (unknowns_.count() > 0) {

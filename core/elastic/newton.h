@@ -12,8 +12,9 @@ namespace chainmail {
 /// Finds displacements at which the neo-Hookean energy is least while some elements are prescribed.
 class Newton {
  public:
-  /// `simplices` must outlive it.
-  Newton(const Simplices& simplices, const Lame& lame, ElementId elements, std::span<const ElementId> prescribed);
+  /// `simplices` must outlive it; `order` is that of Unknowns.
+  Newton(const Simplices& simplices, const Lame& lame, ElementId elements, std::span<const ElementId> order,
+         std::span<const ElementId> prescribed);
 
   /// From displacements in balance (n coordinates an element) to those in balance after the prescribed elements moved
   /// by `increment` (of all elements; 0 elsewhere). Returns false where it does not converge; `displacements` are worth

@@ -4,18 +4,16 @@
 
 namespace chainmail {
 
-Unknowns::Unknowns(const Simplices& simplices, ElementId elements, std::span<const ElementId> prescribed)
-    : dimension_(simplices.dimension), first_(elements, none) {
-  constexpr std::int32_t wanted = 0;
-  for (const ElementId corner : simplices.corners) {
-    first_[corner] = wanted;
-  }
+Unknowns::Unknowns(int dimension, ElementId elements, std::span<const ElementId> order,
+                   std::span<const ElementId> prescribed)
+    : dimension_(dimension), first_(elements, none) {
+  std::vector<bool> is_prescribed(elements, false);
   for (const ElementId element : prescribed) {
-    first_[element] = none;
+    is_prescribed[element] = true;
   }
-  for (std::int32_t& first : first_) {
-    if (first == wanted) {
-      first = static_cast<std::int32_t>(count_);
+  for (const ElementId element : order) {
+    if (!is_prescribed[element]) {
+      first_[element] = static_cast<std::int32_t>(count_);
       count_ += dimension_;
     }
   }

@@ -15,8 +15,8 @@ namespace chainmail {
 /// and has a cell.
 class Unknowns {
  public:
-  /// `prescribed` names elements; those without a cell stay as they are.
-  Unknowns(const Simplices& simplices, ElementId elements, std::span<const ElementId> prescribed);
+  /// Numbered in the order of `order`, all elements that have a cell, but for the prescribed ones.
+  Unknowns(int dimension, ElementId elements, std::span<const ElementId> order, std::span<const ElementId> prescribed);
 
   static constexpr std::int32_t none = -1;
   /// The first unknown of an element, or none.
@@ -51,6 +51,7 @@ class Stiffness {
   Sparse matrix_;
 };
 
-using Cholesky = Eigen::SimplicialLLT<Stiffness::Sparse, Eigen::Lower>;
+/// The unknowns come in an order that fills in little, so that none is looked for.
+using Cholesky = Eigen::SimplicialLLT<Stiffness::Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
 }  // namespace chainmail

@@ -1,0 +1,77 @@
+#include "elastic/elimination.h"
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+#include <limits>
+
+#include "elastic/dissection.h"
+
+namespace chainmail {
+namespace {
+
+/// Who shares a cell with whom: entries above 0 in both triangles.
+using Graph = Eigen::SparseMatrix<char>;
+
+Graph graph_of(const Simplices& simplices, const Mesh& mesh) {
+  std::vector<Eigen::Triplet<char>> pairs;
+  for (std::size_t s = 0; s < simplices.count(); ++s) {
+    for (const ElementId a : simplices.corners_of(s)) {
+      for (const ElementId b : simplices.corners_of(s)) {
+        pairs.emplace_back(static_cast<int>(a), static_cast<int>(b), 1);
+      }
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(mesh.element_count());
+  Graph graph(count, count);
+  graph.setFromTriplets(pairs.begin(), pairs.end(), [](char, char) { return char(1); });
+  return graph;
+}
+
+/// Who has a cell, as the minimum degree has them.
+std::vector<ElementId> by_degree(const Graph& graph) {
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), order);
+  std::vector<ElementId> all;
+  for (Eigen::Index i = 0; i < order.size(); ++i) {
+    const int element = order.indices()[i];
+    if (graph.outerIndexPtr()[element] != graph.outerIndexPtr()[element + 1]) {
+      all.push_back(static_cast<ElementId>(element));
+    }
+  }
+  return all;
+}
+
+/// The sum of the squares of the columns' lengths in the factor, walking up the elimination tree (Liu 1990).
+double operations(const Graph& graph, const std::vector<ElementId>& order) {
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> place(static_cast<std::size_t>(graph.cols()), none);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    place[order[i]] = i;
+  }
+  std::vector<std::size_t> parent(order.size(), none), seen(order.size(), none), length(order.size(), 1);
+  for (std::size_t row = 0; row < order.size(); ++row) {
+    seen[row] = row;
+    for (Graph::InnerIterator one(graph, order[row]); one; ++one) {
+      for (std::size_t i = place[static_cast<std::size_t>(one.row())]; i < row && seen[i] != row; i = parent[i]) {
+        parent[i] = parent[i] == none ? row : parent[i];
+        ++length[i];
+        seen[i] = row;
+      }
+    }
+  }
+  double sum = 0;
+  for (const std::size_t one : length) {
+    sum += double(one) * double(one);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<ElementId> elimination_order(const Simplices& simplices, const Mesh& mesh) {
+  const Graph graph = graph_of(simplices, mesh);
+  std::vector<ElementId> dissected = dissect(simplices, mesh), degrees = by_degree(graph);
+  return operations(graph, dissected) < operations(graph, degrees) ? dissected : degrees;
+}
+
+}  // namespace chainmail
