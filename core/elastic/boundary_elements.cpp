@@ -1,10 +1,88 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "elastic/held.h"
 #include "elastic/methods.h"
+#include "elastic/pinned_solid.h"
+#include "elastic/response.h"
 #include "mesh/error.h"
 
 namespace chainmail {
+namespace {
 
-std::unique_ptr<ElasticSolver> make_boundary_elements(const ElasticProblem& /*problem*/, const Progress& /*progress*/) {
-  throw Error("boundary_elements", "it is not built yet", "choose another method");
+using Eigen::Index;
+
+/// An object of one solid or several, each on its own: what happens to one does nothing to another.
+class BoundaryElements final : public LinearResponse {
+ public:
+  BoundaryElements(const ElasticProblem& problem, const Progress& progress)
+      : LinearResponse(problem), pinned_(problem.mesh->element_count()), solids_of_(pinned_.size()) {
+    for (std::size_t i = 0; i < problem.pins.size(); ++i) {
+      pinned_[problem.pins[i]] = Eigen::Map<const Point>(problem.pinned.data() + 3 * i);
+    }
+    auto solids = enclosed_solids(problem.mesh, problem.cuts, progress.part(0, 0.05));
+    check_pinned(*problem.mesh, problem.pins);
+    const Progress rest = progress.part(0.05, 1);
+    const double count = double(solids.size());
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      const Progress part = rest.part(double(i) / count, double(i + 1) / count);
+      solids_.emplace_back(*problem.mesh, std::move(solids[i]), pinned_, problem.options.material.poisson, part);
+      std::ranges::for_each(solids_.back().elements(), [&](ElementId e) { ++solids_of_[e]; });
+    }
+    start_at_rest();
+  }
+
+ private:
+  Eigen::MatrixXd respond(ElementId element, const Progress& progress) override {
+    Eigen::MatrixXd response = Eigen::MatrixXd::Zero(Index(3 * pinned_.size()), 3);
+    for (const PinnedSolid& solid : solids_) {
+      if (solid.has_corner(element)) {
+        add(solid, solid.respond(element, progress), response);
+      } else if (std::ranges::count(solid.elements(), element) != 0) {
+        throw Error("BEM", "element " + std::to_string(element) + " lies inside, and it works on the surface",
+                    "take hold of an element of the surface");
+      }
+    }
+    for (std::size_t e = 0; e < pinned_.size(); ++e) {
+      if (pinned_[e]) {
+        response.middleRows<3>(Index(3 * e)).setZero();
+      }
+    }
+    response.middleRows<3>(Index(3 * element)).setIdentity();
+    return response;
+  }
+
+  void start_at_rest() {
+    Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(Index(3 * pinned_.size()), 1);
+    for (const PinnedSolid& solid : solids_) {
+      add(solid, solid.at_rest(), rest);
+    }
+    for (std::size_t e = 0; e < pinned_.size(); ++e) {
+      if (pinned_[e]) {
+        rest.middleRows<3>(Index(3 * e)) = *pinned_[e];
+      }
+    }
+    set_base({rest.data(), rest.data() + rest.size()});
+  }
+
+  /// What the elements of a solid do; one that two solids share is in between.
+  void add(const PinnedSolid& solid, const Eigen::MatrixXd& of_solid, Eigen::MatrixXd& to) const {
+    for (std::size_t i = 0; i < solid.elements().size(); ++i) {
+      const ElementId e = solid.elements()[i];
+      to.middleRows<3>(Index(3 * e)) += of_solid.middleRows<3>(Index(3 * i)) / double(solids_of_[e]);
+    }
+  }
+
+  PinnedElements pinned_;
+  std::vector<std::uint32_t> solids_of_;  // how many have the element
+  std::vector<PinnedSolid> solids_;
+};
+
+}  // namespace
+
+std::unique_ptr<ElasticSolver> make_boundary_elements(const ElasticProblem& problem, const Progress& progress) {
+  return std::make_unique<BoundaryElements>(problem, progress);
 }
 
 }  // namespace chainmail

@@ -1,5 +1,7 @@
 // Whether pins leave a part of an object free to move as a rigid body.
 
+#include "elastic/held.h"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <map>
@@ -7,6 +9,7 @@
 
 #include "elastic/simplices.h"
 #include "mesh/error.h"
+#include "mesh/layers.h"
 
 namespace chainmail {
 namespace {
@@ -83,23 +86,37 @@ std::string too_few(int dimension) {
                           : "fewer than three pins that do not lie on one line hold it";
 }
 
+/// A closed surface has no boundary to be pinned.
+const char* remedy(const Mesh& mesh) {
+  return boundary(mesh).empty() ? "pin its bottom layer, or elements by hand"
+                                : "pin its bottom layer, its boundary, or elements by hand";
+}
+
 }  // namespace
 
-void check_held(const Simplices& simplices, const Mesh& mesh, std::span<const ElementId> pins) {
+void check_pinned(const Mesh& mesh, std::span<const ElementId> pins) {
   if (pins.empty()) {
-    throw Error("object", "nothing pins it, so there is no static answer",
-                "pin its bottom layer, its boundary, or elements by hand");
+    throw Error("object", "nothing pins it, so there is no static answer", remedy(mesh));
   }
+}
+
+void check_part_held(const Mesh& mesh, ElementId part, const std::vector<ElementId>& pins) {
+  if (!holds(mesh, pins)) {
+    throw Error("the part of element " + std::to_string(part),
+                too_few(mesh.space_dimension) + ", so it has no static answer", remedy(mesh));
+  }
+}
+
+void check_held(const Simplices& simplices, const Mesh& mesh, std::span<const ElementId> pins) {
+  check_pinned(mesh, pins);
   Forest forest(simplices, mesh.element_count());
   std::map<ElementId, std::vector<ElementId>> pins_of;
   for (const ElementId pin : pins) {
     pins_of[forest.root(pin)].push_back(pin);
   }
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    if (forest.in_cell(e) && forest.root(e) == e && !holds(mesh, pins_of[e])) {
-      throw Error("the part of element " + std::to_string(e),
-                  too_few(mesh.space_dimension) + ", so it has no static answer",
-                  "pin its bottom layer, its boundary, or elements by hand");
+    if (forest.in_cell(e) && forest.root(e) == e) {
+      check_part_held(mesh, e, pins_of[e]);
     }
   }
 }

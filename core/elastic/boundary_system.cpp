@@ -1,0 +1,90 @@
+#include "elastic/boundary_system.h"
+
+#include <utility>
+
+namespace chainmail {
+namespace {
+
+Eigen::Index row_of(std::size_t facet) { return Eigen::Index(3 * facet); }
+
+}  // namespace
+
+BoundarySystem::BoundarySystem(std::vector<Facet> facets, std::vector<bool> displacement_known, double poisson,
+                               const Progress& progress)
+    : facets_(std::move(facets)),
+      displacement_known_(std::move(displacement_known)),
+      poisson_(poisson),
+      own_traction_(facets_.size()) {
+  // Integrals grow by the square, the factors by the cube of the facets: they take as long at a few hundred.
+  const double size = double(facets_.size()), share = 300 / (300 + size);
+  Eigen::MatrixXd matrix(row_of(facets_.size()), row_of(facets_.size()));
+  assemble(matrix, progress.part(0, share));
+  factors_ = DenseLu(std::move(matrix), progress.part(share, 1));
+}
+
+/// Σ_j H_ij u_j = Σ_j G_ij t_j, with what is unknown on the left. H has the jump of ½ on its diagonal: no displacement
+/// of the whole causes tractions, so that each row of H adds up to 0, and its diagonal follows from the rest of it.
+void BoundarySystem::assemble(Eigen::MatrixXd& matrix, const Progress& progress) {
+  for (std::size_t i = 0; i < facets_.size(); ++i) {
+    progress.report(double(i) / double(facets_.size()));
+    Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
+    for (std::size_t j = 0; j < facets_.size(); ++j) {
+      const auto [displacement, traction] = integrate_kelvin(facets_[j], facets_[i].centroid, poisson_);
+      if (displacement_known_[j]) {
+        matrix.block<3, 3>(row_of(i), row_of(j)) = -displacement;
+      } else if (i != j) {
+        matrix.block<3, 3>(row_of(i), row_of(j)) = traction;
+      }
+      if (i != j) {
+        own -= traction;
+      }
+    }
+    own_traction_[i] = own;
+    if (!displacement_known_[i]) {
+      matrix.block<3, 3>(row_of(i), row_of(i)) = own;
+    }
+  }
+}
+
+Eigen::MatrixXd BoundarySystem::right_sides(const Eigen::MatrixXd& known) const {
+  Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(known.rows(), known.cols());
+  for (std::size_t j = 0; j < facets_.size(); ++j) {
+    const auto of_facet = known.middleRows<3>(row_of(j));
+    if (of_facet.isZero(0)) {
+      continue;  // most are, and integrals are dear
+    }
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+      if (i == j && displacement_known_[j]) {
+        sides.middleRows<3>(row_of(i)) -= own_traction_[i] * of_facet;
+        continue;
+      }
+      const auto [displacement, traction] = integrate_kelvin(facets_[j], facets_[i].centroid, poisson_);
+      sides.middleRows<3>(row_of(i)) += (displacement_known_[j] ? Eigen::Matrix3d(-traction) : displacement) * of_facet;
+    }
+  }
+  return sides;
+}
+
+BoundarySystem::Fields BoundarySystem::solve(const Eigen::MatrixXd& known) const {
+  Eigen::MatrixXd found = right_sides(known);
+  factors_.solve(found);
+  Fields fields{known, std::move(found)};
+  for (std::size_t i = 0; i < facets_.size(); ++i) {
+    if (!displacement_known_[i]) {
+      fields.displacements.middleRows<3>(row_of(i)).swap(fields.tractions.middleRows<3>(row_of(i)));
+    }
+  }
+  return fields;
+}
+
+Eigen::Matrix3Xd BoundarySystem::displacement_inside(const Point& point, const Fields& fields) const {
+  Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, fields.displacements.cols());
+  for (std::size_t j = 0; j < facets_.size(); ++j) {
+    const auto [displacement, traction] = integrate_kelvin(facets_[j], point, poisson_);
+    sum += displacement * fields.tractions.middleRows<3>(row_of(j)) -
+           traction * fields.displacements.middleRows<3>(row_of(j));
+  }
+  return sum;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,188 @@
+#include "elastic/closed_surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "elastic/methods.h"
+#include "elastic/shells.h"
+#include "mesh/error.h"
+#include "mesh/surface.h"
+
+namespace chainmail {
+namespace {
+
+using Triangle = std::array<ElementId, 3>;
+
+constexpr double flat = 1e-9;   // height over longest edge: below this, a normal is rounding
+constexpr double empty = 1e-9;  // volume over area to the power of 3/2: a sphere has 0.09
+
+/// The triangles of the object, and the elements of its cells, if it has any.
+struct Outside {
+  std::vector<Triangle> triangles;
+  std::vector<ElementId> of_cells;
+};
+
+Outside outside_of_cells(const MeshPointer& mesh, const Cuts& cuts, const Progress& progress) {
+  Outside outside;
+  const Surface surface(std::make_shared<CellTable>(mesh, progress), cuts);
+  const auto corners = surface.triangles();
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    outside.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  }
+  std::ranges::sort(outside.triangles);  // sides in sight come in no order
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    if (std::ranges::any_of(surface.table().cells_of(e), [&](CellId cell) { return surface.is_whole(cell); })) {
+      outside.of_cells.push_back(e);
+    }
+  }
+  return outside;
+}
+
+Outside outside_of(const MeshPointer& mesh, const Cuts& cuts, const Progress& progress) {
+  const bool has_cells = !mesh->tetrahedra.empty() || !mesh->hexahedra.empty();
+  return has_cells ? outside_of_cells(mesh, cuts, progress) : Outside{mesh->triangles, {}};
+}
+
+Facet facet_of(const Mesh& mesh, const Triangle& triangle) {
+  return Facet({unit_position(mesh, triangle[0]), unit_position(mesh, triangle[1]), unit_position(mesh, triangle[2])});
+}
+
+void check_flat(const Mesh& mesh, const std::vector<Triangle>& triangles) {
+  for (const auto& triangle : triangles) {
+    const Facet facet = facet_of(mesh, triangle);
+    const double longest = std::ranges::max(facet.length);
+    if (!(facet.area > flat * longest * longest)) {
+      throw Error("BEM",
+                  "the elements " + std::to_string(triangle[0]) + ", " + std::to_string(triangle[1]) + " and " +
+                      std::to_string(triangle[2]) + " of a triangle stand on one line",
+                  "move one of them, or leave the triangle out of the file");
+    }
+  }
+}
+
+/// A surface that hangs together, turned outward.
+struct Shell {
+  std::vector<Triangle> triangles;
+  std::vector<Facet> facets;
+  std::vector<std::size_t> about;  // the shells that enclose it
+};
+
+void turn_round(const Mesh& mesh, Shell& shell) {
+  for (std::size_t i = 0; i < shell.triangles.size(); ++i) {
+    std::swap(shell.triangles[i][1], shell.triangles[i][2]);
+    shell.facets[i] = facet_of(mesh, shell.triangles[i]);
+  }
+}
+
+Shell outward(const Mesh& mesh, const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& members) {
+  Shell shell;
+  double volume = 0, area = 0;
+  for (const std::uint32_t t : members) {
+    const Facet& facet = shell.facets.emplace_back(facet_of(mesh, triangles[t]));
+    shell.triangles.push_back(triangles[t]);
+    volume += facet.area * facet.normal.dot(facet.centroid - shell.facets.front().centroid) / 3;
+    area += facet.area;
+  }
+  if (!(std::abs(volume) > empty * area * std::sqrt(area))) {
+    throw Error("BEM", "the surface about element " + std::to_string(shell.triangles[0][0]) + " encloses no volume",
+                "use a surface that does");
+  }
+  if (volume < 0) {
+    turn_round(mesh, shell);
+  }
+  return shell;
+}
+
+bool encloses(const std::vector<Facet>& facets, const Point& point) {
+  double sum = 0;
+  for (const Facet& facet : facets) {
+    sum += solid_angle(facet, point);
+  }
+  // 4π inside and 0 outside; 2π on it, which is not inside.
+  return sum > 3 * std::numbers::pi;
+}
+
+void find_what_encloses(std::vector<Shell>& shells, const Progress& progress) {
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    progress.report(double(i) / double(shells.size()));
+    for (std::size_t j = 0; j < shells.size(); ++j) {
+      if (i != j && encloses(shells[j].facets, shells[i].facets.front().centroid)) {
+        shells[i].about.push_back(j);
+      }
+    }
+  }
+}
+
+void append(const Shell& shell, Solid& solid) {
+  solid.triangles.insert(solid.triangles.end(), shell.triangles.begin(), shell.triangles.end());
+  solid.facets.insert(solid.facets.end(), shell.facets.begin(), shell.facets.end());
+}
+
+/// A shell in an even number of others bounds a solid; in an odd number, a cavity of the solid of the innermost.
+std::vector<Solid> solids_of(const Mesh& mesh, std::vector<Shell>& shells) {
+  std::vector<Solid> solids;
+  std::vector<std::size_t> solid_of(shells.size());
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    if (shells[i].about.size() % 2 == 0) {
+      solid_of[i] = solids.size();
+      append(shells[i], solids.emplace_back());
+    }
+  }
+  for (Shell& shell : shells) {
+    if (shell.about.size() % 2 == 1) {
+      const auto innermost = std::ranges::max(shell.about, {}, [&](std::size_t j) { return shells[j].about.size(); });
+      turn_round(mesh, shell);
+      append(shell, solids[solid_of[innermost]]);
+    }
+  }
+  return solids;
+}
+
+void place_inner(const Mesh& mesh, const std::vector<ElementId>& elements, std::vector<Solid>& solids,
+                 const Progress& progress) {
+  std::vector<bool> outer(mesh.element_count());
+  for (const Solid& solid : solids) {
+    for (const auto& triangle : solid.triangles) {
+      for (const ElementId e : triangle) {
+        outer[e] = true;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    progress.report(double(i) / double(elements.size()));
+    const auto found = std::ranges::find_if(solids, [&](const Solid& solid) {
+      return !outer[elements[i]] && encloses(solid.facets, unit_position(mesh, elements[i]));
+    });
+    if (found != solids.end()) {
+      found->inner.push_back(elements[i]);
+      found->inner_positions.push_back(unit_position(mesh, elements[i]));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Solid> enclosed_solids(const MeshPointer& mesh, const Cuts& cuts, const Progress& progress) {
+  auto [triangles, of_cells] = outside_of(mesh, cuts, progress.part(0, 0.2));
+  check_boundary_size(triangles.size(), of_cells.size());
+  check_flat(*mesh, triangles);
+  std::vector<Shell> shells;
+  for (const auto& members : part_into_shells(*mesh, cuts, triangles)) {
+    shells.push_back(outward(*mesh, triangles, members));
+  }
+  find_what_encloses(shells, progress.part(0.2, 0.5));
+  auto solids = solids_of(*mesh, shells);
+  place_inner(*mesh, of_cells, solids, progress.part(0.5, 1));
+  return solids;
+}
+
+Point unit_position(const Mesh& mesh, ElementId element) {
+  const auto& [low, high] = mesh.box;
+  const double diagonal = (high - low).norm();
+  return (mesh.rest_position(element) - low) / diagonal - (high - low) / (2 * diagonal);
+}
+
+}  // namespace chainmail

@@ -1,0 +1,143 @@
+#include "elastic/pinned_solid.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "elastic/held.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+using Eigen::Index;
+
+std::vector<ElementId> corners_of(const Solid& solid) {
+  std::vector<ElementId> corners;
+  for (const auto& triangle : solid.triangles) {
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  std::ranges::sort(corners);
+  corners.erase(std::ranges::unique(corners).begin(), corners.end());
+  return corners;
+}
+
+}  // namespace
+
+PinnedSolid::PinnedSolid(const Mesh& mesh, Solid solid, const PinnedElements& pinned, double poisson,
+                         const Progress& progress)
+    : solid_(std::move(solid)), elements_(corners_of(solid_)), corner_count_(elements_.size()) {
+  elements_.insert(elements_.end(), solid_.inner.begin(), solid_.inner.end());
+  check_pins(mesh, pinned);
+  find_pinned_facets(pinned);
+  system_.emplace(std::move(solid_.facets), is_pinned_, poisson, progress.part(0, 0.95));
+  at_rest_ = Eigen::VectorXd::Zero(Index(3 * elements_.size()));
+  if (!pins_.isZero(0)) {
+    at_rest_ = at_elements(system_->solve(pins_), progress.part(0.95, 1));
+  }
+}
+
+bool PinnedSolid::has_corner(ElementId element) const {
+  return std::binary_search(elements_.begin(), elements_.begin() + std::ptrdiff_t(corner_count_), element);
+}
+
+void PinnedSolid::check_pins(const Mesh& mesh, const PinnedElements& pinned) const {
+  for (const ElementId e : solid_.inner) {
+    if (pinned[e]) {
+      throw Error("BEM", "element " + std::to_string(e) + " is pinned inside the object, and it works on the surface",
+                  "unpin it, or compare by linear FEM");
+    }
+  }
+  std::vector<ElementId> pins = elements_;
+  std::erase_if(pins, [&](ElementId e) { return !pinned[e]; });
+  check_part_held(mesh, elements_.front(), pins);
+}
+
+void PinnedSolid::find_pinned_facets(const PinnedElements& pinned) {
+  const auto& triangles = solid_.triangles;
+  const auto is_pinned = [&](ElementId e) { return pinned[e].has_value(); };
+  is_pinned_.resize(triangles.size());
+  std::vector<bool> holds(pinned.size());  // a facet alone
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (std::ranges::all_of(triangles[t], is_pinned)) {
+      is_pinned_[t] = true;
+      std::ranges::for_each(triangles[t], [&](ElementId e) { holds[e] = true; });
+    }
+  }
+  pins_ = Eigen::VectorXd::Zero(Index(3 * triangles.size()));
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    is_pinned_[t] =
+        is_pinned_[t] || std::ranges::any_of(triangles[t], [&](ElementId e) { return is_pinned(e) && !holds[e]; });
+    const auto count = std::ranges::count_if(triangles[t], is_pinned);
+    for (std::size_t i = 0; i < 3 && is_pinned_[t]; ++i) {
+      pins_.segment<3>(Index(3 * t)) += pinned[triangles[t][i]].value_or(Point::Zero()) / double(count);
+    }
+  }
+}
+
+std::vector<std::size_t> PinnedSolid::facets_about(ElementId corner) const {
+  std::vector<std::size_t> about;
+  for (std::size_t t = 0; t < solid_.triangles.size(); ++t) {
+    if (std::ranges::count(solid_.triangles[t], corner) != 0) {
+      about.push_back(t);
+    }
+  }
+  return about;
+}
+
+/// The system knows the tractions of the facets in the hand: unit tractions on these tell which carry them along. Those
+/// that pins hold as well go with the hand by themselves.
+Eigen::MatrixXd PinnedSolid::respond(ElementId corner, const Progress& progress) const {
+  auto free = facets_about(corner);
+  Eigen::MatrixXd hand = Eigen::MatrixXd::Zero(pins_.size(), 3);
+  std::erase_if(free, [&](std::size_t t) {
+    if (is_pinned_[t]) {
+      hand.middleRows<3>(Index(3 * t)).setIdentity();
+    }
+    return is_pinned_[t];
+  });
+  const Index units = Index(3 * free.size());
+  Eigen::MatrixXd known = Eigen::MatrixXd::Zero(pins_.size(), units + 3);
+  known.rightCols<3>() = hand;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    known.block<3, 3>(Index(3 * free[i]), Index(3 * i)).setIdentity();
+  }
+  const auto fields = system_->solve(known);
+  progress.report(0.5);
+  Eigen::MatrixXd in_hand(units, units + 3), follow(units, 3);
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    in_hand.middleRows<3>(Index(3 * i)) = fields.displacements.middleRows<3>(Index(3 * free[i]));
+    follow.middleRows<3>(Index(3 * i)).setIdentity();
+  }
+  const Eigen::MatrixXd tractions = in_hand.leftCols(units).partialPivLu().solve(follow - in_hand.rightCols<3>());
+  const auto together = [&](const Eigen::MatrixXd& of) -> Eigen::MatrixXd {
+    return of.rightCols<3>() + of.leftCols(units) * tractions;
+  };
+  return at_elements({together(fields.displacements), together(fields.tractions)}, progress.part(0.5, 1));
+}
+
+Eigen::MatrixXd PinnedSolid::at_elements(const BoundarySystem::Fields& fields, const Progress& progress) const {
+  Eigen::MatrixXd at = Eigen::MatrixXd::Zero(Index(3 * elements_.size()), fields.displacements.cols());
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(Index(corner_count_));
+  for (std::size_t t = 0; t < solid_.triangles.size(); ++t) {
+    const double area = system_->facets()[t].area;
+    for (const ElementId e : solid_.triangles[t]) {
+      const Index i =
+          std::lower_bound(elements_.begin(), elements_.begin() + std::ptrdiff_t(corner_count_), e) - elements_.begin();
+      at.middleRows<3>(3 * i) += area * fields.displacements.middleRows<3>(Index(3 * t));
+      areas[i] += area;
+    }
+  }
+  for (Index i = 0; i < areas.size(); ++i) {
+    at.middleRows<3>(3 * i) /= areas[i];
+  }
+  for (std::size_t i = 0; i < solid_.inner.size(); ++i) {
+    progress.report(double(i) / double(solid_.inner.size()));
+    const std::size_t place = corner_count_ + i;
+    at.middleRows<3>(Index(3 * place)) = system_->displacement_inside(solid_.inner_positions[i], fields);
+  }
+  return at;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,250 @@
+#include <QtTest>
+
+#include "core/elastic_problems.h"
+#include "core/pinned.h"
+#include "core/spheres.h"
+#include "elastic/closed_surface.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace {
+
+constexpr double poisson = 0.3;
+
+QString told(const std::function<void()>& act) { return QString::fromStdString(refusal(act)); }
+
+QString refused(const MeshPointer& mesh, const std::vector<ElementId>& pins, const Cuts& cuts = {}) {
+  ElasticProblem problem = pinned(mesh, pins);
+  problem.cuts = cuts;
+  return told([&] { make_elastic(ElasticMethod::boundary, problem); });
+}
+
+}  // namespace
+
+/// Closed surfaces under a hand, by boundary elements.
+class BoundaryElementsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void cavities_and_turned_triangles_are_found();
+  void the_hand_and_the_pins_are_where_they_are();
+  void the_hand_does_what_pins_would();
+  void the_hand_wins_over_pins();
+  void parts_move_by_themselves();
+  void it_agrees_with_finite_elements();
+  void it_can_be_cancelled();
+  void wrong_surfaces_are_refused();
+  void loose_parts_are_refused();
+};
+void BoundaryElementsTest::cavities_and_turned_triangles_are_found() {
+  // A ball in a cavity of a ball, and another ball beside them; every other triangle the wrong way round.
+  MeshParts parts = together(together(sphere_parts(3, 3), sphere_parts(3, 2)), sphere_parts(2, 1));
+  parts = together(parts, sphere_parts(2), Point(8, 0, 0));
+  for (std::size_t t = 0; t < parts.triangles.size(); t += 2) {
+    std::swap(parts.triangles[t][0], parts.triangles[t][1]);
+  }
+  const auto mesh = build_mesh(std::move(parts));
+  const auto solids = enclosed_solids(mesh, Cuts(mesh));
+  QCOMPARE(solids.size(), std::size_t(3));
+  QCOMPARE(solids[0].triangles.size(), std::size_t(2 * 72));
+  QCOMPARE(solids[1].triangles.size(), std::size_t(32));
+  const Point middle = unit_position(*mesh, 0) - Point(0, 0, 3) / (mesh->box[1] - mesh->box[0]).norm();
+  for (std::size_t t = 0; t < 2 * 72; ++t) {
+    const Facet& facet = solids[0].facets[t];
+    QCOMPARE(facet.normal.dot(facet.centroid - middle) > 0, t < 72);
+  }
+}
+
+void BoundaryElementsTest::the_hand_and_the_pins_are_where_they_are() {
+  const auto mesh = sphere(4);
+  const auto pins = layer(*mesh, *find_side("bottom"));
+  const auto solver = make_elastic(
+      ElasticMethod::boundary, pinned(
+                                   mesh, pins, [](const Point& at) { return Point(0, 0.1, 0.05 * at.x()); }, poisson));
+  const auto rest = solver->displacements();
+  const auto top = layer(*mesh, *find_side("top"));
+  std::vector<std::vector<double>> answers;
+  const Point first(0.3, 0.2, -0.1), second(-0.1, 0.4, 0.2), before(rest.data() + 3 * std::size_t{top.front()});
+  for (const Point& to : {first, second, Point(first + second - before)}) {
+    solver->hold(top.front());
+    solver->move(std::array{to.x(), to.y(), to.z()});
+    answers.push_back(solver->displacements());
+    for (int k = 0; k < 3; ++k) {
+      // The way from where the pins had it is added to that place: a rounding.
+      QVERIFY(std::abs(answers.back()[3 * top.front() + std::size_t(k)] - to[k]) < 1e-15);
+      for (const ElementId pin : pins) {
+        QCOMPARE(answers.back()[3 * pin + std::size_t(k)], rest[3 * pin + std::size_t(k)]);
+      }
+    }
+  }
+  for (const ElementId pin : pins) {
+    QCOMPARE(rest[3 * pin + 1], 0.1);
+    QCOMPARE(rest[3 * pin + 2], 0.05 * mesh->rest_position(pin).x());
+  }
+  // From where the pins have all, the third way is the sum of the first two: so is its answer.
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    QVERIFY(std::abs(answers[0][i] + answers[1][i] - rest[i] - answers[2][i]) < 1e-12);
+  }
+  solver->reset();
+  QVERIFY(same_bits(solver->displacements(), rest));
+}
+
+/// Its patch prescribed by pins is another system of equations with the same answer.
+void BoundaryElementsTest::the_hand_does_what_pins_would() {
+  const auto mesh = sphere(4);
+  const auto bottom = layer(*mesh, *find_side("bottom"));
+  const ElementId top = layer(*mesh, *find_side("top")).front();
+  const auto held = make_elastic(ElasticMethod::boundary, pinned(mesh, bottom));
+  held->hold(top);
+  held->move(std::array{0.1, 0.3, -0.2});
+  std::vector<ElementId> pins(mesh->neighbours_of(top).begin(), mesh->neighbours_of(top).end());
+  pins.push_back(top);
+  pins.insert(pins.end(), bottom.begin(), bottom.end());
+  std::ranges::sort(pins);
+  const auto prescribed = make_elastic(
+      ElasticMethod::boundary,
+      pinned(
+          mesh, pins, [](const Point& at) { return at.y() > 0 ? Point(0.1, 0.3, -0.2) : Point(Point::Zero()); },
+          poisson));
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    for (std::size_t k = 0; k < 3 && !std::ranges::binary_search(pins, e); ++k) {
+      QVERIFY(std::abs(held->displacements()[3 * e + k] - prescribed->displacements()[3 * e + k]) < 1e-12);
+    }
+  }
+}
+
+/// Single pins hold all triangles about them: here, all that the hand holds.
+void BoundaryElementsTest::the_hand_wins_over_pins() {
+  const auto octahedron = sphere(1);
+  const ElementId top = layer(*octahedron, *find_side("top")).front(),
+                  bottom = layer(*octahedron, *find_side("bottom")).front();
+  std::vector<ElementId> equator;
+  for (ElementId e = 0; e < octahedron->element_count(); ++e) {
+    if (e != top && e != bottom) {
+      equator.push_back(e);
+    }
+  }
+  const auto solver = make_elastic(ElasticMethod::boundary, pinned(octahedron, equator));
+  solver->hold(top);
+  solver->move(std::array{0.0, 0.5, 0.0});
+  QCOMPARE(solver->displacements()[3 * top + 1], 0.5);
+  QCOMPARE(solver->displacements()[3 * bottom + 1], 0.0);
+  QCOMPARE(solver->displacements()[3 * equator[0] + 1], 0.0);
+}
+
+void BoundaryElementsTest::parts_move_by_themselves() {
+  MeshParts parts = together(sphere_parts(2), sphere_parts(2), Point(3, 0, 0));
+  parts.rest.emplace_back(0, 0, 0);  // no triangle holds it
+  const auto two = build_mesh(std::move(parts)), one = sphere(2);
+  const auto count = one->element_count();
+  auto pins = layer(*one, *find_side("bottom"));
+  for (ElementId e = 0; pins.size() < 3; ++e) {
+    if (one->rest_position(e).y() < 0) {
+      pins.insert(std::ranges::lower_bound(pins, e), e);
+    }
+  }
+  pins.erase(std::ranges::unique(pins).begin(), pins.end());
+  std::vector<ElementId> both = pins;
+  std::ranges::transform(pins, std::back_inserter(both), [&](ElementId e) { return e + count; });
+  const auto alone = make_elastic(ElasticMethod::boundary, pinned(one, pins));
+  const auto beside = make_elastic(ElasticMethod::boundary, pinned(two, both));
+  const ElementId top = layer(*one, *find_side("top")).front();
+  const std::array<double, 3> to{0.2, 0.1, 0.3};
+  alone->hold(top);
+  alone->move(to);
+  beside->hold(top);
+  beside->move(to);
+  for (std::size_t i = 0; i < 3 * std::size_t(count); ++i) {
+    QVERIFY(std::abs(alone->displacements()[i] - beside->displacements()[i]) < 1e-12);
+    QCOMPARE(beside->displacements()[i + 3 * count], 0.0);
+  }
+  const ElementId loose = 2 * count;
+  QCOMPARE(beside->displacements()[3 * loose], 0.0);
+  beside->hold(loose);
+  beside->move(to);
+  QCOMPARE(beside->displacements()[3 * loose + 2], to[2]);
+  QCOMPARE(beside->displacements()[3 * top], 0.0);
+}
+
+/// A cube between two plates, one of which moves: on the surface alone, and filled with tetrahedra. Both come closer to
+/// what is true, so to each other, with the size of their elements: constant elements are the coarser ones.
+void BoundaryElementsTest::it_agrees_with_finite_elements() {
+  const Field plates = [](const Point& at) { return at.x() > 0 ? Point(0.1, 0.05, -0.02) : Point(Point::Zero()); };
+  std::vector<double> sizes, errors;
+  for (const std::uint32_t parts : {3U, 6U}) {
+    const auto mesh = make_mesh(MeshKind::tetra, {parts + 1, parts + 1, parts + 1}, {}, 1.0 / parts);
+    const auto problem = pinned(mesh, both_ends(*mesh), plates, poisson);
+    const auto fem = make_elastic(ElasticMethod::linear_fem, problem),
+               bem = make_elastic(ElasticMethod::boundary, problem);
+    ElementId e = 0;
+    sizes.push_back(1.0 / parts);
+    errors.push_back(rms_from(*mesh, bem->displacements(),
+                              [&](const Point&) {
+                                const double* at = fem->displacements().data() + 3 * std::size_t{e++};
+                                return Point(at[0], at[1], at[2]);
+                              }) /
+                     plates(Point(1, 0, 0)).norm());
+  }
+  qInfo() << "boundary elements beside finite elements: order" << order_of(sizes, errors) << "differences over the move"
+          << errors;
+  QVERIFY(order_of(sizes, errors) > 0.8);
+  QVERIFY(errors.back() < 0.05);
+}
+
+void BoundaryElementsTest::it_can_be_cancelled() {
+  JobState job;
+  job.cancelled = true;
+  QVERIFY_EXCEPTION_THROWN(make_elastic(ElasticMethod::boundary, pinned(sphere(4), {0, 1, 2, 3}), Progress(job)),
+                           Cancelled);
+}
+
+void BoundaryElementsTest::wrong_surfaces_are_refused() {
+  const auto ball = sphere(3);
+  const std::vector<ElementId> pins{0, 1, 2, 3};
+  QCOMPARE(refused(ball, pins), QString());
+  MeshParts open = sphere_parts(3), three = sphere_parts(3), flat = sphere_parts(3);
+  open.triangles.erase(open.triangles.begin());
+  QVERIFY(refused(build_mesh(open), pins).startsWith("BEM: the surface is open along the edge between the elements "));
+  three.rest.emplace_back(3, 3, 3);
+  three.triangles.push_back({three.triangles[0][0], three.triangles[0][1], ElementId(three.rest.size() - 1)});
+  QVERIFY(refused(build_mesh(three), pins).contains("3 triangles meet at the edge between the elements "));
+  flat.rest[flat.triangles[0][0]] = (flat.rest[flat.triangles[0][1]] + flat.rest[flat.triangles[0][2]]) / 2;
+  QVERIFY(refused(build_mesh(flat), pins).contains("of a triangle stand on one line"));
+  Cuts cuts(ball);
+  cuts.cut(*find_link(*ball, ball->triangles[0][0], ball->triangles[0][1]));
+  QVERIFY(refused(ball, pins, cuts).startsWith("BEM: a cut along the edge between the elements "));
+  MeshParts doubled = sphere_parts(1);
+  doubled.triangles.resize(1);
+  doubled.triangles.push_back(doubled.triangles[0]);
+  QVERIFY(refused(build_mesh(doubled), pins).contains("encloses no volume"));
+  // The projective plane of six corners: no edge is open, and no side is the inside.
+  MeshParts one_sided;
+  one_sided.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0.3}, {0.4, 1, 1}};
+  one_sided.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1},
+                         {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
+  add_links_along_edges(one_sided);
+  QVERIFY(refused(build_mesh(one_sided), pins).contains("has one side alone"));
+  QVERIFY(!fits(ElasticMethod::boundary, *make_mesh(MeshKind::cloth, {4, 4, 1})));
+  QVERIFY(!fits(ElasticMethod::boundary, *make_mesh(MeshKind::tetra, {40, 40, 40})));
+  QVERIFY(refused(sphere(30), pins).contains("triangles on their surface, and this one has 7200; use a coarser mesh"));
+}
+
+void BoundaryElementsTest::loose_parts_are_refused() {
+  const auto ball = sphere(3);
+  QCOMPARE(refused(ball, {}),
+           QString("object: nothing pins it, so there is no static answer; pin its bottom layer, or elements by hand"));
+  QVERIFY(refused(ball, {0, 1}).startsWith("the part of element 0: fewer than three pins"));
+  const auto two = build_mesh(together(sphere_parts(3), sphere_parts(3), Point(3, 0, 0)));
+  QVERIFY(refused(two, {0, 1, 2, 3})
+              .startsWith("the part of element " + QString::number(ball->element_count()) + ": fewer"));
+  const auto block = make_mesh(MeshKind::tetra, {3, 3, 3});
+  auto pins = layer(*block, *find_side("left"));
+  const auto solver = make_elastic(ElasticMethod::boundary, pinned(block, pins));
+  QVERIFY(told([&] { solver->hold(13); }).startsWith("BEM: element 13 lies inside"));
+  pins.insert(std::ranges::lower_bound(pins, 13U), 13);
+  QVERIFY(refused(block, pins).startsWith("BEM: element 13 is pinned inside"));
+}
+
+QTEST_APPLESS_MAIN(BoundaryElementsTest)
+#include "test_boundary_elements.moc"
