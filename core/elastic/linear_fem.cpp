@@ -1,5 +1,6 @@
 #include <Eigen/LU>
 
+#include "elastic/cholesky.h"
 #include "elastic/elimination.h"
 #include "elastic/energy.h"
 #include "elastic/methods.h"
@@ -28,8 +29,8 @@ class LinearFem final : public LinearResponse {
     }
     progress.report(0.2);
     if (unknowns_.count() > 0) {
-      factor_.compute(stiffness.matrix());
-      if (factor_.info() != Eigen::Success) {
+      factor_.analyze(stiffness.matrix());
+      if (!factor_.factor(stiffness.matrix())) {
         throw Error("linear FEM",
                     "the stiffness is not positive: cells are too thin, or Poisson's ratio too close to 0.5",
                     "mesh the object anew, or lower Poisson's ratio");
@@ -68,17 +69,15 @@ class LinearFem final : public LinearResponse {
   }
 
   /// Unit forces on the element, scaled so that they displace it by one (Schur complement of the compliance).
-  Eigen::MatrixXd respond(ElementId element, const Progress& progress) override {
+  Eigen::MatrixXd respond(ElementId element, const Progress& /*progress*/) override {
     const int n = simplices_.dimension;
     const auto size = static_cast<Eigen::Index>(displacements().size());
     Eigen::MatrixXd response = Eigen::MatrixXd::Zero(size, n);
     const std::int32_t first = unknowns_.of(element);
     if (first != Unknowns::none) {
-      Eigen::MatrixXd fields(unknowns_.count(), n);
-      for (int k = 0; k < n; ++k) {
-        progress.report(double(k) / n);
-        fields.col(k) = factor_.solve(Eigen::VectorXd::Unit(unknowns_.count(), first + k));
-      }
+      Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(unknowns_.count(), n);
+      forces.middleRows(first, n).setIdentity();
+      Eigen::MatrixXd fields = factor_.solve(std::move(forces));
       const SmallMatrix compliance = fields.middleRows(first, n);
       fields *= compliance.inverse();
       std::vector<double> all(static_cast<std::size_t>(size), 0.0);

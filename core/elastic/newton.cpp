@@ -52,7 +52,7 @@ Newton::Newton(const Simplices& simplices, const Lame& lame, ElementId elements,
       stiffness_(simplices, unknowns_),
       length_(cell_length(simplices)) {
   if (unknowns_.count() > 0) {
-    factor_.analyzePattern(stiffness_.matrix());
+    factor_.analyze(stiffness_.matrix());
   }
 }
 
@@ -92,8 +92,7 @@ void Newton::assemble(const std::vector<double>& displacements, bool only_convex
 bool Newton::factor(const std::vector<double>& displacements) {
   for (const bool only_convex : {false, true}) {
     assemble(displacements, only_convex);
-    factor_.factorize(stiffness_.matrix());
-    if (factor_.info() == Eigen::Success) {
+    if (factor_.factor(stiffness_.matrix())) {
       convex_ = !only_convex;
       return true;
     }

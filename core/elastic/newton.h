@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "elastic/cholesky.h"
 #include "elastic/stiffness.h"
 #include "mesh/progress.h"
 

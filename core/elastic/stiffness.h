@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -50,8 +50,5 @@ class Stiffness {
   std::vector<std::int32_t> places_;  // of each simplex's entries, column after column, among the matrix's; or none
   Sparse matrix_;
 };
-
-/// The unknowns come in an order that fills in little, so that none is looked for.
-using Cholesky = Eigen::SimplicialLLT<Stiffness::Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
 }  // namespace chainmail

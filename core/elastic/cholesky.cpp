@@ -1,0 +1,178 @@
+#include "elastic/cholesky.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <numeric>
+
+namespace chainmail {
+namespace {
+
+// Columns join a supernode although their rows differ by so many: a few zeros cost less than another small block.
+constexpr int most_zeros = 8;
+
+constexpr int none = -1;
+
+/// The elimination tree's parent of each column, and how many rows each column of the factor has (Liu 1990).
+struct Columns {
+  explicit Columns(const Cholesky::Sparse& lower)
+      : parent(static_cast<std::size_t>(lower.cols()), none), length(parent.size(), 1) {
+    const Cholesky::Sparse rows = lower.transpose();  // row i of the lower triangle is a column here
+    std::vector<int> seen(parent.size(), none);
+    for (int row = 0; row < rows.cols(); ++row) {
+      seen[static_cast<std::size_t>(row)] = row;
+      for (Cholesky::Sparse::InnerIterator one(rows, row); one; ++one) {
+        for (auto i = static_cast<std::size_t>(one.row()); static_cast<int>(i) < row && seen[i] != row;
+             i = static_cast<std::size_t>(parent[i])) {
+          parent[i] = parent[i] == none ? row : parent[i];
+          ++length[i];
+          seen[i] = row;
+        }
+      }
+    }
+  }
+
+  std::vector<int> parent, length;
+};
+
+}  // namespace
+
+void Cholesky::analyze(const Sparse& lower) {
+  supernodes_.clear();
+  find_supernodes(lower);
+  places_.assign(static_cast<std::size_t>(lower.cols()), none);
+  find_rows(lower);
+  std::size_t size = 0;
+  for (Supernode& one : supernodes_) {
+    one.panel = size;
+    size += one.rows.size() * static_cast<std::size_t>(one.width);
+  }
+  panels_.assign(size, 0);
+}
+
+void Cholesky::find_supernodes(const Sparse& lower) {
+  const Columns columns(lower);
+  for (std::size_t j = 0; j < columns.parent.size(); ++j) {
+    const bool joins = j > 0 && columns.parent[j - 1] == static_cast<int>(j) &&
+                       columns.length[j] + 1 - columns.length[j - 1] <= most_zeros;
+    if (!joins) {
+      supernodes_.push_back({static_cast<int>(j), 0, {}, {}, 0});
+    }
+    ++supernodes_.back().width;
+  }
+}
+
+/// The rows of a supernode are those of its columns in the matrix, and what its children leave to it.
+void Cholesky::find_rows(const Sparse& lower) {
+  std::vector<std::size_t> of_column(static_cast<std::size_t>(lower.cols()));
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    std::fill_n(of_column.begin() + supernodes_[s].first, supernodes_[s].width, s);
+  }
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    Supernode& one = supernodes_[s];
+    const auto add = [&](int row) {
+      if (places_[static_cast<std::size_t>(row)] != static_cast<int>(s)) {
+        places_[static_cast<std::size_t>(row)] = static_cast<int>(s);
+        one.rows.push_back(row);
+      }
+    };
+    for (int column = one.first; column < one.first + one.width; ++column) {
+      add(column);
+    }
+    for (int column = one.first; column < one.first + one.width; ++column) {
+      for (Sparse::InnerIterator entry(lower, column); entry; ++entry) {
+        add(static_cast<int>(entry.row()));
+      }
+    }
+    for (const std::size_t child : one.children) {
+      const Supernode& below = supernodes_[child];
+      std::for_each(below.rows.begin() + below.width, below.rows.end(), add);
+    }
+    std::ranges::sort(one.rows);
+    if (one.height() > one.width) {
+      supernodes_[of_column[static_cast<std::size_t>(one.rows[static_cast<std::size_t>(one.width)])]]
+          .children.push_back(s);
+    }
+  }
+}
+
+/// The lower triangle of what the supernode's columns and rows hold before it is eliminated.
+Eigen::MatrixXd Cholesky::front_of(const Supernode& supernode, const Sparse& lower,
+                                   std::vector<Eigen::MatrixXd>& updates) {
+  Eigen::MatrixXd front = Eigen::MatrixXd::Zero(supernode.height(), supernode.height());
+  for (int i = 0; i < supernode.height(); ++i) {
+    places_[static_cast<std::size_t>(supernode.rows[static_cast<std::size_t>(i)])] = i;
+  }
+  const auto place = [this](int row) { return places_[static_cast<std::size_t>(row)]; };
+  for (int column = 0; column < supernode.width; ++column) {
+    for (Sparse::InnerIterator entry(lower, supernode.first + column); entry; ++entry) {
+      front(place(static_cast<int>(entry.row())), column) += entry.value();
+    }
+  }
+  std::vector<int> to;
+  for (const std::size_t child : supernode.children) {
+    const Supernode& below = supernodes_[child];
+    to.clear();
+    std::transform(below.rows.begin() + below.width, below.rows.end(), std::back_inserter(to), place);
+    Eigen::MatrixXd& update = updates[child];
+    for (Eigen::Index j = 0; j < update.cols(); ++j) {
+      for (Eigen::Index i = j; i < update.rows(); ++i) {
+        front(to[static_cast<std::size_t>(i)], to[static_cast<std::size_t>(j)]) += update(i, j);
+      }
+    }
+    update.resize(0, 0);
+  }
+  return front;
+}
+
+bool Cholesky::factor(const Sparse& lower) {
+  std::vector<Eigen::MatrixXd> updates(supernodes_.size());
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    const Supernode& one = supernodes_[s];
+    Eigen::MatrixXd front = front_of(one, lower, updates);
+    const Eigen::Index below = one.height() - one.width;
+    auto own = front.topLeftCorner(one.width, one.width);
+    auto rest = front.bottomLeftCorner(below, one.width);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factored(own);
+    if (factored.info() != Eigen::Success) {
+      return false;
+    }
+    if (below > 0) {
+      own.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(rest);
+      updates[s] = front.bottomRightCorner(below, below);
+      updates[s].selfadjointView<Eigen::Lower>().rankUpdate(rest, -1);
+    }
+    Eigen::Map<Eigen::MatrixXd>(panels_.data() + one.panel, one.height(), one.width) = front.leftCols(one.width);
+  }
+  return true;
+}
+
+Eigen::MatrixXd Cholesky::solve(Eigen::MatrixXd right) const {
+  const auto below_of = [&](const Supernode& one) {
+    return std::span(one.rows).subspan(static_cast<std::size_t>(one.width));
+  };
+  for (const Supernode& one : supernodes_) {
+    const Panel panel = panel_of(one);
+    auto own = right.middleRows(one.first, one.width);
+    panel.topRows(one.width).triangularView<Eigen::Lower>().solveInPlace(own);
+    const Eigen::MatrixXd update = panel.bottomRows(one.height() - one.width) * own;
+    Eigen::Index i = 0;
+    for (const int row : below_of(one)) {
+      right.row(row) -= update.row(i++);
+    }
+  }
+  for (std::size_t s = supernodes_.size(); s-- > 0;) {
+    const Supernode& one = supernodes_[s];
+    const Panel panel = panel_of(one);
+    Eigen::MatrixXd below(one.height() - one.width, right.cols());
+    Eigen::Index i = 0;
+    for (const int row : below_of(one)) {
+      below.row(i++) = right.row(row);
+    }
+    auto own = right.middleRows(one.first, one.width);
+    own.noalias() -= panel.bottomRows(one.height() - one.width).transpose() * below;
+    panel.topRows(one.width).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+  }
+  return right;
+}
+
+}  // namespace chainmail
