@@ -12,7 +12,7 @@ namespace chainmail {
 namespace {
 
 // The hand's way is taken in one step where that converges, else in ever smaller ones, down to this share of it.
-constexpr double smallest_step = 1.0 / 512;
+constexpr double smallest_step = 1.0 / 128;
 
 std::string percent(double share) {
   std::array<char, 16> text{};

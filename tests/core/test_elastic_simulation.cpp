@@ -1,0 +1,183 @@
+#include <QtTest>
+
+#include "elastic_problems.h"
+#include "mesh/error.h"
+#include "simulate/simulation.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Methods of elasticity as algorithms of a panel: the same commands, the same undo.
+class ElasticSimulationTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void all_are_offered();
+  void a_drag_is_answered_data() { every_method(); }
+  void a_drag_is_answered();
+  void undo_is_exact_data() { every_method(); }
+  void undo_is_exact();
+  void without_pins_nothing_moves();
+  void a_change_of_algorithm_or_material_answers_at_once();
+  void relaxation_leaves_a_static_answer_alone();
+  void control_points_are_for_free_form_alone();
+  void a_remark_comes_and_goes();
+
+ private:
+  static void every_method() {
+    QTest::addColumn<int>("algorithm");
+    for (const AlgorithmInfo& one : elastic_algorithms()) {
+      if (one.algorithm != Algorithm::boundary_elements) {  // needs a closed surface, and has tests of its own
+        QTest::newRow(one.name.data()) << int(one.algorithm);
+      }
+    }
+  }
+};
+
+namespace {
+
+struct Bar : Simulation {
+  explicit Bar(Algorithm algorithm, bool is_pinned = true, Precision precision = Precision::double_precision)
+      : Simulation(make_mesh(MeshKind::tetra, {5, 3, 3}), algorithm, precision) {
+    if (is_pinned) {
+      apply(commands::Pin{layer(mesh(), *find_side("left"))});
+    }
+  }
+
+  void drag(ElementId element, const Point& target) {
+    apply(commands::Grab{element});
+    apply(commands::Drag{target});
+    apply(commands::Release{});
+  }
+  std::vector<double> all() const { return positions_of(solver(), mesh()); }
+  Point at(ElementId element) const { return position_of(solver(), mesh(), element); }
+};
+
+constexpr ElementId tip = 4;
+
+}  // namespace
+
+void ElasticSimulationTest::all_are_offered() {
+  QCOMPARE(every_algorithm().size(), algorithms().size() + elastic_algorithms().size());
+  for (const AlgorithmInfo& one : every_algorithm()) {
+    QVERIFY(find_algorithm(one.name) == one.algorithm);
+    QCOMPARE(info(one.algorithm).name, one.name);
+  }
+  for (const AlgorithmInfo& one : algorithms()) {
+    QVERIFY(!elastic_method(one.algorithm));
+  }
+}
+
+void ElasticSimulationTest::a_drag_is_answered() {
+  QFETCH(const int, algorithm);
+  for (const Precision precision : precisions) {
+    Bar bar(Algorithm(algorithm), true, precision);
+    const auto rest = bar.all();
+    bar.drag(tip, Point(4.5, 0.5, 0.25));
+    QCOMPARE(bar.at(tip), Point(4.5, 0.5, 0.25));
+    QVERIFY(bar.statistics().last_pass.moved > 10);
+    for (const ElementId pin : bar.solver().pins()) {
+      QCOMPARE(bar.at(pin), bar.mesh().rest_position(pin));
+    }
+    bar.apply(commands::Reset{});
+    QVERIFY(same_bits(bar.all(), rest));
+    QVERIFY_THROWS_EXCEPTION(Error, bar.drag(0, Point(1, 1, 1)));  // pinned
+  }
+}
+
+void ElasticSimulationTest::undo_is_exact() {
+  QFETCH(const int, algorithm);
+  Bar bar{Algorithm(algorithm)};
+  bar.drag(tip, Point(4.2, 0.3, 0));
+  bar.apply(commands::KeepState{1});
+  const auto kept = bar.all();
+  bar.drag(44, Point(4, 3, 2));
+  const auto after = bar.all();
+  QVERIFY(!same_bits(after, kept));
+  bar.apply(commands::RestoreState{1});
+  QVERIFY(same_bits(bar.all(), kept));
+  bar.drag(44, Point(4, 3, 2));
+  // The same balance again: Newton comes to it within its tolerance of 1e-9 cells.
+  QVERIFY(largest_step(bar.all(), after) < 1e-8);
+}
+
+void ElasticSimulationTest::without_pins_nothing_moves() {
+  for (const Algorithm algorithm : {Algorithm::linear_fem, Algorithm::neo_hookean}) {
+    Bar bar(algorithm, false);
+    const auto rest = bar.all();
+    bar.apply(commands::Grab{tip});
+    try {
+      bar.apply(commands::Drag{Point(5, 1, 0)});
+      QFAIL("it has no static answer");
+    } catch (const Error& error) {
+      QVERIFY(QString::fromStdString(error.what()).contains("nothing pins it"));
+    }
+    QVERIFY(same_bits(bar.all(), rest));
+    QCOMPARE(bar.statistics().passes, std::uint64_t(0));
+    bar.apply(commands::Pin{layer(bar.mesh(), *find_side("left"))});
+    bar.apply(commands::Drag{Point(5, 1, 0)});  // and once it is pinned, it has
+    QCOMPARE(bar.at(tip), Point(5, 1, 0));
+  }
+}
+
+void ElasticSimulationTest::a_change_of_algorithm_or_material_answers_at_once() {
+  Bar bar(Algorithm::natural_queue), linear(Algorithm::linear_fem);
+  const Point target(5, 1, 0);
+  bar.drag(tip, target);
+  linear.drag(tip, target);
+  QVERIFY(!same_bits(bar.all(), linear.all()));
+  bar.apply(commands::SetAlgorithm{Algorithm::linear_fem});
+  QVERIFY(same_bits(bar.all(), linear.all()));
+  ElasticOptions options;
+  options.material.poisson = 0.45;
+  bar.apply(commands::SetElastic{options});
+  QVERIFY(largest_step(bar.all(), linear.all()) > 1e-3);
+  QCOMPARE(bar.at(tip), target);
+  options.material.poisson = 0.5;
+  QVERIFY_THROWS_EXCEPTION(Error, bar.apply(commands::SetElastic{options}));
+  QCOMPARE(bar.elastic().material.poisson, 0.45);
+  Simulation other(bar.mesh_pointer(), Algorithm::linear_fem, Precision::double_precision);
+  other.take(bar.hand_over(), Algorithm::linear_fem);
+  QCOMPARE(other.elastic().material.poisson, 0.45);
+}
+
+void ElasticSimulationTest::relaxation_leaves_a_static_answer_alone() {
+  Bar bar(Algorithm::neo_hookean);
+  bar.apply(commands::SetRelaxation{true, 1, RelaxationScheme::mean});
+  bar.drag(tip, Point(5, 1, 0));
+  const auto answer = bar.all();
+  QVERIFY(!bar.step());
+  bar.relax(5, 1);
+  QVERIFY(same_bits(bar.all(), answer));
+}
+
+void ElasticSimulationTest::control_points_are_for_free_form_alone() {
+  Bar bar(Algorithm::free_form, false);
+  QCOMPARE(bar.control_points().size(), std::size_t(3 * 64));
+  const auto rest = bar.all();
+  const commands::MoveControlPoint up{63, Point(4, 3, 2)};  // the corner of x 4, y 2, z 2
+  bar.apply(up);
+  QCOMPARE(bar.at(44), Point(4, 3, 2));
+  QVERIFY(bar.statistics().last_pass.moved > 0);
+  QVERIFY_THROWS_EXCEPTION(Error, bar.apply(commands::MoveControlPoint{64, Point(1, 1, 1)}));
+  bar.apply(commands::Reset{});
+  QVERIFY(same_bits(bar.all(), rest));
+  QCOMPARE(bar.control_points()[3 * 63 + 1], 2.0);
+
+  Bar chain(Algorithm::natural_queue);
+  QVERIFY(chain.control_points().empty());
+  chain.apply(up);  // is not meant for it
+  QVERIFY(same_bits(chain.all(), rest));
+}
+
+void ElasticSimulationTest::a_remark_comes_and_goes() {
+  Bar bar(Algorithm::neo_hookean);
+  bar.apply(commands::Grab{22});
+  bar.apply(commands::Drag{Point(-6, 1, 1)});  // through the wall that holds it
+  QVERIFY(QString::fromStdString(bar.statistics().remark).contains("last converged state"));
+  bar.apply(commands::Drag{Point(2.1, 1, 1)});
+  QVERIFY(bar.statistics().remark.empty());
+}
+
+QTEST_APPLESS_MAIN(ElasticSimulationTest)
+#include "test_elastic_simulation.moc"

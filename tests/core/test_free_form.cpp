@@ -1,0 +1,131 @@
+#include <QtTest>
+
+#include "elastic_problems.h"
+#include "mesh/error.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Free-form deformation and the dragging of elements through it.
+class FreeFormTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void control_points_carry_affine_maps();
+  void elements_follow_the_hand_by_least_squares();
+  void pins_hold_as_well_as_the_lattice_can();
+  void goes_on_from_where_others_put_it();
+  void lattices_have_bounds();
+};
+
+namespace {
+
+std::vector<MeshPointer> some_meshes() {
+  return {make_mesh(MeshKind::line, {7, 1, 1}), make_mesh(MeshKind::cloth, {6, 5, 1}),
+          make_mesh(MeshKind::block, {4, 5, 3})};
+}
+
+ElasticProblem with_lattice(const MeshPointer& mesh, std::array<std::uint32_t, 3> lattice,
+                            std::vector<ElementId> pins = {}) {
+  ElasticProblem problem = pinned(mesh, std::move(pins));
+  problem.options.lattice = lattice;
+  return problem;
+}
+
+}  // namespace
+
+/// Bernstein polynomials have linear precision: what control points do alike, all that they carry does.
+void FreeFormTest::control_points_carry_affine_maps() {
+  Eigen::Matrix3d map;
+  map << 0.3, 0.1, -0.2, 0.05, -0.2, 0.4, 0.1, 0.2, 0.3;
+  const Point shift(1, -2, 3);
+  for (const MeshPointer& mesh : some_meshes()) {
+    const auto n = static_cast<std::size_t>(mesh->space_dimension);
+    const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(mesh, {4, 3, 5}));
+    const std::vector<double> rest(solver->control_points().begin(), solver->control_points().end());
+    const std::vector<std::size_t> counts{4, 4 * 3, 4 * 3 * 5};
+    QCOMPARE(rest.size(), n * counts[n - 1]);
+    const auto image = [&](const Point& at) {
+      Point to = map * at + shift;
+      for (std::size_t k = n; k < 3; ++k) {
+        to[static_cast<Eigen::Index>(k)] = 0;
+      }
+      return to;
+    };
+    for (std::size_t c = 0; c < rest.size() / n; ++c) {
+      Point at = Point::Zero();
+      std::copy_n(rest.begin() + static_cast<std::ptrdiff_t>(n * c), n, at.data());
+      const Point to = at + image(at);
+      solver->move_control_point(c, std::span(to.data(), n));
+      QCOMPARE(solver->control_points()[n * c], to[0]);
+    }
+    QVERIFY(furthest_from(*mesh, solver->displacements(), image) < 1e-12);
+  }
+}
+
+/// Of all moves of the control points that bring the element there, the smallest: along the element's weights.
+void FreeFormTest::elements_follow_the_hand_by_least_squares() {
+  const auto mesh = make_mesh(MeshKind::cloth, {9, 9, 1});
+  const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(mesh, {3, 3, 2}));
+  const std::vector<double> before(solver->control_points().begin(), solver->control_points().end());
+  solver->hold(40);  // the middle: weights (1, 2, 1) / 4 along each axis
+  solver->move(std::array{0.5, -1.0});
+  QCOMPARE(solver->displacements()[80], 0.5);
+  QCOMPARE(solver->displacements()[81], -1.0);
+  const std::array<double, 3> along{0.25, 0.5, 0.25};
+  double squares = 0;
+  for (const double x : along) {
+    for (const double y : along) {
+      squares += x * x * y * y;
+    }
+  }
+  for (std::size_t c = 0; c < 9; ++c) {
+    const double weight = along[c % 3] * along[c / 3];
+    QVERIFY(std::abs(solver->control_points()[2 * c] - before[2 * c] - 0.5 * weight / squares) < 1e-12);
+    QVERIFY(std::abs(solver->control_points()[2 * c + 1] - before[2 * c + 1] + weight / squares) < 1e-12);
+  }
+  solver->move(std::array{0.0, 0.0});  // and back: nothing is left
+  QVERIFY(furthest_from(*mesh, solver->displacements(), [](const Point&) { return Point(Point::Zero()); }) < 1e-12);
+}
+
+void FreeFormTest::pins_hold_as_well_as_the_lattice_can() {
+  const auto mesh = make_mesh(MeshKind::cloth, {9, 5, 1});
+  const auto left = layer(*mesh, *find_side("left"));
+  const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(mesh, {4, 4, 2}, left));
+  solver->hold(mesh->element_count() - 1);
+  solver->move(std::array{2.0, 1.0});
+  for (const ElementId pin : left) {
+    QCOMPARE(solver->displacements()[2 * pin], 0.0);
+  }
+  // Beside a pin the sheet is as good as still: the lattice's own column at the left does not move.
+  for (std::size_t c = 0; c < 16; c += 4) {
+    QVERIFY(std::abs(solver->control_points()[2 * c]) < 1e-4);
+  }
+}
+
+void FreeFormTest::goes_on_from_where_others_put_it() {
+  const auto mesh = make_mesh(MeshKind::cloth, {6, 6, 1});
+  const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(mesh, {4, 4, 2}));
+  std::vector<double> bent;
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    const Point at = mesh->rest_position(e);
+    bent.push_back(0.1 * at.y() * at.y());  // a cubic lattice holds it
+    bent.push_back(e == 14 ? 0.3 : 0.0);    // and does not hold that
+  }
+  solver->start_from(bent);
+  QVERIFY(same_bits(solver->displacements(), bent));
+  QVERIFY(std::abs(solver->control_points()[2 * 15] - 5 - 2.5) < 1e-6);  // the far corner: 0.1 · 5²
+  solver->hold(0);
+  solver->move(std::array{1.0, 0.0});
+  QVERIFY(std::abs(solver->displacements()[2 * 14 + 1] - 0.3) < 1e-12);  // what it does not explain stays
+}
+
+void FreeFormTest::lattices_have_bounds() {
+  const auto mesh = make_mesh(MeshKind::cloth, {6, 6, 1});
+  for (const std::uint32_t count : {0U, 1U, 9U}) {
+    QVERIFY_THROWS_EXCEPTION(Error, make_elastic(ElasticMethod::free_form, with_lattice(mesh, {4, count, 4})));
+  }
+}
+
+QTEST_APPLESS_MAIN(FreeFormTest)
+#include "test_free_form.moc"
