@@ -102,6 +102,20 @@ void check_word(const std::string& where, const std::string& word, const std::ve
   }
 }
 
+std::vector<std::string> words_of(const std::string& where, const std::string& list) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    const std::string word = list.substr(begin, end - begin);
+    if (std::find(words.begin(), words.end(), word) != words.end()) {
+      throw Error(where, in_quotes(word) + " stands there twice", "name each once");
+    }
+    words.push_back(word);
+    begin = end + 1;
+  }
+  return words;
+}
+
 std::optional<int> space_of(const CLI::Option* option) {
   const auto text = value_of(option);
   if (!text) {

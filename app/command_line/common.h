@@ -28,6 +28,7 @@ Command add_info(CLI::App& root);
 Command add_deform(CLI::App& root);
 /// `command_line` is what a report says of its own making.
 Command add_compare(CLI::App& root, const std::string& command_line);
+Command add_calibrate(CLI::App& root);
 Command add_ramp(CLI::App& root);
 
 /// Adds an option that takes one value, or a positional. Values are kept as text, so that every check
@@ -47,6 +48,8 @@ double value_of(const CLI::Option* option, const Parameter& parameter);
 std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t standard);
 /// One of a few words; throws Error, naming them, for any other.
 void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words);
+/// The words of a list parted by commas. Throws Error where one comes twice.
+std::vector<std::string> words_of(const std::string& where, const std::string& list);
 std::optional<int> space_of(const CLI::Option* option);
 
 /// The options with which a mesh is read.

@@ -31,9 +31,15 @@ std::array<std::uint32_t, 3> lattice_of(const std::string& text) {
 
 }  // namespace
 
+ElasticArguments add_material(CLI::App& app) {
+  return {add_parameter(app, parameters::young), add_parameter(app, parameters::poisson), nullptr};
+}
+
 ElasticArguments add_elastic(CLI::App& app) {
-  return {add_parameter(app, parameters::young), add_parameter(app, parameters::poisson),
-          add_value(app, "--lattice", "N|NxN[xN]", "control points of free-form deformation along each axis [4]")};
+  ElasticArguments arguments = add_material(app);
+  arguments.lattice =
+      add_value(app, "--lattice", "N|NxN[xN]", "control points of free-form deformation along each axis [4]");
+  return arguments;
 }
 
 ElasticOptions elastic_of(const ElasticArguments& arguments) {
@@ -44,7 +50,7 @@ ElasticOptions elastic_of(const ElasticArguments& arguments) {
   if (const auto poisson = value_of(arguments.poisson)) {
     options.material.poisson = parse_number_of("--poisson", *poisson);
   }
-  if (const auto lattice = value_of(arguments.lattice)) {
+  if (const auto lattice = arguments.lattice == nullptr ? std::nullopt : value_of(arguments.lattice)) {
     options.lattice = lattice_of(*lattice);
   }
   in_options({{"young", "--young"}, {"poisson", "--poisson"}, {"lattice", "--lattice"}},
@@ -64,6 +70,36 @@ std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, con
                 "use another of " + pin_names() + ", or ids");
   }
   return pins;
+}
+
+std::vector<ElementId> pins_of(const CLI::Option* option, const std::string& object, const Mesh& mesh) {
+  const auto list = value_of(option);
+  if (!list) {
+    throw Error(object, "nothing pins it, so physics has no static answer",
+                "add --pins bottom, --pins boundary, or --pins ID,ID,…");
+  }
+  if (auto pins = pins_by_name("--pins", *list, mesh)) {
+    return *std::move(pins);
+  }
+  std::vector<ElementId> pins;
+  for (const std::string& word : words_of("--pins", *list)) {
+    const auto id = parse_count(word);
+    if (!id) {
+      throw Error("--pins", in_quotes(word) + " is no element's id",
+                  "use ids from 0, parted by commas, or " + pin_names());
+    }
+    if (*id >= mesh.element_count()) {
+      throw Error("--pins", object + " has no element " + word,
+                  "ids go from 0 to " + std::to_string(mesh.element_count() - 1));
+    }
+    pins.push_back(*id);
+  }
+  std::ranges::sort(pins);
+  return pins;
+}
+
+CLI::Option* add_pins(CLI::App& app) {
+  return add_value(app, "--pins", "SIDE|ID,ID,…", "what holds the object: a layer, " + pin_names() + ", or elements");
 }
 
 std::string pin_names() {

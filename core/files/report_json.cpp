@@ -1,6 +1,6 @@
 #include "files/report_json.h"
 
-#include <nlohmann/json.hpp>
+#include "files/report_fields.h"
 
 namespace chainmail {
 namespace {
@@ -12,15 +12,6 @@ Json to_json(const std::optional<double>& number) { return number ? Json(*number
 
 Json to_json(const std::optional<Distance>& distance) {
   return distance ? Json{{"max", distance->max}, {"rms", distance->rms}} : Json();
-}
-
-Json to_json(const TimeSpread& ms) {
-  return {{"median", ms.median},
-          {"lower_quartile", ms.lower_quartile},
-          {"upper_quartile", ms.upper_quartile},
-          {"min", ms.min},
-          {"max", ms.max},
-          {"repetitions", ms.count}};
 }
 
 Json to_json(const Errors& errors) {
@@ -72,23 +63,6 @@ Json to_json(const CaseResult& object) {
           {"drags", std::move(drags)}};
 }
 
-Json to_json(const CompareOptions& options) {
-  return {{"relaxation", options.scheme == RelaxationScheme::mean ? "mean" : "link"},
-          {"relax_step", options.relax_step},
-          {"precision", options.precision == Precision::single_precision ? "float" : "double"}};
-}
-
-Json to_json(const Origin& origin) {
-  const Machine& machine = origin.machine;
-  return {{"date", origin.date},
-          {"version", origin.version},
-          {"command_line", origin.command_line},
-          {"processor", machine.processor},
-          {"cores", machine.cores},
-          {"compiler", machine.compiler},
-          {"build", machine.build}};
-}
-
 }  // namespace
 
 void write_json(std::ostream& out, const Comparison& comparison, const Origin& origin) {
@@ -98,8 +72,7 @@ void write_json(std::ostream& out, const Comparison& comparison, const Origin& o
   }
   const Json json{
       {"origin", to_json(origin)}, {"options", to_json(comparison.options)}, {"objects", std::move(objects)}};
-  // A name from outside may not be UTF-8: what is not becomes the replacement character.
-  out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  write_report(out, json);
 }
 
 }  // namespace chainmail

@@ -133,6 +133,16 @@ CompareOptions checked(const std::vector<Case>& cases, CompareOptions options) {
       options.algorithms.push_back(one.algorithm);
     }
   }
+  check(options);
+  for (const Case& object : cases) {
+    std::ranges::for_each(object.drags, [](const RecordedMoves& moves) { check(moves); });
+  }
+  return options;
+}
+
+}  // namespace
+
+void check(const CompareOptions& options) {
   if (options.sweeps.empty() || *std::ranges::min_element(options.sweeps) < 0) {
     throw Error("relax", "there is no number of sweeps, or one below 0", "give numbers from 0");
   }
@@ -142,13 +152,7 @@ CompareOptions checked(const std::vector<Case>& cases, CompareOptions options) {
   if (options.repetitions && *options.repetitions < 1) {
     throw Error("repetitions", "there would be none", "use 1 or more");
   }
-  for (const Case& object : cases) {
-    std::ranges::for_each(object.drags, [](const RecordedMoves& moves) { check(moves); });
-  }
-  return options;
 }
-
-}  // namespace
 
 std::string label(const Contestant& contestant) {
   return std::string(info(contestant.algorithm).label) + (contestant.sweeps == 0 ? ""

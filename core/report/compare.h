@@ -35,6 +35,9 @@ struct CompareOptions {
   double seconds = 4;  // to be spent on the repetitions of one drag, over all contestants
 };
 
+/// Throws Error where a number is out of its range.
+void check(const CompareOptions& options);
+
 /// What the speed of a contestant costs, measured in double at the end of a drag.
 struct Errors {
   Violation violation;

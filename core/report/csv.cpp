@@ -4,18 +4,6 @@
 namespace chainmail::report {
 namespace {
 
-/// In quotes where it must be.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char character : text) {
-    quoted += character == '"' ? "\"\"" : std::string(1, character);
-  }
-  return quoted + '"';
-}
-
 void write_distance(std::ostream& out, const std::optional<Distance>& distance) {
   out << ',' << (distance ? all_digits(distance->max) : "") << ',' << (distance ? all_digits(distance->rms) : "");
 }
@@ -52,9 +40,9 @@ void write_csv(std::ostream& out, const Comparison& comparison) {
   for (const CaseResult& object : comparison.cases) {
     for (const DragResult& drag : object.drags) {
       for (const Entry& entry : drag.entries) {
-        out << field(object.name) << ',' << object.elements << ',' << object.links << ',' << field(drag.name) << ','
-            << drag.moves << ',' << info(entry.contestant.algorithm).name << ',' << entry.contestant.sweeps << ','
-            << field(entry.refusal);
+        out << csv_field(object.name) << ',' << object.elements << ',' << object.links << ',' << csv_field(drag.name)
+            << ',' << drag.moves << ',' << info(entry.contestant.algorithm).name << ',' << entry.contestant.sweeps
+            << ',' << csv_field(entry.refusal);
         if (entry.measurement) {
           write_measurement(out, *entry.measurement);
         } else {

@@ -80,6 +80,17 @@ std::string all_digits(const std::optional<double>& number) { return number ? al
 
 std::string place(double number) { return written(number, std::chars_format::fixed, 2); }
 
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char character : text) {
+    quoted += character == '"' ? "\"\"" : std::string(1, character);
+  }
+  return quoted + '"';
+}
+
 std::string escaped(std::string_view text) {
   std::string result;
   while (!text.empty()) {

@@ -18,6 +18,8 @@ std::string all_digits(const std::optional<double>& number);  // none: empty
 /// A place in a drawing: hundredths.
 std::string place(double number);
 
+/// Text as a field of CSV, in quotes where it must be.
+std::string csv_field(const std::string& text);
 /// Text as it may stand in XML and HTML, in attributes too. Control characters, which neither can hold, and
 /// what is not UTF-8 become question marks.
 std::string escaped(std::string_view text);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "report/format.h"
+#include "report/looks.h"
 
 namespace chainmail::report {
 namespace {
@@ -25,22 +26,6 @@ std::set<int> sweeps_of(const CaseResult& result) {
     }
   }
   return sweeps;
-}
-
-/// A look is an algorithm's for ever, whoever else takes part.
-std::size_t look_of(Algorithm algorithm) {
-  const auto all = algorithms();
-  return static_cast<std::size_t>(std::ranges::find(all, algorithm, &AlgorithmInfo::algorithm) - all.begin());
-}
-
-std::size_t series_of(Plot& plot, Algorithm algorithm) {
-  const std::size_t look = look_of(algorithm);
-  const auto found = std::ranges::find(plot.series, look, &PlotSeries::look);
-  if (found != plot.series.end()) {
-    return static_cast<std::size_t>(found - plot.series.begin());
-  }
-  plot.series.push_back({std::string(info(algorithm).label), look});
-  return plot.series.size() - 1;
 }
 
 std::string in_words(const Entry& entry, double error, const std::string& what) {
@@ -88,6 +73,16 @@ Plot plot_of(const CaseResult& result, ErrorOf error_of, const std::string& what
 }
 
 }  // namespace
+
+std::size_t series_of(Plot& plot, Algorithm algorithm) {
+  const std::size_t look = look_of(algorithm);
+  const auto found = std::ranges::find(plot.series, look, &PlotSeries::look);
+  if (found != plot.series.end()) {
+    return static_cast<std::size_t>(found - plot.series.begin());
+  }
+  plot.series.push_back({std::string(info(algorithm).label), look});
+  return plot.series.size() - 1;
+}
 
 Plot violation_plot(const CaseResult& result) {
   Plot plot = plot_of(result, largest_violation, "largest violation", "rest lengths");

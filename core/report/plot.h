@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -19,12 +20,19 @@ struct PlotMark {
   std::string title;  // what it is, in words
 };
 
+/// A line through values, which have their marks.
+struct PlotCurve {
+  std::size_t series = 0;                     // into Plot::series
+  std::vector<std::array<double, 2>> points;  // x and y
+};
+
 struct PlotPanel {
   std::string title;
   std::vector<PlotMark> marks;
+  std::vector<PlotCurve> curves = {};
 };
 
-/// What one shape and colour stands for. There are seven of them; the eighth series begins anew.
+/// What one shape and colour stands for: a look of report/looks.h.
 struct PlotSeries {
   std::string label;
   std::size_t look = 0;
@@ -46,6 +54,9 @@ struct Plot {
 /// Writes the plot as an SVG element that stands alone or within HTML. Lines and text are in `ink`, a colour;
 /// marks keep theirs, which the colour-blind can tell apart, and differ in shape.
 void write_svg(std::ostream& out, const Plot& plot, const std::string& ink = "currentColor");
+
+/// The series that an algorithm's marks belong to; added where it is not there yet.
+std::size_t series_of(Plot& plot, Algorithm algorithm);
 
 /// Speed against error on one object, a panel a drag, every contestant a mark.
 Plot violation_plot(const CaseResult& result);

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <array>
 #include <string_view>
 
 #include "report/axis.h"
 #include "report/format.h"
+#include "report/looks.h"
 #include "report/plot.h"
 
 namespace chainmail::report {
@@ -15,21 +15,6 @@ constexpr double left = 62, between = 34, top = 26, bottom = 46, right = 8;
 constexpr double legend_width = 235, legend_row = 19;
 constexpr double mark_size = 4.6;
 constexpr int panels_a_row = 3;
-
-/// Shapes differ, so that no mark needs its colour; colours are of Okabe and Ito (2008). The last is the ink.
-struct Look {
-  std::string_view path;  // about (0, 0), of size 1
-  std::string_view colour;
-};
-constexpr std::array looks{
-    Look{"M-.9-.9H.9V.9H-.9Z", "#d55e00"},                                  // square
-    Look{"M0-1.2L1.15.85H-1.15Z", "#56b4e9"},                               // triangle
-    Look{"M-1 0A1 1 0 1 0 1 0A1 1 0 1 0-1 0Z", "#0072b2"},                  // circle
-    Look{"M0 1.2L1.15-.85H-1.15Z", "#009e73"},                              // triangle on its tip
-    Look{"M-.4-1.1H.4V-.4H1.1V.4H.4V1.1H-.4V.4H-1.1V-.4H-.4Z", "#cc79a7"},  // cross
-    Look{"M0-1.4L1.1 0L0 1.4L-1.1 0Z", ""},                                 // diamond
-    Look{"M-1.2-.55H1.2V.55H-1.2Z", "#b8a400"},                             // bar
-};
 
 std::vector<double> all_of(const Plot& plot, double PlotMark::*member) {
   std::vector<double> values;
@@ -107,6 +92,9 @@ class Drawing {
     }
     text(0, -9, "start", panel.title, " font-weight=\"bold\"");
     draw_axes(first);
+    for (const PlotCurve& curve : panel.curves) {
+      draw_curve(curve);
+    }
     for (const PlotMark& mark : panel.marks) {
       draw_bar(mark);
     }
@@ -151,9 +139,22 @@ class Drawing {
     line(high, y - 3, high, y + 3, " stroke-opacity=\"0.8\"");
   }
 
+  std::string colour_of(std::size_t series) const {
+    const std::string_view colour = look_at(plot_.series[series].look).colour;
+    return colour.empty() ? ink_ : std::string(colour);
+  }
+
+  void draw_curve(const PlotCurve& curve) {
+    out_ << "<polyline points=\"";
+    for (const auto& [x, y] : curve.points) {
+      out_ << place(at_x(x)) << ',' << place(at_y(y)) << ' ';
+    }
+    out_ << "\" fill=\"none\" stroke=\"" << colour_of(curve.series) << "\" stroke-opacity=\"0.7\"/>\n";
+  }
+
   void draw_mark(double x, double y, std::size_t series, bool hollow, std::string_view title) {
-    const Look& look = looks[plot_.series[series].look % looks.size()];
-    const std::string colour = look.colour.empty() ? ink_ : std::string(look.colour);
+    const Look& look = look_at(plot_.series[series].look);
+    const std::string colour = colour_of(series);
     out_ << "<path transform=\"translate(" << place(x) << ' ' << place(y) << ") scale(" << place(mark_size)
          << ")\" d=\"" << look.path << "\" stroke=\"" << colour << "\" stroke-width=\"0.33\" fill=\""
          << (hollow ? "none" : colour) << "\" fill-opacity=\"0.75\">";

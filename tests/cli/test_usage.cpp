@@ -73,7 +73,7 @@ void UsageTest::wrong_arguments_data() {
   row("deform", "MESH: it is missing; ");
   row("deform grid.dat", "--algorithm: it is missing; ");
   row("deform grid.dat --algorithm best",
-      "--algorithm: 'best' is not known; use generalized, spiral, natural-queue, enhanced, original or exact");
+      "--algorithm: 'best' is not known; use generalized, spiral, natural-queue, enhanced, original, exact, fem, ");
   row("deform grid.dat --algorithm spiral --algorithm spiral", "--algorithm: it is given 2 times; ");
   row("deform grid.dat --algorithm spiral --json --trace a.csv", "--json: its value is missing; ");
   for (const char* option : {"--compression 1.1", "--compression -0.1", "--stretch 0.9", "--shear -1", "--relax-step 0",

@@ -1,0 +1,136 @@
+#include "calibrate/calibrate.h"
+
+#include <ostream>
+
+#include "command_line/common.h"
+#include "command_line/elastic.h"
+#include "command_line/watched.h"
+#include "files/calibration_json.h"
+#include "files/outputs.h"
+#include "files/softness_presets.h"
+#include "files/text.h"
+#include "report/format.h"
+
+namespace chainmail::command_line {
+namespace {
+
+using report::figure;
+
+struct Options {
+  MeshOptions mesh;
+  ElasticArguments elastic;
+  CLI::Option *pins, *algorithm, *relaxation, *drags, *seed, *evaluations;
+  CLI::Option *name, *preset, *json;
+};
+
+constexpr const char* footer =
+    "The truth is neo-Hookean FEM. Drags are random: elements away from the pins, by 5 to 20 % of the object's size.\n"
+    "The residual is how far elements stand from the truth at the end, over the hand's displacement. The preset that\n"
+    "is saved opens in the workbench and in compare --preset; it holds the softness, and the sweeps are yours to "
+    "set.\n\n"
+    "Example:\n"
+    "  chainmail calibrate organ.msh --young 3000 --poisson 0.45 --pins bottom -o liver.json";
+
+CalibrationOptions read_options(const Options& options, const std::string& object, const Mesh& mesh) {
+  CalibrationOptions result;
+  result.elastic = elastic_of(options.elastic);
+  result.pins = pins_of(options.pins, object, mesh);
+  std::vector<std::string> names;
+  for (const AlgorithmInfo& one : algorithms()) {
+    names.emplace_back(one.name);
+  }
+  const std::string algorithm = value_of(options.algorithm).value_or(std::string(info(result.algorithm).name));
+  check_word("--algorithm", algorithm, names);
+  result.algorithm = *find_algorithm(algorithm);
+  const std::string scheme = value_of(options.relaxation).value_or("mean");
+  check_word("--relaxation", scheme, {"mean", "link"});
+  result.scheme = scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link;
+  result.drags = int(whole_number_of(options.drags, 1, std::uint32_t(result.drags)));
+  result.seed = whole_number_of(options.seed, 0, std::uint32_t(result.seed));
+  result.evaluations = int(whole_number_of(options.evaluations, 1, std::uint32_t(result.evaluations)));
+  return result;
+}
+
+std::string read_name(const Options& options, const CalibrationOptions& how) {
+  const std::filesystem::path path = *value_of(options.mesh.path);
+  std::string name = printable(path.stem().string()).substr(0, longest_preset_name - 20);
+  name = value_of(options.name).value_or(name + ", Poisson " + figure(how.elastic.material.poisson));
+  if (const std::string fault = fault_of_name(name); !fault.empty()) {
+    throw Error("--name", in_quotes(name) + " is no name of a preset", fault);
+  }
+  return name;
+}
+
+void write_text(std::ostream& out, const CalibrationOptions& how, const CalibrationResult& result) {
+  const auto row = [&](const std::string& what, double rms, double max) {
+    out << "  " << what << std::string(what.size() < 24 ? 24 - what.size() : 1, ' ') << figure(rms) << "  "
+        << figure(max) << '\n';
+  };
+  out << info(how.algorithm).label << " comes closest to neo-Hookean FEM (Young's modulus "
+      << figure(how.elastic.material.young) << ", Poisson's ratio " << figure(how.elastic.material.poisson)
+      << ") with\n  compression " << figure(result.softness.compression) << ", stretch "
+      << figure(result.softness.stretch) << ", shear " << figure(result.softness.shear) << ", " << result.sweeps
+      << " sweeps a move\nResidual over the hand's displacement, RMS and max, " << result.evaluations
+      << " evaluations of " << result.drags.size() << " drags:\n";
+  row("defaults, no sweeps", result.rms_before, result.max_before);
+  row("calibrated", result.rms, result.max);
+  for (const CalibrationDrag& drag : result.drags) {
+    row("  element " + std::to_string(drag.element) + ", before", drag.before.rms, drag.before.max);
+    row("  element " + std::to_string(drag.element) + ", after", drag.after.rms, drag.after.max);
+  }
+}
+
+void calibrate(const Options& options) {
+  const OpenedMesh opened = open_mesh(options.mesh);
+  const std::filesystem::path path = *value_of(options.mesh.path);
+  const std::string object = printable(path.filename().string());
+  const CalibrationOptions how = read_options(options, object, *opened.mesh);
+  const SoftnessPreset preset{read_name(options, how), {}};
+  const auto preset_file = value_of(options.preset), json_file = value_of(options.json);
+  CalibrationResult result;
+  {
+    Watch watch("calibrating to " + object);
+    try {
+      result = chainmail::calibrate(opened.mesh, Cuts(opened.mesh), how, watch.progress());
+    } catch (const Error& error) {
+      throw at_option(error, {{"pins", "--pins"}, {"truth", object}, {"neo-Hookean FEM", object}});
+    }
+  }
+  Outputs outputs;
+  outputs.keep(path);
+  if (preset_file) {
+    outputs.add(*preset_file, [&](std::ostream& out) {
+      write_presets(out, std::vector{SoftnessPreset{preset.name, result.softness}});
+    });
+  }
+  if (json_file) {
+    outputs.add(*json_file, [&](std::ostream& out) { write_json(out, how, result); });
+  }
+  if (preset_file != "-" && json_file != "-") {
+    outputs.add("-", [&](std::ostream& out) { write_text(out, how, result); });
+  }
+  outputs.commit();
+}
+
+}  // namespace
+
+Command add_calibrate(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("calibrate", "Find the softness that comes closest to an elastic material");
+  Options options{};
+  options.mesh = add_mesh_options(*app);
+  options.mesh.space = add_value(*app, "--space", "1|2|3", "space dimension [what the mesh states or extends along]");
+  options.elastic = add_material(*app);
+  options.pins = add_pins(*app);
+  options.algorithm = add_value(*app, "--algorithm", "NAME", "of the ChainMail family, as deform has them [exact]");
+  options.relaxation = add_value(*app, "--relaxation", "mean|link", "how an element relaxes [mean]");
+  options.drags = add_value(*app, "--drags", "N", "how many drags it shall come close to [4]");
+  options.seed = add_value(*app, "--seed", "S", "of the drags: another number, other drags [1]");
+  options.evaluations = add_value(*app, "--evaluations", "N", "how often all drags are tried [200]");
+  options.name = add_value(*app, "--name", "NAME", "of the preset [the mesh and Poisson's ratio]");
+  options.preset = add_value(*app, "-o", "FILE", "the softness as a preset, JSON");
+  options.json = add_value(*app, "--json", "FILE", "softness, sweeps and residuals as JSON");
+  app->footer(footer);
+  return {app, [options] { calibrate(options); }};
+}
+
+}  // namespace chainmail::command_line

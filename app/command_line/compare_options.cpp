@@ -1,0 +1,149 @@
+#include "command_line/compare_options.h"
+
+#include <algorithm>
+
+#include "files/softness_presets.h"
+#include "files/text.h"
+
+namespace chainmail::command_line {
+namespace {
+
+std::vector<Algorithm> read_algorithms(const CLI::Option* option, std::span<const AlgorithmInfo> offered) {
+  std::vector<std::string> names;
+  for (const AlgorithmInfo& one : offered) {
+    names.emplace_back(one.name);
+  }
+  std::vector<Algorithm> chosen;
+  if (const auto list = value_of(option)) {
+    for (const std::string& word : words_of("--algorithms", *list)) {
+      check_word("--algorithms", word, names);
+      chosen.push_back(*find_algorithm(word));
+    }
+  }
+  return chosen;
+}
+
+std::vector<int> read_sweeps(const CLI::Option* option, const std::string& usual) {
+  constexpr std::uint32_t most_sweeps = 1'000'000;
+  std::vector<int> sweeps;
+  for (const std::string& word : words_of("--relax", value_of(option).value_or(usual))) {
+    const auto count = parse_count(word);
+    if (!count || *count > most_sweeps) {
+      throw Error("--relax", in_quotes(word) + " is not a number of sweeps",
+                  "write whole numbers up to 1000000, parted by commas");
+    }
+    sweeps.push_back(static_cast<int>(*count));
+  }
+  return sweeps;
+}
+
+/// The softness of a preset: one that is built in, or the only one of a file.
+LinkSoftness preset_of(const std::string& name) {
+  for (const BuiltInPreset& preset : built_in_presets()) {
+    if (preset.name == name) {
+      return preset.softness;
+    }
+  }
+  const std::filesystem::path path = name;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    std::string names;
+    for (const BuiltInPreset& preset : built_in_presets()) {
+      names += (names.empty() ? "" : ", ") + std::string(preset.name);
+    }
+    throw Error("--preset", in_quotes(name) + " is neither a preset nor a file", "use a file, or one of " + names);
+  }
+  const std::vector<SoftnessPreset> presets = read_presets(path);
+  if (presets.size() != 1) {
+    throw Error(shown(path), "it holds " + std::to_string(presets.size()) + " presets", "leave the one that is meant");
+  }
+  return presets.front().softness;
+}
+
+void add_contest(CLI::App& app, CompareArguments& options) {
+  options.against = add_value(app, "--against", "exact|physics", "what errors are measured against [exact]");
+  options.algorithms = add_value(app, "--algorithms", "A,B,…", "who takes part, by the names of deform [all]");
+  options.relax = add_value(app, "--relax", "N,N,…",
+                            "each with so many sweeps of relaxation after a move [0,10; physics: 0,1,3,10,30,100]");
+  options.relaxation = add_value(app, "--relaxation", "mean|link", "how an element relaxes [mean]");
+  options.relax_step = add_parameter(app, parameters::relax_step);
+  options.precision = add_value(app, "--precision", "float|double", "the numbers to compute in [float]");
+  options.repetitions = add_value(app, "--repetitions", "N", "of each drag [as many as 4 s hold, 5 at least]");
+}
+
+void add_physics(CLI::App& app, CompareArguments& options) {
+  options.pins = add_pins(app);
+  options.elastic = add_elastic(app);
+  options.grow = add_value(app, "--grow", "SECONDS",
+                           "let a bar and a sheet grow until a contestant has used so much; 0: not at all [1]");
+  for (CLI::Option* option :
+       {options.pins, options.grow, options.elastic.young, options.elastic.poisson, options.elastic.lattice}) {
+    option->group("Against physics");
+  }
+}
+
+}  // namespace
+
+report::CompareOptions contest_of(const CompareArguments& options, std::span<const AlgorithmInfo> algorithms,
+                                  const std::string& sweeps) {
+  report::CompareOptions result;
+  result.algorithms = read_algorithms(options.algorithms, algorithms);
+  result.sweeps = read_sweeps(options.relax, sweeps);
+  const std::string scheme = value_of(options.relaxation).value_or("mean");
+  check_word("--relaxation", scheme, {"mean", "link"});
+  result.scheme = scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link;
+  result.relax_step = value_of(options.relax_step, parameters::relax_step);
+  const std::string precision = value_of(options.precision).value_or("float");
+  check_word("--precision", precision, {"float", "double"});
+  result.precision = precision == "float" ? Precision::single_precision : Precision::double_precision;
+  if (options.repetitions->count() > 0) {
+    result.repetitions = static_cast<int>(whole_number_of(options.repetitions, 1, 1));
+  }
+  return result;
+}
+
+LinkSoftness softness_of(const CompareArguments& arguments) {
+  const auto preset = value_of(arguments.preset);
+  LinkSoftness softness = preset ? preset_of(*preset) : LinkSoftness();
+  const auto take = [](const CLI::Option* option, const Parameter& parameter, double& value) {
+    value = option->count() > 0 ? value_of(option, parameter) : value;
+  };
+  take(arguments.compression, parameters::compression, softness.compression);
+  take(arguments.stretch, parameters::stretch, softness.stretch);
+  take(arguments.shear, parameters::shear, softness.shear);
+  return softness;
+}
+
+report::Case case_of(const std::string& file, const LinkSoftness& softness) {
+  const std::filesystem::path path = file;
+  OpenedMesh opened = chainmail::open_mesh(path);
+  return {printable(path.filename().string()),
+          "as the file has it",
+          opened.mesh,
+          {},
+          {},
+          {softness, std::move(opened.softness)},
+          {}};
+}
+
+CompareArguments add_compare_arguments(CLI::App& app) {
+  CompareArguments options;
+  const std::string help = "meshes, files " + mesh_endings(FormatUse::read);
+  options.meshes = app.add_option("MESH", help)
+                       ->type_name("")
+                       ->expected(-1)
+                       ->allow_extra_args(true)
+                       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_contest(app, options);
+  options.compression = add_parameter(app, parameters::compression);
+  options.stretch = add_parameter(app, parameters::stretch);
+  options.shear = add_parameter(app, parameters::shear);
+  options.preset = add_value(app, "--preset", "NAME|FILE",
+                             "softness by a preset's name, or of the one in a file, as calibrate writes it");
+  options.moves = add_value(app, "--moves", "FILE", "drag as recorded in this JSON script, from rest");
+  options.output = add_value(app, "-o", "FOLDER", "where the report goes; made where it is missing")->required();
+  add_physics(app, options);
+  return options;
+}
+
+}  // namespace chainmail::command_line

@@ -1,0 +1,90 @@
+#include <algorithm>
+
+#include "command_line/compare_options.h"
+#include "command_line/folder.h"
+#include "command_line/report_origin.h"
+#include "files/outputs.h"
+#include "files/physics_json.h"
+#include "report/physics_cases.h"
+#include "report/physics_report.h"
+
+namespace chainmail::command_line {
+namespace {
+
+// A plot that stands alone is read on light and on dark paper.
+constexpr const char* ink = "#808080";
+
+report::PhysicsOptions read_options(const CompareArguments& arguments) {
+  report::PhysicsOptions options;
+  options.contest = contest_of(arguments, every_algorithm(), "0,1,3,10,30,100");
+  std::ranges::sort(options.contest.sweeps);  // they are a curve
+  if (const auto seconds = value_of(arguments.grow)) {
+    options.growth_seconds = parse_number_of("--grow", *seconds);
+    if (options.growth_seconds < 0) {
+      throw Error("--grow", *seconds + " is below 0", "use a number of seconds, or 0");
+    }
+  }
+  return options;
+}
+
+std::vector<report::Case> read_cases(const CompareArguments& arguments) {
+  const LinkSoftness softness = softness_of(arguments);
+  const ElasticOptions elastic = elastic_of(arguments.elastic);
+  if (arguments.moves->count() > 0) {
+    throw Error("--moves", "physics is compared on drags of its own", "leave it out");
+  }
+  if (arguments.meshes->count() == 0) {
+    if (arguments.pins->count() > 0) {
+      throw Error("--pins", "the built-in objects are pinned as they are", "name a mesh, or leave it out");
+    }
+    return report::physics_cases({softness, {}}, elastic);
+  }
+  std::vector<report::Case> cases;
+  for (const std::string& file : arguments.meshes->results()) {
+    report::Case object = case_of(file, softness);
+    object.pins = pins_of(arguments.pins, object.name, *object.mesh);
+    object.elastic = elastic;
+    object.drags = report::physics_drags(object);
+    cases.push_back(std::move(object));
+  }
+  return cases;
+}
+
+void add_plots(Outputs& outputs, const std::filesystem::path& folder, const report::PhysicsReport& report) {
+  int number = 0;
+  const auto add = [&](const report::Plot& plot) {
+    outputs.add(folder / ("plot-" + std::to_string(++number) + ".svg"),
+                [plot](std::ostream& out) { write_svg(out, plot, ink); });
+  };
+  for (const report::PhysicsObject& object : report.objects) {
+    add(physics_plot(object));
+  }
+  if (!report.growths.empty()) {
+    add(growth_time_plot(report.growths));
+    add(growth_error_plot(report.growths));
+  }
+}
+
+}  // namespace
+
+void compare_with_physics(const CompareArguments& arguments, const std::string& command_line) {
+  const report::PhysicsOptions options = read_options(arguments);
+  OutputFolder folder(*value_of(arguments.output));
+  const std::vector<report::Case> cases = read_cases(arguments);
+  ProgressLine line;
+  const report::PhysicsReport report = report::compare_with_physics(
+      cases, options, [&](double fraction, const std::string& text) { line.show(fraction, text); });
+  const report::Origin origin = origin_of(command_line);
+
+  folder.make();
+  Outputs outputs;
+  outputs.add(folder.path() / "report.html", [&](std::ostream& out) { write_html(out, report, origin); });
+  outputs.add(folder.path() / "report.json", [&](std::ostream& out) { write_json(out, report, origin); });
+  outputs.add(folder.path() / "report.csv", [&](std::ostream& out) { write_csv(out, report); });
+  add_plots(outputs, folder.path(), report);
+  outputs.add("-", [&](std::ostream& out) { write_text(out, report); });
+  outputs.commit();
+  folder.keep();
+}
+
+}  // namespace chainmail::command_line

@@ -1,0 +1,148 @@
+#include "report/physics.h"
+
+#include <algorithm>
+
+#include "mesh/error.h"
+#include "report/physics_cases.h"
+#include "report/runner.h"
+
+namespace chainmail::report {
+namespace {
+
+constexpr double share_of_drags = 0.6;  // of the progress, where objects grow as well
+
+PhysicsOptions checked(PhysicsOptions options) {
+  if (options.contest.algorithms.empty()) {
+    for (const AlgorithmInfo& one : every_algorithm()) {
+      options.contest.algorithms.push_back(one.algorithm);
+    }
+  }
+  check(options.contest);
+  if (!(options.growth_seconds >= 0)) {
+    throw Error("grow", "time does not run backward", "use 0 or more seconds");
+  }
+  return options;
+}
+
+/// The truth of an object, without which nothing can be measured.
+TruthSolver truth_of(const Case& object) {
+  std::vector<ElementId> pins = object.pins;
+  std::ranges::sort(pins);
+  const std::vector<double> at_rest(pins.size() * static_cast<std::size_t>(object.mesh->space_dimension), 0.0);
+  if (pins.empty()) {
+    throw Error(object.name, "nothing pins it, so physics has no static answer",
+                "pin a side, the boundary, or elements");
+  }
+  try {
+    return TruthSolver({object.mesh, Cuts(object.mesh), pins, at_rest, object.elastic});
+  } catch (const Error& error) {
+    throw error.at(object.name);
+  }
+}
+
+/// Where the hand is at last, and which element it holds.
+Truth truth_of(TruthSolver& solver, const RecordedMoves& moves) {
+  ElementId hand = 0;
+  Point target = Point::Zero();
+  for (const Command& command : moves.commands) {
+    if (const auto* grab = std::get_if<commands::Grab>(&command)) {
+      hand = grab->element;
+    } else if (const auto* drag = std::get_if<commands::Drag>(&command)) {
+      target = drag->target;
+    }
+  }
+  return solver.at(hand, target);
+}
+
+PhysicsDrag drag_of(const Case& object, const RecordedMoves& moves, TruthSolver& solver, const CompareOptions& options,
+                    const std::function<void(double)>& tell, const std::stop_token& stop) {
+  PhysicsDrag drag{moves.name, moves.description, count_moves(moves), 0, {}, {}};
+  try {
+    const Truth truth = truth_of(solver, moves);
+    drag.hand = truth.hand;
+    const auto contestants = contestants_of(options.algorithms, options.sweeps);
+    drag.entries = contest(object, moves, truth, contestants, options, tell, stop);
+  } catch (const Error& error) {
+    drag.no_truth = error.what();
+  }
+  return drag;
+}
+
+/// What is told while the experiment goes on, of its whole.
+class Teller {
+ public:
+  Teller(const Progress& progress, std::size_t drags, bool grows) : progress_(progress), drags_(drags), grows_(grows) {}
+
+  std::function<void(double)> of_drag(const std::string& text) const {
+    return [this, text, begin = done_](double share) {
+      tell((grows_ ? share_of_drags : 1) * (double(begin) + share) / double(drags_), text);
+    };
+  }
+  void drag_is_done() { ++done_; }
+  std::function<void(double)> of_growth(const std::string& text, int which, int of) const {
+    return [this, text, which, of](double share) {
+      tell(share_of_drags + (1 - share_of_drags) * (which + share) / of, text);
+    };
+  }
+  void tell(double share, const std::string& text) const {
+    if (progress_) {
+      progress_(share, text);
+    }
+  }
+
+ private:
+  const Progress& progress_;
+  std::size_t drags_, done_ = 0;
+  bool grows_;
+};
+
+void add_growths(PhysicsReport& report, const Softness& softness, const Teller& teller, const std::stop_token& stop) {
+  const PhysicsOptions& options = report.options;
+  const ElasticOptions elastic = report.elastic;
+  report.growths.push_back(grow(
+      "bar", "tetrahedra, pinned at the left layer, pulled",
+      [&](std::uint64_t elements) { return pinned_bar(elements, softness, elastic); }, options,
+      teller.of_growth("growing bar", 0, 2), stop));
+  report.growths.push_back(grow(
+      "sheet", "triangles in a plane, pinned at the top layer, pulled",
+      [&](std::uint64_t elements) { return pinned_sheet(elements, softness, elastic); }, options,
+      teller.of_growth("growing sheet", 1, 2), stop));
+}
+
+}  // namespace
+
+PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& asked,
+                                   const Progress& progress, const std::stop_token& stop) {
+  PhysicsReport report{checked(asked), cases.empty() ? ElasticOptions() : cases.front().elastic, {}, {}, false};
+  std::size_t drags = 0;
+  for (const Case& object : cases) {
+    drags += object.drags.size();
+  }
+  Teller teller(progress, drags, report.options.growth_seconds > 0);
+  for (const Case& object : cases) {
+    PhysicsObject& result = report.objects.emplace_back();
+    result = {
+        object.name, object.description, object.mesh->element_count(), object.mesh->link_count(), object.pins.size(),
+        {}};
+    TruthSolver solver = truth_of(object);
+    for (const RecordedMoves& moves : object.drags) {
+      const auto tell = teller.of_drag(object.name + ", " + moves.name);
+      tell(0);
+      PhysicsDrag drag = drag_of(object, moves, solver, report.options.contest, tell, stop);
+      if (stop.stop_requested()) {
+        report.stopped = true;
+        return report;
+      }
+      result.drags.push_back(std::move(drag));
+      teller.drag_is_done();
+    }
+  }
+  if (report.options.growth_seconds > 0 && !cases.empty()) {
+    add_growths(report, {cases.front().softness.global, {}}, teller, stop);
+    report.stopped = stop.stop_requested();
+  }
+  teller.tell(1, "done");
+  return report;
+}
+
+}  // namespace chainmail::report

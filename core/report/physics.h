@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "measure/physical_error.h"
+#include "report/compare.h"
+#include "report/growth.h"
+
+namespace chainmail::report {
+
+/// The comparison with physics: ChainMail, linear FEM, BEM and free-form deformation against neo-Hookean FEM.
+struct PhysicsOptions {
+  PhysicsOptions() { contest.sweeps = {0, 1, 3, 10, 30, 100}; }
+
+  /// Without algorithms every one takes part; the sweeps are those of the ChainMail family.
+  CompareOptions contest;
+  double growth_seconds = 1;  // that each contestant may take on growing objects of each kind; 0: they do not grow
+};
+
+/// How a contestant did on one drag.
+struct PhysicsMeasurement {
+  TimeSpread ms_per_move;  // as in a comparison; a method of elasticity without the first move, which prepares
+  double prepare_ms = 0;   // by how much the very first move takes longer: what is prepared for an object and a hand
+  PhysicalError error;
+  bool on_surface = false;  // it had the object's outer surface alone, and the error is that of its elements
+};
+
+struct PhysicsEntry {
+  Contestant contestant;
+  std::optional<PhysicsMeasurement> measurement;
+  std::string refusal;  // where there is none: why
+};
+
+struct PhysicsDrag {
+  std::string name, description;
+  int moves = 0;
+  double hand = 0;                    // how far it went (mesh units)
+  std::vector<PhysicsEntry> entries;  // every contestant, in one order for all drags; none without a truth
+  std::string no_truth;               // why there is none; empty where there is
+};
+
+struct PhysicsObject {
+  std::string name, description;
+  std::uint64_t elements = 0, links = 0, pins = 0;
+  std::vector<PhysicsDrag> drags;
+};
+
+/// A contestant at one size.
+struct GrowthPoint {
+  std::uint64_t elements = 0;
+  double ms_per_move = 0, prepare_ms = 0;
+  std::optional<PhysicalError> error;  // none where the truth was no longer found
+};
+
+struct GrowthSeries {
+  Contestant contestant;
+  std::vector<GrowthPoint> points;
+  std::string end;               // why it grew no further
+  std::optional<Growth> growth;  // of the time a move
+};
+
+/// One kind of object, growing.
+struct PhysicsGrowth {
+  std::string name, description;
+  std::vector<GrowthSeries> series;
+};
+
+struct PhysicsReport {
+  PhysicsOptions options;
+  ElasticOptions elastic;
+  std::vector<PhysicsObject> objects;
+  std::vector<PhysicsGrowth> growths;
+  bool stopped = false;  // then it holds what was finished
+};
+
+/// The cases must be pinned, without cuts. Errors are those at the end of each drag against neo-Hookean FEM in double,
+/// converged. Throws Error, naming the case, where physics has no answer to it; a drag whose truth does not converge,
+/// and a contestant that cannot take part, are listed with the reason. BEM is given the outer surface of a volume.
+PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& options,
+                                   const Progress& progress = {}, const std::stop_token& stop = {});
+
+/// A drag by all contestants; a part of the above. `truth` is where it leads.
+std::vector<PhysicsEntry> contest(const Case& object, const RecordedMoves& moves, const Truth& truth,
+                                  const std::vector<Contestant>& contestants, const CompareOptions& options,
+                                  const std::function<void(double)>& tell, const std::stop_token& stop);
+/// The growth of one kind of object: `made` gives about so many elements.
+PhysicsGrowth grow(const std::string& name, const std::string& description,
+                   const std::function<Case(std::uint64_t elements)>& made, const PhysicsOptions& options,
+                   const std::function<void(double)>& tell, const std::stop_token& stop);
+
+/// Who takes part: the ChainMail family by all numbers of sweeps, the others without.
+std::vector<Contestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps);
+
+}  // namespace chainmail::report

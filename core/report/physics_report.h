@@ -1,0 +1,29 @@
+#pragma once
+
+#include <ostream>
+
+#include "report/figure_table.h"
+#include "report/machine.h"
+#include "report/physics.h"
+#include "report/plot.h"
+
+namespace chainmail::report {
+
+/// Time against error on one object, a panel a drag; the sweeps of an algorithm are a curve.
+Plot physics_plot(const PhysicsObject& object);
+/// Elements against time and against error, a panel each kind of object.
+Plot growth_time_plot(const std::vector<PhysicsGrowth>& growths);
+Plot growth_error_plot(const std::vector<PhysicsGrowth>& growths);
+
+/// The main table of one object: times, and errors in the hand's displacement; for a terminal without the region that
+/// moves.
+FigureTable physics_table(const PhysicsObject& object, bool for_text = false);
+/// How far each contestant grew, and how its time did.
+FigureTable growth_table(const PhysicsGrowth& growth);
+
+/// As text, as a page that needs nothing else, and with all digits as CSV: a row a contestant, drag and object.
+void write_text(std::ostream& out, const PhysicsReport& report);
+void write_html(std::ostream& out, const PhysicsReport& report, const Origin& origin);
+void write_csv(std::ostream& out, const PhysicsReport& report);
+
+}  // namespace chainmail::report
