@@ -66,8 +66,8 @@ std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, con
   }
   std::vector<ElementId> pins = side == nullptr ? boundary(mesh) : layer(mesh, *side);
   if (pins.empty()) {
-    throw Error(where, side == nullptr ? "the object is closed and has no boundary" : "the object has no such side",
-                "use another of " + pin_names() + ", or ids");
+    throw side == nullptr ? Error(where, "the object is closed and has no boundary", "pin a layer, as bottom, or ids")
+                          : Error(where, "the object does not extend that way", "pin another layer, or ids");
   }
   return pins;
 }
