@@ -15,9 +15,9 @@ namespace chainmail {
 /// What softness and relaxation shall come close to, and how hard to try.
 struct CalibrationOptions {
   ElasticOptions elastic;
-  std::vector<ElementId> pins;             // in any order; some there must be
-  Algorithm algorithm = Algorithm::exact;  // of the ChainMail family
-  std::uint64_t seed = 1;                  // of the drags
+  std::vector<ElementId> pins;                     // in any order; some there must be
+  Algorithm algorithm = Algorithm::natural_queue;  // of the ChainMail family
+  std::uint64_t seed = 1;                          // of the drags
   int drags = 4;
   int evaluations = 200;  // each carries all drags out
   RelaxationScheme scheme = RelaxationScheme::mean;

@@ -24,7 +24,7 @@ struct PhysicsOptions {
 /// How a contestant did on one drag.
 struct PhysicsMeasurement {
   TimeSpread ms_per_move;  // as in a comparison; a method of elasticity without the first move, which prepares
-  double prepare_ms = 0;   // by how much the very first move takes longer: what is prepared for an object and a hand
+  double prepare_ms = 0;   // what a method of elasticity does for an object and a hand before its first move
   PhysicalError error;
   bool on_surface = false;  // it had the object's outer surface alone, and the error is that of its elements
 };

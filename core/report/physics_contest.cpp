@@ -52,33 +52,51 @@ SurfaceContest on_surface(const Case& volume, const RecordedMoves& moves, const 
   return result;
 }
 
+/// The time (ms) that a method of elasticity takes before its first move; 0 of the others.
+double prepare_ms(const Case& object, const RecordedMoves& moves, Algorithm algorithm) {
+  const auto method = elastic_method(algorithm);
+  if (!method) {
+    return 0;
+  }
+  ElasticProblem problem{object.mesh, Cuts(object.mesh), object.pins, {}, object.elastic};
+  std::ranges::sort(problem.pins);
+  problem.pinned.resize(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension));
+  const auto* grab = std::get_if<commands::Grab>(&moves.commands.front());
+  return 1e3 * seconds_of(machine_clocks(), [&] {
+           const auto solver = make_elastic(*method, problem);
+           if (grab != nullptr) {
+             solver->hold(grab->element);
+           }
+         });
+}
+
 /// One contestant with all that its runs need.
 class Participant {
  public:
   Participant(const Case& object, const RecordedMoves& moves, const Truth& truth, const Contestant& contestant,
               const CompareOptions& options)
-      : entry_{contestant, std::nullopt, {}} {
+      : object_(object), entry_{contestant, std::nullopt, {}} {
     try {
       const bool has_cells = !object.mesh->tetrahedra.empty() || !object.mesh->hexahedra.empty();
       if (contestant.algorithm == Algorithm::boundary_elements && has_cells) {
         surface_ = std::make_unique<SurfaceContest>(on_surface(object, moves, truth));
       }
-      const Case& own = surface_ ? surface_->object : object;
       moves_ = surface_ ? &surface_->moves : &moves;
       truth_ = surface_ ? &surface_->truth : &truth;
-      runner_ = std::make_unique<Runner>(own, contestant.algorithm, options.precision, options);
+      runner_ = std::make_unique<Runner>(object_of(), contestant.algorithm, options.precision, options);
     } catch (const Error& error) {
       entry_.refusal = error.what();
     }
   }
 
-  /// The first run, which finds the errors and what preparing takes. Returns its seconds.
+  /// The first run, which finds the errors, and what preparing takes. Returns its seconds.
   double try_out(const std::stop_token& stop) {
     if (!runner_) {
       return 0;
     }
     const auto start = Clock::now();
     try {
+      const double prepare = prepare_ms(object_of(), *moves_, entry_.contestant.algorithm);
       const Runner::Run run = runner_->run(*moves_, entry_.contestant.sweeps, stop);
       if (run.stopped) {
         return 0;
@@ -90,7 +108,6 @@ class Participant {
       const PositionView positions = runner_->simulation().solver().positions();
       entry_.measurement = {
           {}, 0, measure_physical_error(runner_->simulation().mesh(), positions, *truth_), !!surface_};
-      first_ms_ = run.ms.front();
       times_.add(of_moves(run.ms));
     } catch (const Error& error) {
       entry_.refusal = error.what();
@@ -118,10 +135,7 @@ class Participant {
 
   PhysicsEntry result() {
     if (entry_.measurement) {
-      TimeSpread& ms = entry_.measurement->ms_per_move;
-      ms = times_.spread();
-      const bool prepares = elastic_method(entry_.contestant.algorithm).has_value();
-      entry_.measurement->prepare_ms = prepares ? std::max(0.0, first_ms_ - ms.median) : 0;
+      entry_.measurement->ms_per_move = times_.spread();
     }
     return std::move(entry_);
   }
@@ -135,13 +149,16 @@ class Participant {
     return ms;
   }
 
+  const Case& object_of() const { return surface_ ? surface_->object : object_; }
+
+  const Case& object_;
   PhysicsEntry entry_;
   std::unique_ptr<SurfaceContest> surface_;
   const RecordedMoves* moves_ = nullptr;
   const Truth* truth_ = nullptr;
   std::unique_ptr<Runner> runner_;
   MoveTimes times_;
-  double first_ms_ = 0, seconds_ = 0;
+  double seconds_ = 0;
   bool warm_ = false;
 };
 
