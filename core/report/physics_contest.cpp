@@ -107,7 +107,7 @@ class Participant {
       }
       const PositionView positions = runner_->simulation().solver().positions();
       entry_.measurement = {
-          {}, 0, measure_physical_error(runner_->simulation().mesh(), positions, *truth_), !!surface_};
+          {}, prepare, measure_physical_error(runner_->simulation().mesh(), positions, *truth_), !!surface_};
       times_.add(of_moves(run.ms));
     } catch (const Error& error) {
       entry_.refusal = error.what();

@@ -115,7 +115,7 @@ void PhysicsCommandTest::wrong_usage_data() {
   row("compare cloth.obj --against physics --pins roof -o out", "--pins: 'roof' is no element's id; ");
   row("compare cloth.obj --against physics --pins 3,25 -o out", "--pins: cloth.obj has no element 25; ");
   row("compare cloth.obj --against physics --pins 3,3 -o out", "--pins: '3' stands there twice; ");
-  row("compare cloth.obj --against physics --pins front -o out", "--pins: the object has no such side; ");
+  row("compare cloth.obj --against physics --pins front -o out", "--pins: the object does not extend that way; ");
   row("compare cloth.obj --against physics --pins top --poisson 0.5 -o out", "--poisson: ");
   row("compare cloth.obj --against physics --pins top --young 0 -o out", "--young: ");
   row("compare cloth.obj --against physics --pins top --lattice 9 -o out", "--lattice: ");
