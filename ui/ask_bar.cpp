@@ -59,6 +59,10 @@ void AskBar::ask(const QString& about, QWidget* field) {
   field->setFocus();
 }
 
+void AskBar::addAnswer(QPushButton* answer) { fields_->insertWidget(fields_->count() - 1, answer); }
+
+void AskBar::setAgree(const QString& text) { agree_->setText(text); }
+
 void AskBar::showResult(const QString& result, bool possible) {
   result_->setText(result);
   agree_->setEnabled(possible);

@@ -24,6 +24,10 @@ class AskBar : public QFrame {
   void addField(const QString& label, QWidget* field);
   /// Says what it is about, and waits for an answer with the keyboard in `field`.
   void ask(const QString& about, QWidget* field);
+  /// Adds another answer beside its button, once all fields are there.
+  void addAnswer(QPushButton* answer);
+  /// What its button says from now on.
+  void setAgree(const QString& text);
   /// What would come of the answer as it stands; it is no answer where nothing would.
   void showResult(const QString& result, bool possible = true);
 

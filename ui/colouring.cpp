@@ -22,6 +22,8 @@ constexpr std::array infos{
     ColourModeInfo{ColourMode::distance, "distance", "Distance between panels", "Distance", "mean rest lengths"},
     ColourModeInfo{ColourMode::violationDifference, "violationDifference", "Violation, difference of panels",
                    "Violation", "rest lengths"},
+    ColourModeInfo{ColourMode::truth, "truth", "Error against physics", "Error against physics",
+                   "of the hand's displacement"},
 };
 
 }  // namespace
@@ -34,7 +36,7 @@ const ColourModeInfo& info(ColourMode mode) {
 
 bool comparesPanels(ColourMode mode) { return mode == ColourMode::distance || mode == ColourMode::violationDifference; }
 
-Colouring::Colouring(const Document& document) : document_(document) {
+Colouring::Colouring(const Document& document) : document_(document), truth_(document) {
   timer_.setInterval(intervalMilliseconds);
   connect(&timer_, &QTimer::timeout, this, &Colouring::goOn);
   connect(&document, &Document::frameReady, this, &Colouring::receiveFrame);
@@ -50,10 +52,11 @@ Colouring::Colouring(const Document& document) : document_(document) {
   connect(&document, &Document::cutsChanged, this, outdate);
   connect(&document, &Document::meshChanged, this, &Colouring::startOver);
   connect(&document, &Document::panelsChanged, this, &Colouring::followPanels);
+  connect(&truth_, &Truth::changed, this, &Colouring::followTruth);
 }
 
 void Colouring::receiveFrame(int panel) {
-  if (mode_ == ColourMode::violation) {
+  if (mode_ == ColourMode::violation || mode_ == ColourMode::truth) {
     works_[panel].outdated = true;
   } else if (comparesPanels(mode_)) {
     for (Work& work : works_) {
@@ -63,9 +66,18 @@ void Colouring::receiveFrame(int panel) {
   }
 }
 
+/// What was told of another truth is not shown any more.
+void Colouring::followTruth() {
+  if (mode_ == ColourMode::truth) {
+    startOver();
+    emit changed();
+  }
+}
+
 void Colouring::setMode(ColourMode mode) {
   if (mode != mode_) {
     mode_ = mode;
+    truth_.setWanted(mode == ColourMode::truth);
     startOver();
     emit modeChanged();
     emit changed();
@@ -106,6 +118,9 @@ void Colouring::forget(int panel) {
 QString Colouring::title(int panel) const {
   const auto& mode = info(mode_);
   QString what = text(mode.title);
+  if (mode_ == ColourMode::truth && !truth_.answer()) {
+    return QStringLiteral("%1: %2").arg(what, truth_.state());
+  }
   if (comparesPanels(mode_)) {
     const auto others = comparedWith(panel);
     const bool distance = mode_ == ColourMode::distance;
@@ -191,7 +206,7 @@ ColourScale Colouring::finished(ColourScale scale) const {
   if (mode_ == ColourMode::violation) {
     scale.lowest = scale.threshold = violationThreshold;
     scale.highest = std::max(scale.highest, violationThreshold);
-  } else if (mode_ == ColourMode::distance) {
+  } else if (mode_ == ColourMode::distance || (mode_ == ColourMode::truth && scale.known())) {
     scale.lowest = 0;
   } else if (mode_ == ColourMode::violationDifference && scale.known()) {
     scale.diverging = true;

@@ -10,10 +10,11 @@
 
 #include "colour_values.h"
 #include "document.h"
+#include "truth.h"
 
 namespace chainmail {
 
-enum class ColourMode { plain, compression, stretch, shear, violation, distance, violationDifference };
+enum class ColourMode { plain, compression, stretch, shear, violation, distance, violationDifference, truth };
 
 /// How a mode is called: `name` in settings and tests, `label` in the menu, `title` and `unit` in the legend.
 struct ColourModeInfo {
@@ -75,10 +76,12 @@ class Colouring : public QObject {
     // As they were when the work began, by the panel: frames and softness may change meanwhile.
     std::array<Kept, Document::mostPanels> kept;
     std::shared_ptr<const Softness> softness;
+    std::shared_ptr<const Truth::Answer> truth;
   };
 
   void receiveFrame(int panel);
   void startOver();
+  void followTruth();
   void followPanels();
   bool start(int panel);
   std::vector<int> comparedWith(int panel) const;
@@ -87,11 +90,13 @@ class Colouring : public QObject {
   float value(int panel, std::size_t i) const;
   float violation(const Work& work, int panel, LinkId link) const;
   float distance(const Work& work, int panel, int other, ElementId element) const;
+  float error(const Work& work, int panel, ElementId element) const;
   void goOn();
   void updateScales();
   ColourScale finished(ColourScale scale) const;
 
   const Document& document_;
+  Truth truth_;
   ColourMode mode_ = ColourMode::plain;
   std::array<Work, Document::mostPanels> works_;
   std::array<ColourScale, Document::mostPanels> scales_;

@@ -15,6 +15,8 @@ namespace {
 constexpr int sliceMilliseconds = 4;
 constexpr std::size_t valuesBetweenLooks = 4096;  // at the clock
 
+bool isOfElements(ColourMode mode) { return mode == ColourMode::distance || mode == ColourMode::truth; }
+
 bool isOfSoftness(ColourMode mode) {
   return mode == ColourMode::compression || mode == ColourMode::stretch || mode == ColourMode::shear;
 }
@@ -44,7 +46,8 @@ bool Colouring::start(int panel) {
   work.others = comparedWith(panel);
   std::vector<int> all = work.others;
   all.push_back(panel);
-  if (std::any_of(all.begin(), all.end(), [this](int one) { return document_.frame(one) == nullptr; })) {
+  if (std::any_of(all.begin(), all.end(), [this](int one) { return document_.frame(one) == nullptr; }) ||
+      (mode_ == ColourMode::truth && !truth_.answer())) {
     return false;
   }
   const Mesh& mesh = *document_.mesh();
@@ -52,11 +55,12 @@ bool Colouring::start(int panel) {
   work.running = true;
   work.next = 0;
   work.building.mesh = document_.mesh();
-  work.building.ofLinks = mode_ != ColourMode::distance;
+  work.building.ofLinks = !isOfElements(mode_);
   work.building.values.resize(work.building.ofLinks ? mesh.link_count() : mesh.element_count());
   work.building.lowest = std::numeric_limits<float>::max();
   work.building.highest = 0;
   work.softness = document_.wholeSoftness();
+  work.truth = truth_.answer();
   for (const int one : all) {
     if (!isOfSoftness(mode_)) {
       work.kept[one].follow(*document_.frame(one));
@@ -105,6 +109,8 @@ float Colouring::value(int panel, std::size_t i) const {
       return float(work.softness->of(LinkId(i)).shear);
     case ColourMode::violation:
       return violation(work, panel, LinkId(i));
+    case ColourMode::truth:
+      return error(work, panel, ElementId(i));
     default:
       break;
   }
@@ -134,6 +140,18 @@ float Colouring::distance(const Work& work, int panel, int other, ElementId elem
     squared += apart * apart;
   }
   return mesh.mean_link_length > 0 ? float(std::sqrt(squared) / mesh.mean_link_length) : 0;
+}
+
+/// How far an element stands from where the truth has it.
+float Colouring::error(const Work& work, int panel, ElementId element) const {
+  const Mesh& mesh = *work.building.mesh;
+  double squared = 0;
+  for (int k = 0; k < mesh.space_dimension; ++k) {
+    const std::size_t at = std::size_t{element} * std::size_t(mesh.space_dimension) + std::size_t(k);
+    const double apart = double(work.kept[panel].positions[at]) - mesh.rest[at] - work.truth->displacements[at];
+    squared += apart * apart;
+  }
+  return float(std::sqrt(squared) / work.truth->hand);
 }
 
 }  // namespace chainmail

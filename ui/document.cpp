@@ -54,9 +54,21 @@ void Document::receiveFrame(int panel) {
   }
   frames_[panel] = &solvers_[panel]->latest_frame();
   if (const std::string error = solvers_[panel]->take_error(); !error.empty()) {
-    emit refused(QString::fromStdString(error));
+    tellRefusal(panel, QString::fromStdString(error));
   }
   emit frameReady(panel);
+}
+
+/// Every move of a hand is refused alike: it is said once.
+void Document::tellRefusal(int panel, const QString& sentence) {
+  if (std::exchange(told_[panel], sentence) == sentence) {
+    return;
+  }
+  if (lacksPins(panel)) {
+    emit unpinned(panel);
+  } else {
+    emit refused(sentence);
+  }
 }
 
 void Document::grab(ElementId element) {
@@ -65,10 +77,28 @@ void Document::grab(ElementId element) {
     log_->replay(commands::Grab{element});  // refused, and no move
     return;
   }
-  noteRelaxation();
-  hand_ = Hand{element, newState()};
-  post(commands::KeepState{hand_->before});
+  takeInHand(element, QStringLiteral("drag of element %1").arg(element));
   post(commands::Grab{element});
+}
+
+void Document::grabControlPoint(std::uint32_t point) {
+  endDrag();
+  takeInHand({}, QStringLiteral("move of control point %1").arg(point));
+  hand_->controlPoint = point;
+}
+
+void Document::takeInHand(std::optional<ElementId> element, const QString& text) {
+  noteRelaxation();
+  told_ = {};
+  hand_ = Hand{element, 0, text, newState()};
+  post(commands::KeepState{hand_->before});
+}
+
+void Document::dragControlPoint(const Point& target) {
+  if (hand_) {
+    hand_->moved = true;
+    post(commands::MoveControlPoint{hand_->controlPoint, target});
+  }
 }
 
 void Document::drag(const Point& target) {
@@ -97,7 +127,9 @@ void Document::forgetMoves() {
 }
 
 void Document::release() {
-  post(commands::Release{});
+  if (!hand_ || hand_->element) {
+    post(commands::Release{});
+  }
   endDrag();
 }
 
@@ -105,7 +137,7 @@ void Document::release() {
 void Document::endDrag() {
   if (const auto hand = std::exchange(hand_, {})) {
     if (hand->moved) {
-      undoStack_.push(new DragEdit(*this, hand->element, hand->before));
+      undoStack_.push(new DragEdit(*this, hand->text, hand->before));
     } else {
       post(commands::DropState{hand->before});
     }
@@ -114,6 +146,7 @@ void Document::endDrag() {
 
 void Document::push(QUndoCommand* edit) {
   endDrag();
+  told_ = {};
   undoStack_.push(edit);
 }
 
@@ -135,36 +168,6 @@ std::optional<commands::StateId> Document::stateFor(int gesture, const QString& 
   return goesOn ? std::nullopt : std::optional(newState());
 }
 
-void Document::setSoftness(const LinkSoftness& global, const QString& text, int gesture) {
-  if (global != softness_->global) {
-    pushSoftness({global, softness_->links}, text, gesture);
-  }
-}
-
-void Document::setSoftnessOf(const std::vector<LinkId>& links, const std::optional<LinkSoftness>& own) {
-  Softness softness = *softness_;
-  for (const LinkId link : links) {
-    if (own) {
-      softness.links.insert_or_assign(link, *own);
-    } else {
-      softness.links.erase(link);
-    }
-  }
-  if (softness.links != softness_->links) {
-    pushSoftness(std::move(softness), counted(QStringLiteral("stiffness of"), links.size(), QStringLiteral("link")), 0);
-  }
-}
-
-void Document::resetSoftness() {
-  if (*softness_ != Softness()) {
-    pushSoftness({}, QStringLiteral("reset stiffness"), 0);
-  }
-}
-
-void Document::pushSoftness(Softness softness, const QString& text, int gesture) {
-  push(new SoftnessEdit(*this, std::make_shared<const Softness>(std::move(softness)), text, gesture));
-}
-
 bool Document::isPinned(ElementId element) const { return std::binary_search(pins_.begin(), pins_.end(), element); }
 
 void Document::setPinned(const std::vector<ElementId>& elements, bool pinned) {
@@ -184,20 +187,6 @@ void Document::resetObject() { push(new ResetEdit(*this)); }
 void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text,
                            std::map<LinkId, LinkSoftness> own) {
   push(new MeshEdit(*this, mesh, name, text, std::move(own)));
-}
-
-void Document::setRelaxation(const commands::SetRelaxation& relaxation, int gesture) {
-  if (relaxation != relaxation_) {
-    const QString text = relaxation.on == relaxation_.on ? QStringLiteral("relaxation's settings")
-                         : relaxation.on                 ? QStringLiteral("relaxation on")
-                                                         : QStringLiteral("relaxation off");
-    push(new RelaxationEdit(*this, relaxation, text, gesture));
-  }
-}
-
-void Document::showRelaxation(const commands::SetRelaxation& relaxation) {
-  relaxation_ = relaxation;
-  emit relaxationChanged();
 }
 
 void Document::setHighlight(const Highlight& highlight) {
@@ -233,11 +222,6 @@ void Document::showCuts(const std::vector<LinkId>& links, bool cut) {
 void Document::showPins(const std::vector<ElementId>& elements, bool pinned) {
   pins_ = combined(pins_, elements, pinned ? SelectionMode::add : SelectionMode::remove);
   emit pinsChanged();
-}
-
-void Document::showSoftness(std::shared_ptr<const Softness> softness) {
-  softness_ = std::move(softness);
-  emit softnessChanged();
 }
 
 }  // namespace chainmail

@@ -53,6 +53,7 @@ class Document : public QObject {
   const LinkSoftness& softness() const { return softness_->global; }
   const std::shared_ptr<const Softness>& wholeSoftness() const { return softness_; }
   const commands::SetRelaxation& relaxation() const { return relaxation_; }
+  const ElasticOptions& elastic() const { return elastic_; }
   /// How many there are, fewestPanels to mostPanels.
   int panels() const { return int(solvers_.size()); }
   /// One more, in which the object is as in the first one, undo included, by an algorithm that none runs yet.
@@ -60,6 +61,8 @@ class Document : public QObject {
   /// One less: the last one goes.
   void removePanel();
   Algorithm algorithm(int panel) const { return algorithms_[panel]; }
+  /// Whether a panel's method has no answer, because nothing holds the object.
+  bool lacksPins(int panel) const;
   QUndoStack& undoStack() { return undoStack_; }
   /// Ends what the hand is at, so that it is a step of its own, and undoes it or the step before.
   void undo();
@@ -94,7 +97,11 @@ class Document : public QObject {
   void drag(const Point& target);
   void release();
   /// The element in the hand.
-  std::optional<ElementId> held() const { return hand_ ? std::optional(hand_->element) : std::nullopt; }
+  std::optional<ElementId> held() const { return hand_ ? hand_->element : std::nullopt; }
+  /// The hand takes a control point of free-form deformation and moves it, in the panels that have it; it is released
+  /// as an element is.
+  void grabControlPoint(std::uint32_t point);
+  void dragControlPoint(const Point& target);
   /// What the hand did last on this mesh, without the release; empty where it did nothing yet.
   std::vector<Command> lastDrag() const { return tape().last_drag(); }
   /// As if nothing had been done yet to this object, which stands as it is.
@@ -129,6 +136,10 @@ class Document : public QObject {
   /// Refused where the algorithm does not work on the mesh.
   void setAlgorithm(int panel, Algorithm algorithm);
   void setRelaxation(const commands::SetRelaxation& relaxation, int gesture = 0);
+  /// Both as one step.
+  void setSoftnessAndRelaxation(const LinkSoftness& global, const commands::SetRelaxation& relaxation,
+                                const QString& text);
+  void setElastic(const ElasticOptions& options, const QString& text, int gesture = 0);
 
   const Highlight& highlight() const { return highlight_; }
   void setHighlight(const Highlight& highlight);
@@ -147,6 +158,7 @@ class Document : public QObject {
   void cutsChanged(const std::vector<LinkId>& links, bool cut);
   void softnessChanged();
   void relaxationChanged();
+  void elasticChanged();
   void algorithmChanged(int panel);
   void highlightChanged();
   void pinsChanged();
@@ -157,6 +169,8 @@ class Document : public QObject {
   void sessionFileChanged();
   /// A command was refused: one sentence.
   void refused(const QString& sentence);
+  /// A panel has no answer, as lacksPins says.
+  void unpinned(int panel);
   /// Something was done that was not asked for: one sentence.
   void noticed(const QString& sentence);
 
@@ -168,6 +182,7 @@ class Document : public QObject {
   friend class GestureEdit;
   friend class SoftnessEdit;
   friend class RelaxationEdit;
+  friend class ElasticEdit;
   friend class AlgorithmEdit;
   friend class ResetEdit;
   friend class TravelEdit;
@@ -180,6 +195,7 @@ class Document : public QObject {
   void showPins(const std::vector<ElementId>& elements, bool pinned);
   void showSoftness(std::shared_ptr<const Softness> softness);
   void showRelaxation(const commands::SetRelaxation& relaxation);
+  void showElastic(const ElasticOptions& options);
   void runAlgorithm(int panel, Algorithm algorithm);
   void runAlgorithms(const std::vector<Algorithm>& algorithms);
   void followFallback();
@@ -193,6 +209,7 @@ class Document : public QObject {
   commands::StateId newState() { return nextState_++; }
   std::optional<commands::StateId> stateFor(int gesture, const QString& text);
   void push(QUndoCommand* edit);
+  void takeInHand(std::optional<ElementId> element, const QString& text);
   void endDrag();
   void pushSoftness(Softness softness, const QString& text, int gesture);
   void post(const Command& command);
@@ -200,6 +217,7 @@ class Document : public QObject {
   void takeOn(std::unique_ptr<SolverThread> solver);
   Algorithm unusedAlgorithm() const;
   void receiveFrame(int panel);
+  void tellRefusal(int panel, const QString& sentence);
 
   MeshPointer mesh_;
   QString name_, sessionFile_;
@@ -208,16 +226,20 @@ class Document : public QObject {
   std::vector<ElementId> pins_;
   std::shared_ptr<const Softness> softness_ = std::make_shared<Softness>();  // shared with the edits
   commands::SetRelaxation relaxation_;
+  ElasticOptions elastic_;
   std::array<Algorithm, mostPanels> algorithms_{Algorithm::generalized, Algorithm::natural_queue};
   Highlight highlight_;
   Selection selection_;
   commands::StateId nextState_ = 1;
   struct Hand {
-    ElementId element = 0;
-    commands::StateId before = 0;  // kept while the hand holds the element
+    std::optional<ElementId> element;  // none where it holds a control point
+    std::uint32_t controlPoint = 0;
+    QString text;                  // of the step that this becomes
+    commands::StateId before = 0;  // kept while the hand holds it
     bool moved = false;
   };
   std::optional<Hand> hand_;
+  std::array<QString, mostPanels> told_;  // the last refusal, since the hand took hold
 
   // States kept while moves are replayed, by how many commands were carried out then: going back begins at one of them.
   std::map<std::size_t, commands::StateId> onTheWay_;

@@ -58,6 +58,11 @@ Algorithm Document::unusedAlgorithm() const {
   return free == all.end() ? Algorithm::natural_queue : *free;
 }
 
+/// Free-form deformation alone needs none.
+bool Document::lacksPins(int panel) const {
+  return pins_.empty() && elastic_method(algorithms_[panel]) && algorithms_[panel] != Algorithm::free_form;
+}
+
 void Document::setAlgorithm(int panel, Algorithm algorithm) {
   try {
     check(algorithm, *mesh_);

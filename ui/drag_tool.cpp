@@ -10,15 +10,34 @@ QString DragTool::hint() const {
 }
 
 void DragTool::hover(View& view, QPointF place) {
-  if (grabbed_) {
+  if (busy()) {
     cancel();  // no button is down: its release went to someone else, a dialog say
   }
-  document_.setHighlight({view.elementAt(place), false, {}});
+  const auto point = controlPoints_.at(view, place);
+  controlPoints_.mark(point);
+  document_.setHighlight({point ? std::nullopt : view.elementAt(place), false, {}});
+}
+
+void DragTool::leave(View& /*view*/) {
+  if (!point_) {
+    controlPoints_.mark({});
+  }
+}
+
+bool DragTool::pressOnPoint(View& view, QPointF place) {
+  point_ = controlPoints_.at(view, place);
+  if (point_) {
+    start_ = controlPoints_.position(*point_);
+    hand_ = view.pointAt(place, start_);
+    controlPoints_.mark(point_, true);
+    document_.grabControlPoint(point_->point);
+  }
+  return point_.has_value();
 }
 
 void DragTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modifiers*/) {
   const auto element = view.elementAt(place);
-  if (!element) {
+  if (pressOnPoint(view, place) || !element) {
     return;
   }
   if (document_.isPinned(*element)) {
@@ -33,25 +52,28 @@ void DragTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modifier
 }
 
 void DragTool::move(View& view, QPointF place) {
-  if (!grabbed_) {
+  if (!busy()) {
     return;
   }
   const QVector3D travel = view.pointAt(place, start_) - hand_;
-  document_.drag(start_ + Point(travel.x(), travel.y(), travel.z()));
+  const Point target = start_ + Point(travel.x(), travel.y(), travel.z());
+  grabbed_ ? document_.drag(target) : document_.dragControlPoint(target);
 }
 
 void DragTool::release(View& view, QPointF place) {
-  if (grabbed_) {
+  if (busy()) {
     cancel();
     hover(view, place);
   }
 }
 
 void DragTool::cancel() {
-  if (grabbed_) {
+  if (busy()) {
     grabbed_.reset();
+    point_.reset();
     document_.release();
   }
+  controlPoints_.mark({});
   document_.setHighlight({});
 }
 

@@ -38,8 +38,8 @@ void Edit::exchange(bool done) {
   show(done);
 }
 
-DragEdit::DragEdit(Document& document, ElementId element, commands::StateId before)
-    : Edit(document, QStringLiteral("drag of element %1").arg(element), before, true) {}
+DragEdit::DragEdit(Document& document, const QString& text, commands::StateId before)
+    : Edit(document, text, before, true) {}
 
 CutEdit::CutEdit(Document& document, std::vector<LinkId> links)
     : Edit(document, counted(QStringLiteral("cut"), links.size(), QStringLiteral("link")), document.newState()),
@@ -71,6 +71,11 @@ RelaxationEdit::RelaxationEdit(Document& document, const commands::SetRelaxation
 
 void RelaxationEdit::carryOut() { document_.post(after_); }
 void RelaxationEdit::prepare(bool done) { document_.post(done ? after_ : before_); }
+
+ElasticEdit::ElasticEdit(Document& document, const ElasticOptions& options, const QString& text, int gesture)
+    : GestureEdit(document, document.elastic(), options, text, gesture) {}
+
+void ElasticEdit::prepare(bool done) { document_.post(commands::SetElastic{done ? after_ : before_}); }
 
 AlgorithmEdit::AlgorithmEdit(Document& document, int panel, Algorithm algorithm)
     : Edit(document, chainmail::text(info(algorithm).label), document.newState()),

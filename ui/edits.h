@@ -40,7 +40,7 @@ class Edit : public QUndoCommand {
 /// What the hand did from taking an element to letting go.
 class DragEdit : public Edit {
  public:
-  DragEdit(Document& document, ElementId element, commands::StateId before);
+  DragEdit(Document& document, const QString& text, commands::StateId before);
 };
 
 class CutEdit : public Edit {
@@ -112,6 +112,17 @@ class RelaxationEdit : public GestureEdit<commands::SetRelaxation> {
   void carryOut() override;
   void prepare(bool done) override;
   void show(bool done) override { document_.showRelaxation(done ? after_ : before_); }
+};
+
+/// Another material, or another lattice of control points.
+class ElasticEdit : public GestureEdit<ElasticOptions> {
+ public:
+  ElasticEdit(Document& document, const ElasticOptions& options, const QString& text, int gesture);
+
+ private:
+  void carryOut() override { prepare(true); }
+  void prepare(bool done) override;
+  void show(bool done) override { document_.showElastic(done ? after_ : before_); }
 };
 
 /// Another algorithm in one panel.

@@ -24,6 +24,8 @@
 #include "menus.h"
 #include "message_bar.h"
 #include "panel.h"
+#include "pin_bar.h"
+#include "pin_layers.h"
 #include "recovery_bar.h"
 #include "sessions.h"
 #include "sheet_bar.h"
@@ -36,7 +38,7 @@ namespace chainmail {
 namespace {
 
 // To be raised when the docks change, so that an older layout is not restored over them.
-constexpr int layoutVersion = 4;
+constexpr int layoutVersion = 5;
 constexpr int toldMilliseconds = 4000;
 // Of the room that the two share: the values of selected links are seen whole where a screen has 900 pixels.
 const QList<int> stiffnessAndRate{400, 270};
@@ -49,7 +51,8 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       propagation_(document_),
       propagationOverlay_(propagation_),
       regions_(document_),
-      dragTool_(document_),
+      controlPoints_(document_),
+      dragTool_(document_, controlPoints_),
       cutTool_(document_),
       pinTool_(document_),
       measurement_(document_),
@@ -61,6 +64,8 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       cameraActions_(new CameraActions(this)),
       messages_(new MessageBar),
       area_(new PanelArea(document_, colouring_)),
+      pinLayers_(new PinLayers(document_, this)),
+      pinBar_(new PinBar(document_, *pinLayers_)),
       filling_(new Filling(document_, jobs_)),
       help_(new HelpMenu(*this, document_)),
       toolActions_(new QActionGroup(this)),
@@ -78,6 +83,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   column->addWidget(&files_->sheets().bar());
   column->addWidget(&files_->volumes().bar());
   column->addWidget(filling_);
+  column->addWidget(pinBar_);
   column->addWidget(area_, 1);
   column->addWidget(&help_->hints());
   setCentralWidget(central);
@@ -103,6 +109,8 @@ void MainWindow::listen() {
   area_->addOverlay(propagationOverlay_);
   area_->addOverlay(regions_);
   area_->addOverlay(measurement_);
+  area_->addOverlay(controlPoints_);
+  connect(&controlPoints_, &ControlPoints::changed, area_, &PanelArea::refresh);
   connect(&measurement_, &Measurement::changed, area_, &PanelArea::refresh);
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
   connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
@@ -154,6 +162,7 @@ void MainWindow::makeTools() {
   add(measureTool_, icon("measure"), Qt::Key_M);
   add(selectTool_, icon("select"), Qt::Key_S);
   toolActions_->actions().first()->setChecked(true);
+  connect(pinBar_, &PinBar::byHandChosen, findChild<QAction*>(QStringLiteral("toolPin")), &QAction::trigger);
 }
 
 void MainWindow::activate(Tool& tool) {

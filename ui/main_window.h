@@ -30,6 +30,8 @@ class Filling;
 class HelpMenu;
 class MessageBar;
 class PanelActions;
+class PinBar;
+class PinLayers;
 class Panel;
 class Sessions;
 class UndoActions;
@@ -68,6 +70,7 @@ class MainWindow : public QMainWindow {
   void makeDocks();
   void shareRoom(QDockWidget& other, QDockWidget& dock);
   void makeStiffnessDock();
+  void makePhysicsDock();
   void makeFrameRateDock();
   void makeReportDock();
   void makeSizeTestDock();
@@ -92,6 +95,7 @@ class MainWindow : public QMainWindow {
   Propagation propagation_;
   PropagationOverlay propagationOverlay_;
   ValidRegions regions_;
+  ControlPoints controlPoints_;
   DragTool dragTool_;
   CutTool cutTool_;
   PinTool pinTool_;
@@ -106,6 +110,8 @@ class MainWindow : public QMainWindow {
   CameraActions* cameraActions_;
   MessageBar* messages_;
   PanelArea* area_;
+  PinLayers* pinLayers_;
+  PinBar* pinBar_;
   Filling* filling_;
   HelpMenu* help_;
   PanelActions* panelActions_;

@@ -12,6 +12,7 @@
 #include "mesh_dock.h"
 #include "message_bar.h"
 #include "panel.h"
+#include "physics_dock.h"
 #include "propagation_dock.h"
 #include "relaxation_dock.h"
 #include "replay_dock.h"
@@ -34,6 +35,7 @@ void MainWindow::makeDocks() {
   tools->fill(*findChild<QMenu*>(QStringLiteral("editMenu")));
   addDockWidget(Qt::LeftDockWidgetArea, meshDock);
   makeStiffnessDock();
+  makePhysicsDock();
   addDockWidget(Qt::RightDockWidgetArea, new RelaxationDock(document_));
   makeFrameRateDock();
   makeReportDock();
@@ -74,6 +76,23 @@ void MainWindow::makeStiffnessDock() {
   findChild<QMenu*>(QStringLiteral("objectMenu"))->addMenu(&dock->presets().menu());
   connect(&dock->presets(), &PresetRow::failed, messages_, &MessageBar::say);
   connect(&dock->presets(), &PresetRow::told, this, &MainWindow::tell);
+}
+
+/// In the place of the stiffness, and out of sight until it is asked for.
+void MainWindow::makePhysicsDock() {
+  auto* dock = new PhysicsDock(document_, *pinLayers_, jobs_);
+  auto* stiffness = findChild<QDockWidget*>(QStringLiteral("stiffnessDock"));
+  shareRoom(*stiffness, *dock);
+  connect(dock, &PhysicsDock::presetRequested, stiffness, [this, stiffness] {
+    stiffness->show();
+    stiffness->raise();
+    findChild<QAction*>(QStringLiteral("savePreset"))->trigger();
+  });
+  QAction* show = dock->toggleViewAction();
+  show->setObjectName(QStringLiteral("showPhysics"));
+  show->setShortcut(Qt::Key_J);
+  show->setStatusTip(
+      QStringLiteral("Material, pins and control points of the methods that ChainMail is compared with"));
 }
 
 void MainWindow::makeFrameRateDock() {
@@ -135,7 +154,9 @@ void MainWindow::makeSizeTestDock() {
   auto* dock = new SizeTestDock(*this, document_, *area_, [this] {
     std::vector<SizeTestContestant> inSight;
     for (const int panel : area_->inSight()) {
-      inSight.push_back({panel, document_.algorithm(panel), colours::ofPanel(panel)});
+      if (!elastic_method(document_.algorithm(panel))) {  // those are in no race against a frame's time
+        inSight.push_back({panel, document_.algorithm(panel), colours::ofPanel(panel)});
+      }
     }
     return inSight;
   });

@@ -16,6 +16,7 @@
 #include "message_bar.h"
 #include "panel_actions.h"
 #include "picture_actions.h"
+#include "pin_layers.h"
 #include "show_menu.h"
 #include "theme_menu.h"
 #include "undo_actions.h"
@@ -86,6 +87,7 @@ void MainWindow::fillObjectMenu(QMenu& menu) {
       menu.addAction(QStringLiteral("&Unpin all"), this, [this] { document_.setPinned(document_.pins(), false); });
   unpin->setObjectName(QStringLiteral("unpinAll"));
   unpin->setStatusTip(QStringLiteral("Every pinned element may move again"));
+  menu.addMenu(&pinLayers_->menu());
   filling_->fill(menu);
   const auto adapt = [this, unpin] { unpin->setEnabled(!document_.pins().empty()); };
   connect(&document_, &Document::pinsChanged, unpin, adapt);

@@ -27,10 +27,6 @@ Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int pa
   statistics_->setObjectName(QStringLiteral("statistics%1").arg(panel));
   statistics_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   statistics_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  statistics_->setToolTip(
-      QStringLiteral("Violation: how far links lie outside their valid regions, in rest lengths; the last figure is "
-                     "the share of links above 1e-4.\nDuring a drag it covers the links that the pass touched, at rest "
-                     "all links."));
   arrange();
   listen();
   showStatistics();
@@ -72,24 +68,47 @@ void Panel::arrange() {
   column->addLayout(foot);
 }
 
+/// Where the pass did not end where it should have, why is more than how far the links are off.
 QString Panel::describe(const Statistics& statistics, bool briefly) const {
+  return describePass(statistics, briefly) + QStringLiteral("<br>") +
+         (statistics.remark.empty() ? describeViolation(statistics, briefly) : describeRemark(statistics));
+}
+
+QString Panel::describePass(const Statistics& statistics, bool briefly) {
+  const QLocale locale;
+  const bool solved = elastic_method(statistics.algorithm).has_value();
+  const QString looked = solved    ? QStringLiteral("solved for <b>%2</b>")
+                         : briefly ? QStringLiteral("looked at <b>%2</b>")
+                                   : QStringLiteral("links looked at <b>%2</b>");
+  return (QStringLiteral("moved <b>%1</b> · ") + looked + QStringLiteral(" · <b>%3</b> ms") +
+          (briefly ? QString() : QStringLiteral(" a pass")))
+      .arg(locale.toString(qulonglong(statistics.last_pass.moved)),
+           locale.toString(qulonglong(statistics.last_pass.checked)), locale.toString(statistics.last_pass_ms, 'f', 3));
+}
+
+QString Panel::describeViolation(const Statistics& statistics, bool briefly) {
   const QLocale locale;
   const Violation& violation = statistics.violation;
   const QString of = briefly                              ? QString()
                      : statistics.violation_of_whole_mesh ? QStringLiteral(" of all links:")
                                                           : QStringLiteral(" of touched links:");
-  const QString words = briefly
-                            ? QStringLiteral("moved <b>%1</b> · looked at <b>%2</b> · <b>%3</b> ms<br>")
-                            : QStringLiteral("moved <b>%1</b> · links looked at <b>%2</b> · <b>%3</b> ms a pass<br>");
-  return (words + QStringLiteral("violation%4 max <b>%5</b> · RMS <b>%6</b> · <b>%7</b> %"))
-      .arg(locale.toString(qulonglong(statistics.last_pass.moved)),
-           locale.toString(qulonglong(statistics.last_pass.checked)), locale.toString(statistics.last_pass_ms, 'f', 3),
-           of, locale.toString(violation.max, 'g', 3), locale.toString(violation.rms, 'g', 3),
+  return QStringLiteral("violation%1 max <b>%2</b> · RMS <b>%3</b> · <b>%4</b> %")
+      .arg(of, locale.toString(violation.max, 'g', 3), locale.toString(violation.rms, 'g', 3),
            locale.toString(100 * violation.fraction, 'f', 1));
+}
+
+QString Panel::describeRemark(const Statistics& statistics) const {
+  const QString remark = QString::fromStdString(statistics.remark);
+  return statistics_->fontMetrics().elidedText(remark, Qt::ElideRight, statistics_->width()).toHtmlEscaped();
 }
 
 /// In fewer words where the panel is narrow.
 void Panel::showFigures(const Statistics& statistics) {
+  const QString help = QStringLiteral(
+      "Violation: how far links lie outside their valid regions, in rest lengths; the last figure is "
+      "the share of links above 1e-4.\nDuring a drag it covers the links that the pass touched, at rest "
+      "all links.");
+  statistics_->setToolTip(statistics.remark.empty() ? help : QString::fromStdString(statistics.remark));
   statistics_->setText(describe(statistics, false));
   if (statistics_->sizeHint().width() > statistics_->width()) {
     statistics_->setText(describe(statistics, true));
@@ -98,6 +117,9 @@ void Panel::showFigures(const Statistics& statistics) {
 
 QStringList Panel::states(const Statistics& statistics) const {
   QStringList states;
+  if (document_.lacksPins(panel_)) {
+    states << QStringLiteral("no static answer: nothing is pinned");
+  }
   if (statistics.last_pass.stopped) {
     states << QStringLiteral("taut: pins hold the hand");
   }

@@ -34,6 +34,9 @@ class Panel : public QFrame {
   void listen();
   void showStatistics();
   QString describe(const Statistics& statistics, bool briefly) const;
+  static QString describePass(const Statistics& statistics, bool briefly);
+  static QString describeViolation(const Statistics& statistics, bool briefly);
+  QString describeRemark(const Statistics& statistics) const;
   void showFigures(const Statistics& statistics);
   QStringList states(const Statistics& statistics) const;
   void drawHead(QPainter& painter) const;

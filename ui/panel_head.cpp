@@ -38,7 +38,10 @@ void PanelHead::fillSelector() {
   selector_->setAccessibleName(QStringLiteral("Algorithm of panel %1").arg(panelName(panel_)));
   selector_->setToolTip(QStringLiteral("The algorithm that deforms this panel's object"));
   selector_->setMinimumWidth(smallestSelector);
-  for (const auto& info : algorithms()) {
+  for (const auto& info : every_algorithm()) {
+    if (info.algorithm == elastic_algorithms().front().algorithm) {
+      selector_->insertSeparator(selector_->count());
+    }
     selector_->addItem(text(info.label), int(info.algorithm));
   }
   connect(selector_, &QComboBox::activated, this,
@@ -56,6 +59,9 @@ void PanelHead::fillSelector() {
 void PanelHead::showAlgorithm() {
   const auto* items = qobject_cast<QStandardItemModel*>(selector_->model());
   for (int i = 0; i < selector_->count(); ++i) {
+    if (!selector_->itemData(i).isValid()) {
+      continue;  // the line between
+    }
     const auto algorithm = Algorithm(selector_->itemData(i).toInt());
     QString help = text(info(algorithm).source);
     try {

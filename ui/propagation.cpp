@@ -115,7 +115,9 @@ void Propagation::takePasses() {
     auto& player = players_[std::size_t(panel)];
     const Frame* frame = document_.frame(panel);
     auto pass = document_.lastPass(panel, player ? player->pass().number : 0);
-    if (pass && frame != nullptr && pass->mesh == frame->mesh && pass->algorithm == document_.algorithm(panel)) {
+    // What solves for all elements at once has no steps.
+    const bool stepped = pass && !elastic_method(pass->algorithm);
+    if (stepped && frame != nullptr && pass->mesh == frame->mesh && pass->algorithm == document_.algorithm(panel)) {
       player = std::make_unique<PassPlayer>(std::move(pass), frame->statistics);
       any = true;
     }

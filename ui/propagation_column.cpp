@@ -112,7 +112,10 @@ void PropagationColumn::refresh() {
   slider_->setRange(0, player != nullptr ? int(player->stepCount()) : 0);
   slider_->setPageStep(std::max(1, slider_->maximum() / 10));
   slider_->setValue(player != nullptr ? int(player->step()) : 0);
-  state_->setText(player != nullptr ? describe(*player) : QStringLiteral("No pass yet: drag an element"));
+  state_->setText(elastic_method(document_.algorithm(panel_))
+                      ? QStringLiteral("No candidates: it solves for all elements at once")
+                  : player != nullptr ? describe(*player)
+                                      : QStringLiteral("No pass yet: drag an element"));
 }
 
 }  // namespace chainmail

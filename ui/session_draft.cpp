@@ -9,6 +9,7 @@ SessionDraft::SessionDraft(Document& document, std::string look) {
   session_.pins = document.pins();
   session_.softness = document.wholeSoftness();
   session_.relaxation = document.relaxation();
+  session_.elastic = document.elastic();
   session_.moves = document.tape().commands();
   session_.moves_done = document.tape().position();
   session_.ui = std::move(look);

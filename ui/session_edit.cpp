@@ -17,6 +17,7 @@ SessionEdit::SessionEdit(Document& document, const std::shared_ptr<const Session
              session->pins,
              session->softness,
              session->relaxation,
+             session->elastic,
              {document.algorithms_.begin(), document.algorithms_.begin() + document.panels()}},
       session_(session) {
   other_.parts.cut(other_.cuts, session->cuts);
@@ -34,6 +35,7 @@ int SessionEdit::count() const { return std::min(document_.panels(), int(other_.
 void SessionEdit::carryOut() {
   document_.post(commands::ReplaceMesh{other_.mesh});
   document_.post(other_.relaxation);
+  document_.post(commands::SetElastic{other_.elastic});
   const std::vector<Command> object{commands::SetSoftness{other_.softness}, commands::Cut{session_->cuts},
                                     commands::Pin{session_->pins}};
   for (const Command& command : object) {
@@ -67,6 +69,7 @@ void SessionEdit::place(int panel) {
 /// work on the mesh that is still there.
 void SessionEdit::prepare(bool /*done*/) {
   document_.post(other_.relaxation);
+  document_.post(commands::SetElastic{other_.elastic});
   for (int panel = 0; panel < count(); ++panel) {
     const bool exact = other_.algorithms[panel] == Algorithm::exact;
     document_.log_->post_to(*document_.solvers_[panel],
@@ -84,6 +87,7 @@ void SessionEdit::show(bool /*done*/) {
   std::swap(other_.pins, document_.pins_);
   std::swap(other_.softness, document_.softness_);
   std::swap(other_.relaxation, document_.relaxation_);
+  std::swap(other_.elastic, document_.elastic_);
   for (int panel = 0; panel < count(); ++panel) {
     std::swap(other_.algorithms[panel], document_.algorithms_[panel]);
     document_.log_->post_to(*document_.solvers_[panel], commands::SetAlgorithm{document_.algorithms_[panel]});
@@ -95,6 +99,7 @@ void SessionEdit::tell() const {
   emit document_.meshChanged();
   emit document_.softnessChanged();
   emit document_.relaxationChanged();
+  emit document_.elasticChanged();
   for (int panel = 0; panel < count(); ++panel) {
     emit document_.algorithmChanged(panel);
   }

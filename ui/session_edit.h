@@ -22,6 +22,7 @@ class SessionEdit : public Edit {
     std::vector<ElementId> pins;
     std::shared_ptr<const Softness> softness;
     commands::SetRelaxation relaxation;
+    ElasticOptions elastic;
     std::vector<Algorithm> algorithms;
   };
 

@@ -79,6 +79,14 @@ void SizeTestDock::followPanels() {
     table_->begin(inSight_());
     table_->setGrowing(false);
   }
+  offerRun();
+}
+
+void SizeTestDock::offerRun() {
+  const bool any = !inSight_().empty();
+  run_->setEnabled(!running() && any);
+  run_->setToolTip(any ? run_->accessibleName()
+                       : QStringLiteral("It is about the ChainMail family: choose one of it in a panel in sight"));
 }
 
 SizeTestDock::~SizeTestDock() = default;
@@ -117,10 +125,10 @@ QWidget* SizeTestDock::makeControls() {
 }
 
 void SizeTestDock::start() {
-  if (running()) {
+  const auto contestants = inSight_();
+  if (running() || contestants.empty()) {
     return;
   }
-  const auto contestants = inSight_();
   SizeTestOptions options = choices_->options();
   options.softness = document_.softness();
   table_->begin(contestants);
@@ -173,7 +181,7 @@ void SizeTestDock::retire(SizeTestStage* stage) {
 
 void SizeTestDock::showState() {
   choices_->setEnabled(!running());
-  run_->setEnabled(!running());
+  offerRun();
   cancel_->setEnabled(running());
   escape_->setEnabled(running());
   const bool empty = table_->rows().empty();

@@ -41,6 +41,7 @@ class SizeTestDock : public QDockWidget {
 
  private:
   void followPanels();
+  void offerRun();
   QWidget* makeControls();
   void listen(const SizeTestStage& stage);
   void leave();

@@ -32,6 +32,7 @@ struct Session {
   std::vector<ElementId> pins;  // ascending
   std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   commands::SetRelaxation relaxation;
+  ElasticOptions elastic;
   std::vector<Panel> panels;  // 1 to session_panels
   /// What was done since the object was at rest and whole, and how many of it: the others were taken back and lie
   /// ahead.
@@ -64,13 +65,14 @@ bool is_session(const std::filesystem::path& path);
 ///      "cuts": [a, b of each cut link…], "pins": [id…],
 ///      "softness": {"compression": c, "stretch": s, "shear": h, "own": [a, b, c, s, h of each link with its own…]},
 ///      "relaxation": {"on": false, "scheme": "mean" or "link", "step": 1},
+///      "elastic": {"young": E, "poisson": v, "lattice": [control points along each axis]},
 ///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
 ///        "runs": [first, end of each run of elements that are given…], "held": [their coordinates…]}],
 ///      "moves": {as recorded moves are written}, "moves_done": how many of them,
 ///      "ui": {…}}
 ///
-/// The moves may be left out, as they are beyond session_moves, and "lattice", "hexahedra" and "texture" where there
-/// are none. Where neighbours stand in an order of their own, "counts" (of each element) and "neighbours" (its ids)
+/// The moves may be left out, as they are beyond session_moves, "lattice", "hexahedra" and "texture" where there
+/// are none, and "elastic" where it is the standard one. Where neighbours stand in an order of their own, "counts" (of each element) and "neighbours" (its ids)
 /// take the place of "links". Throws Error for a number that is not finite, and Cancelled.
 void write_session(std::ostream& out, const Session& session, const Progress& progress = {});
 

@@ -27,6 +27,7 @@ class SessionReader {
   void take_softness();
   void take_own(Softness& softness, const Json& object);
   void take_relaxation();
+  void take_elastic();
   void take_panels();
   void take_moves();
   Session::Panel panel(const Json& object);
@@ -44,8 +45,8 @@ void SessionReader::check_kind() const {
     fields_.fail("it holds no session", "give one that the workbench has saved");
   }
   fields_.count(tree_, "version", session_version);
-  fields_.check_keys(tree_, {"format", "version", "name", "mesh", "cuts", "pins", "softness", "relaxation", "panels",
-                             "moves", "moves_done", "ui"});
+  fields_.check_keys(tree_, {"format", "version", "name", "mesh", "cuts", "pins", "softness", "relaxation", "elastic",
+                             "panels", "moves", "moves_done", "ui"});
 }
 
 void SessionReader::take_cuts() {
@@ -119,6 +120,31 @@ void SessionReader::take_relaxation() {
                         scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link};
 }
 
+void SessionReader::take_elastic() {
+  if (!tree_.contains("elastic")) {
+    return;
+  }
+  const Json& object = fields_.object(tree_, "elastic");
+  fields_.say_at(file_ + ": elastic");
+  fields_.check_keys(object, {"young", "poisson", "lattice"});
+  ElasticOptions options;
+  options.material = {fields_.number(fields_.member(object, "young")),
+                      fields_.number(fields_.member(object, "poisson"))};
+  const Json& lattice = fields_.array(object, "lattice");
+  if (lattice.size() != options.lattice.size()) {
+    fields_.fail("'lattice' has " + std::to_string(lattice.size()) + " numbers", "give one for each of three axes");
+  }
+  for (std::size_t k = 0; k < lattice.size(); ++k) {
+    options.lattice[k] = lattice[k].is_number_unsigned() && lattice[k] < Json(9U) ? lattice[k].get<std::uint32_t>() : 0;
+  }
+  try {
+    check(options);
+  } catch (const Error& error) {
+    throw error.at(fields_.where() + ": " + error.where());
+  }
+  result_.elastic = options;
+}
+
 Placement SessionReader::placement(const Json& object, Precision precision) const {
   Placement result{fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held")};
   check(result, *result_.mesh, precision);
@@ -189,6 +215,8 @@ Session SessionReader::read(const Progress& progress) {
   result_.ui = fields_.object(tree_, "ui").dump();
   take_softness();
   take_relaxation();
+  fields_.say_at(file_);
+  take_elastic();
   fields_.say_at(file_);
   progress.report(0.85);
   take_panels();

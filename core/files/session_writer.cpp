@@ -193,6 +193,11 @@ void SessionWriter::write_state() {
                         {"scheme", session_.relaxation.scheme == RelaxationScheme::mean ? "mean" : "link"},
                         {"step", session_.relaxation.step}};
   out_ << ",\n\"relaxation\": " << relaxation.dump();
+  if (session_.elastic != ElasticOptions()) {
+    const auto& [material, lattice] = session_.elastic;
+    const Json elastic{{"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}};
+    out_ << ",\n\"elastic\": " << elastic.dump();
+  }
 }
 
 void SessionWriter::write_panel(const Session::Panel& panel, const Progress& progress) {

@@ -71,22 +71,28 @@ inline constexpr Parameter relax_step{
 inline constexpr Parameter spacing{"spacing",  "Spacing", "mesh units", 1, above_zero,
                                    no_highest, 10,        0.1,          4, "distance between neighbouring elements"};
 
-inline constexpr Parameter young{"young",
-                                 "Young's modulus",
-                                 "force per area",
-                                 1,
-                                 above_zero,
-                                 no_highest,
-                                 10,
-                                 0.1,
-                                 3,
-                                 "how stiff the material is that ChainMail is compared with"};
-inline constexpr Parameter poisson{
-    "poisson", "Poisson's ratio",
-    "",        0.3,
-    0,         0.499,
-    0.499,     0.01,
-    3,         "how much it narrows when it is pulled: 0 not at all, near 0.5 it keeps its volume"};
+inline constexpr Parameter young{
+    "young",
+    "Young's modulus",
+    "force per area",
+    1,
+    above_zero,
+    no_highest,
+    10,
+    0.1,
+    3,
+    "how stiff the material is that ChainMail is compared with: forces scale with it, the shape "
+    "under a given hand does not"};
+inline constexpr Parameter poisson{"poisson",
+                                   "Poisson's ratio",
+                                   "of the stretch",
+                                   0.3,
+                                   0,
+                                   0.499,
+                                   0.499,
+                                   0.01,
+                                   3,
+                                   "how much it narrows when it is pulled: 0 not at all, near 0.5 it keeps its volume"};
 inline constexpr Parameter lattice{
     "lattice", "Control points", "along each axis", 4, 2, 8, 8, 1, 0, "control points of free-form deformation"};
 

@@ -61,8 +61,8 @@ class Simulation {
   const Softness& softness() const { return *softness_; }
   const ElasticOptions& elastic() const { return elastic_; }
   std::optional<ElementId> grabbed() const { return grabbed_; }
-  /// Those of free-form deformation, which is prepared for them; none by other algorithms.
-  std::span<const double> control_points() { return solver_->control_points(); }
+  /// Those of free-form deformation, which is prepared for them; none by other algorithms, or where it has no answer.
+  std::span<const double> control_points();
   /// The element that the last pass was about.
   std::optional<ElementId> last_moved() const { return last_moved_; }
   /// Where the elements stand, to be placed there again.

@@ -42,7 +42,9 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
   }
   set_softness(command.softness);
   valid_ = false;
-  answer();
+  if (!elastic_method(algorithm_)) {
+    answer();  // the others do not look at it
+  }
 }
 
 /// Softness that is the same leaves the regions of all links as they are.

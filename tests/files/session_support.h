@@ -39,6 +39,7 @@ inline Session session_on(const MeshPointer& mesh) {
   session.pins = {1, 8};
   session.softness = std::make_shared<const Softness>(Softness{{0.1, 1.0 / 0.3, 1e-300}, {{2, {0, 1, 7}}, {4, {}}}});
   session.relaxation = {true, 1.0 / 3, RelaxationScheme::link};
+  session.elastic = {{2.5, 1.0 / 3}, {2, 5, 8}};
   const auto dimension = static_cast<std::size_t>(mesh->space_dimension);
   session.panels = {{Algorithm::exact, Precision::single_precision, {true, {0, 2, 5, 9}, odd_floats(6 * dimension, 5)}},
                     {Algorithm::spiral, Precision::double_precision, {false, {3, 4}, {}}},

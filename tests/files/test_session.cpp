@@ -62,6 +62,7 @@ void SessionTest::compare(const Session& again, const Session& session) {
   QCOMPARE(mesh.lattice.has_value(), before.lattice.has_value());
   QVERIFY(again.cuts == session.cuts && again.pins == session.pins && *again.softness == *session.softness);
   QVERIFY(again.relaxation == session.relaxation);
+  QVERIFY(again.elastic == session.elastic);
   QCOMPARE(again.panels.size(), session.panels.size());
   for (std::size_t i = 0; i < again.panels.size(); ++i) {
     const auto &panel = again.panels[i], &one = session.panels[i];

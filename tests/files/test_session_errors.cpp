@@ -157,6 +157,15 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"on\":false", "\"on\":0", "relaxation: 'on' is neither true nor false; ");
   row("\"scheme\":\"link\"", "\"scheme\":\"links\"", "relaxation: 'scheme' names none; ");
   row("\"step\":0.5", "\"step\":0", "relaxation: 'step' must lie above 0 ");
+  const auto elastic = [&row](const char* said, const char* members) {
+    row("\"step\":0.5}", (std::string("\"step\":0.5}, \"elastic\": {") + members + "}").c_str(), said);
+  };
+  elastic("elastic: 'lattice' is missing; ", R"("young":1,"poisson":0.3)");
+  elastic("elastic: 'lattice' has 2 numbers; ", R"("young":1,"poisson":0.3,"lattice":[4,4])");
+  elastic("elastic: lattice: ", R"("young":1,"poisson":0.3,"lattice":[4,4,9])");
+  elastic("elastic: lattice: ", R"("young":1,"poisson":0.3,"lattice":[4,4,-4])");
+  elastic("elastic: poisson: ", R"("young":1,"poisson":0.5,"lattice":[4,4,4])");
+  elastic("elastic: young: ", R"("young":0,"poisson":0.3,"lattice":[4,4,4])");
   row("\"algorithm\": \"exact\"", "\"algorithm\": \"original\"", "panel 0: 3D ChainMail: ");
   row("\"algorithm\": \"exact\"", "\"algorithm\": \"best\"", "panel 0: 'algorithm' names none; ");
   row("\"precision\": \"float\", \"from_rest\": false", "\"precision\": \"half\", \"from_rest\": false",

@@ -24,6 +24,7 @@ inline void work(Workbench& bench) {
   document.setSoftness({0.7, 1.3, 0.15}, QStringLiteral("softness"));
   document.setSoftnessOf({5, 6}, LinkSoftness{1, 1, 0});
   document.setRelaxation({false, 0.5, RelaxationScheme::link});
+  document.setElastic({{2, 0.4}, {3, 4, 5}}, QStringLiteral("material"));
   drag(document, 50, {1.3, -0.9, 0});
   drag(document, 100, {-0.1, 1.0 / 3, 0});
   bench.settle();
@@ -39,6 +40,7 @@ inline void compare(const Session& again, const Session& before) {
   QCOMPARE(again.pins, before.pins);
   QVERIFY(*again.softness == *before.softness);
   QVERIFY(again.relaxation == before.relaxation);
+  QVERIFY(again.elastic == before.elastic);
   QCOMPARE(again.panels.size(), before.panels.size());
   for (std::size_t panel = 0; panel < again.panels.size(); ++panel) {
     QVERIFY(again.panels[panel].algorithm == before.panels[panel].algorithm);

@@ -1,0 +1,255 @@
+// The methods that ChainMail is compared with, in a real window: which are offered, what holds the object, and what
+// they go by.
+
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QLocale>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QStandardItemModel>
+
+#include "legend.h"
+#include "message_bar.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+const QStandardItem& item(Workbench& bench, int panel, const char* label) {
+  auto& selector = bench.window.panel(panel).selector();
+  return *qobject_cast<QStandardItemModel*>(selector.model())->item(selector.findText(QLatin1String(label)));
+}
+
+MeshPointer gridInAPlane() { return generate({MeshKind::grid, {9, 7, 1}, 1, {}}); }
+
+void dragOne(Workbench& bench) {
+  const QPoint from = bench.place(0, 31);
+  bench.stroke(0, {from, from + QPoint(60, -40)});
+}
+
+/// Opens a menu as a click does, so that it counts.
+void open(Workbench& bench, const char* menu) { emit bench.find<QMenu>(menu)->aboutToShow(); }
+
+QString words(Workbench& bench, const char* action) {
+  return bench.find<QAction>(action)->text().remove(QLatin1Char('&'));
+}
+
+}  // namespace
+
+class WindowPhysics : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void methodsAreOfferedBelowTheFamilyWhereTheyWork() {
+    Workbench bench(gridInAPlane());
+    auto& selector = bench.window.panel(0).selector();
+    QCOMPARE(selector.count(), int(every_algorithm().size()) + 1);  // and a line between
+    QVERIFY(item(bench, 0, "Linear FEM").isEnabled());
+    QVERIFY(!item(bench, 0, "BEM").isEnabled());
+    QVERIFY(item(bench, 0, "BEM").toolTip().contains(QStringLiteral("closed surfaces")));
+    bench.document().replaceMesh(generate({MeshKind::cloth, {5, 5, 1}, 1, 3}), QStringLiteral("cloth"),
+                                 QStringLiteral("build"));
+    QVERIFY(!item(bench, 0, "Neo-Hookean FEM").isEnabled());
+    QVERIFY(item(bench, 0, "Neo-Hookean FEM").toolTip().contains(QStringLiteral("no solid")));
+    QVERIFY(item(bench, 0, "Exact ChainMail").isEnabled());
+  }
+
+  void layersArePinnedAtOnceAndUndone() {
+    Workbench bench(gridInAPlane());
+    open(bench, "pinLayers");
+    QCOMPARE(words(bench, "pinBottom"), QStringLiteral("Bottom layer (9 elements)"));
+    QCOMPARE(words(bench, "pinLeft"), QStringLiteral("Left layer (7 elements)"));
+    QCOMPARE(words(bench, "pinBoundary"), QStringLiteral("Boundary (28 elements)"));
+    QVERIFY(!bench.find<QAction>("pinFront")->isVisible());  // a plane has no depth
+    bench.trigger("pinBottom");
+    QCOMPARE(bench.document().pins(), (std::vector<ElementId>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
+    QVERIFY(bench.find<QLabel>("physicsPins")->text().contains(QStringLiteral("<b>9</b> of 63")));
+    bench.trigger("pinLeft");  // the corner is pinned already
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("pin 6 elements"));
+    open(bench, "pinLayers");
+    QVERIFY(!bench.find<QAction>("pinLeft")->isEnabled());
+    bench.document().undo();
+    QCOMPARE(bench.document().pins().size(), std::size_t{9});
+    bench.document().undo();
+    QVERIFY(bench.document().pins().empty());
+    QVERIFY(bench.find<QAction>("pinLeft")->isEnabled());
+  }
+
+  void materialAndLatticeAreStepsOfUndo() {
+    Workbench bench(gridInAPlane());
+    auto* poisson = bench.find<QDoubleSpinBox>("poissonSpin");
+    poisson->setValue(0.45);
+    QCOMPARE(bench.document().elastic().material.poisson, 0.45);
+    bench.find<QSpinBox>("latticeY")->setValue(6);
+    QCOMPARE(bench.document().elastic().lattice, (std::array<std::uint32_t, 3>{4, 6, 4}));
+    QVERIFY(bench.find<QSpinBox>("latticeZ")->isHidden());
+    bench.document().undo();
+    bench.document().undo();
+    QVERIFY(bench.document().elastic() == ElasticOptions());
+    QCOMPARE(poisson->value(), 0.3);
+    bench.document().redo();
+    QCOMPARE(poisson->value(), 0.45);
+  }
+
+  void withoutPinsItOffersThemOnce() {
+    Workbench bench(gridInAPlane());
+    auto* bar = bench.find<QWidget>("pinsBar");
+    bench.choose(1, "Linear FEM");
+    QVERIFY(!bar->isVisible());
+    dragOne(bench);
+    QTRY_VERIFY(bar->isVisible());
+    QVERIFY(bench.find<QLabel>("pinsAbout")->text().contains(QStringLiteral("so Linear FEM has no static answer")));
+    QVERIFY(!bench.window.messages().isVisible());
+    QTRY_VERIFY(bench.find<QLabel>("state1")->toolTip().contains(QStringLiteral("nothing is pinned")));
+    // The other panel went on.
+    QVERIFY(bench.position(0, 31) != bench.document().mesh()->rest_position(31));
+    bench.find<QPushButton>("pinsCancel")->click();
+    dragOne(bench);
+    QVERIFY(!bar->isVisible());
+    bench.choose(1, "Neo-Hookean FEM");
+    dragOne(bench);
+    QTRY_VERIFY(bar->isVisible());
+    bench.document().resetObject();
+    bench.find<QPushButton>("pinsAgree")->click();
+    QCOMPARE(bench.document().pins().size(), std::size_t{9});
+    QVERIFY(!bar->isVisible());
+  }
+
+  void oncePinnedThePanelAnswers() {
+    Workbench bench(gridInAPlane());
+    bench.choose(1, "Linear FEM");
+    bench.trigger("pinBottom");
+    dragOne(bench);
+    QVERIFY(!bench.window.messages().isVisible());
+    const Mesh& mesh = *bench.document().mesh();
+    QVERIFY((bench.position(1, 31) - bench.position(0, 31)).norm() < 1e-5);  // in the hand in both
+    // All but those pinned follow, the further from the hand the less.
+    const auto way = [&](ElementId e) { return (bench.position(1, e) - mesh.rest_position(e)).norm(); };
+    QCOMPARE(way(4), 0.0);
+    QVERIFY(way(60) > 0 && way(13) > 0 && way(13) < way(22) && way(22) < way(31));
+    QTRY_VERIFY(bench.find<QLabel>("statistics1")->text().contains(QStringLiteral("solved for <b>63</b>")));
+    bench.document().undo();
+    bench.settle();
+    QCOMPARE(way(60), 0.0);
+  }
+
+  void pinningByHandTakesUpTheTool() {
+    Workbench bench(gridInAPlane());
+    bench.choose(0, "Linear FEM");
+    dragOne(bench);
+    QTRY_VERIFY(bench.find<QWidget>("pinsBar")->isVisible());
+    bench.find<QPushButton>("pinsByHand")->click();
+    QVERIFY(bench.find<QAction>("toolPin")->isChecked());
+    QVERIFY(!bench.find<QWidget>("pinsBar")->isVisible());
+  }
+
+  void aControlPointIsDraggedAndUndone() {
+    Workbench bench(gridInAPlane());
+    bench.choose(1, "Free-form deformation");
+    const Frame& frame = *bench.document().frame(1);
+    QCOMPARE(frame.control_points.size(), std::size_t{2 * 4 * 4});
+    QVERIFY(bench.document().frame(0)->control_points.empty());
+    const Mesh& mesh = *bench.document().mesh();
+    // The first one is the lowest corner, as element 0 is: the point wins.
+    const QPoint from = bench.place(1, 0);
+    QTest::mouseMove(&bench.view(1), from + QPoint(30, 30));
+    QTest::mouseMove(&bench.view(1), from);
+    QTest::qWait(60);
+    QVERIFY(!bench.document().highlight().element);
+    bench.stroke(1, {from, from + QPoint(-50, 30)});
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("move of control point 0"));
+    QVERIFY((bench.position(1, 0) - mesh.rest_position(0)).norm() > 0.1);  // the corner follows its point all the way
+    QVERIFY(bench.position(1, 62) == mesh.rest_position(62));              // the other corner follows others
+    QVERIFY(bench.position(0, 0) == mesh.rest_position(0));                // other panels have no such point
+    const float moved = bench.document().frame(1)->control_points[0];
+    QVERIFY(moved < 0);
+    bench.document().undo();
+    bench.settle();
+    QVERIFY(bench.position(1, 0) == mesh.rest_position(0));
+    QVERIFY(std::abs(bench.document().frame(1)->control_points[0]) < 1e-5F);
+    bench.document().redo();
+    bench.settle();
+    QVERIFY(std::abs(bench.document().frame(1)->control_points[0] - moved) < 1e-3F);  // fitted to where elements stand
+  }
+
+  void theLatticeIsAsItWasChosen() {
+    Workbench bench(generate({MeshKind::block, {4, 4, 4}, 1, {}}));
+    bench.choose(0, "Free-form deformation");
+    QCOMPARE(bench.document().frame(0)->control_points.size(), std::size_t{3 * 64});
+    bench.find<QSpinBox>("latticeZ")->setValue(2);
+    bench.settle();
+    QTRY_COMPARE(bench.document().frame(0)->control_points.size(), std::size_t{3 * 32});
+    bench.view(0).grabFramebuffer();  // drawn without a word
+  }
+
+  void theErrorAgainstPhysicsIsToldInHandsWays() {
+    Workbench bench(gridInAPlane());
+    bench.choose(0, "Neo-Hookean FEM");
+    bench.trigger("colourBy-truth");
+    const auto title = [&](int panel) { return bench.window.panel(panel).legend().title(); };
+    QTRY_VERIFY(title(0).contains(QStringLiteral("nothing pins the object")));
+    QCOMPARE(bench.window.panel(0).legend().highest(), QString());
+    bench.trigger("pinBottom");
+    QTRY_VERIFY(title(0).contains(QStringLiteral("drag an element first")));
+    dragOne(bench);
+    QTRY_COMPARE(title(0), QStringLiteral("Error against physics (of the hand's displacement)"));
+    const auto highest = [&](int panel) { return QLocale().toDouble(bench.window.panel(panel).legend().highest()); };
+    QTRY_VERIFY(!bench.window.panel(1).legend().highest().isEmpty());
+    bench.window.colouring().setSharesScale(false);
+    QTRY_VERIFY(highest(0) < 1e-4);  // it is the truth itself, but for where Newton stops and for floats
+    QVERIFY(highest(1) > 0.05 && highest(1) < 2);
+    QCOMPARE(bench.window.panel(1).legend().lowest(), QStringLiteral("0"));
+    bench.document().setPinned({62}, true);  // another truth: no colours of the last one
+    QVERIFY(!bench.window.colouring().title(0).contains(QStringLiteral("displacement")));
+    QVERIFY(bench.window.colouring().follow(0) == nullptr);
+    QTRY_VERIFY(title(0).contains(QStringLiteral("displacement")));
+    bench.document().resetObject();
+    QTRY_VERIFY(title(0).contains(QStringLiteral("drag an element first")));
+  }
+
+  void calibratedSoftnessIsOneStep() {
+    Workbench bench(generate({MeshKind::grid, {5, 4, 1}, 1, {}}));
+    auto* start = bench.find<QPushButton>("calibrate");
+    QVERIFY(!start->isEnabled());
+    QVERIFY(start->toolTip().contains(QStringLiteral("Nothing pins this object")));
+    bench.trigger("pinBottom");
+    bench.trigger("showPhysics");
+    QVERIFY(start->isEnabled());
+    const LinkSoftness before = bench.document().softness();
+    const auto relaxation = bench.document().relaxation();
+    const int steps = bench.document().undoStack().count();
+    start->click();
+    QVERIFY(bench.window.jobs().running());
+    QTest::keyClick(&bench.window, Qt::Key_Escape);
+    QVERIFY(!bench.window.jobs().running());  // cancelled, and nothing has changed
+    QCOMPARE(bench.document().undoStack().count(), steps);
+    start->click();
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.window.jobs().running(), 60'000);
+    QVERIFY2(!bench.window.messages().isVisible(), qPrintable(bench.window.messages().sentence()));
+    QVERIFY(bench.document().softness() != before);
+    QVERIFY(bench.find<QLabel>("calibrationResult")->isVisible());
+    QVERIFY(bench.find<QLabel>("calibrationResult")->text().contains(QStringLiteral("Generalized ChainMail")));
+    QCOMPARE(bench.document().undoStack().count(), steps + 1);
+    bench.find<QPushButton>("calibrationKeep")->click();
+    QVERIFY(bench.find<QLineEdit>("presetName")->isVisible());
+    bench.document().undo();
+    QVERIFY(bench.document().softness() == before);
+    QVERIFY(bench.document().relaxation() == relaxation);
+  }
+
+  void withoutATruthTheLegendSaysWhy() {
+    Workbench bench(generate({MeshKind::cloth, {5, 5, 1}, 1, 3}));
+    bench.document().setPinned({0}, true);
+    const QPoint from = bench.place(0, 12);
+    bench.stroke(0, {from, from + QPoint(20, -20)});
+    bench.trigger("colourBy-truth");
+    QTRY_VERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("it is no solid")));
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowPhysics>(argc, argv); }
+#include "window_physics.moc"
