@@ -103,7 +103,7 @@ CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) 
     throw Error(options.drags < 1 ? "drags" : "evaluations", "there would be none", "use 1 or more");
   }
   std::ranges::sort(options.pins);
-  options.pins.erase(std::ranges::unique(options.pins).begin(), options.pins.end());
+  options.pins.erase(std::unique(options.pins.begin(), options.pins.end()), options.pins.end());
   if (options.pins.empty()) {
     throw Error("pins", "nothing pins the object, so physics has no static answer", "pin some elements");
   }

@@ -46,10 +46,10 @@ class BoundaryElements final : public LinearResponse {
     }
     for (std::size_t e = 0; e < pinned_.size(); ++e) {
       if (pinned_[e]) {
-        response.middleRows<3>(Index(3 * e)).setZero();
+        response.middleRows<3>(3 * Index(e)).setZero();
       }
     }
-    response.middleRows<3>(Index(3 * element)).setIdentity();
+    response.middleRows<3>(3 * Index{element}).setIdentity();
     return response;
   }
 
@@ -60,7 +60,7 @@ class BoundaryElements final : public LinearResponse {
     }
     for (std::size_t e = 0; e < pinned_.size(); ++e) {
       if (pinned_[e]) {
-        rest.middleRows<3>(Index(3 * e)) = *pinned_[e];
+        rest.middleRows<3>(3 * Index(e)) = *pinned_[e];
       }
     }
     set_base({rest.data(), rest.data() + rest.size()});
@@ -70,7 +70,7 @@ class BoundaryElements final : public LinearResponse {
   void add(const PinnedSolid& solid, const Eigen::MatrixXd& of_solid, Eigen::MatrixXd& to) const {
     for (std::size_t i = 0; i < solid.elements().size(); ++i) {
       const ElementId e = solid.elements()[i];
-      to.middleRows<3>(Index(3 * e)) += of_solid.middleRows<3>(Index(3 * i)) / double(solids_of_[e]);
+      to.middleRows<3>(3 * Index{e}) += of_solid.middleRows<3>(Index(3 * i)) / double(solids_of_[e]);
     }
   }
 

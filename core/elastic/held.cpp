@@ -70,6 +70,7 @@ bool holds(const Mesh& mesh, const std::vector<ElementId>& pins) {
   }
   const double size = (mesh.box[1] - mesh.box[0]).norm();
   std::vector<Point> from_first;
+  from_first.reserve(pins.size());
   for (const ElementId pin : pins) {
     from_first.push_back(mesh.rest_position(pin) - mesh.rest_position(pins.front()));
   }

@@ -19,7 +19,7 @@ std::vector<ElementId> corners_of(const Solid& solid) {
     corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
   std::ranges::sort(corners);
-  corners.erase(std::ranges::unique(corners).begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   return corners;
 }
 
@@ -43,8 +43,10 @@ bool PinnedSolid::has_corner(ElementId element) const {
 }
 
 void PinnedSolid::check_pins(const Mesh& mesh, const PinnedElements& pinned) const {
+  const auto holds_surface = [&](ElementId e) { return pinned[e] && has_corner(e); };
   for (const ElementId e : solid_.inner) {
-    if (pinned[e]) {
+    // A layer of pins may be two elements deep, of which the outer ones hold the surface.
+    if (pinned[e] && std::ranges::none_of(mesh.neighbours_of(e), holds_surface)) {
       throw Error("BEM", "element " + std::to_string(e) + " is pinned inside the object, and it works on the surface",
                   "unpin it, or compare by linear FEM");
     }

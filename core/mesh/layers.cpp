@@ -104,7 +104,7 @@ std::vector<ElementId> boundary(const Mesh& mesh) {
     append_rim(mesh, elements);
   }
   std::ranges::sort(elements);
-  elements.erase(std::ranges::unique(elements).begin(), elements.end());
+  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
   return elements;
 }
 

@@ -21,7 +21,7 @@ OuterSurface outer_surface(const MeshPointer& volume) {
   }
   OuterSurface surface{nullptr, corners};
   std::ranges::sort(surface.elements);
-  surface.elements.erase(std::ranges::unique(surface.elements).begin(), surface.elements.end());
+  surface.elements.erase(std::unique(surface.elements.begin(), surface.elements.end()), surface.elements.end());
   MeshParts parts;
   for (const ElementId element : surface.elements) {
     parts.rest.push_back(volume->rest_position(element));

@@ -58,6 +58,7 @@ Eigen::VectorXd tractions_for(const std::vector<Facet>& facets, const std::funct
 double error_under(const std::vector<Facet>& facets, const std::function<Point(const Facet&)>& displacement,
                    const std::function<Point(const Facet&)>& traction) {
   std::vector<bool> known;
+  known.reserve(facets.size());
   for (const Facet& facet : facets) {
     known.push_back(facet.centroid.minCoeff() > 0);
   }
