@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/error.h"
+#include "report/contest.h"
 #include "report/physics_cases.h"
 #include "report/runner.h"
 
@@ -54,14 +55,13 @@ Truth truth_of(TruthSolver& solver, const RecordedMoves& moves) {
   return solver.at(hand, target);
 }
 
-PhysicsDrag drag_of(const Case& object, const RecordedMoves& moves, TruthSolver& solver, const CompareOptions& options,
+PhysicsDrag drag_of(Contest& contest, const RecordedMoves& moves, TruthSolver& solver,
                     const std::function<void(double)>& tell, const std::stop_token& stop) {
   PhysicsDrag drag{moves.name, moves.description, count_moves(moves), 0, {}, {}};
   try {
     const Truth truth = truth_of(solver, moves);
     drag.hand = truth.hand;
-    const auto contestants = contestants_of(options.algorithms, options.sweeps);
-    drag.entries = contest(object, moves, truth, contestants, options, tell, stop);
+    drag.entries = contest.run(moves, truth, tell, stop);
   } catch (const Error& error) {
     drag.no_truth = error.what();
   }
@@ -125,10 +125,12 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
         object.name, object.description, object.mesh->element_count(), object.mesh->link_count(), object.pins.size(),
         {}};
     TruthSolver solver = truth_of(object);
+    const CompareOptions& how = report.options.contest;
+    Contest contest(object, contestants_of(how.algorithms, how.sweeps), how);
     for (const RecordedMoves& moves : object.drags) {
       const auto tell = teller.of_drag(object.name + ", " + moves.name);
       tell(0);
-      PhysicsDrag drag = drag_of(object, moves, solver, report.options.contest, tell, stop);
+      PhysicsDrag drag = drag_of(contest, moves, solver, tell, stop);
       if (stop.stop_requested()) {
         report.stopped = true;
         return report;

@@ -83,16 +83,9 @@ struct PhysicsReport {
 PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& options,
                                    const Progress& progress = {}, const std::stop_token& stop = {});
 
-/// A drag by all contestants; a part of the above. `truth` is where it leads.
-std::vector<PhysicsEntry> contest(const Case& object, const RecordedMoves& moves, const Truth& truth,
-                                  const std::vector<Contestant>& contestants, const CompareOptions& options,
-                                  const std::function<void(double)>& tell, const std::stop_token& stop);
 /// The growth of one kind of object: `made` gives about so many elements.
 PhysicsGrowth grow(const std::string& name, const std::string& description,
                    const std::function<Case(std::uint64_t elements)>& made, const PhysicsOptions& options,
                    const std::function<void(double)>& tell, const std::stop_token& stop);
-
-/// Who takes part: the ChainMail family by all numbers of sweeps, the others without.
-std::vector<Contestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps);
 
 }  // namespace chainmail::report

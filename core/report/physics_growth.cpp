@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "mesh/error.h"
-#include "report/physics.h"
+#include "report/contest.h"
 
 namespace chainmail::report {
 namespace {
@@ -75,9 +75,9 @@ void measure(GrowthSeries& series, Budget& budget, const Case& object, const std
   const double start = now();
   options.seconds = 0;
   options.repetitions = 1;
-  const auto entries = contest(
-      object, object.drags.front(), truth ? *truth : no_truth(object), {series.contestant}, options, [](double) {},
-      stop);
+  Contest contest(object, {series.contestant}, options);
+  const auto entries = contest.run(
+      object.drags.front(), truth ? *truth : no_truth(object), [](double) {}, stop);
   budget.spend(now() - start);
   if (const auto& measurement = entries.front().measurement) {
     series.points.push_back({object.mesh->element_count(), measurement->ms_per_move.median, measurement->prepare_ms,
