@@ -115,10 +115,10 @@ void BoundarySystemTest::integrals_are_those_of_the_kernels() {
   for (const Point& point :
        {Point(0.2, 0.3, 0.5), Point(0.5, 0.4, -0.3), Point(3, 2, -1), Point(40, -60, 20), beside}) {
     const auto [displacement, traction] = integrate_kelvin(facet, point, poisson);
-    const auto sum = summed(facet, point, 7);
-    // The sums are wrong by the square of their parts' size, 1 / 128, over the distance.
-    QVERIFY((displacement - sum.displacement).norm() < 1e-4 * displacement.norm());
-    QVERIFY((traction - sum.traction).norm() < 1e-4 * displacement.norm());
+    const auto sum = summed(facet, point, 6);
+    // The sums are wrong by the square of their parts' size, 1 / 64, over the distance.
+    QVERIFY((displacement - sum.displacement).norm() < 5e-4 * displacement.norm());
+    QVERIFY((traction - sum.traction).norm() < 5e-4 * traction.norm());
   }
   // On the facet the displacement is continuous, and the traction jumps by the force.
   const auto on = integrate_kelvin(facet, facet.centroid, poisson);
@@ -165,7 +165,7 @@ void BoundarySystemTest::the_factors_solve_and_can_be_cancelled() {
 
 void BoundarySystemTest::a_rigid_motion_takes_no_tractions() {
   std::vector<double> sizes, errors;
-  for (const int n : {2, 4, 8}) {
+  for (const int n : {2, 6}) {
     const auto facets = facets_of(sphere_parts(n));
     const auto moved = tractions_for(facets, [](const Facet&) { return Point(1, -2, 0.5); });
     QVERIFY(moved.cwiseAbs().maxCoeff() < 1e-10);  // the condition of the equations times rounding
@@ -185,7 +185,7 @@ void BoundarySystemTest::a_uniform_strain_takes_its_tractions() {
   const double lambda = 2 * poisson / (1 - 2 * poisson);
   const Eigen::Matrix3d stress = lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2 * strain;
   std::vector<double> sizes, errors;
-  for (const int n : {2, 4, 8}) {
+  for (const int n : {2, 6}) {
     const auto facets = facets_of(sphere_parts(n));
     const auto found = tractions_for(facets, [&](const Facet& facet) { return Point(strain * facet.centroid); });
     const auto right = at_facets(facets, [&](const Facet& facet) { return Point(stress * facet.normal); });
@@ -199,7 +199,7 @@ void BoundarySystemTest::a_uniform_strain_takes_its_tractions() {
 /// Lamé 1852: u = -p (1 - 2ν) r / E.
 void BoundarySystemTest::a_sphere_under_pressure_converges() {
   std::vector<double> sizes, errors;
-  for (const int n : {2, 4, 8}) {
+  for (const int n : {2, 6}) {
     sizes.push_back(1.0 / n);
     errors.push_back(error_under(
         facets_of(sphere_parts(n)), [](const Facet& facet) { return Point(-(1 - 2 * poisson) * facet.centroid); },
