@@ -121,7 +121,8 @@ Command add_calibrate(CLI::App& root) {
   options.mesh.space = add_value(*app, "--space", "1|2|3", "space dimension [what the mesh states or extends along]");
   options.elastic = add_material(*app);
   options.pins = add_pins(*app);
-  options.algorithm = add_value(*app, "--algorithm", "NAME", "of the ChainMail family, as deform has them [natural-queue]");
+  options.algorithm =
+      add_value(*app, "--algorithm", "NAME", "of the ChainMail family, as deform has them [natural-queue]");
   options.relaxation = add_value(*app, "--relaxation", "mean|link", "how an element relaxes [mean]");
   options.drags = add_value(*app, "--drags", "N", "how many drags it shall come close to [4]");
   options.seed = add_value(*app, "--seed", "S", "of the drags: another number, other drags [1]");

@@ -51,17 +51,19 @@ std::vector<report::Case> read_cases(const CompareArguments& arguments) {
 }
 
 void add_plots(Outputs& outputs, const std::filesystem::path& folder, const report::PhysicsReport& report) {
-  int number = 0;
-  const auto add = [&](const report::Plot& plot) {
-    outputs.add(folder / ("plot-" + std::to_string(++number) + ".svg"),
-                [plot](std::ostream& out) { write_svg(out, plot, ink); });
+  const auto add = [&](const std::string& name, const report::Plot& plot) {
+    outputs.add(folder / (name + ".svg"), [plot](std::ostream& out) { write_svg(out, plot, ink); });
   };
-  for (const report::PhysicsObject& object : report.objects) {
-    add(physics_plot(object));
+  if (report.objects.size() > 1) {
+    add("overview", physics_overview(report));
+  }
+  for (std::size_t i = 0; i < report.objects.size(); ++i) {
+    add("object-" + std::to_string(i + 1), physics_plot(report.objects[i]));
   }
   if (!report.growths.empty()) {
-    add(growth_time_plot(report.growths));
-    add(growth_error_plot(report.growths));
+    add("growth-time", growth_time_plot(report.growths));
+    add("growth-prepare", growth_prepare_plot(report.growths));
+    add("growth-error", growth_error_plot(report.growths));
   }
 }
 

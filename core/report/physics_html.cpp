@@ -28,6 +28,7 @@ void write_growths(std::ostream& out, const PhysicsReport& report) {
       << " s on that kind, building and preparing included. Where the truth has used up its own, errors end. The "
          "exponent is that of the time a move over the elements, from 1000 of them on.</p>\n";
   write_figure(out, growth_time_plot(report.growths));
+  write_figure(out, growth_prepare_plot(report.growths));
   write_figure(out, growth_error_plot(report.growths));
   for (const PhysicsGrowth& growth : report.growths) {
     write_html(out, growth_table(growth));
@@ -39,6 +40,10 @@ void write_growths(std::ostream& out, const PhysicsReport& report) {
 void write_html(std::ostream& out, const PhysicsReport& report, const Origin& origin) {
   begin_page(out, "ChainMail against physics", origin);
   out << how_to_read << "<h2>Time against error</h2>\n";
+  if (report.objects.size() > 1) {
+    out << "<h3>All objects, means of their drags</h3>\n";
+    write_figure(out, physics_overview(report));
+  }
   for (const PhysicsObject& object : report.objects) {
     out << "<h3>" << escaped(object.name) << "</h3>\n";
     write_figure(out, physics_plot(object));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include "report/format.h"
 #include "report/physics_report.h"
@@ -39,6 +40,27 @@ PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag) {
   return panel;
 }
 
+/// The mean of a contestant's drags; nothing where it is missing from one.
+PhysicsEntry mean_of(const std::vector<PhysicsDrag>& drags, std::size_t entry) {
+  PhysicsEntry mean = drags.front().entries[entry];
+  for (std::size_t i = 1; i < drags.size(); ++i) {
+    const auto& other = drags[i].entries[entry].measurement;
+    if (!mean.measurement || !other) {
+      mean.measurement.reset();
+      return mean;
+    }
+    const double old = double(i) / double(i + 1);
+    const auto mix = [old](double& to, double with) { to = old * to + (1 - old) * with; };
+    auto& [ms, prepare, error, on_surface] = *mean.measurement;
+    mix(ms.median, other->ms_per_move.median);
+    mix(ms.lower_quartile, other->ms_per_move.lower_quartile);
+    mix(ms.upper_quartile, other->ms_per_move.upper_quartile);
+    mix(error.rms, other->error.rms);
+    error.max = std::max(error.max, other->error.max);
+  }
+  return mean;
+}
+
 std::string sweeps_in_words(const PhysicsObject& object) {
   std::string text;
   std::vector<int> seen;
@@ -66,7 +88,7 @@ Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& w
     PlotPanel& panel = plot.panels.emplace_back();
     panel.title = growth.name;
     for (const GrowthSeries& series : growth.series) {
-      if (series.points.empty()) {
+      if (std::ranges::none_of(series.points, [&](const GrowthPoint& point) { return value_of(point).has_value(); })) {
         continue;
       }
       PlotCurve curve{series_of(plot, series.contestant.algorithm), {}};
@@ -85,17 +107,12 @@ Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& w
   return plot;
 }
 
-}  // namespace
-
-Plot physics_plot(const PhysicsObject& object) {
+Plot empty_plot(const std::string& title, const PhysicsObject& object) {
   Plot plot;
-  plot.title = "Time against error on " + object.name;
+  plot.title = title;
   plot.x_label = "ms a move";
   plot.y_label = "RMS error / hand’s displacement";
   plot.smallest_y = as_good_as_true;
-  for (const PhysicsDrag& drag : object.drags) {
-    plot.panels.push_back(panel_of(plot, drag));
-  }
   plot.legend_notes = {"filled: without relaxation"};
   if (const std::string sweeps = sweeps_in_words(object); !sweeps.empty()) {
     plot.legend_notes.push_back("line: " + sweeps + " sweeps a move");
@@ -104,9 +121,40 @@ Plot physics_plot(const PhysicsObject& object) {
   return plot;
 }
 
+}  // namespace
+
+Plot physics_plot(const PhysicsObject& object) {
+  Plot plot = empty_plot("Time against error on " + object.name, object);
+  for (const PhysicsDrag& drag : object.drags) {
+    plot.panels.push_back(panel_of(plot, drag));
+  }
+  return plot;
+}
+
+Plot physics_overview(const PhysicsReport& report) {
+  Plot plot = empty_plot("Time against error, means of the drags", report.objects.front());
+  for (const PhysicsObject& object : report.objects) {
+    std::vector<PhysicsDrag> drags;
+    std::ranges::copy_if(object.drags, std::back_inserter(drags),
+                         [](const PhysicsDrag& drag) { return drag.no_truth.empty(); });
+    PhysicsDrag mean{object.name, "", 0, 0, {}, drags.empty() ? "no drag has one" : ""};
+    for (std::size_t i = 0; !drags.empty() && i < drags.front().entries.size(); ++i) {
+      mean.entries.push_back(mean_of(drags, i));
+    }
+    plot.panels.push_back(panel_of(plot, mean));
+  }
+  return plot;
+}
+
 Plot growth_time_plot(const std::vector<PhysicsGrowth>& growths) {
   return growth_plot(growths, "ms a move", [](const GrowthPoint& point) {
     return std::optional(std::max(point.ms_per_move, smallest_time));
+  });
+}
+
+Plot growth_prepare_plot(const std::vector<PhysicsGrowth>& growths) {
+  return growth_plot(growths, "ms to prepare", [](const GrowthPoint& point) {
+    return point.prepare_ms > 0 ? std::optional(point.prepare_ms) : std::nullopt;
   });
 }
 

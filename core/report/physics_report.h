@@ -11,8 +11,11 @@ namespace chainmail::report {
 
 /// Time against error on one object, a panel a drag; the sweeps of an algorithm are a curve.
 Plot physics_plot(const PhysicsObject& object);
-/// Elements against time and against error, a panel each kind of object.
+/// The same for all objects, a panel each: the means of its drags. There must be an object.
+Plot physics_overview(const PhysicsReport& report);
+/// Elements against time, against what is prepared and against error, a panel each kind of object.
 Plot growth_time_plot(const std::vector<PhysicsGrowth>& growths);
+Plot growth_prepare_plot(const std::vector<PhysicsGrowth>& growths);
 Plot growth_error_plot(const std::vector<PhysicsGrowth>& growths);
 
 /// The main table of one object: times, and errors in the hand's displacement; for a terminal without the region that

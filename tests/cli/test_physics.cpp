@@ -33,8 +33,8 @@ void PhysicsCommandTest::the_report_is_written() {
   const auto outcome = program_->run("compare cloth.obj --pins top --young 7 --poisson 0.4" + QByteArray(short_run));
   QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
   QCOMPARE(QDir(program_->path("out")).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot),
-           (QStringList{"plot-1.svg", "report.csv", "report.html", "report.json"}));
-  for (const char* file : {"out/report.html", "out/plot-1.svg"}) {
+           (QStringList{"object-1.svg", "report.csv", "report.html", "report.json"}));
+  for (const char* file : {"out/report.html", "out/object-1.svg"}) {
     QXmlStreamReader reader(program_->read(file));
     while (!reader.atEnd()) {
       reader.readNext();

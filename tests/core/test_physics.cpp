@@ -237,8 +237,15 @@ void PhysicsTest::the_page_is_well_formed_and_says_all() {
     text += reader.isCharacters() ? reader.text() : QStringView();
   }
   QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
-  QCOMPARE(drawings, 4);
+  QCOMPARE(drawings, 1 + 2 + 3);
   QCOMPARE(tables, 4);
+  const Plot overview = physics_overview(everything());
+  QCOMPARE(overview.panels.size(), std::size_t{2});
+  double mean = 0;
+  for (const PhysicsDrag& one : everything().objects[0].drags) {
+    mean += one.entries[0].measurement->error.rms / 3;
+  }
+  QVERIFY(std::abs(overview.panels[0].marks[0].y - mean) < 1e-15);
   QVERIFY(lines >= 2 * 3 * 5);  // an algorithm's sweeps are a line in each panel
   for (const AlgorithmInfo& one : every_algorithm()) {
     QVERIFY(text.contains(QString::fromUtf8(one.label.data(), int(one.label.size()))));
