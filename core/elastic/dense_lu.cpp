@@ -8,8 +8,8 @@
 namespace chainmail {
 namespace {
 
-constexpr Eigen::Index block = 64;  // columns: most of the work is products of matrices this thin
-constexpr Eigen::Index slab = 512;  // columns of the rest between two looks at the progress
+constexpr Eigen::Index block = 128;  // columns: most of the work is products of matrices this thin
+constexpr Eigen::Index slab = 512;   // columns of the rest between two looks at the progress
 
 }  // namespace
 
