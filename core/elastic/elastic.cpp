@@ -11,7 +11,7 @@ namespace {
 // By object dimension: what a factorization takes in seconds and in memory of a desktop, measured.
 constexpr std::array<std::uint64_t, 4> linear_limit{0, 1'000'000, 150'000, 30'000};
 constexpr std::array<std::uint64_t, 4> neo_hookean_limit{0, 100'000, 20'000, 6'000};
-constexpr std::uint64_t boundary_limit = 2'800;        // triangles: 24 s and 560 MB
+constexpr std::uint64_t boundary_limit = 2'800;        // triangles: 28 s and 560 MB
 constexpr std::uint64_t boundary_inner_limit = 5'000;  // elements of volumes: 3 s more for each that is taken hold of
 
 [[noreturn]] void refuse_size(const std::string& where, std::uint64_t has, std::uint64_t most, const char* what) {
