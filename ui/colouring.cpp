@@ -1,5 +1,6 @@
 #include "colouring.h"
 
+#include <QLocale>
 #include <algorithm>
 #include <cmath>
 
@@ -120,6 +121,9 @@ QString Colouring::title(int panel) const {
   QString what = text(mode.title);
   if (mode_ == ColourMode::truth && !truth_.answer()) {
     return QStringLiteral("%1: %2").arg(what, truth_.state());
+  }
+  if (mode_ == ColourMode::truth && works_[panel].shown.number != 0) {
+    what += QStringLiteral(", RMS %1").arg(QLocale().toString(works_[panel].rms, 'g', 3));
   }
   if (comparesPanels(mode_)) {
     const auto others = comparedWith(panel);

@@ -77,6 +77,7 @@ class Colouring : public QObject {
     std::array<Kept, Document::mostPanels> kept;
     std::shared_ptr<const Softness> softness;
     std::shared_ptr<const Truth::Answer> truth;
+    double squares = 0, rms = 0;  // of what is being built, and of what is shown
   };
 
   void receiveFrame(int panel);

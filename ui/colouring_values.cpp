@@ -54,6 +54,7 @@ bool Colouring::start(int panel) {
   work.outdated = false;
   work.running = true;
   work.next = 0;
+  work.squares = 0;
   work.building.mesh = document_.mesh();
   work.building.ofLinks = !isOfElements(mode_);
   work.building.values.resize(work.building.ofLinks ? mesh.link_count() : mesh.element_count());
@@ -81,6 +82,7 @@ void Colouring::advance(int panel) {
       const float one = counts ? value(panel, work.next) : 0;
       building.values[work.next] = one;
       if (counts) {
+        work.squares += double(one) * double(one);
         building.lowest = std::min(building.lowest, one);
         building.highest = std::max(building.highest, one);
       }
@@ -93,6 +95,7 @@ void Colouring::advance(int panel) {
 
 void Colouring::finish(Work& work) {
   work.running = false;
+  work.rms = std::sqrt(work.squares / double(std::max<std::size_t>(1, work.building.values.size())));
   work.building.number = ++number_;
   std::swap(work.building, work.shown);
   updateScales();

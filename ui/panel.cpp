@@ -118,7 +118,7 @@ void Panel::showFigures(const Statistics& statistics) {
 QStringList Panel::states(const Statistics& statistics) const {
   QStringList states;
   if (document_.lacksPins(panel_)) {
-    states << QStringLiteral("no static answer: nothing is pinned");
+    states << QStringLiteral("nothing pinned: no answer");
   }
   if (statistics.last_pass.stopped) {
     states << QStringLiteral("taut: pins hold the hand");
