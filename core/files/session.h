@@ -72,8 +72,9 @@ bool is_session(const std::filesystem::path& path);
 ///      "ui": {…}}
 ///
 /// The moves may be left out, as they are beyond session_moves, "lattice", "hexahedra" and "texture" where there
-/// are none, and "elastic" where it is the standard one. Where neighbours stand in an order of their own, "counts" (of each element) and "neighbours" (its ids)
-/// take the place of "links". Throws Error for a number that is not finite, and Cancelled.
+/// are none, and "elastic" where it is the standard one. Where neighbours stand in an order of their own, "counts" (of
+/// each element) and "neighbours" (its ids) take the place of "links". Throws Error for a number that is not finite,
+/// and Cancelled.
 void write_session(std::ostream& out, const Session& session, const Progress& progress = {});
 
 /// The same into a file, whole or not at all.

@@ -33,6 +33,11 @@ Simulation::Simulation(MeshPointer mesh, Algorithm algorithm, Precision precisio
   statistics_.algorithm = algorithm;
 }
 
+void Simulation::set_progress(const Progress& progress) {
+  progress_ = progress;
+  solver_->set_progress(progress);
+}
+
 void Simulation::apply(const Command& command) {
   measure_.reset();
   std::visit([this](const auto& one) { carry_out(one); }, command);
@@ -184,6 +189,7 @@ void Simulation::take_mesh(MeshPointer mesh) {
   solver_ = make_solver(mesh, algorithm, precision_);  // may find no memory: nothing has changed yet
   solver_->set_relaxation(relaxation_scheme_);
   solver_->set_elastic(elastic_);
+  solver_->set_progress(progress_);
   softness_ = std::make_shared<const Softness>();  // as every solver begins
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);

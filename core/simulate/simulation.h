@@ -10,6 +10,7 @@
 
 #include "measure/pass_times.h"
 #include "measure/violation.h"
+#include "mesh/progress.h"
 #include "simulate/command.h"
 #include "simulate/handover.h"
 #include "solve/solver.h"
@@ -49,6 +50,9 @@ class Simulation {
   /// one of Exact and another take over from each other, positions are rounded as SetAlgorithm rounds them.
   void take(const Handover& handover, Algorithm algorithm);
 
+  /// Where passes that take long, by methods of elasticity, report and learn that they are no longer wanted: they leave
+  /// apply() by Cancelled, with nothing moved.
+  void set_progress(const Progress& progress);
   /// `trace`, where set, receives every candidate that a pass processes.
   void set_trace(Trace* trace) { trace_ = trace; }
   /// Sweeps of relaxation at once, by the scheme last set, whether it is on or off: `count` of them, or until
@@ -148,6 +152,7 @@ class Simulation {
   TouchedViolation touched_;
   Statistics statistics_;
   Trace* trace_ = nullptr;
+  Progress progress_;
 };
 
 }  // namespace chainmail

@@ -19,6 +19,14 @@ constexpr auto relaxation_share = std::chrono::milliseconds(8);
 // A figure that is read by eye need not change more often.
 constexpr auto violation_time = std::chrono::milliseconds(250);
 
+/// Whether it takes away what a pass before it works for.
+template <class Task>
+bool overrules(const Task& task) {
+  const auto* command = std::get_if<Command>(&task);
+  return command != nullptr && (std::holds_alternative<commands::SetAlgorithm>(*command) ||
+                                std::holds_alternative<commands::ReplaceMesh>(*command));
+}
+
 /// An object to begin with, where the real one is yet to come.
 MeshPointer no_mesh() { return generate({MeshKind::line, {1, 1, 1}, 1, {}}); }
 
@@ -26,6 +34,7 @@ MeshPointer no_mesh() { return generate({MeshKind::line, {1, 1, 1}, 1, {}}); }
 
 SolverThread::SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready)
     : simulation_(std::move(mesh), algorithm, Precision::single_precision), frame_ready_(std::move(frame_ready)) {
+  simulation_.set_progress(Progress(work_));
   publish();
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -40,7 +49,11 @@ SolverThread::SolverThread(SolverThread& other, Algorithm algorithm, std::functi
   other.add([promise](Simulation& simulation) { promise->set_value(simulation.hand_over()); });
 }
 
-SolverThread::~SolverThread() = default;
+SolverThread::~SolverThread() {
+  thread_.request_stop();
+  const std::lock_guard lock(mutex_);  // a task is begun before, and learns of this, or after, and knows it
+  work_.cancelled = true;
+}
 
 void SolverThread::post(Command command) { add(std::move(command)); }
 
@@ -49,6 +62,7 @@ void SolverThread::ask(Question question) { add(std::move(question)); }
 void SolverThread::add(Task task) {
   {
     const std::lock_guard lock(mutex_);
+    work_.cancelled = work_.cancelled || overrules(task);
     tasks_.push_back(std::move(task));
     waiting_.fetch_add(1, std::memory_order_release);
   }
@@ -81,6 +95,8 @@ void SolverThread::carry_out(const Task& task) {
     refuse(error.what());
   } catch (const std::bad_alloc&) {
     refuse("memory: there is not enough; use a smaller mesh");
+  } catch (const Cancelled&) {
+    // What comes next makes up for it.
   } catch (const std::future_error&) {
     // Whom it was to go on from is gone.
   }
@@ -92,12 +108,19 @@ void SolverThread::carry_out(const Task& task) {
   waiting_.fetch_sub(1, std::memory_order_release);
 }
 
+/// With the lock held.
+SolverThread::Task SolverThread::take_task(const std::stop_token& stop) {
+  Task task = std::move(tasks_.front());
+  tasks_.pop_front();
+  work_.cancelled = stop.stop_requested() || std::ranges::any_of(tasks_, overrules<Task>);
+  return task;
+}
+
 void SolverThread::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
     if (!tasks_.empty()) {
-      const Task task = std::move(tasks_.front());
-      tasks_.pop_front();
+      const Task task = take_task(stop);
       lock.unlock();
       carry_out(task);
     } else if (simulation_.statistics().relaxing) {

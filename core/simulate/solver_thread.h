@@ -26,10 +26,10 @@ class SolverThread {
   /// Goes on by `algorithm` from what the other one's object will be when it has carried out all that was asked of it
   /// so far; until then it shows an object of its own. What is posted here comes after.
   SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready);
-  /// Leaves the commands not yet begun undone.
+  /// Leaves the commands not yet begun undone, and a pass that takes long unfinished.
   ~SolverThread();
 
-  /// Adds a command to the end of the list.
+  /// Adds a command to the end of the list. Another algorithm or object lets no pass before it take long.
   void post(Command command);
   /// Calls `question` on the solver's thread, after what was posted before; it must not wait. What is not begun when
   /// the solver ends is dropped.
@@ -53,6 +53,7 @@ class SolverThread {
   using Task = std::variant<Command, Job, Question>;
 
   void add(Task task);
+  Task take_task(const std::stop_token& stop);
   void run(const std::stop_token& stop);
   void refuse(const std::string& sentence);
   void carry_out(const Task& task);
@@ -62,6 +63,7 @@ class SolverThread {
   void refresh_figures();
   void publish();
 
+  JobState work_;  // of a pass that takes long
   Simulation simulation_;
   std::function<void()> frame_ready_;
   TripleBuffer frames_;

@@ -16,6 +16,7 @@ class ElasticBody {
     problem_.options = options;
     forget();
   }
+  void set_progress(const Progress& progress) { progress_ = progress; }
   void forget() { solver_.reset(); }
   void reset() {
     held_ = no_element;
@@ -38,14 +39,14 @@ class ElasticBody {
     prepare(body, method, pins);
     if (held_ != element) {
       held_ = no_element;
-      solver_->hold(element);
+      solver_->hold(element, progress_);
       held_ = element;
     }
     double displacement[Body::Dimension];
     for (int k = 0; k < Body::Dimension; ++k) {
       displacement[k] = double(target[k]) - body.mesh->rest[std::size_t{element} * Body::Dimension + k];
     }
-    solver_->move(displacement);
+    solver_->move(displacement, progress_);
     return take_answer(body, element, moved);
   }
 
@@ -70,7 +71,7 @@ class ElasticBody {
       problem_.cuts = body.cuts;
       problem_.pins.assign(pins.begin(), pins.end());
       problem_.pinned = std::move(pinned);
-      solver_ = make_elastic(method, problem_);
+      solver_ = make_elastic(method, problem_, progress_);
       method_ = method;
       held_ = no_element;
       anew_ = true;
@@ -115,6 +116,7 @@ class ElasticBody {
   ElasticMethod method_ = ElasticMethod::linear_fem;
   std::unique_ptr<ElasticSolver> solver_;
   ElementId held_ = no_element;
+  Progress progress_;
   bool anew_ = false;  // it stands elsewhere than the solver knows
   std::string none_;
 };

@@ -12,6 +12,7 @@
 #include "mesh/cuts.h"
 #include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
+#include "mesh/progress.h"
 #include "solve/placement.h"
 #include "solve/relaxation_result.h"
 #include "solve/softness.h"
@@ -123,6 +124,9 @@ class Solver {
   virtual void set_softness(const Softness& softness) = 0;
   /// What the methods of elasticity go by; the ChainMail family does not look at it.
   virtual void set_elastic(const ElasticOptions& options) = 0;
+  /// What these methods prepare and solve may take long: they report here, and a pass that is cancelled leaves by
+  /// Cancelled, with nothing moved.
+  virtual void set_progress(const Progress& progress) = 0;
   virtual void cut(std::span<const LinkId> links) = 0;
   virtual void uncut(std::span<const LinkId> links) = 0;
   /// Pinned elements stay where they are; to move one is an error.

@@ -49,6 +49,7 @@ class TypedSolver final : public Solver {
   }
 
   void set_elastic(const ElasticOptions& options) override { elastic_.set(options); }
+  void set_progress(const Progress& progress) override { elastic_.set_progress(progress); }
 
   void cut(std::span<const LinkId> links) override {
     for (const LinkId link : links) {

@@ -22,6 +22,8 @@ class ElasticSimulationTest : public QObject {
   void relaxation_leaves_a_static_answer_alone();
   void control_points_are_for_free_form_alone();
   void a_remark_comes_and_goes();
+  void a_pass_is_given_up_data() { every_method(); }
+  void a_pass_is_given_up();
 
  private:
   static void every_method() {
@@ -177,6 +179,22 @@ void ElasticSimulationTest::a_remark_comes_and_goes() {
   QVERIFY(QString::fromStdString(bar.statistics().remark).contains("last converged state"));
   bar.apply(commands::Drag{Point(2.1, 1, 1)});
   QVERIFY(bar.statistics().remark.empty());
+}
+
+void ElasticSimulationTest::a_pass_is_given_up() {
+  QFETCH(const int, algorithm);
+  Bar bar{Algorithm(algorithm)};
+  const auto rest = bar.all();
+  JobState job;
+  bar.set_progress(Progress(job));
+  job.cancelled = true;
+  bar.apply(commands::Grab{tip});
+  const commands::Drag drag{bar.at(tip) + Point(0.1, 0.2, 0.1)};
+  QVERIFY_THROWS_EXCEPTION(Cancelled, bar.apply(drag));
+  QVERIFY(same_bits(bar.all(), rest));
+  job.cancelled = false;
+  bar.apply(drag);
+  QCOMPARE(bar.at(tip), drag.target);
 }
 
 QTEST_APPLESS_MAIN(ElasticSimulationTest)

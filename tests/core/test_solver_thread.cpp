@@ -19,6 +19,7 @@ class SolverThreadTest : public QObject {
   void it_sleeps_when_nothing_is_to_do();
   void frames_come_at_most_60_times_a_second();
   void it_ends_without_finishing_the_commands();
+  void a_pass_that_takes_long_is_given_up_for_another_algorithm();
   void another_goes_on_from_where_one_stands();
   void another_ends_with_the_one_it_waits_for();
   void a_triple_buffer_hands_over_the_newest_frame();
@@ -141,6 +142,25 @@ void SolverThreadTest::it_ends_without_finishing_the_commands() {
   const auto start = std::chrono::steady_clock::now();
   solver.reset();
   QVERIFY(std::chrono::steady_clock::now() - start < 2s);
+}
+
+/// Where the hand has already asked for something else nobody waits for some seconds of finite elements.
+void SolverThreadTest::a_pass_that_takes_long_is_given_up_for_another_algorithm() {
+  const auto mesh = make_mesh(MeshKind::tetra, {20, 15, 15});
+  SolverThread solver(mesh, Algorithm::neo_hookean, [] {});
+  std::vector<ElementId> pins;
+  for (ElementId e = 0; e < mesh->element_count(); e += 20) {
+    pins.push_back(e);
+  }
+  solver.post(commands::Pin{pins});
+  solver.post(commands::Grab{mesh->element_count() - 1});
+  solver.post(commands::Drag{Point(22, 17, 16)});
+  solver.post(commands::SetAlgorithm{Algorithm::natural_queue});
+  QVERIFY(wait_until([&] { return solver.settled(); }));
+  QCOMPARE(solver.latest_frame().statistics.passes, std::uint64_t(0));
+  solver.post(commands::Drag{Point(22, 17, 16)});
+  QVERIFY(wait_for_passes(solver, 1));
+  QVERIFY(solver.take_error().empty());
 }
 
 void SolverThreadTest::another_goes_on_from_where_one_stands() {
