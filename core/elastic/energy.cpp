@@ -50,7 +50,9 @@ SimplexEnergy neo_hookean(const Simplices& simplices, std::size_t simplex, const
   }
   const VolumeTerm term = volume_term(std::log(determinant), lame, n);
   // tr FᵀF − n in terms of F − 1 keeps the digits of a small deformation.
-  result.energy = volume * (lame.mu / 2 * (2 * strain.trace() + strain.squaredNorm()) + term.value);
+  const double shape = lame.mu / 2 * (2 * strain.trace() + strain.squaredNorm());
+  result.energy = volume * (shape + term.value);
+  result.magnitude = volume * (std::abs(shape) + std::abs(term.value));
   if (want == Want::energy) {
     return result;
   }

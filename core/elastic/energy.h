@@ -28,6 +28,7 @@ VolumeTerm volume_term(double log_volume, const Lame& lame, int dimension);
 struct SimplexEnergy {
   bool inverted = false;  // then there is no energy
   double energy = 0;
+  double magnitude = 0;   // of what the energy is a difference of: rounding is a share of it
   CornerVector gradient;  // by the corners' coordinates, corner after corner
   CornerMatrix hessian;
 };

@@ -10,6 +10,8 @@ constexpr int most_steps = 60;
 constexpr int most_halvings = 30;
 // Newton's convergence is quadratic: the step after one this short (in cell lengths) is rounding.
 constexpr double converged_below = 1e-9;
+// Of the magnitude of what sums to the energy: some roundings of a double.
+constexpr double rounding_share = 1e-15;
 // Armijo: what a step must gain of what its slope promises.
 constexpr double share_of_slope = 1e-4;
 
@@ -56,14 +58,15 @@ Newton::Newton(const Simplices& simplices, const Lame& lame, ElementId elements,
   }
 }
 
-std::optional<double> Newton::energy(const std::vector<double>& displacements) const {
-  double sum = 0;
+std::optional<Newton::Energy> Newton::energy(const std::vector<double>& displacements) const {
+  Energy sum;
   for (std::size_t s = 0; s < simplices_.count(); ++s) {
     const auto one = neo_hookean(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::energy);
     if (one.inverted) {
       return std::nullopt;
     }
-    sum += one.energy;
+    sum.value += one.energy;
+    sum.rounding += rounding_share * one.magnitude;
   }
   return sum;
 }
@@ -130,14 +133,14 @@ bool Newton::predict(std::vector<double>& displacements, const std::vector<doubl
 
 /// Goes along a step as far as the energy falls. Returns false where it never does.
 bool Newton::descend(std::vector<double>& displacements, const Eigen::VectorXd& step, double slope) {
-  const double before = *energy(displacements);
+  const Energy before = *energy(displacements);
   const Eigen::VectorXd from = unknowns_.gather(displacements);
   double share = 1;
   for (int halving = 0; halving < most_halvings; ++halving, share /= 2) {
     unknowns_.scatter(from + share * step, displacements);
     const auto after = energy(displacements);
     // Close to the minimum the gain is less than what rounding does to the energy.
-    if (after && *after <= before + share_of_slope * share * slope + 1e-14 * std::abs(before)) {
+    if (after && after->value <= before.value + share_of_slope * share * slope + before.rounding + after->rounding) {
       return true;
     }
   }

@@ -22,8 +22,12 @@ class Newton {
   /// nothing then. Throws Cancelled.
   bool solve(std::vector<double>& displacements, const std::vector<double>& increment, const Progress& progress = {});
 
-  /// The energy (Young's modulus times mesh units to the n); none where a cell is inverted.
-  std::optional<double> energy(const std::vector<double>& displacements) const;
+  /// The energy (Young's modulus times mesh units to the n), and what rounding may make of it.
+  struct Energy {
+    double value = 0, rounding = 0;
+  };
+  /// None where a cell is inverted.
+  std::optional<Energy> energy(const std::vector<double>& displacements) const;
   /// Its gradient by all coordinates, the prescribed included: what holds them, with the other sign.
   std::vector<double> gradient(const std::vector<double>& displacements) const;
 
