@@ -34,10 +34,8 @@ std::vector<ElementId> hands(const Mesh& mesh, const std::vector<ElementId>& pin
       elements.push_back(e);
     }
   }
-  std::vector<double> distances;
-  for (const ElementId e : elements) {
-    distances.push_back(squared_to_nearest(mesh, pins, e));
-  }
+  std::vector<double> distances(elements.size());
+  std::ranges::transform(elements, distances.begin(), [&](ElementId e) { return squared_to_nearest(mesh, pins, e); });
   const double enough = kept_from_pins * kept_from_pins * *std::ranges::max_element(distances);
   std::vector<ElementId> free;
   for (std::size_t i = 0; i < elements.size(); ++i) {

@@ -26,7 +26,7 @@ void check_fem(const std::string& where, const Mesh& mesh, const std::array<std:
   const bool has_cells = !mesh.tetrahedra.empty() || !mesh.hexahedra.empty() || is_full_grid;
   if (mesh.space_dimension == 3 && !has_cells) {
     throw Error(where, "the object has no tetrahedra or hexahedra, so it is no solid",
-                "fill its surface: 'chainmail fill', or Mesh > Fill with tetrahedra");
+                "fill its surface: 'chainmail fill', or Object > Fill with tetrahedra");
   }
   if (mesh.space_dimension == 2 && mesh.triangles.empty() && !is_full_grid) {
     throw Error(where, "the object has no triangles, so it is no sheet", "use a mesh with faces");
