@@ -29,7 +29,6 @@ Json to_json(const PhysicsEntry& entry) {
   const PhysicsMeasurement& measured = *entry.measurement;
   json["ms_per_move"] = chainmail::to_json(measured.ms_per_move);
   json["prepare_ms"] = measured.prepare_ms;
-  json["measured"] = measured.on_surface ? "surface" : "all";
   json["error"] = to_json(measured.error);
   return json;
 }

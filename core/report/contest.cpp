@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "mesh/error.h"
-#include "mesh/outer_surface.h"
 #include "report/move_times.h"
 #include "report/runner.h"
 
@@ -16,49 +15,6 @@ constexpr int fewest_repetitions = 3, most_repetitions = 51;
 constexpr double slow = 1;  // who takes longer for a drag (seconds) repeats it once
 
 using Clock = std::chrono::steady_clock;
-
-/// What BEM is given of a volume: its outer surface, with the pins that lie on it.
-struct Hull {
-  explicit Hull(const Case& volume)
-      : surface(outer_surface(volume.mesh)), object{volume.name,  volume.description,
-                                                    surface.mesh, {},
-                                                    {},           {volume.softness.global, {}},
-                                                    {},           volume.elastic} {
-    for (const ElementId pin : volume.pins) {
-      if (const ElementId own = surface.on_surface(pin); own != no_element) {
-        object.pins.push_back(own);
-      }
-    }
-  }
-
-  RecordedMoves of(RecordedMoves moves) const {
-    for (Command& command : moves.commands) {
-      if (auto* grab = std::get_if<commands::Grab>(&command)) {
-        grab->element = surface.on_surface(grab->element);
-        if (grab->element == no_element) {
-          throw Error("BEM", "the hand holds an element inside, and BEM has the surface alone",
-                      "drag one of the surface");
-        }
-      }
-    }
-    return moves;
-  }
-
-  Truth of(const Truth& truth) const {
-    Truth own{{}, truth.hand};
-    const auto dimension = static_cast<std::ptrdiff_t>(object.mesh->space_dimension);
-    for (const ElementId element : surface.elements) {
-      const auto first = truth.displacements.begin() + element * dimension;
-      own.displacements.insert(own.displacements.end(), first, first + dimension);
-    }
-    return own;
-  }
-
-  OuterSurface surface;
-  Case object;
-};
-
-bool has_cells(const Mesh& mesh) { return !mesh.tetrahedra.empty() || !mesh.hexahedra.empty(); }
 
 /// The time (ms) that a method of elasticity takes before its first move.
 double time_of_preparing(const Case& object, ElasticMethod method, ElementId hand) {
@@ -81,10 +37,7 @@ class Contest::Participant {
   Participant(const Case& object, const Contestant& contestant, const CompareOptions& options)
       : object_(object), contestant_(contestant) {
     try {
-      if (contestant.algorithm == Algorithm::boundary_elements && has_cells(*object.mesh)) {
-        hull_ = std::make_unique<Hull>(object);
-      }
-      runner_ = std::make_unique<Runner>(own_object(), contestant.algorithm, options.precision, options);
+      runner_ = std::make_unique<Runner>(object, contestant.algorithm, options.precision, options);
     } catch (const Error& error) {
       refusal_ = error.what();
     }
@@ -99,10 +52,10 @@ class Contest::Participant {
       return;
     }
     try {
-      moves_ = hull_ ? hull_->of(moves) : moves;
+      moves_ = moves;
       prepare();
       const auto start = Clock::now();
-      measure(runner_->run(moves_, contestant_.sweeps, stop), hull_ ? hull_->of(truth) : truth);
+      measure(runner_->run(moves_, contestant_.sweeps, stop), truth);
       seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
     } catch (const Error& error) {
       entry_.refusal = error.what();
@@ -134,13 +87,11 @@ class Contest::Participant {
   }
 
  private:
-  const Case& own_object() const { return hull_ ? hull_->object : object_; }
-
   /// Once for the element in the hand: another drag of it finds all prepared.
   void prepare() {
     const ElementId hand = hand_of(moves_);
     if (const auto method = elastic_method(contestant_.algorithm); method && hand != prepared_for_) {
-      prepare_ms_ = time_of_preparing(own_object(), *method, hand);
+      prepare_ms_ = time_of_preparing(object_, *method, hand);
       prepared_for_ = hand;
     }
   }
@@ -150,7 +101,7 @@ class Contest::Participant {
     entry_.refusal = simulation.statistics().remark;
     if (!run.stopped && entry_.refusal.empty()) {
       const PhysicalError error = measure_physical_error(simulation.mesh(), simulation.solver().positions(), truth);
-      entry_.measurement = {{}, prepare_ms_, error, hull_ != nullptr};
+      entry_.measurement = {{}, prepare_ms_, error};
       times_.add(of_moves(std::move(run.ms)));
     }
   }
@@ -165,7 +116,6 @@ class Contest::Participant {
 
   const Case& object_;
   Contestant contestant_;
-  std::unique_ptr<Hull> hull_;
   std::unique_ptr<Runner> runner_;
   std::string refusal_;
   double prepare_ms_ = 0;

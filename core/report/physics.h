@@ -26,7 +26,6 @@ struct PhysicsMeasurement {
   TimeSpread ms_per_move;  // as in a comparison; a method of elasticity without the first move, which prepares
   double prepare_ms = 0;   // what a method of elasticity does for an object and a hand before its first move
   PhysicalError error;
-  bool on_surface = false;  // it had the object's outer surface alone, and the error is that of its elements
 };
 
 struct PhysicsEntry {
@@ -79,7 +78,7 @@ struct PhysicsReport {
 
 /// The cases must be pinned, without cuts. Errors are those at the end of each drag against neo-Hookean FEM in double,
 /// converged. Throws Error, naming the case, where physics has no answer to it; a drag whose truth does not converge,
-/// and a contestant that cannot take part, are listed with the reason. BEM is given the outer surface of a volume.
+/// and a contestant that cannot take part, are listed with the reason.
 PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& options,
                                    const Progress& progress = {}, const std::stop_token& stop = {});
 

@@ -4,7 +4,7 @@
 namespace chainmail::report {
 namespace {
 
-constexpr int figures = 13;  // columns of a measurement
+constexpr int figures = 12;  // columns of a measurement
 
 void write_measurement(std::ostream& out, const PhysicsMeasurement& measured) {
   const TimeSpread& ms = measured.ms_per_move;
@@ -14,7 +14,7 @@ void write_measurement(std::ostream& out, const PhysicsMeasurement& measured) {
                               error.rms, error.max, error.moving_rms, error.moving_max}) {
     out << ',' << all_digits(number);
   }
-  out << ',' << error.moving << ',' << (measured.on_surface ? "surface" : "all");
+  out << ',' << error.moving;
 }
 
 void write_growth(std::ostream& out, const PhysicsGrowth& growth) {
@@ -25,7 +25,7 @@ void write_growth(std::ostream& out, const PhysicsGrowth& growth) {
       out << csv_field("growing " + growth.name) << ',' << point.elements << ",,,,"
           << info(series.contestant.algorithm).name << ',' << series.contestant.sweeps << ",,1,"
           << all_digits(point.ms_per_move) << ",,,,," << all_digits(point.prepare_ms) << ',' << known(error.rms) << ','
-          << known(error.max) << ',' << known(error.moving_rms) << ',' << known(error.moving_max) << ",,\n";
+          << known(error.max) << ',' << known(error.moving_rms) << ',' << known(error.moving_max) << ",\n";
     }
   }
 }
@@ -34,7 +34,7 @@ void write_growth(std::ostream& out, const PhysicsGrowth& growth) {
 
 void write_csv(std::ostream& out, const PhysicsReport& report) {
   out << "object,elements,pins,drag,hand,algorithm,sweeps,refusal,repetitions,ms,ms_lower_quartile,ms_upper_quartile,"
-         "ms_min,ms_max,prepare_ms,error_rms,error_max,moving_rms,moving_max,moving_elements,measured\n";
+         "ms_min,ms_max,prepare_ms,error_rms,error_max,moving_rms,moving_max,moving_elements\n";
   for (const PhysicsObject& object : report.objects) {
     for (const PhysicsDrag& drag : object.drags) {
       for (const PhysicsEntry& entry : drag.entries) {

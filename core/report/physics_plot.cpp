@@ -14,8 +14,7 @@ constexpr double smallest_time = 1e-9;  // ms; a clock that saw nothing
 std::string in_words(const PhysicsEntry& entry) {
   const PhysicsMeasurement& measured = *entry.measurement;
   return label(entry.contestant) + ": " + figure(measured.ms_per_move.median) + " ms a move, RMS error " +
-         percent(measured.error.rms) + " of the hand's displacement, max " + percent(measured.error.max) +
-         (measured.on_surface ? ", of the surface alone" : "");
+         percent(measured.error.rms) + " of the hand's displacement, max " + percent(measured.error.max);
 }
 
 /// Marks, and for each algorithm with sweeps a line through them.
@@ -51,7 +50,7 @@ PhysicsEntry mean_of(const std::vector<PhysicsDrag>& drags, std::size_t entry) {
     }
     const double old = double(i) / double(i + 1);
     const auto mix = [old](double& to, double with) { to = old * to + (1 - old) * with; };
-    auto& [ms, prepare, error, on_surface] = *mean.measurement;
+    auto& [ms, prepare, error] = *mean.measurement;
     mix(ms.median, other->ms_per_move.median);
     mix(ms.lower_quartile, other->ms_per_move.lower_quartile);
     mix(ms.upper_quartile, other->ms_per_move.upper_quartile);

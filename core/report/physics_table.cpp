@@ -47,12 +47,11 @@ FigureTable::Row row_of(const std::vector<const PhysicsDrag*>& drags, std::size_
   FigureTable::Row row;
   row.label = label(drags.front()->entries[entry].contestant);
   double prepare = 0;
-  bool any = false, on_surface = false;
+  bool any = false;
   for (const PhysicsDrag* drag : drags) {
     if (const Measured& measured = drag->entries[entry].measurement) {
       any = true;
       prepare = std::max(prepare, measured->prepare_ms);
-      on_surface = on_surface || measured->on_surface;
     } else {
       row.refusal = drag->entries[entry].refusal;
     }
@@ -61,7 +60,6 @@ FigureTable::Row row_of(const std::vector<const PhysicsDrag*>& drags, std::size_
     return row;
   }
   row.refusal.clear();
-  row.label += on_surface ? ", surface" : "";
   row.cells.push_back(figure(prepare));
   for (const Group& group : groups) {
     for (std::size_t i = 0; i < drags.size() && (group.in_text || !for_text); ++i) {

@@ -7,7 +7,6 @@
 
 #include "core/comparisons.h"
 #include "mesh/error.h"
-#include "mesh/outer_surface.h"
 #include "report/physics_cases.h"
 #include "report/physics_report.h"
 
@@ -22,7 +21,6 @@ class PhysicsTest : public QObject {
 
  private slots:
   void errors_by_hand();
-  void the_surface_of_a_volume_is_closed();
   void everyone_takes_part();
   void the_truth_has_no_error_and_linear_elasticity_less_for_less();
   void drags_are_what_they_say();
@@ -85,33 +83,6 @@ void PhysicsTest::errors_by_hand() {
   QCOMPARE(error.moving_max, error.max);
 }
 
-void PhysicsTest::the_surface_of_a_volume_is_closed() {
-  const auto block = make_mesh(MeshKind::tetra, {4, 3, 3});
-  const OuterSurface surface = outer_surface(block);
-  QCOMPARE(surface.mesh->element_count(), ElementId{36 - 2});
-  QCOMPARE(surface.mesh->triangles.size(), std::size_t{2 * 2 * (3 * 2 + 3 * 2 + 2 * 2)});
-  std::map<std::pair<ElementId, ElementId>, int> edges;
-  double six_volumes = 0;
-  for (const auto& [a, b, c] : surface.mesh->triangles) {
-    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-      ++edges[{from, to}];
-    }
-    six_volumes +=
-        surface.mesh->rest_position(a).dot(surface.mesh->rest_position(b).cross(surface.mesh->rest_position(c)));
-  }
-  for (const auto& [edge, count] : edges) {
-    QCOMPARE(count, 1);
-    QCOMPARE(edges.count({edge.second, edge.first}), std::size_t{1});
-  }
-  QVERIFY(std::abs(six_volumes / 6 - 3 * 2 * 2) < 1e-12);  // seen from outside
-  for (ElementId e = 0; e < surface.mesh->element_count(); ++e) {
-    QVERIFY(surface.mesh->rest_position(e) == block->rest_position(surface.elements[e]));
-    QCOMPARE(surface.on_surface(surface.elements[e]), e);
-  }
-  QCOMPARE(surface.on_surface(1 + 4 * (1 + 3 * 1)), no_element);
-  QVERIFY_EXCEPTION_THROWN(outer_surface(make_mesh(MeshKind::cloth, {3, 3, 1})), Error);
-}
-
 void PhysicsTest::everyone_takes_part() {
   for (const PhysicsObject& object : everything().objects) {
     QCOMPARE(object.drags.size(), std::size_t{3});
@@ -125,7 +96,6 @@ void PhysicsTest::everyone_takes_part() {
         QVERIFY2(entry.measurement.has_value() == fits, entry.refusal.c_str());
         if (fits) {
           QVERIFY(entry.measurement->ms_per_move.median > 0);
-          QCOMPARE(entry.measurement->on_surface, algorithm == Algorithm::boundary_elements);
           QCOMPARE(entry.measurement->prepare_ms > 0, elastic_method(algorithm).has_value());
         }
       }
@@ -186,7 +156,7 @@ void PhysicsTest::what_has_no_answer_is_refused_by_name() {
   loose.pins.clear();
   QVERIFY(sentence_of(loose).startsWith("sheet: nothing pins it, so physics has no static answer; "));
   Case open = pinned_bar(24, {}, {});
-  open.mesh = outer_surface(open.mesh).mesh;
+  open.mesh = make_mesh(MeshKind::cloth, {4, 4, 1}, 3);  // it has no inside
   open.name = "hull";
   open.pins = {0};
   QVERIFY2(sentence_of(open).startsWith("hull: "), qPrintable(sentence_of(open)));
@@ -271,7 +241,7 @@ void PhysicsTest::csv_and_text_have_a_row_for_each() {
   const QString printed = QString::fromStdString(text.str());
   QCOMPARE(printed.count("\n  3D ChainMail"), 2 + 2);  // refused: once a table, whatever the sweeps
   QVERIFY(printed.contains("\n  Exact ChainMail, 10 sweeps "));
-  QVERIFY(printed.contains("\n  BEM, surface "));
+  QVERIFY(printed.contains("\n  BEM "));
 }
 
 QTEST_APPLESS_MAIN(PhysicsTest)
