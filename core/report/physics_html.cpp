@@ -12,10 +12,11 @@ in double precision, converged. <b>Errors</b> are how far elements stand from it
 hand’s displacement: 10% is a tenth of the way that the hand went. <b>What moves</b> are the elements that the truth
 displaces by more than 1% of that way: where an object is large and the drag small, the rest stands still with everybody and makes
 errors look small. <b>ms a move</b> is the time of a move and of the sweeps of relaxation that follow it, averaged over a
-drag: the median over the repetitions. <b>Prepare</b> is what a method does once for an object, its pins and the element
-in the hand, before its first move: factorizations; it is not part of the time a move. BEM works on the outer surface of a volume, and what is inside follows. The truth is one for a homogeneous, isotropic,
-compressible material on this mesh: no mesh is fine enough about a single element that a hand pulls. In the plots,
-down is better and left is faster.</p>
+drag: the median over the repetitions.
+<b>Prepare</b> is what a method does once for an object, its pins and the element in the hand, before its
+first move: factorizations; it is not part of the time a move. BEM works on the outer surface of a volume, and
+what is inside follows. The truth is one for a homogeneous, isotropic, compressible material on this mesh: no
+mesh is fine enough about a single element that a hand pulls. In the plots, down is better and left is faster.</p>
 )";
 
 void write_growths(std::ostream& out, const PhysicsReport& report) {
