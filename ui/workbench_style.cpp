@@ -28,4 +28,9 @@ void WorkbenchStyle::drawPrimitive(PrimitiveElement element, const QStyleOption*
   painter->restore();
 }
 
+int WorkbenchStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                              QStyleHintReturn* answer) const {
+  return hint == SH_ComboBox_Popup ? 0 : QProxyStyle::styleHint(hint, option, widget, answer);
+}
+
 }  // namespace chainmail

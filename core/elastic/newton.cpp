@@ -32,7 +32,7 @@ CornerDisplacements corners_of(const Simplices& simplices, std::size_t simplex,
 /// The nearest matrix without negative curvature (Teran et al. 2005).
 CornerMatrix convex_part(const CornerMatrix& hessian) {
   const Eigen::SelfAdjointEigenSolver<CornerMatrix> modes(hessian);
-  const CornerMatrix vectors = modes.eigenvectors();
+  const CornerMatrix& vectors = modes.eigenvectors();
   return vectors * modes.eigenvalues().cwiseMax(0).asDiagonal() * vectors.transpose();
 }
 

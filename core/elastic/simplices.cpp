@@ -85,7 +85,7 @@ class Builder {
     for (const auto& side : hexahedron_sides) {
       std::array<ElementId, 4> corners{cell[side[0]], cell[side[1]], cell[side[2]], cell[side[3]]};
       if (std::ranges::find(corners, lowest) == corners.end()) {
-        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         add({lowest, corners[0], corners[1], corners[2]});
         add({lowest, corners[0], corners[2], corners[3]});
       }

@@ -50,7 +50,7 @@ Stiffness::Stiffness(const Simplices& simplices, const Unknowns& unknowns) : sim
     }
     return all;
   };
-  const auto width = static_cast<std::size_t>(n * (n + 1));
+  const auto width = static_cast<std::size_t>(n) * (static_cast<std::size_t>(n) + 1);
   const auto for_each_entry = [&](auto visit) {
     for (std::size_t s = 0; s < simplices.count(); ++s) {
       const auto all = unknowns_of(s);
