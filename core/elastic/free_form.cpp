@@ -28,7 +28,7 @@ class FreeForm final : public ElasticSolver {
     Eigen::MatrixXd resistance = Eigen::MatrixXd::Identity(volume_.count(), volume_.count());
     for (const ElementId pin : pins_) {
       const Eigen::VectorXd weights = volume_.weights(pin);
-      resistance.selfadjointView<Eigen::Lower>().rankUpdate(weights, pin_weight);
+      resistance += pin_weight * weights * weights.transpose();
     }
     resistance_.compute(resistance);
   }
@@ -125,10 +125,10 @@ class FreeForm final : public ElasticSolver {
     const std::size_t stride = std::max<std::size_t>(1, mesh_->element_count() / most_fitted);
     for (std::size_t e = 0; e < mesh_->element_count(); e += stride) {
       const Eigen::VectorXd weights = volume_.weights(static_cast<ElementId>(e));
-      normal.selfadjointView<Eigen::Lower>().rankUpdate(weights);
+      normal += weights * weights.transpose();
       right += weights * fields(displacements_).col(static_cast<Eigen::Index>(e)).transpose();
     }
-    return normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+    return normal.ldlt().solve(right);
   }
 
   MeshPointer mesh_;
