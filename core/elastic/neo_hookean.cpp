@@ -12,7 +12,7 @@ namespace chainmail {
 namespace {
 
 // The hand's way is taken in one step where that converges, else in ever smaller ones, down to this share of it.
-constexpr double smallest_step = 1.0 / 128;
+constexpr double smallest_step = 1.0 / 64;
 
 std::string percent(double share) {
   std::array<char, 16> text{};
@@ -58,7 +58,7 @@ class NeoHookean final : public ElasticSolver {
     const std::vector<double> target(displacement.begin(), displacement.end());
     std::vector<double> answer = displacements_;
     remark_ = carry(*newton_, hand, target, answer, progress.part(0, 0.5));
-    if (!remark_.empty()) {
+    if (!remark_.empty() && displacements_ != base_) {
       std::vector<double> anew = base_;
       const std::string from_base = carry(*newton_, hand, target, anew, progress.part(0.5, 1));
       if (from_base.empty()) {

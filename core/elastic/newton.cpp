@@ -6,7 +6,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int most_steps = 60;
+constexpr int most_steps = 30;  // where it converges at all, ten are many
 constexpr int most_halvings = 30;
 // Newton's convergence is quadratic: the step after one this short (in cell lengths) is rounding.
 constexpr double converged_below = 1e-9;

@@ -143,11 +143,14 @@ class WindowPhysics : public QObject {
     bench.trigger("pinLeft");
     bench.document().grab(22);
     bench.document().drag(Point(-6, 1, 1));  // through the wall that holds it
+    // Newton tries many a load step: seconds where a sanitizer watches.
+    QTRY_VERIFY_WITH_TIMEOUT(bench.document().idle(), 60'000);
     bench.settle();
     auto* figures = bench.find<QLabel>("statistics0");
     QTRY_VERIFY(figures->toolTip().contains(QStringLiteral("last converged state")));
     QVERIFY(!figures->text().contains(QStringLiteral("violation")));
     bench.document().drag(Point(2.1, 1, 1));
+    QTRY_VERIFY_WITH_TIMEOUT(bench.document().idle(), 60'000);
     bench.settle();
     QTRY_VERIFY(figures->text().contains(QStringLiteral("violation")));
     bench.document().release();
