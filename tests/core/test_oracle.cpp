@@ -95,10 +95,9 @@ class SideBySide {
         return reference::move_enhanced(object_, element, target);
       case Algorithm::original:
         return reference::move_3d_chainmail(object_, element, target);
-      case Algorithm::exact:
-        break;  // it has an oracle of its own
+      default:
+        return {};  // Exact has an oracle of its own, methods of elasticity have mechanics
     }
-    return {};
   }
 
   void compare(const PassCount& count, const Trace& trace, const std::vector<reference::Processed>& processed) {
