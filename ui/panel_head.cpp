@@ -44,6 +44,7 @@ void PanelHead::fillSelector() {
     }
     selector_->addItem(text(info.label), int(info.algorithm));
   }
+  selector_->setMaxVisibleItems(selector_->count());
   connect(selector_, &QComboBox::activated, this,
           [this] { document_.setAlgorithm(panel_, Algorithm(selector_->currentData().toInt())); });
   connect(&document_, &Document::algorithmChanged, this, [this](int panel) {
