@@ -53,7 +53,7 @@ Colouring::Colouring(const Document& document) : document_(document), truth_(doc
   connect(&document, &Document::cutsChanged, this, outdate);
   connect(&document, &Document::meshChanged, this, &Colouring::startOver);
   connect(&document, &Document::panelsChanged, this, &Colouring::followPanels);
-  connect(&truth_, &Truth::changed, this, &Colouring::followTruth);
+  connect(&truth_, &BackgroundTruth::changed, this, &Colouring::followTruth);
 }
 
 void Colouring::receiveFrame(int panel) {

@@ -8,9 +8,9 @@
 #include <span>
 #include <string_view>
 
+#include "background_truth.h"
 #include "colour_values.h"
 #include "document.h"
-#include "truth.h"
 
 namespace chainmail {
 
@@ -76,7 +76,7 @@ class Colouring : public QObject {
     // As they were when the work began, by the panel: frames and softness may change meanwhile.
     std::array<Kept, Document::mostPanels> kept;
     std::shared_ptr<const Softness> softness;
-    std::shared_ptr<const Truth::Answer> truth;
+    std::shared_ptr<const BackgroundTruth::Answer> truth;
     double squares = 0, rms = 0;  // of what is being built, and of what is shown
   };
 
@@ -97,7 +97,7 @@ class Colouring : public QObject {
   ColourScale finished(ColourScale scale) const;
 
   const Document& document_;
-  Truth truth_;
+  BackgroundTruth truth_;
   ColourMode mode_ = ColourMode::plain;
   std::array<Work, Document::mostPanels> works_;
   std::array<ColourScale, Document::mostPanels> scales_;

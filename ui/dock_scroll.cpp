@@ -29,4 +29,13 @@ void DockScroll::fitWidth() {
   setMinimumWidth(std::max(dockWidth, widget()->minimumSizeHint().width() + verticalScrollBar()->sizeHint().width()));
 }
 
+void setColumn(QDockWidget& dock, QVBoxLayout& column) {
+  column.setSpacing(6);
+  column.setContentsMargins(9, 4, 9, 4);
+  column.addStretch();
+  auto* content = new QWidget;
+  content->setLayout(&column);
+  dock.setWidget(new DockScroll(content));
+}
+
 }  // namespace chainmail

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <QBoxLayout>
+#include <QDockWidget>
 #include <QScrollArea>
 
 namespace chainmail {
@@ -20,5 +22,8 @@ class DockScroll : public QScrollArea {
  private:
   void fitWidth();
 };
+
+/// Makes a column of parameters, closely set from the top, the content of a dock.
+void setColumn(QDockWidget& dock, QVBoxLayout& column);
 
 }  // namespace chainmail

@@ -11,12 +11,6 @@
 #include "text.h"
 
 namespace chainmail {
-namespace {
-
-constexpr int fewestPoints = 2, mostPoints = 8;
-
-}  // namespace
-
 PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
     : QDockWidget(QStringLiteral("Physics")),
       document_(document),
@@ -32,12 +26,7 @@ PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
   auto* calibration = new CalibrationBox(document, jobs);
   column_->addWidget(calibration);
   connect(calibration, &CalibrationBox::presetRequested, this, &PhysicsDock::presetRequested);
-  column_->setSpacing(6);
-  column_->setContentsMargins(9, 4, 9, 4);
-  column_->addStretch();
-  auto* content = new QWidget;
-  content->setLayout(column_);
-  setWidget(new DockScroll(content));
+  setColumn(*this, *column_);
   connect(&document, &Document::elasticChanged, this, &PhysicsDock::showElastic);
   connect(&document, &Document::pinsChanged, this, &PhysicsDock::showPins);
   connect(&document, &Document::meshChanged, this, &PhysicsDock::adaptToMesh);
@@ -55,9 +44,10 @@ void PhysicsDock::addRow(ParameterRow* row, double Material::*member) {
 }
 
 QLayout* PhysicsDock::makeLattice() {
-  const QString help = QStringLiteral(
-      "Control points of free-form deformation along each axis: more of them follow the hand more closely");
-  auto* label = new QLabel(QStringLiteral("Control points"));
+  constexpr const Parameter& parameter = parameters::lattice;
+  QString help = text(parameter.help);
+  help[0] = help[0].toUpper();
+  auto* label = new QLabel(text(parameter.label));
   label->setToolTip(help);
   auto* row = new QHBoxLayout;
   row->addWidget(label, 1);
@@ -66,7 +56,7 @@ QLayout* PhysicsDock::makeLattice() {
     count->setObjectName(QStringLiteral("lattice%1").arg(QLatin1Char("XYZ"[k])));
     count->setAccessibleName(QStringLiteral("Control points along %1").arg(QLatin1Char("xyz"[k])));
     count->setToolTip(help);
-    count->setRange(fewestPoints, mostPoints);
+    count->setRange(int(parameter.lowest), int(parameter.highest));
     count->setKeyboardTracking(false);
     connect(count, &QSpinBox::valueChanged, this, &PhysicsDock::setLattice);
     connect(count, &QSpinBox::editingFinished, count, &QWidget::clearFocus);  // shortcuts work again

@@ -20,12 +20,7 @@ StiffnessDock::StiffnessDock(Document& document)
   addRow(stretch_, &LinkSoftness::stretch);
   addRow(shear_, &LinkSoftness::shear);
   column_->addWidget(new SelectedLinks(document));
-  column_->setSpacing(6);
-  column_->setContentsMargins(9, 4, 9, 4);
-  column_->addStretch();
-  auto* content = new QWidget;
-  content->setLayout(column_);
-  setWidget(new DockScroll(content));
+  setColumn(*this, *column_);
   connect(&document, &Document::softnessChanged, this, &StiffnessDock::showSoftness);
   showSoftness();
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "mesh/error.h"
 
@@ -16,8 +17,13 @@ void check(const ElasticOptions& options) {
         "poisson", "Poisson's ratio must lie in [0, 0.5)",
         "0 is cork, 0.3 steel, 0.45 soft tissue; 0.5 would keep the volume exactly, which these methods cannot");
   }
-  if (std::ranges::any_of(options.lattice, [](std::uint32_t count) { return count < 2 || count > 8; })) {
-    throw Error("lattice", "free-form deformation has 2 to 8 control points along each axis", "choose 4");
+  if (std::ranges::any_of(options.lattice, [](std::uint32_t count) {
+        return count < fewest_control_points || count > most_control_points;
+      })) {
+    throw Error("lattice",
+                "free-form deformation has " + std::to_string(fewest_control_points) + " to " +
+                    std::to_string(most_control_points) + " control points along each axis",
+                "choose 4");
   }
 }
 

@@ -13,10 +13,13 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+/// Control points of free-form deformation along an axis: fewer span nothing, and of more each costs every element.
+inline constexpr std::uint32_t fewest_control_points = 2, most_control_points = 8;
+
 /// What the methods of elasticity are told beside the object.
 struct ElasticOptions {
   Material material;
-  /// Control points of free-form deformation along each axis, from 2 to 8.
+  /// Control points along each axis.
   std::array<std::uint32_t, 3> lattice{4, 4, 4};
 
   bool operator==(const ElasticOptions&) const = default;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "elastic/simplices.h"
+
 namespace chainmail {
 
 LinearResponse::LinearResponse(const ElasticProblem& problem)
@@ -36,8 +38,9 @@ void LinearResponse::move(std::span<const double> displacement, const Progress& 
   Eigen::Map<Eigen::VectorXd> all(displacements_.data(), static_cast<Eigen::Index>(displacements_.size()));
   const Eigen::Map<const Eigen::VectorXd> base(base_.data(), all.size());
   const Eigen::Map<const Eigen::VectorXd> to(displacement.data(), dimension_);
+  const SmallVector way = to - base.segment(at, dimension_);
   all = base;
-  all.noalias() += response_ * (to - base.segment(at, dimension_));
+  all.noalias() += response_ * way;
 }
 
 void LinearResponse::reset() { displacements_ = base_; }

@@ -37,46 +37,52 @@ void Unknowns::scatter(const Eigen::VectorXd& unknown, std::vector<double>& all)
   }
 }
 
-Stiffness::Stiffness(const Simplices& simplices, const Unknowns& unknowns) : simplices_(simplices) {
-  const int n = simplices.dimension;
-  std::vector<Eigen::Triplet<double>> entries;
-  // The unknown of each coordinate of a simplex's corners.
-  const auto unknowns_of = [&](std::size_t simplex) {
-    std::array<std::int32_t, 12> all{};
-    const auto corners = simplices.corners_of(simplex);
-    for (int i = 0; i < n * (n + 1); ++i) {
-      const std::int32_t first = unknowns.of(corners[static_cast<std::size_t>(i / n)]);
-      all[static_cast<std::size_t>(i)] = first == Unknowns::none ? Unknowns::none : first + i % n;
-    }
-    return all;
-  };
-  const auto width = static_cast<std::size_t>(n) * (static_cast<std::size_t>(n) + 1);
-  const auto for_each_entry = [&](auto visit) {
-    for (std::size_t s = 0; s < simplices.count(); ++s) {
-      const auto all = unknowns_of(s);
-      for (std::size_t j = 0; j < width; ++j) {
-        for (std::size_t i = 0; i < width; ++i) {
-          const bool is_stored = all[i] != Unknowns::none && all[j] != Unknowns::none && all[i] >= all[j];
-          visit((s * width + j) * width + i, is_stored, all[i], all[j]);
+namespace {
+
+/// The unknown of each coordinate of a simplex's corners, or none.
+std::array<std::int32_t, 12> unknowns_of(const Simplices& simplices, std::size_t simplex, const Unknowns& unknowns) {
+  std::array<std::int32_t, 12> all{};
+  const auto n = static_cast<std::size_t>(simplices.dimension);
+  const auto corners = simplices.corners_of(simplex);
+  for (std::size_t i = 0; i < n * (n + 1); ++i) {
+    const std::int32_t first = unknowns.of(corners[i / n]);
+    all[i] = first == Unknowns::none ? Unknowns::none : first + static_cast<std::int32_t>(i % n);
+  }
+  return all;
+}
+
+/// Calls visit(place among all entries, row, column) for each entry of each simplex that is in the lower triangle.
+template <class Visit>
+void for_each_entry(const Simplices& simplices, const Unknowns& unknowns, Visit visit) {
+  const auto n = static_cast<std::size_t>(simplices.dimension);
+  const std::size_t width = n * (n + 1);
+  for (std::size_t s = 0; s < simplices.count(); ++s) {
+    const auto all = unknowns_of(simplices, s, unknowns);
+    for (std::size_t j = 0; j < width; ++j) {
+      for (std::size_t i = 0; i < width; ++i) {
+        if (all[i] != Unknowns::none && all[j] != Unknowns::none && all[i] >= all[j]) {
+          visit((s * width + j) * width + i, all[i], all[j]);
         }
       }
     }
-  };
-  for_each_entry([&](std::size_t, bool is_stored, std::int32_t row, std::int32_t column) {
-    if (is_stored) {
-      entries.emplace_back(row, column, 0);
-    }
-  });
-  matrix_.resize(unknowns.count(), unknowns.count());
+  }
+}
+
+}  // namespace
+
+Stiffness::Stiffness(const Simplices& simplices, const Unknowns& unknowns)
+    : simplices_(simplices), matrix_(unknowns.count(), unknowns.count()) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for_each_entry(simplices, unknowns,
+                 [&](std::size_t, std::int32_t row, std::int32_t column) { entries.emplace_back(row, column, 0); });
   matrix_.setFromTriplets(entries.begin(), entries.end());
   entries = {};
-  places_.assign(simplices.count() * width * width, Unknowns::none);
-  for_each_entry([&](std::size_t entry, bool is_stored, std::int32_t row, std::int32_t column) {
-    if (is_stored) {
-      const auto* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
-      const auto* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
-      places_[entry] = static_cast<std::int32_t>(std::lower_bound(begin, end, row) - matrix_.innerIndexPtr());
-    }
+  const auto n = static_cast<std::size_t>(simplices.dimension);
+  places_.assign(simplices.count() * n * (n + 1) * n * (n + 1), Unknowns::none);
+  for_each_entry(simplices, unknowns, [&](std::size_t entry, std::int32_t row, std::int32_t column) {
+    const auto* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
+    const auto* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
+    places_[entry] = static_cast<std::int32_t>(std::lower_bound(begin, end, row) - matrix_.innerIndexPtr());
   });
 }
 

@@ -8,6 +8,22 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace report;
 
+// all_of() calls these: they must be known by then.
+Json to_json(const PhysicsEntry& entry);
+Json to_json(const PhysicsDrag& drag);
+Json to_json(const PhysicsObject& object);
+Json to_json(const GrowthSeries& series);
+Json to_json(const PhysicsGrowth& growth);
+
+template <class Items>
+Json all_of(const Items& items) {
+  Json json = Json::array();
+  for (const auto& item : items) {
+    json.push_back(to_json(item));
+  }
+  return json;
+}
+
 Json to_json(const PhysicalError& error) {
   return {{"rms", error.rms},
           {"max", error.max},
@@ -34,26 +50,18 @@ Json to_json(const PhysicsEntry& entry) {
 }
 
 Json to_json(const PhysicsDrag& drag) {
-  Json contestants = Json::array();
-  for (const PhysicsEntry& entry : drag.entries) {
-    contestants.push_back(to_json(entry));
-  }
   return {{"name", drag.name},
           {"description", drag.description},
           {"moves", drag.moves},
           {"hand", drag.hand},
           {"no_truth", drag.no_truth.empty() ? Json() : Json(drag.no_truth)},
-          {"contestants", std::move(contestants)}};
+          {"contestants", all_of(drag.entries)}};
 }
 
 Json to_json(const PhysicsObject& object) {
-  Json drags = Json::array();
-  for (const PhysicsDrag& drag : object.drags) {
-    drags.push_back(to_json(drag));
-  }
   return {{"name", object.name},         {"description", object.description},
           {"elements", object.elements}, {"links", object.links},
-          {"pins", object.pins},         {"drags", std::move(drags)}};
+          {"pins", object.pins},         {"drags", all_of(object.drags)}};
 }
 
 Json to_json(const GrowthSeries& series) {
@@ -71,20 +79,7 @@ Json to_json(const GrowthSeries& series) {
 }
 
 Json to_json(const PhysicsGrowth& growth) {
-  Json contestants = Json::array();
-  for (const GrowthSeries& series : growth.series) {
-    contestants.push_back(to_json(series));
-  }
-  return {{"name", growth.name}, {"description", growth.description}, {"contestants", std::move(contestants)}};
-}
-
-template <class Items>
-Json all_of(const Items& items) {
-  Json json = Json::array();
-  for (const auto& item : items) {
-    json.push_back(to_json(item));
-  }
-  return json;
+  return {{"name", growth.name}, {"description", growth.description}, {"contestants", all_of(growth.series)}};
 }
 
 }  // namespace

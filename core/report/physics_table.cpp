@@ -99,6 +99,30 @@ void write_table(std::ostream& out, const FigureTable& table) {
   write_columns(out, rows);
 }
 
+FigureTable::Row row_of(const GrowthSeries& series) {
+  FigureTable::Row row;
+  row.label = label(series.contestant);
+  if (series.points.empty()) {
+    row.refusal = series.end;
+    return row;
+  }
+  const GrowthPoint& last = series.points.back();
+  std::vector<double> errors;
+  for (const GrowthPoint& point : series.points) {
+    if (point.error) {
+      errors.push_back(point.error->rms);
+    }
+  }
+  row.cells = {std::to_string(last.elements),
+               figure(last.ms_per_move),
+               figure(last.prepare_ms),
+               series.growth ? figure(series.growth->exponent) : "n/a",
+               errors.empty() ? "n/a" : percent(errors.front()),
+               errors.empty() ? "n/a" : percent(errors.back()),
+               series.end};
+  return row;
+}
+
 }  // namespace
 
 FigureTable physics_table(const PhysicsObject& object, bool for_text) {
@@ -134,30 +158,10 @@ FigureTable growth_table(const PhysicsGrowth& growth) {
                     {}};
   for (std::size_t i = 0; i < growth.series.size(); ++i) {
     const GrowthSeries& series = growth.series[i];
-    if (series.points.empty() && i > 0 && repeats(series, growth.series[i - 1], series.end, growth.series[i - 1].end)) {
-      continue;
+    if (!series.points.empty() || i == 0 ||
+        !repeats(series, growth.series[i - 1], series.end, growth.series[i - 1].end)) {
+      table.rows.push_back(row_of(series));
     }
-    auto& row = table.rows.emplace_back();
-    row.label = label(series.contestant);
-    if (series.points.empty()) {
-      row.refusal = series.end;
-      continue;
-    }
-    const GrowthPoint& last = series.points.back();
-    std::optional<double> first_error, last_error;
-    for (const GrowthPoint& point : series.points) {
-      if (point.error) {
-        first_error = first_error ? first_error : std::optional(point.error->rms);
-        last_error = point.error->rms;
-      }
-    }
-    row.cells = {std::to_string(last.elements),
-                 figure(last.ms_per_move),
-                 figure(last.prepare_ms),
-                 series.growth ? figure(series.growth->exponent) : "n/a",
-                 first_error ? percent(*first_error) : "n/a",
-                 last_error ? percent(*last_error) : "n/a",
-                 series.end};
   }
   return table;
 }

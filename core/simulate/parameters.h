@@ -3,6 +3,8 @@
 #include <limits>
 #include <string_view>
 
+#include "elastic/material.h"
+
 namespace chainmail {
 
 /// A number that a user may set. This one table feeds the docks, the command line, the checks and the
@@ -94,7 +96,16 @@ inline constexpr Parameter poisson{"poisson",
                                    3,
                                    "how much it narrows when it is pulled: 0 not at all, near 0.5 it keeps its volume"};
 inline constexpr Parameter lattice{
-    "lattice", "Control points", "along each axis", 4, 2, 8, 8, 1, 0, "control points of free-form deformation"};
+    "lattice",
+    "Control points",
+    "along each axis",
+    4,
+    fewest_control_points,
+    most_control_points,
+    most_control_points,
+    1,
+    0,
+    "control points of free-form deformation: more of them follow the hand more closely"};
 
 }  // namespace parameters
 }  // namespace chainmail

@@ -61,16 +61,16 @@ class ElasticBody {
   /// Builds what the method needs, unless it is there.
   template <class Body>
   void prepare(const Body& body, ElasticMethod method, std::span<const ElementId> pins) {
-    std::vector<double> pinned;
+    pinned_.clear();
     for (const ElementId pin : pins) {
-      append_displacement(body, pin, pinned);
+      append_displacement(body, pin, pinned_);
     }
-    if (!solver_ || method_ != method || pinned != problem_.pinned) {
+    if (!solver_ || method_ != method || pinned_ != problem_.pinned) {
       solver_.reset();
       problem_.mesh = body.mesh;
       problem_.cuts = body.cuts;
       problem_.pins.assign(pins.begin(), pins.end());
-      problem_.pinned = std::move(pinned);
+      problem_.pinned = pinned_;
       solver_ = make_elastic(method, problem_, progress_);
       method_ = method;
       held_ = no_element;
@@ -113,6 +113,7 @@ class ElasticBody {
   }
 
   ElasticProblem problem_;
+  std::vector<double> pinned_;  // where the pins stand now
   ElasticMethod method_ = ElasticMethod::linear_fem;
   std::unique_ptr<ElasticSolver> solver_;
   ElementId held_ = no_element;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -17,6 +18,14 @@ struct Placement {
   std::vector<double> held;
 
   bool operator==(const Placement&) const = default;
+};
+
+/// Positions as a solver holds them, to be given back to it, or to another of its mesh and precision, to the bit. What
+/// is kept at different times shares the blocks that did not change between.
+struct KeptPositions {
+  /// One a block of ElementBlocks; none where all elements of the block stand at rest.
+  std::vector<std::shared_ptr<const void>> blocks;
+  bool from_rest = false;
 };
 
 }  // namespace chainmail

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <memory>
+
 #include "mesh/element_blocks.h"
 #include "solve/body.h"
 #include "solve/placement.h"
@@ -33,6 +37,62 @@ void place_elements(Body<Scalar, Dimension>& body, const Placement& placement) {
       }
     }
   }
+}
+
+/// Puts a run of elements where they rest.
+template <class Scalar, int Dimension>
+void put_to_rest(Body<Scalar, Dimension>& body, ElementId first, ElementId end) {
+  for (ElementId e = first; e < end; ++e) {
+    for (int k = 0; k < Dimension; ++k) {
+      body.place(e, k, body.mesh->rest[std::size_t{e} * Dimension + k]);
+    }
+  }
+}
+
+/// What KeptPositions holds of a block.
+template <class Scalar, int Dimension>
+using PlaceBlock = std::array<Place<Scalar, Dimension>, ElementBlocks::block_elements>;
+
+/// Brings these blocks of `kept` up to date; no element outside `away` may stand away from rest.
+template <class Scalar, int Dimension>
+void keep_places(const Body<Scalar, Dimension>& body, const ElementBlocks& blocks, const ElementBlocks& away,
+                 KeptPositions& kept) {
+  kept.blocks.resize(away.block_count());
+  kept.from_rest = body.from_rest;
+  blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
+    kept.blocks[block].reset();
+    if (away.contains_block(block)) {
+      const auto places = std::make_shared<PlaceBlock<Scalar, Dimension>>();
+      std::copy(body.places.begin() + first, body.places.begin() + end, places->begin());
+      kept.blocks[block] = places;
+    }
+  });
+}
+
+/// Takes places that were held as displacements from rest, or absolute, as the body holds them now.
+template <class Scalar, int Dimension>
+void take_places(Body<Scalar, Dimension>& body, const PlaceBlock<Scalar, Dimension>& places, ElementId first,
+                 ElementId end, bool from_rest) {
+  for (ElementId e = first; e < end; ++e) {
+    body.places[e] = places[e - first];
+    for (int k = 0; k < Dimension && from_rest != body.from_rest; ++k) {
+      const double rest = body.mesh->rest[std::size_t{e} * Dimension + k];
+      const double held = places[e - first][k];
+      body.places[e][k] = static_cast<Scalar>(from_rest ? held + rest : held - rest);
+    }
+  }
+}
+
+/// Takes these blocks back; all others must stand as they were kept.
+template <class Scalar, int Dimension>
+void restore_places(Body<Scalar, Dimension>& body, const KeptPositions& kept, const ElementBlocks& blocks) {
+  blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
+    if (const auto* places = static_cast<const PlaceBlock<Scalar, Dimension>*>(kept.blocks[block].get())) {
+      take_places(body, *places, first, end, kept.from_rest);
+    } else {
+      put_to_rest(body, first, end);
+    }
+  });
 }
 
 }  // namespace chainmail

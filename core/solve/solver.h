@@ -102,14 +102,6 @@ class PositionView {
   const Mesh* from_rest_;
 };
 
-/// Positions as a solver holds them, to be given back to it, or to another of its mesh and precision, to the bit. What
-/// is kept at different times shares the blocks that did not change between.
-struct KeptPositions {
-  /// One a block of ElementBlocks; none where all elements of the block stand at rest.
-  std::vector<std::shared_ptr<const void>> blocks;
-  bool from_rest = false;
-};
-
 /// Where an element stands, with all three coordinates (mesh units).
 Point point_of(const Mesh& mesh, const PositionView& positions, ElementId element);
 

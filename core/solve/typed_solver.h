@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -91,7 +90,7 @@ class TypedSolver final : public Solver {
   }
 
   void reset(const ElementBlocks& away) override {
-    away.for_each_run([this](ElementId first, ElementId end) { put_to_rest(first, end); });
+    away.for_each_run([this](ElementId first, ElementId end) { put_to_rest(body_, first, end); });
     forget();
     relaxation_.sleep();
     elastic_.reset();
@@ -200,26 +199,11 @@ class TypedSolver final : public Solver {
   }
 
   void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, KeptPositions& kept) const override {
-    kept.blocks.resize(away.block_count());
-    kept.from_rest = body_.from_rest;
-    blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
-      kept.blocks[block].reset();
-      if (away.contains_block(block)) {
-        const auto places = std::make_shared<PlaceBlock>();
-        std::copy(body_.places.begin() + first, body_.places.begin() + end, places->begin());
-        kept.blocks[block] = places;
-      }
-    });
+    keep_places(body_, blocks, away, kept);
   }
 
   void restore(const KeptPositions& kept, const ElementBlocks& blocks) override {
-    blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
-      if (const auto* places = static_cast<const PlaceBlock*>(kept.blocks[block].get())) {
-        take(*places, first, end, kept.from_rest);
-      } else {
-        put_to_rest(first, end);
-      }
-    });
+    restore_places(body_, kept, blocks);
     forget();
     take_positions();
     at_rest_ = std::none_of(kept.blocks.begin(), kept.blocks.end(), [](const auto& block) { return block != nullptr; });
@@ -227,8 +211,6 @@ class TypedSolver final : public Solver {
   }
 
  private:
-  using PlaceBlock = std::array<Place<Scalar, Dimension>, ElementBlocks::block_elements>;
-
   /// Positions stay below this share of what the scalar holds, so that sums of a few of them are finite.
   static constexpr Scalar limit = std::numeric_limits<Scalar>::max() / 16;
 
@@ -249,26 +231,6 @@ class TypedSolver final : public Solver {
     }
     forget();
     elastic_.forget();
-  }
-
-  void put_to_rest(ElementId first, ElementId end) {
-    for (ElementId e = first; e < end; ++e) {
-      for (int k = 0; k < Dimension; ++k) {
-        body_.place(e, k, body_.mesh->rest[std::size_t{e} * Dimension + k]);
-      }
-    }
-  }
-
-  /// Takes places that were held as displacements from rest, or absolute, as the body holds them now.
-  void take(const PlaceBlock& places, ElementId first, ElementId end, bool from_rest) {
-    for (ElementId e = first; e < end; ++e) {
-      body_.places[e] = places[e - first];
-      for (int k = 0; k < Dimension && from_rest != body_.from_rest; ++k) {
-        const double rest = body_.mesh->rest[std::size_t{e} * Dimension + k];
-        const double held = places[e - first][k];
-        body_.places[e][k] = static_cast<Scalar>(from_rest ? held + rest : held - rest);
-      }
-    }
   }
 
   void take_positions() {
@@ -309,6 +271,7 @@ class TypedSolver final : public Solver {
     lists_ = {};
     exact_ = {};
     exact_.set_valid(false);
+    elastic_.forget();
   }
 
   template <class Out>

@@ -54,6 +54,16 @@ inline bool is_one_sentence(const Outcome& outcome) {
          outcome.error.count('\n') == 1 && outcome.error.contains("; ");
 }
 
+/// Runs a line that is wrong: one sentence that names where comes of it, and no file is touched.
+inline void check_refused(const Program& program, const char* line, const QString& where) {
+  const auto before = program.files();
+  const auto outcome = program.run(line);
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where), outcome.error);
+  QCOMPARE(program.files(), before);
+}
+
 /// The rows of a CSV below its header.
 inline QList<QList<QByteArray>> rows_of(const QByteArray& csv) {
   QList<QList<QByteArray>> rows;

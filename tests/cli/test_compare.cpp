@@ -158,12 +158,7 @@ void CompareCommandTest::wrong_usage_data() {
 
 void CompareCommandTest::wrong_usage() {
   QFETCH(QString, where);
-  const auto before = program_->files();
-  const auto outcome = program_->run(QTest::currentDataTag());
-  QCOMPARE(outcome.code, 2);
-  QVERIFY2(is_one_sentence(outcome), outcome.error);
-  QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where), outcome.error);
-  QCOMPARE(program_->files(), before);
+  check_refused(*program_, QTest::currentDataTag(), where);
 }
 
 void CompareCommandTest::folders_that_cannot_be_are_refused() {

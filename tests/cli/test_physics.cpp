@@ -135,12 +135,7 @@ void PhysicsCommandTest::wrong_usage_data() {
 
 void PhysicsCommandTest::wrong_usage() {
   QFETCH(QString, where);
-  const auto before = program_->files();
-  const auto outcome = program_->run(QTest::currentDataTag());
-  QCOMPARE(outcome.code, 2);
-  QVERIFY2(is_one_sentence(outcome), outcome.error);
-  QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where), outcome.error);
-  QCOMPARE(program_->files(), before);
+  check_refused(*program_, QTest::currentDataTag(), where);
 }
 
 QTEST_GUILESS_MAIN(PhysicsCommandTest)

@@ -58,32 +58,26 @@ inline std::vector<ElementId> both_ends(const Mesh& mesh) {
   return pins;
 }
 
-/// The largest distance of displacements from a field (mesh units).
-inline double furthest_from(const Mesh& mesh, const std::vector<double>& displacements, const Field& field) {
-  double furthest = 0;
+/// What parts displacements from a field, coordinate by coordinate (mesh units).
+inline Eigen::VectorXd apart_from(const Mesh& mesh, const std::vector<double>& displacements, const Field& field) {
+  const int n = mesh.space_dimension;
+  Eigen::VectorXd apart(static_cast<Eigen::Index>(displacements.size()));
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
     const Point at = field(mesh.rest_position(e));
-    for (int k = 0; k < mesh.space_dimension; ++k) {
-      const std::size_t i =
-          std::size_t{e} * static_cast<std::size_t>(mesh.space_dimension) + static_cast<std::size_t>(k);
-      furthest = std::max(furthest, std::abs(displacements[i] - at[mesh.axes[k]]));
+    for (int k = 0; k < n; ++k) {
+      const Eigen::Index i = Eigen::Index{e} * n + k;
+      apart[i] = displacements[static_cast<std::size_t>(i)] - at[mesh.axes[static_cast<std::size_t>(k)]];
     }
   }
-  return furthest;
+  return apart;
 }
 
-/// The root of the mean square of the distances of displacements from a field (mesh units).
+/// The largest of it, and the root of the mean square of the distances.
+inline double furthest_from(const Mesh& mesh, const std::vector<double>& displacements, const Field& field) {
+  return apart_from(mesh, displacements, field).lpNorm<Eigen::Infinity>();
+}
 inline double rms_from(const Mesh& mesh, const std::vector<double>& displacements, const Field& field) {
-  double sum = 0;
-  for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    const Point at = field(mesh.rest_position(e));
-    for (int k = 0; k < mesh.space_dimension; ++k) {
-      const std::size_t i =
-          std::size_t{e} * static_cast<std::size_t>(mesh.space_dimension) + static_cast<std::size_t>(k);
-      sum += std::pow(displacements[i] - at[mesh.axes[k]], 2);
-    }
-  }
-  return std::sqrt(sum / mesh.element_count());
+  return apart_from(mesh, displacements, field).norm() / std::sqrt(double(mesh.element_count()));
 }
 
 /// The slope of log error over log size, from the first to the last.

@@ -6,6 +6,7 @@
 
 #include "document.h"
 #include "jobs.h"
+#include "measure/truth.h"
 
 namespace chainmail {
 
@@ -14,18 +15,17 @@ namespace chainmail {
 ///
 /// It is computed in the background once the hand rests, and given up when the hand moves on or what holds the object
 /// changes. As long as it is not wanted nothing is done.
-class Truth : public QObject {
+class BackgroundTruth : public QObject {
   Q_OBJECT
 
  public:
   struct Answer {
     MeshPointer mesh;
-    std::vector<double> displacements;  // from rest, space_dimension an element (mesh units)
-    double hand = 0;                    // how far the hand has moved its element (mesh units), above 0
-    std::string fault;                  // why it is none; empty where it is one
+    Truth truth;
+    std::string fault;  // why it is none; empty where it is one
   };
 
-  explicit Truth(const Document& document);
+  explicit BackgroundTruth(const Document& document);
 
   void setWanted(bool wanted);
   /// None while there is no answer for the object as it stands.

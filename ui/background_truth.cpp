@@ -1,4 +1,4 @@
-#include "truth.h"
+#include "background_truth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,70 +20,39 @@ bool alike(const ElasticProblem& one, const ElasticProblem& other) {
 
 }  // namespace
 
-/// Keeps what was prepared for a problem, and goes on from its last answer. Belongs to one thread at a time.
-class Truth::Worker {
+/// Keeps what was prepared for a problem. Belongs to one thread at a time.
+class BackgroundTruth::Worker {
  public:
   Answer answer(const ElasticProblem& problem, const Hand& hand, const Progress& progress) {
-    prepare(problem, progress.part(0, 0.3));
-    const Mesh& mesh = *problem.mesh;
-    std::vector<double> displacement;
-    for (int k = 0; k < mesh.space_dimension; ++k) {
-      displacement.push_back(hand.target[mesh.axes[std::size_t(k)]] -
-                             mesh.rest_position(hand.element)[mesh.axes[std::size_t(k)]]);
+    if (!solver_ || !alike(*problem_, problem)) {
+      solver_.reset();
+      problem_ = problem;
+      solver_ = std::make_unique<TruthSolver>(problem, progress.part(0, 0.3));
     }
-    move(hand.element, displacement, progress.part(0.3, 0.6));
-    if (!solver_->remark().empty()) {
-      solver_->reset();  // from rest there is another way
-      held_.reset();
-      move(hand.element, displacement, progress.part(0.6, 1));
-    }
-    double squared = 0;
-    for (const double one : displacement) {
-      squared += one * one;
-    }
-    return {problem.mesh, solver_->displacements(), std::sqrt(squared), solver_->remark()};
+    return {problem.mesh, solver_->at(hand.element, hand.target, progress.part(0.3, 1)), {}};
   }
 
  private:
-  void prepare(const ElasticProblem& problem, const Progress& progress) {
-    if (!solver_ || !alike(*problem_, problem)) {
-      solver_.reset();
-      held_.reset();
-      problem_ = problem;
-      solver_ = make_elastic(ElasticMethod::neo_hookean, problem, progress);
-    }
-  }
-
-  void move(ElementId element, const std::vector<double>& displacement, const Progress& progress) {
-    if (held_ != element) {
-      held_.reset();
-      solver_->hold(element, progress.part(0, 0.3));
-      held_ = element;
-    }
-    solver_->move(displacement, progress.part(0.3, 1));
-  }
-
   std::optional<ElasticProblem> problem_;
-  std::unique_ptr<ElasticSolver> solver_;
-  std::optional<ElementId> held_;
+  std::unique_ptr<TruthSolver> solver_;
 };
 
-Truth::Truth(const Document& document) : document_(document) {
+BackgroundTruth::BackgroundTruth(const Document& document) : document_(document) {
   delay_.setSingleShot(true);
   delay_.setInterval(restMilliseconds);
   progress_.setInterval(progressMilliseconds);
-  connect(&delay_, &QTimer::timeout, this, &Truth::ask);
-  connect(&progress_, &QTimer::timeout, this, &Truth::changed);
+  connect(&delay_, &QTimer::timeout, this, &BackgroundTruth::ask);
+  connect(&progress_, &QTimer::timeout, this, &BackgroundTruth::changed);
   connect(&jobs_, &Jobs::changed, this, [this] { jobs_.running() ? progress_.start() : progress_.stop(); });
   connect(&jobs_, &Jobs::failed, this, [this](const QString& sentence) { say(sentence.toStdString()); });
-  connect(&document, &Document::tapeChanged, this, &Truth::followHand);
+  connect(&document, &Document::tapeChanged, this, &BackgroundTruth::followHand);
   for (const auto& signal : {&Document::pinsChanged, &Document::meshChanged, &Document::elasticChanged}) {
-    connect(&document, signal, this, &Truth::outdate);
+    connect(&document, signal, this, &BackgroundTruth::outdate);
   }
-  connect(&document, &Document::cutsChanged, this, &Truth::outdate);
+  connect(&document, &Document::cutsChanged, this, &BackgroundTruth::outdate);
 }
 
-void Truth::setWanted(bool wanted) {
+void BackgroundTruth::setWanted(bool wanted) {
   wanted_ = wanted;
   if (wanted) {
     outdate();
@@ -96,7 +65,7 @@ void Truth::setWanted(bool wanted) {
 }
 
 /// What was done last to an element, unless all went back to rest since.
-std::optional<Truth::Hand> Truth::lastHand() const {
+std::optional<BackgroundTruth::Hand> BackgroundTruth::lastHand() const {
   const Tape& tape = document_.tape();
   std::optional<Point> target;
   for (std::size_t i = tape.position(); i > 0; --i) {
@@ -112,13 +81,13 @@ std::optional<Truth::Hand> Truth::lastHand() const {
   return std::nullopt;
 }
 
-void Truth::followHand() {
+void BackgroundTruth::followHand() {
   if (wanted_ && lastHand() != hand_) {
     outdate();
   }
 }
 
-void Truth::outdate() {
+void BackgroundTruth::outdate() {
   if (!wanted_) {
     return;
   }
@@ -130,11 +99,11 @@ void Truth::outdate() {
   emit changed();
 }
 
-QString Truth::state() const {
+QString BackgroundTruth::state() const {
   return jobs_.running() ? QStringLiteral("computing the truth… %1 %").arg(std::lround(100 * jobs_.share())) : why_;
 }
 
-void Truth::ask() {
+void BackgroundTruth::ask() {
   if (const std::string why = whyNot(); !why.empty()) {
     say(why);
   } else if (auto asked = problem(); asked && document_.idle()) {
@@ -144,7 +113,7 @@ void Truth::ask() {
   }
 }
 
-std::string Truth::whyNot() const {
+std::string BackgroundTruth::whyNot() const {
   if (document_.pins().empty()) {
     return "nothing pins the object";
   }
@@ -166,7 +135,7 @@ std::string Truth::whyNot() const {
 }
 
 /// The pins as the first panel shows them; they stand alike in all, unless they were pinned away from rest.
-std::optional<ElasticProblem> Truth::problem() const {
+std::optional<ElasticProblem> BackgroundTruth::problem() const {
   const Frame* frame = document_.frame(0);
   if (frame == nullptr) {
     return std::nullopt;
@@ -183,7 +152,7 @@ std::optional<ElasticProblem> Truth::problem() const {
   return problem;
 }
 
-void Truth::compute(ElasticProblem problem) {
+void BackgroundTruth::compute(ElasticProblem problem) {
   if (!worker_) {
     worker_ = std::make_shared<Worker>();
   }
@@ -201,7 +170,7 @@ void Truth::compute(ElasticProblem problem) {
   emit changed();
 }
 
-void Truth::take(std::shared_ptr<const Answer> answer) {
+void BackgroundTruth::take(std::shared_ptr<const Answer> answer) {
   if (!answer->fault.empty()) {
     say(answer->fault);
     return;
@@ -210,7 +179,7 @@ void Truth::take(std::shared_ptr<const Answer> answer) {
   emit changed();
 }
 
-void Truth::say(const std::string& why) {
+void BackgroundTruth::say(const std::string& why) {
   why_ = QString::fromStdString(why);
   emit changed();
 }
