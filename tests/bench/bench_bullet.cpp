@@ -1,4 +1,4 @@
-// Bullet's soft body beside the family, on the same meshes and the same drag: bench_bullet RESULTS.
+// Bullet's soft body beside ChainMail on a task that both solve: bench_bullet RESULTS.
 
 #include <BulletSoftBody/btSoftBody.h>
 
@@ -8,101 +8,108 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <numeric>
 #include <random>
 
 #include "bench/contestants.h"
 #include "bench/results.h"
+#include "measure/truth.h"
 
 namespace chainmail::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int frames = 60;  // a second
+constexpr int frames = 60;                // per second
+constexpr int frames_of_the_drag = 60;    // then the handle is held
+constexpr int most_frames = 60 * frames;  // until it counts as not settled
+constexpr double settled_step = 1e-5;     // largest step of an element in a frame, in spacings
 
-/// Where the corner is, frame by frame: half round a circle a quarter of the object's width in radius, away from
-/// the body first and back at its side, by 1.3 % of the width a frame.
-std::vector<Point> corner_path(const Mesh& mesh) {
-  const auto [low, high] = bounds(mesh);
-  const double radius = (high - low).maxCoeff() / 4;
-  const Point start = mesh.rest_position(0);
-  std::vector<Point> path;
-  for (int i = 1; i <= frames; ++i) {
-    const double angle = std::numbers::pi * i / frames;
-    path.emplace_back(start + radius * Point(std::cos(angle) - 1, -std::sin(angle), 0));
+/// A cloth in the plane, its bottom side pinned. The handle is the element in the middle of the top side; it goes up
+/// by a tenth of the height and to the side by as much.
+struct Task {
+  explicit Task(std::uint32_t side) : scene("cloth" + std::to_string(side)), handle(side * (side - 1) + side / 2) {
+    for (ElementId e = 0; e < side; ++e) {
+      pins.push_back(e);
+    }
+    const double by = 0.1 * (side - 1);
+    displacement = Point(by, by, 0);
   }
-  return path;
-}
+  Point target(double share) const { return scene.mesh->rest_position(handle) + share * displacement; }
 
-/// What an object that is dragged looks like, whoever moves it.
+  Scene scene;
+  ElementId handle;
+  std::vector<ElementId> pins;
+  Point displacement;
+};
+
+/// An object that is dragged, whatever moves it.
 class Dragged {
  public:
   virtual ~Dragged() = default;
-  virtual void frame(const Point& corner) = 0;
+  virtual void frame(const Point& handle) = 0;
   virtual Point position(ElementId element) const = 0;
 };
 
-class ByChainMail : public Dragged {
+/// A ChainMail algorithm, or linear FEM, with its default parameters.
+class BySolver : public Dragged {
  public:
-  ByChainMail(MeshPointer mesh, const std::string& algorithm)
-      : mesh_(std::move(mesh)),
-        solver_(make_solver(mesh_, find_algorithm(algorithm).value(), Precision::single_precision)) {
-    solver_->set_softness({stiff, {}});
+  BySolver(const Task& task, Algorithm algorithm)
+      : mesh_(task.scene.mesh),
+        handle_(task.handle),
+        solver_(make_solver(mesh_, algorithm, Precision::double_precision)) {
+    solver_->pin(task.pins);
   }
-  void frame(const Point& corner) override { solver_->move(0, corner); }
+  void frame(const Point& handle) override { solver_->move(handle_, handle); }
   Point position(ElementId element) const override { return point_of(*mesh_, solver_->positions(), element); }
 
  private:
   MeshPointer mesh_;
+  ElementId handle_;
   std::unique_ptr<Solver> solver_;
 };
 
-/// In the mesh's order an iteration hands the hand's pull on from link to link through the whole object, and one
-/// iteration a frame blows up; Bullet's helpers put links in random order, which large meshes pay for in the cache.
-/// Random within a thousand gives it both.
+/// Bullet's own helpers put links in random order. In the mesh's order, one iteration passes the pull of the handle on
+/// through the whole object and one iteration per frame blows up.
 std::vector<LinkId> link_order(const Mesh& mesh) {
-  constexpr std::ptrdiff_t together = 1024;
   std::vector<LinkId> order(mesh.link_count());
   std::iota(order.begin(), order.end(), LinkId{0});
   std::mt19937_64 random(11);
-  for (auto at = order.begin(); at != order.end();) {
-    const auto end = at + std::min(together, order.end() - at);
-    std::shuffle(at, end, random);
-    at = end;
-  }
+  std::shuffle(order.begin(), order.end(), random);
   return order;
 }
 
-/// Links as stiff as there are, all masses alike, no gravity, no air and no contacts: only what links cost. The
-/// corner has no mass, as Bullet's users hold a node.
+/// Links of full stiffness, equal masses, some damping so that the object comes to rest, no gravity, no air and no
+/// contacts. The handle and the pins have no mass, as Bullet's users hold a node.
 class ByBullet : public Dragged {
  public:
-  ByBullet(const Mesh& mesh, int iterations) {
-    std::vector<btVector3> places;
+  ByBullet(const Task& task, int iterations) : handle_(int(task.handle)) {
+    const Mesh& mesh = *task.scene.mesh;
+    std::vector<btVector3> positions;
     for (ElementId e = 0; e < mesh.element_count(); ++e) {
-      const Point at = mesh.rest_position(e);
-      places.emplace_back(btScalar(at[0]), btScalar(at[1]), btScalar(at[2]));
+      positions.push_back(vector(mesh.rest_position(e)));
     }
-    const std::vector<btScalar> masses(places.size(), 1);
+    const std::vector<btScalar> masses(positions.size(), 1);
     world_.m_gravity.setZero();
     world_.air_density = 0;
     world_.m_sparsesdf.Initialize();
-    body_ = std::make_unique<btSoftBody>(&world_, int(places.size()), places.data(), masses.data());
+    body_ = std::make_unique<btSoftBody>(&world_, int(positions.size()), positions.data(), masses.data());
     body_->m_materials[0]->m_kLST = 1;
+    body_->m_cfg.kDP = btScalar(0.1);
     body_->m_cfg.piterations = iterations;
     body_->m_cfg.collisions = 0;
     for (const LinkId link : link_order(mesh)) {
       body_->appendLink(int(mesh.links[link][0]), int(mesh.links[link][1]));
     }
-    body_->setMass(0, 0);
+    body_->setMass(handle_, 0);
+    for (const ElementId pin : task.pins) {
+      body_->setMass(int(pin), 0);
+    }
   }
 
-  void frame(const Point& corner) override {
-    auto& held = body_->m_nodes[0];
-    held.m_x = btVector3(btScalar(corner[0]), btScalar(corner[1]), btScalar(corner[2]));
-    held.m_v.setZero();
+  void frame(const Point& handle) override {
+    body_->m_nodes[handle_].m_x = vector(handle);
+    body_->m_nodes[handle_].m_v.setZero();
     // What btSoftRigidDynamicsWorld does in a step, without the rigid bodies that are not there.
     body_->predictMotion(btScalar(1.0 / frames));
     body_->solveConstraints();
@@ -115,59 +122,132 @@ class ByBullet : public Dragged {
   }
 
  private:
+  static btVector3 vector(const Point& point) { return {btScalar(point[0]), btScalar(point[1]), btScalar(point[2])}; }
+
+  int handle_;
   btSoftBodyWorldInfo world_;
   std::unique_ptr<btSoftBody> body_;
 };
 
-/// How far the lengths of links are off, as a share of their rest length. The root of the mean square: a mean would
-/// favour who leaves a few links about the hand torn and all others where they were.
-struct Stretch {
-  double rms = 0, largest = 0;
+/// Nothing but the handle moves.
+class ByNothing : public Dragged {
+ public:
+  explicit ByNothing(const Task& task) : task_(task), at_(task.target(0)) {}
+  void frame(const Point& handle) override { at_ = handle; }
+  Point position(ElementId element) const override {
+    return element == task_.handle ? at_ : task_.scene.mesh->rest_position(element);
+  }
+
+ private:
+  const Task& task_;
+  Point at_;
 };
 
-Stretch stretch(const Mesh& mesh, const Dragged& object) {
-  Stretch found;
-  for (LinkId link = 0; link < mesh.link_count(); ++link) {
-    const auto [a, b] = mesh.links[link];
-    const double off = std::abs((object.position(b) - object.position(a)).norm() / rest_length(mesh, link) - 1);
-    found.rms += off * off / mesh.link_count();
-    found.largest = std::max(found.largest, off);
-  }
-  found.rms = std::sqrt(found.rms);
-  return found;
-}
-
-std::map<std::string, std::unique_ptr<Dragged>> contestants(const MeshPointer& mesh) {
+std::map<std::string, std::unique_ptr<Dragged>> contestants(const Task& task) {
   std::map<std::string, std::unique_ptr<Dragged>> all;
   for (const int iterations : {1, 10, 50}) {
-    all["bullet" + std::to_string(iterations)] = std::make_unique<ByBullet>(*mesh, iterations);
+    all["bullet" + std::to_string(iterations)] = std::make_unique<ByBullet>(task, iterations);
   }
-  all["generalized"] = std::make_unique<ByChainMail>(mesh, "generalized");
-  all["natural_queue"] = std::make_unique<ByChainMail>(mesh, "natural-queue");
-  all["exact"] = std::make_unique<ByChainMail>(mesh, "exact");
+  all["natural_queue"] = std::make_unique<BySolver>(task, Algorithm::natural_queue);
+  all["exact"] = std::make_unique<BySolver>(task, Algorithm::exact);
+  all["linear_fem"] = std::make_unique<BySolver>(task, Algorithm::linear_fem);
+  all["nothing"] = std::make_unique<ByNothing>(task);
   return all;
 }
 
-/// All of them frame by frame in turns; the time of a frame is the median over the drag.
-void drag(const std::string& mesh_name, Results& results) {
-  const Scene scene(mesh_name);
-  const auto all = contestants(scene.mesh);
-  std::map<std::string, std::vector<double>> ms;
-  for (const Point& corner : corner_path(*scene.mesh)) {
-    for (const auto& [name, object] : all) {
-      const auto begin = Clock::now();
-      object->frame(corner);
-      ms[name].push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
-    }
+std::vector<Point> positions(const Task& task, const Dragged& object) {
+  std::vector<Point> all;
+  for (ElementId e = 0; e < task.scene.mesh->element_count(); ++e) {
+    all.push_back(object.position(e));
   }
-  for (const auto& [name, object] : all) {
-    const double frame_ms = median(ms[name]);
-    const Stretch off = stretch(*scene.mesh, *object);
-    results.ratios()["vs_bullet"][mesh_name][name] = {{"ms", frame_ms}, {"stretch", off.rms}, {"largest", off.largest}};
-    std::printf("%-18s %-18s %10.3f ms a frame, links off by %6.2f %%, at most %8.2f %%\n", mesh_name.c_str(),
-                name.c_str(), frame_ms, 100 * off.rms, 100 * off.largest);
+  return all;
+}
+
+struct Settled {
+  std::vector<double> ms;  // of each frame
+  int frames = 0;          // until it came to rest, or most_frames
+};
+
+/// The drag, and then frames with the handle held until no element moves by more than settled_step.
+Settled settle(const Task& task, Dragged& object) {
+  Settled result;
+  auto before = positions(task, object);
+  for (double largest = 1;
+       result.frames < most_frames && (result.frames <= frames_of_the_drag || largest > settled_step);
+       ++result.frames) {
+    const auto begin = Clock::now();
+    object.frame(task.target(std::min(1.0, double(result.frames + 1) / frames_of_the_drag)));
+    result.ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+    auto now = positions(task, object);
+    largest = 0;
+    for (std::size_t e = 0; e < now.size(); ++e) {
+      largest = std::max(largest, (now[e] - before[e]).norm());
+    }
+    before = std::move(now);
+  }
+  return result;
+}
+
+/// Displacements from rest beside those of the reference solution.
+struct Shape {
+  double follow = 0;    // mean over all elements of the displacement along the handle's, over the handle's
+  double relative = 0;  // RMS(u - reference) / RMS(reference)
+};
+
+Shape shape(const Task& task, const std::vector<Point>& positions, const std::vector<Point>& reference) {
+  double follow = 0, apart = 0, square = 0;
+  for (ElementId e = 0; e < positions.size(); ++e) {
+    const Point u = positions[e] - task.scene.mesh->rest_position(e);
+    follow += u.dot(task.displacement) / task.displacement.squaredNorm() / double(positions.size());
+    apart += (u - reference[e]).squaredNorm();
+    square += reference[e].squaredNorm();
+  }
+  return {follow, std::sqrt(apart / square)};
+}
+
+/// Where a neo-Hookean solid on the same cells comes to rest (displacements).
+std::vector<Point> reference_solution(const Task& task) {
+  ElasticProblem problem;
+  problem.mesh = task.scene.mesh;
+  problem.cuts = Cuts(task.scene.mesh);
+  problem.pins = task.pins;
+  problem.pinned.assign(task.pins.size() * 2, 0);
+  const auto solution = TruthSolver(problem).at(task.handle, task.target(1)).displacements;
+  std::vector<Point> all;
+  for (std::size_t i = 0; i < solution.size(); i += 2) {
+    all.emplace_back(solution[i], solution[i + 1], 0);
+  }
+  return all;
+}
+
+/// Each contestant by itself: what it keeps from frame to frame stays in the caches, as in its users' programs.
+void run_task(std::uint32_t side, Results& results) {
+  const Task task(side);
+  const auto reference = reference_solution(task);
+  for (const auto& [name, object] : contestants(task)) {
+    const Settled settled = settle(task, *object);
+    const Shape found = shape(task, positions(task, *object), reference);
+    const std::string place = "/vs_bullet/" + task.scene.name + "/" + name + "/";
+    results.add(place + "ms", median(settled.ms));
+    results.add(place + "frames", settled.frames);
+    results.add(place + "follow", found.follow);
+    results.add(place + "relative", found.relative);
+    std::printf(
+        "%-10s %-14s %8.3f ms per frame, settled after %4d frames, follow-through %5.1f %%, relative error %.3f\n",
+        task.scene.name.c_str(), name.c_str(), median(settled.ms), settled.frames, 100 * found.follow, found.relative);
     std::fflush(stdout);
   }
+  const Shape own = shape(
+      task,
+      [&] {
+        std::vector<Point> all;
+        for (ElementId e = 0; e < reference.size(); ++e) {
+          all.push_back(task.scene.mesh->rest_position(e) + reference[e]);
+        }
+        return all;
+      }(),
+      reference);
+  results.add("/vs_bullet/" + task.scene.name + "/reference/follow", own.follow);
 }
 
 }  // namespace
@@ -179,8 +259,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   chainmail::bench::Results results(argv[1]);
-  for (const char* mesh : {"cloth256", "cloth512", "block40"}) {
-    chainmail::bench::drag(mesh, results);
-  }
+  chainmail::bench::run_task(32, results);
+  chainmail::bench::run_task(64, results);
   results.write();
 }

@@ -1,6 +1,6 @@
 // The time of a pass, over all meshes and drags: bench_passes [FILTER…], where a filter is a part of
 // DRAG/MESH/ALGORITHM, as whole_body/grid1024 or local or /exact; a row is measured where all filters fit.
-// The floor (/floor) is what memory alone takes for a whole-body pass.
+// natural-queue-bytes-once and exact-bytes-once are what memory alone takes for a later whole-body pass.
 
 #include <algorithm>
 #include <optional>
@@ -25,9 +25,11 @@ int main(int argc, char** argv) {
           contest.push_back(dragged(*scene, algorithm, drag));
         }
       }
-      if (drag == Drag::whole_body && !unwanted(name(drag) + "/" + mesh + "/" + names::memory_floor)) {
-        scene = scene ? scene : Scene(mesh);
-        contest.push_back(streamed(*scene));
+      for (const std::string& bytes : {names::natural_queue_bytes, names::exact_bytes}) {
+        if (drag == Drag::whole_body && !unwanted(name(drag) + "/" + mesh + "/" + bytes)) {
+          scene = scene ? scene : Scene(mesh);
+          contest.push_back(streamed(*scene, bytes));
+        }
       }
       if (!contest.empty()) {
         run(contest);

@@ -1,9 +1,15 @@
 // What passes need beside time: memory of a scene as the window holds it, allocations, and what two panels on two
 // cores take from each other: bench_resources RESULTS.
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
 #include <barrier>
 #include <chrono>
 #include <cstdio>
+#include <functional>
+#include <stdexcept>
 #include <thread>
 
 #include "bench/contestants.h"
@@ -17,6 +23,28 @@ namespace {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
+
+/// What `measure` says in a copy of this process.
+double in_a_child(const std::function<double()>& measure) {
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) {
+    throw std::runtime_error("no pipe");
+  }
+  const pid_t child = fork();
+  if (child == 0) {
+    const double value = measure();
+    _exit(write(ends[1], &value, sizeof value) == ssize_t{sizeof value} ? 0 : 1);
+  }
+  double value = 0;
+  int status = 0;
+  const bool whole = read(ends[0], &value, sizeof value) == ssize_t{sizeof value};
+  close(ends[0]);
+  close(ends[1]);
+  if (waitpid(child, &status, 0) != child || status != 0 || !whole) {
+    throw std::runtime_error("a measurement of memory failed");
+  }
+  return value;
+}
 
 /// As the document has two of them: both deform the mesh, and both frames are looked at.
 double bytes_per_element() {
@@ -101,6 +129,14 @@ double two_panels() {
   return std::min(median(together[0]) / median(alone[0]), median(together[1]) / median(alone[1]));
 }
 
+/// What a mesh and a solver past its first passes have resident.
+double scene_bytes(const char* mesh) {
+  const double before = resident_bytes();
+  const Scene scene(mesh);
+  const Contestant one = dragged(scene, names::natural_queue, Drag::whole_body);
+  return resident_bytes() - before;
+}
+
 }  // namespace
 }  // namespace chainmail::bench
 
@@ -110,10 +146,14 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "bench_resources: name the file of results, as in: bench_resources build/bench.json\n");
     return 2;
   }
-  const double bytes = bytes_per_element();  // first, in a heap that nothing else has used
+  // In a process of its own each: a heap that nothing else has used.
+  const double bytes = in_a_child(bytes_per_element);
+  const double plane = in_a_child([] { return scene_bytes("grid1024"); });
+  const double space = in_a_child([] { return scene_bytes("grid1024_3d"); });
   Results results(argv[1]);
-  results.ratios()["bytes_per_element"] = bytes;
-  results.ratios()["allocations_per_pass"] = allocations_per_pass();
-  results.ratios()["two_panels"] = two_panels();
+  results.add("/bytes_per_element", bytes);
+  results.add("/plane/bytes", plane / space);
+  results.add("/allocations_per_pass", allocations_per_pass());
+  results.add("/two_panels", two_panels());
   results.write();
 }

@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "bench/contestants.h"
-#include "bench/layout.h"
 #include "bench/results.h"
 
 namespace chainmail::bench {
@@ -17,26 +16,28 @@ using names::without_replay;
 /// The time per moved element of one over that of another.
 double over(const Run& one, const Run& other) { return one.ns_per_moved() / other.ns_per_moved(); }
 
-void against_2004(Results& results) {
+/// The textbook version and the literal one of the thesis over the solver.
+void against_textbook(Results& results) {
   const Scene scene("grid64");
-  const auto runs = run({dragged(scene, natural_queue, Drag::whole_body), dragged_as_2004(scene)});
+  const auto runs =
+      run({dragged(scene, natural_queue, Drag::whole_body), dragged(scene, without_replay, Drag::whole_body),
+           dragged_by_textbook(scene), dragged_as_2004(scene)});
   results.add(runs);
-  results.ratios()["vs_2004"] = over(of(runs, names::of_2004), of(runs, natural_queue));
+  results.add("/vs_textbook", over(of(runs, names::textbook), of(runs, natural_queue)));
+  results.add("/vs_textbook_first", over(of(runs, names::textbook), of(runs, without_replay)));
+  results.add("/vs_2004", over(of(runs, names::of_2004), of(runs, natural_queue)));
 }
 
-/// Also gives Exact's ratio on these two meshes.
-double against_floor(Results& results) {
-  double largest = 0;
-  for (const char* mesh : {"grid1024", "block100"}) {
+/// Later passes over the time to touch their own bytes once.
+void against_memory(Results& results) {
+  for (const std::string mesh : {"grid1024", "block100"}) {
     const Scene scene(mesh);
-    const auto runs = run({streamed(scene), dragged(scene, natural_queue, Drag::whole_body),
-                           dragged(scene, without_replay, Drag::whole_body), dragged(scene, exact, Drag::whole_body),
-                           dragged(scene, names::exact_anew, Drag::whole_body)});
+    const auto runs = run({streamed(scene, names::natural_queue_bytes), streamed(scene, names::exact_bytes),
+                           dragged(scene, natural_queue, Drag::whole_body), dragged(scene, exact, Drag::whole_body)});
     results.add(runs);
-    results.ratios()["vs_floor"][mesh] = over(of(runs, natural_queue), of(runs, names::memory_floor));
-    largest = std::max(largest, over(of(runs, exact), of(runs, without_replay)));
+    results.add("/vs_floor/" + mesh, over(of(runs, natural_queue), of(runs, names::natural_queue_bytes)));
+    results.add("/vs_floor_exact/" + mesh, over(of(runs, exact), of(runs, names::exact_bytes)));
   }
-  return largest;
 }
 
 void growth(Results& results) {
@@ -50,21 +51,23 @@ void growth(Results& results) {
     const auto runs = run(contest);
     results.add(runs);
     const Run &much = of(runs, natural_queue, large.name), &little = of(runs, natural_queue, small.name);
-    results.ratios()["growth"][key] = drag == Drag::local ? much.ms / little.ms : over(much, little);
+    results.add(std::string("/growth/") + key, drag == Drag::local ? much.ms / little.ms : over(much, little));
   }
 }
 
-/// Exact over Natural Queue: the worst of these meshes.
-double exact_over(Results& results, Drag drag, const std::vector<std::string>& meshes) {
-  double largest = 0;
+/// Exact over Natural Queue, the worst of these meshes: first pass over first pass, later passes over later passes.
+void exact_over(Results& results, const std::string& key, Drag drag, const std::vector<std::string>& meshes) {
+  double first = 0, later = 0;
   for (const std::string& mesh : meshes) {
     const Scene scene(mesh);
-    const auto runs = run(
-        {dragged(scene, without_replay, drag), dragged(scene, exact, drag), dragged(scene, names::exact_anew, drag)});
+    const auto runs = run({dragged(scene, without_replay, drag), dragged(scene, names::exact_anew, drag),
+                           dragged(scene, natural_queue, drag), dragged(scene, exact, drag)});
     results.add(runs);
-    largest = std::max(largest, over(of(runs, exact), of(runs, without_replay)));
+    first = std::max(first, over(of(runs, names::exact_anew), of(runs, without_replay)));
+    later = std::max(later, over(of(runs, exact), of(runs, natural_queue)));
   }
-  return largest;
+  results.add("/exact_over_nq/first/" + key, first);
+  results.add("/exact_over_nq/later/" + key, later);
 }
 
 /// A scene in the plane beside the same one in space.
@@ -73,9 +76,19 @@ void plane(Results& results) {
   const auto runs =
       run({dragged(flat, natural_queue, Drag::whole_body), dragged(in_space, natural_queue, Drag::whole_body)});
   results.add(runs);
-  results.ratios()["plane"] = {
-      {"time", over(of(runs, natural_queue, flat.name), of(runs, natural_queue, in_space.name))},
-      {"bytes", double(state_bytes(*flat.mesh)) / double(state_bytes(*in_space.mesh))}};
+  results.add("/plane/time", over(of(runs, natural_queue, flat.name), of(runs, natural_queue, in_space.name)));
+}
+
+/// Drags as a user makes them, from rest each, with the default softness: every pass counts, the first included.
+void hand_like(Results& results) {
+  const Scene scene("grid1024");
+  for (const auto& [algorithm, key] : {std::pair(natural_queue, "natural_queue"), std::pair(exact, "exact")}) {
+    const HandLike times = hand_like_drags(scene, algorithm);
+    const std::string place = std::string("/hand_like/") + key;
+    results.add(place + "/ns_per_moved", times.ns_per_moved);
+    results.add(place + "/median_ms", times.median_ms);
+    results.add(place + "/worst_ms", times.worst_ms);
+  }
 }
 
 /// What stands in the table alone: local drags on the other meshes, and what Generalized takes.
@@ -90,15 +103,15 @@ void others(Results& results) {
 }
 
 void measure(Results& results) {
-  against_2004(results);
-  const double uniform = against_floor(results);
+  against_textbook(results);
+  against_memory(results);
   growth(results);
-  auto& exactly = results.ratios()["exact_over_nq"];
-  exactly["uniform"] = std::max(uniform, exact_over(results, Drag::whole_body, {"grid256"}));
-  exactly["jittered"] =
-      exact_over(results, Drag::whole_body, {"jittered_grid1024", "jittered_cloth512", "jittered_tetra60", "tetra60"});
-  exactly["mixed"] = exact_over(results, Drag::whole_body_mixed, {"grid1024", "jittered_tetra60"});
+  exact_over(results, "uniform", Drag::whole_body, {"grid256", "grid1024", "block100"});
+  exact_over(results, "jittered", Drag::whole_body,
+             {"jittered_grid1024", "jittered_cloth512", "jittered_tetra60", "tetra60"});
+  exact_over(results, "mixed", Drag::whole_body_mixed, {"grid1024", "jittered_tetra60"});
   plane(results);
+  hand_like(results);
   others(results);
 }
 

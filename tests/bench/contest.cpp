@@ -10,7 +10,8 @@
 namespace chainmail::bench {
 namespace {
 
-constexpr int repetitions = 7;
+// In a process; tests/run bench starts several.
+constexpr int repetitions = 3;
 
 /// Keeps the time of each repetition, by contestant (ms a pass).
 class Collector : public benchmark::BenchmarkReporter {
@@ -67,11 +68,6 @@ void say(const Run& one) {
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0 : values[values.size() / 2];
-}
 
 std::vector<Run> run(const std::vector<Contestant>& contest) {
   initialize();

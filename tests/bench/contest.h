@@ -3,7 +3,10 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "measure/time_spread.h"
 
 namespace chainmail::bench {
 
@@ -20,7 +23,7 @@ struct Run {
   std::string drag, mesh, algorithm;
   std::uint64_t elements = 0;
   double moved = 0;  // elements, a pass
-  double ms = 0;     // a pass; median over the repetitions
+  double ms = 0;     // a pass; median over the repetitions of this process
 
   double ns_per_moved() const { return moved > 0 ? 1e6 * ms / moved : 0; }
 };
@@ -33,6 +36,6 @@ std::vector<Run> run(const std::vector<Contestant>& contest);
 /// Of these, the run of one algorithm, on one mesh where it ran on several.
 const Run& of(const std::vector<Run>& runs, const std::string& algorithm, const std::string& mesh = {});
 
-double median(std::vector<double> values);
+inline double median(std::vector<double> values) { return spread_of(std::move(values)).median; }
 
 }  // namespace chainmail::bench

@@ -3,12 +3,15 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
 
 #include "bench/layout.h"
+#include "bench/textbook.h"
 #include "reference/chainmail.h"
+#include "report/hand.h"
 
 namespace chainmail::bench {
 namespace {
@@ -51,6 +54,43 @@ void check_whole(std::uint64_t moved, const Mesh& mesh) {
   }
 }
 
+/// Moves a solver and the textbook version through the same drag.
+void check_textbook(const MeshPointer& mesh, Textbook<float, 2>& textbook) {
+  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
+  solver->set_softness({stiff, {}});
+  const Hand path = hand(Drag::whole_body, *mesh);
+  for (const Point& target : path.targets) {
+    solver->move(path.element, target);
+    textbook.move(path.element, target);
+  }
+  std::vector<float> positions(std::size_t{mesh->element_count()} * 2);
+  solver->copy_positions(positions);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (positions[i] != textbook.positions()[i / 2][i % 2]) {
+      throw std::logic_error("the textbook version and the solver disagree at element " + std::to_string(i / 2));
+    }
+  }
+}
+
+struct Copy {
+  explicit Copy(const PassBytes& bytes)
+      : updated(bytes.updated / 4, 1), read(bytes.read / 4, 1), written(bytes.written / 4, 1) {}
+
+  void touch(std::uint32_t pass) {
+    for (std::uint32_t& word : updated) {
+      ++word;
+    }
+    auto sum = std::accumulate(read.begin(), read.end(), std::uint32_t{0});
+    benchmark::DoNotOptimize(sum);
+    std::fill(written.begin(), written.end(), pass);
+    benchmark::DoNotOptimize(written.data());
+    benchmark::DoNotOptimize(updated.data());
+    benchmark::ClobberMemory();
+  }
+
+  std::vector<std::uint32_t> updated, read, written;
+};
+
 }  // namespace
 
 Contestant dragged(const Scene& scene, const std::string& algorithm, Drag drag) {
@@ -90,28 +130,47 @@ Contestant dragged_as_2004(const Scene& scene) {
   return {name(Drag::whole_body), scene.name, names::of_2004, scene.mesh->element_count(), 1, pass};
 }
 
-Contestant streamed(const Scene& scene) {
-  struct Copy {
-    std::vector<std::uint32_t> state, table;
+Contestant dragged_by_textbook(const Scene& scene) {
+  const auto object = std::make_shared<Textbook<float, 2>>(scene.mesh, stiff);
+  check_textbook(scene.mesh, *object);
+  const auto round = std::make_shared<Round>(Round{hand(Drag::whole_body, *scene.mesh)});
+  const auto pass = [object, round, mesh = scene.mesh] {
+    const std::uint64_t moved = object->move(round->hand.element, round->step());
+    check_whole(moved, *mesh);
+    return moved;
   };
-  const PassBytes bytes = pass_bytes(*scene.mesh);
-  const std::size_t held = state_bytes(*scene.mesh) + bytes.table;
-  const auto copies = std::make_shared<std::vector<Copy>>(
-      held / (bytes.state + bytes.table) + 1,
-      Copy{std::vector<std::uint32_t>(bytes.state / 4, 1), std::vector<std::uint32_t>(bytes.table / 4, 1)});
+  const std::uint64_t elements = scene.mesh->element_count();
+  return {name(Drag::whole_body), scene.name, names::textbook, elements, passes(Drag::whole_body, elements), pass};
+}
+
+Contestant streamed(const Scene& scene, const std::string& algorithm) {
+  const PassBytes bytes = algorithm == names::exact_bytes ? exact_bytes(*scene.mesh) : replay_bytes(*scene.mesh);
+  const auto copies = std::make_shared<std::vector<Copy>>(held_bytes(*scene.mesh) / bytes.all() + 1, Copy(bytes));
   const std::uint64_t elements = scene.mesh->element_count();
   const auto pass = [copies, elements, next = std::size_t{0}]() mutable {
-    Copy& copy = (*copies)[next++ % copies->size()];
-    for (std::uint32_t& word : copy.state) {
-      ++word;
-    }
-    benchmark::DoNotOptimize(copy.state.data());
-    benchmark::ClobberMemory();
-    auto sum = std::accumulate(copy.table.begin(), copy.table.end(), std::uint32_t{0});
-    benchmark::DoNotOptimize(sum);
+    (*copies)[next % copies->size()].touch(std::uint32_t(next));
+    ++next;
     return elements - 1;
   };
-  return {name(Drag::whole_body), scene.name, names::memory_floor, elements, passes(Drag::whole_body, elements), pass};
+  return {name(Drag::whole_body), scene.name, algorithm, elements, passes(Drag::whole_body, elements), pass};
+}
+
+HandLike hand_like_drags(const Scene& scene, const std::string& algorithm) {
+  using Clock = std::chrono::steady_clock;
+  const std::unique_ptr<Solver> solver = make(scene.mesh, algorithm);
+  std::vector<double> ms;
+  double sum = 0;
+  std::uint64_t moved = 0;
+  for (const report::HandDrag& drag : report::hand_drags(*scene.mesh, 2004, 6, 60)) {
+    solver->reset();
+    for (const Point& target : drag.targets) {
+      const auto begin = Clock::now();
+      moved += solver->move(drag.element, target).moved;
+      ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+      sum += ms.back();
+    }
+  }
+  return {1e6 * sum / double(moved), median(ms), *std::max_element(ms.begin(), ms.end())};
 }
 
 }  // namespace chainmail::bench

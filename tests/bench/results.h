@@ -8,20 +8,30 @@
 
 namespace chainmail::bench {
 
-/// build/bench.json, to which each program of tests/run bench adds its part:
-/// {"machine": …, "runs": [{"name", "mesh", "algorithm", "elements", "moved", "ms", "ns_per_moved"}], "ratios": {…}}.
+/// build/bench.json, to which each program of tests/run bench adds its part. Each program runs several times, and each
+/// run adds its values to the earlier ones:
+///
+///     {"machine": …,
+///      "runs": [{"name", "mesh", "algorithm", "elements", "moved", "ms", "ms_quartiles", "ns_per_moved"}],
+///      "ratios": {…}, "quartiles": {"/KEY/OF/A/RATIO": [lower, upper]}, "samples": {…}}
+///
+/// `ms`, `ns_per_moved` and the numbers in `ratios` are medians over the runs.
 class Results {
  public:
-  /// With what other programs wrote there before.
+  /// With what other programs, and earlier runs, wrote there before.
   explicit Results(std::string path);
 
-  /// Each run, named after its drag; the same one again takes the place of the first.
+  /// Each timing, named after its drag.
   void add(const std::vector<Run>& runs);
-  nlohmann::json& ratios() { return all_["ratios"]; }
+  /// A figure of this run; `place` is a JSON pointer into "ratios".
+  void add(const std::string& place, double value);
   const nlohmann::json& all() const { return all_; }
   void write() const;
 
  private:
+  /// Adds a value to the samples of `key`; returns how all of them spread.
+  TimeSpread sample(const std::string& key, double value);
+
   std::string path_;
   nlohmann::json all_;
 };

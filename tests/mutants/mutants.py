@@ -1,0 +1,314 @@
+#!/usr/bin/env python3
+"""Puts random single-line faults ("mutants") into copies of the source and reports which of them the tests catch.
+
+Started by `tests/run mutants`, after the release build with its tests, whose compile database and dependency log say
+what belongs together. Each worker has a copy of the source. It changes one line there, builds and runs the related
+tests one after another, and stops at the first that fails. A mutant that does not compile is replaced by another one.
+
+Related tests are those that include the header of the changed file, the most specific first, and then all tests of
+its room. A test counts as failing only if it fails twice.
+"""
+
+import argparse
+import collections
+import concurrent.futures
+import os
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+import threading
+import time
+
+# Where faults are put: the rooms, and the folders of tests that are run for them.
+ROOMS = {
+    "core/mesh": ["core", "files"],
+    "core/elastic": ["core"],
+    "core/solve": ["core", "hard"],
+    "core/measure": ["core"],
+    "core/simulate": ["core"],
+    "core/report": ["core", "cli"],
+    "core/calibrate": ["core", "cli"],
+    "core/files": ["files", "cli"],
+    "app": ["cli"],
+    "ui": ["ui"],
+}
+
+# Each operator: its name, a pattern, and what takes its place. Binary operators stand between spaces in this source,
+# which keeps templates and pointers out.
+SWAPS = [
+    ("comparison", r" < ", " <= "), ("comparison", r" <= ", " < "),
+    ("comparison", r" > ", " >= "), ("comparison", r" >= ", " > "),
+    ("equality", r" == ", " != "), ("equality", r" != ", " == "),
+    ("arithmetic", r" \+ ", " - "), ("arithmetic", r" - ", " + "),
+    ("arithmetic", r" \* ", " / "), ("arithmetic", r" / ", " * "),
+    ("assignment", r" \+= ", " -= "), ("assignment", r" -= ", " += "),
+    ("logic", r" && ", " || "), ("logic", r" \|\| ", " && "),
+    ("boolean", r"\btrue\b", "false"), ("boolean", r"\bfalse\b", "true"),
+    ("bound", r"\bmin\(", "max("), ("bound", r"\bmax\(", "min("),
+    ("step", r"\+\+", "--"), ("negation", r"\bif \((?=[^;]*\) \{$)", "if (!"),
+]
+NUMBER = re.compile(r"(?<![\w.'])(\d+)(?![\w.'>])")
+REAL = re.compile(r"(?<![\w.'])(\d+\.\d+)(?![\w.'])")
+# Its value is a choice: a time to wait, a size on the screen. One more or less of it is not wrong.
+NAMED_CONSTANT = re.compile(r"^\s*(static |inline )*constexpr \w[\w:<>, ]* \w+ = [^;]*;")
+STATEMENT = re.compile(r"^\s+[\w.>\-\[\]]+(\(.*\)| [+\-*/]?= .*);$")
+# Lines without behaviour that a test could see: declarations, checks of the compiler, hints to memory, layout.
+PASSED_OVER = re.compile(
+    r"^\s*(#|//|using |namespace |template |static_assert|assert\(|friend |class |struct |enum |case .*:$|\}|public:|private:)"
+    r"|reserve\(|prefetch|shrink_to_fit|setSpacing|setContentsMargins|Margin|static_cast<void>|NOLINT|operator")
+
+Mutant = collections.namedtuple("Mutant", "path line operator before after")
+
+
+def code_only(line):
+    """The line with strings, characters and comments blanked out, so that places stay the same."""
+    blank = lambda match: " " * len(match.group())
+    line = re.sub(r'"(\\.|[^"\\])*"|(?<!\d)\'(\\.|[^\'\\])\'', lambda m: '"' + "_" * (len(m.group()) - 2) + '"', line)
+    return re.sub(r"//.*", blank, line)
+
+
+def mutants_of(path, number, line):
+    """All faults that the operators can put into one line."""
+    code = code_only(line)
+    if PASSED_OVER.search(code):
+        return []
+    found = []
+
+    def add(operator, start, end, text):
+        found.append(Mutant(path, number, operator, line, line[:start] + text + line[end:]))
+
+    for operator, pattern, text in SWAPS:
+        if operator == "arithmetic" and '"' in code:
+            continue  # strings are joined there
+        for match in re.finditer(pattern, code):
+            if operator == "negation":
+                add(operator, match.start(), len(line), "if (!(" + line[match.end():-3] + ")) {")
+            else:
+                add(operator, match.start(), match.end(), text)
+    if not NAMED_CONSTANT.match(code):
+        for match in NUMBER.finditer(code):
+            add("number", match.start(), match.end(), str(int(match.group()) + 1))
+        for match in REAL.finditer(code):
+            add("number", match.start(), match.end(), str(2 * float(match.group()) or 1.0))
+    if STATEMENT.match(code) and not line.lstrip().startswith(("return", "throw")):
+        found.append(Mutant(path, number, "statement", line, ""))
+    return found
+
+
+def tracked_files(root):
+    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=root, check=True,
+                            capture_output=True, text=True)
+    return [name for name in listed.stdout.split("\0") if name and (root / name).is_file()]
+
+
+def room_of(path):
+    return next((room for room in ROOMS if path.startswith(room + "/")), None)
+
+
+def is_candidate(path, wanted):
+    # Templates live in the headers of core/solve; other headers declare.
+    is_source = path.endswith(".cpp") or (path.endswith(".h") and path.startswith("core/solve/"))
+    return is_source and room_of(path) and any(path == w or path.startswith(w.rstrip("/") + "/") for w in wanted)
+
+
+def draw(root, wanted, generator):
+    """Endless mutants: a random line among all that have any, then a random fault in it. No line comes twice."""
+    lines = []
+    for path in sorted(filter(lambda p: is_candidate(p, wanted), tracked_files(root))):
+        for number, line in enumerate((root / path).read_text().split("\n")):
+            if found := mutants_of(path, number, line):
+                lines.append(found)
+    generator.shuffle(lines)
+    for found in lines:
+        yield generator.choice(found)
+
+
+class Tests:
+    """Which tests exist, what each includes, and how long it takes, from the release build."""
+
+    def __init__(self, root):
+        build = root / "build/release"
+        self.includes = {}  # of each test: the project's files that its own sources include
+        self.folder = {}
+        deps = subprocess.run(["ninja", "-C", build, "-t", "deps"], check=True, capture_output=True, text=True).stdout
+        name = None
+        for line in deps.splitlines():
+            if match := re.match(r"tests/(\w+)/CMakeFiles/test_(\w+)\.dir/.*: #deps", line):
+                name = match.group(2)
+                self.folder[name] = match.group(1)
+                self.includes.setdefault(name, set())
+            elif not line.startswith(" "):
+                name = None
+            elif name:
+                path = os.path.relpath(os.path.normpath(build / line.strip()), root)
+                if not path.startswith((".", "build/")):
+                    self.includes[name].add(path)
+        known = subprocess.run(["ctest", "--test-dir", build, "-N"], capture_output=True, text=True).stdout
+        known = set(re.findall(r"Test +#\d+: (\S+)", known))
+        self.includes = {name: files for name, files in self.includes.items() if name in known}
+        self.seconds = collections.defaultdict(lambda: 5.0)
+        costs = build / "Testing/Temporary/CTestCostData.txt"
+        for line in costs.read_text().splitlines() if costs.exists() else []:
+            if match := re.match(r"(\S+) (\d+) ([\d.]+)$", line):
+                if int(match.group(2)):
+                    self.seconds[match.group(1)] = float(match.group(3))
+
+    def related(self, path):
+        """The tests for a file: those that include its header, then those of its room; specific and quick ones first."""
+        header = re.sub(r"\.cpp$", ".h", path)
+        words = set(re.findall(r"[a-z]+", pathlib.Path(path).stem))
+        folders = ROOMS[room_of(path)]
+
+        def key(name):
+            includes = header in self.includes[name]
+            alike = len(words & set(name.replace("window_", "").split("_")))
+            return (-alike, not includes, self.seconds[name] * (1 + len(self.includes[name]) / 100))
+
+        return sorted((n for n in self.includes if self.folder[n] in folders
+                       or (header in self.includes[n] and self.folder[n] not in ("ui", "hard"))), key=key)
+
+
+class Worker:
+    """A copy of the source with a build of its own."""
+
+    def __init__(self, root, number, tests):
+        self.root, self.tests = root, tests
+        self.copy = root / f"build/mutants/{number}"
+        self.home = root / f"build/mutants/home{number}"
+        self.home.mkdir(parents=True, exist_ok=True)
+        self.home.chmod(0o700)
+        self.environment = dict(os.environ, CCACHE_BASEDIR=str(self.copy), HOME=str(self.home),
+                                XDG_RUNTIME_DIR=str(self.home), CCACHE_DIR=os.environ["CCACHE_DIR"])
+        self.update()
+        options = ["-DCHAINMAIL_TESTS=ON", "-DCMAKE_COMPILE_WARNING_AS_ERROR=OFF"]
+        self.run(["cmake", "--preset", "release", *options], check=True)
+
+    def update(self):
+        """Brings the copy up to date; files that are the same keep their time, so that nothing is built anew."""
+        files = set(tracked_files(self.root))
+        for name in files:
+            source, target = self.root / name, self.copy / name
+            if not target.exists() or target.read_bytes() != source.read_bytes():
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(source, target)
+        for old in self.copy.rglob("*"):
+            name = str(old.relative_to(self.copy))
+            if old.is_file() and not name.startswith("build/") and name not in files:
+                old.unlink()
+
+    def run(self, command, check=False, seconds=900):
+        limited = ["prlimit", f"--as={16 << 30}", f"--core=0", "--", *map(str, command)]
+        process = subprocess.Popen(limited, cwd=self.copy, env=self.environment, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+        try:
+            output, _ = process.communicate(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, 9)
+            output, _ = process.communicate()
+        if check and process.returncode != 0:
+            sys.exit(f"mutants: {' '.join(map(str, command))} failed:\n{output[-2000:]}")
+        return process.returncode, output
+
+    def build(self, test):
+        return self.run(["cmake", "--build", "build/release", "--target", f"test_{test}", "--", "-j1"])[0] == 0
+
+    def fails(self, test):
+        limit = max(30, 5 * self.tests.seconds[test])
+        command = ["ctest", "--test-dir", "build/release", "-R", f"^{test}$", "--timeout", int(limit)]
+        return all(self.run(command, seconds=limit + 30)[0] != 0 for _ in range(2))
+
+    def examine(self, mutant):
+        """The name of the test that catches a mutant, '' if none does, None if it does not compile."""
+        file = self.copy / mutant.path
+        original = file.read_text()
+        lines = original.split("\n")
+        lines[mutant.line] = mutant.after
+        file.write_text("\n".join(lines))
+        try:
+            for i, test in enumerate(self.tests.related(mutant.path)):
+                if not self.build(test):
+                    if i == 0:
+                        return None
+                    continue
+                if self.fails(test):
+                    return test
+            return ""
+        finally:
+            file.write_text(original)
+
+
+def describe(mutant, caught):
+    what = f"{mutant.before.strip()}  →  {mutant.after.strip() or '(removed)'}"
+    return f"{'caught by ' + caught if caught else 'SURVIVED':32} {mutant.path}:{mutant.line + 1} [{mutant.operator}] {what}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("root", type=pathlib.Path)
+    parser.add_argument("--count", type=int, default=20)
+    parser.add_argument("--room", default="all", help="all, or a folder or file under " + ", ".join(ROOMS))
+    parser.add_argument("--seed", type=int)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--at-least", type=float, default=0, help="the share to be caught, or the exit status is 1")
+    options = parser.parse_args()
+    root = options.root.resolve()
+    wanted = list(ROOMS) if options.room == "all" else [options.room]
+    seed = random.SystemRandom().randrange(1_000_000) if options.seed is None else options.seed
+    candidates = draw(root, wanted, random.Random(seed))
+    if not any(is_candidate(path, wanted) for path in tracked_files(root)):
+        sys.exit(f"mutants: {options.room} holds no sources; name a folder or file under {', '.join(ROOMS)}")
+    print(f"mutants: {options.count} in {options.room}, seed {seed}", flush=True)
+
+    os.environ.setdefault("CCACHE_DIR", subprocess.run(["ccache", "-k", "cache_dir"], capture_output=True,
+                                                       text=True).stdout.strip())
+    tests = Tests(root)
+    workers = [Worker(root, i, tests) for i in range(min(options.jobs, options.count))]
+    lock, results, uncompiled, started = threading.Lock(), [], [0], time.time()
+
+    def work(worker):
+        while True:
+            with lock:
+                if len(results) >= options.count:
+                    return
+                mutant = next(candidates, None)
+            if mutant is None:
+                return
+            caught = worker.examine(mutant)
+            with lock:
+                if caught is None:
+                    uncompiled[0] += 1
+                elif len(results) < options.count:
+                    results.append((mutant, caught))
+                    print(f"{len(results):4} {describe(mutant, caught)}", flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(len(workers)) as pool:
+        for done in [pool.submit(work, worker) for worker in workers]:
+            done.result()
+
+    report(results, uncompiled[0], seed, time.time() - started)
+    caught = sum(1 for _, test in results if test)
+    sys.exit(0 if results and caught >= options.at_least * len(results) else 1)
+
+
+def report(results, uncompiled, seed, seconds):
+    per_room = collections.defaultdict(lambda: [0, 0])
+    for mutant, caught in results:
+        per_room[room_of(mutant.path)][0 if caught else 1] += 1
+    print(f"\n{'room':16} mutants  caught")
+    for room, (caught, survived) in sorted(per_room.items()):
+        print(f"{room:16} {caught + survived:7} {caught:7}")
+    caught = sum(1 for _, test in results if test)
+    share = 100 * caught / max(1, len(results))
+    print(f"{'all':16} {len(results):7} {caught:7}  ({share:.0f} %), seed {seed}, {uncompiled} did not compile, {seconds:.0f} s")
+    survivors = [one for one in results if not one[1]]
+    if survivors:
+        print("\nNo test caught:")
+        for mutant, _ in survivors:
+            print("  " + describe(mutant, "").removeprefix("SURVIVED").strip())
+
+
+if __name__ == "__main__":
+    main()
