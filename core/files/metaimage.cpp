@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "files/data_file.h"
 #include "files/number_type.h"
 #include "files/text.h"
 #include "mesh/error.h"
@@ -97,14 +98,15 @@ Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, c
   return volume;
 }
 
-Volume read_metaimage(const std::filesystem::path& path, const Progress& progress) {
+Volume read_metaimage(const std::filesystem::path& path, bool outside, const Progress& progress) {
   const std::string file = read_bytes(path, "a volume", progress.part(0, 0.2));
   const MetaImageHead head = read_metaimage_head(file, path);
   if (head.data_file == "LOCAL") {
     return metaimage_volume(head, std::span(file).subspan(head.length), path, progress.part(0.2, 1));
   }
-  const auto data = path.parent_path() / head.data_file;
-  return metaimage_volume(head, read_bytes(data, "voxels"), data, progress.part(0.2, 1));
+  const auto data = data_file(path, head.data_file, outside);
+  const std::string bytes = read_bytes(data, "voxels", progress.part(0, 0.2));
+  return metaimage_volume(head, bytes, data, progress.part(0.2, 1));
 }
 
 }  // namespace chainmail

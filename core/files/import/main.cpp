@@ -11,6 +11,7 @@
 #include <new>
 
 #include "files/import/channels.h"
+#include "files/import/sandbox.h"
 #include "files/import/tasks.h"
 #include "mesh/error.h"
 
@@ -31,6 +32,12 @@ void set_limits(const char* bytes, const char* seconds) {
 #else
   static_cast<void>(bytes);
 #endif
+}
+
+/// Closes what the parent has open and did not mean to give.
+void close_others() {
+  close_range(STDERR_FILENO + 1, result_channel - 1, 0);
+  close_range(last_input + 1, ~0U, 0);
 }
 
 void report_share(double share) {
@@ -62,8 +69,13 @@ const std::map<std::string, Task>& tasks() {
   return all;
 }
 
+/// Closes the sandbox before a library sees the file.
 Imported carry_out(const std::string& task, const std::filesystem::path& path,
                    const std::vector<std::string>& arguments) {
+  if (!enter_sandbox()) {
+    return Refusal{"this system cannot confine the program that reads this format (seccomp is missing)",
+                   "use a kernel that has it, or another format"};
+  }
   try {
     return tasks().at(task)(path, arguments);
   } catch (const Error& error) {
@@ -91,6 +103,7 @@ int main(int count, char** words) {
     std::fputs("chainmail-import: it is started by chainmail and workbench, which read meshes through it\n", stderr);
     return 2;
   }
+  close_others();
   set_limits(words[1], words[2]);
   try {
     const auto imported = carry_out(words[3], words[4], {words + 5, words + count});
