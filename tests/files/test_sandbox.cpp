@@ -98,7 +98,11 @@ SandboxTest::Result SandboxTest::result_of(Attempt attempt, bool in_sandbox) con
     if (chdir(qPrintable(folder_->path())) != 0 || (in_sandbox && !chainmail::import::enter_sandbox())) {
       _exit(no_sandbox);
     }
-    _exit(attempt() ? succeeded : failed);
+    try {
+      _exit(attempt() ? succeeded : failed);
+    } catch (...) {
+      _exit(died);  // and not on into the copy of this test
+    }
   }
   int status = 0;
   waitpid(process, &status, 0);

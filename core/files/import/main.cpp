@@ -23,6 +23,15 @@ void limit(int resource, rlim_t to) {
   setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 
+/// Gmsh recurses deeply and does this itself, but not in the sandbox.
+void use_all_of_the_stack() {
+  rlimit stack{};
+  if (getrlimit(RLIMIT_STACK, &stack) == 0) {
+    stack.rlim_cur = stack.rlim_max;
+    setrlimit(RLIMIT_STACK, &stack);
+  }
+}
+
 void set_limits(const char* bytes, const char* seconds) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // who asked is gone: so is the reason
   limit(RLIMIT_CORE, 0);
@@ -105,6 +114,7 @@ int main(int count, char** words) {
   }
   close_others();
   set_limits(words[1], words[2]);
+  use_all_of_the_stack();
   try {
     const auto imported = carry_out(words[3], words[4], {words + 5, words + count});
     // Without the libraries' own clearing up: what they have read may be damaged.
