@@ -28,7 +28,7 @@ fs::path data_file(const fs::path& header, const std::string& name, bool outside
   if (name.empty()) {
     throw Error(shown(header), "it names no file of data", "export it anew");
   }
-  const fs::path path = header.parent_path() / name;
+  fs::path path = header.parent_path() / name;
   if (outside) {
     return path;
   }
