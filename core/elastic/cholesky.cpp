@@ -124,9 +124,10 @@ Eigen::MatrixXd Cholesky::front_of(const Supernode& supernode, const Sparse& low
   return front;
 }
 
-bool Cholesky::factor(const Sparse& lower) {
+bool Cholesky::factor(const Sparse& lower, const Progress& progress) {
   std::vector<Eigen::MatrixXd> updates(supernodes_.size());
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    progress.report(double(s) / double(supernodes_.size()));
     const Supernode& one = supernodes_[s];
     Eigen::MatrixXd front = front_of(one, lower, updates);
     const Eigen::Index below = one.height() - one.width;

@@ -30,7 +30,7 @@ class LinearFem final : public LinearResponse {
     progress.report(0.2);
     if (unknowns_.count() > 0) {
       factor_.analyze(stiffness.matrix());
-      if (!factor_.factor(stiffness.matrix())) {
+      if (!factor_.factor(stiffness.matrix(), progress.part(0.3, 1))) {
         throw Error("linear FEM",
                     "the stiffness is not positive: cells are too thin, or Poisson's ratio too close to 0.5",
                     "mesh the object anew, or lower Poisson's ratio");
