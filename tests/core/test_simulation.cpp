@@ -226,12 +226,11 @@ void SimulationTest::sweeps_of_a_large_mesh_are_those_of_its_solver() {
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
   drag_by(simulation, 0, Point(-90, -70, 0));
   solver->move(0, mesh->rest_position(0) + Point(-90, -70, 0));
-  solver->wake(std::vector<ElementId>{0});
-  solver->wake(solver->moved());
+  carry_out(simulation, commands::SetRelaxation{true, 0.5, RelaxationScheme::mean});  // wakes all
+  solver->wake_all();
   simulation.relax(3, 0.5);
   for (int i = 0; i < 3; ++i) {
-    const auto visited = solver->relax(0.5, std::numeric_limits<std::uint64_t>::max(), 0).visited;
-    QVERIFY2(visited > 20'000, qPrintable(QString::number(visited)));  // more than a slice
+    solver->relax(0.5, std::numeric_limits<std::uint64_t>::max(), 0);
   }
   QVERIFY(same_bits(positions_of(simulation), positions_of(*solver, *mesh)));
 }
