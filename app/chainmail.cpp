@@ -1,3 +1,4 @@
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -21,6 +22,7 @@ ExitCode complain(std::string_view message, ExitCode code) {
 
 int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit (ulimit -f) fails to be written, as on a full disk
   try {
     chainmail::command_line::run(argc, argv);
     return done;

@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <string_view>
 
@@ -40,6 +41,7 @@ void describe(QCommandLineParser& parser) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit (ulimit -f) fails to be written, as on a full disk
   if (!hasDisplay(argc, argv)) {
     return fail(
         QStringLiteral("there is no display; start it in a desktop session, or use the command line program "

@@ -83,21 +83,24 @@ void Autosave::endWriting() {
 }
 
 void Autosave::keep() {
+  timer_.stop();
+  window_.document().disconnect(this);
+  window_.document().undoStack().disconnect(this);
   if (!window_.document().isModified()) {
     return;
   }
   endWriting();
-  try {
-    JobState job;
-    const Progress progress(job);
-    save_session(asPath(path_), SessionDraft(window_.document(), lookOf(window_)).finished(progress), progress);
-  } catch (const std::exception&) {
-    // Nobody is there to be told: what was on the disk before is kept instead.
-  }
-  if (QFile::exists(path_)) {
-    QFile::rename(path_, path_.chopped(qsizetype(session_ending.size())) + closedEnding);
-    dropOldest();
-  }
+  thread_ = std::jthread([path = path_, draft = SessionDraft(window_.document(), lookOf(window_))] {
+    try {
+      save_session(asPath(path), draft.finished({}), {});
+    } catch (const std::exception&) {
+      // Nobody is there to be told: what was on the disk before is kept instead.
+    }
+    if (QFile::exists(path)) {
+      QFile::rename(path, path.chopped(qsizetype(session_ending.size())) + closedEnding);
+      dropOldest();
+    }
+  });
 }
 
 void Autosave::listen() {

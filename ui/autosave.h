@@ -29,7 +29,8 @@ class Autosave : public QObject {
   /// Nothing is left behind but what was kept.
   ~Autosave() override;
 
-  /// To be called when the window is closed: nobody is asked, since what is unsaved is there at the next start.
+  /// To be called when the window is closed: nobody is asked, since what is unsaved is there at the next start. A large
+  /// object is written after the window has gone; the destructor waits for it. Later changes are not kept.
   void keep();
 
   /// Takes a file over that another program left; it is this window's work now.

@@ -1,5 +1,7 @@
 #include "document.h"
 
+#include <QDeadlineTimer>
+#include <QThread>
 #include <algorithm>
 
 #include "edits.h"
@@ -34,8 +36,19 @@ Document::Document(MeshPointer mesh, const QString& name)
 }
 
 Document::~Document() {
+  abandonMoves();                 // of all before the first is waited for
   undoStack_.blockSignals(true);  // who listened is half gone
   undoStack_.clear();
+}
+
+void Document::abandonMoves(std::chrono::milliseconds patience) {
+  log_->flush();
+  for (const QDeadlineTimer end(patience); !idle() && !end.hasExpired();) {
+    QThread::msleep(1);
+  }
+  for (const auto& solver : solvers_) {
+    solver->abandon();
+  }
 }
 
 bool Document::idle() const {
@@ -152,11 +165,13 @@ void Document::push(QUndoCommand* edit) {
 
 void Document::undo() {
   endDrag();
+  cutSweeps();
   undoStack_.undo();
 }
 
 void Document::redo() {
   endDrag();
+  cutSweeps();
   undoStack_.redo();
 }
 
@@ -182,7 +197,10 @@ void Document::cut(const std::vector<LinkId>& links) {
   }
 }
 
-void Document::resetObject() { push(new ResetEdit(*this)); }
+void Document::resetObject() {
+  cutSweeps();
+  push(new ResetEdit(*this));
+}
 
 void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text,
                            std::map<LinkId, LinkSoftness> own) {

@@ -5,6 +5,7 @@
 #include <QUndoStack>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <memory>
 #include <optional>
@@ -80,13 +81,17 @@ class Document : public QObject {
   std::unique_ptr<RecordedPass> lastPass(int panel, std::uint64_t seen) const {
     return solvers_[panel]->last_pass(seen);
   }
-  /// Where the elements of a panel will stand when its solver has done all that was asked so far.
+  /// Calls `question` on the thread of a panel's solver when that has done all that was asked so far; it must not wait.
+  void ask(int panel, SolverThread::Question question);
+  /// The positions of a panel's elements when its solver has done all that was asked so far.
   std::future<Placement> placement(int panel);
   /// The file of the session that this is; empty where it is none yet.
   const QString& sessionFile() const { return sessionFile_; }
   void setSessionFile(const QString& file);
   /// Whether something was done since it was last opened or saved.
   bool isModified() const { return !undoStack_.isClean() || hand_.has_value(); }
+  /// The window closes: moves that are not done after some time are given up, and the object stays as it is.
+  void abandonMoves(std::chrono::milliseconds patience = {});
   /// Whether all solvers have carried out all that was asked of them.
   bool idle() const;
   /// Whether, beside, the frames show what came of it. Not so while relaxation goes on.
@@ -116,7 +121,7 @@ class Document : public QObject {
   /// row.
   void goTo(std::size_t position);
   /// Other moves, of this mesh: the object goes to rest, whole, and they lie ahead. One step of undo.
-  void loadMoves(const std::vector<Command>& moves, const QString& text);
+  void loadMoves(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text);
 
   /// Edits, each one step of undo. Changes of one gesture (not 0) become one step.
   void setSoftness(const LinkSoftness& global, const QString& text, int gesture = 0);
@@ -200,6 +205,7 @@ class Document : public QObject {
   void runAlgorithms(const std::vector<Algorithm>& algorithms);
   void followFallback();
 
+  void cutSweeps();
   void travel(std::size_t position);
   void goToBeginning();
   void keepOnTheWay(std::size_t position);

@@ -35,19 +35,34 @@ void Document::noteRelaxation() {
   emit tapeChanged();
 }
 
+/// Sweeps of relaxation may go on for hours: nobody waits for them to bring the object elsewhere. What they would have
+/// done is missing from the states that are kept on the way.
+void Document::cutSweeps() {
+  if (idle()) {
+    return;
+  }
+  for (const auto& solver : solvers_) {
+    solver->cut_sweeps();
+  }
+  dropKeptOnTheWay();
+  replayed_ = false;
+}
+
 void Document::goTo(std::size_t position) {
   noteRelaxation();
   position = std::min(position, tape().length());
   if (position != tape().position()) {
+    cutSweeps();
     push(new TravelEdit(*this, QStringLiteral("replay"), travelGesture, [this, position] { travel(position); }));
     emit tapeChanged();
   }
 }
 
-void Document::loadMoves(const std::vector<Command>& moves, const QString& text) {
+void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text) {
+  cutSweeps();
   push(new TravelEdit(*this, text, 0, [this, moves] {
     goToBeginning();
-    log_->tape().load(moves);
+    log_->tape().load(*moves);
     replayed_ = true;
   }));
   emit tapeChanged();

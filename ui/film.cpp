@@ -12,7 +12,7 @@ namespace chainmail {
 namespace {
 
 constexpr int waitMilliseconds = 4;
-constexpr int mostWaiting = 4;                   // pictures not yet encoded
+constexpr int mostWaiting = 4;                   // pictures that are not encoded yet
 constexpr qint64 mostUnsent = 64 * 1024 * 1024;  // bytes that ffmpeg has not taken yet
 
 QString ffmpegPath() { return QStandardPaths::findExecutable(QStringLiteral("ffmpeg")); }
@@ -37,9 +37,7 @@ Film::Film(Document& document, QWidget& scene) : document_(document), scene_(sce
 
 Film::~Film() {
   disconnect(&ffmpeg_, nullptr, this, nullptr);
-  ffmpeg_.kill();
-  ffmpeg_.waitForFinished();
-  encoders_.waitForDone();
+  stopWriters();
 }
 
 bool Film::canMakeVideos() { return !ffmpegPath().isEmpty(); }
@@ -75,7 +73,7 @@ void Film::begin(const QString& path) {
 
 /// A picture once the panels show the move, and the next move.
 void Film::goOn() {
-  const bool behind = video_ ? ffmpeg_.bytesToWrite() > mostUnsent : encoders_.activeThreadCount() >= mostWaiting;
+  const bool behind = video_ ? ffmpeg_.bytesToWrite() > mostUnsent : waiting_ >= mostWaiting;
   if (!document_.settled() || behind) {
     return;
   }
@@ -106,10 +104,12 @@ void Film::take() {
 }
 
 void Film::savePicture(const QImage& picture) {
+  ++waiting_;
   encoders_.start([this, picture, path = folder_->filePath(pictureName(next_))] {
     if (!picture.save(path)) {
       unwritten_ = true;
     }
+    --waiting_;
   });
 }
 
@@ -169,6 +169,15 @@ void Film::endVideo() {
            .arg(path_, said.section(QLatin1Char('\n'), -1)));
 }
 
+/// Waits for the picture that is being encoded, and for no other.
+void Film::stopWriters() {
+  ffmpeg_.kill();
+  ffmpeg_.waitForFinished();
+  encoders_.clear();
+  encoders_.waitForDone();
+  waiting_ = 0;
+}
+
 void Film::cancel() {
   if (running_) {
     end();
@@ -184,9 +193,7 @@ void Film::fail(const QString& sentence) {
 void Film::end() {
   running_ = false;
   wait_.stop();
-  ffmpeg_.kill();
-  ffmpeg_.waitForFinished();
-  encoders_.waitForDone();
+  stopWriters();
   folder_.reset();
   document_.goTo(before_);
   emit changed();

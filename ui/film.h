@@ -49,6 +49,7 @@ class Film : public QObject {
   void finishPictures();
   void endVideo();
   void fail(const QString& sentence);
+  void stopWriters();
   void end();
 
   Document& document_;
@@ -63,6 +64,7 @@ class Film : public QObject {
   std::size_t before_ = 0;                 // where the object stood
   std::unique_ptr<QTemporaryDir> folder_;  // where it is made
   QThreadPool encoders_;
+  std::atomic<int> waiting_ = 0;         // pictures that are not encoded yet
   std::atomic<bool> unwritten_ = false;  // a picture could not be written
   QProcess ffmpeg_;
 };

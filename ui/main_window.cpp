@@ -40,6 +40,7 @@ namespace {
 // To be raised when the docks change, so that an older layout is not restored over them.
 constexpr int layoutVersion = 5;
 constexpr int toldMilliseconds = 4000;
+constexpr std::chrono::milliseconds patience(500);  // for the last move of the hand when the window closes
 // Of the room that the two share: the values of selected links are seen whole where a screen has 900 pixels.
 const QList<int> stiffnessAndRate{400, 270};
 
@@ -208,8 +209,8 @@ void MainWindow::restoreLayout() {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   jobs_.close();
+  document_.abandonMoves(patience);
   sessions_->keep();
-  sessions_->close();
   QSettings settings;
   settings.setValue(QStringLiteral("geometry"), saveGeometry());
   settings.setValue(QStringLiteral("layout"), savedLayout());

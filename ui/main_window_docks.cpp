@@ -113,7 +113,7 @@ void MainWindow::makePropagationDock() {
 
 /// Under the panels, and out of sight until it is asked for.
 void MainWindow::makeReplayDock() {
-  auto* dock = new ReplayDock(document_, *area_);
+  auto* dock = new ReplayDock(document_, *area_, jobs_);
   connect(dock, &ReplayDock::failed, messages_, &MessageBar::say);
   connect(dock, &ReplayDock::saved, files_, &FileActions::saved);
   addDockWidget(Qt::BottomDockWidgetArea, dock);

@@ -7,6 +7,8 @@
 #include <QPainter>
 #include <QSaveFile>
 
+#include "as_path.h"
+#include "files/regular_file.h"
 #include "files/warp.h"
 #include "mesh/error.h"
 
@@ -28,6 +30,7 @@ bool endsAsPicture(const QString& path) {
 
 /// By what the file holds, whatever its name.
 void setUp(QImageReader& reader, const QString& path) {
+  require_file(asPath(path));
   QImageReader::setAllocationLimit(int(4 * picture_limit / megabyte) +
                                    1);  // of all readers, in megabytes: ours is below
   reader.setDecideFormatFromContent(true);
@@ -83,8 +86,9 @@ bool isPicture(const QString& path) {
   if (endsAsPicture(path)) {
     return true;
   }
-  QFile file(path);
-  const QByteArray head = file.open(QIODevice::ReadOnly) ? file.read(headBytes) : QByteArray();
+  QFile file(path);  // to open a pipe could block the window
+  const bool opened = QFileInfo(path).isFile() && file.open(QIODevice::ReadOnly);
+  const QByteArray head = opened ? file.read(headBytes) : QByteArray();
   return head == QByteArray("\x89PNG\r\n\x1a\n", headBytes) || head.startsWith("\xff\xd8\xff");
 }
 

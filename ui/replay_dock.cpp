@@ -20,9 +20,10 @@ bool isMove(const Command& command) { return std::holds_alternative<commands::Dr
 
 }  // namespace
 
-ReplayDock::ReplayDock(Document& document, QWidget& scene)
+ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
     : QDockWidget(QStringLiteral("Record and replay")),
       document_(document),
+      jobs_(jobs),
       film_(document, scene),
       menu_(new QMenu(QStringLiteral("&Record and replay"), this)),
       slider_(new QSlider(Qt::Horizontal)),

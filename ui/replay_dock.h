@@ -9,6 +9,7 @@
 
 #include "document.h"
 #include "film.h"
+#include "jobs.h"
 
 class QAction;
 class QProgressBar;
@@ -22,12 +23,13 @@ class ReplayDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  /// `scene` is what films show.
-  ReplayDock(Document& document, QWidget& scene);
+  /// `scene` is what films show; `jobs` reads and writes moves.
+  ReplayDock(Document& document, QWidget& scene, Jobs& jobs);
 
   /// The actions of the dock, for the menu bar.
   QMenu& menu() { return *menu_; }
 
+  /// Both in the background.
   void openMoves(const QString& path);
   void saveMoves(const QString& path);
   /// Films all moves: into a folder, as pictures, or into a file, as video.
@@ -59,6 +61,7 @@ class ReplayDock : public QDockWidget {
   void askWhereFilm(bool video);
 
   Document& document_;
+  Jobs& jobs_;
   Film film_;
   QMenu* menu_;
   QAction *first_, *back_, *play_, *forward_, *last_, *save_, *pictures_, *video_;

@@ -94,26 +94,31 @@ void ReplayDock::askWhereFilm(bool video) {
 }
 
 void ReplayDock::openMoves(const QString& path) {
-  try {
-    setPlaying(false);
-    document_.loadMoves(read_moves(asPath(path), *document_.mesh()),
-                        QStringLiteral("open %1").arg(QFileInfo(path).fileName()));
-  } catch (const Error& error) {
-    emit failed(QString::fromStdString(error.what()));
-  }
+  setPlaying(false);
+  const QString name = QFileInfo(path).fileName();
+  jobs_.start(
+      Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
+      [this, path, name, mesh = document_.mesh()](const Progress& progress) -> Jobs::Finish {
+        const auto moves = std::make_shared<const std::vector<Command>>(read_moves(asPath(path), *mesh, progress));
+        return [this, moves, name, mesh] {
+          if (mesh == document_.mesh()) {
+            document_.loadMoves(moves, QStringLiteral("open %1").arg(name));
+          } else {
+            emit failed(
+                QStringLiteral("%1: the object was replaced while the moves were read; open them again").arg(name));
+          }
+        };
+      });
 }
 
 void ReplayDock::saveMoves(const QString& path) {
   document_.noteRelaxation();
-  try {
-    Outputs outputs;
-    outputs.add(path.toStdString(),
-                [this](std::ostream& out) { write_moves(out, document_.tape().commands(), *document_.mesh()); });
-    outputs.commit();
-    emit saved(path);
-  } catch (const Error& error) {
-    emit failed(QString::fromStdString(error.what()));
-  }
+  jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
+              [this, path, mesh = document_.mesh(),
+               moves = document_.tape().commands()](const Progress& progress) -> Jobs::Finish {
+                write_file(asPath(path), [&](std::ostream& out) { write_moves(out, moves, *mesh, progress); });
+                return [this, path] { emit saved(path); };
+              });
 }
 
 void ReplayDock::saveFilm(const QString& path) {

@@ -112,10 +112,14 @@ void Document::restore(const std::shared_ptr<const Session>& session, const QStr
   push(new SessionEdit(*this, session, file, text));
 }
 
+void Document::ask(int panel, SolverThread::Question question) {
+  log_->flush();
+  solvers_[panel]->ask(std::move(question));
+}
+
 std::future<Placement> Document::placement(int panel) {
   const auto promise = std::make_shared<std::promise<Placement>>();
-  log_->flush();
-  solvers_[panel]->ask([promise](const Simulation& simulation) {
+  ask(panel, [promise](const Simulation& simulation) {
     try {
       promise->set_value(simulation.placement());
     } catch (const std::bad_alloc&) {

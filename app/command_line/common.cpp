@@ -134,6 +134,8 @@ MeshOptions add_mesh_options(CLI::App& app) {
   options.voxels = add_value(app, "--voxels", "N", "how many voxels along each axis make an element [few enough]");
   options.by_density =
       add_value(app, "--density-softness", "on|off", "whether a volume is the stiffer where it is denser [on]");
+  options.data_outside = add_value(app, "--data-outside", "allow|refuse",
+                                   "whether the header of a volume may name data outside its own folder [refuse]");
   return options;
 }
 
@@ -152,6 +154,14 @@ VoxelOptions voxels_of(const MeshOptions& options) {
   return voxels;
 }
 
+bool data_outside_of(const MeshOptions& options) {
+  const auto word = value_of(options.data_outside);
+  if (word) {
+    check_word("--data-outside", *word, {"allow", "refuse"});
+  }
+  return word == "allow";
+}
+
 OpenedMesh open_mesh(const MeshOptions& options) {
   ReadOptions how;
   if (const auto size = value_of(options.size)) {
@@ -165,6 +175,7 @@ OpenedMesh open_mesh(const MeshOptions& options) {
   }
   how.space_dimension = options.space == nullptr ? std::nullopt : space_of(options.space);
   how.voxels = voxels_of(options);
+  how.data_outside = data_outside_of(options);
   const std::filesystem::path path = *value_of(options.path);
   Watch watch("reading " + shown(path));
   return in_options({{"space dimension", "--space"}},

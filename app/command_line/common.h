@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "files/open_mesh.h"
+#include "files/outputs.h"
 #include "mesh/error.h"
 #include "simulate/parameters.h"
 
@@ -61,6 +62,7 @@ struct MeshOptions {
   CLI::Option* threshold = nullptr;
   CLI::Option* voxels = nullptr;
   CLI::Option* by_density = nullptr;
+  CLI::Option* data_outside = nullptr;
 };
 MeshOptions add_mesh_options(CLI::App& app);
 OpenedMesh open_mesh(const MeshOptions& options);
@@ -72,6 +74,8 @@ template <class Make>
 auto in_options(const std::map<std::string, std::string>& options, Make make) {
   try {
     return make();
+  } catch (const WriteFailure&) {
+    throw;  // it keeps its exit status
   } catch (const Error& error) {
     throw at_option(error, options);
   }

@@ -33,8 +33,9 @@ std::vector<report::RecordedMoves> drags_of(const report::Case& object, const st
     return report::three_drags(object);
   }
   const std::filesystem::path path = *recorded;
+  Watch watch("reading " + printable(*recorded));
   report::RecordedMoves moves{"recorded", "as " + printable(path.filename().string()) + " has it",
-                              read_moves(path, *object.mesh)};
+                              read_moves(path, *object.mesh, watch.progress())};
   if (report::count_moves(moves) == 0) {
     throw Error(printable(*recorded), "there is no move in it", "write a grab and a drag, as compare --help has them");
   }

@@ -5,6 +5,7 @@
 #include "command_line/common.h"
 #include "command_line/elastic.h"
 #include "command_line/script.h"
+#include "command_line/watched.h"
 #include "files/moves.h"
 #include "files/outputs.h"
 #include "files/softness_csv.h"
@@ -201,7 +202,8 @@ void deform(const Options& options) {
   }
   std::vector<chainmail::Command> moves;
   if (const auto file = value_of(options.script)) {
-    moves = read_moves(std::filesystem::path(*file), *mesh);
+    Watch watch("reading " + printable(*file));
+    moves = read_moves(std::filesystem::path(*file), *mesh, watch.progress());
   }
 
   Simulation simulation(mesh, algorithm, precision);

@@ -56,8 +56,8 @@ class Bench {
     Trial trial{softness, sweeps, 0, 0, {}};
     object_.softness.global = softness;
     for (const TrueDrag& drag : drags_) {
-      progress_.report(std::min(1.0, double(evaluations_) / wanted_));
-      runner_.run(drag.moves, sweeps, {});
+      const double done = std::min(1.0, double(evaluations_) / wanted_);
+      runner_.run(drag.moves, sweeps, progress_.part(done, done));
       const PhysicalError error =
           measure_physical_error(*object_.mesh, runner_.simulation().solver().positions(), drag.truth);
       trial.residuals.push_back({error.rms, error.max});

@@ -10,6 +10,9 @@ namespace {
 // Columns join a supernode although their rows differ by so many: a few zeros cost less than another small block.
 constexpr int most_zeros = 8;
 
+// Of a front, between two looks at the progress: some tenths of a second at most.
+constexpr Eigen::Index columns_at_once = 128;
+
 constexpr int none = -1;
 
 /// The elimination tree's parent of each column, and how many rows each column of the factor has (Liu 1990).
@@ -124,22 +127,41 @@ Eigen::MatrixXd Cholesky::front_of(const Supernode& supernode, const Sparse& low
   return front;
 }
 
-bool Cholesky::factor(const Sparse& lower) {
-  std::vector<Eigen::MatrixXd> updates(supernodes_.size());
-  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
-    const Supernode& one = supernodes_[s];
-    Eigen::MatrixXd front = front_of(one, lower, updates);
-    const Eigen::Index below = one.height() - one.width;
-    auto own = front.topLeftCorner(one.width, one.width);
-    auto rest = front.bottomLeftCorner(below, one.width);
+namespace {
+
+/// Eliminates the first `width` columns of a front, of which the lower triangle counts. Returns false where it is not
+/// positive definite.
+bool eliminate(Eigen::MatrixXd& front, Eigen::Index width, const Progress& progress) {
+  for (Eigen::Index first = 0; first < width; first += columns_at_once) {
+    progress.report(double(first) / double(width));
+    const Eigen::Index columns = std::min(columns_at_once, width - first), rest = front.rows() - first - columns;
+    auto own = front.block(first, first, columns, columns);
+    auto below = front.block(first + columns, first, rest, columns);
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factored(own);
     if (factored.info() != Eigen::Success) {
       return false;
     }
-    if (below > 0) {
-      own.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(rest);
+    if (rest > 0) {
+      own.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
+      front.bottomRightCorner(rest, rest).selfadjointView<Eigen::Lower>().rankUpdate(below, -1);
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool Cholesky::factor(const Sparse& lower, const Progress& progress) {
+  std::vector<Eigen::MatrixXd> updates(supernodes_.size());
+  const double count = double(supernodes_.size());
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    const Supernode& one = supernodes_[s];
+    Eigen::MatrixXd front = front_of(one, lower, updates);
+    if (!eliminate(front, one.width, progress.part(double(s) / count, double(s + 1) / count))) {
+      return false;
+    }
+    if (const Eigen::Index below = one.height() - one.width; below > 0) {
       updates[s] = front.bottomRightCorner(below, below);
-      updates[s].selfadjointView<Eigen::Lower>().rankUpdate(rest, -1);
     }
     Eigen::Map<Eigen::MatrixXd>(panels_.data() + one.panel, one.height(), one.width) = front.leftCols(one.width);
   }

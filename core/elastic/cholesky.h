@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "mesh/progress.h"
+
 namespace chainmail {
 
 /// Sparse Cholesky factors of symmetric positive definite matrices of one pattern, in the order in which the unknowns
@@ -16,8 +18,9 @@ class Cholesky {
 
   /// Looks at the pattern of the lower triangle alone.
   void analyze(const Sparse& lower);
-  /// Of a matrix of that pattern. Returns false where it is not positive definite; there is no factor then.
-  bool factor(const Sparse& lower);
+  /// Of a matrix of that pattern. Returns false where it is not positive definite; there is no factor then, nor where
+  /// it leaves by Cancelled.
+  bool factor(const Sparse& lower, const Progress& progress = {});
   /// Solves for each column of `right`.
   Eigen::MatrixXd solve(Eigen::MatrixXd right) const;
 

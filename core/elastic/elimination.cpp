@@ -71,10 +71,17 @@ double operations(const Graph& graph, const std::vector<ElementId>& order) {
 
 }  // namespace
 
-std::vector<ElementId> elimination_order(const Simplices& simplices, const Mesh& mesh) {
+std::vector<ElementId> elimination_order(const Simplices& simplices, const Mesh& mesh, const Progress& progress) {
+  progress.report(0.0);
   const Graph graph = graph_of(simplices, mesh);
-  std::vector<ElementId> dissected = dissect(simplices, mesh), degrees = by_degree(graph);
-  return operations(graph, dissected) < operations(graph, degrees) ? dissected : degrees;
+  progress.report(0.2);
+  std::vector<ElementId> dissected = dissect(simplices, mesh);
+  progress.report(0.4);
+  std::vector<ElementId> degrees = by_degree(graph);
+  progress.report(0.6);
+  const double of_dissected = operations(graph, dissected);
+  progress.report(0.8);
+  return of_dissected < operations(graph, degrees) ? dissected : degrees;
 }
 
 }  // namespace chainmail

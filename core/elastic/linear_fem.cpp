@@ -18,19 +18,21 @@ class LinearFem final : public LinearResponse {
       : LinearResponse(problem),
         simplices_(build_simplices(*problem.mesh, problem.cuts, progress.part(0, 0.1))),
         unknowns_((check_held(simplices_, *problem.mesh, problem.pins), problem.mesh->space_dimension),
-                  problem.mesh->element_count(), elimination_order(simplices_, *problem.mesh), problem.pins) {
+                  problem.mesh->element_count(), elimination_order(simplices_, *problem.mesh, progress.part(0.1, 0.2)),
+                  problem.pins) {
     Stiffness stiffness(simplices_, unknowns_);
     Eigen::VectorXd load = Eigen::VectorXd::Zero(unknowns_.count());
     const Lame material = lame(problem.options.material);
     for (std::size_t s = 0; s < simplices_.count(); ++s) {
+      progress.part(0.2, 0.3).report(s, simplices_.count());
       const CornerMatrix of_simplex = chainmail::stiffness(simplices_, s, material);
       stiffness.add(s, of_simplex);
       add_load(s, of_simplex, load);
     }
-    progress.report(0.2);
+    progress.report(0.3);
     if (unknowns_.count() > 0) {
       factor_.analyze(stiffness.matrix());
-      if (!factor_.factor(stiffness.matrix())) {
+      if (!factor_.factor(stiffness.matrix(), progress.part(0.3, 1))) {
         throw Error("linear FEM",
                     "the stiffness is not positive: cells are too thin, or Poisson's ratio too close to 0.5",
                     "mesh the object anew, or lower Poisson's ratio");

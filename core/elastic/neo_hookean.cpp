@@ -29,7 +29,7 @@ class NeoHookean final : public ElasticSolver {
         pins_(problem.pins),
         pinned_(problem.pinned),
         simplices_(build_simplices(*problem.mesh, problem.cuts, progress.part(0, 0.1))),
-        order_(elimination_order(simplices_, *problem.mesh)),
+        order_(elimination_order(simplices_, *problem.mesh, progress.part(0.1, 0.1))),
         lame_(lame(problem.options.material)),
         base_(problem.mesh->rest.size(), 0.0) {
     check_held(simplices_, *problem.mesh, problem.pins);

@@ -84,18 +84,19 @@ std::vector<double> Newton::gradient(const std::vector<double>& displacements) c
   return sum;
 }
 
-void Newton::assemble(const std::vector<double>& displacements, bool only_convex) {
+void Newton::assemble(const std::vector<double>& displacements, bool only_convex, const Progress& progress) {
   stiffness_.clear();
   for (std::size_t s = 0; s < simplices_.count(); ++s) {
+    progress.report(s, simplices_.count());
     const auto one = neo_hookean(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::hessian);
     stiffness_.add(s, only_convex ? convex_part(one.hessian) : one.hessian);
   }
 }
 
-bool Newton::factor(const std::vector<double>& displacements) {
+bool Newton::factor(const std::vector<double>& displacements, const Progress& progress) {
   for (const bool only_convex : {false, true}) {
-    assemble(displacements, only_convex);
-    if (factor_.factor(stiffness_.matrix())) {
+    assemble(displacements, only_convex, progress.part(0, 0.2));
+    if (factor_.factor(stiffness_.matrix(), progress.part(0.2, 1))) {
       convex_ = !only_convex;
       return true;
     }
@@ -104,8 +105,9 @@ bool Newton::factor(const std::vector<double>& displacements) {
 }
 
 /// Moves the prescribed, and all others as the tangent has them follow: a step that keeps cells from turning over.
-bool Newton::predict(std::vector<double>& displacements, const std::vector<double>& increment) {
-  if (!factor(displacements)) {
+bool Newton::predict(std::vector<double>& displacements, const std::vector<double>& increment,
+                     const Progress& progress) {
+  if (!factor(displacements, progress)) {
     return false;
   }
   // K_ff u_f = −K_fp u_p, cell by cell.
@@ -154,13 +156,14 @@ bool Newton::solve(std::vector<double>& displacements, const std::vector<double>
     }
     return energy(displacements).has_value();
   }
-  if (!predict(displacements, increment)) {
+  if (!predict(displacements, increment, progress.part(0, 1.0 / (most_steps + 1)))) {
     return false;
   }
   for (int i = 0; i < most_steps; ++i) {
-    progress.report(double(i) / most_steps);
+    const Progress of_step = progress.part(double(i + 1) / (most_steps + 1), double(i + 2) / (most_steps + 1));
+    of_step.report(0.0);
     const Eigen::VectorXd slope = unknowns_.gather(gradient(displacements));
-    if (!factor(displacements)) {
+    if (!factor(displacements, of_step)) {
       return false;
     }
     const Eigen::VectorXd step = -factor_.solve(slope);

@@ -32,9 +32,9 @@ class Newton {
   std::vector<double> gradient(const std::vector<double>& displacements) const;
 
  private:
-  bool predict(std::vector<double>& displacements, const std::vector<double>& increment);
-  void assemble(const std::vector<double>& displacements, bool only_convex);
-  bool factor(const std::vector<double>& displacements);
+  bool predict(std::vector<double>& displacements, const std::vector<double>& increment, const Progress& progress);
+  void assemble(const std::vector<double>& displacements, bool only_convex, const Progress& progress);
+  bool factor(const std::vector<double>& displacements, const Progress& progress);
   bool descend(std::vector<double>& displacements, const Eigen::VectorXd& step, double slope);
 
   const Simplices& simplices_;

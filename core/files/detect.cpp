@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <string>
 
+#include "files/regular_file.h"
 #include "files/text.h"
 #include "mesh/error.h"
 
@@ -56,21 +56,12 @@ std::optional<MeshFormat> format_in(std::string_view beginning) {
 }
 
 MeshFormat detect_format(const std::filesystem::path& path) {
-  require_file(path);
-  std::error_code unknown;
-  if (!std::filesystem::is_regular_file(path, unknown)) {
-    return mesh_format(path);  // a pipe or a device, which can be read once
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw Error(shown(path), "it cannot be read", "check its permissions");
-  }
   std::array<char, looked_at> beginning{};
-  file.read(beginning.data(), beginning.size());
-  if (file.gcount() == 0) {
+  const std::size_t got = RegularFile(path).read(beginning);
+  if (got == 0) {
     throw Error(shown(path), "it is empty", "give a file that holds a mesh");
   }
-  const auto found = format_in({beginning.data(), static_cast<std::size_t>(file.gcount())});
+  const auto found = format_in({beginning.data(), got});
   return found ? *found : mesh_format(path);
 }
 

@@ -1,12 +1,10 @@
 #include "files/fill.h"
 
 #include <cmath>
-#include <fstream>
 #include <string>
 
 #include "files/import_process.h"
 #include "files/open_mesh.h"
-#include "files/temporary_folder.h"
 #include "files/text.h"
 #include "mesh/error.h"
 
@@ -14,7 +12,7 @@ namespace chainmail {
 namespace {
 
 // A million tetrahedra take a minute and less than 2 GiB.
-constexpr ImportLimits filling_limits{std::uint64_t{12} << 30, 1800};
+constexpr ImportLimits filling_limits{std::uint64_t{12} << 30, 1800, 7200};
 
 ImportedMesh as_imported(const Mesh& surface) {
   ImportedMesh imported;
@@ -36,21 +34,13 @@ MeshPointer fill(const Mesh& surface, double size, const Progress& progress) {
   if (!surface.tetrahedra.empty() || !surface.hexahedra.empty()) {
     throw Error("surface", "the object is a volume already", "take a closed surface");
   }
-  const TemporaryFolder folder;
-  const auto path = folder.path() / "surface";
+  ImportInput input("surface");
   const auto bytes = encode_imported(as_imported(surface));
-  std::ofstream file(path, std::ios::binary);
-  if (!file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())).flush()) {
-    throw Error(shown(path), "it cannot be written", "free some space, or set TMPDIR to another folder");
-  }
-  try {
-    std::string length;
-    append_number(length, size);
-    auto filled = run_import("fill", path, {length}, filling_limits, progress.part(0, 0.9));
-    return opened(std::move(std::get<ImportedMesh>(filled)), path, {}, progress.part(0.9, 1)).mesh;
-  } catch (const Error& error) {
-    throw error.at("surface");
-  }
+  input.write("surface", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  std::string length;
+  append_number(length, size);
+  auto filled = run_import("fill", input, {length}, filling_limits, progress.part(0, 0.9));
+  return opened(std::move(std::get<ImportedMesh>(filled)), "surface", {}, progress.part(0.9, 1)).mesh;
 }
 
 }  // namespace chainmail

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "files/import_input.h"
 #include "files/imported.h"
 #include "mesh/progress.h"
 
@@ -14,17 +14,18 @@ namespace chainmail {
 struct ImportLimits {
   std::uint64_t bytes = 0;  // of memory
   unsigned seconds = 120;   // of a processor's time
+  unsigned wall_seconds = 600;
 };
 
-/// The limits for reading a file: a small multiple of its size, and what the libraries themselves need.
-ImportLimits limits_for(const std::filesystem::path& path);
+/// The limits for reading so many bytes: a small multiple of them, and what the libraries themselves need.
+ImportLimits limits_for(std::uint64_t size);
 
 /// Has the import program read a file, or work on one: libraries that crash or hang on damaged files do so in a
-/// process of their own, within limits, and are gone at once when cancelled.
+/// process of their own, in a sandbox (files/import/sandbox.h), within limits, and are gone at once when cancelled.
 ///
-/// `task` is a word that the program knows, `arguments` follow the path. Throws Error, said of `path`, where the
+/// `task` is a word that the program knows, `arguments` follow the path. Throws Error, which names the input, where the
 /// program refuses the file, crashes on it, exceeds a limit or is not there; and Cancelled.
-Imported run_import(const std::string& task, const std::filesystem::path& path,
-                    const std::vector<std::string>& arguments, const ImportLimits& limits, const Progress& progress);
+Imported run_import(const std::string& task, const ImportInput& input, const std::vector<std::string>& arguments,
+                    const ImportLimits& limits, const Progress& progress);
 
 }  // namespace chainmail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/json_scan.h"
 #include "files/text.h"
 #include "mesh/error.h"
 
@@ -11,28 +12,23 @@ namespace {
 
 using Json = nlohmann::json;
 
-// What our formats need is 4; more is none of them, and must not exhaust memory or stack.
-constexpr int deepest = 16;
+/// Throws where the text is no JSON of ours; builds nothing.
+class Check : public JsonScan {
+ public:
+  using JsonScan::JsonScan;
+
+ private:
+  void take_value(Json /*value*/) override {}
+  void open(Json /*empty*/) override {}
+  void close() override {}
+  void take_key(const std::string& /*key*/) override {}
+};
 
 }  // namespace
 
 Json parse_json(std::string_view text, const std::filesystem::path& path, const std::string& content) {
-  const std::string remedy = "give " + content;
-  const auto refuse_depth = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > deepest) {
-      throw Error(shown(path), "it is nested too deeply", remedy);
-    }
-    return true;
-  };
-  try {
-    return Json::parse(text, refuse_depth);
-  } catch (const Json::parse_error& error) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    const auto line = static_cast<std::size_t>(1 + std::count(text.begin(), end, '\n'));
-    throw Error(shown(path, line), "it is not JSON", remedy);
-  } catch (const Json::exception&) {
-    throw Error(shown(path), "a number in it is beyond what a double holds", remedy);
-  }
+  Check(text, path, content).scan();
+  return Json::parse(text);
 }
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }

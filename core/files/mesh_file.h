@@ -25,6 +25,8 @@ struct ReadOptions {
   std::optional<int> space_dimension;
   /// How the voxels of a volume are taken.
   VoxelOptions voxels;
+  /// Whether the header of a volume may name data outside its own folder.
+  bool data_outside = false;
 };
 
 /// The mesh alone of what open_mesh reads (files/open_mesh.h). Throws Error, with the line where there is one, and

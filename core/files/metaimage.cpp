@@ -3,9 +3,10 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <memory>
+#include <new>
 #include <vector>
 
+#include "files/data_file.h"
 #include "files/number_type.h"
 #include "files/text.h"
 #include "mesh/error.h"
@@ -37,38 +38,77 @@ const NumberType& type_of(const MetaImageHead& head, const std::filesystem::path
   return *found;
 }
 
-/// What zlib (Gailly and Adler) has packed; no more than it should be is taken.
-std::vector<char> unpacked(std::span<const char> data, std::size_t size, const std::filesystem::path& path,
-                           const Progress& progress) {
-  z_stream stream{};
-  if (inflateInit2(&stream, 15 + 32) != Z_OK) {  // either of its two formats
-    throw std::bad_alloc();
-  }
-  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
-  static constexpr std::size_t piece = std::size_t{1} << 20;
-  std::vector<char> result;
-  int state = Z_OK;
-  for (std::size_t taken = 0; state == Z_OK && result.size() < size;) {
-    progress.report(double(result.size()) / double(size));
-    const std::size_t before = result.size();
-    result.resize(std::min(size, before + piece));
-    const std::size_t in = std::min(data.size() - taken, piece);
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data() + taken));  // it is only read
-    stream.avail_in = static_cast<uInt>(in);
-    stream.next_out = reinterpret_cast<Bytef*>(result.data() + before);
-    stream.avail_out = static_cast<uInt>(result.size() - before);
-    state = inflate(&stream, Z_NO_FLUSH);
-    taken += in - stream.avail_in;
-    result.resize(result.size() - stream.avail_out);
-    if (state == Z_OK && in == 0 && result.size() == before) {
-      break;
+/// The numbers that zlib (Gailly and Adler) has packed, one after another. They are unpacked in pieces, anew each time
+/// the first one is asked for: what a small file unpacks to may be larger than the memory.
+class PackedNumbers {
+ public:
+  PackedNumbers(std::span<const char> data, const NumberType& type, bool big_endian, const std::filesystem::path& path)
+      : data_(data), type_(type), big_endian_(big_endian), path_(path), piece_(piece_numbers * type.bytes) {
+    if (inflateInit2(&stream_, 15 + 32) != Z_OK) {  // either of its two formats
+      throw std::bad_alloc();
     }
   }
-  if (result.size() != size) {
-    throw Error(shown(path), "its packed data are damaged, or fewer than its size says", "export it anew");
+  PackedNumbers(const PackedNumbers&) = delete;
+  PackedNumbers& operator=(const PackedNumbers&) = delete;
+  ~PackedNumbers() { inflateEnd(&stream_); }
+
+  /// The i-th of `count`; i is 0, or one more than the last time.
+  double operator()(std::size_t i, std::size_t count) {
+    if (i == 0) {
+      restart();
+    }
+    const std::size_t at = i % piece_numbers;
+    if (at == 0) {
+      unpack(std::min(piece_numbers, count - i) * type_.bytes);
+    }
+    return type_.read(piece_.data() + at * type_.bytes, big_endian_);
   }
-  return result;
-}
+
+ private:
+  void restart() {
+    inflateReset(&stream_);
+    stream_.avail_in = 0;
+    taken_ = 0;
+  }
+  void unpack(std::size_t bytes) {
+    stream_.next_out = reinterpret_cast<Bytef*>(piece_.data());
+    stream_.avail_out = static_cast<uInt>(bytes);
+    while (stream_.avail_out > 0) {
+      if (stream_.avail_in == 0) {
+        const std::size_t in = std::min(data_.size() - taken_, most_in);
+        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data_.data() + taken_));  // it is only read
+        stream_.avail_in = static_cast<uInt>(in);
+        taken_ += in;
+      }
+      const int state = inflate(&stream_, Z_NO_FLUSH);
+      if (stream_.avail_out > 0 && (state != Z_OK || (stream_.avail_in == 0 && taken_ == data_.size()))) {
+        throw Error(shown(path_), "its packed data are damaged, or fewer than its size says", "export it anew");
+      }
+    }
+  }
+
+  static constexpr std::size_t piece_numbers = std::size_t{1} << 16;
+  static constexpr std::size_t most_in = std::size_t{1} << 20;
+
+  std::span<const char> data_;
+  const NumberType& type_;
+  bool big_endian_;
+  const std::filesystem::path& path_;
+  std::vector<char> piece_;
+  z_stream stream_{};
+  std::size_t taken_ = 0;
+};
+
+/// Says how much is done of numbers that are gone through twice.
+class TwicePassed {
+ public:
+  TwicePassed(std::size_t count, const Progress& progress) : count_(2 * count), progress_(progress) {}
+  void count() { progress_.report(done_++, count_); }
+
+ private:
+  std::size_t done_ = 0, count_;
+  const Progress& progress_;
+};
 
 }  // namespace
 
@@ -79,32 +119,38 @@ Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, c
   volume.size = checked_volume_size(shown(path), head.size);
   volume.spacing = head.spacing;
   volume.origin = head.origin;
-  const std::size_t size = volume.voxel_count() * type.bytes;
-  std::vector<char> plain;
+  const std::size_t count = volume.voxel_count();
+  TwicePassed passed(count, progress);
   if (head.compressed) {
-    plain = unpacked(data, size, path, progress.part(0, 0.5));
-    data = plain;
+    PackedNumbers number(data, type, head.big_endian, path);
+    take_densities(volume, shown(path), [&](std::size_t i) {
+      passed.count();
+      return number(i, count);
+    });
+    return volume;
   }
-  if (data.size() < size) {
-    throw Error(shown(path),
-                "its data end after " + std::to_string(data.size()) + " of " + std::to_string(size) + " bytes",
-                "export it anew");
+  if (data.size() < count * type.bytes) {
+    throw Error(
+        shown(path),
+        "its data end after " + std::to_string(data.size()) + " of " + std::to_string(count * type.bytes) + " bytes",
+        "export it anew");
   }
   take_densities(volume, shown(path), [&](std::size_t i) {
-    progress.part(0.5, 1).report(i, volume.voxel_count());
+    passed.count();
     return type.read(data.data() + i * type.bytes, head.big_endian);
   });
   return volume;
 }
 
-Volume read_metaimage(const std::filesystem::path& path, const Progress& progress) {
+Volume read_metaimage(const std::filesystem::path& path, bool outside, const Progress& progress) {
   const std::string file = read_bytes(path, "a volume", progress.part(0, 0.2));
   const MetaImageHead head = read_metaimage_head(file, path);
   if (head.data_file == "LOCAL") {
     return metaimage_volume(head, std::span(file).subspan(head.length), path, progress.part(0.2, 1));
   }
-  const auto data = path.parent_path() / head.data_file;
-  return metaimage_volume(head, read_bytes(data, "voxels"), data, progress.part(0.2, 1));
+  const auto data = data_file(path, head.data_file, outside);
+  const std::string bytes = read_bytes(data, "voxels", progress.part(0, 0.2));
+  return metaimage_volume(head, bytes, data, progress.part(0.2, 1));
 }
 
 }  // namespace chainmail

@@ -30,7 +30,7 @@ MetaImageHead read_metaimage_head(std::string_view text, const std::filesystem::
 Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, const std::filesystem::path& path,
                         const Progress& progress = {});
 
-/// Both, from a .mha, or from a .mhd and the file it names.
-Volume read_metaimage(const std::filesystem::path& path, const Progress& progress = {});
+/// Both, from a .mha, or from a .mhd and the file it names, which may be `outside` its folder or not.
+Volume read_metaimage(const std::filesystem::path& path, bool outside, const Progress& progress = {});
 
 }  // namespace chainmail

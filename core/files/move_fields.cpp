@@ -6,10 +6,6 @@ namespace chainmail {
 
 using Json = nlohmann::json;
 
-Json parse_moves(std::string_view text, const std::filesystem::path& path) {
-  return parse_json(text, path, "recorded moves");
-}
-
 ElementId MoveFields::element(const Json& json) const {
   if (!json.is_number_unsigned()) {
     fail(in_quotes(text_of(json)) + " is not an element's id", "ids are whole numbers from 0");
@@ -34,20 +30,27 @@ LinkId MoveFields::link(const Json& json, std::size_t size) const {
   return *found;
 }
 
-std::vector<LinkId> MoveFields::links(const Json& object) const {
-  check_keys(object, {"do", "links"});
+const NumberList& MoveFields::list(const MoveMembers& command, const std::string& key) const {
+  array(command.members, key);
+  return command.lists.at(key);
+}
+
+std::vector<LinkId> MoveFields::links(const MoveMembers& command) const {
+  check_keys(command.members, {"do", "links"});
+  const NumberList& ends = list(command, "links");
   std::vector<LinkId> result;
-  for (const Json& one : array(object, "links")) {
-    result.push_back(link(one, 2));
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    result.push_back(link(ends.at(i), 2));
   }
   return result;
 }
 
-std::vector<ElementId> MoveFields::elements(const Json& object) const {
-  check_keys(object, {"do", "elements"});
+std::vector<ElementId> MoveFields::elements(const MoveMembers& command) const {
+  check_keys(command.members, {"do", "elements"});
+  const NumberList& ids = list(command, "elements");
   std::vector<ElementId> result;
-  for (const Json& one : array(object, "elements")) {
-    result.push_back(element(one));
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    result.push_back(element(ids.at(i)));
   }
   return result;
 }

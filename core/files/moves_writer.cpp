@@ -65,11 +65,12 @@ class MoveWriter {
 
 }  // namespace
 
-void write_moves(std::ostream& out, const std::vector<Command>& commands, const Mesh& mesh) {
+void write_moves(std::ostream& out, const std::vector<Command>& commands, const Mesh& mesh, const Progress& progress) {
   out << "{\"version\": 1, \"commands\": [";
   const char* before = "\n";
-  for (const Command& command : commands) {
-    if (const Json json = std::visit(MoveWriter(mesh), command); !json.is_null()) {
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    progress.report(i, commands.size());
+    if (const Json json = std::visit(MoveWriter(mesh), commands[i]); !json.is_null()) {
       out << before << json.dump();
       before = ",\n";
     }

@@ -1,15 +1,16 @@
 #include "files/open_mesh.h"
 
-#include <optional>
 #include <utility>
 
 #include "files/dat.h"
+#include "files/data_file.h"
 #include "files/detect.h"
 #include "files/import_process.h"
 #include "files/metaimage.h"
+#include "files/nrrd_head.h"
 #include "files/obj.h"
 #include "files/ply.h"
-#include "files/temporary_folder.h"
+#include "files/regular_file.h"
 #include "files/tetgen.h"
 #include "files/text.h"
 #include "files/volume.h"
@@ -26,37 +27,40 @@ std::string task_of(MeshFormat format) {
   return std::string(take_word(endings).substr(1));
 }
 
-/// By a library, in the import program. Gmsh goes by the name: a file that is called otherwise gets another one.
+/// By a library, in the import program. Libraries go by the name, so the file gets the ending of its format.
 Imported import(MeshFormat format, const std::filesystem::path& path, const Progress& progress) {
-  std::error_code unknown;
-  if (!std::filesystem::is_regular_file(path, unknown)) {
-    throw Error(shown(path), "this format is read from files alone", "save it as one");
-  }
-  std::filesystem::path named = path;
-  std::optional<TemporaryFolder> folder;
   const std::string task = task_of(format);
-  if (path.extension() != "." + task) {
-    folder.emplace();
-    named = folder->path() / ("mesh." + task);
-    std::filesystem::create_symlink(std::filesystem::absolute(path), named);
+  ImportInput input(path);
+  input.link("mesh." + task, RegularFile(path));
+  return run_import(task, input, {}, limits_for(input.linked_size()), progress);
+}
+
+/// By teem. Where the data are in a file of their own, teem gets a header that names a link to it.
+Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progress& progress) {
+  RegularFile file(path);
+  std::string beginning(longest_nrrd_head, '\0');
+  beginning.resize(file.read(beginning));
+  const NrrdHead head = read_nrrd_head(beginning, path);
+  ImportInput input(path);
+  if (head.data_file.empty()) {
+    input.link("volume.nrrd", std::move(file));
+  } else {
+    input.write("volume.nhdr", head.text);
+    input.link("data", RegularFile(data_file(path, head.data_file, outside)));
   }
-  try {
-    return run_import(task, format == MeshFormat::nrrd ? path : named, {}, limits_for(path), progress);
-  } catch (const Error& error) {
-    throw error.at(shown(path));
-  }
+  return std::get<Volume>(run_import("nrrd", input, {}, limits_for(input.linked_size()), progress));
 }
 
 bool is_volume(MeshFormat format) { return format == MeshFormat::nrrd || format == MeshFormat::metaimage; }
 
-Volume read_volume(MeshFormat format, const std::filesystem::path& path, const Progress& progress) {
-  return format == MeshFormat::metaimage ? read_metaimage(path, progress)
-                                         : std::get<Volume>(import(format, path, progress));
+Volume read_volume(MeshFormat format, const std::filesystem::path& path, bool outside, const Progress& progress) {
+  return format == MeshFormat::metaimage ? read_metaimage(path, outside, progress)
+                                         : import_nrrd(path, outside, progress);
 }
 
 OpenedMesh open_volume(MeshFormat format, const std::filesystem::path& path, const ReadOptions& options,
                        const Progress& progress) {
-  const Volume volume = read_volume(format, path, progress.part(0, 0.5));
+  const Volume volume = read_volume(format, path, options.data_outside, progress.part(0, 0.5));
   VoxelBlock block = voxel_block(volume, options.voxels, shown(path), progress.part(0.5, 1));
   std::string words = in_words(block);
   return {std::move(block.mesh), std::move(block.softness), {}, std::move(words)};
@@ -123,8 +127,8 @@ void check_options(MeshFormat format, const std::filesystem::path& path, const R
   if (format != MeshFormat::dat && (options.size || options.spacing)) {
     throw Error(shown(path), "it holds its own positions", "leave size and spacing out");
   }
-  if (!is_volume(format) && (options.voxels.threshold || options.voxels.every)) {
-    throw Error(shown(path), "it is no volume of voxels", "leave the threshold and the voxels to an element out");
+  if (!is_volume(format) && (options.voxels.threshold || options.voxels.every || options.data_outside)) {
+    throw Error(shown(path), "it is no volume of voxels", "leave out the options of volumes");
   }
 }
 
@@ -133,7 +137,8 @@ void check_options(MeshFormat format, const std::filesystem::path& path, const R
 bool is_volume(const std::filesystem::path& path) { return is_volume(detect_format(path)); }
 
 Volume read_volume(const std::filesystem::path& path, const Progress& progress) {
-  return read_volume(detect_format(path), path, progress);
+  const bool outside = false;
+  return read_volume(detect_format(path), path, outside, progress);
 }
 
 std::string in_words(const VoxelBlock& block) {

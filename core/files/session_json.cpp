@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <istream>
 #include <limits>
-#include <streambuf>
 #include <string>
 
+#include "files/json_scan.h"
 #include "files/text.h"
 #include "mesh/error.h"
 
@@ -15,14 +15,14 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t deepest = 16;
-// Of what is not packed: some hours of recorded moves. A value takes some hundred times the memory of its text.
+// Of what is neither packed nor moves. A value takes some hundred times the memory of its text.
 constexpr std::size_t most_values = 10'000'000;
 
 enum class Packed { no, ids, reals };
 
 /// What a member of the session that `top` is, or is part of, holds as numbers alone.
 Packed packed_as(const std::string& top, const std::string& key) {
-  if (top == "ui" || top == "moves") {
+  if (top == "ui") {
     return Packed::no;
   }
   for (const char* ids :
@@ -34,35 +34,12 @@ Packed packed_as(const std::string& top, const std::string& key) {
   return key == "rest" || key == "own" || key == "held" ? Packed::reals : Packed::no;
 }
 
-/// A text as a stream reads it, in pieces, so that progress is reported and cancelling noticed between them.
-class TextBuffer : public std::streambuf {
- public:
-  TextBuffer(std::string_view text, const Progress& progress) : text_(text), progress_(progress) {}
-
- private:
-  int_type underflow() override {
-    static constexpr std::size_t piece = std::size_t{1} << 18;  // some milliseconds
-    if (done_ == text_.size()) {
-      return traits_type::eof();
-    }
-    progress_.report(double(done_) / double(text_.size()));
-    const std::size_t size = std::min(piece, text_.size() - done_);
-    char* first = const_cast<char*>(text_.data()) + done_;  // it is only read
-    setg(first, first, first + size);
-    done_ += size;
-    return traits_type::to_int_type(*first);
-  }
-
-  std::string_view text_;
-  const Progress& progress_;
-  std::size_t done_ = 0;
-};
-
 /// What nlohmann's parser calls, value by value.
 class Scanner {
  public:
-  Scanner(std::string_view text, const std::filesystem::path& path, SessionJson& result)
-      : text_(text), file_(shown(path)), path_(path), result_(result) {}
+  /// Reads from `buffer`, which holds the text.
+  Scanner(std::string_view text, const TextBuffer& buffer, const std::filesystem::path& path, SessionJson& result)
+      : text_(text), buffer_(buffer), file_(shown(path)), path_(path), result_(result) {}
 
   bool null() { return put(nullptr); }
   bool boolean(bool value) { return put(value); }
@@ -92,6 +69,7 @@ class Scanner {
   [[noreturn]] void refuse_in_array() const;
 
   std::string_view text_;
+  const TextBuffer& buffer_;
   std::string file_;
   const std::filesystem::path& path_;
   SessionJson& result_;
@@ -100,6 +78,8 @@ class Scanner {
   std::string top_;          // the outermost key
   Packed packed_ = Packed::no;
   std::size_t values_ = 0;
+  std::size_t moves_begin_ = 0;  // in the text
+  std::size_t in_moves_ = 0;     // number of arrays and objects of the moves that are open
 };
 
 std::size_t Scanner::packed_count() const {
@@ -114,6 +94,9 @@ void Scanner::refuse_in_array() const {
 
 template <class Value>
 bool Scanner::number(Value value, double real, std::optional<std::uint64_t> whole) {
+  if (in_moves_ > 0) {
+    return true;
+  }
   if (packed_ == Packed::reals) {
     result_.reals.back().push_back(real);
     return true;
@@ -149,6 +132,9 @@ Json& Scanner::place(Json value) {
 }
 
 bool Scanner::put(Json value) {
+  if (in_moves_ > 0) {
+    return true;
+  }
   if (packed_ != Packed::no) {
     refuse_in_array();
   }
@@ -160,22 +146,36 @@ bool Scanner::put(Json value) {
 }
 
 bool Scanner::open(Json container) {
-  if (open_.size() == deepest) {
+  if (open_.size() + in_moves_ == deepest) {
     fail("it is nested too deeply", "give a session");
   }
   if (packed_ != Packed::no) {
     refuse_in_array();
+  }
+  if (in_moves_ > 0 || (open_.size() == 1 && key_ == "moves")) {
+    if (in_moves_++ == 0) {
+      place(nullptr);
+      moves_begin_ = buffer_.position() - 1;  // with its bracket
+    }
+    return true;
   }
   open_.push_back(&place(std::move(container)));
   return true;
 }
 
 bool Scanner::close() {
-  open_.pop_back();
+  if (in_moves_ == 0) {
+    open_.pop_back();
+  } else if (--in_moves_ == 0) {
+    result_.moves = text_.substr(moves_begin_, buffer_.position() - moves_begin_);
+  }
   return true;
 }
 
 bool Scanner::key(std::string& key) {
+  if (in_moves_ > 0) {
+    return true;
+  }
   if (open_.back()->contains(key)) {
     fail(in_quotes(key) + " stands twice", "remove one of them");
   }
@@ -187,7 +187,7 @@ bool Scanner::key(std::string& key) {
 }
 
 bool Scanner::start_array(std::size_t) {
-  const bool named = !open_.empty() && open_.back()->is_object();
+  const bool named = in_moves_ == 0 && !open_.empty() && open_.back()->is_object();
   const Packed packed = named && packed_ == Packed::no ? packed_as(top_, key_) : Packed::no;
   if (packed == Packed::no) {
     return open(Json::array());
@@ -214,18 +214,17 @@ bool Scanner::parse_error(std::size_t position, const std::string&, const Json::
   if (dynamic_cast<const Json::parse_error*>(&error) == nullptr) {
     fail("a number in it is beyond what a double holds", "give a session");
   }
-  const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(position, text_.size()));
-  const auto line = static_cast<std::size_t>(1 + std::count(text_.begin(), end, '\n'));
   const bool ended = position > text_.size();
-  throw Error(shown(path_, line), ended ? "it ends too early" : "it is not JSON", "give a session as it was saved");
+  throw Error(shown(path_, line_at(text_, position)), ended ? "it ends too early" : "it is not JSON",
+              "give a session as it was saved");
 }
 
 }  // namespace
 
 SessionJson parse_session_json(std::string_view text, const std::filesystem::path& path, const Progress& progress) {
   SessionJson result;
-  Scanner scanner(text, path, result);
   TextBuffer buffer(text, progress);
+  Scanner scanner(text, buffer, path, result);
   std::istream stream(&buffer);
   Json::sax_parse(stream, &scanner);
   return result;

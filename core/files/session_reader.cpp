@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 class SessionReader {
  public:
   SessionReader(const SessionJson& json, const std::filesystem::path& path)
-      : file_(shown(path)), fields_(file_, json), tree_(json.tree) {}
+      : path_(path), file_(shown(path)), fields_(file_, json), tree_(json.tree), moves_(json.moves) {}
 
   Session read(const Progress& progress);
 
@@ -29,13 +29,15 @@ class SessionReader {
   void take_relaxation();
   void take_elastic();
   void take_panels();
-  void take_moves();
+  void take_moves(const Progress& progress);
   Session::Panel panel(const Json& object);
   Placement placement(const Json& object, Precision precision) const;
 
+  const std::filesystem::path& path_;
   std::string file_;
   SessionFields fields_;  // of the file, then of each member
   const Json& tree_;
+  std::string_view moves_;
   Session result_;
 };
 
@@ -190,11 +192,12 @@ void SessionReader::take_panels() {
   }
 }
 
-void SessionReader::take_moves() {
+void SessionReader::take_moves(const Progress& progress) {
   if (!tree_.contains("moves")) {
     return;
   }
-  result_.moves = read_moves(tree_["moves"], file_ + ": moves", *result_.mesh);
+  const std::string_view text = moves_.empty() ? "null" : moves_;  // a number or a text is none either
+  result_.moves = read_moves(text, path_, file_ + ": moves", *result_.mesh, progress);
   const Json& done = fields_.member(tree_, "moves_done");
   if (!done.is_number_unsigned() || done.get<std::uint64_t>() > result_.moves.size()) {
     fields_.fail("'moves_done' is not a whole number up to how many moves there are",
@@ -221,7 +224,7 @@ Session SessionReader::read(const Progress& progress) {
   progress.report(0.85);
   take_panels();
   fields_.say_at(file_);
-  take_moves();
+  take_moves(progress.part(0.9, 1));
   return std::move(result_);
 }
 

@@ -82,7 +82,7 @@ class SessionWriter {
   void write_links(const Progress& progress);
   void write_state();
   void write_softness();
-  void write_moves();
+  void write_moves(const Progress& progress);
   void write_panel(const Session::Panel& panel, const Progress& progress);
   /// A member and its numbers, of which `put(i)` writes the next.
   template <class Put>
@@ -212,14 +212,14 @@ void SessionWriter::write_panel(const Session::Panel& panel, const Progress& pro
   out_ << "}";
 }
 
-void SessionWriter::write_moves() {
+void SessionWriter::write_moves(const Progress& progress) {
   std::size_t all = 0;
   for (const Command& command : session_.moves) {
     all += weight(command);
   }
   if (all > 0 && all <= session_moves) {
     std::ostringstream moves;
-    chainmail::write_moves(moves, session_.moves, mesh_);
+    chainmail::write_moves(moves, session_.moves, mesh_, progress);
     out_ << ",\n\"moves\": " << std::string_view(moves.str())
          << ",\"moves_done\": " << static_cast<std::uint32_t>(session_.moves_done);
   }
@@ -232,7 +232,7 @@ void SessionWriter::write(const Progress& progress) {
   write_mesh(progress.part(0, 0.5));
   write_state();
   out_ << ",\n\"panels\": [";
-  const auto share = 0.5 / double(session_.panels.size());
+  const auto share = 0.45 / double(session_.panels.size());
   for (std::size_t i = 0; i < session_.panels.size(); ++i) {
     if (i > 0) {
       out_ << ',';
@@ -240,7 +240,7 @@ void SessionWriter::write(const Progress& progress) {
     write_panel(session_.panels[i], progress.part(0.5 + share * double(i), 0.5 + share * double(i + 1)));
   }
   out_ << "]";
-  write_moves();
+  write_moves(progress.part(0.95, 1));
   out_ << ",\n\"ui\": " << session_.ui << "}\n";
   out_.flush();
 }

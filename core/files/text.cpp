@@ -2,20 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <system_error>
 #include <vector>
 
+#include "files/regular_file.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
 
-// Ten times what the largest mesh allowed takes; an endless source (a device, a pipe) ends here.
+// Ten times what the largest mesh allowed takes.
 constexpr std::size_t largest_text = std::size_t{4} << 30;
 constexpr std::size_t longest_quote = 40;
 constexpr std::size_t lines_between_reports = 4096;  // a millisecond or two
@@ -42,8 +41,6 @@ bool is_control(std::string_view sequence) {
   const auto first = static_cast<unsigned char>(sequence[0]);
   return first < 0x20 || first == 0x7f || (first == 0xc2 && static_cast<unsigned char>(sequence[1]) < 0xa0);
 }
-
-std::string reason() { return std::generic_category().message(errno); }
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
@@ -78,46 +75,28 @@ std::string shown(const std::filesystem::path& path, std::size_t line) {
   return shown(path) + ":" + std::to_string(line);
 }
 
-void require_file(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) {
-    throw Error(shown(path), "there is no such file", "check the path");
-  }
-  if (std::filesystem::is_directory(status)) {
-    throw Error(shown(path), "it is a folder", "give a file");
-  }
-}
-
 namespace {
 
 /// With no byte 0 in it, where it is text.
 std::string read_whole(const std::filesystem::path& path, bool is_text, const std::string& content,
                        const Progress& progress) {
-  require_file(path);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw Error(shown(path), "it cannot be read (" + reason() + ")", "check its permissions");
+  RegularFile file(path);
+  const Error too_large(shown(path), "it is larger than 4 GiB", "give a smaller file");
+  if (file.size() > largest_text) {
+    throw too_large;
   }
   std::string text;
-  std::error_code unknown;  // of a pipe or a device
-  const auto size = std::filesystem::file_size(path, unknown);
-  if (!unknown && size <= largest_text) {
-    text.reserve(size);
-  }
+  text.reserve(file.size());
   std::vector<char> part(std::size_t{1} << 20);
-  while (file.read(part.data(), static_cast<std::streamsize>(part.size())), file.gcount() > 0) {
-    text.append(part.data(), static_cast<std::size_t>(file.gcount()));
-    progress.report(unknown ? 0 : std::min(1.0, double(text.size()) / double(size)));
-    if (is_text && text.find('\0', text.size() - static_cast<std::size_t>(file.gcount())) != std::string::npos) {
+  while (const std::size_t got = file.read(part)) {
+    text.append(part.data(), got);
+    progress.report(std::min(1.0, double(text.size()) / double(file.size())));
+    if (is_text && text.find('\0', text.size() - got) != std::string::npos) {
       throw Error(shown(path), "it is not a text file", "give " + content + " as text");
     }
     if (text.size() > largest_text) {
-      throw Error(shown(path), "it is larger than 4 GiB", "give a smaller file");
+      throw too_large;  // it grew
     }
-  }
-  if (file.bad()) {
-    throw Error(shown(path), "it cannot be read to its end (" + reason() + ")", "check the disk");
   }
   if (text.empty()) {
     throw Error(shown(path), "it is empty", "give a file that holds " + content);

@@ -22,11 +22,8 @@ std::string in_quotes(std::string_view word);
 std::string shown(const std::filesystem::path& path);
 std::string shown(const std::filesystem::path& path, std::size_t line);
 
-/// Throws Error where there is no such file, or a folder.
-void require_file(const std::filesystem::path& path);
-
-/// The whole of a text file. Throws Error where there is none, where it is a folder, empty, too large or
-/// not text; `content` is what the file should hold.
+/// The whole of a text file. Throws Error where it is no regular file, empty, too large or not text; `content` is what
+/// the file should hold.
 std::string read_text(const std::filesystem::path& path, const std::string& content = "a mesh",
                       const Progress& progress = {});
 /// The same of a file that need not be text.

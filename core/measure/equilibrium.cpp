@@ -1,7 +1,10 @@
 #include "measure/equilibrium.h"
 
+#include <Eigen/OrderingMethods>
 #include <Eigen/Sparse>
+#include <utility>
 
+#include "elastic/cholesky.h"
 #include "measure/violation.h"
 
 namespace chainmail {
@@ -55,12 +58,12 @@ class System {
     }
   }
 
-  bool solve(std::uint64_t limit) {
+  bool solve(std::uint64_t limit, const Progress& progress) {
     if (elements_.empty()) {
       return true;  // and Eigen cannot compress a matrix without columns
     }
     build();
-    return elements_.size() <= limit ? solve_directly() : solve_by_gradients();
+    return elements_.size() <= limit ? solve_directly(progress) : solve_by_gradients(progress);
   }
 
  private:
@@ -99,22 +102,61 @@ class System {
     matrix_.insert(i, i) = degree;
   }
 
-  bool solve_directly() {
-    const Eigen::SimplicialLDLT<Matrix, Eigen::Lower> solver(matrix_);
-    return solver.info() == Eigen::Success && take(solver.solve(right_));
+  bool solve_directly(const Progress& progress) {
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+    Eigen::AMDOrdering<int>()(matrix_.selfadjointView<Eigen::Lower>(), order);
+    Matrix ordered(matrix_.rows(), matrix_.cols());
+    ordered.selfadjointView<Eigen::Lower>() = matrix_.selfadjointView<Eigen::Lower>().twistedBy(order.inverse());
+    Cholesky cholesky;
+    cholesky.analyze(ordered);
+    return cholesky.factor(ordered, progress) && take(order * cholesky.solve(order.inverse() * right_));
   }
 
-  bool solve_by_gradients() {
-    Eigen::ConjugateGradient<Matrix, Eigen::Lower, Eigen::IncompleteCholesky<double>> solver(matrix_);
-    solver.setTolerance(residual);
-    Columns start(right_.rows(), right_.cols());
-    for (Eigen::Index i = 0; i < start.rows(); ++i) {
-      for (int k = 0; k < mesh_.space_dimension; ++k) {
-        start(i, k) = displacement(elements_[i], k);
+  bool solve_by_gradients(const Progress& progress) {
+    const Eigen::IncompleteCholesky<double> preconditioner(matrix_);
+    Columns solution(right_.rows(), right_.cols());
+    for (int k = 0; k < mesh_.space_dimension; ++k) {
+      Eigen::VectorXd along(right_.rows());
+      for (Eigen::Index i = 0; i < along.rows(); ++i) {
+        along[i] = displacement(elements_[i], k);
       }
+      const Progress part = progress.part(double(k) / mesh_.space_dimension, double(k + 1) / mesh_.space_dimension);
+      if (preconditioner.info() != Eigen::Success || !descend(preconditioner, right_.col(k), along, part)) {
+        return false;
+      }
+      solution.col(k) = along;
     }
-    const Columns solution = solver.solveWithGuess(right_, start);
-    return solver.info() == Eigen::Success && take(solution);
+    return take(solution);
+  }
+
+  /// Conjugate gradients along one axis, from `x` on. Eigen's own cannot be given up. Returns false where they do not
+  /// come to an end.
+  bool descend(const Eigen::IncompleteCholesky<double>& preconditioner, const Eigen::VectorXd& right,
+               Eigen::VectorXd& x, const Progress& progress) const {
+    const auto matrix = matrix_.selfadjointView<Eigen::Lower>();
+    const double enough = residual * right.norm();
+    if (enough == 0) {
+      x.setZero();
+      return true;
+    }
+    const Eigen::Index most = 2 * right.rows();
+    Eigen::VectorXd rest = right - matrix * x;
+    Eigen::VectorXd gradient = preconditioner.solve(rest), way = gradient;
+    double slope = rest.dot(gradient);
+    for (Eigen::Index i = 0; rest.norm() > enough; ++i) {
+      if (i == most || !(slope > 0)) {
+        return false;
+      }
+      progress.report(double(i) / double(most));
+      const Eigen::VectorXd pull = matrix * way;
+      const double step = slope / way.dot(pull);
+      x += step * way;
+      rest -= step * pull;
+      gradient = preconditioner.solve(rest);
+      const double before = std::exchange(slope, rest.dot(gradient));
+      way = gradient + slope / before * way;
+    }
+    return true;
   }
 
   bool take(const Columns& solution) {
@@ -165,12 +207,12 @@ PositionView Equilibrium::positions(const Mesh& mesh) const {
 
 std::optional<Equilibrium> equilibrium(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                                        std::span<const ElementId> fixed, const PositionView& positions,
-                                       std::uint64_t limit) {
+                                       std::uint64_t limit, const Progress& progress) {
   if (fixed.empty()) {
     return std::nullopt;
   }
   Equilibrium result{displacements_of(mesh, positions), joined_to(mesh, cuts, fixed)};
-  if (!System(mesh, cuts, fixed, result).solve(limit)) {
+  if (!System(mesh, cuts, fixed, result).solve(limit, progress)) {
     return std::nullopt;
   }
   result.binds = binds(mesh, softness, cuts, result);

@@ -7,6 +7,7 @@
 
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
+#include "mesh/progress.h"
 #include "solve/softness.h"
 #include "solve/solver.h"
 
@@ -34,9 +35,9 @@ inline constexpr std::uint64_t cholesky_limit = 65'536;
 
 /// The equilibrium with these elements fixed where they stand; the others' positions are only where
 /// conjugate gradients begin. Nothing where no element is fixed, and where conjugate gradients do not come
-/// to an end.
+/// to an end. May leave by Cancelled.
 std::optional<Equilibrium> equilibrium(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                                        std::span<const ElementId> fixed, const PositionView& positions,
-                                       std::uint64_t limit = cholesky_limit);
+                                       std::uint64_t limit = cholesky_limit, const Progress& progress = {});
 
 }  // namespace chainmail

@@ -46,8 +46,14 @@ void References::find_equilibrium() {
   if (simulation.mesh().element_count() > equilibrium_limit) {
     return;
   }
-  equilibrium_ = equilibrium(simulation.mesh(), simulation.softness(), simulation.solver().cuts(), fixed,
-                             simulation.solver().positions());
+  JobState job;
+  const std::stop_callback cancel(stop_, [&job] { job.cancelled = true; });
+  try {
+    equilibrium_ = equilibrium(simulation.mesh(), simulation.softness(), simulation.solver().cuts(), fixed,
+                               simulation.solver().positions(), cholesky_limit, chainmail::Progress(job));
+  } catch (const Cancelled&) {
+    return;  // nobody looks at it then
+  }
   const bool is_reference =
       equilibrium_ && !equilibrium_->binds &&
       std::find(equilibrium_->defined.begin(), equilibrium_->defined.end(), false) == equilibrium_->defined.end();

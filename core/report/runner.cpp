@@ -50,20 +50,30 @@ void Runner::go_to_rest() {
 }
 
 Runner::Run Runner::run(const RecordedMoves& moves, int sweeps, const std::stop_token& stop) {
+  job_.cancelled = false;
+  const std::stop_callback cancel(stop, [this] { job_.cancelled = true; });
+  try {
+    return run(moves, sweeps, chainmail::Progress(job_));
+  } catch (const Cancelled&) {
+    Run stopped;
+    stopped.stopped = true;
+    return stopped;
+  }
+}
+
+Runner::Run Runner::run(const RecordedMoves& moves, int sweeps, const chainmail::Progress& progress) {
   Run run;
+  simulation_.set_progress(progress);
   go_to_rest();
   for (const Command& command : moves.commands) {
-    if (stop.stop_requested()) {
-      run.stopped = true;
-      break;
-    }
-    carry_out(command, sweeps, stop, run);
+    progress.report(0);
+    carry_out(command, sweeps, run);
   }
-  run.stopped = run.stopped || stop.stop_requested();
+  progress.report(1);
   return run;
 }
 
-void Runner::carry_out(const Command& command, int sweeps, const std::stop_token& stop, Run& run) {
+void Runner::carry_out(const Command& command, int sweeps, Run& run) {
   using namespace commands;
   if (is_one_of<SetAlgorithm, SetRelaxation, SetElastic, MoveControlPoint, KeepState, DropState>(command)) {
     return;
@@ -77,7 +87,7 @@ void Runner::carry_out(const Command& command, int sweeps, const std::stop_token
   }
   double ms = std::min(applying, simulation_.statistics().last_pass_ms);
   if (sweeps > 0) {
-    ms += 1e3 * seconds_of(clocks_, [&] { simulation_.relax(sweeps, relax_step_, stop); });
+    ms += 1e3 * seconds_of(clocks_, [&] { simulation_.relax(sweeps, relax_step_); });
   }
   run.ms.push_back(ms);
   run.checked += simulation_.statistics().last_pass.checked;

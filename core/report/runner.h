@@ -22,7 +22,10 @@ class Runner {
     std::uint64_t moved = 0;
     bool stopped = false;
   };
+  /// A request to stop ends it within a pass by a method of elasticity, between other passes and within sweeps.
   Run run(const RecordedMoves& moves, int sweeps, const std::stop_token& stop);
+  /// The same, which leaves by Cancelled when it is given up.
+  Run run(const RecordedMoves& moves, int sweeps, const chainmail::Progress& progress);
 
   const Simulation& simulation() const { return simulation_; }
   /// The element that was last in the hand.
@@ -30,13 +33,14 @@ class Runner {
 
  private:
   void go_to_rest();
-  void carry_out(const Command& command, int sweeps, const std::stop_token& stop, Run& run);
+  void carry_out(const Command& command, int sweeps, Run& run);
 
   const Case& object_;
   std::vector<LinkId> cuts_;     // ascending, as the solver tells them
   std::vector<ElementId> pins_;  // ascending
   double relax_step_;
   Clocks clocks_ = machine_clocks();
+  JobState job_;  // of a run that a request ends
   Simulation simulation_;
   std::optional<ElementId> hand_;
 };

@@ -1,6 +1,6 @@
 #include "simulate/simulation.h"
 
-#include <limits>
+#include <algorithm>
 #include <new>
 #include <string>
 #include <utility>
@@ -119,7 +119,7 @@ bool Simulation::step() {
   return statistics_.relaxing;
 }
 
-void Simulation::relax(int count, double step, const std::stop_token& stop) {
+void Simulation::relax(int count, double step) {
   if (count == 0 || elastic_method(algorithm_)) {
     return;  // a static answer is where it should be
   }
@@ -128,11 +128,20 @@ void Simulation::relax(int count, double step, const std::stop_token& stop) {
     solver_->wake(std::span(&*last_moved_, 1));
     solver_->wake(solver_->moved());
   }
-  for (int i = 0; i < count && !stop.stop_requested(); ++i) {
-    const auto sweep = solver_->relax(step, std::numeric_limits<std::uint64_t>::max(), grabbed_);
+  for (int i = 0; i < count && sweep(step, progress_.part(double(i) / count, double(i + 1) / count)) > 0; ++i) {
+  }
+}
+
+/// One sweep, in slices between which it may be given up. Returns the number of elements that it visited.
+std::uint64_t Simulation::sweep(double step, const Progress& progress) {
+  std::uint64_t visited = 0;
+  while (true) {
+    progress.report(std::min(1.0, double(visited) / mesh_->element_count()));
+    const RelaxationResult slice = solver_->relax(step, elements_per_slice, grabbed_);
     mark(solver_->relaxed());
-    if (sweep.visited == 0) {
-      break;
+    visited += slice.visited;
+    if (slice.sweep_ended) {
+      return visited;
     }
   }
 }

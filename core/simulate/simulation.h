@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -50,20 +49,22 @@ class Simulation {
   /// one of Exact and another take over from each other, positions are rounded as SetAlgorithm rounds them.
   void take(const Handover& handover, Algorithm algorithm);
 
-  /// Where passes that take long, by methods of elasticity, report and learn that they are no longer wanted: they leave
-  /// apply() by Cancelled, with nothing moved.
+  /// Where work that takes long reports and learns that it is no longer wanted: it leaves by Cancelled. A pass by a
+  /// method of elasticity has moved nothing then; sweeps of relaxation end within some milliseconds, and what they have
+  /// moved stays where it is.
   void set_progress(const Progress& progress);
   /// `trace`, where set, receives every candidate that a pass processes.
   void set_trace(Trace* trace) { trace_ = trace; }
   /// Sweeps of relaxation at once, by the scheme last set, whether it is on or off: `count` of them, or until
-  /// nothing moves or `stop` is asked for.
-  void relax(int count, double step, const std::stop_token& stop = {});
+  /// nothing moves.
+  void relax(int count, double step);
 
   const Mesh& mesh() const { return *mesh_; }
   const MeshPointer& mesh_pointer() const { return mesh_; }
   const Solver& solver() const { return *solver_; }
   const Softness& softness() const { return *softness_; }
   const ElasticOptions& elastic() const { return elastic_; }
+  commands::SetRelaxation relaxation() const { return {relaxation_on_, relaxation_step_, relaxation_scheme_}; }
   std::optional<ElementId> grabbed() const { return grabbed_; }
   /// Those of free-form deformation, which is prepared for them; none by other algorithms, or where it has no answer.
   std::span<const double> control_points();
@@ -108,6 +109,7 @@ class Simulation {
   void carry_out(const commands::RestoreState& command);
   void carry_out(const commands::DropState& command);
 
+  std::uint64_t sweep(double step, const Progress& progress);
   void answer();
   void forget_passes();
   void set_softness(std::shared_ptr<const Softness> softness);

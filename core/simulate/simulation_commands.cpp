@@ -97,7 +97,12 @@ void check_step(double step) {
 void Simulation::carry_out(const commands::Relax& command) {
   check_step(command.step);
   solver_->set_relaxation(command.scheme);
-  relax(static_cast<int>(command.sweeps), command.step);
+  try {
+    relax(static_cast<int>(command.sweeps), command.step);
+  } catch (...) {  // cancelled, or out of memory
+    solver_->set_relaxation(relaxation_scheme_);
+    throw;
+  }
   solver_->set_relaxation(relaxation_scheme_);
 }
 

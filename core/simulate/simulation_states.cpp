@@ -42,10 +42,7 @@ Simulation::State& Simulation::kept(commands::StateId state) {
   return found->second;
 }
 
-Handover Simulation::hand_over() {
-  return {current_state(), kept_,    {relaxation_on_, relaxation_step_, relaxation_scheme_},
-          elastic_,        grabbed_, last_moved_};
-}
+Handover Simulation::hand_over() { return {current_state(), kept_, relaxation(), elastic_, grabbed_, last_moved_}; }
 
 void Simulation::take(const Handover& handover, Algorithm algorithm) {
   measure_.reset();

@@ -19,12 +19,22 @@ constexpr auto relaxation_share = std::chrono::milliseconds(8);
 // A figure that is read by eye need not change more often.
 constexpr auto violation_time = std::chrono::milliseconds(250);
 
-/// Whether it takes away what a pass before it works for.
+using namespace commands;
+
+template <class... Kinds>
+bool is_one_of(const Command* command) {
+  return command != nullptr && (std::holds_alternative<Kinds>(*command) || ...);
+}
+
+/// True where nobody needs the rest of a pass, or of sweeps, before it.
 template <class Task>
 bool overrules(const Task& task) {
-  const auto* command = std::get_if<Command>(&task);
-  return command != nullptr && (std::holds_alternative<commands::SetAlgorithm>(*command) ||
-                                std::holds_alternative<commands::ReplaceMesh>(*command));
+  return is_one_of<SetAlgorithm, ReplaceMesh>(std::get_if<Command>(&task));
+}
+
+/// True where all that it does is to move elements of the object as it is.
+bool only_moves(const Command* command) {
+  return is_one_of<Drag, MoveControlPoint, Relax, SetSoftness, SetElastic>(command);
 }
 
 /// An object to begin with, where the real one is yet to come.
@@ -62,11 +72,24 @@ void SolverThread::ask(Question question) { add(std::move(question)); }
 void SolverThread::add(Task task) {
   {
     const std::lock_guard lock(mutex_);
-    work_.cancelled = work_.cancelled || overrules(task);
+    overrulers_ += overrules(task) ? 1 : 0;
+    work_.cancelled = work_.cancelled || overrulers_ > 0;
     tasks_.push_back(std::move(task));
+    ++posted_;
     waiting_.fetch_add(1, std::memory_order_release);
   }
   changed_.notify_one();
+}
+
+void SolverThread::cut_sweeps() {
+  const std::lock_guard lock(mutex_);
+  sweeps_cut_ = posted_;
+  work_.cancelled = work_.cancelled || sweeping_;
+}
+
+void SolverThread::abandon() {
+  const std::lock_guard lock(mutex_);
+  abandoned_ = work_.cancelled = true;
 }
 
 std::string SolverThread::take_error() {
@@ -86,6 +109,10 @@ void SolverThread::carry_out(const Task& task) {
     return;
   }
   const auto* command = std::get_if<Command>(&task);
+  if (abandoned_ && only_moves(command)) {
+    waiting_.fetch_sub(1, std::memory_order_release);
+    return;
+  }
   if (command != nullptr) {
     recorder_.begin(*command, simulation_);
   }
@@ -112,7 +139,10 @@ void SolverThread::carry_out(const Task& task) {
 SolverThread::Task SolverThread::take_task(const std::stop_token& stop) {
   Task task = std::move(tasks_.front());
   tasks_.pop_front();
-  work_.cancelled = stop.stop_requested() || std::ranges::any_of(tasks_, overrules<Task>);
+  overrulers_ -= overrules(task) ? 1 : 0;
+  sweeping_ = is_one_of<Relax>(std::get_if<Command>(&task));
+  const bool is_cut = sweeping_ && posted_ - tasks_.size() <= sweeps_cut_;
+  work_.cancelled = stop.stop_requested() || abandoned_ || overrulers_ > 0 || is_cut;
   return task;
 }
 

@@ -31,11 +31,19 @@ class SolverThread {
 
   /// Adds a command to the end of the list. Another algorithm or object lets no pass before it take long.
   void post(Command command);
+  /// Sweeps of relaxation that were posted so far, which may go on for hours, end at once: the object is brought
+  /// elsewhere next.
+  void cut_sweeps();
+  /// The window closes: passes and sweeps are no longer wanted. The one under way ends as soon as it can, those posted
+  /// are left out, and questions are answered for the object as it is by then.
+  void abandon();
   /// Calls `question` on the solver's thread, after what was posted before; it must not wait. What is not begun when
   /// the solver ends is dropped.
   void ask(Question question);
   /// Whether every command posted has been carried out, and every question answered.
-  bool idle() const { return waiting_.load(std::memory_order_acquire) == 0; }
+  bool idle() const { return waiting() == 0; }
+  /// Number of commands and questions that are not done, the one under way among them.
+  int waiting() const { return waiting_.load(std::memory_order_acquire); }
   /// Whether, beside, a frame that shows what came of them was handed over.
   bool settled() const { return idle() && !unseen_.load(std::memory_order_acquire); }
   /// The newest frame; for one reading thread.
@@ -74,10 +82,17 @@ class SolverThread {
   std::atomic<bool> unseen_ = false;  // something changed since the last frame
   bool measured_ = false;             // the last frame shows the violation of the whole mesh
 
-  std::mutex mutex_;  // guards tasks_ and error_
+  std::atomic<bool> abandoned_ = false;
+
+  std::mutex mutex_;  // guards what follows
   std::condition_variable_any changed_;
   std::deque<Task> tasks_;
+  std::size_t posted_ = 0;      // number of tasks so far
+  std::size_t sweeps_cut_ = 0;  // of which so many, from the first on, may not go on with sweeps
+  int overrulers_ = 0;          // number of waiting tasks that let nothing before them take long
+  bool sweeping_ = false;       // the task under way, or the last one, is sweeps of relaxation
   std::string error_;
+
   std::atomic<int> waiting_ = 0;  // tasks added and not yet carried out
 
   std::jthread thread_;  // last: it starts when all else stands, and ends first

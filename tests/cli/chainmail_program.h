@@ -6,6 +6,7 @@
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QtTest>
+#include <functional>
 
 namespace chainmail::test {
 
@@ -19,8 +20,10 @@ struct Outcome {
 /// The program, run in a folder of its own.
 class Program {
  public:
-  Outcome run(const QStringList& arguments) const {
+  /// `prepare` is called in the new process, before the program begins.
+  Outcome run(const QStringList& arguments, const std::function<void()>& prepare = {}) const {
     QProcess process;
+    process.setChildProcessModifier(prepare);
     process.setWorkingDirectory(folder_.path());
     process.start(QStringLiteral(CHAINMAIL_PROGRAM), arguments);
     process.waitForFinished(60'000);

@@ -1,3 +1,5 @@
+#include <csignal>
+
 #include "cli/chainmail_program.h"
 
 using namespace chainmail::test;
@@ -22,6 +24,8 @@ class DeformCommandTest : public QObject {
   void steps_are_equal_and_end_at_the_target();
   void relaxation_goes_to_the_equilibrium();
   void a_script_is_carried_out_before_the_acts();
+  void sweeps_are_interrupted_at_once_data();
+  void sweeps_are_interrupted_at_once();
   void softness_is_taken();
   void float_rounds_to_float();
   void more_space_may_be_given();
@@ -153,6 +157,30 @@ void DeformCommandTest::a_script_is_carried_out_before_the_acts() {
   const auto outcome = program_->run("deform --algorithm exact --script bad.json line.dat");
   QCOMPARE(outcome.code, 2);
   QVERIFY(is_one_sentence(outcome) && outcome.error.contains("bad.json: command 0: 'sweeps'"));
+}
+
+void DeformCommandTest::sweeps_are_interrupted_at_once_data() {
+  QTest::addColumn<QByteArray>("options");
+  QTest::newRow("after each pass") << QByteArray("--by 0:-90,-70 --relax 1000000");
+  QTest::newRow("of a script") << QByteArray("--script moves.json");
+}
+
+/// Ctrl+C ends a run that would go on for hours, and no output is begun.
+void DeformCommandTest::sweeps_are_interrupted_at_once() {
+  QFETCH(QByteArray, options);
+  QCOMPARE(program_->run("generate grid 300x300 -o large.obj").code, 0);
+  program_->write("moves.json", R"({"version": 1, "commands": [{"do": "grab", "element": 0},
+    {"do": "drag", "target": [-90, -70, 0]}, {"do": "relax", "sweeps": 1000000}]})");
+  const auto before = program_->files();
+  QProcess process;
+  process.setWorkingDirectory(program_->path({}));
+  process.start(QStringLiteral(CHAINMAIL_PROGRAM),
+                QString::fromUtf8("deform large.obj --algorithm natural-queue --json out.json " + options).split(' '));
+  QVERIFY(!process.waitForFinished(3000));  // it has read the mesh by then, and relaxes
+  QCOMPARE(::kill(pid_t(process.processId()), SIGINT), 0);
+  QVERIFY(process.waitForFinished(2000));
+  QCOMPARE(process.exitStatus(), QProcess::CrashExit);  // by the signal, as shells expect
+  QCOMPARE(program_->files(), before);
 }
 
 void DeformCommandTest::softness_is_taken() {

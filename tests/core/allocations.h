@@ -1,5 +1,7 @@
 #pragma once
 
+#include <malloc.h>
+
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -11,10 +13,24 @@
 namespace chainmail::test {
 
 inline std::atomic<std::uint64_t> allocations = 0;
+inline std::atomic<std::size_t> bytes_held = 0;
+inline std::atomic<std::size_t> most_bytes_held = 0;  // since it was last set to bytes_held; exact for one thread
 
 inline void* counted(std::size_t bytes, std::size_t alignment) noexcept {
   allocations.fetch_add(1, std::memory_order_relaxed);
-  return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);  // whole multiples alone
+  // Whole multiples alone.
+  void* taken = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+  const std::size_t size = malloc_usable_size(taken);
+  const std::size_t held = bytes_held.fetch_add(size, std::memory_order_relaxed) + size;
+  if (held > most_bytes_held.load(std::memory_order_relaxed)) {
+    most_bytes_held.store(held, std::memory_order_relaxed);
+  }
+  return taken;
+}
+
+inline void give_back(void* taken) noexcept {
+  bytes_held.fetch_sub(malloc_usable_size(taken), std::memory_order_relaxed);
+  std::free(taken);
 }
 
 inline void* counted_or_throw(std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) {
@@ -38,13 +54,15 @@ void* operator new(std::size_t bytes, std::align_val_t alignment) {
 void* operator new[](std::size_t bytes, std::align_val_t alignment) {
   return chainmail::test::counted_or_throw(bytes, std::size_t(alignment));
 }
-void operator delete(void* taken) noexcept { std::free(taken); }
-void operator delete[](void* taken) noexcept { std::free(taken); }
-void operator delete(void* taken, std::size_t /*bytes*/) noexcept { std::free(taken); }
-void operator delete[](void* taken, std::size_t /*bytes*/) noexcept { std::free(taken); }
-void operator delete(void* taken, std::align_val_t /*alignment*/) noexcept { std::free(taken); }
-void operator delete[](void* taken, std::align_val_t /*alignment*/) noexcept { std::free(taken); }
-void operator delete(void* taken, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept { std::free(taken); }
+void operator delete(void* taken) noexcept { chainmail::test::give_back(taken); }
+void operator delete[](void* taken) noexcept { chainmail::test::give_back(taken); }
+void operator delete(void* taken, std::size_t /*bytes*/) noexcept { chainmail::test::give_back(taken); }
+void operator delete[](void* taken, std::size_t /*bytes*/) noexcept { chainmail::test::give_back(taken); }
+void operator delete(void* taken, std::align_val_t /*alignment*/) noexcept { chainmail::test::give_back(taken); }
+void operator delete[](void* taken, std::align_val_t /*alignment*/) noexcept { chainmail::test::give_back(taken); }
+void operator delete(void* taken, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
+  chainmail::test::give_back(taken);
+}
 void operator delete[](void* taken, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
-  std::free(taken);
+  chainmail::test::give_back(taken);
 }

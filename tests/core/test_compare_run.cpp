@@ -20,6 +20,7 @@ class CompareRunTest : public QObject {
   void repetitions_are_counted();
   void stops_at_once();
   void stops_between_repetitions();
+  void stops_between_sweeps_data();
   void stops_between_sweeps();
   void progress_goes_from_0_to_1();
   void contradicting_pins_are_told();
@@ -68,9 +69,20 @@ void CompareRunTest::stops_between_repetitions() {
   QVERIFY(comparison.cases.at(0).drags.empty());
 }
 
+void CompareRunTest::stops_between_sweeps_data() {
+  QTest::addColumn<int>("after_a_move");
+  QTest::addColumn<quint32>("among_the_moves");
+  QTest::newRow("after each move") << 100'000'000 << 0U;
+  QTest::newRow("as recorded") << 0 << 1'000'000U;
+}
+
 void CompareRunTest::stops_between_sweeps() {
+  QFETCH(int, after_a_move);
+  QFETCH(quint32, among_the_moves);
   const auto grid = make_mesh(MeshKind::grid, {64, 64, 1});
-  const Case one = object(grid, drag(*grid, 2080, {40, 20, 0}));
+  RecordedMoves moves = drag(*grid, 2080, {40, 20, 0});
+  moves.commands.emplace_back(commands::Relax{among_the_moves, 1, RelaxationScheme::mean});
+  const Case one = object(grid, moves);
   std::stop_source stop;
   std::atomic<std::clock_t> asked = 0;
   const std::jthread hand([&] {
@@ -79,7 +91,7 @@ void CompareRunTest::stops_between_sweeps() {
     stop.request_stop();
   });
   // So many sweeps would take hours.
-  const auto comparison = compare({one}, quick({Algorithm::exact}, {100'000'000}), {}, stop.get_token());
+  const auto comparison = compare({one}, quick({Algorithm::exact}, {after_a_move}), {}, stop.get_token());
   QVERIFY(comparison.stopped);
   // It may still be at the pass before the sweeps. In this program's own time, as others may run.
   QVERIFY(std::clock() - asked < 2 * CLOCKS_PER_SEC);

@@ -25,6 +25,8 @@ class SimulationTest : public QObject {
   void relaxation_stops_when_switched_off();
   void a_cut_under_tension_is_felt();
   void sweeps_at_once_need_no_switch();
+  void sweeps_of_a_large_mesh_are_those_of_its_solver();
+  void sweeps_are_given_up_in_the_middle_of_one();
   void statistics_say_what_happened();
   void idle_time_measures_in_slices();
   void valid_is_what_the_whole_mesh_says();
@@ -215,6 +217,46 @@ void SimulationTest::sweeps_at_once_need_no_switch() {
   simulation.relax(2, 1);
   QCOMPARE(positions_of(simulation), (std::vector<double>{-2, -0.75, 0.25}));
   QVERIFY(!simulation.statistics().relaxing);
+}
+
+/// They are done in slices, between which they may be given up.
+void SimulationTest::sweeps_of_a_large_mesh_are_those_of_its_solver() {
+  const auto mesh = make_mesh(MeshKind::grid, {250, 200, 1});
+  Simulation simulation(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  drag_by(simulation, 0, Point(-90, -70, 0));
+  solver->move(0, mesh->rest_position(0) + Point(-90, -70, 0));
+  carry_out(simulation, commands::SetRelaxation{true, 0.5, RelaxationScheme::mean});  // wakes all
+  solver->wake_all();
+  simulation.relax(3, 0.5);
+  for (int i = 0; i < 3; ++i) {
+    solver->relax(0.5, std::numeric_limits<std::uint64_t>::max(), 0);
+  }
+  QVERIFY(same_bits(positions_of(simulation), positions_of(*solver, *mesh)));
+}
+
+void SimulationTest::sweeps_are_given_up_in_the_middle_of_one() {
+  const auto mesh = make_mesh(MeshKind::grid, {250, 200, 1});
+  JobState job;
+  Simulation given_up(mesh, Algorithm::natural_queue, Precision::double_precision);
+  Simulation never(mesh, Algorithm::natural_queue, Precision::double_precision);
+  given_up.set_progress(Progress(job));
+  for (Simulation* one : {&given_up, &never}) {
+    carry_out(*one, commands::SetRelaxation{false, 1, RelaxationScheme::link});
+    carry_out(*one, commands::KeepState{1});
+    drag_by(*one, 0, Point(-90, -70, 0));
+  }
+  job.cancelled = true;
+  const commands::Relax sweeps{1'000'000, 1, RelaxationScheme::mean};
+  QVERIFY_THROWS_EXCEPTION(Cancelled, carry_out(given_up, sweeps));
+  job.cancelled = false;
+  // It goes on as if there had been none: by its own scheme, with nobody awake of before.
+  for (Simulation* one : {&given_up, &never}) {
+    carry_out(*one, commands::RestoreState{1});
+    drag_by(*one, 0, Point(-9, -7, 0));
+    one->relax(2, 1);
+  }
+  QVERIFY(same_bits(positions_of(given_up), positions_of(never)));
 }
 
 void SimulationTest::statistics_say_what_happened() {

@@ -1,10 +1,13 @@
 #include <QtTest>
 #include <ctime>
+#include <future>
 
 #include "core/threads.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
+
+Q_DECLARE_METATYPE(chainmail::Command)
 
 /// A simulation on a thread of its own: commands in order, frames handed over, asleep at rest.
 class SolverThreadTest : public QObject {
@@ -20,6 +23,11 @@ class SolverThreadTest : public QObject {
   void frames_come_at_most_60_times_a_second();
   void it_ends_without_finishing_the_commands();
   void a_pass_that_takes_long_is_given_up_for_another_algorithm();
+  void it_ends_in_the_middle_of_sweeps();
+  void sweeps_end_where_nobody_needs_the_rest_data();
+  void sweeps_end_where_nobody_needs_the_rest();
+  void sweeps_that_were_posted_are_cut_and_no_others();
+  void abandoned_it_answers_for_the_object_as_it_is();
   void another_goes_on_from_where_one_stands();
   void another_ends_with_the_one_it_waits_for();
   void a_triple_buffer_hands_over_the_newest_frame();
@@ -161,6 +169,75 @@ void SolverThreadTest::a_pass_that_takes_long_is_given_up_for_another_algorithm(
   solver.post(commands::Drag{Point(22, 17, 16)});
   QVERIFY(wait_for_passes(solver, 1));
   QVERIFY(solver.take_error().empty());
+}
+
+/// Begins sweeps that would take hours.
+void sweep_for_hours(SolverThread& solver) {
+  solver.post(commands::KeepState{1});
+  solver.post(commands::Grab{0});
+  solver.post(commands::Drag{Point(-900, -700, 0)});
+  solver.post(commands::Relax{1'000'000, 1, RelaxationScheme::mean});
+  QVERIFY(wait_until([&] { return solver.waiting() == 1; }));
+}
+
+void SolverThreadTest::it_ends_in_the_middle_of_sweeps() {
+  auto solver =
+      std::make_unique<SolverThread>(make_mesh(MeshKind::grid, {300, 300, 1}), Algorithm::natural_queue, [] {});
+  sweep_for_hours(*solver);
+  const auto start = std::chrono::steady_clock::now();
+  solver.reset();
+  QVERIFY(std::chrono::steady_clock::now() - start < 2s);
+}
+
+void SolverThreadTest::sweeps_end_where_nobody_needs_the_rest_data() {
+  QTest::addColumn<Command>("next");
+  const auto mesh = make_mesh(MeshKind::grid, {9, 9, 1});
+  QTest::newRow("another algorithm") << Command(commands::SetAlgorithm{Algorithm::exact});
+  QTest::newRow("another mesh") << Command(commands::ReplaceMesh{mesh});
+}
+
+void SolverThreadTest::sweeps_end_where_nobody_needs_the_rest() {
+  QFETCH(Command, next);
+  SolverThread solver(make_mesh(MeshKind::grid, {300, 300, 1}), Algorithm::natural_queue, [] {});
+  sweep_for_hours(solver);
+  solver.post(next);
+  QVERIFY(wait_until([&] { return solver.idle(); }));
+  QVERIFY(solver.take_error().empty());
+}
+
+void SolverThreadTest::sweeps_that_were_posted_are_cut_and_no_others() {
+  const auto mesh = make_mesh(MeshKind::grid, {300, 300, 1});
+  SolverThread solver(mesh, Algorithm::natural_queue, [] {});
+  Simulation simulation(mesh, Algorithm::natural_queue, Precision::single_precision);
+  sweep_for_hours(solver);
+  solver.post(commands::Relax{1'000'000, 1, RelaxationScheme::mean});
+  solver.cut_sweeps();
+  const std::vector<Command> then{commands::RestoreState{1}, commands::Grab{0}, commands::Drag{Point(-90, -70, 0)},
+                                  commands::Relax{5, 1, RelaxationScheme::mean}};
+  simulation.apply(commands::KeepState{1});
+  for (const Command& command : then) {
+    solver.post(command);
+    simulation.apply(command);
+  }
+  QVERIFY(wait_until([&] { return solver.settled(); }));
+  QVERIFY(solver.latest_frame().positions == floats_of(simulation));
+}
+
+void SolverThreadTest::abandoned_it_answers_for_the_object_as_it_is() {
+  const auto mesh = make_mesh(MeshKind::grid, {300, 300, 1});
+  SolverThread solver(mesh, Algorithm::natural_queue, [] {});
+  sweep_for_hours(solver);
+  for (int i = 0; i < 100'000; ++i) {
+    solver.post(commands::Drag{Point(i % 2 == 0 ? -900 : 900, 0, 0)});
+  }
+  std::promise<Placement> placement;
+  solver.ask([&](const Simulation& simulation) { placement.set_value(simulation.placement()); });
+  solver.abandon();
+  auto answer = placement.get_future();
+  QVERIFY(answer.wait_for(30s) == std::future_status::ready);
+  QVERIFY(!answer.get().runs.empty());  // the drag before the sweeps
+  QVERIFY(wait_until([&] { return solver.idle(); }));
+  QCOMPARE(solver.latest_frame().statistics.passes, std::uint64_t{1});
 }
 
 void SolverThreadTest::another_goes_on_from_where_one_stands() {

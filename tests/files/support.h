@@ -1,16 +1,21 @@
 #pragma once
 
 #include <QString>
+#include <chrono>
+#include <condition_variable>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <mutex>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "files/dat.h"
 #include "files/obj.h"
 #include "mesh/error.h"
 #include "mesh/generate.h"
+#include "mesh/progress.h"
 
 namespace chainmail::test {
 
@@ -62,5 +67,21 @@ inline void put_file(const std::filesystem::path& path, const std::string& text)
 inline std::ptrdiff_t files_in(const std::filesystem::path& folder) {
   return std::distance(std::filesystem::directory_iterator(folder), {});
 }
+
+/// Cancels a job that takes longer than it may, so that a test of it fails soon.
+class Patience {
+ public:
+  explicit Patience(JobState& job, std::chrono::seconds most = std::chrono::seconds(20))
+      : thread_([&job, most](const std::stop_token& stop) {
+          std::mutex mutex;
+          std::unique_lock lock(mutex);
+          std::condition_variable_any over;
+          over.wait_for(lock, stop, most, [] { return false; });
+          job.cancelled = true;
+        }) {}
+
+ private:
+  std::jthread thread_;
+};
 
 }  // namespace chainmail::test

@@ -31,6 +31,7 @@ class FillTest : public QObject {
   void smaller_edges_make_more_elements();
   void surfaces_that_enclose_nothing_are_refused_data();
   void surfaces_that_enclose_nothing_are_refused();
+  void too_many_tetrahedra_are_refused_before_they_are_made();
   void it_can_be_cancelled();
 };
 
@@ -80,6 +81,24 @@ void FillTest::surfaces_that_enclose_nothing_are_refused() {
   QFETCH(QString, sentence);
   const QString error = error_of([&] { fill(*obj(text.toStdString()), 1); });
   QVERIFY2(error.startsWith(sentence), qPrintable(error));
+}
+
+/// Edges of a hundredth in a volume of 36 are more than the limit of 20 million elements: hours of work, refused at
+/// once. Of a tenth they are fine.
+void FillTest::too_many_tetrahedra_are_refused_before_they_are_made() {
+  JobState job;
+  const Patience patience(job);
+  try {
+    fill(*obj(octahedron(8)), 0.01, Progress(job));
+    QFAIL("it was filled");
+  } catch (const Error& error) {
+    QCOMPARE(
+        QString(error.what()),
+        QString("surface: filled with edges of that size it would have more than %1 elements; choose a larger size")
+            .arg(element_limit));
+  } catch (const Cancelled&) {
+    QFAIL("it begins to fill it");
+  }
 }
 
 void FillTest::it_can_be_cancelled() {

@@ -1,6 +1,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include "core/allocations.h"
 #include "files/moves.h"
 #include "files/support.h"
 #include "simulate/simulation.h"
@@ -23,6 +24,13 @@ class MovesTest : public QObject {
   void other_commands_are_refused();
   void deep_nesting_is_refused();
   void damaged_files_never_do_worse();
+  void keys_come_in_any_order();
+  void a_key_that_stands_twice_is_refused_data();
+  void a_key_that_stands_twice_is_refused();
+  void what_is_wrong_with_the_file_comes_before_its_commands();
+  void a_large_file_takes_little_memory_besides_its_commands_data();
+  void a_large_file_takes_little_memory_besides_its_commands();
+  void reading_and_writing_can_be_cancelled();
   void files();
 
  private:
@@ -213,6 +221,88 @@ void MovesTest::damaged_files_never_do_worse() {
       error_of([&] { read(text); });
     }
   }
+}
+
+void MovesTest::keys_come_in_any_order() {
+  const auto moves = read(R"({"commands": [{"links": [[1, 0], [4, 5]], "do": "cut"}, {"elements": [3], "do": "pin"},
+    {"links": [[3, 0, 1, 1, 0.25]], "shear": 0, "compression": 0.5, "stretch": 2, "do": "softness"}], "version": 1})");
+  QCOMPARE(moves.size(), std::size_t{3});
+  QCOMPARE(std::get<commands::Cut>(moves[0]).links, (std::vector<LinkId>{0, 6}));
+  QCOMPARE(std::get<commands::Pin>(moves[1]).elements, std::vector<ElementId>{3});
+  QVERIFY((*std::get<commands::SetSoftness>(moves[2]).softness == Softness{{0.5, 2, 0}, {{1, {1, 1, 0.25}}}}));
+}
+
+/// One of the two would be passed over in silence.
+void MovesTest::a_key_that_stands_twice_is_refused_data() {
+  QTest::addColumn<QString>("text");
+  QTest::addColumn<QString>("said");
+  QTest::newRow("commands") << R"({"version": 1, "commands": [], "commands": []})"
+                            << "m.json: 'commands' stands twice; remove one of them";
+  QTest::newRow("do") << R"({"version": 1, "commands": [{"do": "reset"}, {"do": "release", "do": "reset"}]})"
+                      << "m.json: command 1: 'do' stands twice; remove one of them";
+}
+
+void MovesTest::a_key_that_stands_twice_is_refused() {
+  QFETCH(QString, text);
+  QFETCH(QString, said);
+  QCOMPARE(error_of([&] { read(text.toStdString()); }), said);
+}
+
+/// A newer file may have commands that this program does not know: its version says so, wherever it stands.
+void MovesTest::what_is_wrong_with_the_file_comes_before_its_commands() {
+  QVERIFY(error_of([&] {
+            read(R"({"commands": [{"do": "twist"}], "version": 2})");
+          }).startsWith("m.json: its version is not 1; "));
+  QVERIFY(error_of([&] {
+            read(R"({"version": 1, "commands": [{"do": "twist"}] ,})");
+          }).startsWith("m.json:1: it is not JSON; "));
+  QVERIFY(error_of([&] {
+            read(R"({"version": 1, "commands": [{"do": "twist"}, {"do": "turn"}]})");
+          }).startsWith("m.json: command 0: 'do' names no command; "));
+}
+
+void MovesTest::a_large_file_takes_little_memory_besides_its_commands_data() {
+  QTest::addColumn<QString>("begin");
+  QTest::addColumn<QString>("item");
+  QTest::addColumn<QString>("end");
+  QTest::addColumn<std::size_t>("of_item");  // bytes that an item takes in the result
+  QTest::newRow("drags") << R"({"version": 1, "commands": [{"do": "grab", "element": 5})"
+                         << R"(, {"do": "drag", "target": [1.25, -2.5, 0]})"
+                         << "]}" << sizeof(Command);
+  QTest::newRow("pinned elements") << R"({"version": 1, "commands": [{"do": "pin", "elements": [0)"
+                                   << ", 3"
+                                   << "]}]}" << sizeof(ElementId);
+  QTest::newRow("links") << R"({"version": 1, "commands": [{"do": "cut", "links": [[0, 1])"
+                         << ", [4, 5]"
+                         << "]}]}" << sizeof(LinkId);
+}
+
+/// A tree of the file takes ten times as much and more; and what walks in it, such as the parser's own filter, takes
+/// quadratic time.
+void MovesTest::a_large_file_takes_little_memory_besides_its_commands() {
+  QFETCH(QString, begin);
+  QFETCH(QString, item);
+  QFETCH(QString, end);
+  QFETCH(std::size_t, of_item);
+  constexpr std::size_t items = 100'000;
+  const std::string text = (begin + item.repeated(items) + end).toStdString();
+  const std::size_t before = bytes_held;
+  most_bytes_held = before;
+  const auto moves = read(text);
+  QVERIFY(!moves.empty());
+  // A vector that grows holds three times its size; a number that waits for its check takes 16 bytes.
+  const std::size_t bound = items * (3 * of_item + (of_item < sizeof(Command) ? 2 * 3 * 16 : 0)) + (1U << 16);
+  QVERIFY2(most_bytes_held - before < bound,
+           qPrintable(QString("%1 bytes an item").arg((most_bytes_held - before) / items)));
+}
+
+void MovesTest::reading_and_writing_can_be_cancelled() {
+  const auto moves = read(every_command);
+  JobState job;
+  job.cancelled = true;
+  QVERIFY_THROWS_EXCEPTION(Cancelled, read_moves(every_command, "m.json", *mesh_, Progress(job)));
+  std::ostringstream out;
+  QVERIFY_THROWS_EXCEPTION(Cancelled, write_moves(out, moves, *mesh_, Progress(job)));
 }
 
 void MovesTest::files() {

@@ -1,6 +1,7 @@
 #include <QtTest>
 
 #include "files/metaimage.h"
+#include "files/nrrd_head.h"
 #include "files/open_mesh.h"
 #include "files/support.h"
 
@@ -20,6 +21,19 @@ const std::string head =
     "ObjectType = Image\nNDims = 3\nDimSize = 2 2 1\nElementSpacing = 0.5 1 2\nOffset = 1 2 3\n"
     "ElementType = MET_USHORT\nBinaryDataByteOrderMSB = True\n";
 
+/// Memory of this process (bytes): VmRSS now, or VmHWM, the most so far.
+std::size_t resident(const std::string& name) {
+  std::ifstream lines("/proc/self/status");
+  for (std::string word; lines >> word;) {
+    std::size_t kilobytes = 0;
+    if (word == name + ":" && lines >> kilobytes) {
+      return kilobytes << 10;
+    }
+  }
+  return 0;
+}
+void forget_the_most_resident() { std::ofstream("/proc/self/clear_refs") << "5"; }
+
 }  // namespace
 
 /// Volumes of voxels: read with their places and densities, and made into objects.
@@ -33,6 +47,9 @@ class VolumesTest : public QObject {
   void heads_that_do_not_are_refused_data();
   void heads_that_do_not_are_refused();
   void data_that_end_too_soon_are_refused();
+  void packed_data_are_unpacked_in_pieces();
+  void an_nrrd_header_names_one_file_data();
+  void an_nrrd_header_names_one_file();
   void voxels_above_a_threshold_are_elements();
   void several_voxels_make_one_element();
   void what_is_dense_is_stiff();
@@ -99,6 +116,76 @@ void VolumesTest::data_that_end_too_soon_are_refused() {
   QVERIFY(error_of([&] { metaimage_volume(read, std::string(7, 'x'), "a.mha"); }).contains("packed data are damaged"));
   read.size = {1'000'000, 1'000'000, 1'000'000};
   QVERIFY(error_of([&] { metaimage_volume(read, std::string(7, 'x'), "a.mha"); }).contains("there are more than"));
+}
+
+/// What 100 KB unpack to is never there as a whole: two bytes a voxel are taken, and no copy of the data beside them.
+void VolumesTest::packed_data_are_unpacked_in_pieces() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  QSKIP("a sanitizer takes memory of its own");
+#endif
+  constexpr std::size_t edge = 464;  // 100 million voxels of a byte
+  auto read = read_metaimage_head(head + "ElementDataFile = LOCAL\n", "a.mha");
+  read.size = {edge, edge, edge};
+  read.type = "MET_UCHAR";
+  read.compressed = true;
+  const std::size_t voxels = edge * edge * edge;
+  QByteArray plain(qsizetype(voxels), '\0');
+  plain[qsizetype(voxels) / 2] = 7;
+  plain.back() = 9;
+  const QByteArray packed = qCompress(plain).mid(4);  // behind Qt's own word: zlib's format
+  plain = QByteArray();
+  QVERIFY(packed.size() < 200'000);
+  const std::size_t before = resident("VmRSS");
+  forget_the_most_resident();
+  const auto volume = metaimage_volume(read, std::span(packed.data(), std::size_t(packed.size())), "a.mha");
+  QCOMPARE(volume.density(voxels / 2), 7.0);
+  QCOMPARE(volume.density(voxels - 1), 9.0);
+  QCOMPARE(volume.density(voxels / 2 + 1), 0.0);
+  const std::size_t more = resident("VmHWM") - before;
+  QVERIFY2(more > voxels && more < voxels * 5 / 2, qPrintable(QString::number(more)));
+}
+
+void VolumesTest::an_nrrd_header_names_one_file_data() {
+  QTest::addColumn<QByteArray>("field");
+  QTest::addColumn<QString>("name");
+  QTest::addColumn<QString>("sentence");
+  QTest::newRow("none") << QByteArray("encoding: raw") << ""
+                        << "";
+  QTest::newRow("one") << QByteArray("data file: a b.raw ") << "a b.raw"
+                       << "";
+  QTest::newRow("in capitals") << QByteArray("DataFile: a.raw\r") << "a.raw"
+                               << "";
+  QTest::newRow("a user's own") << QByteArray("data file:=a.raw") << ""
+                                << "";
+  QTest::newRow("comment") << QByteArray("# data file: a.raw") << ""
+                           << "";
+  QTest::newRow("list") << QByteArray("data file: LIST\na.raw\nb.raw") << ""
+                        << "a.nhdr:2: its data are in several files";
+  QTest::newRow("pattern") << QByteArray("data file: %03d.raw 1 9 1") << ""
+                           << "a.nhdr:2: its data are in several files";
+  QTest::newRow("nothing") << QByteArray("data file: ") << ""
+                           << "a.nhdr:2: its data are in several files, or in none; ";
+  QTest::newRow("twice") << QByteArray("data file: a\ndatafile: b") << ""
+                         << "a.nhdr:3: its header names its data twice; ";
+  QTest::newRow("odd") << QByteArray(" data file: a") << ""
+                       << "a.nhdr:2: ' data file: a' is no field of a header; ";
+  QTest::newRow("two lines in one") << QByteArray("type: char\rdata file: a") << ""
+                                    << "a.nhdr:2: a line of its header holds a carriage return; ";
+}
+
+/// Teem reads the header; which file it then opens is decided here.
+void VolumesTest::an_nrrd_header_names_one_file() {
+  QFETCH(QByteArray, field);
+  QFETCH(QString, name);
+  QFETCH(QString, sentence);
+  const std::string text = "NRRD0001\n" + field.toStdString() + "\n\nfile: of the data\n";
+  NrrdHead read;
+  const QString error = error_of([&] { read = read_nrrd_head(text, "a.nhdr"); });
+  QVERIFY2(sentence.isEmpty() ? error.isEmpty() : error.startsWith(sentence), qPrintable(error));
+  QCOMPARE(QString::fromStdString(read.data_file), name);
+  if (!name.isEmpty()) {
+    QCOMPARE(read.text, std::string("NRRD0001\ndata file: data\n"));
+  }
 }
 
 void VolumesTest::voxels_above_a_threshold_are_elements() {

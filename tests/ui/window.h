@@ -7,6 +7,7 @@
 #include <QTest>
 #include <algorithm>
 #include <cstdlib>
+#include <future>
 #include <memory>
 
 #include "main_window.h"
@@ -16,6 +17,14 @@
 #include "theme.h"
 
 namespace chainmail {
+
+/// Settings of a solver that are no part of the object.
+struct SolverSettings {
+  commands::SetRelaxation relaxation;
+  ElasticOptions elastic;
+
+  bool operator==(const SolverSettings&) const = default;
+};
 
 /// A real workbench for a test, with settings of its own.
 struct Workbench {
@@ -43,6 +52,14 @@ struct Workbench {
   }
 
   Point position(int panel, ElementId element) { return view(panel).position(element); }
+  /// What a panel's solver computes with, as it says itself.
+  SolverSettings settings(int panel) {
+    std::promise<SolverSettings> settings;
+    document().ask(panel, [&settings](const Simulation& simulation) {
+      settings.set_value({simulation.relaxation(), simulation.elastic()});
+    });
+    return settings.get_future().get();
+  }
   QPoint place(int panel, ElementId element) { return view(panel).placeOf(element).toPoint(); }
 
   /// Moves with the left button down, in steps as a hand does; `release` ends the stroke.

@@ -1,5 +1,7 @@
 // Files that people have, in a real window: what is said of them, volumes of voxels, surfaces that are filled.
 
+#include <sys/stat.h>
+
 #include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QFile>
@@ -48,6 +50,35 @@ class WindowOpen : public QObject {
     bench.open(path);
     QVERIFY2(messages(bench).sentence().startsWith(path), qPrintable(messages(bench).sentence()));
     QCOMPARE(bench.document().mesh(), before);
+  }
+
+  void aScriptThatIsNamedAsAMeshIsNotRun() {
+    Workbench bench;
+    const MeshPointer before = bench.document().mesh();
+    const QString path = folder_.filePath(QStringLiteral("script.msh")),
+                  trace = folder_.filePath(QStringLiteral("trace"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("SystemCall \"touch " + trace.toUtf8() + "\";\n");
+    file.close();
+    bench.open(path);
+    const QString sentence = messages(bench).sentence();
+    QVERIFY2(sentence.startsWith(path + ": it does not begin as a Gmsh mesh"), qPrintable(sentence));
+    QVERIFY(!QFile::exists(trace));
+    QCOMPARE(bench.document().mesh(), before);
+  }
+
+  void aPipeIsRefusedAndTheNextFileOpens() {
+    Workbench bench;
+    for (const char* name : {"pipe.obj", "pipe.png", "pipe.chainmail"}) {
+      const QString path = folder_.filePath(QLatin1String(name));
+      QCOMPARE(mkfifo(qPrintable(path), 0600), 0);
+      bench.open(path);
+      QCOMPARE(messages(bench).sentence(),
+               path + QStringLiteral(": it is a pipe; save its content as a file, and give that"));
+    }
+    bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+    QCOMPARE(bench.document().name(), QStringLiteral("sphere.obj"));
   }
 
   void aVolumeAsksForItsThresholdAndBecomesABlock() {

@@ -7,6 +7,7 @@
 #include <QToolButton>
 
 #include "files/moves.h"
+#include "message_bar.h"
 #include "replay_dock.h"
 #include "window.h"
 
@@ -48,6 +49,19 @@ std::vector<float> run(const std::vector<Command>& moves, const MeshPointer& mes
   std::vector<float> positions(mesh->rest.size());
   simulation.solver().copy_positions(positions);
   return positions;
+}
+
+/// A script of one long drag.
+void writeDrags(const QString& path, int drags) {
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::WriteOnly));
+  file.write(R"({"version": 1, "commands": [{"do": "grab", "element": 31})");
+  for (int i = 0; i < drags; ++i) {
+    file.write(
+        ",\n"
+        R"({"do": "drag", "target": [4.5, 0.125, 0]})");
+  }
+  file.write("]}");
 }
 
 }  // namespace
@@ -107,6 +121,32 @@ class WindowReplay : public QObject {
     QVERIFY(shapes(bench) == live);
   }
 
+  /// The states that are kept on the way must not lie within a drag: they do not know what the hand holds.
+  void anyPlaceOfALongDragIsReachedFromAnywhere() {
+    Workbench bench;
+    std::vector<Command> moves;
+    for (const ElementId element : {31U, 10U}) {
+      moves.emplace_back(commands::Grab{element});
+      for (int i = 1; i <= 100; ++i) {
+        moves.emplace_back(commands::Drag{bench.document().mesh()->rest_position(element) + 0.05 * Point(i, -i, 0)});
+      }
+      moves.emplace_back(commands::Release{});
+    }
+    bench.document().loadMoves(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open"));
+    bench.settle();
+    for (const std::size_t place : {moves.size(), std::size_t{70}, std::size_t{150}, std::size_t{36}, std::size_t{103},
+                                    std::size_t{101}, std::size_t{180}, std::size_t{140}}) {
+      bench.document().goTo(place);
+      bench.settle();
+      const std::vector<Command> done(moves.begin(), moves.begin() + std::ptrdiff_t(place));
+      for (int panel = 0; panel < 2; ++panel) {
+        QVERIFY2(bench.document().frame(panel)->positions ==
+                     run(done, bench.document().mesh(), bench.document().algorithm(panel)),
+                 qPrintable(QStringLiteral("after %1 commands").arg(place)));
+      }
+    }
+  }
+
   void fromAPlaceInTheMiddleTheHandGoesOn() {
     Workbench bench;
     work(bench);
@@ -131,6 +171,7 @@ class WindowReplay : public QObject {
     QTemporaryDir folder;
     const QString path = folder.filePath(QStringLiteral("moves.json"));
     dock(bench)->saveMoves(path);
+    bench.settle();
     const auto moves = read_moves(path.toStdString(), *bench.document().mesh());
     for (int panel = 0; panel < 2; ++panel) {
       QVERIFY(run(moves, bench.document().mesh(), bench.document().algorithm(panel)) ==
@@ -156,11 +197,64 @@ class WindowReplay : public QObject {
     QVERIFY(file.open(QIODevice::WriteOnly));
     file.write(R"({"version": 1, "commands": [{"do": "grab", "element": 99999}]})");
     file.close();
-    QSignalSpy failed(dock(bench), &ReplayDock::failed);
     dock(bench)->openMoves(path);
-    QCOMPARE(failed.count(), 1);
+    bench.settle();
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("command 0: there is no element 99999")));
+    QVERIFY(shapes(bench) == live);
+  }
+
+  void theWindowStaysAtWorkWhileALargeFileIsOpened() {
+    Workbench bench;
+    QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("large.json"));
+    writeDrags(path, 200'000);
+    QSignalSpy frames(&bench.document(), &Document::frameReady);
+    dock(bench)->openMoves(path);
+    QVERIFY(bench.window.jobs().running());
+    // The hand drags on meanwhile, and the panels follow.
+    bench.document().grab(31);
+    bench.document().drag(Point(4, 9, 0));
+    QVERIFY(frames.wait());
+    QVERIFY(bench.window.jobs().running());
+    bench.document().release();
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.window.jobs().running(), 60'000);
+    bench.settle();
+    QCOMPARE(bench.document().tape().length(), std::size_t{200'001});
+    QCOMPARE(bench.document().tape().position(), std::size_t{0});
+    QCOMPARE(bench.document().undoStack().count(), 2);
+  }
+
+  void anOpeningOfMovesThatIsCancelledLeavesTheObject() {
+    Workbench bench;
+    work(bench);
+    const Shapes live = shapes(bench);
+    const std::size_t length = bench.document().tape().length();
+    QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("large.json"));
+    writeDrags(path, 200'000);
+    dock(bench)->openMoves(path);
+    QTRY_VERIFY(bench.window.jobs().share() > 0.1);  // it has begun
+    QTest::mouseClick(bench.find<QToolButton>("jobCancel"), Qt::LeftButton);
+    QVERIFY(!bench.window.jobs().running());
     bench.settle();
     QVERIFY(shapes(bench) == live);
+    QCOMPARE(bench.document().tape().length(), length);
+    QVERIFY(!bench.window.messages().isVisible());
+  }
+
+  /// The moves were checked for a mesh that is gone.
+  void movesThatWereReadForAnotherObjectAreNotTaken() {
+    Workbench bench;
+    QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("large.json"));
+    writeDrags(path, 200'000);
+    dock(bench)->openMoves(path);
+    bench.document().replaceMesh(generate({MeshKind::line, {3, 1, 1}, 1, {}}), QStringLiteral("line"),
+                                 QStringLiteral("build line"));
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.window.jobs().running(), 60'000);
+    bench.settle();
+    QCOMPARE(bench.document().tape().length(), std::size_t{0});
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("the object was replaced")));
   }
 
   void playingCarriesEveryMoveOutAndStops() {

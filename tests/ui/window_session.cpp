@@ -46,6 +46,36 @@ class WindowSession : public QObject {
     }
   }
 
+  /// The docks show the session's settings; the next drag goes by the solvers'.
+  void theSolversTakeTheSettingsOfASession() {
+    const QString path = folder_.filePath(QStringLiteral("settings.chainmail"));
+    const SolverSettings saved{{true, 0.5, RelaxationScheme::link}, {{2, 0.4}, {3, 4, 5}}};
+    const SolverSettings other{{false, 0.75, RelaxationScheme::mean}, {{3, 0.2}, {2, 2, 2}}};
+    const auto set = [](Workbench& bench, const SolverSettings& settings) {
+      bench.document().setRelaxation(settings.relaxation);
+      bench.document().setElastic(settings.elastic, QStringLiteral("material"));
+    };
+    {
+      Workbench bench(cloth());
+      set(bench, saved);
+      bench.window.sessions().savePath(path);
+      bench.settle();
+    }
+    Workbench bench;
+    set(bench, other);
+    bench.open(path);
+    for (int i = 0; i < 2; ++i) {
+      for (int panel = 0; panel < bench.document().panels(); ++panel) {
+        QVERIFY(bench.settings(panel) == saved);
+      }
+      bench.document().undo();
+      for (int panel = 0; panel < bench.document().panels(); ++panel) {
+        QVERIFY(bench.settings(panel) == other);
+      }
+      bench.document().redo();
+    }
+  }
+
   void whatWasDoneIsGoneBackInAndForth() {
     const QString path = folder_.filePath(QStringLiteral("moves.chainmail"));
     Workbench bench(cloth());

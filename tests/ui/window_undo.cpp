@@ -17,6 +17,7 @@ struct Picture {
     for (int panel = 0; panel < 2; ++panel) {
       positions.push_back(document.frame(panel)->positions);
       algorithms.push_back(document.algorithm(panel));
+      settings.push_back(bench.settings(panel));
     }
     cuts = document.cuts().links();
     pins = document.pins();
@@ -26,6 +27,7 @@ struct Picture {
 
   std::vector<std::vector<float>> positions;
   std::vector<Algorithm> algorithms;
+  std::vector<SolverSettings> settings;
   std::vector<LinkId> cuts;
   std::vector<ElementId> pins;
   Softness softness;
@@ -40,6 +42,9 @@ void drag(Workbench& bench, ElementId element, QPoint by, bool release = true) {
 
 }  // namespace
 
+Q_DECLARE_METATYPE(chainmail::SolverSettings)
+Q_DECLARE_METATYPE(chainmail::Algorithm)
+
 class WindowUndo : public QObject {
   Q_OBJECT
 
@@ -49,35 +54,38 @@ class WindowUndo : public QObject {
   void everyStepIsUndoneAndRedoneExactly() {
     Workbench bench;
     Document& document = bench.document();
-    const std::vector<std::function<void()>> steps{[&] { drag(bench, 31, QPoint(120, -150)); },
-                                                   [&] {
-                                                     document.cut({3, 4, 40});
-                                                   },
-                                                   [&] { drag(bench, 0, QPoint(-60, 60)); },
-                                                   [&] {
-                                                     document.setPinned({8, 9}, true);
-                                                   },
-                                                   [&] {
-                                                     document.setSoftness({0.9, 1.05, 0}, QStringLiteral("stretch"));
-                                                   },
-                                                   [&] { bench.choose(0, "Exact ChainMail"); },
-                                                   [&] { drag(bench, 62, QPoint(90, 90)); },
-                                                   [&] {
-                                                     document.setRelaxation({true, 1, RelaxationScheme::mean});
-                                                   },
-                                                   [&] {
-                                                     document.setRelaxation({false, 0.5, RelaxationScheme::link});
-                                                   },
-                                                   [&] {
-                                                     document.setSoftnessOf({2, 7}, LinkSoftness{0.5, 2, 1});
-                                                   },
-                                                   [&] { bench.trigger("resetObject"); },
-                                                   [&] {
-                                                     document.replaceMesh(generate({MeshKind::tetra, {3, 3, 3}, 1, {}}),
-                                                                          QStringLiteral("block"),
-                                                                          QStringLiteral("open block"));
-                                                   },
-                                                   [&] { drag(bench, 26, QPoint(40, -40)); }};
+    const std::vector<std::function<void()>> steps{
+        [&] { drag(bench, 31, QPoint(120, -150)); },
+        [&] {
+          document.cut({3, 4, 40});
+        },
+        [&] { drag(bench, 0, QPoint(-60, 60)); },
+        [&] {
+          document.setPinned({8, 9}, true);
+        },
+        [&] {
+          document.setSoftness({0.9, 1.05, 0}, QStringLiteral("stretch"));
+        },
+        [&] { bench.choose(0, "Exact ChainMail"); },
+        [&] { drag(bench, 62, QPoint(90, 90)); },
+        [&] {
+          document.setRelaxation({true, 1, RelaxationScheme::mean});
+        },
+        [&] {
+          document.setRelaxation({false, 0.5, RelaxationScheme::link});
+        },
+        [&] {
+          document.setElastic({{2, 0.4}, {3, 4, 5}}, QStringLiteral("material"));
+        },
+        [&] {
+          document.setSoftnessOf({2, 7}, LinkSoftness{0.5, 2, 1});
+        },
+        [&] { bench.trigger("resetObject"); },
+        [&] {
+          document.replaceMesh(generate({MeshKind::tetra, {3, 3, 3}, 1, {}}), QStringLiteral("block"),
+                               QStringLiteral("open block"));
+        },
+        [&] { drag(bench, 26, QPoint(40, -40)); }};
     std::vector<Picture> pictures{Picture(bench)};
     for (const auto& step : steps) {
       step();
@@ -93,6 +101,129 @@ class WindowUndo : public QObject {
         QVERIFY2(Picture(bench) == pictures[at], qPrintable(QStringLiteral("step %1, back %2").arg(at).arg(back)));
       }
     }
+  }
+
+  void undoGivesTheSolversTheirSettingsBack_data() {
+    QTest::addColumn<SolverSettings>("after");
+    const auto row = [](const char* name, const commands::SetRelaxation& relaxation, const ElasticOptions& elastic) {
+      QTest::newRow(name) << SolverSettings{relaxation, elastic};
+    };
+    row("relaxation on", {true, 1, RelaxationScheme::mean}, {});
+    row("relaxation's step", {false, 0.25, RelaxationScheme::mean}, {});
+    row("relaxation's scheme", {false, 1, RelaxationScheme::link}, {});
+    row("Young's modulus", {}, {{7, ElasticOptions().material.poisson}, ElasticOptions().lattice});
+    row("Poisson's ratio", {}, {{ElasticOptions().material.young, 0.11}, ElasticOptions().lattice});
+    row("the lattice", {}, {ElasticOptions().material, {2, 4, 3}});
+  }
+
+  /// The docks show the document's settings; the next drag goes by the solvers'.
+  void undoGivesTheSolversTheirSettingsBack() {
+    QFETCH(SolverSettings, after);
+    Workbench bench;
+    Document& document = bench.document();
+    const SolverSettings before;
+    QVERIFY(after != before);
+    const auto everywhere = [&](const SolverSettings& settings) {
+      for (int panel = 0; panel < document.panels(); ++panel) {
+        QVERIFY(bench.settings(panel) == settings);
+      }
+      QVERIFY(document.relaxation() == settings.relaxation && document.elastic() == settings.elastic);
+    };
+    everywhere(before);
+    document.setRelaxation(after.relaxation);
+    document.setElastic(after.elastic, QStringLiteral("material"));
+    for (int i = 0; i < 2; ++i) {
+      everywhere(after);
+      document.undo();
+      everywhere(before);
+      document.redo();
+    }
+  }
+
+  void relaxationThatWasUndoneMovesNothingAnyMore() {
+    Workbench bench, never;
+    bench.document().setRelaxation({true, 1, RelaxationScheme::mean});
+    bench.document().undo();
+    for (Workbench* one : {&bench, &never}) {
+      one->document().grab(31);
+      one->document().drag(Point(9, 9, 0));
+      one->document().release();
+      one->settle();
+    }
+    for (int panel = 0; panel < 2; ++panel) {
+      QVERIFY(!bench.document().frame(panel)->statistics.relaxing);
+      QVERIFY(bench.document().frame(panel)->positions == never.document().frame(panel)->positions);
+    }
+  }
+
+  void undoOfADragGivesEveryPositionBackAtAnyRate_data() {
+    QTest::addColumn<int>("milliseconds");  // between two moves of the hand: the solvers see many of them, or few
+    for (const int milliseconds : {0, 2, 25}) {
+      QTest::newRow(qPrintable(QStringLiteral("%1 ms").arg(milliseconds))) << milliseconds;
+    }
+  }
+
+  void undoOfADragGivesEveryPositionBackAtAnyRate() {
+    QFETCH(int, milliseconds);
+    Workbench bench;
+    Document& document = bench.document();
+    drag(bench, 10, QPoint(-60, 60));
+    const auto positions = [&] {
+      return std::pair(document.placement(0).get().held, document.placement(1).get().held);
+    };
+    const auto before = positions();
+    for (const bool released : {true, false}) {  // undo also ends a drag
+      document.grab(31);
+      for (int i = 1; i <= 12; ++i) {
+        document.drag(document.mesh()->rest_position(31) + Point(0.3 * i, 0.4 * i, 0));
+        QTest::qWait(milliseconds);
+      }
+      if (released) {
+        document.release();
+      }
+      const auto after = positions();
+      QVERIFY(after != before);
+      document.undo();
+      QVERIFY(positions() == before);
+      document.redo();
+      QVERIFY(positions() == after);
+      document.undo();
+    }
+  }
+
+  void aDragAfterAnUndoIsThatOfAFreshObject_data() {
+    QTest::addColumn<Algorithm>("algorithm");
+    for (const AlgorithmInfo& one : every_algorithm()) {
+      QTest::newRow(std::string(one.name).c_str()) << one.algorithm;
+    }
+  }
+
+  /// Nothing of the drag that was undone may come up in the next one: no control points, no last answer of an
+  /// iteration.
+  void aDragAfterAnUndoIsThatOfAFreshObject() {
+    QFETCH(Algorithm, algorithm);
+    const bool rectangular = algorithm == Algorithm::original;
+    const MeshPointer mesh = generate({rectangular ? MeshKind::grid : MeshKind::cloth, {9, 7, 1}, 1, {}});
+    Workbench bench(mesh), fresh(mesh);
+    for (Workbench* one : {&bench, &fresh}) {
+      one->document().setAlgorithm(0, algorithm);
+      one->document().setPinned({0, 1, 2}, true);
+      one->settle();
+    }
+    const auto pull = [](Workbench& one, ElementId element, const Point& by) {
+      one.document().grab(element);
+      one.document().drag(one.document().mesh()->rest_position(element) + by);
+      one.document().release();
+      one.settle();
+    };
+    pull(bench, 40, Point(0.4, 0.7, 0));
+    const std::vector<float> first = bench.document().frame(0)->positions;
+    bench.document().undo();
+    pull(bench, 60, Point(-0.2, 0.5, 0));
+    pull(fresh, 60, Point(-0.2, 0.5, 0));
+    QVERIFY(first != bench.document().frame(0)->positions);
+    QVERIFY(bench.document().frame(0)->positions == fresh.document().frame(0)->positions);
+    QVERIFY(bench.document().frame(0)->control_points == fresh.document().frame(0)->control_points);
   }
 
   void undoInTheMiddleOfADragTakesTheDragBack() {

@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 
+#include "files/import/beginning.h"
 #include "files/import/counts.h"
 #include "files/import/gmsh_session.h"
 #include "files/import/tasks.h"
@@ -100,6 +101,7 @@ void take_type(MeshParts& parts, int type, const std::vector<std::size_t>& nodes
 }  // namespace
 
 ImportedMesh read_by_gmsh(const std::string& name, const std::filesystem::path& path) {
+  check_beginning(name, path);
   GmshSession session;
   session.open(path);
   ImportedMesh mesh;

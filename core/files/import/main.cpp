@@ -11,6 +11,7 @@
 #include <new>
 
 #include "files/import/channels.h"
+#include "files/import/sandbox.h"
 #include "files/import/tasks.h"
 #include "mesh/error.h"
 
@@ -22,6 +23,15 @@ void limit(int resource, rlim_t to) {
   setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 
+/// Gmsh recurses deeply and does this itself, but not in the sandbox.
+void use_all_of_the_stack() {
+  rlimit stack{};
+  if (getrlimit(RLIMIT_STACK, &stack) == 0) {
+    stack.rlim_cur = stack.rlim_max;
+    setrlimit(RLIMIT_STACK, &stack);
+  }
+}
+
 void set_limits(const char* bytes, const char* seconds) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // who asked is gone: so is the reason
   limit(RLIMIT_CORE, 0);
@@ -31,6 +41,12 @@ void set_limits(const char* bytes, const char* seconds) {
 #else
   static_cast<void>(bytes);
 #endif
+}
+
+/// Closes what the parent has open and did not mean to give.
+void close_others() {
+  close_range(STDERR_FILENO + 1, result_channel - 1, 0);
+  close_range(last_input + 1, ~0U, 0);
 }
 
 void report_share(double share) {
@@ -62,8 +78,13 @@ const std::map<std::string, Task>& tasks() {
   return all;
 }
 
+/// Closes the sandbox before a library sees the file.
 Imported carry_out(const std::string& task, const std::filesystem::path& path,
                    const std::vector<std::string>& arguments) {
+  if (!enter_sandbox()) {
+    return Refusal{"this system cannot confine the program that reads this format (seccomp is missing)",
+                   "use a kernel that has it, or another format"};
+  }
   try {
     return tasks().at(task)(path, arguments);
   } catch (const Error& error) {
@@ -91,7 +112,9 @@ int main(int count, char** words) {
     std::fputs("chainmail-import: it is started by chainmail and workbench, which read meshes through it\n", stderr);
     return 2;
   }
+  close_others();
   set_limits(words[1], words[2]);
+  use_all_of_the_stack();
   try {
     const auto imported = carry_out(words[3], words[4], {words + 5, words + count});
     // Without the libraries' own clearing up: what they have read may be damaged.

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace chainmail::import {
+
+/// Throws Error where a .msh or .mesh file (`name`) does not begin as a mesh: Gmsh runs any other file as a script,
+/// which may start programs and write files.
+void check_beginning(const std::string& name, const std::filesystem::path& path);
+
+}  // namespace chainmail::import

@@ -1,0 +1,116 @@
+#include <QtTest>
+
+#include "files/open_mesh.h"
+#include "files/support.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// Files that look like meshes and are scripts for Gmsh: nothing of them is carried out.
+class ScriptsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init();
+  void a_script_is_refused_data();
+  void a_script_is_refused();
+  void options_beside_a_mesh_are_not_read_data();
+  void options_beside_a_mesh_are_not_read();
+  void a_mesh_may_begin_with_comments_data();
+  void a_mesh_may_begin_with_comments();
+
+ private:
+  std::filesystem::path path(const std::string& name) const {
+    return std::filesystem::path(folder_->path().toStdString()) / name;
+  }
+  /// Commands that start a program and overwrite a file.
+  std::string script() const {
+    return "SystemCall \"touch " + path("trace").string() + "\";\nPrintf(\"gone\") > \"" + path("victim").string() +
+           "\";\n";
+  }
+  void check_nothing_happened() const {
+    QVERIFY(!std::filesystem::exists(path("trace")));
+    QCOMPARE(file_text(path("victim")), std::string("precious"));
+  }
+
+  std::unique_ptr<QTemporaryDir> folder_;
+};
+
+void ScriptsTest::init() {
+  folder_ = std::make_unique<QTemporaryDir>();
+  put_file(path("victim"), "precious");
+}
+
+void ScriptsTest::a_script_is_refused_data() {
+  QTest::addColumn<QString>("name");
+  QTest::addColumn<QByteArray>("before");
+  const QByteArray mark = "\xef\xbb\xbf", mesh = QByteArray::fromStdString(file_text(FOREIGN "/gmsh22.msh"));
+  QTest::newRow("alone") << "a.msh" << QByteArray();
+  QTest::newRow("as Medit") << "a.mesh" << QByteArray();
+  QTest::newRow("in capitals") << "a.MSH" << QByteArray();
+  QTest::newRow("behind a comment") << "a.msh" << QByteArray("// $MeshFormat\n");
+  // To Gmsh these are scripts with errors at their beginnings.
+  QTest::newRow("behind a blank line and a mesh") << "a.msh"
+                                                  << "\n" + mesh;
+  QTest::newRow("behind a byte order mark and a mesh") << "a.msh" << mark + mesh;
+  QTest::newRow("behind a comment and a mesh") << "a.msh"
+                                               << "# comment\n" + mesh;
+  QTest::newRow("behind a comment of Medit's") << "a.mesh" << QByteArray("# MeshVersionFormatted 2\n");
+}
+
+void ScriptsTest::a_script_is_refused() {
+  QFETCH(QString, name);
+  QFETCH(QByteArray, before);
+  put_file(path(name.toStdString()), before.toStdString() + script());
+  const QString error = error_of([&] { open_mesh(path(name.toStdString())); });
+  QVERIFY2(error.contains(name + ": it does not begin as a ") && !error.contains('\n'), qPrintable(error));
+  check_nothing_happened();
+}
+
+void ScriptsTest::options_beside_a_mesh_are_not_read_data() {
+  QTest::addColumn<QString>("source");
+  QTest::addColumn<QString>("name");
+  QTest::newRow("Gmsh") << "gmsh22.msh"
+                        << "a.msh";
+  QTest::newRow("Gmsh, binary") << "gmsh41_binary.msh"
+                                << "a.msh";
+  QTest::newRow("Medit") << "gmsh.mesh"
+                         << "a.mesh";
+  QTest::newRow("named otherwise") << "gmsh22.msh"
+                                   << "a.obj";
+}
+
+void ScriptsTest::options_beside_a_mesh_are_not_read() {
+  QFETCH(QString, source);
+  QFETCH(QString, name);
+  const auto mesh = path(name.toStdString());
+  std::filesystem::copy(std::filesystem::path(FOREIGN) / source.toStdString(), mesh);
+  put_file(mesh.string() + ".opt", script());
+  put_file(path("a.opt"), script());
+  put_file(path(".gmshrc"), script());
+  const auto linked = path("linked" + mesh.extension().string());
+  std::filesystem::create_symlink(mesh, linked);
+  put_file(linked.string() + ".opt", script());
+  QCOMPARE(open_mesh(mesh).mesh->element_count(), 44U);
+  QCOMPARE(open_mesh(linked).mesh->element_count(), 44U);
+  check_nothing_happened();
+}
+
+void ScriptsTest::a_mesh_may_begin_with_comments_data() {
+  QTest::addColumn<QString>("source");
+  QTest::addColumn<QByteArray>("before");
+  QTest::newRow("a.msh") << "gmsh22.msh" << QByteArray("$Comments\nby hand\n$EndComments\n");
+  QTest::newRow("a.mesh") << "gmsh.mesh" << QByteArray("# by hand\n\n# again\n");
+  QTest::newRow("b.mesh") << "gmsh.mesh" << QByteArray("\xef\xbb\xbf");
+}
+
+void ScriptsTest::a_mesh_may_begin_with_comments() {
+  QFETCH(QString, source);
+  QFETCH(QByteArray, before);
+  const auto mesh = path(QTest::currentDataTag());
+  put_file(mesh, before.toStdString() + file_text(std::filesystem::path(FOREIGN) / source.toStdString()));
+  QCOMPARE(open_mesh(mesh).mesh->element_count(), 44U);
+}
+
+QTEST_APPLESS_MAIN(ScriptsTest)
+#include "test_scripts.moc"

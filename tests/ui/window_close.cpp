@@ -1,0 +1,271 @@
+// A window closes within two seconds, whatever it is at, and what was to be saved is saved.
+
+#include <QDir>
+#include <QDoubleSpinBox>
+#include <QElapsedTimer>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTemporaryDir>
+#include <functional>
+
+#include "autosave.h"
+#include "file_actions.h"
+#include "files/mesh_file.h"
+#include "film.h"
+#include "legend.h"
+#include "mesh/layers.h"
+#include "replay_dock.h"
+#include "report_thread.h"
+#include "session_bench.h"
+#include "sessions.h"
+
+using namespace chainmail;
+
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr qint64 promised = 20'000;
+#else
+constexpr qint64 promised = 2'000;  // milliseconds
+#endif
+
+using Begin = std::function<void(Workbench&)>;
+
+MeshPointer grid(std::uint32_t width) { return generate({MeshKind::grid, {width, width, 1}, 1, {}}); }
+MeshPointer solid(std::uint32_t width, std::uint32_t height) {
+  return generate({MeshKind::tetra, {width, height, height}, 1, {}});
+}
+
+/// A drag of a corner, which the solvers have not answered yet when this returns.
+void pull(Document& document) {
+  const ElementId corner = document.mesh()->element_count() - 1;
+  document.grab(corner);
+  document.drag(document.mesh()->rest_position(corner) + Point(3, 2, 0));
+}
+
+/// Sweeps that would go on for hours, as a file of moves may ask for them, under way.
+void relaxForHours(Workbench& bench) {
+  const std::vector<Command> moves{commands::Grab{0}, commands::Drag{Point(-900, -700, 0)}, commands::Release{},
+                                   commands::Relax{1'000'000, 1, RelaxationScheme::mean}};
+  bench.document().loadMoves(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open moves"));
+  bench.settle();
+  bench.trigger("replayLast");
+  QTRY_COMPARE(bench.document().tape().position(), moves.size());
+  QVERIFY(!bench.document().idle());
+}
+
+/// A method of elasticity that prepares, in the first panel.
+Begin prepares(Algorithm algorithm) {
+  return [algorithm](Workbench& bench) {
+    bench.document().setPinned(layer(*bench.document().mesh(), *find_side("left")), true);
+    bench.document().setAlgorithm(0, algorithm);
+    bench.settle();
+    pull(bench.document());
+    QVERIFY(!bench.document().idle());
+  };
+}
+
+void calibrates(Workbench& bench) {
+  bench.document().setPinned(layer(*bench.document().mesh(), *find_side("left")), true);
+  bench.trigger("showPhysics");
+  bench.find<QPushButton>("calibrate")->click();
+  QTRY_VERIFY(bench.window.jobs().running() && bench.window.jobs().share() > 0);
+}
+
+void computesTheReference(Workbench& bench) {
+  bench.document().setPinned(layer(*bench.document().mesh(), *find_side("left")), true);
+  pull(bench.document());
+  bench.document().release();
+  bench.settle();
+  bench.window.colouring().setMode(ColourMode::truth);
+  QTRY_VERIFY_WITH_TIMEOUT(bench.window.panel(0).legend().title().contains(QStringLiteral("computing")), 20'000);
+}
+
+void reports(Workbench& bench) {
+  bench.trigger("showReport");
+  bench.find<QPushButton>("reportRun")->click();
+  QVERIFY(bench.window.findChild<ReportThread*>()->atWork());
+}
+
+void testsSizes(Workbench& bench) {
+  bench.trigger("showSizeTest");
+  bench.settle();
+  bench.find<QSpinBox>("sizeTestFirst")->setValue(400);
+  bench.find<QPushButton>("sizeTestRun")->click();
+  QTRY_VERIFY(bench.find<QWidget>("sizeTestStage") != nullptr);
+}
+
+void builds(Workbench& bench) {
+  bench.find<QSpinBox>("sizeW")->setValue(1024);
+  bench.find<QSpinBox>("sizeH")->setValue(1024);
+  bench.find<QPushButton>("buildMesh")->click();
+  QVERIFY(bench.window.jobs().running());
+}
+
+void fills(Workbench& bench) {
+  bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+  bench.trigger("fillSurface");
+  auto* size = bench.find<QDoubleSpinBox>("fillSize");
+  size->setValue(size->minimum());
+  bench.find<QPushButton>("fillAgree")->click();
+  QTRY_VERIFY(bench.window.jobs().running());
+}
+
+/// Thousands of moves of a large object that were asked for at once.
+void goesToTheEnd(Workbench& bench) {
+  std::vector<Command> moves{commands::Grab{0}};
+  for (int i = 0; i < 5000; ++i) {
+    moves.emplace_back(commands::Drag{Point(i % 2 == 0 ? -900 : 900, -300, 0)});
+  }
+  bench.document().loadMoves(std::make_shared<const std::vector<Command>>(std::move(moves)), QStringLiteral("open"));
+  bench.settle();
+  bench.trigger("replayLast");
+  QTRY_VERIFY(bench.document().tape().position() > 0);
+  QVERIFY(!bench.document().idle());
+}
+
+void plays(Workbench& bench) {
+  drag(bench.document(), 5, {30, 20, 0});
+  bench.settle();
+  bench.trigger("replayPlay");
+  QTRY_VERIFY(bench.document().tape().position() < bench.document().tape().length());
+}
+
+/// Exact ChainMail, which has to look for the regions of all elements, twice about each new hand.
+void takesALongPass(Workbench& bench) {
+  bench.document().setPinned({0, 5, 777}, true);
+  bench.document().setAlgorithm(0, Algorithm::exact);
+  bench.document().setAlgorithm(1, Algorithm::enhanced);
+  bench.settle();
+  for (const ElementId element : {100'000U, 30'000U, 60'000U}) {
+    drag(bench.document(), element, {100, 200, 0});
+  }
+  QVERIFY(!bench.document().idle());
+}
+
+}  // namespace
+
+Q_DECLARE_METATYPE(Begin)
+Q_DECLARE_METATYPE(chainmail::MeshPointer)
+
+class WindowClose : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void atAnyWork_data() {
+    QTest::addColumn<MeshPointer>("mesh");
+    QTest::addColumn<Begin>("begin");
+    const MeshPointer small = grid(20), large = grid(400);
+    const MeshPointer finite = solid(20, 17);  // nearly as large as neo-Hookean FEM takes
+    const auto row = [](const char* name, const MeshPointer& mesh, Begin begin) {
+      QTest::newRow(name) << mesh << std::move(begin);
+    };
+    row("nothing", small, [](Workbench&) {});
+    row("opening a large mesh", small, [this](Workbench& bench) {
+      save_mesh(path("large.obj").toStdString(), {*grid(600), {}, rest_positions(*grid(600)), {}});
+      bench.window.openFile(path("large.obj"));
+      QTRY_VERIFY(bench.window.jobs().share() > 0);
+    });
+    row("building", small, builds);
+    row("filling", small, fills);
+    row("calibrating", finite, calibrates);
+    row("the report", grid(120), reports);
+    row("the size test", small, testsSizes);
+    row("the reference solution", finite, computesTheReference);
+    row("sweeps of relaxation", large, relaxForHours);
+    row("going to the end of many moves", large, goesToTheEnd);
+    row("playing moves", large, plays);
+    row("preparing linear FEM", solid(32, 30), prepares(Algorithm::linear_fem));
+    row("neo-Hookean FEM", finite, prepares(Algorithm::neo_hookean));
+    row("preparing BEM", solid(18, 15), prepares(Algorithm::boundary_elements));
+    row("long passes", large, takesALongPass);
+    row("pictures of moves", large, [this](Workbench& bench) { films(bench, folder_.path()); });
+    if (Film::canMakeVideos()) {
+      row("a video of moves", large, [this](Workbench& bench) { films(bench, path("film.mp4")); });
+    }
+  }
+
+  void atAnyWork() {
+    QFETCH(MeshPointer, mesh);
+    QFETCH(Begin, begin);
+    auto bench = std::make_unique<Workbench>(mesh);
+    begin(*bench);
+    if (QTest::currentTestFailed()) {
+      return;
+    }
+    QElapsedTimer timer;
+    timer.start();
+    QVERIFY(bench->window.close());
+    bench.reset();
+    QVERIFY2(timer.elapsed() < promised, qPrintable(QStringLiteral("it took %1 ms").arg(timer.elapsed())));
+    QVERIFY(!QFile::exists(path("film.mp4")));
+    QVERIFY(QDir(folder_.path()).entryList({QStringLiteral("*.png")}).isEmpty());
+  }
+
+  /// The window goes at once, and what it was saving is there when it is gone.
+  void saving() {
+    auto bench = std::make_unique<Workbench>(grid(500));
+    bench->window.findChild<FileActions*>()->savePath(path("saved.obj"));
+    QElapsedTimer timer;
+    timer.start();
+    QVERIFY(bench->window.close());
+    QVERIFY(timer.elapsed() < promised);
+    bench.reset();
+    QCOMPARE(read_mesh(path("saved.obj").toStdString())->element_count(), 250'000U);
+  }
+
+  /// The work is offered at the next start, as far as the solvers had come.
+  void whatIsUnsavedIsKeptThoughASolverWouldGoOnForHours() {
+    auto bench = std::make_unique<Workbench>(grid(150));
+    bench->window.sessions().protect();
+    bench->document().setPinned({7}, true);
+    relaxForHours(*bench);
+    QElapsedTimer timer;
+    timer.start();
+    QVERIFY(bench->window.close());
+    bench.reset();
+    QVERIFY2(timer.elapsed() < promised, qPrintable(QStringLiteral("it took %1 ms").arg(timer.elapsed())));
+    const QDir kept(Autosave::folder());
+    const QStringList files = kept.entryList({QStringLiteral("*.chainmail")}, QDir::Files);
+    QCOMPARE(files.size(), 1);
+    QVERIFY(Autosave::isClosed(files.first()));
+    const Session session = read_session(kept.filePath(files.first()).toStdString());
+    QCOMPARE(session.mesh->element_count(), 22'500U);
+    QVERIFY(!session.panels.front().placement.runs.empty());  // the drag was done
+    QVERIFY(QFile::remove(kept.filePath(files.first())));
+  }
+
+  /// Nobody waits for hours to take sweeps back.
+  void sweepsAreTakenBackAtOnce() {
+    Workbench bench(grid(150));
+    relaxForHours(bench);
+    bench.document().undo();
+    QTRY_VERIFY_WITH_TIMEOUT(bench.document().settled(), int(promised));
+    for (int panel = 0; panel < bench.document().panels(); ++panel) {
+      const auto& positions = bench.document().frame(panel)->positions;
+      QVERIFY(std::equal(positions.begin(), positions.end(), bench.document().mesh()->rest.begin()));
+    }
+  }
+
+ private:
+  QString path(const char* name) const { return folder_.filePath(QLatin1String(name)); }
+
+  void films(Workbench& bench, const QString& to) {
+    for (int i = 0; i < 20; ++i) {
+      drag(bench.document(), 5, {30.0 + i, 20, 0});
+      bench.settle();
+    }
+    auto* dock = bench.find<ReplayDock>("replayDock");
+    dock->saveFilm(to);
+    dock->show();
+    QTRY_VERIFY(bench.find<QProgressBar>("filmProgress")->value() > 0);
+  }
+
+  QTemporaryDir folder_;
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowClose>(argc, argv); }
+#include "window_close.moc"
