@@ -184,6 +184,7 @@ void PhysicsTest::preparation_is_no_part_of_a_move() {
   // Of the first run, in which everything is prepared, too.
   Runner runner(bar, Algorithm::linear_fem, Precision::double_precision, {});
   const auto moves = with_preparing_move(*bar.mesh, bar.drags[0]);
+  QCOMPARE(count_moves(moves), count_moves(bar.drags[0]) + 1);
   const DragTimes cold = split(runner.run(moves, 0, {}).ms, true, false);
   QVERIFY2(cold.preparing > 0.5 * (factorize + grab), qPrintable(QString::number(cold.preparing)));
   for (const double ms : {measured.first_move.median, measured.ms_per_move.median, cold.first, cold.later}) {
