@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measure/physical_error.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -29,7 +30,10 @@ class BackgroundTruth::Worker {
       problem_ = problem;
       solver_ = std::make_unique<TruthSolver>(problem, progress.part(0, 0.3));
     }
-    return {problem.mesh, solver_->at(hand.element, hand.target, progress.part(0.3, 1)), {}};
+    Answer answer{problem.mesh, solver_->at(hand.element, hand.target, progress.part(0.3, 1))};
+    answer.rms = rms_displacement(*answer.mesh, answer.truth);
+    answer.nothing = error_of_nothing_moving(*answer.mesh, answer.truth).relative;
+    return answer;
   }
 
  private:
@@ -100,7 +104,9 @@ void BackgroundTruth::outdate() {
 }
 
 QString BackgroundTruth::state() const {
-  return jobs_.running() ? QStringLiteral("computing the truth… %1 %").arg(std::lround(100 * jobs_.share())) : why_;
+  return jobs_.running()
+             ? QStringLiteral("computing the reference solution… %1 %").arg(std::lround(100 * jobs_.share()))
+             : why_;
 }
 
 void BackgroundTruth::ask() {

@@ -22,7 +22,9 @@ class BackgroundTruth : public QObject {
   struct Answer {
     MeshPointer mesh;
     Truth truth;
-    std::string fault;  // why it is none; empty where it is one
+    double rms = 0;      // of the truth's displacements (mesh units)
+    double nothing = 0;  // the relative error of an object of which only the handle and the pins move
+    std::string fault;   // why it is none; empty where it is one
   };
 
   explicit BackgroundTruth(const Document& document);

@@ -10,10 +10,17 @@
 namespace chainmail {
 namespace {
 
+QString rounded(double number) { return QLocale().toString(number, 'g', 2); }
+
 QString change(const char* name, double before, double after) {
-  const QLocale locale;
-  return QStringLiteral("%1 %2 → <b>%3</b>")
-      .arg(QLatin1String(name), locale.toString(before, 'g', 2), locale.toString(after, 'g', 2));
+  return QStringLiteral("%1 %2 → <b>%3</b>").arg(QLatin1String(name), rounded(before), rounded(after));
+}
+
+QString errors(const TestedDrags& tested) {
+  const Residual &before = tested.before, &after = tested.after;
+  return QStringLiteral("%1 (nothing moves: %2), %3, %4 of the handle's displacement")
+      .arg(change("relative error", before.relative, after.relative), rounded(tested.nothing.relative),
+           change("RMS", before.rms, after.rms), change("max", before.max, after.max));
 }
 
 }  // namespace
@@ -44,9 +51,11 @@ void CalibrationBox::arrange() {
   result_->setObjectName(QStringLiteral("calibrationResult"));
   result_->setWordWrap(true);
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  result_->setToolTip(
-      QStringLiteral("How far elements stand from neo-Hookean FEM after random drags, over the hand's displacement: "
-                     "with the standard softness, and with the one that was found"));
+  result_->setToolTip(QStringLiteral(
+      "How far elements stand from neo-Hookean FEM on the same cells after random drags, with the default "
+      "softness and with the one that was found. The relative error is the RMS over that of the "
+      "reference's displacements: an object that does not move has about 1. Unseen drags are drags that "
+      "the search did not use."));
   result_->hide();
   keep_->hide();
   auto* column = new QVBoxLayout(this);
@@ -116,9 +125,11 @@ void CalibrationBox::take(const CalibrationResult& result, const CalibrationOpti
   const QString sweeps = result.sweeps == 0 ? QStringLiteral("without relaxation")
                                             : QStringLiteral("with %1 of relaxation after each move")
                                                   .arg(counted(std::size_t(result.sweeps), QStringLiteral("sweep")));
-  result_->setText(QStringLiteral("%1, %2: error %3, %4 of the hand's displacement; %5 tries")
-                       .arg(text(info(options.algorithm).label), sweeps, change("RMS", result.rms_before, result.rms),
-                            change("max", result.max_before, result.max), QLocale().toString(result.evaluations)));
+  const QLocale locale;
+  result_->setText(QStringLiteral("%1, %2: %3; %4 tries.<br>On %5 unseen drags: %6.")
+                       .arg(text(info(options.algorithm).label), sweeps, errors(result.fitted),
+                            locale.toString(result.evaluations),
+                            locale.toString(qulonglong(result.held_out.drags.size())), errors(result.held_out)));
   result_->show();
   keep_->show();
 }

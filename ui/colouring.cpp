@@ -24,7 +24,7 @@ constexpr std::array infos{
     ColourModeInfo{ColourMode::violationDifference, "violationDifference", "Violation, difference of panels",
                    "Violation", "rest lengths"},
     ColourModeInfo{ColourMode::truth, "truth", "Error against physics", "Error against physics",
-                   "of the hand's displacement"},
+                   "of the handle's displacement"},
 };
 
 }  // namespace
@@ -123,7 +123,7 @@ QString Colouring::title(int panel) const {
     return QStringLiteral("%1: %2").arg(what, truth_.state());
   }
   if (mode_ == ColourMode::truth && works_[panel].shown.number != 0) {
-    what += QStringLiteral(", RMS %1").arg(QLocale().toString(works_[panel].rms, 'g', 3));
+    what += errorInWords(works_[panel]);
   }
   if (comparesPanels(mode_)) {
     const auto others = comparedWith(panel);
@@ -135,6 +135,15 @@ QString Colouring::title(int panel) const {
                     : QStringLiteral("%1, %2 less that of %3").arg(what, panelName(panel), other);
   }
   return QStringLiteral("%1 (%2)").arg(what, text(mode.unit));
+}
+
+/// The error of a panel, first over what the reference itself moves: an object that does not move has about 1 of that.
+QString Colouring::errorInWords(const Work& work) const {
+  const BackgroundTruth::Answer& answer = *truth_.answer();
+  const QLocale locale;
+  return QStringLiteral(" on the same cells: relative %1, nothing moves %2; RMS %3")
+      .arg(locale.toString(work.rms * answer.truth.hand / answer.rms, 'g', 3), locale.toString(answer.nothing, 'g', 3),
+           locale.toString(work.rms, 'g', 3));
 }
 
 void Colouring::startOver() {

@@ -92,6 +92,7 @@ class Colouring : public QObject {
   float violation(const Work& work, int panel, LinkId link) const;
   float distance(const Work& work, int panel, int other, ElementId element) const;
   float error(const Work& work, int panel, ElementId element) const;
+  QString errorInWords(const Work& work) const;
   void goOn();
   void updateScales();
   ColourScale finished(ColourScale scale) const;

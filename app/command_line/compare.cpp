@@ -16,10 +16,9 @@ namespace {
 constexpr const char* footer =
     "Without a MESH: six objects, a minute or two. Each object is dragged three times: locally, as a whole, and\n"
     "back and forth, from rest. FOLDER receives report.html, report.json and report.csv; the main table is printed.\n\n"
-    "--against physics: the truth is neo-Hookean FEM, and FEM, BEM and free-form deformation take part. Without a "
-    "MESH: a\n"
-    "bar and a sheet. Each is nudged, pulled and bent away from its pins; FOLDER receives the plots as plot-N.svg "
-    "too.\n\n"
+    "--against physics: the reference is neo-Hookean FEM on the same cells; FEM, BEM, free-form deformation and an\n"
+    "object that does not move take part. Without a MESH: a bar and a sheet. Each is nudged, pulled and bent at three\n"
+    "handles, and once cut between two moves; FOLDER also receives the plots as SVG.\n\n"
     "A script of moves is JSON; pin, unpin, cut, uncut and softness are commands as well:\n"
     "  {\"version\": 1, \"commands\": [{\"do\": \"pin\", \"elements\": [0]}, {\"do\": \"grab\", \"element\": 5},\n"
     "    {\"do\": \"drag\", \"target\": [1, 2, 0]}, {\"do\": \"drag\", \"target\": [2, 3, 0]}]}\n\n"
@@ -61,8 +60,8 @@ std::vector<report::Case> read_cases(const CompareArguments& options) {
 }
 
 void refuse_physics(const CompareArguments& arguments) {
-  for (const CLI::Option* option : {arguments.pins, arguments.grow, arguments.elastic.young, arguments.elastic.poisson,
-                                    arguments.elastic.lattice}) {
+  for (const CLI::Option* option : {arguments.pins, arguments.grow, arguments.calibrated, arguments.elastic.young,
+                                    arguments.elastic.poisson, arguments.elastic.lattice}) {
     if (option->count() > 0) {
       throw Error(option->get_name(), "it is for the comparison with physics", "add --against physics");
     }

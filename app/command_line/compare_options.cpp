@@ -68,7 +68,8 @@ void add_contest(CLI::App& app, CompareArguments& options) {
   options.relaxation = add_value(app, "--relaxation", "mean|link", "how an element relaxes [mean]");
   options.relax_step = add_parameter(app, parameters::relax_step);
   options.precision = add_value(app, "--precision", "float|double", "the numbers to compute in [float]");
-  options.repetitions = add_value(app, "--repetitions", "N", "of each drag [as many as 4 s hold, 5 at least]");
+  options.repetitions = add_value(app, "--repetitions", "N",
+                                  "of each drag [as many as 4 s hold, 5 at least; physics: 1.5 s, 3 at least]");
 }
 
 void add_physics(CLI::App& app, CompareArguments& options) {
@@ -76,8 +77,11 @@ void add_physics(CLI::App& app, CompareArguments& options) {
   options.elastic = add_elastic(app);
   options.grow = add_value(app, "--grow", "SECONDS",
                            "let a bar and a sheet grow until a contestant has used so much; 0: not at all [1]");
-  for (CLI::Option* option :
-       {options.pins, options.grow, options.elastic.young, options.elastic.poisson, options.elastic.lattice}) {
+  options.calibrated =
+      add_value(app, "--calibrated", "on|off",
+                "also calibrate Natural Queue and Exact on each object: other drags, up to 10 sweeps [on]");
+  for (CLI::Option* option : {options.pins, options.grow, options.calibrated, options.elastic.young,
+                              options.elastic.poisson, options.elastic.lattice}) {
     option->group("Against physics");
   }
 }

@@ -13,7 +13,7 @@ struct CompareArguments {
               *precision = nullptr, *repetitions = nullptr;
   CLI::Option *compression = nullptr, *stretch = nullptr, *shear = nullptr, *preset = nullptr, *moves = nullptr;
   ElasticArguments elastic;
-  CLI::Option *pins = nullptr, *grow = nullptr;
+  CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr;
 };
 CompareArguments add_compare_arguments(CLI::App& app);
 

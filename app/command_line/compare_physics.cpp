@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "calibrate/for_report.h"
 #include "command_line/compare_options.h"
 #include "command_line/folder.h"
 #include "command_line/report_origin.h"
@@ -16,8 +17,15 @@ constexpr const char* ink = "#808080";
 
 report::PhysicsOptions read_options(const CompareArguments& arguments) {
   report::PhysicsOptions options;
+  const double seconds_a_drag = options.contest.seconds;
   options.contest = contest_of(arguments, every_algorithm(), "0,1,3,10,30,100");
+  options.contest.seconds = seconds_a_drag;
   std::ranges::sort(options.contest.sweeps);  // they are a curve
+  const std::string calibrated = value_of(arguments.calibrated).value_or("on");
+  check_word("--calibrated", calibrated, {"on", "off"});
+  if (calibrated == "on") {
+    options.calibrate = calibrator_for_reports(options.contest.scheme);
+  }
   if (const auto seconds = value_of(arguments.grow)) {
     options.growth_seconds = parse_number_of("--grow", *seconds);
     if (options.growth_seconds < 0) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ranges>
 
 #include "calibrate/drags.h"
 #include "calibrate/optimum.h"
@@ -15,7 +16,7 @@ namespace {
 // Compression, stretch and shear. Beyond these a link holds nothing any more that a drag of a fifth of the object
 // would notice.
 const std::vector<double> low{0, 1, 0}, high{1, 3, 2};
-constexpr std::array sweeps_tried{0, 1, 3, 10, 30, 100};
+constexpr std::array every_sweeps{0, 1, 3, 10, 30, 100};
 constexpr double share_everywhere = 0.6;  // of the evaluations; the others are spent about the best
 constexpr double share_of_truth = 0.2;    // of the progress
 
@@ -24,12 +25,26 @@ std::vector<double> point_of(const LinkSoftness& softness) {
   return {softness.compression, softness.stretch, softness.shear};
 }
 
-/// A softness and sweeps, and how far from the truth they end.
+Residual residual_of(const PhysicalError& error) { return {error.rms, error.max, error.relative}; }
+
+/// The means over some drags, and of the maxima the largest.
+Residual together(const std::vector<Residual>& residuals) {
+  Residual mean;
+  for (const Residual& one : residuals) {
+    mean.rms += one.rms / double(residuals.size());
+    mean.relative += one.relative / double(residuals.size());
+    mean.max = std::max(mean.max, one.max);
+  }
+  return mean;
+}
+
+/// A softness and sweeps, and how far from the reference they end.
 struct Trial {
   LinkSoftness softness;
   int sweeps = 0;
-  double rms = 0, max = 0;
   std::vector<Residual> residuals;  // one a drag
+
+  double relative() const { return together(residuals).relative; }
 };
 
 report::CompareOptions options_of(const CalibrationOptions& options) {
@@ -38,7 +53,7 @@ report::CompareOptions options_of(const CalibrationOptions& options) {
   return how;
 }
 
-/// Carries the drags out by one algorithm.
+/// Carries drags out by one algorithm.
 class Bench {
  public:
   Bench(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options, const Progress& progress)
@@ -49,27 +64,30 @@ class Bench {
         wanted_(options.evaluations),
         progress_(progress.part(share_of_truth, 1)) {}
 
-  const std::vector<TrueDrag>& drags() const { return drags_; }
+  const TrueDrags& drags() const { return drags_; }
+  const Mesh& mesh() const { return *object_.mesh; }
   int evaluations() const { return evaluations_; }
 
   Trial evaluate(const LinkSoftness& softness, int sweeps) {
-    Trial trial{softness, sweeps, 0, 0, {}};
-    object_.softness.global = softness;
-    for (const TrueDrag& drag : drags_) {
-      const double done = std::min(1.0, double(evaluations_) / wanted_);
-      runner_.run(drag.moves, sweeps, progress_.part(done, done));
-      const PhysicalError error =
-          measure_physical_error(*object_.mesh, runner_.simulation().solver().positions(), drag.truth);
-      trial.residuals.push_back({error.rms, error.max});
-      trial.rms += error.rms / double(drags_.size());
-      trial.max = std::max(trial.max, error.max);
-    }
     ++evaluations_;
-    return trial;
+    return {softness, sweeps, residuals(drags_.fitted, softness, sweeps)};
+  }
+
+  /// How far a softness and sweeps end from the reference on some drags.
+  std::vector<Residual> residuals(const std::vector<TrueDrag>& drags, const LinkSoftness& softness, int sweeps) {
+    std::vector<Residual> residuals;
+    object_.softness.global = softness;
+    const double done = std::min(1.0, double(evaluations_) / wanted_);
+    for (const TrueDrag& drag : drags) {
+      runner_.run(drag.moves, sweeps, progress_.part(done, done));
+      residuals.push_back(
+          residual_of(measure_physical_error(*object_.mesh, runner_.simulation().solver().positions(), drag.truth)));
+    }
+    return residuals;
   }
 
  private:
-  std::vector<TrueDrag> drags_;
+  TrueDrags drags_;
   report::Case object_;
   report::CompareOptions how_;
   report::Runner runner_;
@@ -85,11 +103,11 @@ void look(Search search, Bench& bench, int sweeps, int evaluations, Trial& best)
   }
   find_optimum(search, low, high, point_of(best.softness), evaluations, [&](const std::vector<double>& x) {
     Trial trial = bench.evaluate(softness_at(x), sweeps);
-    const double rms = trial.rms;
-    if (rms < best.rms) {
+    const double relative = trial.relative();
+    if (relative < best.relative()) {
       best = std::move(trial);
     }
-    return rms;
+    return relative;
   });
 }
 
@@ -102,6 +120,7 @@ CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) 
   if (options.drags < 1 || options.evaluations < 1) {
     throw Error(options.drags < 1 ? "drags" : "evaluations", "there would be none", "use 1 or more");
   }
+  options.held_out = std::max(0, options.held_out);
   std::ranges::sort(options.pins);
   options.pins.erase(std::unique(options.pins.begin(), options.pins.end()), options.pins.end());
   if (options.pins.empty()) {
@@ -114,13 +133,26 @@ CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) 
   return options;
 }
 
-CalibrationResult result_of(const Bench& bench, const Trial& before, const Trial& best) {
-  CalibrationResult result{best.softness, best.sweeps,         best.rms, best.max, before.rms,
-                           before.max,    bench.evaluations(), {}};
-  for (std::size_t i = 0; i < bench.drags().size(); ++i) {
-    const TrueDrag& drag = bench.drags()[i];
-    result.drags.push_back({drag.element, drag.target, before.residuals[i], best.residuals[i]});
+TestedDrags tested(const Mesh& mesh, const std::vector<TrueDrag>& drags, const std::vector<Residual>& before,
+                   const std::vector<Residual>& after) {
+  TestedDrags result;
+  std::vector<Residual> nothing;
+  for (std::size_t i = 0; i < drags.size(); ++i) {
+    nothing.push_back(residual_of(error_of_nothing_moving(mesh, drags[i].truth)));
+    result.drags.push_back({drags[i].element, drags[i].target, before[i], after[i], nothing.back()});
   }
+  result.before = together(before);
+  result.after = together(after);
+  result.nothing = together(nothing);
+  return result;
+}
+
+CalibrationResult result_of(Bench& bench, const Trial& before, const Trial& best) {
+  CalibrationResult result{best.softness, best.sweeps, bench.evaluations(), {}, {}};
+  result.fitted = tested(bench.mesh(), bench.drags().fitted, before.residuals, best.residuals);
+  const auto& held_out = bench.drags().held_out;
+  result.held_out = tested(bench.mesh(), held_out, bench.residuals(held_out, before.softness, before.sweeps),
+                           bench.residuals(held_out, best.softness, best.sweeps));
   return result;
 }
 
@@ -133,13 +165,16 @@ CalibrationResult calibrate(const MeshPointer& mesh, const Cuts& cuts, const Cal
   const Trial before = bench.evaluate({}, 0);
   // Sweeps are whole numbers, and what they do grows with their logarithm: each is given its own search.
   Trial best = before;
-  const int each = static_cast<int>(share_everywhere * options.evaluations) / int(sweeps_tried.size());
-  for (const int sweeps : sweeps_tried) {
+  const auto tried =
+      std::ranges::subrange(every_sweeps.begin(), std::ranges::upper_bound(every_sweeps, options.most_sweeps));
+  const int each = static_cast<int>(share_everywhere * options.evaluations) / std::max(1, int(tried.size()));
+  for (const int sweeps : tried) {
     look(Search::everywhere, bench, sweeps, std::min(each, options.evaluations - bench.evaluations()), best);
   }
   look(Search::about_a_point, bench, best.sweeps, options.evaluations - bench.evaluations(), best);
+  const CalibrationResult result = result_of(bench, before, best);
   progress.report(1.0);
-  return result_of(bench, before, best);
+  return result;
 }
 
 }  // namespace chainmail

@@ -1,6 +1,8 @@
 #include "calibrate/drags.h"
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <random>
 
 #include "mesh/error.h"
@@ -10,10 +12,9 @@
 namespace chainmail {
 namespace {
 
-constexpr int moves = 24;                           // of the hand, as in a comparison
-constexpr double shortest = 0.05, farthest = 0.20;  // of the object's largest extent
-constexpr int draws_a_drag = 4;                     // before it is given up
-constexpr double kept_from_pins = 0.25;             // of the way from the pins to the element farthest from them
+constexpr int moves = 24;                // of the handle, as in a comparison
+constexpr int draws_a_drag = 4;          // before it is given up
+constexpr double kept_from_pins = 0.25;  // of the way from the pins to the element farthest from them
 
 double squared_to_nearest(const Mesh& mesh, const std::vector<ElementId>& pins, ElementId element) {
   double least = std::numeric_limits<double>::infinity();
@@ -23,8 +24,8 @@ double squared_to_nearest(const Mesh& mesh, const std::vector<ElementId>& pins, 
   return least;
 }
 
-/// Who may be in the hand: of a solid what a hand can reach, and nobody right beside the pins.
-std::vector<ElementId> hands(const Mesh& mesh, const std::vector<ElementId>& pins) {
+/// Elements that a handle can be: of a solid those on its surface, and none right beside the pins.
+std::vector<ElementId> handles(const Mesh& mesh, const std::vector<ElementId>& pins) {
   std::vector<ElementId> elements;
   if (mesh.space_dimension == 3) {
     elements = boundary(mesh);
@@ -66,7 +67,7 @@ TrueDrag draw(const Mesh& mesh, const std::vector<ElementId>& free, std::mt19937
   const auto [low, high] = bounds(mesh);
   TrueDrag drag;
   drag.element = free[random() % free.size()];
-  const double distance = report::uniform(random, shortest, farthest) * (high - low).maxCoeff();
+  const double distance = report::uniform(random, shortest_drag, farthest_drag) * (high - low).maxCoeff();
   const Point way = distance * random_direction(mesh, random), start = mesh.rest_position(drag.element);
   drag.target = start + way;
   drag.moves.commands.emplace_back(commands::Grab{drag.element});
@@ -76,30 +77,52 @@ TrueDrag draw(const Mesh& mesh, const std::vector<ElementId>& free, std::mt19937
   return drag;
 }
 
-}  // namespace
+/// The elements without some others; all of them where none would be left.
+std::vector<ElementId> without(const std::vector<ElementId>& elements, const std::vector<ElementId>& others) {
+  std::vector<ElementId> left;
+  std::ranges::copy_if(elements, std::back_inserter(left),
+                       [&](ElementId e) { return std::ranges::find(others, e) == others.end(); });
+  return left.empty() ? elements : left;
+}
 
-std::vector<TrueDrag> true_drags(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options,
-                                 const Progress& progress) {
-  std::mt19937_64 random(options.seed);
-  const std::vector<ElementId> free = hands(*mesh, options.pins);
-  const std::vector<double> at_rest(options.pins.size() * static_cast<std::size_t>(mesh->space_dimension), 0.0);
-  TruthSolver solver({mesh, cuts, options.pins, at_rest, options.elastic}, progress.part(0, 0.1));
+/// So many drags with their reference solutions; fewer cannot be.
+std::vector<TrueDrag> draw(TruthSolver& solver, const Mesh& mesh, const std::vector<ElementId>& free, int count,
+                           std::mt19937_64& random, const Progress& progress) {
   std::vector<TrueDrag> drags;
   std::string last_failure;
-  for (int draws = 0; draws < draws_a_drag * options.drags && int(drags.size()) < options.drags; ++draws) {
-    TrueDrag drag = draw(*mesh, free, random);
-    const double done = double(drags.size()) / options.drags, next = double(drags.size() + 1) / options.drags;
+  for (int draws = 0; draws < draws_a_drag * count && int(drags.size()) < count; ++draws) {
+    TrueDrag drag = draw(mesh, free, random);
+    const double done = double(drags.size()) / count, next = double(drags.size() + 1) / count;
     try {
-      drag.truth = solver.at(drag.element, drag.target, progress.part(0.1 + 0.9 * done, 0.1 + 0.9 * next));
+      drag.truth = solver.at(drag.element, drag.target, progress.part(done, next));
       drags.push_back(std::move(drag));
     } catch (const Error& error) {
       last_failure = error.problem();
     }
   }
-  if (int(drags.size()) < options.drags) {
+  if (int(drags.size()) < count) {
     throw Error("truth", "too many of the drags do not converge: " + last_failure,
                 "try another --seed, or a finer mesh");
   }
+  return drags;
+}
+
+}  // namespace
+
+TrueDrags true_drags(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options,
+                     const Progress& progress) {
+  std::mt19937_64 random(options.seed);
+  const std::vector<ElementId> free = without(handles(*mesh, options.pins), options.not_these);
+  const std::vector<double> at_rest(options.pins.size() * static_cast<std::size_t>(mesh->space_dimension), 0.0);
+  TruthSolver solver({mesh, cuts, options.pins, at_rest, options.elastic}, progress.part(0, 0.1));
+  const double fitted = 0.1 + 0.9 * options.drags / (options.drags + options.held_out);
+  TrueDrags drags;
+  drags.fitted = draw(solver, *mesh, free, options.drags, random, progress.part(0.1, fitted));
+  std::vector<ElementId> seen = options.not_these;
+  for (const TrueDrag& drag : drags.fitted) {
+    seen.push_back(drag.element);
+  }
+  drags.held_out = draw(solver, *mesh, without(free, seen), options.held_out, random, progress.part(fitted, 1));
   return drags;
 }
 

@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// A drag, and where it should have led.
+/// A drag, and where it should lead.
 struct TrueDrag {
   ElementId element = 0;
   Point target = Point::Zero();
@@ -16,8 +16,14 @@ struct TrueDrag {
   report::RecordedMoves moves;
 };
 
-/// Random drags of an object, the same for the same seed. Those whose truth does not converge are drawn anew.
-std::vector<TrueDrag> true_drags(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options,
-                                 const Progress& progress);
+/// Drags to come close to, and drags to test the result on.
+struct TrueDrags {
+  std::vector<TrueDrag> fitted, held_out;
+};
+
+/// Random drags of an object, the same for the same seed. Those whose reference does not converge are drawn anew. Drags
+/// that are held out take elements that no fitted drag takes, where there are enough.
+TrueDrags true_drags(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options,
+                     const Progress& progress);
 
 }  // namespace chainmail

@@ -12,6 +12,7 @@ using namespace report;
 Json to_json(const PhysicsEntry& entry);
 Json to_json(const PhysicsDrag& drag);
 Json to_json(const PhysicsObject& object);
+Json to_json(const Calibration& calibration);
 Json to_json(const GrowthSeries& series);
 Json to_json(const PhysicsGrowth& growth);
 
@@ -25,16 +26,27 @@ Json all_of(const Items& items) {
 }
 
 Json to_json(const PhysicalError& error) {
-  return {{"rms", error.rms},
+  return {{"relative", error.relative},
+          {"rms", error.rms},
           {"max", error.max},
           {"moving_rms", error.moving_rms},
           {"moving_max", error.moving_max},
           {"moving_elements", error.moving}};
 }
 
-Json begin_with(const Contestant& contestant) {
-  return {{"algorithm", info(contestant.algorithm).name}, {"sweeps", contestant.sweeps}};
+Json to_json(const LinkSoftness& softness) {
+  return {{"compression", softness.compression}, {"stretch", softness.stretch}, {"shear", softness.shear}};
 }
+
+Json begin_with(const PhysicsContestant& contestant) {
+  return {{"algorithm", name(contestant)},
+          {"label", label(contestant)},
+          {"sweeps", contestant.sweeps},
+          {"calibrated", contestant.calibrated ? to_json(*contestant.calibrated) : Json()}};
+}
+
+/// None where nothing was timed.
+Json spread_or_none(const TimeSpread& ms) { return ms.count == 0 ? Json() : chainmail::to_json(ms); }
 
 Json to_json(const PhysicsEntry& entry) {
   Json json = begin_with(entry.contestant);
@@ -44,7 +56,11 @@ Json to_json(const PhysicsEntry& entry) {
   }
   const PhysicsMeasurement& measured = *entry.measurement;
   json["ms_per_move"] = chainmail::to_json(measured.ms_per_move);
-  json["prepare_ms"] = measured.prepare_ms;
+  json["first_move_ms"] = spread_or_none(measured.first_move);
+  json["move_after_cut_ms"] = spread_or_none(measured.move_after_cut);
+  json["prepare_ms"] = measured.prepare.ms();
+  json["factorize_ms"] = spread_or_none(measured.prepare.factorize);
+  json["grab_ms"] = spread_or_none(measured.prepare.grab);
   json["error"] = to_json(measured.error);
   return json;
 }
@@ -52,16 +68,36 @@ Json to_json(const PhysicsEntry& entry) {
 Json to_json(const PhysicsDrag& drag) {
   return {{"name", drag.name},
           {"description", drag.description},
+          {"handle", drag.handle},
           {"moves", drag.moves},
+          {"cut_before_last_move", drag.has_cut},
           {"hand", drag.hand},
           {"no_truth", drag.no_truth.empty() ? Json() : Json(drag.no_truth)},
           {"contestants", all_of(drag.entries)}};
 }
 
+Json to_json(const Calibration& calibration) {
+  Json json{{"algorithm", info(calibration.algorithm).name}};
+  if (!calibration.refusal.empty()) {
+    json["refusal"] = calibration.refusal;
+    return json;
+  }
+  json.update(to_json(calibration.softness));
+  json["sweeps"] = calibration.sweeps;
+  json["drags"] = calibration.drags;
+  json["evaluations"] = calibration.evaluations;
+  json["seconds"] = calibration.seconds;
+  return json;
+}
+
 Json to_json(const PhysicsObject& object) {
-  return {{"name", object.name},         {"description", object.description},
-          {"elements", object.elements}, {"links", object.links},
-          {"pins", object.pins},         {"drags", all_of(object.drags)}};
+  return {{"name", object.name},
+          {"description", object.description},
+          {"elements", object.elements},
+          {"links", object.links},
+          {"pins", object.pins},
+          {"drags", all_of(object.drags)},
+          {"calibrations", all_of(object.calibrations)}};
 }
 
 Json to_json(const GrowthSeries& series) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace chainmail {
 namespace {
@@ -22,22 +23,49 @@ struct Squares {
 }  // namespace
 
 PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions, const Truth& truth) {
-  Squares all, moving;
+  Squares all, moving, reference;
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    double error = 0, displacement = 0;
+    double apart = 0, displacement = 0;
     for (int k = 0; k < mesh.space_dimension; ++k) {
       const std::size_t at = std::size_t{e} * static_cast<std::size_t>(mesh.space_dimension) + k;
-      const double apart = (positions(e, k) - mesh.rest[at]) - truth.displacements[at];
-      error += apart * apart;
+      const double along_axis = (positions(e, k) - mesh.rest[at]) - truth.displacements[at];
+      apart += along_axis * along_axis;
       displacement += truth.displacements[at] * truth.displacements[at];
     }
-    all.add(error);
+    all.add(apart);
+    reference.add(displacement);
     if (std::sqrt(displacement) > counts_as_moving * truth.hand) {
-      moving.add(error);
+      moving.add(apart);
     }
   }
-  return {all.rms() / truth.hand, std::sqrt(all.largest) / truth.hand, moving.rms() / truth.hand,
-          std::sqrt(moving.largest) / truth.hand, moving.count};
+  PhysicalError error;
+  error.relative = all.rms() / reference.rms();
+  error.rms = all.rms() / truth.hand;
+  error.max = std::sqrt(all.largest) / truth.hand;
+  error.moving_rms = moving.rms() / truth.hand;
+  error.moving_max = std::sqrt(moving.largest) / truth.hand;
+  error.moving = moving.count;
+  return error;
+}
+
+PhysicalError error_of_nothing_moving(const Mesh& mesh, const Truth& truth) {
+  const auto dimension = static_cast<std::size_t>(mesh.space_dimension);
+  std::vector<double> positions = mesh.rest;
+  for (const ElementId element : truth.prescribed) {
+    for (std::size_t at = element * dimension; at < (element + 1) * dimension; ++at) {
+      positions[at] = mesh.rest[at] + truth.displacements[at];
+    }
+  }
+  return measure_physical_error(
+      mesh, PositionView(positions.data(), dimension * sizeof(double), Precision::double_precision), truth);
+}
+
+double rms_displacement(const Mesh& mesh, const Truth& truth) {
+  double sum = 0;
+  for (const double along_axis : truth.displacements) {
+    sum += along_axis * along_axis;
+  }
+  return std::sqrt(sum / double(mesh.element_count()));
 }
 
 }  // namespace chainmail

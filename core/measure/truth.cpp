@@ -1,13 +1,14 @@
 #include "measure/truth.h"
 
 #include <cmath>
+#include <utility>
 
 #include "mesh/error.h"
 
 namespace chainmail {
 
 TruthSolver::TruthSolver(const ElasticProblem& problem, const Progress& progress)
-    : mesh_(problem.mesh), solver_(make_elastic(ElasticMethod::neo_hookean, problem, progress)) {}
+    : mesh_(problem.mesh), pins_(problem.pins), solver_(make_elastic(ElasticMethod::neo_hookean, problem, progress)) {}
 
 Truth TruthSolver::at(ElementId hand, const Point& target, const Progress& progress) {
   std::vector<double> displacement;
@@ -23,7 +24,9 @@ Truth TruthSolver::at(ElementId hand, const Point& target, const Progress& progr
   if (const std::string& remark = solver_->remark(); !remark.empty()) {
     throw Error("neo-Hookean FEM", remark, "drag less far, or use a finer mesh");
   }
-  return {solver_->displacements(), std::sqrt(square)};
+  std::vector<ElementId> prescribed = pins_;
+  prescribed.push_back(hand);
+  return {solver_->displacements(), std::sqrt(square), std::move(prescribed)};
 }
 
 }  // namespace chainmail

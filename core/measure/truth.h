@@ -7,14 +7,17 @@
 
 namespace chainmail {
 
-/// Where an elastic object stands while a hand holds one of its elements: what errors are measured against.
+/// The reference solution: where an elastic object stands while a handle holds one of its elements.
 struct Truth {
   /// From rest, element by element, space_dimension coordinates each (mesh units).
   std::vector<double> displacements;
-  double hand = 0;  // how far the hand's element is from rest (mesh units), above 0
+  double hand = 0;  // how far the handle's element is from rest (mesh units), above 0
+  /// The handle's element and the pins: these stand where they are prescribed, whatever the method.
+  std::vector<ElementId> prescribed;
 };
 
-/// Finds it by neo-Hookean finite elements in double, with the hand and the pins prescribed.
+/// Finds it by neo-Hookean finite elements in double, with the handle and the pins prescribed. It is converged on the
+/// object's own cells, not under refinement of the mesh: one displaced node has no continuum limit.
 class TruthSolver {
  public:
   /// The options' lattice does not matter. Throws Error where the object has no static answer, and Cancelled.
@@ -26,6 +29,7 @@ class TruthSolver {
 
  private:
   MeshPointer mesh_;
+  std::vector<ElementId> pins_;
   std::unique_ptr<ElasticSolver> solver_;
 };
 

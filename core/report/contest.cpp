@@ -1,71 +1,67 @@
 #include "report/contest.h"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include "mesh/error.h"
-#include "report/move_times.h"
+#include "report/drag_times.h"
+#include "report/preparing.h"
 #include "report/runner.h"
 
 namespace chainmail::report {
 namespace {
 
 constexpr int fewest_repetitions = 3, most_repetitions = 51;
-constexpr double slow = 1;  // who takes longer for a drag (seconds) repeats it once
-
-using Clock = std::chrono::steady_clock;
-
-/// The time (ms) that a method of elasticity takes before its first move.
-double time_of_preparing(const Case& object, ElasticMethod method, ElementId hand) {
-  ElasticProblem problem{object.mesh, Cuts(object.mesh), object.pins, {}, object.elastic};
-  std::ranges::sort(problem.pins);
-  problem.pinned.resize(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension));
-  return 1e3 * seconds_of(machine_clocks(), [&] { make_elastic(method, problem)->hold(hand); });
-}
-
-ElementId hand_of(const RecordedMoves& moves) {
-  const auto* grab = std::get_if<commands::Grab>(&moves.commands.front());
-  return grab == nullptr ? 0 : grab->element;
-}
+constexpr double slow = 0.3;  // who takes longer for a drag (seconds) does not repeat it
 
 }  // namespace
 
 /// One contestant with all that its runs need.
 class Contest::Participant {
  public:
-  Participant(const Case& object, const Contestant& contestant, const CompareOptions& options)
+  Participant(const Case& object, const PhysicsContestant& contestant, const CompareOptions& options)
       : object_(object), contestant_(contestant) {
+    if (!contestant.algorithm) {
+      return;
+    }
+    if (contestant.calibrated) {
+      object_.softness = {*contestant.calibrated, {}};
+    }
     try {
-      runner_ = std::make_unique<Runner>(object, contestant.algorithm, options.precision, options);
+      runner_ = std::make_unique<Runner>(object_, *contestant.algorithm, options.precision, options);
     } catch (const Error& error) {
       refusal_ = error.what();
     }
   }
 
-  /// The first run of a drag, which finds the errors, and what preparing takes.
+  /// The first run of a drag, which finds the errors.
   void try_out(const RecordedMoves& moves, const Truth& truth, const std::stop_token& stop) {
     entry_ = {contestant_, std::nullopt, refusal_};
     times_ = {};
     warm_ = false;
+    if (!contestant_.algorithm) {
+      entry_.measurement.emplace().error = error_of_nothing_moving(*object_.mesh, truth);
+      return;
+    }
     if (!runner_) {
       return;
     }
     try {
-      moves_ = moves;
       prepare();
-      const auto start = Clock::now();
-      measure(runner_->run(moves_, contestant_.sweeps, stop), truth);
-      seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
+      has_cut_ = !cuts_of(moves).empty();
+      moves_ = prepares(contestant_) ? with_preparing_move(*object_.mesh, moves) : moves;
+      run(stop);
+      measure(handle_of(moves), truth);
     } catch (const Error& error) {
       entry_.refusal = error.what();
     }
   }
 
   int repetitions(double seconds) const {
-    return !entry_.measurement ? 0
-                               : std::clamp(int(seconds / std::max(seconds_, 1e-6)),
-                                            seconds_ > slow ? 1 : fewest_repetitions, most_repetitions);
+    if (!entry_.measurement || !runner_ || seconds_ > slow) {
+      return 0;
+    }
+    return std::clamp(int(seconds / std::max(seconds_, 1e-6)), fewest_repetitions, most_repetitions);
   }
 
   void repeat(const std::stop_token& stop) {
@@ -73,78 +69,69 @@ class Contest::Participant {
       times_ = {};  // the first run was the warm-up
       warm_ = true;
     }
-    Runner::Run run = runner_->run(moves_, contestant_.sweeps, stop);
-    if (!run.stopped) {
-      times_.add(of_moves(std::move(run.ms)));
-    }
+    run(stop);
   }
 
   PhysicsEntry result() {
-    if (entry_.measurement) {
-      entry_.measurement->ms_per_move = times_.spread();
+    if (auto& measured = entry_.measurement; measured && runner_) {
+      measured->first_move = times_.spread(&DragTimes::first);
+      measured->ms_per_move = times_.spread(&DragTimes::later);
+      measured->move_after_cut = has_cut_ ? times_.spread(&DragTimes::after_cut) : TimeSpread();
     }
     return std::move(entry_);
   }
 
  private:
-  /// Once for the element in the hand: another drag of it finds all prepared.
+  /// Once for the object and all its handles.
   void prepare() {
-    const ElementId hand = hand_of(moves_);
-    if (const auto method = elastic_method(contestant_.algorithm); method && hand != prepared_for_) {
-      prepare_ms_ = time_of_preparing(object_, *method, hand);
-      prepared_for_ = hand;
+    if (prepares(contestant_) && !preparing_) {
+      preparing_.emplace(object_, *elastic_method(*contestant_.algorithm));
     }
   }
 
-  void measure(Runner::Run run, const Truth& truth) {
+  void run(const std::stop_token& stop) {
+    const double start = clocks_.wall();
+    const Runner::Run run = runner_->run(moves_, contestant_.sweeps, stop);
+    stopped_ = run.stopped;
+    if (run.stopped) {
+      return;
+    }
+    const DragTimes times = split(run.ms, prepares(contestant_), has_cut_);
+    // Without a cut, what was prepared is there when the drag is repeated.
+    seconds_ = clocks_.wall() - start - (has_cut_ ? 0 : times.preparing / 1e3);
+    times_.add(times);
+  }
+
+  void measure(ElementId handle, const Truth& truth) {
     const Simulation& simulation = runner_->simulation();
     entry_.refusal = simulation.statistics().remark;
-    if (!run.stopped && entry_.refusal.empty()) {
-      const PhysicalError error = measure_physical_error(simulation.mesh(), simulation.solver().positions(), truth);
-      entry_.measurement = {{}, prepare_ms_, error};
-      times_.add(of_moves(std::move(run.ms)));
+    if (!stopped_ && entry_.refusal.empty()) {
+      PhysicsMeasurement& measured = entry_.measurement.emplace();
+      measured.error = measure_physical_error(simulation.mesh(), simulation.solver().positions(), truth);
+      if (preparing_) {
+        measured.prepare = preparing_->of(handle);
+      }
     }
   }
 
-  /// A method of elasticity prepares in the first move.
-  std::vector<double> of_moves(std::vector<double> ms) const {
-    if (elastic_method(contestant_.algorithm) && ms.size() > 1) {
-      ms.erase(ms.begin());
-    }
-    return ms;
-  }
-
-  const Case& object_;
-  Contestant contestant_;
+  Case object_;  // with the softness of the contestant
+  PhysicsContestant contestant_;
   std::unique_ptr<Runner> runner_;
   std::string refusal_;
-  double prepare_ms_ = 0;
-  ElementId prepared_for_ = no_element;
+  std::optional<PreparingTimes> preparing_;
+  Clocks clocks_ = machine_clocks();
   // Of the present drag.
   PhysicsEntry entry_;
   RecordedMoves moves_;
-  MoveTimes times_;
+  bool has_cut_ = false;
+  RepeatedDrag times_;
   double seconds_ = 0;
-  bool warm_ = false;
+  bool warm_ = false, stopped_ = false;
 };
 
-std::vector<Contestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps) {
-  std::vector<Contestant> contestants;
-  for (const Algorithm algorithm : algorithms) {
-    if (elastic_method(algorithm)) {
-      contestants.push_back({algorithm, 0});
-      continue;
-    }
-    for (const int count : sweeps) {
-      contestants.push_back({algorithm, count});
-    }
-  }
-  return contestants;
-}
-
-Contest::Contest(const Case& object, const std::vector<Contestant>& contestants, const CompareOptions& options)
+Contest::Contest(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options)
     : options_(options) {
-  for (const Contestant& contestant : contestants) {
+  for (const PhysicsContestant& contestant : contestants) {
     participants_.push_back(std::make_unique<Participant>(object, contestant, options_));
   }
 }

@@ -9,18 +9,14 @@
 
 namespace chainmail::report {
 
-/// Who takes part: the ChainMail family by all numbers of sweeps, the others without.
-std::vector<Contestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps);
-
-/// All contestants on one object, drag by drag. What they have prepared for the object and the element in the hand,
-/// they keep.
+/// All contestants on one object, drag by drag. What they have prepared for the object and a handle, they keep.
 class Contest {
  public:
   /// The object must outlive it. Who cannot take part is listed with the reason.
-  Contest(const Case& object, const std::vector<Contestant>& contestants, const CompareOptions& options);
+  Contest(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options);
   ~Contest();
 
-  /// A drag by all of them, against where the truth has it end.
+  /// A drag by all of them, against the reference solution at its end.
   std::vector<PhysicsEntry> run(const RecordedMoves& moves, const Truth& truth, const std::function<void(double)>& tell,
                                 const std::stop_token& stop);
 

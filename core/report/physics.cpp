@@ -1,15 +1,20 @@
 #include "report/physics.h"
 
 #include <algorithm>
+#include <array>
 
+#include "measure/truth.h"
 #include "mesh/error.h"
 #include "report/contest.h"
 #include "report/physics_cases.h"
+#include "report/preparing.h"
 #include "report/runner.h"
 
 namespace chainmail::report {
 namespace {
 
+// Calibration takes longer than a drag, and the others of the family differ little from these.
+constexpr std::array calibrated_algorithms{Algorithm::natural_queue, Algorithm::exact};
 constexpr double share_of_drags = 0.6;  // of the progress, where objects grow as well
 
 PhysicsOptions checked(PhysicsOptions options) {
@@ -25,8 +30,8 @@ PhysicsOptions checked(PhysicsOptions options) {
   return options;
 }
 
-/// The truth of an object, without which nothing can be measured.
-TruthSolver truth_of(const Case& object) {
+/// The solver of the reference solution, without which nothing can be measured.
+TruthSolver reference_of(const Case& object, const std::vector<LinkId>& cut) {
   std::vector<ElementId> pins = object.pins;
   std::ranges::sort(pins);
   const std::vector<double> at_rest(pins.size() * static_cast<std::size_t>(object.mesh->space_dimension), 0.0);
@@ -34,38 +39,66 @@ TruthSolver truth_of(const Case& object) {
     throw Error(object.name, "nothing pins it, so physics has no static answer",
                 "pin a side, the boundary, or elements");
   }
+  Cuts cuts(object.mesh);
+  for (const LinkId link : cut) {
+    cuts.cut(link);
+  }
   try {
-    return TruthSolver({object.mesh, Cuts(object.mesh), pins, at_rest, object.elastic});
+    return TruthSolver({object.mesh, cuts, pins, at_rest, object.elastic});
   } catch (const Error& error) {
     throw error.at(object.name);
   }
 }
 
-/// Where the hand is at last, and which element it holds.
-Truth truth_of(TruthSolver& solver, const RecordedMoves& moves) {
-  ElementId hand = 0;
+/// The reference solution at the end of a drag.
+Truth reference_at_end(TruthSolver& solver, const RecordedMoves& moves) {
   Point target = Point::Zero();
   for (const Command& command : moves.commands) {
-    if (const auto* grab = std::get_if<commands::Grab>(&command)) {
-      hand = grab->element;
-    } else if (const auto* drag = std::get_if<commands::Drag>(&command)) {
+    if (const auto* drag = std::get_if<commands::Drag>(&command)) {
       target = drag->target;
     }
   }
-  return solver.at(hand, target);
+  return solver.at(handle_of(moves), target);
 }
 
-PhysicsDrag drag_of(Contest& contest, const RecordedMoves& moves, TruthSolver& solver,
+PhysicsDrag drag_of(Contest& contest, const Case& object, const RecordedMoves& moves, TruthSolver& uncut,
                     const std::function<void(double)>& tell, const std::stop_token& stop) {
-  PhysicsDrag drag{moves.name, moves.description, count_moves(moves), 0, {}, {}};
+  const std::vector<LinkId> cut = cuts_of(moves);
+  PhysicsDrag drag{moves.name, moves.description, handle_of(moves), count_moves(moves), !cut.empty(), 0, {}, {}};
   try {
-    const Truth truth = truth_of(solver, moves);
+    std::optional<TruthSolver> with_cut;
+    if (drag.has_cut) {
+      with_cut.emplace(reference_of(object, cut));
+    }
+    const Truth truth = reference_at_end(with_cut ? *with_cut : uncut, moves);
     drag.hand = truth.hand;
     drag.entries = contest.run(moves, truth, tell, stop);
   } catch (const Error& error) {
     drag.no_truth = error.what();
   }
   return drag;
+}
+
+/// Calibrates those of the ChainMail family that take part and fit the object.
+std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options,
+                                         const std::function<void(double)>& tell, const std::stop_token& stop) {
+  std::vector<Calibration> found;
+  const std::vector<ElementId> handles = handles_of(object);
+  for (const Algorithm algorithm : calibrated_algorithms) {
+    const bool takes_part = std::ranges::count(options.contest.algorithms, algorithm) != 0;
+    if (!options.calibrate || !takes_part || !fits(algorithm, *object.mesh) || stop.stop_requested()) {
+      continue;
+    }
+    tell(0);
+    try {
+      found.push_back(options.calibrate(object, algorithm, handles, stop));
+    } catch (const Error& error) {
+      found.push_back({algorithm, {}, 0, 0, 0, 0, error.what()});
+    } catch (const Cancelled&) {
+      break;
+    }
+  }
+  return found;
 }
 
 /// What is told while the experiment goes on, of its whole.
@@ -101,11 +134,11 @@ void add_growths(PhysicsReport& report, const Softness& softness, const Teller& 
   const ElasticOptions elastic = report.elastic;
   report.growths.push_back(grow(
       "bar", "tetrahedra, pinned at the left layer, pulled",
-      [&](std::uint64_t elements) { return pinned_bar(elements, softness, elastic); }, options,
+      [&](std::uint64_t elements) { return pinned_bar(elements, softness, elastic, false); }, options,
       teller.of_growth("growing bar", 0, 2), stop));
   report.growths.push_back(grow(
       "sheet", "triangles in a plane, pinned at the top layer, pulled",
-      [&](std::uint64_t elements) { return pinned_sheet(elements, softness, elastic); }, options,
+      [&](std::uint64_t elements) { return pinned_sheet(elements, softness, elastic, false); }, options,
       teller.of_growth("growing sheet", 1, 2), stop));
 }
 
@@ -121,16 +154,21 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
   Teller teller(progress, drags, report.options.growth_seconds > 0);
   for (const Case& object : cases) {
     PhysicsObject& result = report.objects.emplace_back();
-    result = {
-        object.name, object.description, object.mesh->element_count(), object.mesh->link_count(), object.pins.size(),
-        {}};
-    TruthSolver solver = truth_of(object);
+    result = {object.name,
+              object.description,
+              object.mesh->element_count(),
+              object.mesh->link_count(),
+              object.pins.size(),
+              {},
+              {}};
+    TruthSolver solver = reference_of(object, {});
     const CompareOptions& how = report.options.contest;
-    Contest contest(object, contestants_of(how.algorithms, how.sweeps), how);
+    result.calibrations = calibrations_of(object, report.options, teller.of_drag(object.name + ", calibrating"), stop);
+    Contest contest(object, contestants_of(how.algorithms, how.sweeps, result.calibrations), how);
     for (const RecordedMoves& moves : object.drags) {
       const auto tell = teller.of_drag(object.name + ", " + moves.name);
       tell(0);
-      PhysicsDrag drag = drag_of(contest, moves, solver, tell, stop);
+      PhysicsDrag drag = drag_of(contest, object, moves, solver, tell, stop);
       if (stop.stop_requested()) {
         report.stopped = true;
         return report;

@@ -47,7 +47,7 @@ class Budget {
   double left_, last_ = 0, ratio_ = next_size;
 };
 
-/// The truth at a size, as long as its own time lasts.
+/// The reference solution at a size, as long as its own time lasts.
 std::optional<Truth> truth_at(const Case& object, Budget& budget) {
   if (!budget.holds_next()) {
     return std::nullopt;
@@ -67,8 +67,8 @@ std::optional<Truth> truth_at(const Case& object, Budget& budget) {
   }
 }
 
-/// Without a truth times alone are looked at; to measure against, rest will do.
-Truth no_truth(const Case& object) { return {std::vector<double>(object.mesh->rest.size(), 0.0), 1}; }
+/// Without a reference only times count; rest is as good as anything to measure against.
+Truth no_truth(const Case& object) { return {std::vector<double>(object.mesh->rest.size(), 0.0), 1, {}}; }
 
 void measure(GrowthSeries& series, Budget& budget, const Case& object, const std::optional<Truth>& truth,
              CompareOptions options, const std::stop_token& stop) {
@@ -80,7 +80,7 @@ void measure(GrowthSeries& series, Budget& budget, const Case& object, const std
       object.drags.front(), truth ? *truth : no_truth(object), [](double) {}, stop);
   budget.spend(now() - start);
   if (const auto& measurement = entries.front().measurement) {
-    series.points.push_back({object.mesh->element_count(), measurement->ms_per_move.median, measurement->prepare_ms,
+    series.points.push_back({object.mesh->element_count(), measurement->ms_per_move.median, measurement->prepare.ms(),
                              truth ? std::optional(measurement->error) : std::nullopt});
     series.end = budget.holds_next() ? "" : "its time was used up";
   } else if (!stop.stop_requested()) {
@@ -104,7 +104,10 @@ PhysicsGrowth grow(const std::string& name, const std::string& description,
                    const std::function<void(double)>& tell, const std::stop_token& stop) {
   PhysicsGrowth growth{name, description, {}};
   std::vector<Budget> budgets;
-  for (const Contestant& contestant : contestants_of(options.contest.algorithms, sweeps_grown)) {
+  for (const PhysicsContestant& contestant : contestants_of(options.contest.algorithms, sweeps_grown, {})) {
+    if (!contestant.algorithm) {
+      continue;  // its relative error is about 1 at every size, and it has no times
+    }
     growth.series.push_back({contestant, {}, {}, {}});
     budgets.emplace_back(options.growth_seconds);
   }

@@ -1,63 +1,53 @@
 #include <algorithm>
-#include <iterator>
 
 #include "report/format.h"
+#include "report/physics_means.h"
 #include "report/physics_report.h"
 
 namespace chainmail::report {
 namespace {
 
-// Below this the truth is found again: what Newton's method and single precision leave.
+// Below this the reference is found again: what Newton's method and single precision leave.
 constexpr double as_good_as_true = 1e-5;
 constexpr double smallest_time = 1e-9;  // ms; a clock that saw nothing
 
-std::string in_words(const PhysicsEntry& entry) {
-  const PhysicsMeasurement& measured = *entry.measurement;
-  return label(entry.contestant) + ": " + figure(measured.ms_per_move.median) + " ms a move, RMS error " +
-         percent(measured.error.rms) + " of the hand's displacement, max " + percent(measured.error.max);
+/// The time that a drag is about: a later move, or the move after its cut.
+const TimeSpread& time_of(const PhysicsDrag& drag, const PhysicsMeasurement& measured) {
+  return drag.has_cut ? measured.move_after_cut : measured.ms_per_move;
 }
 
-/// Marks, and for each algorithm with sweeps a line through them.
-PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag) {
-  PlotPanel panel{drag.no_truth.empty() ? drag.name : drag.name + ": no truth", {}, {}};
+std::string in_words(const PhysicsDrag& drag, const PhysicsEntry& entry) {
+  const PhysicsMeasurement& measured = *entry.measurement;
+  return label(entry.contestant) + ": " + figure(time_of(drag, measured).median) + " ms per move, relative error " +
+         figure(measured.error.relative) + ", RMS error " + percent(measured.error.rms) +
+         " of the handle's displacement, max " + percent(measured.error.max);
+}
+
+/// Marks, and for each algorithm with sweeps a line through them; calibrated ones stand alone.
+PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag, const std::string& title) {
+  PlotPanel panel{drag.no_truth.empty() ? title : title + ": no reference", {}, {}};
   for (const PhysicsEntry& entry : drag.entries) {
     if (!entry.measurement) {
       continue;
     }
-    const TimeSpread& ms = entry.measurement->ms_per_move;
-    const std::size_t series = series_of(plot, entry.contestant.algorithm);
-    const int sweeps = entry.contestant.sweeps;
-    panel.marks.push_back({ms.median, ms.lower_quartile, ms.upper_quartile, entry.measurement->error.rms, series,
-                           sweeps > 0, "", in_words(entry)});
-    if (!elastic_method(entry.contestant.algorithm)) {
+    const double error = entry.measurement->error.relative;
+    if (!entry.contestant.algorithm) {
+      panel.level = PlotLevel{error, "nothing moves"};
+      continue;
+    }
+    const TimeSpread& ms = time_of(drag, *entry.measurement);
+    const std::size_t series = series_of(plot, *entry.contestant.algorithm);
+    const bool calibrated = entry.contestant.calibrated.has_value();
+    panel.marks.push_back({ms.median, ms.lower_quartile, ms.upper_quartile, error, series, entry.contestant.sweeps > 0,
+                           calibrated ? "cal." : "", in_words(drag, entry)});
+    if (!prepares(entry.contestant) && !calibrated) {
       if (panel.curves.empty() || panel.curves.back().series != series) {
         panel.curves.push_back({series, {}});
       }
-      panel.curves.back().points.push_back({ms.median, entry.measurement->error.rms});
+      panel.curves.back().points.push_back({ms.median, error});
     }
   }
   return panel;
-}
-
-/// The mean of a contestant's drags; nothing where it is missing from one.
-PhysicsEntry mean_of(const std::vector<PhysicsDrag>& drags, std::size_t entry) {
-  PhysicsEntry mean = drags.front().entries[entry];
-  for (std::size_t i = 1; i < drags.size(); ++i) {
-    const auto& other = drags[i].entries[entry].measurement;
-    if (!mean.measurement || !other) {
-      mean.measurement.reset();
-      return mean;
-    }
-    const double old = double(i) / double(i + 1);
-    const auto mix = [old](double& to, double with) { to = old * to + (1 - old) * with; };
-    auto& [ms, prepare, error] = *mean.measurement;
-    mix(ms.median, other->ms_per_move.median);
-    mix(ms.lower_quartile, other->ms_per_move.lower_quartile);
-    mix(ms.upper_quartile, other->ms_per_move.upper_quartile);
-    mix(error.rms, other->error.rms);
-    error.max = std::max(error.max, other->error.max);
-  }
-  return mean;
 }
 
 std::string sweeps_in_words(const PhysicsObject& object) {
@@ -66,7 +56,7 @@ std::string sweeps_in_words(const PhysicsObject& object) {
   for (const PhysicsDrag& drag : object.drags) {
     for (const PhysicsEntry& entry : drag.entries) {
       const int sweeps = entry.contestant.sweeps;
-      if (sweeps > 0 && std::ranges::find(seen, sweeps) == seen.end()) {
+      if (sweeps > 0 && !entry.contestant.calibrated && std::ranges::find(seen, sweeps) == seen.end()) {
         seen.push_back(sweeps);
         text += (text.empty() ? "" : ", ") + std::to_string(sweeps);
       }
@@ -82,7 +72,7 @@ Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& w
   plot.title = "Elements against " + what;
   plot.x_label = "elements";
   plot.y_label = what;
-  plot.legend_notes = {"filled: without relaxation", "hollow: 10 sweeps a move"};
+  plot.legend_notes = {"filled: without relaxation", "hollow: 10 sweeps per move"};
   for (const PhysicsGrowth& growth : growths) {
     PlotPanel& panel = plot.panels.emplace_back();
     panel.title = growth.name;
@@ -90,7 +80,7 @@ Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& w
       if (std::ranges::none_of(series.points, [&](const GrowthPoint& point) { return value_of(point).has_value(); })) {
         continue;
       }
-      PlotCurve curve{series_of(plot, series.contestant.algorithm), {}};
+      PlotCurve curve{series_of(plot, *series.contestant.algorithm), {}};
       for (const GrowthPoint& point : series.points) {
         if (const auto value = value_of(point)) {
           const auto elements = double(point.elements);
@@ -109,14 +99,17 @@ Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& w
 Plot empty_plot(const std::string& title, const PhysicsObject& object) {
   Plot plot;
   plot.title = title;
-  plot.x_label = "ms a move";
-  plot.y_label = "RMS error / hand’s displacement";
+  plot.x_label = "ms per move";
+  plot.y_label = "relative error";
   plot.smallest_y = as_good_as_true;
   plot.legend_notes = {"filled: without relaxation"};
   if (const std::string sweeps = sweeps_in_words(object); !sweeps.empty()) {
-    plot.legend_notes.push_back("line: " + sweeps + " sweeps a move");
+    plot.legend_notes.push_back("line: " + sweeps + " sweeps per move");
   }
-  plot.legend_notes.emplace_back("0: neo-Hookean FEM, the truth");
+  plot.legend_notes.emplace_back("cal.: calibrated on other drags");
+  plot.legend_notes.emplace_back("dashed: nothing moves");
+  plot.legend_notes.emplace_back("0: neo-Hookean FEM, the reference,");
+  plot.legend_notes.emplace_back("on the same cells as linear FEM");
   return plot;
 }
 
@@ -124,8 +117,8 @@ Plot empty_plot(const std::string& title, const PhysicsObject& object) {
 
 Plot physics_plot(const PhysicsObject& object) {
   Plot plot = empty_plot("Time against error on " + object.name, object);
-  for (const PhysicsDrag& drag : object.drags) {
-    plot.panels.push_back(panel_of(plot, drag));
+  for (const PhysicsDrag& drag : means_by_name(object)) {
+    plot.panels.push_back(panel_of(plot, drag, drag.name));
   }
   return plot;
 }
@@ -133,20 +126,13 @@ Plot physics_plot(const PhysicsObject& object) {
 Plot physics_overview(const PhysicsReport& report) {
   Plot plot = empty_plot("Time against error, means of the drags", report.objects.front());
   for (const PhysicsObject& object : report.objects) {
-    std::vector<PhysicsDrag> drags;
-    std::ranges::copy_if(object.drags, std::back_inserter(drags),
-                         [](const PhysicsDrag& drag) { return drag.no_truth.empty(); });
-    PhysicsDrag mean{object.name, "", 0, 0, {}, drags.empty() ? "no drag has one" : ""};
-    for (std::size_t i = 0; !drags.empty() && i < drags.front().entries.size(); ++i) {
-      mean.entries.push_back(mean_of(drags, i));
-    }
-    plot.panels.push_back(panel_of(plot, mean));
+    plot.panels.push_back(panel_of(plot, mean_of_drags(object), object.name));
   }
   return plot;
 }
 
 Plot growth_time_plot(const std::vector<PhysicsGrowth>& growths) {
-  return growth_plot(growths, "ms a move", [](const GrowthPoint& point) {
+  return growth_plot(growths, "ms per move", [](const GrowthPoint& point) {
     return std::optional(std::max(point.ms_per_move, smallest_time));
   });
 }
@@ -158,8 +144,8 @@ Plot growth_prepare_plot(const std::vector<PhysicsGrowth>& growths) {
 }
 
 Plot growth_error_plot(const std::vector<PhysicsGrowth>& growths) {
-  Plot plot = growth_plot(growths, "RMS error / hand’s displacement", [](const GrowthPoint& point) {
-    return point.error ? std::optional(point.error->rms) : std::nullopt;
+  Plot plot = growth_plot(growths, "relative error", [](const GrowthPoint& point) {
+    return point.error ? std::optional(point.error->relative) : std::nullopt;
   });
   plot.smallest_y = as_good_as_true;
   return plot;

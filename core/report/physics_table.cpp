@@ -1,74 +1,106 @@
 #include <algorithm>
 
 #include "report/format.h"
+#include "report/physics_means.h"
 #include "report/physics_report.h"
 
 namespace chainmail::report {
 namespace {
 
-using Measured = std::optional<PhysicsMeasurement>;
 using CellOf = std::string (*)(const PhysicsMeasurement&);
 
-std::string time_cell(const PhysicsMeasurement& m) { return figure(m.ms_per_move.median); }
+std::string relative_cell(const PhysicsMeasurement& m) { return figure(m.error.relative); }
 std::string rms_cell(const PhysicsMeasurement& m) { return percent(m.error.rms); }
 std::string max_cell(const PhysicsMeasurement& m) { return percent(m.error.max); }
 std::string moving_rms_cell(const PhysicsMeasurement& m) { return percent(m.error.moving_rms); }
 std::string moving_max_cell(const PhysicsMeasurement& m) { return percent(m.error.moving_max); }
 
+/// Columns of errors, one a drag.
 struct Group {
   const char* name;
   CellOf cell;
-  bool in_text = true;  // on a terminal there is no room for all
+  bool in_text = false;  // on a terminal there is no room for all
 };
-constexpr Group groups[]{{"ms a move", time_cell},
+constexpr Group groups[]{{"relative error", relative_cell, true},
                          {"RMS error", rms_cell},
                          {"largest error", max_cell},
-                         {"RMS, what moves", moving_rms_cell, false},
-                         {"largest, what moves", moving_max_cell, false}};
+                         {"RMS, what moves", moving_rms_cell},
+                         {"largest, what moves", moving_max_cell}};
 
-/// Whether it says what the one before has said: an algorithm that cannot take part has one row for all its sweeps.
+/// A time that was not taken is none: nothing is prepared, or nothing is cut.
+std::string time_cell(const TimeSpread& ms, bool for_text) {
+  if (ms.count == 0) {
+    return for_text ? "-" : "";
+  }
+  return for_text ? figure(ms.median)
+                  : figure(ms.median) + " (" + figure(ms.lower_quartile) + "–" + figure(ms.upper_quartile) + ", " +
+                        std::to_string(ms.count) + ")";
+}
+
+/// True where a row says what the one before has said: an algorithm that cannot take part has one row for all sweeps.
 template <class One>
 bool repeats(const One& one, const One& before, const std::string& refusal, const std::string& refusal_before) {
   return !refusal.empty() && refusal == refusal_before && one.contestant.algorithm == before.contestant.algorithm;
 }
 
-/// Those of the drags that have a truth.
-std::vector<const PhysicsDrag*> measured_drags(const PhysicsObject& object) {
-  std::vector<const PhysicsDrag*> drags;
-  for (const PhysicsDrag& drag : object.drags) {
-    if (drag.no_truth.empty()) {
-      drags.push_back(&drag);
-    }
+/// The means of an object's drags, all that its table shows.
+struct Means {
+  std::vector<PhysicsDrag> by_name;  // those that have a reference solution
+  PhysicsDrag all;                   // without the cut
+  const PhysicsDrag* cut = nullptr;  // among the first; none where nothing is cut
+
+  explicit Means(const PhysicsObject& object) : by_name(means_by_name(object)), all(mean_of_drags(object)) {
+    std::erase_if(by_name, [](const PhysicsDrag& drag) { return !drag.no_truth.empty(); });
+    const auto found = std::ranges::find(by_name, true, &PhysicsDrag::has_cut);
+    cut = found == by_name.end() ? nullptr : &*found;
   }
-  return drags;
+};
+
+void add_times(FigureTable::Row& row, const Means& means, std::size_t entry, bool for_text) {
+  const auto measured = means.all.entries[entry].measurement.value_or(PhysicsMeasurement{});
+  const auto at_cut = means.cut == nullptr ? PhysicsMeasurement{}
+                                           : means.cut->entries[entry].measurement.value_or(PhysicsMeasurement{});
+  for (const TimeSpread& ms : {measured.first_move, measured.ms_per_move, at_cut.move_after_cut,
+                               measured.prepare.factorize, measured.prepare.grab}) {
+    row.cells.push_back(time_cell(ms, for_text));
+  }
 }
 
-FigureTable::Row row_of(const std::vector<const PhysicsDrag*>& drags, std::size_t entry, bool for_text) {
-  FigureTable::Row row;
-  row.label = label(drags.front()->entries[entry].contestant);
-  double prepare = 0;
-  bool any = false;
-  for (const PhysicsDrag* drag : drags) {
-    if (const Measured& measured = drag->entries[entry].measurement) {
-      any = true;
-      prepare = std::max(prepare, measured->prepare_ms);
-    } else {
-      row.refusal = drag->entries[entry].refusal;
-    }
-  }
-  if (!any) {
-    return row;
-  }
-  row.refusal.clear();
-  row.cells.push_back(figure(prepare));
-  for (const Group& group : groups) {
-    for (std::size_t i = 0; i < drags.size() && (group.in_text || !for_text); ++i) {
-      const PhysicsDrag* drag = drags[i];
-      const Measured& measured = drag->entries[entry].measurement;
+void add_errors(FigureTable::Row& row, const Means& means, std::size_t entry, const Group& group) {
+  for (const PhysicsDrag& drag : means.by_name) {
+    if (!drag.has_cut || group.in_text) {
+      const auto& measured = drag.entries[entry].measurement;
       row.cells.push_back(measured ? group.cell(*measured) : "n/a");
     }
   }
+}
+
+FigureTable::Row row_of(const Means& means, std::size_t entry, bool for_text) {
+  FigureTable::Row row;
+  row.label = label(means.all.entries[entry].contestant);
+  if (std::ranges::none_of(means.by_name,
+                           [&](const PhysicsDrag& drag) { return drag.entries[entry].measurement.has_value(); })) {
+    row.refusal = means.all.entries[entry].refusal;
+    return row;
+  }
+  add_errors(row, means, entry, groups[0]);
+  add_times(row, means, entry, for_text);
+  for (const Group& group : groups) {
+    if (!group.in_text && !for_text) {
+      add_errors(row, means, entry, group);
+    }
+  }
   return row;
+}
+
+std::string about(const Calibration& calibration) {
+  const std::string who = std::string(info(calibration.algorithm).label) + " calibrated";
+  return !calibration.refusal.empty()
+             ? who + ": left out, " + calibration.refusal
+             : who + " in " + figure(calibration.seconds) + " s on " + std::to_string(calibration.drags) +
+                   " drags of other elements: compression " + figure(calibration.softness.compression) + ", stretch " +
+                   figure(calibration.softness.stretch) + ", shear " + figure(calibration.softness.shear) + ", " +
+                   std::to_string(calibration.sweeps) + " sweeps";
 }
 
 std::string about(const PhysicsObject& object) {
@@ -77,8 +109,19 @@ std::string about(const PhysicsObject& object) {
   for (const PhysicsDrag& drag : object.drags) {
     text += "; " + drag.name + ": " + drag.description + (drag.no_truth.empty() ? "" : ", left out: " + drag.no_truth);
   }
+  for (const Calibration& calibration : object.calibrations) {
+    text += "; " + about(calibration);
+  }
   return text;
 }
+
+constexpr const char* how_to_read_text =
+    "Relative error: RMS of the error over RMS of the reference's displacements, over all elements; means over the\n"
+    "handles of an object. An object that does not move has about 1: what is above it is no better than nothing.\n"
+    "The reference is neo-Hookean FEM, converged on the same cells as linear FEM, not under refinement of the mesh;\n"
+    "BEM works on its own surface mesh. Times are medians in ms, means over the drags: the first move of a drag, a\n"
+    "later one, and the move after a cut with all that it prepares anew. Prepare: to factorize is done once for an\n"
+    "object, its pins and its cuts; to grab, once for each handle.\n";
 
 void write_table(std::ostream& out, const FigureTable& table) {
   std::vector<std::vector<std::string>> rows{{""}, {table.corner}};
@@ -110,15 +153,15 @@ FigureTable::Row row_of(const GrowthSeries& series) {
   std::vector<double> errors;
   for (const GrowthPoint& point : series.points) {
     if (point.error) {
-      errors.push_back(point.error->rms);
+      errors.push_back(point.error->relative);
     }
   }
   row.cells = {std::to_string(last.elements),
                figure(last.ms_per_move),
                figure(last.prepare_ms),
                series.growth ? figure(series.growth->exponent) : "n/a",
-               errors.empty() ? "n/a" : percent(errors.front()),
-               errors.empty() ? "n/a" : percent(errors.back()),
+               errors.empty() ? "n/a" : figure(errors.front()),
+               errors.empty() ? "n/a" : figure(errors.back()),
                series.end};
   return row;
 }
@@ -126,18 +169,30 @@ FigureTable::Row row_of(const GrowthSeries& series) {
 }  // namespace
 
 FigureTable physics_table(const PhysicsObject& object, bool for_text) {
-  const auto drags = measured_drags(object);
-  FigureTable table{object.name, about(object), "detail", "contestant", {{"prepare", "ms"}}, {}};
+  const Means means(object);
+  FigureTable table{object.name, about(object), "detail", "contestant", {}, {}};
+  const auto add_group = [&](const Group& group) {
+    for (const PhysicsDrag& drag : means.by_name) {
+      if (!drag.has_cut || group.in_text) {
+        table.columns.push_back({group.name, drag.has_cut ? "cut" : drag.name});
+      }
+    }
+  };
+  add_group(groups[0]);
+  const char* time = for_text ? "time (ms)" : "time: median (quartiles, repetitions), ms";
+  const char* prepare = for_text ? "prepare (ms)" : "prepare: median (quartiles, repetitions), ms";
+  table.columns.insert(
+      table.columns.end(),
+      {{time, "first"}, {time, "later"}, {time, "after cut"}, {prepare, "factorize"}, {prepare, "grab"}});
   for (const Group& group : groups) {
-    for (std::size_t i = 0; i < drags.size() && (group.in_text || !for_text); ++i) {
-      const PhysicsDrag* drag = drags[i];
-      table.columns.push_back({group.name, drag->name});
+    if (!group.in_text && !for_text) {
+      add_group(group);
     }
   }
-  for (std::size_t i = 0; !drags.empty() && i < drags.front()->entries.size(); ++i) {
-    const auto& entries = drags.front()->entries;
+  const auto& entries = means.all.entries;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
     if (i == 0 || !repeats(entries[i], entries[i - 1], entries[i].refusal, entries[i - 1].refusal)) {
-      table.rows.push_back(row_of(drags, i, for_text));
+      table.rows.push_back(row_of(means, i, for_text));
     }
   }
   return table;
@@ -152,8 +207,8 @@ FigureTable growth_table(const PhysicsGrowth& growth) {
                      {"the largest that it reached", "ms a move"},
                      {"the largest that it reached", "prepare ms"},
                      {"growth of time", "exponent"},
-                     {"RMS error", "first size"},
-                     {"RMS error", "last known"},
+                     {"relative error", "first size"},
+                     {"relative error", "last known"},
                      {"why no further", ""}},
                     {}};
   for (std::size_t i = 0; i < growth.series.size(); ++i) {
@@ -167,8 +222,7 @@ FigureTable growth_table(const PhysicsGrowth& growth) {
 }
 
 void write_text(std::ostream& out, const PhysicsReport& report) {
-  out << "Errors at the end of each drag against neo-Hookean FEM, over the hand's displacement; what moves: elements\n"
-         "that the truth displaces by more than 1% of the hand's. Prepare: what a method does before its first move.\n";
+  out << how_to_read_text;
   for (const PhysicsObject& object : report.objects) {
     write_table(out, physics_table(object, true));
   }

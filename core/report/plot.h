@@ -26,10 +26,17 @@ struct PlotCurve {
   std::vector<std::array<double, 2>> points;  // x and y
 };
 
+/// A value of y to compare marks with, drawn as a dashed line from side to side.
+struct PlotLevel {
+  double y = 0;
+  std::string label;
+};
+
 struct PlotPanel {
   std::string title;
   std::vector<PlotMark> marks;
   std::vector<PlotCurve> curves = {};
+  std::optional<PlotLevel> level = {};
 };
 
 /// What one shape and colour stands for: a look of report/looks.h.

@@ -33,14 +33,20 @@ std::vector<double> all_x(const Plot& plot) {
   return values;
 }
 
+std::vector<double> all_y(const Plot& plot) {
+  std::vector<double> values = all_of(plot, &PlotMark::y);
+  for (const PlotPanel& panel : plot.panels) {
+    if (panel.level) {
+      values.push_back(panel.level->y);
+    }
+  }
+  return values;
+}
+
 class Drawing {
  public:
   Drawing(std::ostream& out, const Plot& plot, const std::string& ink)
-      : out_(out),
-        plot_(plot),
-        ink_(escaped(ink)),
-        x_(all_x(plot), 1e-9),
-        y_(all_of(plot, &PlotMark::y), plot.smallest_y) {
+      : out_(out), plot_(plot), ink_(escaped(ink)), x_(all_x(plot), 1e-9), y_(all_y(plot), plot.smallest_y) {
     const auto count = static_cast<int>(plot.panels.size());
     columns_ = std::clamp(count, 1, panels_a_row);
     rows_ = std::max(1, (count + panels_a_row - 1) / panels_a_row);
@@ -92,6 +98,11 @@ class Drawing {
     }
     text(0, -9, "start", panel.title, " font-weight=\"bold\"");
     draw_axes(first);
+    if (panel.level) {
+      const double y = at_y(panel.level->y);
+      line(0, y, panel_width, y, " stroke-opacity=\"0.8\" stroke-dasharray=\"6 3\"");
+      text(panel_width - 4, y - 4, "end", panel.level->label, " font-size=\"9\" font-style=\"italic\"");
+    }
     for (const PlotCurve& curve : panel.curves) {
       draw_curve(curve);
     }

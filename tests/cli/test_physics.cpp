@@ -41,19 +41,42 @@ void PhysicsCommandTest::the_report_is_written() {
     }
     QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
   }
-  QCOMPARE(rows_of(program_->read("out/report.csv")).size(), 3 * 5);
+  // Three drags of three handles and one with a cut; nothing moving, Exact without, with sweeps and calibrated, and the
+  // three methods of elasticity.
+  QCOMPARE(rows_of(program_->read("out/report.csv")).size(), 10 * 7);
   const auto object = report()["objects"][0];
   QCOMPARE(object["pins"].toInt(), 5);
   const auto contestants = object["drags"][0]["contestants"].toArray();
-  QCOMPARE(contestants.size(), 5);
-  QCOMPARE(contestants[1]["sweeps"].toInt(), 5);
-  QVERIFY(contestants[0]["error"]["rms"].toDouble() > 0.01);
-  QVERIFY(contestants[3]["error"]["max"].toDouble(1) < 1e-5);  // neo-Hookean FEM itself, held in float
-  QVERIFY(contestants[2]["prepare_ms"].toDouble() > 0);
+  QCOMPARE(contestants.size(), 7);
+  QCOMPARE(contestants[0]["algorithm"].toString(), QString("nothing"));
+  QCOMPARE(contestants[0]["label"].toString(), QString("Nothing moves"));
+  const double nothing = contestants[0]["error"]["relative"].toDouble();
+  QVERIFY(nothing > 0.6 && nothing < 1);
+  QCOMPARE(contestants[2]["sweeps"].toInt(), 5);
+  QVERIFY(contestants[1]["error"]["rms"].toDouble() > 0.01);
+  QVERIFY(contestants[1]["error"]["relative"].toDouble() > contestants[1]["error"]["rms"].toDouble());
+  QVERIFY(contestants[3]["calibrated"]["stretch"].toDouble() >= 1);
+  QVERIFY(contestants[5]["error"]["max"].toDouble(1) < 1e-5);  // neo-Hookean FEM itself, held in float
+  QVERIFY(contestants[5]["label"].toString().endsWith("on the same cells"));
+  QVERIFY(contestants[4]["prepare_ms"].toDouble() > 0);
+  QVERIFY(contestants[4]["factorize_ms"]["repetitions"].toInt() >= 1 &&
+          contestants[4]["grab_ms"]["median"].toDouble() > 0);
+  QVERIFY(contestants[4]["first_move_ms"]["median"].toDouble() > 0);
+  const auto cut = object["drags"][9];
+  QVERIFY(cut["cut_before_last_move"].toBool());
+  QVERIFY(cut["contestants"][4]["move_after_cut_ms"]["median"].toDouble() > 0);
+  const auto calibration = object["calibrations"][0];
+  QVERIFY(calibration["algorithm"].toString() == "exact" && calibration["seconds"].toDouble() > 0);
   QCOMPARE(report()["options"]["young"].toDouble(), 7.0);
   QCOMPARE(report()["options"]["poisson"].toDouble(), 0.4);
   QVERIFY(outcome.out.contains("\ncloth.obj: as the file has it; 25 elements, 56 links, 5 pinned; "));
   QVERIFY(outcome.out.contains("\n  Exact ChainMail, 5 sweeps "));
+  QVERIFY(outcome.out.contains("\n  Exact ChainMail, calibrated"));
+  QVERIFY(outcome.out.contains("\n  Nothing moves "));
+  QVERIFY(outcome.out.contains("\n  Linear FEM, on the same cells "));
+  const auto plain = program_->run("compare cloth.obj --pins top --calibrated off" + QByteArray(short_run));
+  QVERIFY2(plain.code == 0, plain.error);
+  QVERIFY(!plain.out.contains("calibrated"));
 }
 
 void PhysicsCommandTest::nothing_pins_it() {
@@ -78,8 +101,18 @@ void PhysicsCommandTest::calibrates_and_saves_a_preset() {
   const auto result = program_->json("out.json");
   QCOMPARE(preset["name"].toString(), QString("felt"));
   QCOMPARE(preset["stretch"].toDouble(), result["stretch"].toDouble(-1));
+  const auto relative = [](const QJsonValue& tested, const char* which) {
+    return tested[which]["relative"].toDouble(9);
+  };
+  QVERIFY(relative(result, "residual") < relative(result, "residual_before"));
   QVERIFY(result["residual"].toObject()["rms"].toDouble(9) < result["residual_before"].toObject()["rms"].toDouble());
+  QVERIFY(relative(result, "residual_nothing") > 0.6 && relative(result, "residual_nothing") < 1);
   QCOMPARE(result["drags"].toArray().size(), 2);
+  const auto held_out = result["held_out"];
+  QCOMPARE(held_out["drags"].toArray().size(), 4);
+  QVERIFY(held_out["residual"]["rms"].toDouble() > 0 && held_out["residual"]["max"].toDouble() > 0);
+  QVERIFY(relative(held_out, "residual_nothing") > 0.6 && relative(held_out["drags"][0], "after") < 9);
+  QVERIFY(outcome.out.contains("Drags that it did not see, 4 of them:\n"));
   // The same again, and with the pins by their name.
   const QByteArray first = program_->read("out.json");
   QCOMPARE(program_->run("calibrate cloth.obj --pins top --drags 2 --evaluations 30 --json out.json").code, 0);
@@ -120,6 +153,9 @@ void PhysicsCommandTest::wrong_usage_data() {
   row("compare cloth.obj --against physics --pins top --young 0 -o out", "--young: ");
   row("compare cloth.obj --against physics --pins top --lattice 9 -o out", "--lattice: ");
   row("compare cloth.obj --against physics --pins top --grow -1 -o out", "--grow: -1 is below 0; ");
+  row("compare cloth.obj --against physics --pins top --calibrated maybe -o out",
+      "--calibrated: 'maybe' is not known; ");
+  row("compare cloth.obj --calibrated on -o out", "--calibrated: it is for the comparison with physics; ");
   row("compare cloth.obj --against physics --pins top --moves x.json -o out", "--moves: ");
   row("compare cloth.obj --preset none -o out", "--preset: 'none' is neither a preset nor a file; ");
   row("compare cloth.obj --preset cloth.obj -o out", "cloth.obj:1: ");

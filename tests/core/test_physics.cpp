@@ -7,8 +7,13 @@
 
 #include "core/comparisons.h"
 #include "mesh/error.h"
+#include "mesh/layers.h"
+#include "report/drag_times.h"
 #include "report/physics_cases.h"
+#include "report/physics_means.h"
 #include "report/physics_report.h"
+#include "report/preparing.h"
+#include "report/runner.h"
 
 using namespace chainmail;
 using namespace chainmail::report;
@@ -21,6 +26,13 @@ class PhysicsTest : public QObject {
 
  private slots:
   void errors_by_hand();
+  void nothing_moving_on_a_stretched_bar();
+  void half_the_way_is_half_the_relative_error();
+  void nothing_moving_takes_part_first();
+  void times_of_a_drag_are_split();
+  void preparation_is_no_part_of_a_move();
+  void a_cut_in_the_middle_is_measured_against_the_same_cut();
+  void calibrated_contestants_have_their_softness_and_sweeps();
   void everyone_takes_part();
   void the_truth_has_no_error_and_linear_elasticity_less_for_less();
   void drags_are_what_they_say();
@@ -46,7 +58,7 @@ const PhysicsReport& everything() {
   static const PhysicsReport report = [] {
     PhysicsOptions options = quick({}, {0, 1, 10});
     options.growth_seconds = 0.002;
-    return compare_with_physics({pinned_bar(24, {}, {}), pinned_sheet(25, {}, {})}, options);
+    return compare_with_physics({pinned_bar(81, {}, {}), pinned_sheet(25, {}, {})}, options);
   }();
   return report;
 }
@@ -56,7 +68,9 @@ std::map<std::pair<Algorithm, int>, PhysicalError> errors_of(const PhysicsDrag& 
   std::map<std::pair<Algorithm, int>, PhysicalError> errors;
   for (const PhysicsEntry& entry : drag.entries) {
     if (entry.measurement) {
-      errors[{entry.contestant.algorithm, entry.contestant.sweeps}] = entry.measurement->error;
+      if (entry.contestant.algorithm) {
+        errors[{*entry.contestant.algorithm, entry.contestant.sweeps}] = entry.measurement->error;
+      }
     }
   }
   return errors;
@@ -72,7 +86,7 @@ constexpr double converged = 1e-6;
 void PhysicsTest::errors_by_hand() {
   // The hand, element 0, went by 2; the truth displaces 1 by 1, 2 by 0.01 and 3 not at all.
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
-  const Truth truth{{-2, -1, -0.01, 0}, 2};
+  const Truth truth{{-2, -1, -0.01, 0}, 2, {0}};
   const std::vector<double> at{-2, 0.4, 1.99, 3};
   const PhysicalError error =
       measure_physical_error(*line, PositionView(at.data(), sizeof(double), Precision::double_precision), truth);
@@ -81,22 +95,193 @@ void PhysicsTest::errors_by_hand() {
   QCOMPARE(error.moving, std::uint64_t{2});  // 0.01 is half a percent of the hand's
   QVERIFY(std::abs(error.moving_rms - 0.4 / std::sqrt(2.0) / 2) < 1e-15);
   QCOMPARE(error.moving_max, error.max);
+  QVERIFY(std::abs(error.relative - std::sqrt(0.4 * 0.4 / (2 * 2 + 1 * 1 + 0.01 * 0.01))) < 1e-15);
+}
+
+void PhysicsTest::nothing_moving_on_a_stretched_bar() {
+  // A bar without lateral contraction, its left layer held and its right layer moved along it: each layer goes the
+  // share of the way that it is on. Without the n - 2 layers between, whose squares sum to (n - 2)(n - 1)(2n - 3) / 6,
+  // over all, whose squares sum to (n - 1) n (2n - 1) / 6.
+  constexpr int n = 8;
+  const auto bar = make_mesh(MeshKind::tetra, {n, 3, 3});
+  const std::vector<ElementId> left = layer(*bar, *find_side("left")), right = layer(*bar, *find_side("right"));
+  const ElementId handle = right.front();
+  const Point way(0.5, 0, 0);
+  ElasticProblem problem{bar, Cuts(bar), left, {}, {}};
+  problem.options.material.poisson = 0;
+  problem.pins.insert(problem.pins.end(), right.begin() + 1, right.end());
+  std::ranges::sort(problem.pins);
+  for (const ElementId pin : problem.pins) {
+    const bool moved = std::ranges::find(right, pin) != right.end();
+    problem.pinned.insert(problem.pinned.end(), {moved ? way.x() : 0, 0, 0});
+  }
+  const Truth reference = TruthSolver(problem).at(handle, bar->rest_position(handle) + way);
+  const PhysicalError error = error_of_nothing_moving(*bar, reference);
+  QVERIFY(std::abs(error.relative - std::sqrt((n - 2.0) * (2 * n - 3) / (n * (2.0 * n - 1)))) < converged);
+  // The error over the handle's displacement, which is the largest: the same sum over n layers.
+  QVERIFY(std::abs(error.rms - std::sqrt((n - 2.0) * (2 * n - 3) / (6.0 * n * (n - 1)))) < converged);
+  QVERIFY(std::abs(error.max - (n - 2.0) / (n - 1)) < converged);
+}
+
+void PhysicsTest::half_the_way_is_half_the_relative_error() {
+  const auto sheet = make_mesh(MeshKind::cloth, {5, 4, 1});
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  Truth reference{std::vector<double>(sheet->rest.size()), 0.7, {}};
+  std::ranges::generate(reference.displacements, [&] { return any(random); });
+  const auto relative_at = [&](double share) {
+    std::vector<double> at = sheet->rest;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      at[i] += share * reference.displacements[i];
+    }
+    const PositionView positions(at.data(), 2 * sizeof(double), Precision::double_precision);
+    return measure_physical_error(*sheet, positions, reference).relative;
+  };
+  for (const double share : {0.0, 0.5, 1.0, 2.0, 3.0}) {
+    QVERIFY(std::abs(relative_at(share) - std::abs(1 - share)) < 1e-12);
+  }
+}
+
+void PhysicsTest::nothing_moving_takes_part_first() {
+  for (const PhysicsObject& object : everything().objects) {
+    for (const PhysicsDrag& one : object.drags) {
+      QVERIFY2(one.no_truth.empty(), one.no_truth.c_str());
+      const PhysicsEntry& first = one.entries.front();
+      QCOMPARE(label(first.contestant), std::string("Nothing moves"));
+      const PhysicalError& error = first.measurement.value().error;
+      // All but the handle and the pins are off by all of their way, the farthest of them by nearly that of the handle.
+      QVERIFY2(error.relative > 0.6 && error.relative < 1, qPrintable(QString::number(error.relative)));
+      QCOMPARE(first.measurement->ms_per_move.count, 0);
+    }
+  }
+}
+
+void PhysicsTest::times_of_a_drag_are_split() {
+  const std::vector<double> ms{100, 7, 1, 2, 3, 50};
+  const DragTimes elastic = split(ms, true, true);
+  QCOMPARE(elastic.preparing, 100.0);
+  QCOMPARE(elastic.first, 7.0);
+  QCOMPARE(elastic.later, 2.0);
+  QCOMPARE(elastic.after_cut, 50.0);
+  const DragTimes plain = split(ms, false, false);
+  QCOMPARE(plain.preparing, 0.0);
+  QCOMPARE(plain.first, 100.0);
+  QCOMPARE(plain.later, (7.0 + 1 + 2 + 3 + 50) / 5);
+  QCOMPARE(plain.after_cut, 0.0);
+  QCOMPARE(split(std::vector{4.0}, false, false).first, 4.0);
+}
+
+void PhysicsTest::preparation_is_no_part_of_a_move() {
+  // Factorizing for some 2000 elements takes a thousand times as long as a move: no share of it is hidden in one.
+  Case bar = pinned_bar(2000, {}, {});
+  bar.drags = {bar.drags[1], bar.drags.back()};
+  const auto report = compare_with_physics({bar}, quick({Algorithm::linear_fem}, {0}));
+  const PhysicsEntry& pull = report.objects[0].drags[0].entries[1];
+  const PhysicsMeasurement& measured = pull.measurement.value();
+  QVERIFY(measured.prepare.factorize.count >= 1 && measured.prepare.grab.count >= 1);
+  const double factorize = measured.prepare.factorize.median, grab = measured.prepare.grab.median;
+  QVERIFY2(factorize > grab && grab > 0, qPrintable(QStringLiteral("%1 %2").arg(factorize).arg(grab)));
+  // Of the first run, in which everything is prepared, too.
+  Runner runner(bar, Algorithm::linear_fem, Precision::double_precision, {});
+  const auto moves = with_preparing_move(*bar.mesh, bar.drags[0]);
+  QCOMPARE(count_moves(moves), count_moves(bar.drags[0]) + 1);
+  const DragTimes cold = split(runner.run(moves, 0, {}).ms, true, false);
+  QVERIFY2(cold.preparing > 0.5 * (factorize + grab), qPrintable(QString::number(cold.preparing)));
+  for (const double ms : {measured.first_move.median, measured.ms_per_move.median, cold.first, cold.later}) {
+    QVERIFY2(ms > 0 && ms < 0.02 * factorize, qPrintable(QStringLiteral("%1 of %2").arg(ms).arg(factorize)));
+  }
+  // After a cut all of it is due again, in that one move.
+  const PhysicsMeasurement& cut = report.objects[0].drags[1].entries[1].measurement.value();
+  QVERIFY2(cut.move_after_cut.median > 0.5 * factorize, qPrintable(QString::number(cut.move_after_cut.median)));
+  QVERIFY(cut.ms_per_move.median < 0.02 * factorize);
+}
+
+void PhysicsTest::a_cut_in_the_middle_is_measured_against_the_same_cut() {
+  for (const PhysicsObject& object : everything().objects) {
+    const PhysicsDrag& cut = object.drags.back();
+    QCOMPARE(cut.name, std::string("cut, then move"));
+    QVERIFY(cut.has_cut && cut.moves == 13);
+    const auto errors = errors_of(cut);
+    QVERIFY(errors.at({Algorithm::neo_hookean, 0}).max < converged);
+    for (const PhysicsEntry& entry : cut.entries) {
+      QCOMPARE(entry.measurement && entry.measurement->move_after_cut.median > 0,
+               entry.measurement && entry.contestant.algorithm);
+    }
+  }
+  // The cut matters: the object without it stands elsewhere.
+  const Case sheet = pinned_sheet(25, {}, {});
+  Case whole = sheet;
+  whole.drags = {sheet.drags.back()};
+  std::erase_if(whole.drags[0].commands,
+                [](const Command& command) { return std::holds_alternative<commands::Cut>(command); });
+  const auto target = std::get<commands::Drag>(whole.drags[0].commands.back()).target;
+  const ElementId handle = handle_of(whole.drags[0]);
+  const auto answer = [&](const std::vector<LinkId>& links) {
+    Cuts cuts(sheet.mesh);
+    std::ranges::for_each(links, [&](LinkId link) { cuts.cut(link); });
+    return TruthSolver({sheet.mesh, cuts, sheet.pins, std::vector<double>(2 * sheet.pins.size(), 0.0), {}})
+        .at(handle, target);
+  };
+  const Truth uncut = answer({}), cut = answer(cuts_of(sheet.drags.back()));
+  std::vector<double> at = sheet.mesh->rest;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    at[i] += uncut.displacements[i];
+  }
+  const PositionView positions(at.data(), 2 * sizeof(double), Precision::double_precision);
+  QVERIFY(measure_physical_error(*sheet.mesh, positions, cut).relative > 0.01);
+}
+
+void PhysicsTest::calibrated_contestants_have_their_softness_and_sweeps() {
+  const Case sheet = pinned_sheet(25, {}, {});
+  const LinkSoftness stiff{0.95, 1.05, 0.02};
+  PhysicsOptions options = quick({Algorithm::generalized, Algorithm::exact}, {0, 7});
+  std::vector<ElementId> avoided;
+  options.calibrate = [&](const Case&, Algorithm algorithm, const std::vector<ElementId>& handles,
+                          const std::stop_token&) {
+    avoided = handles;
+    return Calibration{algorithm, stiff, 7, 3, 60, 1.5, {}};
+  };
+  const PhysicsReport calibrated = compare_with_physics({sheet}, options);
+  QCOMPARE(avoided, physics_handles(sheet));
+  QCOMPARE(calibrated.objects[0].calibrations.size(), std::size_t{1});  // of these two, Exact alone is calibrated
+  Case stiffer = sheet;
+  stiffer.softness = {stiff, {}};
+  const PhysicsReport by_hand = compare_with_physics({stiffer}, quick({Algorithm::exact}, {7}));
+  for (std::size_t i = 0; i < sheet.drags.size(); ++i) {
+    const PhysicsEntry& entry = calibrated.objects[0].drags[i].entries.back();
+    QCOMPARE(label(entry.contestant), std::string("Exact ChainMail, calibrated (7 sweeps)"));
+    const PhysicsEntry &expected = by_hand.objects[0].drags[i].entries.back(),
+                       &usual = calibrated.objects[0].drags[i].entries[4];
+    QVERIFY(entry.measurement.value().error == expected.measurement.value().error);
+    QVERIFY(usual.contestant.sweeps == 7 && entry.measurement->error != usual.measurement.value().error);
+  }
+  options.calibrate = [](const Case&, Algorithm, const auto&, const std::stop_token&) -> Calibration {
+    throw Error("object", "it does not converge", "use another");
+  };
+  const PhysicsReport refused = compare_with_physics({sheet}, options);
+  QCOMPARE(refused.objects[0].drags[0].entries.size(), std::size_t{1 + 4});
+  QVERIFY(refused.objects[0].calibrations.at(0).refusal.find("does not converge") != std::string::npos);
 }
 
 void PhysicsTest::everyone_takes_part() {
   for (const PhysicsObject& object : everything().objects) {
-    QCOMPARE(object.drags.size(), std::size_t{3});
+    QCOMPARE(object.drags.size(), std::size_t{3 * 3 + 1});
     for (const PhysicsDrag& one : object.drags) {
       QVERIFY2(one.no_truth.empty(), one.no_truth.c_str());
-      QCOMPARE(one.entries.size(), 3 * algorithms().size() + elastic_algorithms().size());
+      QCOMPARE(one.entries.size(), 1 + 3 * algorithms().size() + elastic_algorithms().size());
       for (const PhysicsEntry& entry : one.entries) {
-        const Algorithm algorithm = entry.contestant.algorithm;
+        if (!entry.contestant.algorithm) {
+          continue;
+        }
+        const Algorithm algorithm = *entry.contestant.algorithm;
         const bool fits =
             algorithm != Algorithm::original && (algorithm != Algorithm::boundary_elements || object.name == "bar");
         QVERIFY2(entry.measurement.has_value() == fits, entry.refusal.c_str());
         if (fits) {
-          QVERIFY(entry.measurement->ms_per_move.median > 0);
-          QCOMPARE(entry.measurement->prepare_ms > 0, elastic_method(algorithm).has_value());
+          QVERIFY(entry.measurement->ms_per_move.median > 0 && entry.measurement->first_move.median > 0);
+          const Preparation& prepare = entry.measurement->prepare;
+          QCOMPARE(prepare.factorize.median > 0, elastic_method(algorithm).has_value());
+          QCOMPARE(prepare.grab.median > 0, elastic_method(algorithm).has_value());
         }
       }
     }
@@ -126,19 +311,29 @@ void PhysicsTest::the_truth_has_no_error_and_linear_elasticity_less_for_less() {
 
 void PhysicsTest::drags_are_what_they_say() {
   for (const Case& object : physics_cases({}, {})) {
-    QCOMPARE(object.drags.size(), std::size_t{3});
+    QCOMPARE(object.drags.size(), std::size_t{3 * 3 + 1});
     const double size = (bounds(*object.mesh)[1] - bounds(*object.mesh)[0]).maxCoeff();
-    const ElementId hand = std::get<commands::Grab>(object.drags[0].commands[0]).element;
-    std::vector<Point> ways;
-    for (const RecordedMoves& one : object.drags) {
-      QCOMPARE(one.commands.size(), std::size_t{25});
-      ways.push_back(std::get<commands::Drag>(one.commands.back()).target - object.mesh->rest_position(hand));
-    }
-    QVERIFY(std::abs(ways[0].norm() - 0.05 * size) < 1e-12);
-    QVERIFY(std::abs(ways[1].norm() - 0.2 * size) < 1e-12 && std::abs(ways[2].norm() - 0.2 * size) < 1e-12);
-    QVERIFY(std::abs(ways[1].dot(ways[2])) < 1e-12);
-    for (const ElementId pin : object.pins) {
-      QVERIFY((object.mesh->rest_position(hand) - object.mesh->rest_position(pin)).norm() > size / 2);
+    std::vector<ElementId> handles;
+    for (std::size_t first = 0; first < 9; first += 3) {
+      const ElementId handle = handle_of(object.drags[first]);
+      std::vector<Point> ways;
+      for (std::size_t i = first; i < first + 3; ++i) {
+        const RecordedMoves& one = object.drags[i];
+        QCOMPARE(one.commands.size(), std::size_t{25});
+        QCOMPARE(handle_of(one), handle);
+        QVERIFY(one.description.starts_with("element " + std::to_string(handle) + ", "));
+        ways.push_back(std::get<commands::Drag>(one.commands.back()).target - object.mesh->rest_position(handle));
+      }
+      QVERIFY(std::abs(ways[0].norm() - 0.05 * size) < 1e-12);
+      QVERIFY(std::abs(ways[1].norm() - 0.2 * size) < 1e-12 && std::abs(ways[2].norm() - 0.2 * size) < 1e-12);
+      QVERIFY(std::abs(ways[1].dot(ways[2])) < 1e-12);
+      // Well spread: a third of the object from the pins and from each other.
+      std::vector<ElementId> others = object.pins;
+      others.insert(others.end(), handles.begin(), handles.end());
+      for (const ElementId other : others) {
+        QVERIFY((object.mesh->rest_position(handle) - object.mesh->rest_position(other)).norm() > size / 3);
+      }
+      handles.push_back(handle);
     }
   }
 }
@@ -171,7 +366,7 @@ void PhysicsTest::objects_grow() {
   for (const PhysicsGrowth& growth : everything().growths) {
     std::set<Algorithm> seen;
     for (const GrowthSeries& series : growth.series) {
-      seen.insert(series.contestant.algorithm);
+      seen.insert(series.contestant.algorithm.value());
       QVERIFY(!series.end.empty());
       for (std::size_t i = 0; i < series.points.size(); ++i) {
         QVERIFY(series.points[i].ms_per_move > 0);
@@ -207,16 +402,21 @@ void PhysicsTest::the_page_is_well_formed_and_says_all() {
     text += reader.isCharacters() ? reader.text() : QStringView();
   }
   QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
+  QVERIFY(text.contains("on the same cells") && text.contains("Nothing moves") && text.contains("nothing moves"));
+  QVERIFY(text.contains("Linear FEM, on the same cells") && text.contains("BEM, on its surface mesh"));
   QCOMPARE(drawings, 1 + 2 + 3);
   QCOMPARE(tables, 4);
   const Plot overview = physics_overview(everything());
   QCOMPARE(overview.panels.size(), std::size_t{2});
-  double mean = 0;
-  for (const PhysicsDrag& one : everything().objects[0].drags) {
-    mean += one.entries[0].measurement->error.rms / 3;
+  double mean = 0, nothing = 0;
+  for (std::size_t i = 0; i < 9; ++i) {
+    const PhysicsDrag& one = everything().objects[0].drags[i];
+    mean += one.entries[1].measurement->error.relative / 9;
+    nothing += one.entries[0].measurement->error.relative / 9;
   }
-  QVERIFY(std::abs(overview.panels[0].marks[0].y - mean) < 1e-15);
-  QVERIFY(lines >= 2 * 3 * 5);  // an algorithm's sweeps are a line in each panel
+  QVERIFY(std::abs(overview.panels[0].marks[0].y - mean) < 1e-14);
+  QVERIFY(std::abs(overview.panels[0].level.value().y - nothing) < 1e-14);
+  QVERIFY(lines >= 2 * 4 * 5);  // an algorithm's sweeps are a line in each panel
   for (const AlgorithmInfo& one : every_algorithm()) {
     QVERIFY(text.contains(QString::fromUtf8(one.label.data(), int(one.label.size()))));
   }
@@ -230,18 +430,29 @@ void PhysicsTest::csv_and_text_have_a_row_for_each() {
   std::istringstream lines(csv.str());
   std::string line;
   std::getline(lines, line);
+  const QStringList names = QString::fromStdString(line).split(',');
+  for (const char* name : {"relative", "first_ms", "after_cut_ms", "factorize_ms", "grab_ms", "handle", "calibrated"}) {
+    QVERIFY2(names.contains(QLatin1String(name)), name);
+  }
   const auto columns = std::ranges::count(line, ',');
   std::size_t rows = 0;
   for (; std::getline(lines, line); ++rows) {
     if (line.find('"') == std::string::npos) {
       QCOMPARE(std::ranges::count(line, ','), columns);
     }
+    if (line.starts_with("bar,") && line.find(",nudge,") != std::string::npos &&
+        line.find(",nothing,") != std::string::npos) {
+      const double relative = QString::fromStdString(line).split(',')[names.indexOf("relative")].toDouble();
+      QVERIFY(relative > 0.6 && relative < 1);
+    }
   }
-  QVERIFY(rows >= 2 * 3 * (3 * algorithms().size() + elastic_algorithms().size()));
+  QVERIFY(rows >= 2 * 10 * (3 * algorithms().size() + elastic_algorithms().size()));
   const QString printed = QString::fromStdString(text.str());
   QCOMPARE(printed.count("\n  3D ChainMail"), 2 + 2);  // refused: once a table, whatever the sweeps
   QVERIFY(printed.contains("\n  Exact ChainMail, 10 sweeps "));
-  QVERIFY(printed.contains("\n  BEM "));
+  QCOMPARE(printed.count("\n  Nothing moves "), 2);
+  QVERIFY(printed.contains("\n  BEM, on its surface mesh "));
+  QVERIFY(printed.contains("\n  Linear FEM, on the same cells "));
 }
 
 QTEST_APPLESS_MAIN(PhysicsTest)

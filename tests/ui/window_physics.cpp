@@ -6,6 +6,7 @@
 #include <QLineEdit>
 #include <QLocale>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSpinBox>
 #include <QStandardItemModel>
 
@@ -205,7 +206,7 @@ class WindowPhysics : public QObject {
     bench.view(0).grabFramebuffer();  // drawn without a word
   }
 
-  void theErrorAgainstPhysicsIsToldInHandsWays() {
+  void theErrorAgainstPhysicsIsRelativeAndInHandleWays() {
     Workbench bench(gridInAPlane());
     bench.choose(0, "Neo-Hookean FEM");
     bench.trigger("colourBy-truth");
@@ -216,7 +217,18 @@ class WindowPhysics : public QObject {
     QTRY_VERIFY(title(0).contains(QStringLiteral("drag an element first")));
     dragOne(bench);
     QTRY_VERIFY(title(1).contains(QStringLiteral("RMS")) &&
-                title(1).endsWith(QStringLiteral(" (of the hand's displacement)")));
+                title(1).endsWith(QStringLiteral(" (of the handle's displacement)")));
+    QVERIFY(title(1).contains(QStringLiteral("on the same cells")));
+    // The same error, over what the reference moves and over what the handle moves; and that of an object at rest.
+    const auto figureAfter = [&](int panel, const QString& word) {
+      const QString after = title(panel).section(word, 1);
+      return QLocale().toDouble(after.section(QRegularExpression(QStringLiteral("[,;( ]")), 0, 0));
+    };
+    QTRY_VERIFY(title(0).contains(QStringLiteral("relative ")));
+    QVERIFY(figureAfter(0, QStringLiteral("relative ")) < 1e-4);  // the reference itself
+    const double nothing = figureAfter(1, QStringLiteral("nothing moves "));
+    QVERIFY2(nothing > 0.5 && nothing < 1, qPrintable(title(1)));
+    QVERIFY(figureAfter(1, QStringLiteral("relative ")) > figureAfter(1, QStringLiteral("RMS ")));
     const auto highest = [&](int panel) { return QLocale().toDouble(bench.window.panel(panel).legend().highest()); };
     QTRY_VERIFY(!bench.window.panel(1).legend().highest().isEmpty());
     bench.window.colouring().setSharesScale(false);
@@ -253,6 +265,10 @@ class WindowPhysics : public QObject {
     QVERIFY(bench.document().softness() != before);
     QVERIFY(bench.find<QLabel>("calibrationResult")->isVisible());
     QVERIFY(bench.find<QLabel>("calibrationResult")->text().contains(QStringLiteral("Generalized ChainMail")));
+    const QString said = bench.find<QLabel>("calibrationResult")->text();
+    QVERIFY2(said.contains(QStringLiteral("relative error")) && said.contains(QStringLiteral("nothing moves")) &&
+                 said.contains(QStringLiteral("On 4 unseen drags")),
+             qPrintable(said));
     QCOMPARE(bench.document().undoStack().count(), steps + 1);
     bench.find<QPushButton>("calibrationKeep")->click();
     QVERIFY(bench.find<QLineEdit>("presetName")->isVisible());
