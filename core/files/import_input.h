@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "files/regular_file.h"
@@ -15,8 +16,9 @@ namespace chainmail {
 /// names, and look beside a file for others: Gmsh carries out the commands in FILE.opt.
 class ImportInput {
  public:
-  /// Errors name `shown_as`.
-  explicit ImportInput(std::filesystem::path shown_as) : shown_as_(std::move(shown_as)) {}
+  /// Errors name `shown_as`. The library reads each file `passes` times, which tells how far it is.
+  explicit ImportInput(std::filesystem::path shown_as, int passes = 1)
+      : shown_as_(std::move(shown_as)), passes_(passes) {}
 
   /// Adds a file by a link, without a copy. The import program inherits it open, and so reads the file that was opened
   /// here, whatever its path leads to by then.
@@ -31,12 +33,15 @@ class ImportInput {
   const std::vector<RegularFile>& linked() const { return linked_; }
   /// Size of the linked files (bytes).
   std::uint64_t linked_size() const;
+  /// Number of bytes that will be read of them, 0 without linked files.
+  double bytes_to_read() const { return passes_ * double(linked_size()); }
 
  private:
   void name_first(const std::string& name);
 
   std::filesystem::path shown_as_;
   TemporaryFolder folder_;
+  int passes_;
   std::string main_name_;
   std::vector<RegularFile> linked_;
 };

@@ -296,7 +296,7 @@ Imported run_import(const std::string& task, const ImportInput& input, const std
   result.close_in();
   shares.close_in();
   const std::string where = shown(input.shown_as());
-  const auto size = double(input.linked_size());
+  const double size = input.bytes_to_read();
   Listener listener(result, shares, limits, progress);
   switch (listener.listen([&] { return size > 0 ? std::min(1.0, child.bytes_read() / size) : 0; })) {
     case Ending::too_much:

@@ -30,7 +30,8 @@ std::string task_of(MeshFormat format) {
 /// By a library, in the import program. Libraries go by the name, so the file gets the ending of its format.
 Imported import(MeshFormat format, const std::filesystem::path& path, const Progress& progress) {
   const std::string task = task_of(format);
-  ImportInput input(path);
+  const bool by_gmsh = format == MeshFormat::msh || format == MeshFormat::medit;  // and once more for its counts
+  ImportInput input(path, by_gmsh ? 2 : 1);
   input.link("mesh." + task, RegularFile(path));
   return run_import(task, input, {}, limits_for(input.linked_size()), progress);
 }
