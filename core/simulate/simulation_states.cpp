@@ -86,8 +86,13 @@ void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
   std::vector<LinkId> excess, missing;
   std::ranges::set_difference(present, cuts, std::back_inserter(excess));
   std::ranges::set_difference(cuts, present, std::back_inserter(missing));
-  solver_->uncut(excess);
-  solver_->cut(missing);
+  // A method of elasticity prepares anew for other cuts: not where there are none.
+  if (!excess.empty()) {
+    solver_->uncut(excess);
+  }
+  if (!missing.empty()) {
+    solver_->cut(missing);
+  }
 }
 
 /// Blocks that both states share are as they were kept, unless a position of them has changed since.
