@@ -30,7 +30,9 @@ class BackgroundTruth::Worker {
       problem_ = problem;
       solver_ = std::make_unique<TruthSolver>(problem, progress.part(0, 0.3));
     }
-    Answer answer{problem.mesh, solver_->at(hand.element, hand.target, progress.part(0.3, 1))};
+    Answer answer;
+    answer.mesh = problem.mesh;
+    answer.truth = solver_->at(hand.element, hand.target, progress.part(0.3, 1));
     answer.rms = rms_displacement(*answer.mesh, answer.truth);
     answer.nothing = error_of_nothing_moving(*answer.mesh, answer.truth).relative;
     return answer;

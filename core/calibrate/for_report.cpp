@@ -1,8 +1,7 @@
 #include "calibrate/for_report.h"
 
-#include <chrono>
-
 #include "calibrate/calibrate.h"
+#include "report/clocks.h"
 
 namespace chainmail {
 namespace {
@@ -13,9 +12,9 @@ constexpr int drags = 3, evaluations = 60, most_sweeps = 10;
 report::Calibration run(const report::Case& object, CalibrationOptions options, const std::stop_token& stop) {
   JobState job;
   const std::stop_callback cancel(stop, [&job] { job.cancelled = true; });
-  const auto start = std::chrono::steady_clock::now();
-  const CalibrationResult result = calibrate(object.mesh, Cuts(object.mesh), options, Progress(job));
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  CalibrationResult result;
+  const double seconds = report::seconds_of(
+      report::machine_clocks(), [&] { result = calibrate(object.mesh, Cuts(object.mesh), options, Progress(job)); });
   return {options.algorithm, result.softness, result.sweeps, options.drags, result.evaluations, seconds, {}};
 }
 

@@ -18,8 +18,9 @@ Plot growth_time_plot(const std::vector<PhysicsGrowth>& growths);
 Plot growth_prepare_plot(const std::vector<PhysicsGrowth>& growths);
 Plot growth_error_plot(const std::vector<PhysicsGrowth>& growths);
 
-/// The main table of one object: times, and errors in the hand's displacement; for a terminal without the region that
-/// moves.
+/// Relative errors and times of all objects, for a terminal: those without sweeps, and those calibrated.
+FigureTable physics_summary(const PhysicsReport& report);
+/// The main table of one object: relative errors and times; on a page also errors over the handle's displacement.
 FigureTable physics_table(const PhysicsObject& object, bool for_text = false);
 /// How far each contestant grew, and how its time did.
 FigureTable growth_table(const PhysicsGrowth& growth);

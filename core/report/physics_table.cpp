@@ -9,7 +9,12 @@ namespace {
 
 using CellOf = std::string (*)(const PhysicsMeasurement&);
 
-std::string relative_cell(const PhysicsMeasurement& m) { return figure(m.error.relative); }
+// What Newton's method and single precision leave of the reference itself.
+constexpr double found_again = 1e-5;
+
+std::string relative_cell(const PhysicsMeasurement& m) {
+  return m.error.relative < found_again ? "<1e-5" : figure(m.error.relative);
+}
 std::string rms_cell(const PhysicsMeasurement& m) { return percent(m.error.rms); }
 std::string max_cell(const PhysicsMeasurement& m) { return percent(m.error.max); }
 std::string moving_rms_cell(const PhysicsMeasurement& m) { return percent(m.error.moving_rms); }
@@ -93,6 +98,41 @@ FigureTable::Row row_of(const Means& means, std::size_t entry, bool for_text) {
   return row;
 }
 
+std::vector<FigureTable::Column> columns_of(const Means& means, bool for_text) {
+  std::vector<FigureTable::Column> columns;
+  const auto add_group = [&](const Group& group) {
+    for (const PhysicsDrag& drag : means.by_name) {
+      if (!drag.has_cut || group.in_text) {
+        columns.push_back({group.name, drag.has_cut ? "cut" : drag.name});
+      }
+    }
+  };
+  add_group(groups[0]);
+  const char* time = for_text ? "time (ms)" : "time: median (quartiles, repetitions), ms";
+  const char* prepare = for_text ? "prepare (ms)" : "prepare: median (quartiles, repetitions), ms";
+  columns.insert(columns.end(),
+                 {{time, "first"}, {time, "later"}, {time, "after cut"}, {prepare, "factorize"}, {prepare, "grab"}});
+  for (const Group& group : groups) {
+    if (!group.in_text && !for_text) {
+      add_group(group);
+    }
+  }
+  return columns;
+}
+
+/// The cells of some columns as they stand under others; an object may lack a drag that another one has.
+std::vector<std::string> cells_under(const std::vector<FigureTable::Column>& columns,
+                                     const std::vector<FigureTable::Column>& own,
+                                     const std::vector<std::string>& cells) {
+  std::vector<std::string> placed;
+  for (const FigureTable::Column& column : columns) {
+    const auto found = std::ranges::find_if(
+        own, [&](const FigureTable::Column& one) { return one.group == column.group && one.name == column.name; });
+    placed.push_back(found == own.end() ? "-" : cells[std::size_t(found - own.begin())]);
+  }
+  return placed;
+}
+
 std::string about(const Calibration& calibration) {
   const std::string who = std::string(info(calibration.algorithm).label) + " calibrated";
   return !calibration.refusal.empty()
@@ -103,12 +143,34 @@ std::string about(const Calibration& calibration) {
                    std::to_string(calibration.sweeps) + " sweeps";
 }
 
+/// A drag without its handle: what comes after the element in its description.
+std::string what_happens(const PhysicsDrag& drag) {
+  const std::string handle = "element " + std::to_string(drag.handle) + ", ";
+  return drag.description.starts_with(handle) ? drag.description.substr(handle.size()) : drag.description;
+}
+
 std::string about(const PhysicsObject& object) {
-  std::string text = object.description + "; " + std::to_string(object.elements) + " elements, " +
-                     std::to_string(object.links) + " links, " + std::to_string(object.pins) + " pinned";
+  std::vector<ElementId> handles;
+  std::vector<std::string> names;
+  std::string drags, left_out;
   for (const PhysicsDrag& drag : object.drags) {
-    text += "; " + drag.name + ": " + drag.description + (drag.no_truth.empty() ? "" : ", left out: " + drag.no_truth);
+    if (std::ranges::find(handles, drag.handle) == handles.end()) {
+      handles.push_back(drag.handle);
+    }
+    if (std::ranges::find(names, drag.name) == names.end()) {
+      names.push_back(drag.name);
+      drags += "; " + drag.name + ": " + (drag.has_cut ? drag.description : what_happens(drag));
+    }
+    if (!drag.no_truth.empty()) {
+      left_out += "; left out: " + drag.name + " of element " + std::to_string(drag.handle) + ", " + drag.no_truth;
+    }
   }
+  std::string text = object.description + "; " + std::to_string(object.elements) + " elements, " +
+                     std::to_string(object.links) + " links, " + std::to_string(object.pins) + " pinned; handles: ";
+  for (const ElementId handle : handles) {
+    text += (handle == handles.front() ? "" : ", ") + std::to_string(handle);
+  }
+  text += drags + left_out;
   for (const Calibration& calibration : object.calibrations) {
     text += "; " + about(calibration);
   }
@@ -170,29 +232,32 @@ FigureTable::Row row_of(const GrowthSeries& series) {
 
 FigureTable physics_table(const PhysicsObject& object, bool for_text) {
   const Means means(object);
-  FigureTable table{object.name, about(object), "detail", "contestant", {}, {}};
-  const auto add_group = [&](const Group& group) {
-    for (const PhysicsDrag& drag : means.by_name) {
-      if (!drag.has_cut || group.in_text) {
-        table.columns.push_back({group.name, drag.has_cut ? "cut" : drag.name});
-      }
-    }
-  };
-  add_group(groups[0]);
-  const char* time = for_text ? "time (ms)" : "time: median (quartiles, repetitions), ms";
-  const char* prepare = for_text ? "prepare (ms)" : "prepare: median (quartiles, repetitions), ms";
-  table.columns.insert(
-      table.columns.end(),
-      {{time, "first"}, {time, "later"}, {time, "after cut"}, {prepare, "factorize"}, {prepare, "grab"}});
-  for (const Group& group : groups) {
-    if (!group.in_text && !for_text) {
-      add_group(group);
-    }
-  }
+  FigureTable table{object.name, about(object), "detail", "contestant", columns_of(means, for_text), {}};
   const auto& entries = means.all.entries;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (i == 0 || !repeats(entries[i], entries[i - 1], entries[i].refusal, entries[i - 1].refusal)) {
       table.rows.push_back(row_of(means, i, for_text));
+    }
+  }
+  return table;
+}
+
+FigureTable physics_summary(const PhysicsReport& report) {
+  FigureTable table{"In short", "those without sweeps and those calibrated", "detail", "object, contestant", {}, {}};
+  for (const PhysicsObject& object : report.objects) {
+    if (auto columns = columns_of(Means(object), true); columns.size() > table.columns.size()) {
+      table.columns = std::move(columns);
+    }
+  }
+  for (const PhysicsObject& object : report.objects) {
+    const Means means(object);
+    const auto columns = columns_of(means, true);
+    for (std::size_t i = 0; i < means.all.entries.size(); ++i) {
+      const PhysicsContestant& contestant = means.all.entries[i].contestant;
+      FigureTable::Row row = row_of(means, i, true);
+      if ((contestant.sweeps == 0 || contestant.calibrated) && row.refusal.empty()) {
+        table.rows.push_back({object.name + ": " + row.label, cells_under(table.columns, columns, row.cells), {}});
+      }
     }
   }
   return table;
@@ -223,6 +288,9 @@ FigureTable growth_table(const PhysicsGrowth& growth) {
 
 void write_text(std::ostream& out, const PhysicsReport& report) {
   out << how_to_read_text;
+  if (report.objects.size() > 1) {
+    write_table(out, physics_summary(report));
+  }
   for (const PhysicsObject& object : report.objects) {
     write_table(out, physics_table(object, true));
   }

@@ -448,6 +448,12 @@ void PhysicsTest::csv_and_text_have_a_row_for_each() {
   }
   QVERIFY(rows >= 2 * 10 * (3 * algorithms().size() + elastic_algorithms().size()));
   const QString printed = QString::fromStdString(text.str());
+  const FigureTable summary = physics_summary(everything());
+  for (const FigureTable::Row& row : summary.rows) {
+    QCOMPARE(row.cells.size(), summary.columns.size());
+    QVERIFY2(!row.label.ends_with("sweeps"), row.label.c_str());
+  }
+  QVERIFY(printed.contains("\n  bar: Nothing moves ") && printed.contains("\n  sheet: Linear FEM, on the same cells "));
   QCOMPARE(printed.count("\n  3D ChainMail"), 2 + 2);  // refused: once a table, whatever the sweeps
   QVERIFY(printed.contains("\n  Exact ChainMail, 10 sweeps "));
   QCOMPARE(printed.count("\n  Nothing moves "), 2);
