@@ -21,6 +21,7 @@ class PhysicsTest : public QObject {
 
  private slots:
   void errors_by_hand();
+  void the_reference_solution_knows_nothing_of_the_last_one();
   void everyone_takes_part();
   void the_truth_has_no_error_and_linear_elasticity_less_for_less();
   void drags_are_what_they_say();
@@ -70,7 +71,7 @@ constexpr double converged = 1e-6;
 }  // namespace
 
 void PhysicsTest::errors_by_hand() {
-  // The hand, element 0, went by 2; the truth displaces 1 by 1, 2 by 0.01 and 3 not at all.
+  // The handle, element 0, moved by 2; the reference solution displaces 1 by 1, 2 by 0.01 and 3 not at all.
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
   const Truth truth{{-2, -1, -0.01, 0}, 2};
   const std::vector<double> at{-2, 0.4, 1.99, 3};
@@ -81,6 +82,26 @@ void PhysicsTest::errors_by_hand() {
   QCOMPARE(error.moving, std::uint64_t{2});  // 0.01 is half a percent of the hand's
   QVERIFY(std::abs(error.moving_rms - 0.4 / std::sqrt(2.0) / 2) < 1e-15);
   QCOMPARE(error.moving_max, error.max);
+  // An element moves from 1 % of the handle's displacement on: 0.02 here.
+  for (const auto& [by, moving] : {std::pair(0.019, 2), {0.021, 3}}) {
+    const Truth other{{-2, -1, -by, 0}, 2};
+    QCOMPARE(
+        int(measure_physical_error(*line, PositionView(at.data(), sizeof(double), Precision::double_precision), other)
+                .moving),
+        moving);
+  }
+}
+
+/// Newton's method starts from rest each time: the answer is the same to the bit whatever was asked before.
+void PhysicsTest::the_reference_solution_knows_nothing_of_the_last_one() {
+  const Case sheet = pinned_sheet(25, {}, {});
+  const std::vector<double> at_rest(2 * sheet.pins.size());
+  TruthSolver solver({sheet.mesh, Cuts(sheet.mesh), sheet.pins, at_rest, {}});
+  const ElementId hand = std::get<commands::Grab>(sheet.drags[0].commands[0]).element;
+  const Point near = sheet.mesh->rest_position(hand) + Point(0.1, -0.05, 0), far = near + Point(0.6, -0.6, 0);
+  const Truth first = solver.at(hand, near);
+  QVERIFY(solver.at(hand, far).displacements != first.displacements);
+  QVERIFY(chainmail::test::same_bits(solver.at(hand, near).displacements, first.displacements));
 }
 
 void PhysicsTest::everyone_takes_part() {

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <rapidcheck.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <random>
+#include <string>
+#include <utility>
+
+namespace chainmail::test {
+
+/// How an explored run is repeated: RapidCheck's own variable, whose numbers take the place of these. The number of
+/// successes belongs to it, as inputs grow with the share of them that is done.
+inline rc::detail::TestParams explored_parameters() {
+  static const rc::detail::TestParams once = [] {
+    rc::detail::Configuration drawn;
+    drawn.testParams.seed = std::random_device()();
+    drawn.testParams.maxSuccess = 100;
+    const char* given = std::getenv("RC_PARAMS");
+    return rc::detail::configFromString(given == nullptr ? "" : given, drawn).testParams;
+  }();
+  return once;
+}
+
+/// Checks a property, which asserts by RC_ASSERT, on random inputs: on the same 300 in every run, then on others, drawn
+/// anew for each run. Where it does not hold for these, the last line says how to repeat them. To explore more of them:
+/// RC_PARAMS="max_success=10000".
+template <class Property>
+bool check_property(const std::string& sentence, Property&& property) {
+  rc::detail::TestParams fixed;
+  fixed.seed = 2004;
+  fixed.maxSuccess = 300;
+  const rc::detail::TestParams explored = explored_parameters();
+  const std::string repeat = "RC_PARAMS=\"seed=" + std::to_string(explored.seed) +
+                             " max_success=" + std::to_string(explored.maxSuccess) + "\"";
+  for (const auto& [parameters, inputs] :
+       {std::pair(fixed, std::string("the inputs of every run")), {explored, "explored inputs, " + repeat}}) {
+    const rc::detail::TestMetadata name{sentence, sentence};
+    const auto result = rc::detail::checkTestable(property, name, parameters);
+    std::cerr << "- " << sentence << " (" << inputs << ")\n";
+    rc::detail::printResultMessage(result, std::cerr);
+    std::cerr << std::endl;
+    if (!result.template is<rc::detail::SuccessResult>()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace chainmail::test
