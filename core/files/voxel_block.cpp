@@ -185,7 +185,7 @@ double otsu_threshold(const Volume& volume) {
     sum += density;
   }
   double below = 0, sum_below = 0, best = -1;
-  std::size_t first = 0, last = 0;  // of those that part equally well: where no density lies, any does
+  std::size_t first = 0, last = 0;  // of those that part in the same way: they differ where no density lies
   for (std::size_t i = 0; i + 1 < bins; ++i) {
     below += histogram[i];
     sum_below += double(i) * histogram[i];
@@ -196,9 +196,10 @@ double otsu_threshold(const Volume& volume) {
     const double between = below * (count - below) * apart * apart;
     if (between > best) {
       best = between;
-      first = i;
+      first = last = i;
+    } else if (histogram[i] == 0 && last + 1 == i) {
+      last = i;
     }
-    last = between >= best ? i : last;
   }
   return volume.lowest + volume.step * (double(first + last) / 2 + 0.5);
 }

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <rapidcheck.h>
-
 #include <ostream>
 #include <vector>
 
 #include "core/families.h"
+#include "property.h"
 
 namespace chainmail {
 

@@ -4,6 +4,7 @@
 #include "core/pinned.h"
 #include "core/spheres.h"
 #include "elastic/closed_surface.h"
+#include "elastic/pinned_solid.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
@@ -29,6 +30,9 @@ class BoundaryElementsTest : public QObject {
  private slots:
   void cavities_and_turned_triangles_are_found();
   void the_hand_and_the_pins_are_where_they_are();
+  void corners_average_their_triangles_by_area();
+  void pins_that_move_alike_take_the_solid_along();
+  void a_corner_of_two_solids_is_halfway_between_them();
   void the_hand_does_what_pins_would();
   void the_hand_wins_over_pins();
   void parts_move_by_themselves();
@@ -88,6 +92,94 @@ void BoundaryElementsTest::the_hand_and_the_pins_are_where_they_are() {
   }
   solver->reset();
   QVERIFY(same_bits(solver->displacements(), rest));
+}
+
+/// With every element pinned each triangle moves by the mean of its corners. A corner moves by the mean of the
+/// triangles about it, weighted by area: otherwise many small triangles on one side of it would pull it their way.
+void BoundaryElementsTest::corners_average_their_triangles_by_area() {
+  MeshParts parts = sphere_parts(3);
+  for (Point& at : parts.rest) {
+    at = at.cwiseProduct(Point(1, 3, 0.4));  // so the triangles about a corner have different areas
+  }
+  const auto mesh = build_mesh(std::move(parts));
+  const auto displacement = [&](ElementId e) {
+    const Point at = mesh->rest_position(e);
+    return Point(at.y() * at.y(), at.x() * at.z(), 0.3 * at.x() * at.y());
+  };
+  PinnedElements everywhere;
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    everywhere.emplace_back(displacement(e));
+  }
+  const PinnedSolid solid(*mesh, enclosed_solids(mesh, Cuts(mesh)).front(), everywhere, poisson, {});
+  QCOMPARE(solid.elements().size(), std::size_t(mesh->element_count()));
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    Point sum = Point::Zero();
+    double area = 0;
+    for (const auto& [a, b, c] : mesh->triangles) {
+      if (a == e || b == e || c == e) {
+        const double one = Facet({mesh->rest_position(a), mesh->rest_position(b), mesh->rest_position(c)}).area;
+        sum += one * (displacement(a) + displacement(b) + displacement(c)) / 3;
+        area += one;
+      }
+    }
+    QVERIFY((solid.at_rest().segment<3>(3 * Eigen::Index{e}) - sum / area).norm() < 1e-12);
+  }
+}
+
+/// Single pins hold the triangles about them although the other corners of these are free.
+void BoundaryElementsTest::pins_that_move_alike_take_the_solid_along() {
+  const auto mesh = sphere(4);
+  const Point by(0.3, -0.2, 0.1);
+  std::vector<ElementId> pins;  // the six corners of the octahedron, far from each other
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    if (mesh->rest_position(e).cwiseAbs().maxCoeff() > 1 - 1e-12) {
+      pins.push_back(e);
+    }
+  }
+  QCOMPARE(pins.size(), std::size_t(6));
+  const Field shift = [&](const Point&) { return by; };
+  const auto solver = make_elastic(ElasticMethod::boundary, pinned(mesh, pins, shift, poisson));
+  QVERIFY(furthest_from(*mesh, solver->displacements(), shift) < 1e-10);
+}
+
+/// Two balls that touch in one element, each pinned on its far side.
+void BoundaryElementsTest::a_corner_of_two_solids_is_halfway_between_them() {
+  const MeshParts ball = sphere_parts(2);
+  const auto find = [&](const Point& at) {
+    const auto found = std::ranges::find_if(ball.rest, [&](const Point& one) { return (one - at).norm() < 1e-12; });
+    return static_cast<ElementId>(found - ball.rest.begin());
+  };
+  const ElementId touching = find({1, 0, 0}), of_second = find({-1, 0, 0});
+  const auto count = static_cast<ElementId>(ball.rest.size());
+  MeshParts both = together(ball, ball, Point(2, 0, 0));
+  for (auto& triangle : both.triangles) {
+    std::ranges::replace(triangle, count + of_second, touching);
+  }
+  both.links.clear();
+  add_links_along_edges(both);
+  const Field pulled = [](const Point& at) { return at.x() > 0.5 ? Point(0.2, 0.3, 0.1) : Point(-0.1, 0.2, 0.4); };
+  std::vector<ElementId> of_left, of_right, of_both;
+  for (ElementId e = 0; e < count; ++e) {
+    if (ball.rest[e].x() < -0.5) {
+      of_left.push_back(e);
+      of_both.push_back(e);
+    }
+  }
+  for (ElementId e = 0; e < count; ++e) {
+    if (ball.rest[e].x() > 0.5) {
+      of_right.push_back(e);
+      of_both.push_back(count + e);
+    }
+  }
+  const auto mesh = build_mesh(ball);
+  const auto left = make_elastic(ElasticMethod::boundary, pinned(mesh, of_left, pulled, poisson)),
+             right = make_elastic(ElasticMethod::boundary, pinned(mesh, of_right, pulled, poisson)),
+             joined = make_elastic(ElasticMethod::boundary, pinned(build_mesh(both), of_both, pulled, poisson));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double one = left->displacements()[3 * touching + k], other = right->displacements()[3 * of_second + k];
+    QVERIFY(std::abs(one - other) > 0.01);
+    QVERIFY(std::abs(joined->displacements()[3 * touching + k] - (one + other) / 2) < 1e-10);
+  }
 }
 
 /// Its patch prescribed by pins is another system of equations with the same answer.

@@ -2,13 +2,16 @@
 #include <set>
 
 #include "calibrate/calibrate.h"
+#include "calibrate/drags.h"
 #include "calibrate/optimum.h"
 #include "core/comparisons.h"
+#include "core/families.h"
 #include "core/support.h"
 #include "measure/physical_error.h"
 #include "mesh/error.h"
 #include "mesh/layers.h"
 #include "report/runner.h"
+#include "simulate/simulation.h"
 
 using namespace chainmail;
 using chainmail::test::make_mesh;
@@ -21,6 +24,11 @@ class CalibrateTest : public QObject {
   void an_optimum_is_found_within_its_bounds_data();
   void an_optimum_is_found_within_its_bounds();
   void what_is_thrown_comes_through();
+  void drags_are_those_of_a_hand_data();
+  void drags_are_those_of_a_hand();
+  void each_drag_has_its_reference_solution();
+  void the_residuals_are_those_of_the_result();
+  void the_plane_of_a_sheet_does_not_matter();
   void it_comes_closer();
   void its_residuals_are_those_of_its_softness_and_sweeps();
   void drags_go_as_far_as_documented();
@@ -82,6 +90,113 @@ void CalibrateTest::what_is_thrown_comes_through() {
   };
   QVERIFY_EXCEPTION_THROWN(find_optimum(Search::everywhere, {0, 0}, {1, 1}, {0, 0}, 100, fails), Cancelled);
   QCOMPARE(asked, 1);
+}
+
+void CalibrateTest::drags_are_those_of_a_hand_data() {
+  QTest::addColumn<MeshPointer>("mesh");
+  QTest::newRow("small sheet") << make_mesh(MeshKind::cloth, {9, 5, 1}, {}, 0.1);
+  QTest::newRow("large solid") << make_mesh(MeshKind::tetra, {6, 5, 5}, {}, 3);
+}
+
+/// By 5 to 20 % of the object's size, in equal steps, of an element that a hand reaches and that is not beside the
+/// pins.
+void CalibrateTest::drags_are_those_of_a_hand() {
+  QFETCH(MeshPointer, mesh);
+  CalibrationOptions options;
+  options.pins = layer(*mesh, *find_side("left"));
+  options.drags = 12;
+  const double size = (mesh->box[1] - mesh->box[0]).maxCoeff();
+  const auto from_pins = [&](ElementId e) { return mesh->rest_position(e).x() - mesh->box[0].x(); };
+  const auto outside = boundary(*mesh);
+  for (const TrueDrag& drag : true_drags(mesh, Cuts(mesh), options, {}).fitted) {
+    const Point start = mesh->rest_position(drag.element);
+    const double length = (drag.target - start).norm();
+    QVERIFY(length >= 0.05 * size && length <= 0.2 * size);
+    QVERIFY(from_pins(drag.element) >= size / 4);
+    QVERIFY(mesh->space_dimension == 2 || std::ranges::binary_search(outside, drag.element));
+    QVERIFY(std::get<commands::Grab>(drag.moves.commands.front()).element == drag.element);
+    Point at = start;
+    const auto steps = double(drag.moves.commands.size() - 1);
+    for (std::size_t i = 1; i < drag.moves.commands.size(); ++i) {
+      const Point next = std::get<commands::Drag>(drag.moves.commands[i]).target;
+      QVERIFY((next - at - (drag.target - start) / steps).norm() < 1e-12 * size);
+      at = next;
+    }
+    QVERIFY((at - drag.target).norm() < 1e-12 * size);
+  }
+}
+
+namespace {
+
+/// A sheet that is cut from the bottom to its middle, of another material than the default one.
+CalibrationOptions cut_sheet(Cuts& cuts) {
+  for (const auto& [a, b] : {std::pair(2U, 3U), {7U, 8U}}) {
+    cuts.cut(*find_link(*sheet, a, b));
+  }
+  CalibrationOptions options = quick();
+  options.elastic.material = {2, 0.45};
+  options.drags = 3;
+  return options;
+}
+
+}  // namespace
+
+void CalibrateTest::each_drag_has_its_reference_solution() {
+  Cuts cuts(sheet);
+  const CalibrationOptions options = cut_sheet(cuts);
+  TruthSolver solver({sheet, cuts, options.pins, std::vector<double>(2 * options.pins.size()), options.elastic});
+  for (const TrueDrag& drag : true_drags(sheet, cuts, options, {}).fitted) {
+    const Truth expected = solver.at(drag.element, drag.target);
+    QCOMPARE(drag.truth.hand, expected.hand);
+    QVERIFY(chainmail::test::largest_step(drag.truth.displacements, expected.displacements) < 1e-8);
+  }
+}
+
+/// Carries the drags out once more, with the softness, the sweeps and the scheme that were found.
+void CalibrateTest::the_residuals_are_those_of_the_result() {
+  for (const RelaxationScheme scheme : {RelaxationScheme::mean, RelaxationScheme::link}) {
+    Cuts cuts(sheet);
+    CalibrationOptions options = cut_sheet(cuts);
+    options.scheme = scheme;
+    const CalibrationResult result = calibrate(sheet, cuts, options);
+    QVERIFY(result.sweeps > 0);
+    const auto residual = [&](const TrueDrag& drag, const LinkSoftness& softness, int sweeps) {
+      Simulation simulation(sheet, options.algorithm, Precision::double_precision);
+      simulation.apply(commands::SetSoftness{{softness, {}}});
+      simulation.apply(commands::Cut{cuts.links()});
+      simulation.apply(commands::Pin{options.pins});
+      simulation.apply(commands::SetRelaxation{false, 1, scheme});
+      simulation.apply(commands::Reset{});
+      for (const Command& command : drag.moves.commands) {
+        simulation.apply(command);
+        if (std::holds_alternative<commands::Drag>(command)) {
+          simulation.relax(sweeps, 1);
+        }
+      }
+      return measure_physical_error(*sheet, simulation.solver().positions(), drag.truth);
+    };
+    const auto drags = true_drags(sheet, cuts, options, {}).fitted;
+    for (std::size_t i = 0; i < drags.size(); ++i) {
+      const auto before = residual(drags[i], {}, 0), after = residual(drags[i], result.softness, result.sweeps);
+      QVERIFY(std::abs(result.drags[i].before.rms - before.rms) < 1e-12);
+      QVERIFY(std::abs(result.drags[i].before.max - before.max) < 1e-12);
+      QVERIFY(std::abs(result.drags[i].after.rms - after.rms) < 1e-12);
+      QVERIFY(std::abs(result.drags[i].after.max - after.max) < 1e-12);
+    }
+  }
+}
+
+void CalibrateTest::the_plane_of_a_sheet_does_not_matter() {
+  MeshParts parts = chainmail::test::placed(*sheet, [](const Point& p) { return Point(p.x(), 2.5, p.y()); });
+  parts.triangles = sheet->triangles;
+  const auto upright = build_mesh(std::move(parts));
+  const CalibrationResult lying = found(quick()), standing = calibrate(upright, Cuts(upright), quick());
+  QVERIFY(std::abs(lying.rms - standing.rms) < 1e-9);
+  QCOMPARE(standing.sweeps, lying.sweeps);
+  for (std::size_t i = 0; i < lying.drags.size(); ++i) {
+    const Point flat = lying.drags[i].target, turned = standing.drags[i].target;
+    QVERIFY(std::abs(turned.x() - flat.x()) < 1e-12 && std::abs(turned.z() - flat.y()) < 1e-12);
+  }
 }
 
 void CalibrateTest::it_comes_closer() {

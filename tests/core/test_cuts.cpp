@@ -94,7 +94,7 @@ void CutsTest::cut_and_uncut_is_the_identity() {
     RC_ASSERT(mended->cuts().count() == 0u);
     RC_ASSERT(move_alike(*untouched, *mended, *mesh, hands));
   };
-  QVERIFY(rc::check("later moves give the same bits and the same trace", holds));
+  QVERIFY(check_property("later moves give the same bits and the same trace", holds));
 }
 
 void CutsTest::a_cut_link_carries_nothing() {
@@ -130,7 +130,7 @@ void CutsTest::disconnected_parts_do_not_move() {
       RC_ASSERT(connected[i / mesh->space_dimension] || before[i] == after[i]);
     }
   };
-  QVERIFY(rc::check("what no link joins to the hand stays", holds));
+  QVERIFY(check_property("what no link joins to the hand stays", holds));
 }
 
 QTEST_APPLESS_MAIN(CutsTest)

@@ -143,7 +143,7 @@ void ExactTest::agrees_with_bellman_and_ford() {
       RC_ASSERT(largest_step(expected, after) <= 4 * mesh->element_count() * half_ulp(precision) * size);
     }
   };
-  QVERIFY(rc::check("Exact gives the least answer, as Bellman and Ford find it", holds));
+  QVERIFY(check_property("Exact gives the least answer, as Bellman and Ford find it", holds));
 }
 
 void ExactTest::links_hold() {
@@ -167,7 +167,7 @@ void ExactTest::links_hold() {
       }
     }
   };
-  QVERIFY(rc::check("every link holds to 4 ulp", holds));
+  QVERIFY(check_property("every link holds to 4 ulp", holds));
 }
 
 void ExactTest::the_schedule_changes_no_bit() {
@@ -179,7 +179,7 @@ void ExactTest::the_schedule_changes_no_bit() {
     RC_ASSERT(schedules_agree<float>(mesh, softness, hands));
     RC_ASSERT(schedules_agree<double>(mesh, softness, hands));
   };
-  QVERIFY(rc::check("a shuffled schedule ends in the same bits", holds));
+  QVERIFY(check_property("a shuffled schedule ends in the same bits", holds));
 }
 
 void ExactTest::visits_are_bounded() {
@@ -198,7 +198,7 @@ void ExactTest::visits_are_bounded() {
     }
     RC_ASSERT(visits_by_heap(mesh, softness, hands));
   };
-  QVERIFY(rc::check("visits are bounded by the elements reached and the space dimension", holds));
+  QVERIFY(check_property("visits are bounded by the elements reached and the space dimension", holds));
 }
 
 void ExactTest::from_its_own_states_a_zero_move_moves_nothing() {
@@ -214,7 +214,7 @@ void ExactTest::from_its_own_states_a_zero_move_moves_nothing() {
     RC_ASSERT(count.checked == 0u);
     RC_ASSERT(same_bits(before, positions_of(*solver, *mesh)));
   };
-  QVERIFY(rc::check("after any drags a zero move moves nothing", holds));
+  QVERIFY(check_property("after any drags a zero move moves nothing", holds));
 }
 
 void ExactTest::the_trace_names_the_binding_neighbour() {

@@ -1,5 +1,6 @@
 #include <QtTest>
 
+#include "core/families.h"
 #include "elastic_problems.h"
 #include "mesh/error.h"
 
@@ -15,6 +16,8 @@ class FreeFormTest : public QObject {
   void elements_follow_the_hand_by_least_squares();
   void pins_hold_as_well_as_the_lattice_can();
   void goes_on_from_where_others_put_it();
+  void the_drag_goes_on_from_there_too();
+  void a_lattice_lies_along_the_axes_of_the_object();
   void lattices_have_bounds();
 };
 
@@ -118,6 +121,45 @@ void FreeFormTest::goes_on_from_where_others_put_it() {
   solver->hold(0);
   solver->move(std::array{1.0, 0.0});
   QVERIFY(std::abs(solver->displacements()[2 * 14 + 1] - 0.3) < 1e-12);  // what it does not explain stays
+}
+
+/// The next move of the element that is held counts from where others put the object, not from where it was grabbed.
+void FreeFormTest::the_drag_goes_on_from_there_too() {
+  const auto mesh = make_mesh(MeshKind::cloth, {6, 6, 1});
+  const auto problem = with_lattice(mesh, {3, 3, 2});
+  std::vector<double> bent;
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    const Point at = mesh->rest_position(e);
+    bent.push_back(0.2 * at.y());
+    bent.push_back(0.1 * at.x() * at.x());
+  }
+  const auto dragged = make_elastic(ElasticMethod::free_form, problem);
+  dragged->hold(14);
+  dragged->move(std::array{3.0, -2.0});
+  dragged->start_from(bent);
+  dragged->move(std::array{bent[2 * 14], bent[2 * 14 + 1]});  // where it already is
+  QVERIFY(largest_step(dragged->displacements(), bent) < 1e-12);
+  dragged->move(std::array{1.0, 0.5});
+  const auto fresh = make_elastic(ElasticMethod::free_form, problem);
+  fresh->start_from(bent);
+  fresh->hold(14);
+  fresh->move(std::array{1.0, 0.5});
+  QVERIFY(largest_step(dragged->displacements(), fresh->displacements()) < 1e-12);
+}
+
+/// The counts of control points are along x, y and z, also where a sheet stands upright and has no y.
+void FreeFormTest::a_lattice_lies_along_the_axes_of_the_object() {
+  MeshParts parts = placed(*make_mesh(MeshKind::cloth, {6, 4, 1}), [](const Point& p) { return Point(p[0], 2, p[1]); });
+  const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(build_mesh(std::move(parts)), {4, 8, 3}));
+  std::vector<double> expected;
+  for (const double z : {0.0, 1.5, 3.0}) {
+    for (const double x : {0.0, 5.0 / 3, 10.0 / 3, 5.0}) {
+      expected.insert(expected.end(), {x, z});
+    }
+  }
+  const std::vector<double> points(solver->control_points().begin(), solver->control_points().end());
+  QCOMPARE(points.size(), expected.size());
+  QVERIFY(largest_step(points, expected) < 1e-12);
 }
 
 void FreeFormTest::lattices_have_bounds() {

@@ -4,7 +4,8 @@
 #include <QtTest>
 
 /// One rule of direction: app → ui → core, and within core mesh ← elastic ← solve ← measure ← simulate ← report.
-/// core knows neither Qt nor OpenGL; libraries for file formats stay in core/files, NLopt in core/calibrate.
+/// core knows neither Qt nor OpenGL; libraries for file formats stay in core/files, NLopt in core/calibrate, RapidCheck
+/// in tests/property.h.
 class IncludesTest : public QObject {
   Q_OBJECT
 
@@ -39,6 +40,11 @@ QString fault(const QString& file, const QString& included) {
   const QString room = file.section('/', 1, 1), other = included.section('/', 0, 0);
   if (included.startsWith("..") || included.contains("/../")) {
     return "goes round the rooms";
+  }
+  if (file.startsWith("tests/")) {
+    return included.startsWith("rapidcheck") && file != "tests/property.h"
+               ? "properties are checked by tests/property.h, which also explores"
+               : "";
   }
   if (file.startsWith("ui/")) {
     return other == "app" ? "ui must not know app" : "";
@@ -104,6 +110,9 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("core/calibrate/drags.h", "#include \"report/cases.h\"", true);
   row("ui/view.h", "#include <QOpenGLWidget>", true);
   row("ui/view.h", "#include \"simulate/frame.h\"", true);
+  row("tests/property.h", "#include <rapidcheck.h>", true);
+  row("tests/core/test_exact.cpp", "#include \"property.h\"", true);
+  row("tests/core/test_exact.cpp", "#include <rapidcheck.h>", false);
   row("core/mesh/mesh.h", "#include <QVector>", false);
   row("core/mesh/mesh.h", "  #  include <QtCore/qglobal.h>", false);
   row("core/files/obj.cpp", "#include <QFile>", false);
@@ -138,7 +147,7 @@ void IncludesTest::the_rules_hold() {
   const QStringList core = sources_below("core");
   QVERIFY2(core.size() > 20, "the sources were not found");
   QStringList faults;
-  for (const QString& file : core + sources_below("ui")) {
+  for (const QString& file : core + sources_below("ui") + sources_below("tests")) {
     QFile source(root + "/" + file);
     QVERIFY(source.open(QIODevice::ReadOnly));
     for (const QString& included : includes_of(QString::fromUtf8(source.readAll()))) {

@@ -134,7 +134,7 @@ void JumpsTest::nothing_outruns_the_hand_however_often_it_relaxes() {
       }
     }
   };
-  QVERIFY(rc::check("on uncut grids relaxation never makes an element outrun the hand", holds));
+  QVERIFY(check_property("on uncut grids relaxation never makes an element outrun the hand", holds));
 }
 
 QTEST_APPLESS_MAIN(JumpsTest)

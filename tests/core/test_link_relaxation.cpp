@@ -120,7 +120,7 @@ void LinkRelaxationTest::valid_links_stay_valid() {
       RC_ASSERT(measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max <= 1e-9);
     }
   };
-  QVERIFY(rc::check("from a valid state relaxation by links keeps every link valid", holds));
+  QVERIFY(check_property("from a valid state relaxation by links keeps every link valid", holds));
 }
 
 void LinkRelaxationTest::displacements_relax_like_positions() {

@@ -70,7 +70,7 @@ void MotionTest::at_rest_a_zero_move_moves_nothing() {
     RC_ASSERT(count.checked == mesh->neighbours_of(element).size());
     RC_ASSERT(before == positions_of(*solver, *mesh));  // but for the sign of a zero
   };
-  QVERIFY(rc::check("at rest a zero move looks at the neighbours and moves none", holds));
+  QVERIFY(check_property("at rest a zero move looks at the neighbours and moves none", holds));
 }
 
 void MotionTest::from_a_valid_state_a_zero_move_moves_nothing() {
@@ -82,7 +82,7 @@ void MotionTest::from_a_valid_state_a_zero_move_moves_nothing() {
     // A rigid link leaves no room, so there the state itself is valid up to rounding only.
     RC_ASSERT(largest_step(before, after) <= rounding_of_a_pass(state.precision, before));
   };
-  QVERIFY(rc::check("from a valid state a zero move moves nothing", holds));
+  QVERIFY(check_property("from a valid state a zero move moves nothing", holds));
 }
 
 void MotionTest::after_a_drag_a_zero_move_anywhere_moves_nothing() {
@@ -98,7 +98,7 @@ void MotionTest::after_a_drag_a_zero_move_anywhere_moves_nothing() {
     move_by(*solver, *mesh, (*any_hand()).of(*mesh), Point(0, 0, 0));
     RC_ASSERT(same_bits(before, positions_of(*solver, *mesh)));
   };
-  QVERIFY(rc::check("after drags of a grid a zero move of any element moves nothing", holds));
+  QVERIFY(check_property("after drags of a grid a zero move of any element moves nothing", holds));
 }
 
 void MotionTest::a_move_inside_every_region_moves_the_grabbed_element_alone() {
@@ -122,7 +122,7 @@ void MotionTest::a_move_inside_every_region_moves_the_grabbed_element_alone() {
       RC_ASSERT(before[i] == after[i] || i / mesh.space_dimension == element);
     }
   };
-  QVERIFY(rc::check("a move inside every neighbour's region moves the grabbed element alone", holds));
+  QVERIFY(check_property("a move inside every neighbour's region moves the grabbed element alone", holds));
 }
 
 void MotionTest::from_a_valid_state_nothing_outruns_the_hand() {
@@ -140,7 +140,7 @@ void MotionTest::from_a_valid_state_nothing_outruns_the_hand() {
       RC_ASSERT(std::abs(after[i] - before[i]) <= of_hand + rounding_of_a_pass(state.precision, after));
     }
   };
-  QVERIFY(rc::check("from a valid state no element moves further than the hand on any axis", holds));
+  QVERIFY(check_property("from a valid state no element moves further than the hand on any axis", holds));
 }
 
 void MotionTest::on_uncut_grids_natural_queue_never_outruns_the_hand() {
@@ -161,7 +161,7 @@ void MotionTest::on_uncut_grids_natural_queue_never_outruns_the_hand() {
       }
     }
   };
-  QVERIFY(rc::check("on uncut grids Natural Queue moves no element further than the hand", holds));
+  QVERIFY(check_property("on uncut grids Natural Queue moves no element further than the hand", holds));
 }
 
 void MotionTest::on_uncut_grids_natural_queue_stays_valid() {
@@ -176,7 +176,7 @@ void MotionTest::on_uncut_grids_natural_queue_stays_valid() {
       RC_ASSERT(measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max <= 1e-9);
     }
   };
-  QVERIFY(rc::check("on uncut grids Natural Queue leaves every link valid", holds));
+  QVERIFY(check_property("on uncut grids Natural Queue leaves every link valid", holds));
 }
 
 void MotionTest::the_mirror_image_of_a_drag_gives_the_mirror_image() {
@@ -202,7 +202,7 @@ void MotionTest::the_mirror_image_of_a_drag_gives_the_mirror_image() {
       RC_ASSERT(there[i] == -back[i]);
     }
   };
-  QVERIFY(rc::check("a mirrored object under a mirrored hand is the mirror image", holds));
+  QVERIFY(check_property("a mirrored object under a mirrored hand is the mirror image", holds));
 }
 
 void MotionTest::a_translated_object_deforms_alike() {

@@ -58,7 +58,7 @@ void PartsTest::cutting_and_uncutting_in_any_order_counts_as_from_scratch() {
     parts.uncut(cuts, cuts.links());
     RC_ASSERT(parts.count() == mesh->part_count);
   };
-  QVERIFY(rc::check("the count is that of a flood over all elements", holds));
+  QVERIFY(check_property("the count is that of a flood over all elements", holds));
 }
 
 void PartsTest::what_is_cut_already_counts_once() {

@@ -33,6 +33,7 @@ class PhysicsTest : public QObject {
   void preparation_is_no_part_of_a_move();
   void a_cut_in_the_middle_is_measured_against_the_same_cut();
   void calibrated_contestants_have_their_softness_and_sweeps();
+  void the_reference_solution_knows_nothing_of_the_last_one();
   void everyone_takes_part();
   void the_truth_has_no_error_and_linear_elasticity_less_for_less();
   void drags_are_what_they_say();
@@ -84,7 +85,7 @@ constexpr double converged = 1e-6;
 }  // namespace
 
 void PhysicsTest::errors_by_hand() {
-  // The hand, element 0, went by 2; the truth displaces 1 by 1, 2 by 0.01 and 3 not at all.
+  // The handle, element 0, moved by 2; the reference solution displaces 1 by 1, 2 by 0.01 and 3 not at all.
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
   const Truth truth{{-2, -1, -0.01, 0}, 2, {0}};
   const std::vector<double> at{-2, 0.4, 1.99, 3};
@@ -261,6 +262,26 @@ void PhysicsTest::calibrated_contestants_have_their_softness_and_sweeps() {
   const PhysicsReport refused = compare_with_physics({sheet}, options);
   QCOMPARE(refused.objects[0].drags[0].entries.size(), std::size_t{1 + 4});
   QVERIFY(refused.objects[0].calibrations.at(0).refusal.find("does not converge") != std::string::npos);
+  // An element moves from 1 % of the handle's displacement on: 0.02 here.
+  for (const auto& [by, moving] : {std::pair(0.019, 2), {0.021, 3}}) {
+    const Truth other{{-2, -1, -by, 0}, 2};
+    QCOMPARE(
+        int(measure_physical_error(*line, PositionView(at.data(), sizeof(double), Precision::double_precision), other)
+                .moving),
+        moving);
+  }
+}
+
+/// Newton's method starts from rest each time: the answer is the same to the bit whatever was asked before.
+void PhysicsTest::the_reference_solution_knows_nothing_of_the_last_one() {
+  const Case sheet = pinned_sheet(25, {}, {});
+  const std::vector<double> at_rest(2 * sheet.pins.size());
+  TruthSolver solver({sheet.mesh, Cuts(sheet.mesh), sheet.pins, at_rest, {}});
+  const ElementId hand = std::get<commands::Grab>(sheet.drags[0].commands[0]).element;
+  const Point near = sheet.mesh->rest_position(hand) + Point(0.1, -0.05, 0), far = near + Point(0.6, -0.6, 0);
+  const Truth first = solver.at(hand, near);
+  QVERIFY(solver.at(hand, far).displacements != first.displacements);
+  QVERIFY(chainmail::test::same_bits(solver.at(hand, near).displacements, first.displacements));
 }
 
 void PhysicsTest::everyone_takes_part() {

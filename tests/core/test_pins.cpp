@@ -48,7 +48,7 @@ void PinsTest::pins_stay() {
       }
     }
   };
-  QVERIFY(rc::check("no algorithm and no relaxation moves a pin", holds));
+  QVERIFY(check_property("no algorithm and no relaxation moves a pin", holds));
 }
 
 void PinsTest::lists_go_round_a_pin() {

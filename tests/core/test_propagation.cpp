@@ -171,7 +171,7 @@ void PropagationTest::an_updated_elements_link_to_its_sponsor_is_valid() {
       }
     }
   };
-  QVERIFY(rc::check("an updated element lies in the region about its sponsor", holds));
+  QVERIFY(check_property("an updated element lies in the region about its sponsor", holds));
 }
 
 void PropagationTest::no_element_is_updated_twice() {
@@ -189,7 +189,7 @@ void PropagationTest::no_element_is_updated_twice() {
       }
     }
   };
-  QVERIFY(rc::check("each element is updated at most once, the grabbed one never again", holds));
+  QVERIFY(check_property("each element is updated at most once, the grabbed one never again", holds));
 }
 
 void PropagationTest::counts_agree_with_the_trace() {
@@ -209,7 +209,7 @@ void PropagationTest::counts_agree_with_the_trace() {
     RC_ASSERT(count.moved == moved.size());
     RC_ASSERT(moved == std::vector<ElementId>(solver->moved().begin(), solver->moved().end()));
   };
-  QVERIFY(rc::check("counts, moved() and the trace tell one story", holds));
+  QVERIFY(check_property("counts, moved() and the trace tell one story", holds));
 }
 
 void PropagationTest::algorithms_are_found_by_name() {

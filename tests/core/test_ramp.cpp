@@ -1,10 +1,12 @@
 #include <QtTest>
 #include <cmath>
+#include <set>
 
 #include "core/families.h"
 #include "report/growth.h"
 #include "report/hand.h"
 #include "report/ramp.h"
+#include "report/ramp_rule.h"
 #include "report/ramp_table.h"
 
 using namespace chainmail;
@@ -25,6 +27,8 @@ class RampTest : public QObject {
   void widths_grow();
   void every_size_and_algorithm_has_a_row();
   void all_make_the_same_moves();
+  void every_attempt_has_drags_of_its_own();
+  void a_budget_may_be_used_up();
   void a_lost_algorithm_is_out();
   void a_hiccup_does_not_count();
   void what_others_take_does_not_count();
@@ -220,6 +224,27 @@ void RampTest::all_make_the_same_moves() {
     differs |= alone.rows[i].mean_moved != other.rows[i].mean_moved;
   }
   QVERIFY(differs);
+}
+
+/// A second attempt at a size is to show whether the first was bad luck, so it must not repeat its drags.
+void RampTest::every_attempt_has_drags_of_its_own() {
+  std::set<std::uint64_t> seeds;
+  for (std::uint32_t width = 4; width < 100; ++width) {
+    for (const int attempt : {0, 1}) {
+      seeds.insert(ramp_seed(1, width, attempt));
+      seeds.insert(ramp_seed(2, width, attempt));
+    }
+  }
+  QCOMPARE(seeds.size(), std::size_t(4 * 96));
+}
+
+void RampTest::a_budget_may_be_used_up() {
+  const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
+  const auto in_time = [&](double ms) {
+    return ramp_row(*mesh, 4, Algorithm::spiral, {std::vector<double>(10, ms), 20}, 0.016).in_real_time;
+  };
+  QVERIFY(in_time(16));
+  QVERIFY(!in_time(16.001));
 }
 
 void RampTest::a_lost_algorithm_is_out() {

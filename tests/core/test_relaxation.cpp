@@ -128,7 +128,7 @@ void RelaxationTest::the_held_element_stays() {
     }
     RC_ASSERT(position_of(*state.solver, *state.mesh, state.held) == before);
   };
-  QVERIFY(rc::check("the held element stays", holds));
+  QVERIFY(check_property("the held element stays", holds));
 }
 
 void RelaxationTest::the_rest_shape_stays() {
@@ -158,7 +158,7 @@ void RelaxationTest::from_a_valid_state_every_link_stays_valid() {
       RC_ASSERT(state.violation() <= 1e-10);
     }
   };
-  QVERIFY(rc::check("from a valid state every link stays valid", holds));
+  QVERIFY(check_property("from a valid state every link stays valid", holds));
 }
 
 void RelaxationTest::from_a_valid_state_the_energy_never_rises() {
@@ -174,7 +174,7 @@ void RelaxationTest::from_a_valid_state_the_energy_never_rises() {
       before = after;
     }
   };
-  QVERIFY(rc::check("from a valid state the energy never rises", holds));
+  QVERIFY(check_property("from a valid state the energy never rises", holds));
 }
 
 void RelaxationTest::it_ends_at_the_rest_shape_about_the_held_element() {

@@ -54,7 +54,7 @@ void RepairTest::a_start_that_is_not_valid_is_repaired() {
       RC_ASSERT(outside <= 64 * half_ulp(precision) * size);
     }
   };
-  QVERIFY(rc::check("Exact takes over from any state, and every link holds", holds));
+  QVERIFY(check_property("Exact takes over from any state, and every link holds", holds));
 }
 
 void RepairTest::a_repair_leaves_what_is_valid() {

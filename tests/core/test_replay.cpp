@@ -98,7 +98,7 @@ void ReplayTest::a_drag_goes_as_without_memory() {
                   (*any_hand(reach)).by());
     }
   };
-  QVERIFY(rc::check("each pass is that of a solver that saw nothing before", holds));
+  QVERIFY(check_property("each pass is that of a solver that saw nothing before", holds));
 }
 
 void ReplayTest::an_algorithm_finds_nothing_of_another() {

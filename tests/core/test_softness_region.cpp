@@ -69,7 +69,7 @@ bool rest_is_valid(const double (&rest_vector)[3], const LinkSoftness& softness)
 /// Calls `holds(rest vector, softness)` on what RapidCheck draws: coordinates in hundredths, of any sign.
 template <class Holds>
 bool check_any_link(const char* sentence, Holds holds) {
-  return rc::check(sentence, [&holds] {
+  return check_property(sentence, [&holds] {
     const auto hundredths = *rc::gen::container<std::array<int, 3>>(rc::gen::inRange(-300, 301));
     const double rest_vector[3] = {hundredths[0] / 100.0, hundredths[1] / 100.0, hundredths[2] / 100.0};
     RC_ASSERT(holds(rest_vector, *any_link_softness()));

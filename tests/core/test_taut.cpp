@@ -88,7 +88,7 @@ void TautTest::exact_holds_every_link_between_pins() {
       }
     }
   };
-  QVERIFY(rc::check("between pins every link holds, and the hand arrives unless it was stopped", holds));
+  QVERIFY(check_property("between pins every link holds, and the hand arrives unless it was stopped", holds));
 }
 
 void TautTest::pins_that_contradict_are_named() {

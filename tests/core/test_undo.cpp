@@ -127,7 +127,7 @@ void UndoTest::any_change_is_undone() {
     exchange(simulation, 1);
     RC_ASSERT(Snapshot(simulation).same_object(after));
   };
-  QVERIFY(rc::check("undo and redo of cuts, softness, drags and relaxation are exact", holds));
+  QVERIFY(check_property("undo and redo of cuts, softness, drags and relaxation are exact", holds));
 }
 
 void UndoTest::whether_the_object_is_valid_comes_back_too() {
@@ -204,7 +204,7 @@ void UndoTest::states_come_back_in_any_order() {
       }
     }
   };
-  QVERIFY(rc::check("states are exchanged and restored to the bit, whatever they share", holds));
+  QVERIFY(check_property("states are exchanged and restored to the bit, whatever they share", holds));
 }
 
 void UndoTest::a_change_to_exact_is_undone_with_it() {

@@ -4,6 +4,7 @@
 
 #include "files/open_mesh.h"
 #include "files/support.h"
+#include "mesh/cells.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
@@ -42,7 +43,12 @@ class OpenMeshTest : public QObject {
   void content_goes_before_the_name();
   void what_we_write_comes_back_data();
   void what_we_write_comes_back();
+  void voxels_and_pixels_have_corners_in_an_order_of_their_own();
   void flaws_are_told();
+  void polygons_that_come_twice_are_left_out();
+  void cells_inside_out_are_counted();
+  void flat_cells_are_flat_in_any_unit();
+  void a_strip_is_triangles_in_a_row();
   void what_others_hold_and_we_do_not_is_refused_data();
   void what_others_hold_and_we_do_not_is_refused();
   void damaged_files_give_one_sentence();
@@ -171,6 +177,40 @@ void OpenMeshTest::what_we_write_comes_back() {
   }
 }
 
+/// VTK lists the corners of voxels and pixels along x, then y, then z, and those of other cells in a row about a side.
+/// Here all are cubes and squares with edges of length 1.
+void OpenMeshTest::voxels_and_pixels_have_corners_in_an_order_of_their_own() {
+  const std::string head = "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\n";
+  const std::string below = "0 0 0  1 0 0  2 0 0  0 1 0  1 1 0  2 1 0\n";
+  put_file(path("voxels.vtk"), head + "POINTS 12 double\n" + below + "0 0 1  1 0 1  2 0 1  0 1 1  1 1 1  2 1 1\n" +
+                                   "CELLS 2 18\n8 0 1 3 4 6 7 9 10\n8 1 2 4 5 7 8 10 11\nCELL_TYPES 2\n11 11\n");
+  put_file(path("pixels.vtk"),
+           head + "POINTS 6 double\n" + below + "CELLS 2 10\n4 0 1 3 4\n4 1 2 4 5\nCELL_TYPES 2\n8 8\n");
+  const auto voxels = open_mesh(path("voxels.vtk")), pixels = open_mesh(path("pixels.vtk"));
+  for (const auto& opened : {voxels, pixels}) {
+    QCOMPARE(opened.flaws, MeshFlaws());
+    for (LinkId link = 0; link < opened.mesh->link_count(); ++link) {
+      QCOMPARE(rest_length(*opened.mesh, link), 1.0);
+    }
+  }
+  QCOMPARE(voxels.mesh->link_count(), 20U);
+  QCOMPARE(voxels.mesh->hexahedra.size(), std::size_t{2});
+  for (const auto& cell : voxels.mesh->hexahedra) {
+    Mesh one = *voxels.mesh;
+    one.hexahedra = {cell};
+    QCOMPARE(volume_of(one), 1.0);
+  }
+  QCOMPARE(pixels.mesh->link_count(), 7U);
+  double area = 0;
+  for (const auto& [a, b, c] : pixels.mesh->triangles) {
+    const auto at = [&](ElementId e) { return pixels.mesh->rest_position(e); };
+    const double doubled = (at(b) - at(a)).cross(at(c) - at(a)).z();
+    QVERIFY(doubled > 0);
+    area += doubled / 2;
+  }
+  QCOMPARE(area, 2.0);
+}
+
 void OpenMeshTest::flaws_are_told() {
   // A triangle, again in another order, one that names a point twice, one without an area, two elements at one place.
   put_file(path("flawed.off"),
@@ -183,6 +223,71 @@ void OpenMeshTest::flaws_are_told() {
            QString("1 face or cell with a point named twice, 1 face or cell there already left out; 1 face or cell is "
                    "flat, 1 element stands where another does"));
   QCOMPARE(in_words(open_mesh(std::filesystem::path(FOREIGN) / "gmsh22.msh").flaws), std::string());
+}
+
+/// A square, the same from another corner on, one of other points, and one that names a point twice.
+void OpenMeshTest::polygons_that_come_twice_are_left_out() {
+  put_file(path("squares.off"),
+           "OFF\n6 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n2 1 0\n4 0 1 2 3\n4 2 3 0 1\n4 1 4 5 2\n4 0 1 1 2\n");
+  const auto opened = open_mesh(path("squares.off"));
+  QCOMPARE(opened.flaws, (MeshFlaws{0, 1, 1, 0, 0, 0}));
+  QCOMPARE(opened.mesh->triangles.size(), std::size_t{4});  // two squares
+}
+
+/// A cube, a tetrahedron and a flat one, from micrometres to megametres.
+void OpenMeshTest::flat_cells_are_flat_in_any_unit() {
+  for (const double unit : {1e-6, 1.0, 1e6}) {
+    MeshParts parts;
+    for (const Point& at : {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(0, 1, 0), Point(0, 0, 1),
+                            Point(1, 0, 1), Point(1, 1, 1), Point(0, 1, 1)}) {
+      parts.rest.push_back(unit * at);
+    }
+    parts.hexahedra = {{0, 1, 2, 3, 4, 5, 6, 7}};
+    parts.tetrahedra = {{0, 1, 3, 4}, {0, 1, 2, 3}};
+    add_links_along_edges(parts);
+    MeshFlaws flaws;
+    count_flaws(*build_mesh(std::move(parts)), flaws);
+    QCOMPARE(flaws.flat, std::uint64_t{1});
+    QCOMPARE(flaws.inverted, std::uint64_t{0});
+  }
+}
+
+void OpenMeshTest::a_strip_is_triangles_in_a_row() {
+  put_file(path("strip.vtk"),
+           "# vtk DataFile Version 3.0\na\nASCII\nDATASET POLYDATA\nPOINTS 6 double\n"
+           "0 0 0  0 1 0  1 0 0  1 1 0  2 0 0  2 1 0\nTRIANGLE_STRIPS 1 7\n6 0 1 2 3 4 5\n");
+  const auto opened = open_mesh(path("strip.vtk"));
+  QCOMPARE(opened.flaws, MeshFlaws());
+  QCOMPARE(opened.mesh->triangles.size(), std::size_t{4});
+  QCOMPARE(opened.mesh->link_count(), 9U);  // three across, two along each side, two diagonals
+  double area = 0;
+  for (const auto& [a, b, c] : opened.mesh->triangles) {
+    const auto at = [&](ElementId e) { return opened.mesh->rest_position(e); };
+    area += (at(b) - at(a)).cross(at(c) - at(a)).norm() / 2;
+  }
+  QCOMPARE(area, 2.0);
+}
+
+/// A tetrahedron and a hexahedron, once as they should be and once as in a mirror; a flat one has no inside.
+void OpenMeshTest::cells_inside_out_are_counted() {
+  const std::string head =
+      "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 13 double\n"
+      "0 0 0  1 0 0  1 1 0  0 1 0  0 0 1  1 0 1  1 1 1  0 1 1\n5 0 0  6 0 0  5 1 0  5 0 1  6 1 0\n";
+  const auto flaws = [&](const std::string& cells) {
+    put_file(path("cells.vtk"), head + cells);
+    return open_mesh(path("cells.vtk")).flaws;
+  };
+  const std::string types = "CELL_TYPES 2\n12 10\n";
+  QCOMPARE(flaws("CELLS 2 14\n8 0 1 2 3 4 5 6 7\n4 8 9 10 11\n" + types), MeshFlaws());
+  QCOMPARE(flaws("CELLS 2 14\n8 4 5 6 7 0 1 2 3\n4 8 9 10 11\n" + types).inverted, std::uint64_t{1});
+  QCOMPARE(flaws("CELLS 2 14\n8 0 1 2 3 4 5 6 7\n4 8 10 9 11\n" + types).inverted, std::uint64_t{1});
+  const MeshFlaws both = flaws("CELLS 2 14\n8 4 5 6 7 0 1 2 3\n4 8 10 9 11\n" + types);
+  QCOMPARE(both.inverted, std::uint64_t{2});
+  QCOMPARE(both.flat, std::uint64_t{0});
+  QCOMPARE(in_words(both), std::string("2 cells are inside out"));
+  const MeshFlaws flat = flaws("CELLS 2 14\n8 0 1 2 3 4 5 6 7\n4 8 9 10 12\n" + types);
+  QCOMPARE(flat.flat, std::uint64_t{1});
+  QCOMPARE(flat.inverted, std::uint64_t{0});
 }
 
 void OpenMeshTest::what_others_hold_and_we_do_not_is_refused_data() {

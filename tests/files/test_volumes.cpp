@@ -1,4 +1,5 @@
 #include <QtTest>
+#include <random>
 
 #include "files/metaimage.h"
 #include "files/nrrd_head.h"
@@ -33,6 +34,20 @@ std::size_t resident(const std::string& name) {
   return 0;
 }
 void forget_the_most_resident() { std::ofstream("/proc/self/clear_refs") << "5"; }
+/// The variance between the classes below and from a threshold on (Otsu 1979, equation 14), by its definition.
+double variance_between(const Volume& volume, double threshold) {
+  std::array<double, 2> count{}, sum{};
+  for (std::size_t i = 0; i < volume.voxel_count(); ++i) {
+    const std::size_t of = volume.density(i) >= threshold ? 1 : 0;
+    count[of] += 1;
+    sum[of] += volume.density(i);
+  }
+  if (count[0] == 0 || count[1] == 0) {
+    return 0;
+  }
+  const double all = count[0] + count[1], apart = sum[1] / count[1] - sum[0] / count[0];
+  return count[0] / all * (count[1] / all) * apart * apart;
+}
 
 }  // namespace
 
@@ -44,6 +59,7 @@ class VolumesTest : public QObject {
   void densities_of_16_bits_are_exact();
   void others_are_near_to_a_65535th();
   void a_head_says_what_the_data_are();
+  void heads_of_other_programs_use_other_keys();
   void heads_that_do_not_are_refused_data();
   void heads_that_do_not_are_refused();
   void data_that_end_too_soon_are_refused();
@@ -52,8 +68,11 @@ class VolumesTest : public QObject {
   void an_nrrd_header_names_one_file();
   void voxels_above_a_threshold_are_elements();
   void several_voxels_make_one_element();
+  void what_is_left_at_the_border_makes_an_element_too();
   void what_is_dense_is_stiff();
   void otsu_parts_two_heaps();
+  void otsu_finds_the_largest_variance_between_classes();
+  void each_voxel_shows_its_density_at_its_centre();
   void nothing_above_the_threshold_is_said();
 };
 
@@ -84,6 +103,22 @@ void VolumesTest::a_head_says_what_the_data_are() {
   QCOMPARE(volume.density(0), 256.0);  // the highest byte first
   QCOMPARE(volume.density(1), 2.0);
   QCOMPARE(volume.density(3), 4096.0);
+}
+
+/// 'Position' and 'Origin' are other names of 'Offset'. A negative spacing is the distance of voxels all the same.
+void VolumesTest::heads_of_other_programs_use_other_keys() {
+  const std::string size = "NDims = 3\nDimSize = 1 1 1\nElementType = MET_UCHAR\n", end = "ElementDataFile = LOCAL\n";
+  for (const char* key : {"Offset", "Position", "Origin"}) {
+    QCOMPARE(read_metaimage_head(size + key + " = 1 -2 3\n" + end, "a.mha").origin, Point(1, -2, 3));
+  }
+  for (const char* key : {"ElementSpacing", "ElementSize"}) {
+    QCOMPARE(read_metaimage_head(size + key + " = 0.5 -1 2\n" + end, "a.mha").spacing, Point(0.5, 1, 2));
+  }
+  // The size of a voxel is its spacing where that is not given, in whatever order.
+  for (const char* both :
+       {"ElementSpacing = 3 3 3\nElementSize = 1 2 1\n", "ElementSize = 1 2 1\nElementSpacing = 3 3 3\n"}) {
+    QCOMPARE(read_metaimage_head(size + both + end, "a.mha").spacing, Point(3, 3, 3));
+  }
 }
 
 void VolumesTest::heads_that_do_not_are_refused_data() {
@@ -212,6 +247,13 @@ void VolumesTest::several_voxels_make_one_element() {
   QCOMPARE(coarser.mesh->element_count(), 27'000U);
 }
 
+/// Five voxels, two to an element: the fifth is one by itself, as dense as it is.
+void VolumesTest::what_is_left_at_the_border_makes_an_element_too() {
+  const auto block = voxel_block(volume_of({5, 1, 1}, {9, 9, 9, 9, 9}), {8.0, 2, true}, "v");
+  QCOMPARE(block.mesh->element_count(), 3U);
+  QCOMPARE(block.mesh->link_count(), 2U);
+}
+
 void VolumesTest::what_is_dense_is_stiff() {
   const auto volume = volume_of({4, 1, 1}, {10, 10, 20, 20});
   const auto block = voxel_block(volume, {10.0, 1, true}, "v");
@@ -224,6 +266,55 @@ void VolumesTest::what_is_dense_is_stiff() {
 void VolumesTest::otsu_parts_two_heaps() {
   const double threshold = otsu_threshold(volume_of({6, 1, 1}, {0, 1, 2, 100, 101, 102}));
   QVERIFY(threshold > 2 && threshold <= 100);
+}
+
+/// Every way to part the densities is tried. Few different ones in some volumes, so that several ways are equally good.
+void VolumesTest::otsu_finds_the_largest_variance_between_classes() {
+  std::mt19937_64 random(5);
+  for (int trial = 0; trial < 500; ++trial) {
+    const std::size_t count = 2 + random() % 30;
+    const std::uint64_t different = 2 + random() % (trial % 2 == 0 ? 6 : 3000);
+    const double unit = trial % 3 == 0 ? 0.37 : 1;
+    std::vector<double> densities{-7 * unit, -6 * unit};
+    while (densities.size() < count) {
+      densities.push_back(unit * double(random() % different));
+    }
+    const auto volume = volume_of({std::uint32_t(densities.size()), 1, 1}, densities);
+    double best = 0;
+    for (std::size_t i = 0; i < volume.voxel_count(); ++i) {
+      best = std::max(best, variance_between(volume, volume.density(i)));
+    }
+    const double threshold = otsu_threshold(volume);
+    QVERIFY2(variance_between(volume, threshold) >= best * (1 - 1e-12), qPrintable(QString::number(threshold)));
+  }
+  QCOMPARE(otsu_threshold(volume_of({4, 1, 1}, {0, 10, 90, 100})), 50.0);  // midway between the classes
+}
+
+/// A section through the object shows, at each element, the density of the voxel that the element is.
+void VolumesTest::each_voxel_shows_its_density_at_its_centre() {
+  std::vector<double> densities;
+  for (int i = 0; i < 3 * 2 * 4; ++i) {
+    densities.push_back(100 + 7 * ((5 * i) % 24));
+  }
+  auto volume = volume_of({3, 2, 4}, densities);
+  volume.spacing = Point(0.5, 1, 2);
+  volume.origin = Point(1, -2, 30);
+  const auto mesh = voxel_block(volume, {100.0, 1, true}, "v").mesh;
+  QCOMPARE(std::size_t(mesh->element_count()), densities.size());
+  const Texture& texture = *mesh->texture;
+  const auto& [low, high] = texture.box;
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    const Eigen::Vector3d voxel(e % 3, e / 3 % 2, e / 6);
+    const Point centre = volume.origin + volume.spacing.cwiseProduct(voxel);
+    QCOMPARE(mesh->rest_position(e), centre);
+    std::size_t texel = 0;
+    for (int k = 2; k >= 0; --k) {
+      const double at = (centre[k] - low[k]) / (high[k] - low[k]) * texture.size[k];  // in texels
+      QVERIFY(std::abs(at - (voxel[k] + 0.5)) < 1e-12);
+      texel = texel * texture.size[k] + std::size_t(at);
+    }
+    QCOMPARE(int(texture.texels[texel]), int(std::lround(255 * (densities[e] - 100) / (7 * 23))));
+  }
 }
 
 void VolumesTest::nothing_above_the_threshold_is_said() {

@@ -1,6 +1,8 @@
+#include <QFile>
 #include <QtTest>
 #include <cstdio>
 #include <map>
+#include <set>
 
 #include "hard/scene.h"
 #include "mesh/error.h"
@@ -30,8 +32,8 @@ std::string number(double x) {
   return text;
 }
 
-/// One cell of the table: the largest violation, or what else was not held.
-std::string cell(const Row& row) {
+/// The largest violation, or what else was not held.
+std::string held(const Row& row) {
   if (!row.refusal.empty()) {
     return "refused";
   }
@@ -42,17 +44,32 @@ std::string cell(const Row& row) {
                      : violation <= 1e-4 ? "0"
                                          : number(violation);
   text += violation > 1e-4 && violation <= outcome.rounding ? " by rounding" : "";
-  text += outcome.stopped ? ", stopped" : "";
-  return text + (outcome.drift ? ", drift " + number(*outcome.drift) : "");
+  return text + (outcome.stopped ? ", stopped" : "");
+}
+
+std::string held_and_drift(const Row& row) {
+  return held(row) + (row.outcome.drift ? ", drift " + number(*row.outcome.drift) : "");
+}
+
+/// What the cells of a table say, by the names of their case and their algorithm.
+using Cells = std::map<std::pair<std::string, std::string>, std::string>;
+
+/// Float and double in one cell, once where they say the same.
+template <class Text>
+Cells cells_of(const std::vector<Row>& rows, Text text_of) {
+  Cells cells;
+  for (const Row& row : rows) {
+    auto& text = cells[{row.name, row.algorithm}];
+    const std::string now = text_of(row);
+    text = text.empty() || text == now ? now : text + " / " + now;
+  }
+  return cells;
 }
 
 void print_table(const std::vector<Row>& rows) {
-  std::map<std::pair<std::string, std::string>, std::string> cells;
+  Cells cells = cells_of(rows, held_and_drift);
   std::vector<std::string> names, columns;
   for (const Row& row : rows) {
-    auto& text = cells[{row.name, row.algorithm}];
-    const std::string now = cell(row);
-    text = text.empty() || text == now ? now : text + " / " + now;
     if (names.empty() || names.back() != row.name) {
       names.push_back(row.name);
     }
@@ -78,6 +95,47 @@ void print_table(const std::vector<Row>& rows) {
   std::printf("\n");
 }
 
+QStringList cells_in(const QString& line) {
+  QStringList cells = line.split('|').mid(1);
+  cells.removeLast();
+  std::ranges::transform(cells, cells.begin(), [](const QString& cell) { return cell.trimmed(); });
+  return cells;
+}
+
+/// The text of README.md's section on hard cases, without its line breaks; its table line by line in `table`.
+QString hard_cases_in_readme(QStringList& table) {
+  QFile file(QStringLiteral(README));
+  if (!file.open(QIODevice::ReadOnly)) {
+    return {};
+  }
+  const QString section = QString::fromUtf8(file.readAll()).section("\n## Hard cases\n", 1).section("\n## ", 0, 0);
+  for (const QString& line : section.split('\n')) {
+    if (line.startsWith('|')) {
+      table << line;
+    }
+  }
+  return section.simplified();
+}
+
+/// The algorithms of a column of the README's table, by their labels: 'Spiral and Natural Queue' are two.
+std::vector<std::string> algorithms_in(const QString& column) {
+  std::vector<std::string> labels;
+  for (const QString& name : column.split(" and ")) {
+    for (const AlgorithmInfo& one : algorithms()) {
+      const QString label = QString::fromUtf8(one.label.data(), qsizetype(one.label.size()));
+      if (label == name || label == name + " ChainMail") {
+        labels.emplace_back(one.label);
+      }
+    }
+  }
+  return labels;
+}
+
+/// As the README writes a drift.
+QString in_readme(double drift) {
+  return QString::fromStdString(number(drift)).replace("e-0", "e-").replace("e+0", "e");
+}
+
 }  // namespace
 
 /// Numerical stability on hard cases: each by each algorithm, in float and in double. What an algorithm
@@ -88,11 +146,30 @@ class HardTest : public QObject {
  private slots:
   void holds_data();
   void holds();
+  void the_readme_has_the_table();
+  void the_readme_has_the_drifts();
   void what_is_no_number_is_refused_data();
   void what_is_no_number_is_refused();
   void cleanupTestCase();
 
  private:
+  /// False where not all cases were run, as when a function is named on the command line.
+  bool has_all_rows() const {
+    std::set<std::string> names;
+    std::ranges::transform(rows_, std::inserter(names, names.end()), &Row::name);
+    return names.size() == cases(large).size();
+  }
+  double largest_drift(const std::string& name, Precision precision, bool of_generalized) const {
+    double largest = 0;
+    for (const Row& row : rows_) {
+      if (row.name == name && row.precision == precision &&
+          (row.algorithm == info(Algorithm::generalized).label) == of_generalized) {
+        largest = std::max(largest, *row.outcome.drift);
+      }
+    }
+    return largest;
+  }
+
   std::vector<Row> rows_;
 };
 
@@ -136,6 +213,71 @@ void HardTest::holds() {
       QVERIFY(*row.outcome.drift <= (one.name == "disconnected parts" ? 0 : 4 * 0x1p-23));
     }
   }
+}
+
+/// Every cell, and no case more or less: positions are the same to the bit on every machine.
+void HardTest::the_readme_has_the_table() {
+  if (!has_all_rows()) {
+    QSKIP("compares what all cases gave");
+  }
+  QStringList table, wrong;
+  hard_cases_in_readme(table);
+  QVERIFY2(table.size() > 2, "README.md has a table under 'Hard cases'");
+  const QStringList head = cells_in(table.front());
+  Cells cells = cells_of(rows_, held);
+  std::set<std::string> in_table, algorithms_there;
+  for (const QString& line : table.mid(2)) {
+    const QStringList row = cells_in(line);
+    QCOMPARE(row.size(), head.size());
+    const std::string name = row.front().toStdString();
+    in_table.insert(name);
+    if (std::ranges::none_of(rows_, [&](const Row& one) { return one.name == name; })) {
+      QVERIFY2(!large, qPrintable("README.md has a case that does not exist: " + row.front()));
+      qInfo() << "compared in release builds alone:" << row.front();
+      continue;
+    }
+    for (qsizetype column = 1; column < row.size(); ++column) {
+      for (const std::string& label : algorithms_in(head[column])) {
+        algorithms_there.insert(label);
+        const std::string text = cells.contains({name, label}) ? cells[{name, label}] : "no grid";
+        if (text != row[column].toStdString()) {
+          wrong << QString("%1, %2: '%3' is '%4' now")
+                       .arg(row.front(), QString::fromStdString(label), row[column], QString::fromStdString(text));
+        }
+      }
+    }
+  }
+  QVERIFY2(wrong.isEmpty(), qPrintable("README.md's table is out of date:\n" + wrong.join('\n')));
+  for (const Row& row : rows_) {
+    QVERIFY2(in_table.contains(row.name), ("README.md lacks the case " + row.name).c_str());
+  }
+  QCOMPARE(algorithms_there.size(), algorithms().size());
+}
+
+/// The text below the table says what the printed table calls drift.
+void HardTest::the_readme_has_the_drifts() {
+  if (!has_all_rows()) {
+    QSKIP("compares what all cases gave");
+  }
+  QStringList table;
+  const QString text = hard_cases_in_readme(table);
+  const double turned = std::max(largest_drift("turned by 45°", Precision::single_precision, false),
+                                 largest_drift("turned by 45°", Precision::double_precision, false));
+  const double generalized = std::max(largest_drift("turned by 45°", Precision::single_precision, true),
+                                      largest_drift("turned by 45°", Precision::double_precision, true));
+  const QString apart =
+      QString("up to %1 rest lengths apart (Generalized %2)").arg(in_readme(turned), in_readme(generalized));
+  QVERIFY2(text.contains(apart), qPrintable("README.md lacks: " + apart));
+  if (!large) {
+    QSKIP("the drift of a million moves is compared in release builds alone");
+  }
+  const std::string moves = "1,000,000 tiny moves there and back";
+  QCOMPARE(largest_drift(moves, Precision::single_precision, false), 0.0);
+  QCOMPARE(largest_drift(moves, Precision::double_precision, false), 0.0);
+  const QString drifted = QString("no algorithm but Generalized (%1 of a rest length in float, %2 in double)")
+                              .arg(in_readme(largest_drift(moves, Precision::single_precision, true)),
+                                   in_readme(largest_drift(moves, Precision::double_precision, true)));
+  QVERIFY2(text.contains(drifted), qPrintable("README.md lacks: " + drifted));
 }
 
 void HardTest::what_is_no_number_is_refused_data() {

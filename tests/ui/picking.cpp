@@ -2,13 +2,12 @@
 
 #include "picking.h"
 
-#include <rapidcheck.h>
-
 #include <QTest>
 #include <numeric>
 #include <random>
 
 #include "coarse_level.h"
+#include "property.h"
 #include "scene.h"
 
 using namespace chainmail;
@@ -156,7 +155,7 @@ class Picking : public QObject {
         RC_ASSERT(scene.crossed(cuts, {from, to}) == crossed);
       }
     };
-    QVERIFY(rc::check("cells that are passed over hold nothing of the answer", holds));
+    QVERIFY(test::check_property("cells that are passed over hold nothing of the answer", holds));
   }
 
   /// Boxes of every element, and of coarse links, which reach further.
@@ -185,7 +184,7 @@ class Picking : public QObject {
         }
       }
     };
-    QVERIFY(rc::check("what is not drawn is out of the view", holds));
+    QVERIFY(test::check_property("what is not drawn is out of the view", holds));
   }
 
   void coordinatesThatAreNotCarriedStayInPlace() {
