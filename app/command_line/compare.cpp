@@ -1,6 +1,7 @@
 #include "command_line/compare_options.h"
 #include "command_line/folder.h"
 #include "command_line/report_origin.h"
+#include "command_line/watched.h"
 #include "files/moves.h"
 #include "files/outputs.h"
 #include "files/report_json.h"
