@@ -23,6 +23,13 @@ std::string in_words(const PhysicsDrag& drag, const PhysicsEntry& entry) {
          " of the handle's displacement, max " + percent(measured.error.max);
 }
 
+/// The series of a contestant, under the name that says which cells it works on.
+std::size_t series_of(Plot& plot, const PhysicsContestant& contestant) {
+  const std::size_t series = series_of(plot, *contestant.algorithm);
+  plot.series[series].label = label(PhysicsContestant{contestant.algorithm, 0});
+  return series;
+}
+
 /// Marks, and for each algorithm with sweeps a line through them; calibrated ones stand alone.
 PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag, const std::string& title) {
   PlotPanel panel{drag.no_truth.empty() ? title : title + ": no reference", {}, {}};
@@ -36,7 +43,7 @@ PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag, const std::string& title
       continue;
     }
     const TimeSpread& ms = time_of(drag, *entry.measurement);
-    const std::size_t series = series_of(plot, *entry.contestant.algorithm);
+    const std::size_t series = series_of(plot, entry.contestant);
     const bool calibrated = entry.contestant.calibrated.has_value();
     panel.marks.push_back({ms.median, ms.lower_quartile, ms.upper_quartile, error, series, entry.contestant.sweeps > 0,
                            calibrated ? "cal." : "", in_words(drag, entry)});
@@ -80,7 +87,7 @@ Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& w
       if (std::ranges::none_of(series.points, [&](const GrowthPoint& point) { return value_of(point).has_value(); })) {
         continue;
       }
-      PlotCurve curve{series_of(plot, *series.contestant.algorithm), {}};
+      PlotCurve curve{series_of(plot, series.contestant), {}};
       for (const GrowthPoint& point : series.points) {
         if (const auto value = value_of(point)) {
           const auto elements = double(point.elements);
@@ -107,9 +114,7 @@ Plot empty_plot(const std::string& title, const PhysicsObject& object) {
     plot.legend_notes.push_back("line: " + sweeps + " sweeps per move");
   }
   plot.legend_notes.emplace_back("cal.: calibrated on other drags");
-  plot.legend_notes.emplace_back("dashed: nothing moves");
-  plot.legend_notes.emplace_back("0: neo-Hookean FEM, the reference,");
-  plot.legend_notes.emplace_back("on the same cells as linear FEM");
+  plot.legend_notes.emplace_back("0: the reference, neo-Hookean FEM");
   return plot;
 }
 
