@@ -29,6 +29,7 @@ class BoundaryElementsTest : public QObject {
 
  private slots:
   void cavities_and_turned_triangles_are_found();
+  void a_cavity_belongs_to_the_innermost_solid();
   void the_hand_and_the_pins_are_where_they_are();
   void corners_average_their_triangles_by_area();
   void pins_that_move_alike_take_the_solid_along();
@@ -57,6 +58,22 @@ void BoundaryElementsTest::cavities_and_turned_triangles_are_found() {
   for (std::size_t t = 0; t < 2 * 72; ++t) {
     const Facet& facet = solids[0].facets[t];
     QCOMPARE(facet.normal.dot(facet.centroid - middle) > 0, t < 72);
+  }
+}
+
+/// A hollow ball in a hollow ball: each cavity is of the ball that it lies in, not of the outer one.
+void BoundaryElementsTest::a_cavity_belongs_to_the_innermost_solid() {
+  const auto mesh = build_mesh(
+      together(together(sphere_parts(2, 4), sphere_parts(2, 3)), together(sphere_parts(2, 2), sphere_parts(2, 1))));
+  const auto solids = enclosed_solids(mesh, Cuts(mesh));
+  QCOMPARE(solids.size(), std::size_t(2));
+  for (const Solid& solid : solids) {
+    double outer = 0, inner = 5;
+    for (const auto& triangle : solid.triangles) {
+      outer = std::max(outer, mesh->rest_position(triangle[0]).norm());
+      inner = std::min(inner, mesh->rest_position(triangle[0]).norm());
+    }
+    QCOMPARE(outer - inner, 1.0);
   }
 }
 

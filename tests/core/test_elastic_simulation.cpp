@@ -18,6 +18,7 @@ class ElasticSimulationTest : public QObject {
   void undo_is_exact_data() { every_method(); }
   void undo_is_exact();
   void a_drag_after_an_undo_knows_nothing_of_what_was_undone();
+  void a_drag_after_a_placement_goes_on_from_there();
   void pins_that_were_moved_hold_where_they_are_now_data() { every_method(); }
   void pins_that_were_moved_hold_where_they_are_now();
   void cuts_and_pins_between_drags_count_data();
@@ -128,6 +129,21 @@ void ElasticSimulationTest::a_drag_after_an_undo_knows_nothing_of_what_was_undon
   bar.apply(commands::RestoreState{2});
   bar.drag(24, Point(4, 2, 2));  // of the element that was held before the undo, too
   QVERIFY(largest_step(bar.all(), never.all()) < 1e-9);
+}
+
+/// A placement, as a recording keeps them, is where the next drag goes on from, also of the element that was held.
+void ElasticSimulationTest::a_drag_after_a_placement_goes_on_from_there() {
+  for (const ElementId next : {ElementId{24}, ElementId{44}}) {
+    Bar bar(Algorithm::free_form), fresh(Algorithm::free_form);
+    bar.drag(tip, Point(4.2, 0.3, 0));
+    const auto placement = std::make_shared<const Placement>(bar.placement());
+    bar.drag(44, Point(6, 4, 1));
+    for (Bar* one : {&bar, &fresh}) {
+      one->apply(commands::Place{placement});
+      one->drag(next, Point(5, 1, 2));
+    }
+    QVERIFY(largest_step(bar.all(), fresh.all()) < 1e-9);
+  }
 }
 
 /// Going back to rest takes the pinned elements along. What a method has prepared for where they were is then of no

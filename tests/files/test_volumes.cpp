@@ -288,6 +288,10 @@ void VolumesTest::otsu_finds_the_largest_variance_between_classes() {
     QVERIFY2(variance_between(volume, threshold) >= best * (1 - 1e-12), qPrintable(QString::number(threshold)));
   }
   QCOMPARE(otsu_threshold(volume_of({4, 1, 1}, {0, 10, 90, 100})), 50.0);  // midway between the classes
+  // Two ways are equally good, with the lowest or the highest alone; what lies between them is not.
+  const auto tied = volume_of({4, 1, 1}, {0, 13, 17, 30});
+  QCOMPARE(variance_between(tied, 13), variance_between(tied, 30));
+  QVERIFY(variance_between(tied, otsu_threshold(tied)) > variance_between(tied, 17));
 }
 
 /// A section through the object shows, at each element, the density of the voxel that the element is.
