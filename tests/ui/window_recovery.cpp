@@ -252,7 +252,7 @@ class WindowRecovery : public QObject {
          [&] {
            drag(document, 20, {0.4, -0.3, 0.2});
          }},
-        {"a drag to where the element is", [&] { drag(document, 0, Point::Zero()); }},
+        {"a drag to where the element is", [&] { drag(document, 1, Point::Zero()); }},
         {"back in what was done", [&] { document.goTo(document.tape().length() - 3); }},
         {"other moves", [&] { document.loadMoves({commands::Pin{{1}}}, QStringLiteral("open moves")); }},
         {"reset", [&] { bench.trigger("resetObject"); }},
