@@ -191,7 +191,7 @@ struct Workbench {
     return window.findChild<Widget*>(QLatin1String(name));
   }
 
-  static constexpr int shortly = 16, readably = 100;  // milliseconds from a change to what shows it
+  static constexpr int shortly = 50, readably = 100;  // milliseconds from a change to what shows it
   static constexpr int patience = 200;                // milliseconds that a hand waits for the solvers
 
   MainWindow window;
