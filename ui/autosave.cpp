@@ -111,6 +111,7 @@ void Autosave::listen() {
   });
   connect(&document.undoStack(), &QUndoStack::cleanChanged, this, &Autosave::noticeChange);
   connect(&document, &Document::frameReady, this, &Autosave::noticeChange);
+  followLook(window_, *this, [this] { noticeChange(); });
 }
 
 /// Cheap: it is called for every frame.
@@ -122,7 +123,7 @@ void Autosave::noticeChange() {
 }
 
 Autosave::Mark Autosave::mark() const {
-  Mark mark{steps_, {}};
+  Mark mark{steps_, {}, lookOf(window_)};
   for (int panel = 0; panel < window_.document().panels(); ++panel) {
     const Frame* frame = window_.document().frame(panel);
     mark.changed.push_back(frame == nullptr || frame->changed.empty() ? 0 : *std::ranges::max_element(frame->changed));
@@ -137,14 +138,14 @@ void Autosave::save() {
   }
   Mark now = mark();
   if (now == saved_) {
-    return;  // a frame that showed the same
+    return;  // a frame that showed the same, or a look that changed and changed back
   }
   saved_ = std::move(now);
   changed_ = false;
   begun_ = std::chrono::steady_clock::now();
   writing_ = std::make_shared<Writing>();
   thread_ =
-      std::jthread([this, writing = writing_, path = path_, draft = SessionDraft(window_.document(), lookOf(window_))] {
+      std::jthread([this, writing = writing_, path = path_, draft = SessionDraft(window_.document(), saved_.look)] {
         try {
           const Progress progress(writing->job);
           save_session(asPath(path), draft.finished(progress), progress);

@@ -5,6 +5,7 @@
 #include <QTimer>
 #include <chrono>
 #include <memory>
+#include <string>
 #include <thread>
 
 namespace chainmail {
@@ -13,7 +14,7 @@ class MainWindow;
 
 /// Keeps a window's unsaved work on the disk, at most some seconds behind: written in the background, whole or not at
 /// all, beside a lock that tells a program that runs from one that has crashed. While nothing changes it does nothing;
-/// what is saved is taken away.
+/// what is saved is taken away. The window's look is written with the work; a look alone is not work.
 class Autosave : public QObject {
   Q_OBJECT
 
@@ -46,6 +47,7 @@ class Autosave : public QObject {
   struct Mark {
     std::uint64_t steps = 0;             // of undo, redo and doing
     std::vector<std::uint64_t> changed;  // the newest frame of each panel in which a position changed
+    std::string look;                    // of the window: cameras, colours, docks
 
     bool operator==(const Mark&) const = default;
   };

@@ -37,7 +37,7 @@ const ColourModeInfo& info(ColourMode mode) {
 
 bool comparesPanels(ColourMode mode) { return mode == ColourMode::distance || mode == ColourMode::violationDifference; }
 
-Colouring::Colouring(const Document& document) : document_(document), truth_(document) {
+Colouring::Colouring(const Document& document) : document_(document), truth_(document), timer_(this) {
   timer_.setInterval(intervalMilliseconds);
   connect(&timer_, &QTimer::timeout, this, &Colouring::goOn);
   connect(&document, &Document::frameReady, this, &Colouring::receiveFrame);

@@ -42,7 +42,8 @@ ElementDock::ElementDock(Document& document)
                          QStringLiteral("Shear"), QStringLiteral("Violation")})),
       pin_(new QPushButton),
       cut_(new QPushButton(QStringLiteral("&Cut link"))),
-      move_(new ElementMove(document)) {
+      move_(new ElementMove(document)),
+      refresh_(this) {
   setObjectName(QStringLiteral("elementDock"));
   id_->setObjectName(QStringLiteral("elementId"));
   id_->setKeyboardTracking(false);

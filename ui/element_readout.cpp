@@ -10,7 +10,7 @@ constexpr int refreshMilliseconds = 100;
 }  // namespace
 
 ElementReadout::ElementReadout(const Document& document, const Measurement& measurement, std::function<int()> hovered)
-    : document_(document), measurement_(measurement), hovered_(std::move(hovered)) {
+    : document_(document), measurement_(measurement), hovered_(std::move(hovered)), refresh_(this) {
   setObjectName(QStringLiteral("readout"));
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   refresh_.setSingleShot(true);

@@ -34,7 +34,8 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
       plot_(new RatePlot),
       quantity_(new QComboBox),
       span_(new QComboBox),
-      menu_(new QMenu(QStringLiteral("&Rates over time"), this)) {
+      menu_(new QMenu(QStringLiteral("&Rates over time"), this)),
+      timer_(this) {
   setObjectName(QStringLiteral("frameRateDock"));
   plot_->setObjectName(QStringLiteral("ratePlot"));
   plot_->setAccessibleName(QStringLiteral("Rates of the panels over time"));

@@ -21,7 +21,8 @@ Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int pa
       statistics_(new QLabel),
       view_(new View(document, colouring, links, panel, std::move(camera), std::move(levels))),
       head_(new PanelHead(document, *view_, panel)),
-      legend_(new Legend) {
+      legend_(new Legend),
+      refresh_(this) {
   view_->setObjectName(QStringLiteral("view%1").arg(panel));
   legend_->setObjectName(QStringLiteral("legend%1").arg(panel));
   statistics_->setObjectName(QStringLiteral("statistics%1").arg(panel));

@@ -33,7 +33,8 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
       camera_(std::make_shared<Camera>()),
       levels_(std::make_shared<MeshLevels>()),
       column_(makeSplitter(Qt::Vertical)),
-      rows_{makeSplitter(Qt::Horizontal), makeSplitter(Qt::Horizontal)} {
+      rows_{makeSplitter(Qt::Horizontal), makeSplitter(Qt::Horizontal)},
+      refit_(this) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(column_);

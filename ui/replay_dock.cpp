@@ -29,7 +29,8 @@ ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
       slider_(new QSlider(Qt::Horizontal)),
       place_(new QLabel),
       speed_(new QComboBox),
-      filmBar_(makeFilmBar()) {
+      filmBar_(makeFilmBar()),
+      refresh_(this) {
   setObjectName(QStringLiteral("replayDock"));
   makeActions();
   arrange();

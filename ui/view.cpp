@@ -24,7 +24,8 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
       camera_(std::move(camera)),
       colour_(colours::ofPanel(panel)),
       levels_(std::move(levels)),
-      painter_(levels_) {
+      painter_(levels_),
+      hover_(this) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);  // a click here takes the keyboard from the field last typed in
   setMinimumSize(160, 90);

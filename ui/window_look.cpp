@@ -1,6 +1,7 @@
 #include "window_look.h"
 
 #include <QAction>
+#include <QDockWidget>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
@@ -9,6 +10,7 @@
 
 #include "main_window.h"
 #include "panel.h"
+#include "panel_area.h"
 #include "section_dock.h"
 #include "show_menu.h"
 #include "text.h"
@@ -91,6 +93,25 @@ void takeLook(MainWindow& window, const std::string& json) {
   window.findChild<SectionDock*>()->take(look[QStringLiteral("section")].toObject());
   takeColours(window, look[QStringLiteral("colour")].toString());
   takeCameras(window, look);
+}
+
+void followLook(MainWindow& window, QObject& context, const std::function<void()>& changed) {
+  const auto followPanel = [&context, changed](Panel* panel) {
+    QObject::connect(&panel->view(), &View::cameraChanged, &context, changed);
+  };
+  auto* area = window.findChild<PanelArea*>();
+  std::ranges::for_each(area->panels(), followPanel);
+  QObject::connect(area, &PanelArea::added, &context, followPanel);
+  QObject::connect(&window.document(), &Document::panelsChanged, &context, changed);
+  QObject::connect(&window.colouring(), &Colouring::modeChanged, &context, changed);
+  QObject::connect(&linkCameras(window), &QAction::toggled, &context, changed);
+  QObject::connect(window.findChild<ShowMenu*>(), &ShowMenu::changed, &context, changed);
+  QObject::connect(window.findChild<SectionDock*>(), &SectionDock::changed, &context, changed);
+  for (const QDockWidget* dock : window.findChildren<QDockWidget*>()) {
+    QObject::connect(dock, &QDockWidget::visibilityChanged, &context, changed);
+    QObject::connect(dock, &QDockWidget::topLevelChanged, &context, changed);
+    QObject::connect(dock, &QDockWidget::dockLocationChanged, &context, changed);
+  }
 }
 
 }  // namespace chainmail

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <string>
+
+class QObject;
 
 namespace chainmail {
 
@@ -11,5 +14,8 @@ std::string lookOf(MainWindow& window);
 
 /// Takes a look up again; what is missing, or none, stays as it is.
 void takeLook(MainWindow& window, const std::string& look);
+
+/// Calls `changed` after something that lookOf returns has changed, as long as `context` lives.
+void followLook(MainWindow& window, QObject& context, const std::function<void()>& changed);
 
 }  // namespace chainmail

@@ -16,6 +16,7 @@
 #include "bench/process.h"
 #include "bench/results.h"
 #include "core/allocations.h"
+#include "core/threads.h"
 #include "simulate/solver_thread.h"
 
 namespace chainmail::bench {
@@ -61,11 +62,11 @@ double bytes_per_element() {
     for (const auto& panel : panels) {
       panel->post(commands::Drag{target});
     }
-    while (!panels[0]->idle() || !panels[1]->idle()) {
-      std::this_thread::sleep_for(1ms);
+    test::wait_until([&] {
       panels[0]->latest_frame();
       panels[1]->latest_frame();
-    }
+      return panels[0]->idle() && panels[1]->idle();
+    });
   }
   return (resident_bytes() - before) / scene.mesh->element_count();
 }

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "core/comparisons.h"
+#include "core/threads.h"
 #include "mesh/error.h"
 
 using namespace chainmail;
@@ -85,8 +86,10 @@ void CompareRunTest::stops_between_sweeps() {
   const Case one = object(grid, moves);
   std::stop_source stop;
   std::atomic<std::clock_t> asked = 0;
-  const std::jthread hand([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  const std::clock_t begun = std::clock();
+  const std::jthread user([&] {
+    // In this program's own time, so that it is at work by then however busy the machine is.
+    chainmail::test::wait_until([&] { return std::clock() - begun > CLOCKS_PER_SEC / 30; });
     asked = std::clock();
     stop.request_stop();
   });

@@ -13,6 +13,9 @@ class IncludesTest : public QObject {
   void the_rules_can_be_broken_data();
   void the_rules_can_be_broken();
   void the_rules_hold();
+  void fixed_waits_are_found_data();
+  void fixed_waits_are_found();
+  void no_test_waits_for_a_fixed_time();
 };
 
 namespace {
@@ -76,6 +79,23 @@ QStringList includes_of(const QString& text) {
   QStringList found;
   for (auto match = pattern.globalMatch(text); match.hasNext();) {
     found << match.next().captured(1);
+  }
+  return found;
+}
+
+/// Polls a condition, with a limit: no wait of a fixed length.
+const QString polls = "tests/core/threads.h";
+
+/// The lines of a source, from 1, that wait for a length of time and not for an event. On a busy machine the event
+/// comes later than that; on an idle one the test wastes time.
+QList<int> fixed_waits_in(const QString& text) {
+  static const QRegularExpression pattern(R"((?<!->)(?<!\.)\b(qWait|qSleep|sleep_for|sleep_until|nanosleep|[mu]?sleep)\s*\()");
+  const QStringList lines = text.split('\n');
+  QList<int> found;
+  for (int i = 0; i < lines.size(); ++i) {
+    if (pattern.match(lines[i].section("//", 0, 0)).hasMatch()) {
+      found << i + 1;
+    }
   }
   return found;
 }
@@ -157,6 +177,62 @@ void IncludesTest::the_rules_hold() {
     }
   }
   QVERIFY2(faults.isEmpty(), qPrintable("\n" + faults.join('\n')));
+}
+
+void IncludesTest::fixed_waits_are_found_data() {
+  QTest::addColumn<QString>("line");
+  QTest::addColumn<bool>("fixed");
+  const auto row = [](const char* line, bool fixed) { QTest::newRow(line) << QString(line) << fixed; };
+  // Adjacent literals, so that this file has no such call itself.
+  row("  QTest::qWait"
+      "(30);",
+      true);
+  row("  QTest::qSleep"
+      "(30);",
+      true);
+  row("  QThread::msleep"
+      "(30);",
+      true);
+  row("  QThread::sleep"
+      "(1);",
+      true);
+  row("  ::usleep"
+      "(30);",
+      true);
+  row("  std::this_thread::sleep_for"
+      "(1ms);",
+      true);
+  row("  QTRY_VERIFY(bench.document().idle());", false);
+  row("  QVERIFY(QTest::qWaitFor([&] { return done; }));", false);
+  row("  QVERIFY(QTest::qWaitForWindowExposed(&window));", false);
+  row("  QVERIFY(saved.wait(30'000));", false);
+  row("  // not qWait"
+      "(30), which fails on a busy machine",
+      false);
+  row("  void it_sleeps_when_nothing_is_to_do();", false);
+  row("  solver->sleep();", false);
+}
+
+void IncludesTest::fixed_waits_are_found() {
+  QFETCH(QString, line);
+  QFETCH(bool, fixed);
+  QCOMPARE(fixed_waits_in("int x;\n" + line + "\n"), fixed ? QList<int>{2} : QList<int>());
+}
+
+void IncludesTest::no_test_waits_for_a_fixed_time() {
+  const QStringList tests = sources_below("tests");
+  QVERIFY2(tests.contains(polls), "the tests were not found");
+  QStringList waits;
+  for (const QString& file : tests) {
+    QFile source(root + "/" + file);
+    QVERIFY(source.open(QIODevice::ReadOnly));
+    for (const int line : fixed_waits_in(QString::fromUtf8(source.readAll()))) {
+      waits << QString("%1:%2").arg(file).arg(line);
+    }
+  }
+  waits.erase(std::remove_if(waits.begin(), waits.end(), [](const QString& at) { return at.startsWith(polls); }),
+              waits.end());
+  QVERIFY2(waits.isEmpty(), qPrintable("wait for an event (QTRY_…, a signal, wait_until):\n" + waits.join('\n')));
 }
 
 QTEST_APPLESS_MAIN(IncludesTest)

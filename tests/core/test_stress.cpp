@@ -56,7 +56,7 @@ class Reading {
       } else if (!reader.take(frame)) {
         wrong_ = "something moved in a block that does not say so";
       }
-      std::this_thread::sleep_for(200us);
+      std::this_thread::yield();
     }
   }
 
@@ -88,7 +88,7 @@ void StressTest::any_commands_in_any_order() {
       log.post(any.draw());
       log.sample();
       if (any.below(8) == 0) {
-        std::this_thread::sleep_for(std::chrono::microseconds(any.below(3000)));
+        wait_until([&] { return left.idle() && right.idle(); }, std::chrono::microseconds(any.below(3000)));
       }
     }
     QCOMPARE(left_reading.stop(), std::string());
@@ -120,7 +120,9 @@ void StressTest::shut_down_at_any_moment() {
       log.post(any.draw());
       log.sample();
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(any.below(4) == 0 ? any.below(20'000) : 0));
+    if (any.below(4) == 0) {
+      wait_until([&] { return left.idle() && right.idle(); }, std::chrono::microseconds(any.below(20'000)));
+    }
     QCOMPARE(left_reading.stop(), std::string());
     QCOMPARE(right_reading.stop(), std::string());
   }

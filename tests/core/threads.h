@@ -14,7 +14,8 @@ namespace chainmail::test {
 
 using namespace std::chrono_literals;
 
-/// Waits for something that happens in milliseconds; the limit is for a machine with much else to do.
+/// Waits for something that happens in milliseconds; the limit is for a machine with much else to do. The only place
+/// in the tests that sleeps: between two looks at the condition.
 template <class Condition>
 bool wait_until(Condition condition, std::chrono::steady_clock::duration limit = 30s) {
   const auto end = std::chrono::steady_clock::now() + limit;

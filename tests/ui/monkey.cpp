@@ -1,6 +1,7 @@
 #include "monkey.h"
 
 #include <QAbstractButton>
+#include <QSignalSpy>
 #include <QWheelEvent>
 #include <algorithm>
 #include <numeric>
@@ -105,7 +106,8 @@ void Monkey::hover() {
   say(QStringLiteral("hover over %1").arg(view.objectName()));
   send(view, QEvent::MouseMove, anywhere(view), Qt::NoButton);
   if (once(3)) {
-    QTest::qWait(20);  // what is below the cursor is looked for in idle time
+    // What is below the cursor is looked for in idle time.
+    (void)QTest::qWaitFor([this] { return !bench_.refreshes(Workbench::shortly); }, 100);
   } else if (once(3)) {
     QEvent leave(QEvent::Leave);
     QApplication::sendEvent(&view, &leave);
@@ -193,8 +195,8 @@ void Monkey::resize() {
 
 void Monkey::wait() {
   const int milliseconds = int(below(40));
-  say(QStringLiteral("wait for %1 ms").arg(milliseconds));
-  QTest::qWait(milliseconds);
+  say(QStringLiteral("wait for a frame, %1 ms at most").arg(milliseconds));
+  QSignalSpy(&bench_.document(), &Document::frameReady).wait(milliseconds);
 }
 
 }  // namespace chainmail

@@ -2,9 +2,13 @@
 
 #include <QApplication>
 #include <QMenu>
+#include <QPointer>
 #include <QSettings>
+#include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QTimer>
+#include <QWindow>
 #include <algorithm>
 #include <cstdlib>
 #include <future>
@@ -42,13 +46,75 @@ struct Workbench {
   /// Waits until what runs in the background is done, all solvers have done all that was asked and their frames were
   /// drawn.
   void settle() {
+    QCoreApplication::processEvents();  // what was asked for may begin there
     QTRY_VERIFY(!window.jobs().running());
-    QTest::qWait(30);
-    QTRY_VERIFY(window.document().idle());
-    for (int panel = 0; panel < window.document().panels(); ++panel) {
-      QTRY_VERIFY(window.document().frame(panel) != nullptr);
+    QTRY_VERIFY(document().idle());
+    QTRY_VERIFY(showsTheObject());
+    awaitFrames();
+    do {
+      QTRY_VERIFY(!refreshes(shortly));
+      awaitPaint();
+    } while (refreshes(shortly));
+  }
+
+  /// The same, and until figures, legends and colours, which follow at a rate that can be read, show it too.
+  void settleFigures() {
+    do {
+      settle();
+      QTRY_VERIFY(!refreshes(readably));
+      awaitPaint();
+    } while (refreshes(readably));
+  }
+
+  /// Whether every panel has a frame of the object.
+  bool showsTheObject() {
+    int frames = 0;
+    for (int panel = 0; panel < document().panels(); ++panel) {
+      frames += document().frame(panel) != nullptr ? 1 : 0;
     }
-    QTest::qWait(60);
+    return frames == document().panels();
+  }
+
+  /// Waits until the panels show what their solvers have done; while relaxation goes on, a state after that.
+  void awaitFrames() {
+    std::vector<int> frames(Document::mostPanels, 0);
+    QObject context;
+    QObject::connect(&document(), &Document::frameReady, &context, [&](int panel) { ++frames[std::size_t(panel)]; });
+    const auto seen = [&] {
+      // The first one may have been on its way before.
+      return document().settled() ||
+             std::all_of(frames.begin(), frames.begin() + document().panels(), [](int count) { return count >= 2; });
+    };
+    QTRY_VERIFY(seen());
+  }
+
+  /// Draws the views that are in sight once more: what was to be drawn before was drawn then.
+  void awaitPaint() {
+    QPointer<View> seen;
+    for (int panel = 0; panel < document().panels(); ++panel) {
+      if (!view(panel).visibleRegion().isEmpty()) {
+        seen = &view(panel);
+        seen->update();
+      }
+    }
+    if (seen.isNull() || !window.windowHandle()->isExposed()) {
+      QCoreApplication::processEvents();
+      return;
+    }
+    const QSignalSpy swapped(seen.data(), &QOpenGLWidget::frameSwapped);
+    QTRY_VERIFY(!swapped.isEmpty() || seen.isNull() || seen->visibleRegion().isEmpty());
+  }
+
+  /// Whether something will be brought up to date within so many milliseconds.
+  bool refreshes(int milliseconds) {
+    const auto waits = [milliseconds](const QTimer* timer) {
+      return timer->isActive() && timer->isSingleShot() && timer->interval() <= milliseconds;
+    };
+    const auto timers = window.findChildren<QTimer*>();
+    const auto ofColours = window.colouring().findChildren<QTimer*>(QString(), Qt::FindDirectChildrenOnly);
+    return std::any_of(timers.begin(), timers.end(), waits) ||
+           (milliseconds >= readably &&
+            std::any_of(ofColours.begin(), ofColours.end(), [](const QTimer* timer) { return timer->isActive(); }));
   }
 
   Point position(int panel, ElementId element) { return view(panel).position(element); }
@@ -72,7 +138,8 @@ struct Workbench {
                          at.mapToGlobal(QPointF(places[i - 1] + (places[i] - places[i - 1]) * step / 5)), Qt::NoButton,
                          Qt::LeftButton, modifiers);
         QApplication::sendEvent(&at, &move);
-        QTest::qWait(5);
+        // A hand is slower than the solvers, as a rule.
+        (void)QTest::qWaitFor([this] { return document().idle(); }, patience);
       }
     }
     if (release) {
@@ -140,6 +207,9 @@ struct Workbench {
   Widget* find(const char* name) {
     return window.findChild<Widget*>(QLatin1String(name));
   }
+
+  static constexpr int shortly = 50, readably = 100;  // milliseconds from a change to what shows it
+  static constexpr int patience = 200;                // milliseconds that a hand waits for the solvers
 
   MainWindow window;
   bool shown = false;

@@ -16,8 +16,7 @@ constexpr int alike = 45;  // of 255: a line one pixel wide is blended with what
 
 void colourBy(Workbench& bench, const char* name) {
   bench.trigger(name);
-  bench.settle();
-  QTest::qWait(150);  // the legend is refreshed at a rate that can be read
+  bench.settleFigures();
 }
 
 QPointF middleOf(Workbench& bench, int panel, ElementId a, ElementId b) {
@@ -46,6 +45,20 @@ class WindowColour : public QObject {
     QTRY_COMPARE(bench.view(0).size(), size);
     bench.settle();
     QCOMPARE(bench.view(0).grabFramebuffer(), before);
+  }
+
+  void coloursAndLegendFollowTheSoftness() {
+    Workbench bench;
+    colourBy(bench, "colourBy-stretch");
+    const auto highest = [&](int panel) { return bench.window.panel(panel).legend().highest(); };
+    QCOMPARE(highest(0), shown(1.2));
+    bench.document().setSoftness({0.8, 1.6, 0.1}, QStringLiteral("stretch"));
+    bench.settleFigures();
+    QCOMPARE(highest(0), shown(1.6));
+    QCOMPARE(highest(1), shown(1.6));
+    bench.document().undo();
+    bench.settleFigures();
+    QCOMPARE(highest(0), shown(1.2));
   }
 
   void fieldAndMenuSayTheSame() {

@@ -24,7 +24,7 @@ void hover(Workbench& bench, int panel, ElementId element) {
   QMouseEvent move(QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
   QApplication::sendEvent(&view, &move);
   QTRY_VERIFY(bench.document().highlight().element == element);
-  QTest::qWait(60);
+  bench.settle();
 }
 
 /// How far the picture at an element is from the colour of the mark under the cursor.
@@ -69,14 +69,14 @@ class WindowCompare : public QObject {
     QVERIFY(fromMark(bench, 0, 31) < alike);
     QVERIFY(fromMark(bench, 1, 31) < alike);
     bench.trigger("linkMarks");
-    QTest::qWait(60);
+    bench.settle();
     QVERIFY(fromMark(bench, 0, 31) < alike);
     QVERIFY(fromMark(bench, 1, 31) > alike);
     hover(bench, 1, 12);
     QVERIFY(fromMark(bench, 1, 12) < alike);
     QVERIFY(fromMark(bench, 0, 12) > alike);
     bench.trigger("linkMarks");
-    QTest::qWait(60);
+    bench.settle();
     QVERIFY(fromMark(bench, 0, 12) < alike);
   }
 

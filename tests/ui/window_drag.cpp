@@ -1,5 +1,7 @@
 // Dragging in a real window: what a hand does in one panel happens in both.
 
+#include <QWheelEvent>
+
 #include "window.h"
 
 using namespace chainmail;
@@ -89,6 +91,47 @@ class WindowDrag : public QObject {
     QApplication::sendEvent(&view, &move);
     QTest::mouseRelease(&view, Qt::RightButton, {}, QPoint(160, 130));
     QVERIFY((bench.place(1, 0) - before).manhattanLength() > 20);  // the cameras are linked
+  }
+
+  /// The side that is near turns with the hand, as if it were held there.
+  void theObjectTurnsTheWayTheMouseGoes() {
+    Workbench bench(generate({MeshKind::tetra, {5, 5, 5}, 1, {}}));
+    constexpr ElementId near = 12 + 4 * 25;  // in the middle of the front
+    const auto turn = [&](QPoint by) {
+      bench.trigger("viewFront");
+      const QPoint before = bench.place(0, near);
+      View& view = bench.view(0);
+      const QPointF to = QPointF(100, 100) + by;
+      QTest::mousePress(&view, Qt::RightButton, {}, QPoint(100, 100));
+      QMouseEvent move(QEvent::MouseMove, to, view.mapToGlobal(to), Qt::NoButton, Qt::RightButton, Qt::NoModifier);
+      QApplication::sendEvent(&view, &move);
+      QTest::mouseRelease(&view, Qt::RightButton, {}, to.toPoint());
+      return bench.place(0, near) - before;
+    };
+    QVERIFY(turn({40, 0}).x() > 5);
+    QVERIFY(turn({-40, 0}).x() < -5);
+    QVERIFY(turn({0, 40}).y() > 5);
+    QVERIFY(turn({0, -40}).y() < -5);
+  }
+
+  void theWheelBringsTheObjectNearerAndBack() {
+    Workbench bench;
+    const auto wheel = [&](int angle) {
+      const QPointF at = bench.place(0, 31);
+      QWheelEvent event(at, bench.view(0).mapToGlobal(at), {}, {0, angle}, Qt::NoButton, Qt::NoModifier,
+                        Qt::NoScrollPhase, false);
+      QApplication::sendEvent(&bench.view(0), &event);
+    };
+    const auto link = [&] {
+      return bench.view(0).placeOf(ElementId(32)).x() - bench.view(0).placeOf(ElementId(31)).x();
+    };
+    const double before = link();
+    const QPoint under = bench.place(0, 31);
+    wheel(240);  // away from the user: two notches
+    QVERIFY(link() > 1.3 * before);
+    QVERIFY((bench.place(0, 31) - under).manhattanLength() <= 2);  // what is under the cursor stays there
+    wheel(-240);
+    QVERIFY(std::abs(link() - before) < 0.1);
   }
 
   void resetObjectComesBackExactlyAndIsUndone() {

@@ -32,7 +32,7 @@ void doubleClick(View& view, QPoint place) {
 void pick(Workbench& bench, int id) {
   bench.find<QDockWidget>("elementDock")->show();
   bench.find<QSpinBox>("elementId")->setValue(id);
-  QTest::qWait(10);
+  bench.settle();
 }
 
 void type(Workbench& bench, const char* field, double value) {
@@ -187,6 +187,38 @@ class WindowExact : public QObject {
 
     QTest::keyClick(&bench.window, Qt::Key_Escape);
     QVERIFY(readout(bench).contains(QStringLiteral("Left: drag an element")));
+  }
+
+  /// What is measured, and where an element stands, is told of every panel by itself.
+  void eachPanelHasItsOwnFigures() {
+    Workbench bench;
+    bench.choose(1, "Exact ChainMail");
+    bench.document().setPinned({0}, true);
+    bench.dragFar();
+    constexpr ElementId from = 0, to = 22;
+    const auto apart = [&](int panel) { return (bench.position(panel, to) - bench.position(panel, from)).norm(); };
+    QVERIFY(figure(apart(0)) != figure(apart(1)));
+    bench.trigger("toolMeasure");
+    QTest::mouseClick(&bench.view(0), Qt::LeftButton, {}, bench.place(0, from));
+    QTest::mouseClick(&bench.view(0), Qt::LeftButton, {}, bench.place(0, to));
+    for (int panel = 0; panel < 2; ++panel) {
+      const QString own = QStringLiteral("%1: <b>%2</b>").arg(QLatin1Char("AB"[panel])).arg(figure(apart(panel)));
+      QVERIFY2(readout(bench).contains(own), qPrintable(readout(bench)));
+    }
+
+    bench.document().select({to});
+    bench.find<QDockWidget>("elementDock")->show();
+    bench.settleFigures();
+    const auto* places = bench.find<QTableWidget>("elementPlaces");
+    const auto row = [&](int number) {
+      return QStringList{places->item(number, 0)->text(), places->item(number, 1)->text(),
+                         places->item(number, 2)->text()};
+    };
+    QCOMPARE(row(0), (QStringList{QStringLiteral("rest"), QStringLiteral("4"), QStringLiteral("2")}));
+    for (int panel = 0; panel < 2; ++panel) {
+      const Point at = bench.position(panel, to);
+      QCOMPARE(row(panel + 1), (QStringList{QString(QLatin1Char("AB"[panel])), figure(at.x()), figure(at.y())}));
+    }
   }
 
   void anElementIsPickedByItsId() {

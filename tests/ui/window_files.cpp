@@ -104,6 +104,36 @@ class WindowFiles : public QObject {
     QCOMPARE(bench.document().mesh()->rest_position(31), shown);
   }
 
+  void eachPanelsOwnShapeIsSaved() {
+    Workbench bench;
+    bench.choose(1, "Exact ChainMail");
+    bench.document().setPinned({0}, true);
+    bench.dragFar();
+    constexpr ElementId element = 22;
+    const std::array shown{bench.position(0, element), bench.position(1, element)};
+    QVERIFY(shown[0] != shown[1]);  // two algorithms, two answers
+    for (int panel = 0; panel < 2; ++panel) {
+      files(bench).saveShapePath(panel, folder_.filePath(QStringLiteral("panel%1.obj").arg(panel)));
+      bench.settle();
+    }
+    for (int panel = 0; panel < 2; ++panel) {
+      bench.open(folder_.filePath(QStringLiteral("panel%1.obj").arg(panel)));
+      QCOMPARE(bench.document().mesh()->rest_position(element), shown[std::size_t(panel)]);
+    }
+  }
+
+  void theFileOpenedLastComesFirstAmongTheRecentOnes() {
+    Workbench bench;
+    const QString first = write("first.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");
+    const QString second = write("second.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");
+    const auto recent = [] { return QSettings().value(QStringLiteral("recentFiles")).toStringList().mid(0, 2); };
+    bench.open(first);
+    bench.open(second);
+    QCOMPARE(recent(), (QStringList{second, first}));
+    bench.open(first);  // again: it moves, and is no third
+    QCOMPARE(recent(), (QStringList{first, second}));
+  }
+
   void aShapeIsNotSavedInAFormatThatHoldsNone() {
     Workbench bench;
     const QString path = folder_.filePath(QStringLiteral("shape.dat"));

@@ -10,6 +10,35 @@
 
 using namespace chainmail;
 
+namespace {
+
+/// A window of its own, which counts how often it was painted.
+struct OtherWindow : QWidget {
+  OtherWindow() {
+    show();
+    (void)QTest::qWaitForWindowExposed(this);
+  }
+  /// Is painted so many times, one after the other.
+  void paint(int times) {
+    for (const int before = painted; painted < before + times;) {
+      const int seen = painted;
+      update();
+      QTRY_VERIFY(painted > seen);
+    }
+  }
+  void paintEvent(QPaintEvent* /*event*/) override { ++painted; }
+
+  int painted = 0;
+};
+
+/// Whether something in the window will act by itself in a second.
+bool isTimed(Workbench& bench) {
+  const auto timers = bench.window.findChildren<QTimer*>();
+  return std::ranges::any_of(timers, [](const QTimer* one) { return one->isActive() && one->interval() < 1000; });
+}
+
+}  // namespace
+
 class WindowLayout : public QObject {
   Q_OBJECT
 
@@ -84,7 +113,7 @@ class WindowLayout : public QObject {
     Workbench bench;
     for (auto* dock : bench.window.findChildren<QDockWidget*>()) {
       dock->setFloating(true);
-      QTest::qWait(20);
+      QVERIFY(dock->isHidden() || QTest::qWaitForWindowExposed(dock));
       dock->setFloating(false);
       dock->hide();
       dock->show();
@@ -169,11 +198,18 @@ class WindowLayout : public QObject {
     for (const char* rate : {"painted0", "painted1"}) {  // they count the last second
       QTRY_COMPARE(bench.find<QLabel>(rate)->text(), QStringLiteral("idle"));
     }
-    QTest::qWait(400);
+    // The last frames show how far the links of the whole object are off.
+    for (int panel = 0; panel < 2; ++panel) {
+      QTRY_VERIFY(bench.document().frame(panel)->statistics.violation_of_whole_mesh);
+    }
+    bench.settleFigures();
+    QTRY_VERIFY(!isTimed(bench));  // nothing is left that would begin to paint
+    OtherWindow other;
     const QSignalSpy left(&bench.view(0), &QOpenGLWidget::aboutToCompose);
     const QSignalSpy right(&bench.view(1), &QOpenGLWidget::aboutToCompose);
-    QTest::qWait(600);
+    other.paint(5);  // whatever was asked to be painted before was painted by then
     QCOMPARE(left.count() + right.count(), 0);
+    QVERIFY(!isTimed(bench));
   }
 
   void aLargeGridIsDrawnCoarselyAndSaysSo() {

@@ -153,6 +153,30 @@ class WindowPanels : public QObject {
     QVERIFY(a.isVisible());
   }
 
+  /// A step of a panel that is gone changes nothing any more, and those before it are still undone.
+  void stepsOfAPanelThatIsGoneAreUndone() {
+    Workbench bench;
+    bench.document().setPinned({3}, true);
+    bench.trigger("addPanel");
+    bench.settle();
+    bench.choose(2, "Spiral");
+    bench.trigger("removePanel");
+    bench.settle();
+    const std::array before{bench.document().algorithm(0), bench.document().algorithm(1)};
+    bench.trigger("undo");
+    bench.settle();
+    QCOMPARE(bench.document().algorithm(0), before[0]);
+    QCOMPARE(bench.document().algorithm(1), before[1]);
+    QCOMPARE(bench.document().pins(), std::vector<ElementId>{3});
+    bench.trigger("undo");
+    bench.settle();
+    QVERIFY(bench.document().pins().empty());
+    bench.trigger("redo");
+    bench.trigger("redo");
+    bench.settle();
+    QCOMPARE(bench.document().panels(), 2);
+  }
+
   void onePanelMayGoWhileItIsSaved() {
     Workbench bench;
     bench.trigger("addPanel");

@@ -178,7 +178,7 @@ class WindowPhysics : public QObject {
     const QPoint from = bench.place(1, 0);
     QTest::mouseMove(&bench.view(1), from + QPoint(30, 30));
     QTest::mouseMove(&bench.view(1), from);
-    QTest::qWait(60);
+    bench.settle();
     QVERIFY(!bench.document().highlight().element);
     bench.stroke(1, {from, from + QPoint(-50, 30)});
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("move of control point 0"));

@@ -59,8 +59,7 @@ class WindowPictures : public QObject {
     bench.dragFar();
     bench.trigger("colourBy-violation");
     bench.trigger("ghosts");
-    bench.settle();
-    QTest::qWait(200);
+    bench.settleFigures();
     QCOMPARE(plain(pictureOf(bench.view(0))), plain(bench.view(0).grabFramebuffer()));
     QCOMPARE(plain(pictureOf(bench.window)), plain(bench.window.grab().toImage()));
   }
@@ -214,7 +213,7 @@ class WindowPictures : public QObject {
     bench.trigger("colourBy-violation");
     bench.document().setPinned({40}, true);
     bench.dragFar();
-    QTest::qWait(200);
+    bench.settleFigures();
     bench.trigger("pictureOfPanels");
     const QString svg = folder_.filePath(QStringLiteral("panels.svg")), pdf = folder_.filePath(QStringLiteral("p.pdf"));
     pictures(bench).savePath(svg);

@@ -125,6 +125,41 @@ class WindowRate : public QObject {
     QCOMPARE(history.since(3900).front().time, 3899.0);
   }
 
+  void theTableHasEverySampleOnceInTheOrderOfTime() {
+    std::vector<RateHistory> panels(2);
+    panels[0].add(sampleAt(1, 0.5));
+    panels[0].add(sampleAt(3, 0.25));
+    panels[1].add(sampleAt(2, 8));
+    panels[1].add(sampleAt(4, 16));
+    std::ostringstream table;
+    writeCsv(table, panels);
+    const QList<QByteArray> rows = QByteArray::fromStdString(table.str()).trimmed().split('\n');
+    QCOMPARE(rows.size(), 5);
+    const auto isOf = [&](int row, const char* time, const char* panel, const char* ms) {
+      const QList<QByteArray> fields = rows[row].split(',');
+      return fields[0] == time && fields[1] == panel && fields[5] == ms;  // milliseconds, as the head says
+    };
+    QVERIFY(isOf(1, "1", "A", "0.5") && isOf(2, "2", "B", "8"));
+    QVERIFY(isOf(3, "3", "A", "0.25") && isOf(4, "4", "B", "16"));
+  }
+
+  void aPanelThatComesAgainBeginsAnew() {
+    RateBench bench;
+    bench.trigger("addPanel");
+    bench.settle();
+    bench.shake();
+    bench.rest();
+    QVERIFY(bench.points(2).size() > 3);
+    const double before = bench.plot().to;
+    bench.trigger("removePanel");
+    bench.settle();
+    bench.trigger("addPanel");
+    bench.settle();
+    for (const QPointF& point : bench.points(2)) {
+      QVERIFY(point.x() >= before);
+    }
+  }
+
   void bothPanelsAreOnOnePlot() {
     RateBench bench;
     bench.shake();
@@ -153,10 +188,16 @@ class WindowRate : public QObject {
     RateBench bench;
     bench.shake();
     bench.rest();
-    QTest::qWait(300);
+    const QList<QTimer*> readings = bench.dock().findChildren<QTimer*>(QString(), Qt::FindDirectChildrenOnly);
+    QVERIFY(!readings.isEmpty());
+    const auto isRead = [&] { return std::ranges::any_of(readings, &QTimer::isActive); };
+    QTRY_VERIFY(!isRead());
+    bench.settleFigures();
+    QTRY_VERIFY(!isRead());  // nor does a last frame begin it anew
     const auto before = bench.points(0);
     const double to = bench.plot().to;
-    QTest::qWait(600);  // three times as long as between two readings
+    bench.settle();
+    QVERIFY(!isRead());
     QCOMPARE(bench.plot().to, to);
     bench.trigger("pauseRates");
     bench.shake();

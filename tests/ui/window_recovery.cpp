@@ -1,12 +1,19 @@
 // What a crash leaves of the work in a window, and what becomes of it.
 
+#include <QAction>
+#include <QComboBox>
+#include <QDateTime>
 #include <QDir>
+#include <QDockWidget>
 #include <QFile>
+#include <QLabel>
 #include <QProcess>
 #include <QPushButton>
 #include <csignal>
+#include <sstream>
 
 #include "autosave.h"
+#include "mesh/error.h"
 #include "message_bar.h"
 #include "recovery_bar.h"
 #include "session_bench.h"
@@ -17,6 +24,66 @@ using namespace chainmail;
 namespace {
 
 QStringList autosaved() { return QDir(Autosave::folder()).entryList({QStringLiteral("*.chainmail")}, QDir::Files); }
+
+QString inFolder(const char* name) { return QDir(Autosave::folder()).filePath(QLatin1String(name)); }
+
+/// The work that lies on the disk, as the next start would find it; none where there is not exactly one.
+std::optional<Session> workOnDisk() {
+  const QStringList files = autosaved();
+  try {
+    return files.size() == 1 ? std::optional(read_session(inFolder(qPrintable(files.first())).toStdString()))
+                             : std::nullopt;
+  } catch (const Error&) {
+    return std::nullopt;  // it was just taken away
+  }
+}
+
+/// A file in the folder of kept work, last written so many seconds ago.
+void put(const char* name, const QByteArray& text, int secondsAgo) {
+  QFile file(inFolder(name));
+  QVERIFY(file.open(QIODevice::ReadWrite | QIODevice::Truncate) && file.write(text) == text.size() && file.flush());
+  QVERIFY(file.setFileTime(QDateTime::currentDateTime().addSecs(-secondsAgo), QFileDevice::FileModificationTime));
+}
+
+/// A session as it is written: two are the same where these are.
+std::string written(const Session& session) {
+  std::ostringstream text;
+  write_session(text, session);
+  return text.str();
+}
+
+/// A workbench whose work is kept safe, with a clock that a test turns on.
+struct SafeBench : Workbench {
+  SafeBench() { protect(); }
+  explicit SafeBench(const MeshPointer& mesh) : Workbench(mesh) { protect(); }
+
+  void protect() {
+    window.sessions().protect();
+    timer = find<QTimer>("autosaveTimer");
+  }
+  RecoveryBar& bar() { return window.sessions().recoveryBar(); }
+
+  /// Whether the next start would find exactly what there is here.
+  bool isSafe() {
+    const auto onDisk = workOnDisk();
+    return onDisk && written(*onDisk) == written(sessionOf(*this));
+  }
+  /// Waits until what was done is on the disk and nothing more is on its way there.
+  void save() {
+    for (int panel = 0; panel < document().panels(); ++panel) {
+      QTRY_VERIFY(document().frame(panel)->statistics.violation_of_whole_mesh);  // the last frame for a while
+    }
+    do {
+      settle();
+      timer->start(0);
+      QTRY_VERIFY(!timer->isActive());
+      QTRY_VERIFY(isSafe());
+      settle();  // and the window knows that it was written
+    } while (timer->isActive());
+  }
+
+  QTimer* timer = nullptr;
+};
 
 /// Works, says what there is when it is on the disk, and goes on until it is killed.
 int crashingProgram(int argc, char** argv) {
@@ -41,7 +108,10 @@ class WindowRecovery : public QObject {
   Q_OBJECT
 
  private slots:
-  void init() { failOnWarnings(); }
+  void init() {
+    failOnWarnings();
+    QVERIFY(QDir(Autosave::folder()).removeRecursively());
+  }
 
   void whatACrashLeftIsOffered() {
     const QString expected = folder_.filePath(QStringLiteral("expected.chainmail"));
@@ -49,7 +119,12 @@ class WindowRecovery : public QObject {
     program.start(QApplication::applicationFilePath(), {QStringLiteral("--crash"), expected});
     QByteArray said;
     QTRY_VERIFY_WITH_TIMEOUT((said += program.readAllStandardOutput()).contains("worked"), 30000);
-    QTest::qWait(5000);  // what is promised: no more is lost
+    const std::string worked = written(read_session(expected.toStdString()));
+    const auto onDisk = [] {
+      const auto session = workOnDisk();
+      return session ? written(*session) : std::string();
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(onDisk() == worked, 30000);
     QVERIFY(::kill(pid_t(program.processId()), SIGKILL) == 0);
     QVERIFY(program.waitForFinished());
     QCOMPARE(autosaved().size(), 1);
@@ -117,30 +192,169 @@ class WindowRecovery : public QObject {
 
   void workIsKeptSafeWhileThereIsSomeToLose() {
     const QString path = folder_.filePath(QStringLiteral("f.chainmail"));
-    Workbench bench;
-    bench.window.sessions().protect();
-    auto* timer = bench.find<QTimer>("autosaveTimer");
-    const auto passTime = [&] {
-      timer->start(0);
-      QTRY_VERIFY(!timer->isActive());
-      bench.settle();
-    };
-    passTime();
+    SafeBench bench;
+    bench.timer->start(0);
+    QTRY_VERIFY(!bench.timer->isActive());
     QCOMPARE(autosaved().size(), 0);  // nothing was done
     bench.document().setPinned({3}, true);
-    QVERIFY(timer->isActive());
-    passTime();
-    QTRY_COMPARE(autosaved().size(), 1);
-    QTRY_VERIFY(!timer->isActive());  // a still scene costs nothing
-    const QString file = QDir(Autosave::folder()).filePath(autosaved().first());
-    QCOMPARE(read_session(file.toStdString()).pins, std::vector<ElementId>{3});
+    QVERIFY(bench.timer->isActive());
+    bench.save();
+    QVERIFY(!bench.timer->isActive());  // a still scene costs nothing
+    QCOMPARE(workOnDisk()->pins, std::vector<ElementId>{3});
     bench.window.sessions().savePath(path);
     bench.settle();
-    passTime();
+    bench.timer->start(0);
     QTRY_COMPARE(autosaved().size(), 0);
   }
 
+  /// Every kind of edit by itself, after the work was saved: most of them move nothing.
+  void everyKindOfEditIsOnTheDiskWithinFiveSeconds() {
+    SafeBench bench(generate({MeshKind::tetra, {4, 3, 3}, 1, {}}));
+    Document& document = bench.document();
+    document.setPinned({0}, true);
+    bench.save();
+    const std::vector<std::pair<const char*, std::function<void()>>> edits{
+        {"a pin",
+         [&] {
+           document.setPinned({5, 6}, true);
+         }},
+        {"no pin", [&] { document.setPinned({5}, false); }},
+        {"a cut", [&] { document.cut({3}); }},
+        {"undo", [&] { bench.trigger("undo"); }},
+        {"redo", [&] { bench.trigger("redo"); }},
+        {"softness",
+         [&] {
+           document.setSoftness({0.9, 1.2, 0.1}, QStringLiteral("softness"), 7);
+         }},
+        {"more of a slider's gesture",
+         [&] {
+           document.setSoftness({0.9, 1.3, 0.1}, QStringLiteral("softness"), 7);
+         }},
+        {"softness of links",
+         [&] {
+           document.setSoftnessOf({2, 7}, LinkSoftness{0.5, 2, 1});
+         }},
+        {"relaxation",
+         [&] {
+           document.setRelaxation({false, 0.5, RelaxationScheme::link});
+         }},
+        {"material",
+         [&] {
+           document.setElastic({{2, 0.4}, {4, 4, 4}}, QStringLiteral("material"));
+         }},
+        {"lattice",
+         [&] {
+           document.setElastic({{2, 0.4}, {3, 4, 5}}, QStringLiteral("lattice"));
+         }},
+        {"an algorithm", [&] { bench.choose(1, "Spiral"); }},
+        {"a drag",
+         [&] {
+           drag(document, 20, {0.4, -0.3, 0.2});
+         }},
+        {"a drag to where the element is", [&] { drag(document, 1, Point::Zero()); }},
+        {"back in what was done", [&] { document.goTo(document.tape().length() - 3); }},
+        {"other moves", [&] { document.loadMoves({commands::Pin{{1}}}, QStringLiteral("open moves")); }},
+        {"reset", [&] { bench.trigger("resetObject"); }},
+        {"one panel more", [&] { bench.trigger("addPanel"); }},
+        {"one panel less", [&] { bench.trigger("removePanel"); }},
+        {"cameras apart", [&] { bench.trigger("linkCameras"); }},
+        {"one camera turned",
+         [&] {
+           bench.view(1).orbit({30, 10});
+         }},
+        {"parallel rays", [&] { bench.view(0).setParallel(true); }},
+        {"other colours", [&] { bench.trigger("colourBy-violation"); }},
+        {"links shown", [&] { bench.trigger("showLinks"); }},
+        {"a section", [&] { bench.trigger("section"); }},
+        {"a dock closed", [&] { bench.find<QDockWidget>("relaxationDock")->close(); }},
+        {"another object", [&] { document.replaceMesh(cloth(), QStringLiteral("cloth"), QStringLiteral("build")); }},
+    };
+    for (const auto& [name, edit] : edits) {
+      QTRY_VERIFY2(!bench.timer->isActive(), name);
+      const std::string before = written(sessionOf(bench));
+      bench.timer->setInterval(4000);  // the longest that it waits by itself
+      edit();
+      QVERIFY2(bench.timer->isActive(), name);
+      QVERIFY2(bench.timer->remainingTime() <= 4500, name);
+      bench.settle();
+      QVERIFY2(written(sessionOf(bench)) != before, name);
+      bench.save();
+      QVERIFY2(bench.isSafe(), name);
+    }
+  }
+
+  void theWaitForMoreIsShortEnoughForWhatIsPromised() {
+    SafeBench bench;
+    bench.document().setPinned({3}, true);
+    QVERIFY(bench.timer->remainingTime() <= 4500);
+    bench.save();
+    bench.document().setPinned({4}, true);
+    QVERIFY(bench.timer->remainingTime() <= 4500);
+  }
+
+  void whatIsDoneWhileItIsWrittenIsWrittenToo() {
+    SafeBench bench;
+    bench.document().setPinned({3}, true);
+    bench.settle();
+    // Called after the writing has begun, and before the window can know of its end.
+    QObject once;
+    connect(bench.timer, &QTimer::timeout, &once, [&] {
+      bench.document().setPinned({4}, true);
+      bench.timer->disconnect(&once);
+    });
+    bench.timer->start(0);
+    QTRY_VERIFY(bench.document().isPinned(4));
+    QVERIFY(!bench.timer->isActive());
+    QTRY_VERIFY(bench.timer->isActive());
+    bench.timer->start(0);
+    QTRY_VERIFY(bench.isSafe());
+    QCOMPARE(workOnDisk()->pins, (std::vector<ElementId>{3, 4}));
+  }
+
+  /// Of closed windows' work the newest five are kept.
+  void theOldestOfClosedWindowsWorkMakesRoom() {
+    int age = 600;  // seconds
+    for (const char* name : {"oldest", "second", "third", "fourth", "fifth"}) {
+      put(qPrintable(QLatin1String(name) + QStringLiteral(".closed.chainmail")), "{", age -= 100);
+    }
+    {
+      SafeBench bench;
+      bench.document().setPinned({42}, true);
+      bench.settle();
+      QVERIFY(bench.window.close());
+    }
+    QCOMPARE(autosaved().size(), 5);
+    QVERIFY(!autosaved().contains(QStringLiteral("oldest.closed.chainmail")));
+    SafeBench again;
+    again.find<QPushButton>("restoreWork")->click();
+    again.settle();
+    QCOMPARE(again.document().pins(), std::vector<ElementId>{42});  // the newest is offered first
+    for (int i = 0; i < 4; ++i) {
+      again.find<QPushButton>("discardWork")->click();
+    }
+    QVERIFY(!again.bar().isVisible());
+  }
+
+  /// While another window lives, nothing of it is offered or taken away, saved already or not.
+  void whatAnotherWindowIsWritingIsLeftAlone() {
+    put(".chainmail-1.tmp", "half", 60);    // of a program that is at it
+    put(".chainmail-2.tmp", "half", 3600);  // of one that crashed
+    SafeBench living;                       // it has nothing on the disk yet
+    QVERIFY(!anotherIsOfferedSomething());
+    QVERIFY(QFile::exists(inFolder(".chainmail-1.tmp")));
+    QVERIFY(!QFile::exists(inFolder(".chainmail-2.tmp")));
+    living.document().setPinned({3}, true);
+    living.save();
+    QVERIFY(!anotherIsOfferedSomething());
+    QVERIFY(living.isSafe());
+  }
+
  private:
+  static bool anotherIsOfferedSomething() {
+    const auto another = std::make_unique<SafeBench>();
+    return another->bar().isVisible();
+  }
+
   QTemporaryDir folder_;
 };
 

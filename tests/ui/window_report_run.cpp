@@ -30,19 +30,15 @@ class WindowReportRun : public QObject {
     order.options.sweeps = {0};
     order.options.seconds = 60;
     bench.thread().start(std::move(order));
-    QTest::qWait(3000);
-    QVERIFY(bench.thread().atWork());
+    QTRY_VERIFY(bench.thread().atWork());
     QElapsedTimer clock;
     clock.start();
     emit bench.find<QPushButton>("reportCancel")->clicked();  // click() would paint first
     const qint64 answered = clock.elapsed();
     bench.isReady();
     QVERIFY2(answered < 100, qPrintable(QString::number(answered)));
-    while (bench.thread().atWork() && clock.elapsed() < 20'000) {
-      QTest::qWait(1);
-    }
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.thread().atWork(), 20'000);
     qInfo("the window answered after %lld ms, the thread ended after %lld ms", answered, clock.elapsed());
-    QVERIFY(!bench.thread().atWork());
   }
 
   void theThreadOfACancelledRunEndsAndItsResultIsDropped() {
@@ -51,7 +47,7 @@ class WindowReportRun : public QObject {
     bench.find<QPushButton>("reportCancel")->click();
     bench.isReady();
     QTRY_VERIFY(!bench.thread().atWork());  // the run would take minutes
-    QTest::qWait(100);
+    QCoreApplication::sendPostedEvents();   // the thread has ended: all that it had to tell is there
     bench.isReady();
     QVERIFY(bench.find<QLabel>("reportEmpty")->isVisible());
   }

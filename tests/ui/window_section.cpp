@@ -69,7 +69,25 @@ std::shared_ptr<Texture> fourSquares(double size) {
 }
 const QColor lowLeft(255, 0, 0), lowRight(0, 255, 0), highLeft(0, 0, 255), highRight(255, 255, 255);
 
-MeshPointer picturedSheet() {
+/// 5 × 5 colours, each unlike its neighbours, over a box that is larger than a sheet from 0 to 8 by 1 on every side: a
+/// texel is two mesh units wide, and the middles of those inside the sheet are at 2, 4 and 6.
+QColor ofTexel(int x, int y) { return {40 + 50 * x, 40 + 50 * y, (x + y) % 2 == 0 ? 60 : 200}; }
+std::shared_ptr<Texture> colouredSquares() {
+  auto texture = std::make_shared<Texture>();
+  texture->size = {5, 5, 1};
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      const QColor colour = ofTexel(x, y);
+      for (const int channel : {colour.red(), colour.green(), colour.blue(), 255}) {
+        texture->texels.push_back(std::uint8_t(channel));
+      }
+    }
+  }
+  texture->box = {Point(-1, -1, 0), Point(9, 9, 0)};
+  return texture;
+}
+
+MeshPointer picturedSheet(const std::shared_ptr<Texture>& texture = fourSquares(8)) {
   const auto cloth = generate({MeshKind::cloth, {9, 9, 1}, 1, {}});
   MeshParts parts;
   for (ElementId e = 0; e < cloth->element_count(); ++e) {
@@ -77,7 +95,7 @@ MeshPointer picturedSheet() {
   }
   parts.links = cloth->links;
   parts.triangles = cloth->triangles;
-  parts.texture = fourSquares(8);
+  parts.texture = texture;
   return build_mesh(std::move(parts));
 }
 
@@ -100,6 +118,40 @@ MeshPointer slicedVolume() {
   parts.texture = texture;
   return build_mesh(std::move(parts));
 }
+
+/// Of 4 × 2 × 2 voxels, each 4 × 5 × 3 mesh units large, about a block that their box surpasses by 1 on every side.
+MeshPointer volumeOf(const std::function<int(int, int, int)>& grey) {
+  const auto block = tetraBlock();
+  MeshParts parts;
+  for (ElementId e = 0; e < block->element_count(); ++e) {
+    parts.rest.push_back(block->rest_position(e));
+  }
+  parts.links = block->links;
+  parts.tetrahedra = block->tetrahedra;
+  auto texture = std::make_shared<Texture>();
+  texture->size = {4, 2, 2};
+  texture->channels = 1;
+  for (int i = 0; i < 16; ++i) {
+    texture->texels.push_back(std::uint8_t(grey(i % 4, i / 4 % 2, i / 8)));
+  }
+  texture->box = {Point(-1, -1, -1), Point(width, height, depth)};
+  parts.texture = texture;
+  return build_mesh(std::move(parts));
+}
+Point middleOfVoxel(int x, int y, int z) { return {1 + 4.0 * x, 1.5 + 5.0 * y, 0.5 + 3.0 * z}; }
+
+/// A section across z through the middle of a layer of voxels, on the screen and as it is drawn for print.
+struct Slice {
+  Slice(const MeshPointer& volume, int layer) : bench(volume) {
+    bench.trigger("section");
+    bench.find<QDoubleSpinBox>("sectionPlace")->setValue(middleOfVoxel(0, 0, layer).z());
+    screen = bench.picture();
+    print = inLines(bench.view(0));
+  }
+
+  SectionBench bench;
+  QImage screen, print;
+};
 
 }  // namespace
 
@@ -272,6 +324,62 @@ class WindowSection : public QObject {
     QVERIFY(apart(both.pixelColor((bench.place(0, 20) + bench.place(0, 21)) / 2), lowLeft) > 40);  // a link
     QVERIFY(apart(both.pixelColor((bench.place(0, 20) * 3 + bench.place(0, 21) * 2 + bench.place(0, 30)) / 6),
                   lowLeft) <= 3);
+  }
+
+  /// Not half a texel aside, and as large as its box says.
+  void everyTexelOfAPictureIsSeenWhereItLies() {
+    Workbench bench(picturedSheet(colouredSquares()));
+    bench.settle();
+    bench.document().setHighlight({});
+    const QImage screen = bench.view(0).grabFramebuffer(), print = inLines(bench.view(0));
+    const auto seen = [&](const QImage& image, double x, double y) {
+      return image.pixelColor(bench.view(0).placeOf(Point(x, y, 0)).toPoint());
+    };
+    for (int x = 1; x <= 3; ++x) {
+      for (int y = 1; y <= 3; ++y) {
+        const QByteArray texel = QByteArray::number(x) + ", " + QByteArray::number(y);
+        // Between its middle and a neighbour's the screen shows something of both.
+        const QPointF middle(2.0 * x, 2.0 * y);
+        QVERIFY2(apart(seen(screen, middle.x() + 0.04, middle.y() + 0.02), ofTexel(x, y)) <= 5, texel);
+        // Print has a colour a triangle, each of which lies in one texel.
+        for (const auto& [dx, dy] : {std::pair(-0.7, -0.8), std::pair(0.8, 0.7), std::pair(-0.7, 0.8)}) {
+          QVERIFY2(apart(seen(print, middle.x() + dx, middle.y() + dy), ofTexel(x, y)) <= 1, texel);
+        }
+      }
+    }
+  }
+
+  /// The same of voxels. How bright a place is depends on depth, too: it is set against volumes of one grey.
+  void everyVoxelIsSeenWhereItLies_data() {
+    QTest::addColumn<int>("layer");
+    QTest::newRow("lower layer") << 0;
+    QTest::newRow("upper layer") << 1;
+  }
+  void everyVoxelIsSeenWhereItLies() {
+    QFETCH(int, layer);
+    const auto grey = [](int x, int y, int z) { return 20 + 50 * x + 25 * y + 40 * z; };
+    Slice slice(volumeOf(grey), layer);
+    Slice black(volumeOf([](int, int, int) { return 0; }), layer);
+    Slice white(volumeOf([](int, int, int) { return 255; }), layer);
+    const auto isSeen = [&](QImage Slice::*image, const Point& place, int value) {
+      const auto red = [&](Slice& of) { return of.bench.colourIn(of.*image, place).red(); };
+      const double expected = red(black) + (red(white) - red(black)) * value / 255.0;
+      return red(white) > red(black) + 100 && std::abs(red(slice) - expected) <= 3;
+    };
+    for (int x = 0; x < 4; ++x) {
+      for (int y = 0; y < 2; ++y) {
+        const QByteArray voxel = QByteArray::number(x) + ", " + QByteArray::number(y);
+        const Point middle = middleOfVoxel(x, y, layer);
+        QVERIFY2(isSeen(&Slice::screen, middle, grey(x, y, layer)), voxel);
+        // On both sides of it, as near to the next voxel as its triangles go.
+        for (const double dx : {-1.6, 1.6}) {
+          const Point place = middle + Point(dx, 0.2, 0);
+          if (place.x() > 0 && place.x() < width - 1) {
+            QVERIFY2(isSeen(&Slice::print, place, grey(x, y, layer)), voxel);
+          }
+        }
+      }
+    }
   }
 
   void slicesOfAVolumeAreSeenInItsSections() {

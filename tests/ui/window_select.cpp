@@ -8,6 +8,7 @@
 #include <QToolButton>
 
 #include "colours.h"
+#include "simulate/parameters.h"
 #include "window.h"
 
 using namespace chainmail;
@@ -197,6 +198,40 @@ class WindowSelect : public QObject {
     bench.document().select({9, 10, 11});  // one link of each kind
     QCOMPARE(spin->value(), 0.8);
     QVERIFY(bench.find<QLabel>("selectedDescription")->text().contains(QStringLiteral("differs")));
+  }
+
+  void theRowsFollowWhatIsSetAndUndone() {
+    Workbench bench;
+    bench.document().select({10, 11, 12});
+    auto* spin = bench.find<QDoubleSpinBox>("selected-compressionSpin");
+    bench.document().setSoftness({0.4, 1.2, 0.1}, QStringLiteral("compression"));
+    QCOMPARE(spin->value(), 0.4);  // they have none of their own
+    bench.document().undo();
+    QCOMPARE(spin->value(), 0.8);
+    bench.document().setSoftnessOf(bench.document().selection().links, LinkSoftness{0.6, 1.2, 0.1});
+    QCOMPARE(spin->value(), 0.6);
+    QVERIFY(bench.find<QPushButton>("selectedToGlobal")->isEnabled());
+    bench.document().undo();
+    QCOMPARE(spin->value(), 0.8);
+    QVERIFY(!bench.find<QPushButton>("selectedToGlobal")->isEnabled());
+  }
+
+  void aSliderGoesFromItsLowestToItsHighestValue() {
+    Workbench bench;
+    const std::vector<std::pair<const char*, Parameter>> sliders{
+        {"compression", parameters::compression}, {"stretch", parameters::stretch}, {"shear", parameters::shear}};
+    for (const auto& [name, parameter] : sliders) {
+      auto* slider = bench.find<QSlider>((std::string(name) + "Slider").c_str());
+      const auto* spin = bench.find<QDoubleSpinBox>((std::string(name) + "Spin").c_str());
+      for (const double share : {1.0, 0.25, 0.0}) {
+        slider->setValue(int(share * slider->maximum()));
+        QCOMPARE(spin->value(), parameter.lowest + share * (parameter.slider_highest - parameter.lowest));
+        QCOMPARE(slider->value(), int(share * slider->maximum()));
+      }
+    }
+    QCOMPARE(bench.document().softness().compression, parameters::compression.lowest);
+    QCOMPARE(bench.document().softness().stretch, parameters::stretch.lowest);
+    QCOMPARE(bench.document().softness().shear, parameters::shear.lowest);
   }
 
   void aSliderOfAllLinksKeepsTheirOwnAndIsOneStep() {

@@ -76,6 +76,64 @@ class WindowSession : public QObject {
     }
   }
 
+  /// Whatever the next window's own cameras, they are turned, shifted and brought as near as they were.
+  void everyPanelIsLookedAtAsBefore() {
+    const QString path = folder_.filePath(QStringLiteral("cameras.chainmail"));
+    const auto block = generate({MeshKind::tetra, {5, 4, 3}, 1, {}});
+    std::vector<Camera::Pose> poses;
+    {
+      Workbench bench(block);
+      bench.trigger("addPanel");
+      bench.trigger("linkCameras");
+      bench.settle();
+      bench.view(0).orbit({70, 35});
+      bench.view(0).pan({40, -25});
+      bench.view(1).orbit({-55, 20});
+      bench.view(1).zoom(1.7, {20, 30});
+      bench.view(1).setParallel(true);
+      bench.view(2).lookFrom(-90, 30);
+      bench.view(2).zoom(0.6);
+      for (int panel = 0; panel < 3; ++panel) {
+        poses.push_back(bench.view(panel).camera()->pose());
+      }
+      bench.window.sessions().savePath(path);
+      bench.settle();
+    }
+    Workbench bench;
+    bench.open(path);
+    QCOMPARE(bench.document().panels(), 3);
+    QVERIFY(!bench.find<QAction>("linkCameras")->isChecked());
+    for (int panel = 0; panel < 3; ++panel) {
+      const Camera::Pose now = bench.view(panel).camera()->pose(), before = poses[std::size_t(panel)];
+      QVERIFY2(now.centre == before.centre, qPrintable(QString::number(panel)));
+      QCOMPARE(now.height, before.height);
+      QCOMPARE(now.yaw, before.yaw);
+      QCOMPARE(now.pitch, before.pitch);
+      QCOMPARE(now.parallel, before.parallel);
+      QCOMPARE(now.framed, before.framed);
+    }
+    QVERIFY(poses[0].yaw != poses[1].yaw && poses[1].yaw != poses[2].yaw);
+  }
+
+  /// Where nobody has moved it, it shows the whole object in a window of any size, from the side that was chosen.
+  void aCameraThatWasOnlyTurnedFitsTheNextWindow() {
+    const QString path = folder_.filePath(QStringLiteral("turned.chainmail"));
+    {
+      Workbench bench(generate({MeshKind::tetra, {5, 4, 3}, 1, {}}));
+      bench.trigger("viewTop");
+      bench.window.sessions().savePath(path);
+      bench.settle();
+    }
+    Workbench bench;
+    bench.window.resize(1000, 640);
+    bench.settle();
+    bench.open(path);
+    QCOMPARE(bench.view(0).camera()->pose().yaw, 0.0);
+    QCOMPARE(bench.view(0).camera()->pose().pitch, 90.0);
+    const QRect all = bench.view(0).rect();
+    QVERIFY(all.contains(bench.place(0, 0)) && all.contains(bench.place(0, 59)));
+  }
+
   void whatWasDoneIsGoneBackInAndForth() {
     const QString path = folder_.filePath(QStringLiteral("moves.chainmail"));
     Workbench bench(cloth());

@@ -52,6 +52,33 @@ class WindowSheet : public QObject {
     QCOMPARE(bench.document().mesh(), before);
   }
 
+  /// From the file to the screen, none is half a pixel aside.
+  void everyPixelIsSeenInItsPlace() {
+    QImage image(4, 3, QImage::Format_RGB888);
+    for (int y = 0; y < 3; ++y) {
+      for (int x = 0; x < 4; ++x) {
+        image.setPixelColor(x, y, QColor(30 + 60 * x, 30 + 80 * y, (x + y) % 2 == 0 ? 60 : 200));
+      }
+    }
+    const QString path = folder_.filePath(QStringLiteral("tiny.png"));
+    QVERIFY(image.save(path));
+    Workbench bench;
+    openSheet(bench, path, 9);
+    bench.document().setHighlight({});
+    const QImage seen = bench.view(0).grabFramebuffer();
+    for (int y = 0; y < 3; ++y) {
+      for (int x = 0; x < 4; ++x) {
+        const QPointF place = bench.view(0).placeOf(Point(x + 0.5, 3 - (y + 0.5), 0));
+        const QColor colour = seen.pixelColor(place.toPoint()), own = image.pixelColor(x, y);
+        // Half a pixel aside would be 30 off at least.
+        const int apart = std::max({std::abs(colour.red() - own.red()), std::abs(colour.green() - own.green()),
+                                    std::abs(colour.blue() - own.blue())});
+        QVERIFY2(apart <= 8,
+                 qPrintable(QStringLiteral("%1, %2: %3 and not %4").arg(x).arg(y).arg(colour.name(), own.name())));
+      }
+    }
+  }
+
   void droppedWithAWrongNameItIsAPictureStillAndTheKeyboardAnswers() {
     Workbench bench;
     const QString path = folder_.filePath(QStringLiteral("picture.dat"));
@@ -161,6 +188,25 @@ class WindowSheet : public QObject {
       QCOMPARE(dragged.pixelColor(corner), image.pixelColor(corner));
     }
     QVERIFY(warped(bench, 0, "dragged.jpg").size() == image.size());
+  }
+
+  void eachPanelsOwnPictureIsSaved() {
+    Workbench bench;
+    openSheet(bench, picture("a.png"), 13);
+    bench.choose(1, "Exact ChainMail");
+    bench.document().setPinned({0, 12, 13 * 8, 13 * 9 - 1}, true);
+    const QPoint from = bench.place(0, 13 * 4 + 6);
+    bench.stroke(0, {from, from + QPoint(60, 30)});
+    QVERIFY(bench.document().frame(0)->positions != bench.document().frame(1)->positions);
+    bench.trigger("warpOwnFrame");
+    const QImage first = warped(bench, 0, "first.png"), second = warped(bench, 1, "second.png");
+    QVERIFY(first != second);
+    bench.choose(0, "Exact ChainMail");
+    bench.document().goTo(0);
+    bench.settle();
+    bench.document().goTo(bench.document().tape().length());
+    bench.settle();
+    QCOMPARE(warped(bench, 0, "again.png"), second);  // by the same algorithm the same
   }
 
   void aCutIsAHoleAndTheFrameIsChosen() {

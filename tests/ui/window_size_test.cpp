@@ -141,7 +141,7 @@ class WindowSizeTest : public QObject {
     bench.find<QSpinBox>("sizeTestLargest")->setValue(1'000'000);
     bench.begin();
     QTRY_VERIFY(bench.find<QProgressBar>("sizeTestProgress")->format().contains(QStringLiteral("300×300")));
-    QTest::qWait(500);
+    QTRY_VERIFY(bench.stage() != nullptr && bench.stage()->isVisible());
     QElapsedTimer clock;
     clock.start();
     QTest::keyClick(&bench.window, Qt::Key_Escape);
@@ -160,8 +160,8 @@ class WindowSizeTest : public QObject {
     QVERIFY(bench.view(0).isVisible());
     bench.dock().show();
     bench.begin();
-    QTest::qWait(200);  // the window may close in the middle of a test
-    QVERIFY(bench.dock().running());
+    QTRY_VERIFY(bench.stage() != nullptr && bench.stage()->isVisible());
+    QVERIFY(bench.dock().running());  // the window may close in the middle of a test
   }
 
   void nothingElseActsMeanwhile() {

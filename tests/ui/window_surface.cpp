@@ -130,7 +130,7 @@ class WindowSurface : public QObject {
     bench.trigger("showSurface");
     const QImage plain = picture(bench);
     bench.trigger("colourBy-shear");
-    QTest::qWait(200);  // colours follow at a rate that can be read
+    bench.settleFigures();
     const QImage coloured = picture(bench);
     bench.trigger("showSurfaceAndLinks");
     QVERIFY(coloured != plain);

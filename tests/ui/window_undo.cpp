@@ -1,5 +1,6 @@
 // Undo in a real window: whatever changed the object or its parameters comes back, positions to the bit.
 
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QUndoView>
 
@@ -273,7 +274,7 @@ class WindowUndo : public QObject {
     Document& document = bench.document();
     for (const double stretch : {1.15, 1.1, 1.05, 1.0}) {
       document.setSoftness({0.8, stretch, 0.1}, QStringLiteral("stretch"), 7);
-      QTest::qWait(20);
+      bench.settle();  // each is worked out
     }
     for (const double step : {0.9, 0.7, 0.5}) {
       document.setRelaxation({false, step, RelaxationScheme::mean}, 8);
@@ -318,6 +319,69 @@ class WindowUndo : public QObject {
     QVERIFY(!bench.find<QLabel>("readout")->text().contains(QStringLiteral("62")));
     bench.trigger("undo");
     bench.settle();
+  }
+
+  /// Every step is called what it was, in the list and in the menu, on its way back and forth; and a click on it leads
+  /// to what there was after it.
+  void theUndoListSaysWhatWasDone() {
+    Workbench bench;
+    Document& document = bench.document();
+    const auto spin = [&](const char* name, double value) { bench.find<QDoubleSpinBox>(name)->setValue(value); };
+    const std::vector<std::pair<QString, std::function<void()>>> steps{
+        {QStringLiteral("drag of element 31"), [&] { drag(bench, 31, QPoint(100, -100)); }},
+        {QStringLiteral("pin 2 elements"),
+         [&] {
+           document.setPinned({3, 4}, true);
+         }},
+        {QStringLiteral("unpin 1 element"), [&] { document.setPinned({3}, false); }},
+        {QStringLiteral("cut 1 link"), [&] { document.cut({5}); }},
+        {QStringLiteral("cut 3 links"),
+         [&] {
+           document.cut({7, 8, 40});
+         }},
+        {QStringLiteral("stretch"), [&] { spin("stretchSpin", 1.5); }},
+        {QStringLiteral("stiffness of 2 links"),
+         [&] {
+           document.setSoftnessOf({2, 9}, LinkSoftness{0.5, 2, 1});
+         }},
+        {QStringLiteral("reset stiffness"), [&] { document.resetSoftness(); }},
+        {QStringLiteral("relaxation's settings"),
+         [&] {
+           document.setRelaxation({document.relaxation().on, 0.5, RelaxationScheme::link});
+         }},
+        {QStringLiteral("Spiral"), [&] { bench.choose(1, "Spiral"); }},
+        {QStringLiteral("reset object"), [&] { bench.trigger("resetObject"); }},
+        {QStringLiteral("replay"), [&] { document.goTo(2); }},
+        {QStringLiteral("build line"),
+         [&] {
+           document.replaceMesh(generate({MeshKind::line, {9, 1, 1}, 1, {}}), QStringLiteral("line"),
+                                QStringLiteral("build line"));
+         }},
+    };
+    const auto words = [&](const char* action) { return bench.find<QAction>(action)->text().remove(QLatin1Char('&')); };
+    std::vector<Picture> pictures{Picture(bench)};
+    for (const auto& [name, step] : steps) {
+      step();
+      bench.settle();
+      QCOMPARE(words("undo"), QStringLiteral("Undo ") + name);
+      QCOMPARE(words("redo"), QStringLiteral("Redo"));
+      pictures.emplace_back(bench);
+    }
+    auto* list = bench.find<QUndoView>("undoList");
+    QCOMPARE(list->model()->rowCount(), int(steps.size()) + 1);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      QCOMPARE(list->model()->index(int(i) + 1, 0).data().toString(), steps[i].first);
+    }
+    for (std::size_t i = steps.size(); i-- > 0;) {
+      bench.trigger("undo");
+      QCOMPARE(words("redo"), QStringLiteral("Redo ") + steps[i].first);
+      QCOMPARE(words("undo"), i == 0 ? QStringLiteral("Undo") : QStringLiteral("Undo ") + steps[i - 1].first);
+    }
+    for (const int row : {4, int(steps.size()), 1, 7, 0}) {
+      list->setCurrentIndex(list->model()->index(row, 0));
+      bench.settle();
+      QVERIFY2(Picture(bench) == pictures[std::size_t(row)], qPrintable(QString::number(row)));
+    }
   }
 
   void aClickInTheUndoListGoesThere() {

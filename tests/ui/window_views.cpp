@@ -71,8 +71,7 @@ QString differs(Workbench& bench, int panel, const QString& name) {
   }
   bench.trigger("fitView");
   bench.view(panel).zoom(0.6);  // it is the rest shape that fits
-  bench.settle();
-  QTest::qWait(200);  // legends and colours follow at a rate that can be read
+  bench.settleFigures();
   bench.document().setHighlight({});
   return differs(pictureOf(bench.view(panel)), name);
 }
