@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <ranges>
+#include <span>
 
 #include "calibrate/drags.h"
 #include "calibrate/optimum.h"
@@ -165,14 +165,14 @@ CalibrationResult calibrate(const MeshPointer& mesh, const Cuts& cuts, const Cal
   const Trial before = bench.evaluate({}, 0);
   // Sweeps are whole numbers, and what they do grows with their logarithm: each is given its own search.
   Trial best = before;
-  const auto tried =
-      std::ranges::subrange(every_sweeps.begin(), std::ranges::upper_bound(every_sweeps, options.most_sweeps));
+  const auto end = std::ranges::upper_bound(every_sweeps, options.most_sweeps);
+  const std::span tried(every_sweeps.begin(), end);
   const int each = static_cast<int>(share_everywhere * options.evaluations) / std::max(1, int(tried.size()));
   for (const int sweeps : tried) {
     look(Search::everywhere, bench, sweeps, std::min(each, options.evaluations - bench.evaluations()), best);
   }
   look(Search::about_a_point, bench, best.sweeps, options.evaluations - bench.evaluations(), best);
-  const CalibrationResult result = result_of(bench, before, best);
+  CalibrationResult result = result_of(bench, before, best);
   progress.report(1.0);
   return result;
 }
