@@ -274,7 +274,7 @@ class WindowRecovery : public QObject {
       const std::string before = written(sessionOf(bench));
       bench.timer->setInterval(4000);  // the longest that it waits by itself
       edit();
-      QVERIFY2(bench.timer->isActive(), name);
+      QTRY_VERIFY2(bench.timer->isActive(), name);
       QVERIFY2(bench.timer->remainingTime() <= 4500, name);
       bench.settle();
       QVERIFY2(written(sessionOf(bench)) != before, name);
