@@ -253,7 +253,11 @@ class WindowRecovery : public QObject {
          }},
         {"a drag to where the element is", [&] { drag(document, 1, Point::Zero()); }},
         {"back in what was done", [&] { document.goTo(document.tape().length() - 3); }},
-        {"other moves", [&] { document.loadMoves({commands::Pin{{1}}}, QStringLiteral("open moves")); }},
+        {"other moves",
+         [&] {
+           const std::vector<Command> moves{commands::Pin{{1}}};
+           document.loadMoves(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open moves"));
+         }},
         {"reset", [&] { bench.trigger("resetObject"); }},
         {"one panel more", [&] { bench.trigger("addPanel"); }},
         {"one panel less", [&] { bench.trigger("removePanel"); }},
