@@ -86,6 +86,10 @@ class SmallTree {
  public:
   using Json = nlohmann::json;
 
+  SmallTree() = default;
+  SmallTree(const SmallTree&) = delete;  // open_ points into the tree
+  SmallTree& operator=(const SmallTree&) = delete;
+
   /// True while an array or object of it is open.
   bool is_open() const { return !open_.empty(); }
   void open(Json empty);
