@@ -13,8 +13,8 @@ build_packages=(
 # What a bare machine lacks to show a window: a driver that draws in software, and letters.
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)
 test_packages=(librapidcheck-dev xvfb ffmpeg clang-format)
-check_packages=(clang-tidy python3 git)
-mutant_packages=(python3 git)
+check_packages=(clang-tidy python3)
+mutant_packages=(python3)
 bench_packages=(libbenchmark-dev libbullet-dev)
 fuzz_packages=(clang libclang-rt-14-dev)
 

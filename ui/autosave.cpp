@@ -83,9 +83,8 @@ void Autosave::endWriting() {
 }
 
 void Autosave::keep() {
+  closed_ = true;
   timer_.stop();
-  window_.document().disconnect(this);
-  window_.document().undoStack().disconnect(this);
   if (!window_.document().isModified()) {
     return;
   }
@@ -116,6 +115,9 @@ void Autosave::listen() {
 
 /// Cheap: it is called for every frame.
 void Autosave::noticeChange() {
+  if (closed_) {
+    return;
+  }
   changed_ = true;
   if (!writing_ && !timer_.isActive() && !broken_) {
     timer_.start();
@@ -158,6 +160,9 @@ void Autosave::save() {
 }
 
 void Autosave::receive() {
+  if (closed_) {
+    return;
+  }
   const auto written = std::exchange(writing_, nullptr);
   if (!written->error.empty()) {
     broken_ = true;

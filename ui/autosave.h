@@ -68,6 +68,7 @@ class Autosave : public QObject {
   Mark saved_;
   bool changed_ = false;  // while it was being written
   bool broken_ = false;
+  bool closed_ = false;  // the window has closed: what it still does is not kept
   std::chrono::steady_clock::time_point begun_;
   std::shared_ptr<Writing> writing_;  // while something is; shared with its thread
   std::jthread thread_;

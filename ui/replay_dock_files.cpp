@@ -101,6 +101,8 @@ void ReplayDock::openMoves(const QString& path) {
       [this, path, name, mesh = document_.mesh()](const Progress& progress) -> Jobs::Finish {
         const auto moves = std::make_shared<const std::vector<Command>>(read_moves(asPath(path), *mesh, progress));
         return [this, moves, name, mesh] {
+          setPlaying(false);
+          film_.cancel();
           if (mesh == document_.mesh()) {
             document_.loadMoves(moves, QStringLiteral("open %1").arg(name));
           } else {

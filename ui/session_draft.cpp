@@ -29,6 +29,9 @@ Session SessionDraft::finished(const Progress& progress) const {
     try {
       result.panels[panel].placement = placements_[panel].get();
     } catch (const std::future_error&) {
+      if (panel == 0) {
+        throw Cancelled();  // a session without panels would take the place of a good one
+      }
       result.panels.resize(panel);  // it was removed before its solver answered; those after it too
       break;
     }

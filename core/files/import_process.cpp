@@ -270,8 +270,12 @@ void check_end(int status, const std::string& where, const ImportLimits& limits)
   if (WIFEXITED(status) && WEXITSTATUS(status) == import::out_of_memory) {
     refuse_memory(where, limits);
   }
-  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) {
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
     refuse_time(where, limits.seconds);
+  }
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) {
+    throw Error(where, "the system ended the program that reads it, as it does when memory is short",
+                "close other programs, or use a smaller file");
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw Error(where, "it is damaged: the library that reads it failed on it", "export it anew, or in another format");

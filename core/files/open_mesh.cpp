@@ -80,8 +80,9 @@ OpenedMesh open_tetgen(const std::filesystem::path& path, const ReadOptions& opt
     return other;
   };
   const auto nodes = beside(".node"), elements = beside(".ele");
-  const std::string points = read_text(nodes, "points"), cells = read_text(elements, "tetrahedra");
-  return opened(read_tetgen({points, nodes}, {cells, elements}, progress.part(0, 0.5)), path, options,
+  const std::string points = read_text(nodes, "points", progress.part(0, 0.1));
+  const std::string cells = read_text(elements, "tetrahedra", progress.part(0.1, 0.2));
+  return opened(read_tetgen({points, nodes}, {cells, elements}, progress.part(0.2, 0.5)), path, options,
                 progress.part(0.5, 1));
 }
 

@@ -63,14 +63,18 @@ RegularFile::~RegularFile() {
 }
 
 std::size_t RegularFile::read(std::span<char> bytes) {
-  ssize_t got = -1;
-  do {
-    got = ::read(descriptor_, bytes.data(), bytes.size());
-  } while (got < 0 && errno == EINTR);
-  if (got < 0) {
-    throw Error(shown(path_), "it cannot be read to its end (" + reason() + ")", "check the disk");
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t got = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
+    if (got < 0 && errno != EINTR) {
+      throw Error(shown(path_), "it cannot be read to its end (" + reason() + ")", "check the disk");
+    }
+    if (got == 0) {
+      break;
+    }
+    done += got > 0 ? static_cast<std::size_t>(got) : 0;
   }
-  return static_cast<std::size_t>(got);
+  return done;
 }
 
 }  // namespace chainmail

@@ -23,7 +23,8 @@ class RegularFile {
   const std::filesystem::path& path() const { return path_; }
   int descriptor() const { return descriptor_; }
   std::uint64_t size() const { return size_; }
-  /// Reads the next bytes and returns their number, 0 at the end. Throws Error where the disk fails.
+  /// Reads the next bytes and returns their number, less than asked for at the end alone. Throws Error where the disk
+  /// fails.
   std::size_t read(std::span<char> bytes);
 
  private:

@@ -169,6 +169,20 @@ void SolverThread::run(const std::stop_token& stop) {
     lock.lock();
     rest(lock, stop);
   }
+  answer_questions(lock, stop);
+}
+
+/// A session that is kept while the window closes waits for the answers. What moves elements is left out.
+void SolverThread::answer_questions(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+  abandoned_ = true;
+  const auto last = std::find_if(tasks_.rbegin(), tasks_.rend(),
+                                 [](const Task& task) { return std::holds_alternative<Question>(task); });
+  for (auto left = tasks_.rend() - last; left > 0; --left) {
+    const Task task = take_task(stop);
+    lock.unlock();
+    carry_out(task);
+    lock.lock();
+  }
 }
 
 void SolverThread::relax() {

@@ -37,8 +37,8 @@ class SolverThread {
   /// The window closes: passes and sweeps are no longer wanted. The one under way ends as soon as it can, those posted
   /// are left out, and questions are answered for the object as it is by then.
   void abandon();
-  /// Calls `question` on the solver's thread, after what was posted before; it must not wait. What is not begun when
-  /// the solver ends is dropped.
+  /// Calls `question` on the solver's thread, after what was posted before; it must not wait. When the solver ends, it
+  /// answers the remaining questions for the object as it is.
   void ask(Question question);
   /// Whether every command posted has been carried out, and every question answered.
   bool idle() const { return waiting() == 0; }
@@ -67,6 +67,7 @@ class SolverThread {
   void carry_out(const Task& task);
   void relax();
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
+  void answer_questions(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   bool measure(const std::stop_token& stop);
   void refresh_figures();
   void publish();

@@ -57,7 +57,7 @@ NAMED_CONSTANT = re.compile(r"^\s*(static |inline )*constexpr \w[\w:<>, ]* \w+ =
 STATEMENT = re.compile(r"^\s+[\w.>\-\[\]]+(\(.*\)| [+\-*/]?= .*);$")
 # Lines without behaviour that a test could see: declarations, checks of the compiler, hints to memory, layout.
 PASSED_OVER = re.compile(
-    r"^\s*(#|//|using |namespace |template |static_assert|assert\(|friend |class |struct |enum |case .*:$|\}|public:|private:)"
+    r"^\s*(#|//|using |namespace |template |static_assert|assert\(|friend |class |struct |enum |case .*:$|public:|private:)"
     r"|reserve\(|prefetch|shrink_to_fit|setSpacing|setContentsMargins|Margin|static_cast<void>|NOLINT|operator")
 
 Mutant = collections.namedtuple("Mutant", "path line operator before after")
@@ -98,10 +98,14 @@ def mutants_of(path, number, line):
     return found
 
 
-def tracked_files(root):
-    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=root, check=True,
-                            capture_output=True, text=True)
-    return [name for name in listed.stdout.split("\0") if name and (root / name).is_file()]
+def source_files(root):
+    """All files of the checkout that belong to the project, without git, which an export does not have."""
+    files = []
+    for folder, folders, names in os.walk(root):
+        inside = pathlib.Path(folder).relative_to(root)
+        folders[:] = [name for name in folders if name not in (".git", "build", "__pycache__")]
+        files += [str(inside / name) for name in names if (root / inside / name).is_file()]
+    return files
 
 
 def room_of(path):
@@ -117,7 +121,7 @@ def is_candidate(path, wanted):
 def draw(root, wanted, generator):
     """Endless mutants: a random line among all that have any, then a random fault in it. No line comes twice."""
     lines = []
-    for path in sorted(filter(lambda p: is_candidate(p, wanted), tracked_files(root))):
+    for path in sorted(filter(lambda p: is_candidate(p, wanted), source_files(root))):
         for number, line in enumerate((root / path).read_text().split("\n")):
             if found := mutants_of(path, number, line):
                 lines.append(found)
@@ -149,7 +153,9 @@ class Tests:
         known = subprocess.run(["ctest", "--test-dir", build, "-N"], capture_output=True, text=True).stdout
         known = set(re.findall(r"Test +#\d+: (\S+)", known))
         self.includes = {name: files for name, files in self.includes.items() if name in known}
-        self.seconds = collections.defaultdict(lambda: 5.0)
+        if not self.includes:
+            sys.exit("mutants: the release build has no tests; start it by tests/run mutants")
+        self.seconds = collections.defaultdict(lambda: 12.0)  # until it is known
         costs = build / "Testing/Temporary/CTestCostData.txt"
         for line in costs.read_text().splitlines() if costs.exists() else []:
             if match := re.match(r"(\S+) (\d+) ([\d.]+)$", line):
@@ -180,6 +186,7 @@ class Worker:
         self.home = root / f"build/mutants/home{number}"
         self.home.mkdir(parents=True, exist_ok=True)
         self.home.chmod(0o700)
+        self.reliable = {}  # of each test that failed here: whether it passes without a fault
         self.environment = dict(os.environ, CCACHE_BASEDIR=str(self.copy), HOME=str(self.home),
                                 XDG_RUNTIME_DIR=str(self.home), CCACHE_DIR=os.environ["CCACHE_DIR"])
         self.update()
@@ -188,7 +195,7 @@ class Worker:
 
     def update(self):
         """Brings the copy up to date; files that are the same keep their time, so that nothing is built anew."""
-        files = set(tracked_files(self.root))
+        files = set(source_files(self.root))
         for name in files:
             source, target = self.root / name, self.copy / name
             if not target.exists() or target.read_bytes() != source.read_bytes():
@@ -212,27 +219,47 @@ class Worker:
             sys.exit(f"mutants: {' '.join(map(str, command))} failed:\n{output[-2000:]}")
         return process.returncode, output
 
-    def build(self, test):
-        return self.run(["cmake", "--build", "build/release", "--target", f"test_{test}", "--", "-j1"])[0] == 0
+    def build(self, target):
+        return self.run(["cmake", "--build", "build/release", "--target", target, "--", "-j1"])[0] == 0
+
+    def compiles(self, path):
+        """Builds the object files of a source, or, for a header, of the library that holds the templates."""
+        return self.build("chainmail_core" if path.endswith(".h") else f"../../{path}^")
 
     def fails(self, test):
-        limit = max(30, 5 * self.tests.seconds[test])
+        limit = max(60, 5 * self.tests.seconds[test])
         command = ["ctest", "--test-dir", "build/release", "-R", f"^{test}$", "--timeout", int(limit)]
-        return all(self.run(command, seconds=limit + 30)[0] != 0 for _ in range(2))
+        return all(self.run(command, seconds=limit)[0] != 0 for _ in range(2))
+
+    def is_reliable(self, test):
+        """True where a test passes here without a fault. The source must be as it was."""
+        if test not in self.reliable:
+            self.reliable[test] = self.build(f"test_{test}") and not self.fails(test)
+            if not self.reliable[test]:
+                print(f"     {test} fails in {self.copy} without a fault: left out", flush=True)
+        return self.reliable[test]
 
     def examine(self, mutant):
         """The name of the test that catches a mutant, '' if none does, None if it does not compile."""
+        tests = [test for test in self.tests.related(mutant.path) if self.reliable.get(test, True)]
+        while True:
+            caught = self.first_failure(mutant, tests)
+            if not caught or self.is_reliable(caught):
+                return caught
+            tests = tests[tests.index(caught) + 1:]
+
+    def first_failure(self, mutant, tests):
         file = self.copy / mutant.path
         original = file.read_text()
         lines = original.split("\n")
         lines[mutant.line] = mutant.after
         file.write_text("\n".join(lines))
         try:
-            for i, test in enumerate(self.tests.related(mutant.path)):
-                if not self.build(test):
-                    if i == 0:
-                        return None
-                    continue
+            if not self.compiles(mutant.path):
+                return None
+            for test in tests:
+                if not self.build(f"test_{test}"):
+                    return None  # a header that this test alone compiles
                 if self.fails(test):
                     return test
             return ""
@@ -258,7 +285,7 @@ def main():
     wanted = list(ROOMS) if options.room == "all" else [options.room]
     seed = random.SystemRandom().randrange(1_000_000) if options.seed is None else options.seed
     candidates = draw(root, wanted, random.Random(seed))
-    if not any(is_candidate(path, wanted) for path in tracked_files(root)):
+    if not any(is_candidate(path, wanted) for path in source_files(root)):
         sys.exit(f"mutants: {options.room} holds no sources; name a folder or file under {', '.join(ROOMS)}")
     print(f"mutants: {options.count} in {options.room}, seed {seed}", flush=True)
 

@@ -18,8 +18,8 @@
 namespace chainmail::import {
 namespace {
 
-void limit(int resource, rlim_t to) {
-  const rlimit both{to, to};
+void limit(int resource, rlim_t to, rlim_t until_killed = 0) {
+  const rlimit both{to, to + until_killed};
   setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 
@@ -35,7 +35,7 @@ void use_all_of_the_stack() {
 void set_limits(const char* bytes, const char* seconds) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // who asked is gone: so is the reason
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, std::strtoull(seconds, nullptr, 10));
+  limit(RLIMIT_CPU, std::strtoull(seconds, nullptr, 10), 1);  // first by SIGXCPU, which says why
 #ifndef __SANITIZE_ADDRESS__  // which takes more address space than any machine has memory
   limit(RLIMIT_AS, std::strtoull(bytes, nullptr, 10));
 #else
