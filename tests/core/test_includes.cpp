@@ -89,7 +89,8 @@ const QString polls = "tests/core/threads.h";
 /// The lines of a source, from 1, that wait for a length of time and not for an event. On a busy machine the event
 /// comes later than that; on an idle one the test wastes time.
 QList<int> fixed_waits_in(const QString& text) {
-  static const QRegularExpression pattern(R"((?<!->)(?<!\.)\b(qWait|qSleep|sleep_for|sleep_until|nanosleep|[mu]?sleep)\s*\()");
+  static const QRegularExpression pattern(
+      R"((?<!->)(?<!\.)\b(qWait|qSleep|sleep_for|sleep_until|nanosleep|[mu]?sleep)\s*\()");
   const QStringList lines = text.split('\n');
   QList<int> found;
   for (int i = 0; i < lines.size(); ++i) {

@@ -190,7 +190,9 @@ class Worker:
         self.environment = dict(os.environ, CCACHE_BASEDIR=str(self.copy), HOME=str(self.home),
                                 XDG_RUNTIME_DIR=str(self.home), CCACHE_DIR=os.environ["CCACHE_DIR"])
         self.update()
-        options = ["-DCHAINMAIL_TESTS=ON", "-DCMAKE_COMPILE_WARNING_AS_ERROR=OFF"]
+        # As the release build is configured, so that ccache knows the objects.
+        cache = (root / "build/release/CMakeCache.txt").read_text()
+        options = ["-D" + line for line in re.findall(r"^(?:CHAINMAIL_TESTS|CMAKE_COMPILE_WARNING_AS_ERROR):.*", cache, re.M)]
         self.run(["cmake", "--preset", "release", *options], check=True)
 
     def update(self):
