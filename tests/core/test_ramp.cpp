@@ -135,16 +135,18 @@ void RampTest::drags_are_a_hands() {
     QVERIFY(drag.element < mesh->element_count());
     QCOMPARE(drag.targets.size(), std::size_t{30});
     Point last = mesh->rest_position(drag.element), last_step = Point::Zero();
-    double path = 0;
+    double path = 0, turned = 0;
     for (const Point& target : drag.targets) {
       QVERIFY(target.allFinite() && target.z() == 0);
       const Point step = target - last;
       path += step.norm();
       // It turns by 0.15 at most more than it did, of which it keeps 0.8: 0.75 at most.
       QVERIFY(last_step.isZero() || step.dot(last_step) >= std::cos(0.75) * step.norm() * last_step.norm());
+      turned += std::abs(last_step.x() * step.y() - last_step.y() * step.x());
       last = target;
       last_step = step;
     }
+    QVERIFY(turned > 1e-3 * width);  // no hand goes straight ahead
     // 2% of the width a move on average, half or twice that; the half sine's mean is 1 to 0.2% with 30 moves.
     QVERIFY(path > 0.998 * 30 * 0.01 * width && path < 1.002 * 30 * 0.04 * width);
   }

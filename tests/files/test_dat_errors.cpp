@@ -76,6 +76,10 @@ void DatErrorsTest::prose_is_no_statement() {
 
 void DatErrorsTest::options_that_do_not_fit() {
   ReadOptions options;
+  // A size that does not come from the file has no line.
+  QVERIFY(error_of([&] { dat("0 0\n", "99999x99999.dat"); }).startsWith("99999x99999.dat: the size 99999x99999 is "));
+  options.size = {99'999, 99'999, 1};
+  QVERIFY(error_of([&] { dat("# size 1\n0 0\n", "a.dat", options); }).startsWith("a.dat: the size 99999x99999 is "));
   options.size = {3, 3, 1};
   QVERIFY(error_of([&] {
             dat("0 0\n1 0\n", "a.dat", options);
