@@ -52,6 +52,7 @@ void ConvertCommandTest::a_volume_is_taken_as_asked() {
   const Program program;
   program.write("a.mha", volume);
   QCOMPARE(program.run("convert a.mha --threshold 20 --voxels 1 -o a.csv").code, 0);
+  QVERIFY(program.run("info a.mha --threshold 20").out.contains("taken as"));  // at which threshold, and how finely
   QCOMPARE(program.read("a.csv"), QByteArray("id,x,y,z\n0,1,0,0\n1,2,0,0\n2,3,0,0\n"));
   const auto stiff = program.run("deform a.mha --threshold 20 --algorithm exact --by 2:1 --positions b.csv");
   QCOMPARE(stiff.code, 0);
