@@ -226,7 +226,10 @@ class Worker:
 
     def compiles(self, path):
         """Builds the object files of a source, or, for a header, of the library that holds the templates."""
-        return self.build("chainmail_core" if path.endswith(".h") else f"../../{path}^")
+        if path.endswith(".h"):
+            return self.build("chainmail_core")
+        # Ninja knows the sources of the window by their whole path, the others from its folder.
+        return self.build(f"../../{path}^") or self.build(f"{self.copy / path}^")
 
     def fails(self, test):
         limit = max(60, 5 * self.tests.seconds[test])
