@@ -1,8 +1,8 @@
 #include "files/data_file.h"
 
 #include <algorithm>
-#include <system_error>
 
+#include "files/regular_file.h"
 #include "files/text.h"
 #include "mesh/error.h"
 
@@ -10,13 +10,6 @@ namespace chainmail {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Without links and dots, as far as it exists.
-fs::path resolved(const fs::path& path) {
-  std::error_code error;
-  fs::path target = fs::weakly_canonical(fs::absolute(path, error), error);
-  return error ? path : target;
-}
 
 bool is_beneath(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();

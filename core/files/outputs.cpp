@@ -8,6 +8,7 @@
 #include <string>
 #include <system_error>
 
+#include "files/regular_file.h"
 #include "files/text.h"
 
 namespace chainmail {
@@ -16,13 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string reason() { return std::generic_category().message(errno); }
-
-/// Where a path leads: a symbolic link stays one, and the file behind it is replaced.
-fs::path resolved(const fs::path& path) {
-  std::error_code error;
-  fs::path target = fs::weakly_canonical(fs::absolute(path, error), error);
-  return error ? path : target;
-}
 
 void refuse_unwritable(const fs::path& path, const fs::path& target, const fs::file_status& status) {
   if (fs::is_directory(status) || !target.has_filename()) {
@@ -86,7 +80,7 @@ void Outputs::add(const fs::path& path, Writer writer) {
     throw Error("file name", "it is empty", "give a file, or - for standard output");
   }
   std::error_code error;
-  const fs::path target = resolved(path);
+  const fs::path target = resolved(path);  // a symbolic link stays one, and the file behind it is replaced
   const auto status = fs::status(path, error);
   refuse_twice(path, target);
   if (path != "-" && std::find(inputs_.begin(), inputs_.end(), target) != inputs_.end()) {

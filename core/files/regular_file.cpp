@@ -77,4 +77,10 @@ std::size_t RegularFile::read(std::span<char> bytes) {
   return done;
 }
 
+std::filesystem::path resolved(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::path target = std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  return error ? path : target;
+}
+
 }  // namespace chainmail

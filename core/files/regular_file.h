@@ -33,4 +33,7 @@ class RegularFile {
   std::uint64_t size_ = 0;
 };
 
+/// The path without links and dots, as far as it exists.
+std::filesystem::path resolved(const std::filesystem::path& path);
+
 }  // namespace chainmail
