@@ -86,7 +86,7 @@ class SmallTree {
  public:
   using Json = nlohmann::json;
 
-  SmallTree() = default;
+  SmallTree();
   SmallTree(const SmallTree&) = delete;  // open_ points into the tree
   SmallTree& operator=(const SmallTree&) = delete;
 

@@ -137,7 +137,8 @@ void print_bullet(const json& all, bool markdown) {
         {mesh + ", bottom pinned, top pulled and held", "ms per frame", "frames", "follow-through", "relative error"}};
     for (const auto& [name, of] : contestants.items()) {
       const bool is_reference = !of.contains("ms");
-      table.push_back({name, is_reference ? "" : number(of["ms"]), is_reference ? "" : std::to_string(of["frames"].get<int>()),
+      table.push_back({name, is_reference ? "" : number(of["ms"]),
+                       is_reference ? "" : std::to_string(of["frames"].get<int>()),
                        number(100 * of["follow"].get<double>()) + " %", is_reference ? "0" : number(of["relative"])});
     }
     print(table, markdown);
