@@ -71,6 +71,8 @@ bool JsonScan::parse_error(std::size_t position, const std::string& /*last*/, co
   throw Error(shown(path_, line_at(text_, position)), "it is not JSON", remedy_);
 }
 
+SmallTree::SmallTree() = default;
+
 void SmallTree::open(Json empty) { open_.push_back(place(std::move(empty))); }
 
 nlohmann::json SmallTree::take() {

@@ -8,11 +8,13 @@
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QTimer>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 #include "bench/contest.h"
 #include "bench/metered_application.h"
@@ -111,6 +113,55 @@ FrameMilliseconds guiMilliseconds(MainWindow& window) {
   return {own / drawn, drew / drawn};
 }
 
+/// The time from a mouse event to the picture that shows it on the screen (ms): the median over the pictures of a local
+/// drag, with a move every 7 ms, as mice report them. A picture shows the newest move whose place its element has.
+double latencyMilliseconds(MainWindow& window) {
+  constexpr int mouseMilliseconds = 7, places = 64;
+  View& view = window.panel(0).view();
+  const auto side = ElementId(std::lround(std::sqrt(window.document().mesh()->element_count())));
+  const ElementId middle = (side / 2) * side + side / 2;
+  const QPointF centre = view.placeOf(middle);
+  const double radius = 2.5 * QLineF(centre, view.placeOf(middle + 100)).length() / 100;
+  const auto place = [&](int step) {
+    const double angle = 2 * std::numbers::pi * step / places;
+    return centre + radius * QPointF(std::cos(angle), std::sin(angle));
+  };
+  QElapsedTimer clock;
+  clock.start();
+  std::vector<double> sent, latencies;
+  int shown = -1;
+  const auto look = [&] {
+    const QPointF at = view.placeOf(middle);
+    for (int step = int(sent.size()) - 1; step > shown && step > int(sent.size()) - places; --step) {
+      if (QLineF(place(step), at).length() < 0.25 * radius * std::numbers::pi / places) {
+        shown = step;
+        latencies.push_back(double(clock.nsecsElapsed()) * 1e-6 - sent[step]);
+        return;
+      }
+    }
+  };
+  const auto looking = QObject::connect(&view, &QOpenGLWidget::frameSwapped, &window, look);
+  send(view, QEvent::MouseButtonPress, centre);
+  QTimer mouse;
+  mouse.setTimerType(Qt::PreciseTimer);
+  mouse.callOnTimeout([&] {
+    sent.push_back(double(clock.nsecsElapsed()) * 1e-6);
+    send(view, QEvent::MouseMove, place(int(sent.size()) - 1));
+  });
+  mouse.start(mouseMilliseconds);
+  run(dragMilliseconds);
+  mouse.stop();
+  QObject::disconnect(looking);
+  send(view, QEvent::MouseButtonRelease, centre);
+  if (latencies.size() < 10) {
+    throw std::runtime_error("hardly any picture showed a move of the mouse");
+  }
+  std::sort(latencies.begin(), latencies.end());
+  std::printf("mouse to picture: %zu pictures for %zu moves, median %.1f ms, nine in ten within %.1f ms\n",
+              latencies.size(), sent.size(), latencies[latencies.size() / 2], latencies[latencies.size() * 9 / 10]);
+  return latencies[latencies.size() / 2];
+}
+
 /// The share of a core that the whole process takes while nobody does anything.
 double idleShare() {
   const double before = cpu_milliseconds(CLOCK_PROCESS_CPUTIME_ID);
@@ -204,6 +255,8 @@ void measure(Results& results) {
   const FrameMilliseconds frame = guiMilliseconds(window);
   results.add("/window/gui_ms", frame.own);
   results.add("/window/painting_ms", frame.painting);
+  until(clock, "the solvers to end", [&] { return window.document().idle(); });
+  results.add("/window/latency_ms", latencyMilliseconds(window));
   until(clock, "the solvers to end", [&] { return window.document().idle(); });
   run(2000);  // the figures at rest come a moment later
   results.add("/window/idle_cpu", idleShare());
