@@ -4,8 +4,8 @@
 #include <new>
 
 #include "command_line/common.h"
-#include "files/outputs.h"
-#include "files/text.h"
+#include "files/text/outputs.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace {

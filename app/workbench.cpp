@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <string_view>
 
-#include "main_window.h"
-#include "mesh_dock.h"
-#include "sessions.h"
-#include "startup.h"
+#include "docks/mesh_dock.h"
+#include "io/sessions.h"
+#include "window/main_window.h"
+#include "window/startup.h"
 
 namespace {
 

@@ -5,12 +5,12 @@
 #include "command_line/common.h"
 #include "command_line/elastic.h"
 #include "command_line/watched.h"
-#include "files/calibration_json.h"
-#include "files/outputs.h"
-#include "files/softness_presets.h"
-#include "files/text.h"
-#include "report/figure_table.h"
-#include "report/format.h"
+#include "files/results/calibration_json.h"
+#include "files/session/softness_presets.h"
+#include "files/text/outputs.h"
+#include "files/text/text.h"
+#include "report/page/figure_table.h"
+#include "report/page/format.h"
 
 namespace chainmail::command_line {
 namespace {

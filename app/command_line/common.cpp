@@ -4,7 +4,7 @@
 #include <array>
 
 #include "command_line/watched.h"
-#include "files/text.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail::command_line {

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "files/open_mesh.h"
-#include "files/outputs.h"
+#include "files/mesh/open_mesh.h"
+#include "files/text/outputs.h"
 #include "mesh/error.h"
 #include "simulate/parameters.h"
 

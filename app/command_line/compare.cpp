@@ -2,14 +2,14 @@
 #include "command_line/folder.h"
 #include "command_line/report_origin.h"
 #include "command_line/watched.h"
-#include "files/moves.h"
-#include "files/outputs.h"
-#include "files/report_json.h"
-#include "files/text.h"
+#include "files/results/report_json.h"
+#include "files/session/moves.h"
+#include "files/text/outputs.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
-#include "report/html.h"
-#include "report/runner.h"
-#include "report/table.h"
+#include "report/page/html.h"
+#include "report/page/table.h"
+#include "report/run/runner.h"
 
 namespace chainmail::command_line {
 namespace {

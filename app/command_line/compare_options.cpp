@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "files/softness_presets.h"
-#include "files/text.h"
+#include "files/session/softness_presets.h"
+#include "files/text/text.h"
 
 namespace chainmail::command_line {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "command_line/elastic.h"
-#include "report/cases.h"
-#include "report/compare.h"
+#include "report/run/cases.h"
+#include "report/run/compare.h"
 
 namespace chainmail::command_line {
 

@@ -4,10 +4,10 @@
 #include "command_line/compare_options.h"
 #include "command_line/folder.h"
 #include "command_line/report_origin.h"
-#include "files/outputs.h"
-#include "files/physics_json.h"
-#include "report/physics_cases.h"
-#include "report/physics_report.h"
+#include "files/results/physics_json.h"
+#include "files/text/outputs.h"
+#include "report/page/physics_report.h"
+#include "report/run/physics_cases.h"
 
 namespace chainmail::command_line {
 namespace {

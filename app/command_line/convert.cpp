@@ -3,9 +3,9 @@
 
 #include "command_line/common.h"
 #include "command_line/watched.h"
-#include "files/fill.h"
-#include "files/outputs.h"
-#include "files/text.h"
+#include "files/mesh/fill.h"
+#include "files/text/outputs.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
 
 // Meshes from one format to another, and surfaces to volumes.

@@ -6,11 +6,11 @@
 #include "command_line/elastic.h"
 #include "command_line/script.h"
 #include "command_line/watched.h"
-#include "files/moves.h"
-#include "files/outputs.h"
-#include "files/softness_csv.h"
-#include "files/tables.h"
-#include "files/text.h"
+#include "files/results/trace_csv.h"
+#include "files/session/moves.h"
+#include "files/session/softness_csv.h"
+#include "files/text/outputs.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail::command_line {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "files/text.h"
+#include "files/text/text.h"
 #include "mesh/layers.h"
 
 namespace chainmail::command_line {

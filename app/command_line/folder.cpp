@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "files/text.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail::command_line {

@@ -1,8 +1,8 @@
 #include "mesh/generate.h"
 
 #include "command_line/common.h"
-#include "files/outputs.h"
-#include "files/text.h"
+#include "files/text/outputs.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail::command_line {

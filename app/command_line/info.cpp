@@ -1,9 +1,9 @@
 #include <ostream>
 
 #include "command_line/common.h"
-#include "files/outputs.h"
-#include "files/summary.h"
-#include "files/text.h"
+#include "files/results/summary.h"
+#include "files/text/outputs.h"
+#include "files/text/text.h"
 
 namespace chainmail::command_line {
 namespace {

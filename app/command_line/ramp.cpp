@@ -1,4 +1,4 @@
-#include "report/ramp.h"
+#include "report/run/ramp.h"
 
 #include <unistd.h>
 
@@ -6,11 +6,11 @@
 #include <iostream>
 
 #include "command_line/common.h"
-#include "files/outputs.h"
-#include "files/ramp_json.h"
-#include "files/text.h"
+#include "files/results/ramp_json.h"
+#include "files/text/outputs.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
-#include "report/ramp_table.h"
+#include "report/page/ramp_table.h"
 
 namespace chainmail::command_line {
 namespace {

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "report/machine.h"
+#include "report/run/machine.h"
 
 namespace chainmail::command_line {
 

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "command_line/common.h"
-#include "files/outputs.h"
+#include "files/text/outputs.h"
 #include "mesh/error.h"
 
 namespace chainmail::command_line {

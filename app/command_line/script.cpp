@@ -10,7 +10,7 @@
 
 #include "command_line/common.h"
 #include "command_line/elastic.h"
-#include "files/text.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail::command_line {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "files/summary.h"
+#include "files/results/summary.h"
 #include "simulate/simulation.h"
 
 namespace chainmail::command_line {

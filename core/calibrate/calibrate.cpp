@@ -8,7 +8,7 @@
 #include "calibrate/optimum.h"
 #include "measure/physical_error.h"
 #include "mesh/error.h"
-#include "report/runner.h"
+#include "report/run/runner.h"
 
 namespace chainmail {
 namespace {

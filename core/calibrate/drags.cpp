@@ -7,7 +7,7 @@
 
 #include "mesh/error.h"
 #include "mesh/layers.h"
-#include "report/random.h"
+#include "report/run/random.h"
 
 namespace chainmail {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "calibrate/calibrate.h"
 #include "measure/truth.h"
-#include "report/cases.h"
+#include "report/run/cases.h"
 
 namespace chainmail {
 

@@ -1,7 +1,7 @@
 #include "calibrate/for_report.h"
 
 #include "calibrate/calibrate.h"
-#include "report/clocks.h"
+#include "report/run/clocks.h"
 
 namespace chainmail {
 namespace {

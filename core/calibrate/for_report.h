@@ -1,6 +1,6 @@
 #pragma once
 
-#include "report/physics_contestant.h"
+#include "report/run/physics_contestant.h"
 
 namespace chainmail {
 

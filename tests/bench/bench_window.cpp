@@ -20,12 +20,12 @@
 #include "bench/metered_application.h"
 #include "bench/process.h"
 #include "bench/results.h"
-#include "file_actions.h"
-#include "main_window.h"
+#include "docks/mesh_dock.h"
+#include "io/file_actions.h"
 #include "mesh/generate.h"
-#include "mesh_dock.h"
-#include "panel.h"
-#include "startup.h"
+#include "panels/panel.h"
+#include "window/main_window.h"
+#include "window/startup.h"
 
 namespace chainmail::bench {
 namespace {

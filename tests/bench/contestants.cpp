@@ -11,7 +11,7 @@
 #include "bench/layout.h"
 #include "bench/textbook.h"
 #include "reference/chainmail.h"
-#include "report/hand.h"
+#include "report/run/hand.h"
 
 namespace chainmail::bench {
 namespace {

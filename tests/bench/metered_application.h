@@ -5,7 +5,7 @@
 #include <QSet>
 
 #include "bench/process.h"
-#include "view.h"
+#include "panels/view.h"
 
 namespace chainmail::bench {
 

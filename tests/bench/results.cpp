@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "report/machine.h"
+#include "report/run/machine.h"
 
 namespace chainmail::bench {
 namespace {

@@ -1,7 +1,7 @@
 #include <QtTest>
 
 #include "cli/chainmail_program.h"
-#include "files/mesh_file.h"
+#include "files/mesh/mesh_file.h"
 
 using namespace chainmail;
 using namespace chainmail::test;

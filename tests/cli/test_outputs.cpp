@@ -1,5 +1,5 @@
 #include "cli/chainmail_program.h"
-#include "files/mesh_file.h"
+#include "files/mesh/mesh_file.h"
 #include "simulate/simulation.h"
 
 using namespace chainmail;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/families.h"
-#include "report/compare.h"
+#include "report/run/compare.h"
 
 namespace chainmail::report::test {
 

@@ -10,7 +10,7 @@
 #include "measure/physical_error.h"
 #include "mesh/error.h"
 #include "mesh/layers.h"
-#include "report/runner.h"
+#include "report/run/runner.h"
 #include "simulate/simulation.h"
 
 using namespace chainmail;

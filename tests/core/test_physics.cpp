@@ -8,12 +8,12 @@
 #include "core/comparisons.h"
 #include "mesh/error.h"
 #include "mesh/layers.h"
-#include "report/drag_times.h"
-#include "report/physics_cases.h"
-#include "report/physics_means.h"
-#include "report/physics_report.h"
-#include "report/preparing.h"
-#include "report/runner.h"
+#include "report/page/physics_means.h"
+#include "report/page/physics_report.h"
+#include "report/run/drag_times.h"
+#include "report/run/physics_cases.h"
+#include "report/run/preparing.h"
+#include "report/run/runner.h"
 
 using namespace chainmail;
 using namespace chainmail::report;

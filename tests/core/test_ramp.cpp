@@ -3,11 +3,11 @@
 #include <set>
 
 #include "core/families.h"
-#include "report/growth.h"
-#include "report/hand.h"
-#include "report/ramp.h"
-#include "report/ramp_rule.h"
-#include "report/ramp_table.h"
+#include "report/page/ramp_table.h"
+#include "report/run/growth.h"
+#include "report/run/hand.h"
+#include "report/run/ramp.h"
+#include "report/run/ramp_rule.h"
 
 using namespace chainmail;
 using namespace chainmail::report;

@@ -3,11 +3,11 @@
 #include <sstream>
 
 #include "core/support.h"
-#include "report/axis.h"
-#include "report/format.h"
-#include "report/html.h"
-#include "report/plot.h"
-#include "report/table.h"
+#include "report/page/axis.h"
+#include "report/page/format.h"
+#include "report/page/html.h"
+#include "report/page/plot.h"
+#include "report/page/table.h"
 
 using namespace chainmail;
 using namespace chainmail::report;

@@ -3,7 +3,7 @@
 #include <random>
 #include <sstream>
 
-#include "files/session.h"
+#include "files/session/session.h"
 #include "files/support.h"
 
 namespace chainmail::test {

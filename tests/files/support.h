@@ -11,8 +11,8 @@
 #include <string>
 #include <thread>
 
-#include "files/dat.h"
-#include "files/obj.h"
+#include "files/formats/dat.h"
+#include "files/formats/obj.h"
 #include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/progress.h"

@@ -1,7 +1,7 @@
 #include <Eigen/Geometry>
 #include <QtTest>
 
-#include "files/fill.h"
+#include "files/mesh/fill.h"
 #include "files/support.h"
 
 using namespace chainmail;

@@ -7,8 +7,8 @@
 #include <future>
 #include <set>
 
-#include "files/import_process.h"
-#include "files/open_mesh.h"
+#include "files/import/import_process.h"
+#include "files/mesh/open_mesh.h"
 #include "files/support.h"
 
 using namespace chainmail;

@@ -1,7 +1,7 @@
 #include <QtTest>
 #include <random>
 
-#include "files/imported.h"
+#include "files/formats/imported.h"
 #include "files/support.h"
 
 using namespace chainmail;

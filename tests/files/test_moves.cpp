@@ -2,7 +2,7 @@
 #include <QtTest>
 
 #include "core/allocations.h"
-#include "files/moves.h"
+#include "files/session/moves.h"
 #include "files/support.h"
 #include "simulate/simulation.h"
 

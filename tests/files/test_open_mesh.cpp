@@ -2,7 +2,7 @@
 #include <QtTest>
 #include <numeric>
 
-#include "files/open_mesh.h"
+#include "files/mesh/open_mesh.h"
 #include "files/support.h"
 #include "mesh/cells.h"
 

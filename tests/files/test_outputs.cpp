@@ -3,8 +3,8 @@
 #include <QtTest>
 #include <stdexcept>
 
-#include "files/outputs.h"
 #include "files/support.h"
+#include "files/text/outputs.h"
 
 using namespace chainmail;
 using namespace chainmail::test;

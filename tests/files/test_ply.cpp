@@ -1,6 +1,6 @@
 #include <QtTest>
 
-#include "files/ply.h"
+#include "files/formats/ply.h"
 #include "files/support.h"
 
 using namespace chainmail;

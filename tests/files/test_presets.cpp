@@ -3,7 +3,7 @@
 #include <limits>
 #include <set>
 
-#include "files/softness_presets.h"
+#include "files/session/softness_presets.h"
 #include "files/support.h"
 
 using namespace chainmail;

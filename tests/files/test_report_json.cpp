@@ -4,7 +4,7 @@
 #include <QtTest>
 #include <sstream>
 
-#include "files/report_json.h"
+#include "files/results/report_json.h"
 
 using namespace chainmail;
 using namespace chainmail::report;

@@ -1,9 +1,9 @@
 #include <QtTest>
 #include <algorithm>
 
-#include "files/open_mesh.h"
-#include "files/session.h"
-#include "files/summary.h"
+#include "files/mesh/open_mesh.h"
+#include "files/results/summary.h"
+#include "files/session/session.h"
 #include "files/support.h"
 
 using namespace chainmail;

@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "files/import/sandbox.h"
-#include "files/open_mesh.h"
+#include "files/mesh/open_mesh.h"
 #include "files/support.h"
 
 using namespace chainmail::test;

@@ -1,6 +1,6 @@
 #include <QtTest>
 
-#include "files/open_mesh.h"
+#include "files/mesh/open_mesh.h"
 #include "files/support.h"
 
 using namespace chainmail;

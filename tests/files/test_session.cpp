@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "core/families.h"
-#include "files/base64.h"
 #include "files/session_support.h"
+#include "files/text/base64.h"
 
 using namespace chainmail;
 using namespace chainmail::test;

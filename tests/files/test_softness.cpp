@@ -1,7 +1,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "files/softness_csv.h"
+#include "files/session/softness_csv.h"
 #include "files/support.h"
 
 using namespace chainmail;

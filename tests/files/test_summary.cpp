@@ -3,7 +3,7 @@
 #include <QtTest>
 #include <sstream>
 
-#include "files/summary.h"
+#include "files/results/summary.h"
 #include "files/support.h"
 
 using namespace chainmail;

@@ -2,8 +2,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "files/formats/positions_csv.h"
+#include "files/results/trace_csv.h"
 #include "files/support.h"
-#include "files/tables.h"
 
 using namespace chainmail;
 using namespace chainmail::test;

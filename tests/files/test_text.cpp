@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "files/text.h"
+#include "files/text/text.h"
 
 using namespace chainmail;
 

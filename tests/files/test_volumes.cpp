@@ -1,9 +1,9 @@
 #include <QtTest>
 #include <random>
 
-#include "files/metaimage.h"
-#include "files/nrrd_head.h"
-#include "files/open_mesh.h"
+#include "files/formats/metaimage.h"
+#include "files/formats/nrrd_head.h"
+#include "files/mesh/open_mesh.h"
 #include "files/support.h"
 
 using namespace chainmail;

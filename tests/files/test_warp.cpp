@@ -3,8 +3,8 @@
 #include <random>
 
 #include "core/support.h"
-#include "files/mesh_file.h"
-#include "files/warp.h"
+#include "files/mesh/mesh_file.h"
+#include "files/mesh/warp.h"
 #include "mesh/error.h"
 #include "mesh/sheet.h"
 

@@ -3,8 +3,8 @@
 #include <cstring>
 #include <sstream>
 
-#include "files/outputs.h"
 #include "files/support.h"
+#include "files/text/outputs.h"
 #include "measure/violation.h"
 #include "mesh/cells.h"
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "files/mesh_formats.h"
-#include "files/open_mesh.h"
+#include "files/mesh/mesh_formats.h"
+#include "files/mesh/open_mesh.h"
 #include "mesh/error.h"
 
 namespace fs = std::filesystem;

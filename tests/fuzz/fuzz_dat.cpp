@@ -1,4 +1,4 @@
-#include "files/dat.h"
+#include "files/formats/dat.h"
 #include "fuzz/target.h"
 
 using namespace chainmail;

@@ -2,9 +2,9 @@
 #include <utility>
 #include <variant>
 
-#include "files/imported.h"
-#include "files/open_mesh.h"
-#include "files/voxel_block.h"
+#include "files/formats/imported.h"
+#include "files/formats/voxel_block.h"
+#include "files/mesh/open_mesh.h"
 #include "fuzz/target.h"
 
 using namespace chainmail;

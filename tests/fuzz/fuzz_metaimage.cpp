@@ -1,5 +1,5 @@
-#include "files/metaimage.h"
-#include "files/voxel_block.h"
+#include "files/formats/metaimage.h"
+#include "files/formats/voxel_block.h"
 #include "fuzz/target.h"
 
 using namespace chainmail;

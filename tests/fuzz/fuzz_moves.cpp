@@ -1,4 +1,4 @@
-#include "files/moves.h"
+#include "files/session/moves.h"
 #include "fuzz/target.h"
 #include "mesh/generate.h"
 

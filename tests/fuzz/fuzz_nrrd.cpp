@@ -1,4 +1,4 @@
-#include "files/nrrd_head.h"
+#include "files/formats/nrrd_head.h"
 #include "fuzz/target.h"
 
 using namespace chainmail;

@@ -1,4 +1,4 @@
-#include "files/obj.h"
+#include "files/formats/obj.h"
 #include "fuzz/target.h"
 
 using namespace chainmail;

@@ -1,4 +1,4 @@
-#include "files/softness_presets.h"
+#include "files/session/softness_presets.h"
 #include "fuzz/target.h"
 
 using namespace chainmail;

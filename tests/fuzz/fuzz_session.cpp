@@ -1,4 +1,4 @@
-#include "files/session.h"
+#include "files/session/session.h"
 #include "fuzz/target.h"
 
 using namespace chainmail;

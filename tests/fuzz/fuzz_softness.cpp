@@ -1,4 +1,4 @@
-#include "files/softness_csv.h"
+#include "files/session/softness_csv.h"
 #include "fuzz/target.h"
 #include "mesh/generate.h"
 

@@ -1,5 +1,5 @@
-#include "files/open_mesh.h"
-#include "files/tetgen.h"
+#include "files/formats/tetgen.h"
+#include "files/mesh/open_mesh.h"
 #include "fuzz/target.h"
 
 using namespace chainmail;

@@ -1,5 +1,5 @@
-#include "files/open_mesh.h"
-#include "files/vtk.h"
+#include "files/formats/vtk.h"
+#include "files/mesh/open_mesh.h"
 #include "fuzz/target.h"
 
 using namespace chainmail;

@@ -1,11 +1,11 @@
 // Where things appear, and what lies under a place of the view.
 
-#include "camera.h"
+#include "drawing/camera.h"
 
 #include <QTest>
 
+#include "drawing/picking.h"
 #include "mesh/generate.h"
-#include "picking.h"
 
 using namespace chainmail;
 

@@ -1,12 +1,12 @@
 // The colour map: its ends, its lightness, and what stands for links where elements are drawn.
 
-#include "colour_map.h"
+#include "drawing/colour_map.h"
 
 #include <QTest>
 #include <cmath>
 
-#include "colour_values.h"
-#include "colours.h"
+#include "common/colours.h"
+#include "drawing/colour_values.h"
 #include "mesh/generate.h"
 
 using namespace chainmail;

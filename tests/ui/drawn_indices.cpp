@@ -1,6 +1,6 @@
 // What is drawn of a mesh, finely and coarsely.
 
-#include "drawn_indices.h"
+#include "drawing/drawn_indices.h"
 
 #include <QTest>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "coarse_level.h"
+#include "drawing/coarse_level.h"
 #include "mesh/generate.h"
 
 using namespace chainmail;

@@ -1,6 +1,6 @@
 // What a stroke crosses in the front layer alone.
 
-#include "front_links.h"
+#include "drawing/front_links.h"
 
 #include <QTest>
 

@@ -3,9 +3,9 @@
 #include <QImage>
 #include <QPainter>
 
-#include "file_actions.h"
-#include "picture_file.h"
-#include "samples.h"
+#include "io/file_actions.h"
+#include "io/picture_file.h"
+#include "io/samples.h"
 #include "window.h"
 
 using namespace chainmail;

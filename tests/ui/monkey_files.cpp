@@ -5,11 +5,11 @@
 #include <QMimeData>
 #include <QSpinBox>
 
-#include "file_actions.h"
+#include "docks/replay/replay_dock.h"
+#include "io/file_actions.h"
+#include "io/picture_actions.h"
+#include "io/sessions.h"
 #include "monkey.h"
-#include "picture_actions.h"
-#include "replay_dock.h"
-#include "sessions.h"
 
 namespace chainmail {
 

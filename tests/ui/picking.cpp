@@ -1,12 +1,12 @@
 // Which element lies under the cursor, and which links a stroke crosses.
 
-#include "picking.h"
+#include "drawing/picking.h"
 
 #include <QTest>
 #include <numeric>
 #include <random>
 
-#include "coarse_level.h"
+#include "drawing/coarse_level.h"
 #include "property.h"
 #include "scene.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "picking.h"
+#include "drawing/picking.h"
 
 /// Picking as one would write it first, looking at every element and link: what the fast one must agree with.
 namespace chainmail::plain {

@@ -5,10 +5,10 @@
 #include <QLineSeries>
 #include <QScatterSeries>
 
-#include "message_bar.h"
-#include "report_dock.h"
-#include "report_table.h"
+#include "docks/report/report_dock.h"
+#include "docks/report/report_table.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 namespace chainmail {
 

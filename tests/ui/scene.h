@@ -1,6 +1,6 @@
 #pragma once
 
-#include "camera.h"
+#include "drawing/camera.h"
 #include "mesh/generate.h"
 #include "plain_picking.h"
 

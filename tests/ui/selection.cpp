@@ -1,6 +1,6 @@
 // What a selection holds after a stroke, and which links lie inside it.
 
-#include "selection.h"
+#include "document/selection.h"
 
 #include <QTest>
 

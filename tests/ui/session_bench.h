@@ -1,8 +1,8 @@
 #pragma once
 
-#include "session_draft.h"
+#include "document/session_draft.h"
 #include "window.h"
-#include "window_look.h"
+#include "window/window_look.h"
 
 namespace chainmail {
 

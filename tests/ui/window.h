@@ -14,11 +14,11 @@
 #include <future>
 #include <memory>
 
-#include "main_window.h"
+#include "common/theme.h"
 #include "mesh/generate.h"
-#include "panel.h"
-#include "startup.h"
-#include "theme.h"
+#include "panels/panel.h"
+#include "window/main_window.h"
+#include "window/startup.h"
 
 namespace chainmail {
 

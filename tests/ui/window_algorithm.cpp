@@ -3,8 +3,8 @@
 #include <QLabel>
 #include <QStandardItemModel>
 
-#include "message_bar.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

@@ -9,16 +9,16 @@
 #include <QTemporaryDir>
 #include <functional>
 
-#include "autosave.h"
-#include "file_actions.h"
-#include "files/mesh_file.h"
-#include "film.h"
-#include "legend.h"
+#include "docks/replay/replay_dock.h"
+#include "docks/report/report_thread.h"
+#include "files/mesh/mesh_file.h"
+#include "io/autosave.h"
+#include "io/file_actions.h"
+#include "io/film.h"
+#include "io/sessions.h"
 #include "mesh/layers.h"
-#include "replay_dock.h"
-#include "report_thread.h"
+#include "panels/legend.h"
 #include "session_bench.h"
-#include "sessions.h"
 
 using namespace chainmail;
 

@@ -3,9 +3,9 @@
 #include <QComboBox>
 #include <QLocale>
 
-#include "colour_map.h"
-#include "legend.h"
+#include "drawing/colour_map.h"
 #include "measure/violation.h"
+#include "panels/legend.h"
 #include "window.h"
 
 using namespace chainmail;

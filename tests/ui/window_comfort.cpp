@@ -5,13 +5,13 @@
 #include <QToolButton>
 #include <cmath>
 
-#include "annotation.h"
-#include "colour_map.h"
-#include "icons.h"
-#include "message_bar.h"
-#include "report_looks.h"
-#include "theme.h"
+#include "common/icons.h"
+#include "common/theme.h"
+#include "docks/report/report_looks.h"
+#include "drawing/annotation.h"
+#include "drawing/colour_map.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 using colours::Ground;

@@ -5,11 +5,11 @@
 #include <QToolButton>
 #include <QWheelEvent>
 
-#include "colour_map.h"
-#include "colours.h"
-#include "ghost_button.h"
-#include "legend.h"
+#include "common/colours.h"
+#include "drawing/colour_map.h"
 #include "measure/violation.h"
+#include "panels/ghost_button.h"
+#include "panels/legend.h"
 #include "window.h"
 
 using namespace chainmail;

@@ -8,8 +8,8 @@
 #include <QSpinBox>
 #include <QTableWidget>
 
-#include "colours.h"
-#include "element_facts.h"
+#include "common/colours.h"
+#include "document/element_facts.h"
 #include "window.h"
 
 using namespace chainmail;

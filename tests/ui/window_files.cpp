@@ -7,11 +7,11 @@
 #include <QMimeData>
 #include <QPushButton>
 
-#include "file_actions.h"
-#include "message_bar.h"
-#include "recovery_bar.h"
-#include "sessions.h"
+#include "io/file_actions.h"
+#include "io/recovery_bar.h"
+#include "io/sessions.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

@@ -3,11 +3,11 @@
 #include <QLabel>
 #include <QToolButton>
 
-#include "gallery.h"
-#include "message_bar.h"
-#include "samples.h"
-#include "sheet_bar.h"
+#include "docks/gallery.h"
+#include "io/samples.h"
+#include "io/sheet_bar.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

@@ -7,10 +7,10 @@
 #include <QToolButton>
 #include <semaphore>
 
-#include "file_actions.h"
-#include "files/mesh_file.h"
-#include "message_bar.h"
+#include "files/mesh/mesh_file.h"
+#include "io/file_actions.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

@@ -13,8 +13,8 @@
 #include <QTest>
 #include <QTreeWidget>
 
-#include "shortcuts.h"
 #include "window.h"
+#include "window/shortcuts.h"
 
 using namespace chainmail;
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/text.h"
 #include "monkey.h"
-#include "panel.h"
-#include "text.h"
+#include "panels/panel.h"
 
 using namespace chainmail;
 

@@ -10,11 +10,11 @@
 #include <QSpinBox>
 #include <QTemporaryDir>
 
-#include "file_actions.h"
-#include "message_bar.h"
-#include "volume_bar.h"
-#include "volumes.h"
+#include "io/file_actions.h"
+#include "io/volume_bar.h"
+#include "io/volumes.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

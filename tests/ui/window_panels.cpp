@@ -2,9 +2,9 @@
 
 #include <QToolButton>
 
-#include "legend.h"
+#include "document/session_draft.h"
 #include "mesh/progress.h"
-#include "session_draft.h"
+#include "panels/legend.h"
 #include "window.h"
 
 using namespace chainmail;

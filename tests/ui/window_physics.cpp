@@ -10,9 +10,9 @@
 #include <QSpinBox>
 #include <QStandardItemModel>
 
-#include "legend.h"
-#include "message_bar.h"
+#include "panels/legend.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

@@ -4,11 +4,11 @@
 #include <QPainter>
 #include <QSvgRenderer>
 
-#include "colours.h"
-#include "message_bar.h"
-#include "picture_actions.h"
-#include "pictures.h"
+#include "common/colours.h"
+#include "io/picture_actions.h"
+#include "io/pictures.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

@@ -2,9 +2,9 @@
 
 #include <QLabel>
 
-#include "colours.h"
-#include "message_bar.h"
+#include "common/colours.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

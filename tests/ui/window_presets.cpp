@@ -5,9 +5,9 @@
 #include <QFile>
 #include <QLineEdit>
 
-#include "message_bar.h"
-#include "preset_row.h"
+#include "docks/preset_row.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

@@ -8,8 +8,8 @@
 #include <QSlider>
 #include <QTreeView>
 
-#include "colour_map.h"
-#include "colours.h"
+#include "common/colours.h"
+#include "drawing/colour_map.h"
 #include "window.h"
 
 using namespace chainmail;

@@ -7,10 +7,10 @@
 #include <QLabel>
 #include <sstream>
 
-#include "frame_rate_dock.h"
-#include "message_bar.h"
-#include "report/format.h"
+#include "docks/frame_rate/frame_rate_dock.h"
+#include "report/page/format.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

@@ -12,12 +12,12 @@
 #include <csignal>
 #include <sstream>
 
-#include "autosave.h"
+#include "io/autosave.h"
+#include "io/recovery_bar.h"
+#include "io/sessions.h"
 #include "mesh/error.h"
-#include "message_bar.h"
-#include "recovery_bar.h"
 #include "session_bench.h"
-#include "sessions.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

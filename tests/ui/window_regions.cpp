@@ -3,7 +3,7 @@
 #include <QAction>
 #include <QLabel>
 
-#include "colours.h"
+#include "common/colours.h"
 #include "measure/neighbour_regions.h"
 #include "window.h"
 

@@ -10,12 +10,12 @@
 #include <QStandardPaths>
 #include <QToolButton>
 
-#include "files/moves.h"
-#include "message_bar.h"
-#include "panel_area.h"
-#include "pictures.h"
-#include "replay_dock.h"
+#include "docks/replay/replay_dock.h"
+#include "files/session/moves.h"
+#include "io/pictures.h"
+#include "panels/panel_area.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

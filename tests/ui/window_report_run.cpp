@@ -2,7 +2,7 @@
 
 #include <QElapsedTimer>
 
-#include "report/format.h"
+#include "report/page/format.h"
 #include "report_bench.h"
 
 using namespace chainmail;

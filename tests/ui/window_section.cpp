@@ -5,8 +5,8 @@
 #include <QPainter>
 #include <QSlider>
 
-#include "section_dock.h"
-#include "sessions.h"
+#include "docks/section_dock.h"
+#include "io/sessions.h"
 #include "window.h"
 
 using namespace chainmail;

@@ -7,7 +7,7 @@
 #include <QSpinBox>
 #include <QToolButton>
 
-#include "colours.h"
+#include "common/colours.h"
 #include "simulate/parameters.h"
 #include "window.h"
 

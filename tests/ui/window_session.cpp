@@ -4,10 +4,10 @@
 #include <QFile>
 #include <QMimeData>
 
-#include "file_actions.h"
-#include "message_bar.h"
+#include "io/file_actions.h"
+#include "io/sessions.h"
 #include "session_bench.h"
-#include "sessions.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

@@ -8,12 +8,12 @@
 #include <QPushButton>
 #include <QSpinBox>
 
-#include "file_actions.h"
-#include "message_bar.h"
-#include "sessions.h"
-#include "sheet_bar.h"
-#include "sheets.h"
+#include "io/file_actions.h"
+#include "io/sessions.h"
+#include "io/sheet_bar.h"
+#include "io/sheets.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

@@ -10,9 +10,9 @@
 #include <QSpinBox>
 #include <QTableWidget>
 
-#include "message_bar.h"
-#include "size_test_dock.h"
+#include "docks/size_test/size_test_dock.h"
 #include "window.h"
+#include "window/message_bar.h"
 
 using namespace chainmail;
 

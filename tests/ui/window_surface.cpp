@@ -1,7 +1,7 @@
 // What is shown of a volume, in a real window: its outer surface, its links, and what a cut opens.
 
-#include "colours.h"
-#include "sessions.h"
+#include "common/colours.h"
+#include "io/sessions.h"
 #include "window.h"
 
 using namespace chainmail;

@@ -4,7 +4,7 @@
 #include <QLabel>
 #include <QUndoView>
 
-#include "parameter_row.h"
+#include "common/parameter_row.h"
 #include "window.h"
 
 using namespace chainmail;

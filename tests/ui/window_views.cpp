@@ -3,7 +3,7 @@
 #include <QDir>
 #include <QFileInfo>
 
-#include "pictures.h"
+#include "io/pictures.h"
 #include "window.h"
 
 using namespace chainmail;

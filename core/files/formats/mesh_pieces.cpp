@@ -1,0 +1,112 @@
+#include "files/formats/mesh_pieces.h"
+
+#include <algorithm>
+
+#include "mesh/cells.h"
+
+namespace chainmail {
+
+MeshPieces::MeshPieces(const Mesh& mesh, const Cuts& cuts, const ListedPieces& listed, const Progress& progress)
+    : mesh_(mesh), cuts_(cuts), along_(mesh.link_count(), false) {
+  for (std::size_t i = 0; i < mesh.polygons.size(); i += mesh.polygons[i] + 1) {
+    polygons_.push_back(i);
+  }
+  list(Piece::triangle, SIZE_MAX, progress.part(0, 0.2));
+  list(Piece::polygon, listed.most_corners, progress.part(0.2, 0.4));
+  if (listed.cells) {
+    list(Piece::tetrahedron, SIZE_MAX, progress.part(0.4, 0.6));
+    list(Piece::hexahedron, SIZE_MAX, progress.part(0.6, 0.8));
+  }
+  list_lines(progress.part(0.8, 1));
+}
+
+MeshPieces::Corners MeshPieces::corners(Piece piece, std::size_t place) const {
+  switch (piece) {
+    case Piece::line:
+      return mesh_.links[place];
+    case Piece::triangle:
+      return mesh_.triangles[place];
+    case Piece::tetrahedron:
+      return mesh_.tetrahedra[place];
+    case Piece::hexahedron:
+      return mesh_.hexahedra[place];
+    case Piece::polygon:
+      break;
+  }
+  return Corners(mesh_.polygons).subspan(polygons_[place] + 1, mesh_.polygons[polygons_[place]]);
+}
+
+std::size_t MeshPieces::size(Piece piece) const {
+  switch (piece) {
+    case Piece::line:
+      return mesh_.links.size();
+    case Piece::triangle:
+      return mesh_.own_triangles;
+    case Piece::tetrahedron:
+      return mesh_.tetrahedra.size();
+    case Piece::hexahedron:
+      return mesh_.hexahedra.size();
+    case Piece::polygon:
+      break;
+  }
+  return polygons_.size();
+}
+
+/// Notes the link between two corners; says whether there is one that is not cut.
+bool MeshPieces::take_edge(ElementId a, ElementId b) {
+  const auto link = find_link(mesh_, a, b);
+  if (!link || cuts_.is_cut(*link)) {
+    return false;
+  }
+  edges_.push_back(*link);
+  return true;
+}
+
+/// Whether all edges of a piece are uncut links, which then are along it.
+bool MeshPieces::take(Piece piece, Corners corners) {
+  const auto edge = [&](const CellEdge& ends) { return take_edge(corners[ends[0]], corners[ends[1]]); };
+  edges_.clear();
+  bool whole = true;
+  if (piece == Piece::tetrahedron) {
+    whole = std::all_of(tetrahedron_edges.begin(), tetrahedron_edges.end(), edge);
+  } else if (piece == Piece::hexahedron) {
+    whole = std::all_of(hexahedron_edges.begin(), hexahedron_edges.end(), edge);
+  } else {
+    for (std::size_t i = 0; whole && i < corners.size(); ++i) {
+      whole = take_edge(corners[i], corners[(i + 1) % corners.size()]);
+    }
+  }
+  for (std::size_t i = 0; whole && i < edges_.size(); ++i) {
+    along_[edges_[i]] = true;
+  }
+  return whole;
+}
+
+void MeshPieces::list(Piece piece, std::size_t most_corners, const Progress& progress) {
+  const std::size_t size_of_kind = size(piece);
+  std::vector<bool>& listed = listed_[index(piece)];
+  listed.resize(size_of_kind);
+  for (std::size_t i = 0; i < size_of_kind; ++i) {
+    progress.report(i, size_of_kind);
+    const Corners of_piece = corners(piece, i);
+    if (of_piece.size() <= most_corners && take(piece, of_piece)) {
+      listed[i] = true;
+      ++counts_[index(piece)];
+      corner_counts_[index(piece)] += of_piece.size();
+    }
+  }
+}
+
+void MeshPieces::list_lines(const Progress& progress) {
+  std::vector<bool>& listed = listed_[index(Piece::line)];
+  listed.resize(mesh_.link_count());
+  std::uint32_t& count = counts_[index(Piece::line)];
+  for (LinkId link = 0; link < mesh_.link_count(); ++link) {
+    progress.report(link, mesh_.link_count());
+    listed[link] = !along_[link] && !cuts_.is_cut(link);
+    count += listed[link] ? 1 : 0;
+  }
+  corner_counts_[index(Piece::line)] = 2 * std::uint64_t{count};
+}
+
+}  // namespace chainmail

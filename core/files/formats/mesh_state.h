@@ -1,0 +1,23 @@
+#pragma once
+
+#include "mesh/cuts.h"
+#include "mesh/mesh.h"
+#include "solve/softness.h"
+#include "solve/solver.h"
+
+namespace chainmail {
+
+/// The rest positions of a mesh, without a copy; valid as long as the mesh.
+inline PositionView rest_positions(const Mesh& mesh) {
+  return {mesh.rest.data(), sizeof(double) * mesh.space_dimension, Precision::double_precision};
+}
+
+/// An object to write. All members must outlive the writing.
+struct MeshState {
+  const Mesh& mesh;
+  const Cuts& cuts;
+  PositionView positions;
+  const Softness& softness;  // for formats that hold the violation of links
+};
+
+}  // namespace chainmail

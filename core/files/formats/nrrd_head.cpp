@@ -1,0 +1,93 @@
+#include "files/formats/nrrd_head.h"
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "files/text/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+std::string small(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
+/// The name of a line's field in small letters; empty for a comment and for a pair of a user's own, `key:=value`.
+std::string field_of(std::string_view line) {
+  const std::size_t colon = line.find(':');
+  if (line.starts_with('#') || colon == std::string_view::npos || line.substr(colon).starts_with(":=")) {
+    return {};
+  }
+  return small(line.substr(0, colon));
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, std::size_t line, const std::string& problem) {
+  throw Error(shown(path, line), problem, "export it anew, as one file");
+}
+
+/// The lines up to the empty one that ends a header, or up to the end of the file.
+std::vector<std::string_view> lines_of(std::string_view text, const std::filesystem::path& path) {
+  std::vector<std::string_view> lines;
+  const bool is_whole = text.size() < longest_nrrd_head;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    line.remove_suffix(line.ends_with('\r') ? 1 : 0);
+    if (line.empty()) {
+      return lines;
+    }
+    lines.push_back(line);
+    if (line.find('\r') != std::string_view::npos) {
+      refuse(path, lines.size(), "a line of its header holds a carriage return");
+    }
+    text.remove_prefix(std::min(end, text.size() - 1) + 1);
+  }
+  if (!is_whole) {
+    refuse(path, lines.size(), "its header has no end");
+  }
+  return lines;
+}
+
+/// The file that a field names.
+std::string named_in(std::string_view line, const std::filesystem::path& path, std::size_t number) {
+  const auto name = trimmed(line.substr(line.find(':') + 1));
+  if (name.empty() || name.starts_with("LIST") || name.find('%') != std::string_view::npos) {
+    refuse(path, number, "its data are in several files, or in none");
+  }
+  return std::string(name);
+}
+
+}  // namespace
+
+NrrdHead read_nrrd_head(std::string_view beginning, const std::filesystem::path& path) {
+  NrrdHead head;
+  std::size_t number = 0;
+  for (std::string_view line : lines_of(beginning, path)) {
+    ++number;
+    const std::string field = field_of(line);
+    if (field == "data file" || field == "datafile") {
+      if (!head.data_file.empty()) {
+        refuse(path, number, "its header names its data twice");
+      }
+      head.data_file = named_in(line, path, number);
+      line = "data file: data";
+    } else if (field.find("file") != std::string::npos) {  // teem may take it for the same
+      refuse(path, number, in_quotes(line) + " is no field of a header");
+    }
+    head.text.append(line).append("\n");
+  }
+  return head;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,81 @@
+#include "files/formats/vtk_cells.h"
+
+#include <algorithm>
+#include <string>
+
+namespace chainmail {
+
+ElementId VtkCells::id(std::uint64_t point) const {
+  if (point >= parts_.rest.size()) {
+    cursor_.fail("a cell names point " + std::to_string(point) + ", which is not there", "export it anew");
+  }
+  return static_cast<ElementId>(point);
+}
+
+void VtkCells::add_chain(Corners corners) {
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    parts_.links.push_back({id(corners[i - 1]), id(corners[i])});
+  }
+}
+
+void VtkCells::add_face(Corners corners) {
+  if (corners.size() < 3) {
+    cursor_.fail("a face has fewer than 3 corners", "export it anew");
+  }
+  if (corners.size() == 3) {
+    parts_.triangles.push_back({id(corners[0]), id(corners[1]), id(corners[2])});
+    return;
+  }
+  parts_.polygons.push_back(static_cast<ElementId>(corners.size()));
+  for (const std::uint64_t corner : corners) {
+    parts_.polygons.push_back(id(corner));
+  }
+}
+
+template <std::size_t Size>
+void VtkCells::add_group(std::vector<std::array<ElementId, Size>>& groups, Corners corners,
+                         const std::array<int, Size>& order) {
+  if (corners.size() != Size) {
+    cursor_.fail("a cell has " + std::to_string(corners.size()) + " corners, and its type has " + std::to_string(Size),
+                 "export it anew");
+  }
+  std::array<ElementId, Size> group{};
+  std::transform(order.begin(), order.end(), group.begin(), [&](int place) { return id(corners[place]); });
+  groups.push_back(group);
+}
+
+void VtkCells::add(Corners corners, int type) {
+  switch (type) {
+    case vertex:
+    case vertices:
+      return;
+    case line:
+    case lines:
+      return add_chain(corners);
+    case strip:
+      for (std::size_t i = 2; i < corners.size(); ++i) {
+        add_face(corners.subspan(i - 2, 3));
+      }
+      return;
+    case triangle:
+    case polygon:
+    case quad:
+      return add_face(corners);
+    case pixel:
+      if (corners.size() == 4) {
+        return add_face(std::array{corners[0], corners[1], corners[3], corners[2]});
+      }
+      return add_face(corners);
+    case tetrahedron:
+      return add_group(parts_.tetrahedra, corners, {0, 1, 2, 3});
+    case voxel:
+      return add_group(parts_.hexahedra, corners, {0, 1, 3, 2, 4, 5, 7, 6});
+    case hexahedron:
+      return add_group(parts_.hexahedra, corners, {0, 1, 2, 3, 4, 5, 6, 7});
+    default:
+      cursor_.fail("it holds cells of VTK's type " + std::to_string(type),
+                   "split them into tetrahedra, or save them as cells of first order");
+  }
+}
+
+}  // namespace chainmail

@@ -1,0 +1,143 @@
+#include "files/formats/vtk_cursor.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "files/text/number_type.h"
+#include "files/text/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\n";
+
+/// As VTK's legacy readers have them on machines of 64 bits.
+constexpr std::array types{
+    number_type<float>("float"),
+    number_type<double>("double"),
+    number_type<std::int32_t>("int"),
+    number_type<std::uint32_t>("unsigned_int"),
+    number_type<std::int64_t>("long"),
+    number_type<std::uint64_t>("unsigned_long"),
+    number_type<std::int64_t>("vtktypeint64"),
+    number_type<std::uint64_t>("vtktypeuint64"),
+    number_type<std::int64_t>("vtkidtype"),
+    number_type<std::int16_t>("short"),
+    number_type<std::uint16_t>("unsigned_short"),
+    number_type<std::int8_t>("char"),
+    number_type<std::uint8_t>("unsigned_char"),
+};
+
+std::string small(std::string_view word) {
+  std::string result(word);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+}  // namespace
+
+void VtkCursor::fail(const std::string& problem, const std::string& remedy) const {
+  const auto lines = std::count(bytes_.begin(), bytes_.begin() + std::ptrdiff_t(std::min(at_, bytes_.size())), '\n');
+  // Lines of binary numbers mean nothing.
+  throw Error(binary_ ? shown(path_) : shown(path_, static_cast<std::size_t>(lines) + 1), problem, remedy);
+}
+
+std::string_view VtkCursor::line() {
+  const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+  std::string_view result = bytes_.substr(std::min(at_, end), end - std::min(at_, end));
+  at_ = std::min(end + 1, bytes_.size());
+  if (result.ends_with('\r')) {
+    result.remove_suffix(1);
+  }
+  return result;
+}
+
+std::string_view VtkCursor::word() {
+  at_ = std::min(bytes_.find_first_not_of(blanks, at_), bytes_.size());
+  const std::size_t end = std::min(bytes_.find_first_of(blanks, at_), bytes_.size());
+  const std::string_view result = bytes_.substr(at_, end - at_);
+  at_ = end;
+  return result;
+}
+
+std::uint64_t VtkCursor::count(const std::string& what) {
+  const auto text = word();
+  const auto number = parse_count(text);
+  if (!number) {
+    fail((text.empty() ? "a number is missing: " : in_quotes(text) + " is not ") + what, "write a whole number");
+  }
+  return *number;
+}
+
+template <class Visit>
+void VtkCursor::visit_binary(std::uint64_t count, std::string_view type, Visit visit) {
+  const NumberType* found = find_number_type(types, small(type));
+  if (found == nullptr) {
+    fail("numbers of type " + in_quotes(type) + " are not known", "save it with floats or doubles");
+  }
+  line();  // which the numbers begin behind
+  if (count > (bytes_.size() - at_) / found->bytes) {
+    fail("it ends within its numbers", "export it anew");
+  }
+  for (std::uint64_t i = 0; i < count; ++i, at_ += found->bytes) {
+    progress_.report(at_, bytes_.size());
+    constexpr bool big_endian = true;
+    visit(found->read(bytes_.data() + at_, big_endian));
+  }
+}
+
+template <class Visit>
+void VtkCursor::visit_numbers(std::uint64_t count, std::string_view type, Visit visit) {
+  if (binary_) {
+    return visit_binary(count, type, visit);
+  }
+  if (count > (bytes_.size() - at_ + 1) / 2) {
+    fail("it ends within its numbers", "export it anew");
+  }
+  for (std::uint64_t i = 0; i < count; ++i) {
+    progress_.report(i, count);
+    const auto text = word();
+    const auto number = parse_number(text);
+    if (!number) {
+      fail(text.empty() ? "it ends within its numbers" : in_quotes(text) + " is not a number", "export it anew");
+    }
+    visit(*number);
+  }
+}
+
+std::vector<double> VtkCursor::reals(std::uint64_t count, std::string_view type) {
+  std::vector<double> numbers;
+  visit_numbers(count, type, [&](double number) { numbers.push_back(number); });
+  return numbers;
+}
+
+std::vector<std::uint64_t> VtkCursor::wholes(std::uint64_t count, std::string_view type) {
+  static constexpr double largest = 1e15;  // doubles below are exact
+  std::vector<std::uint64_t> numbers;
+  visit_numbers(count, type, [&](double number) {
+    if (!(number >= 0 && number <= largest) || number != std::floor(number)) {
+      fail("a number that should be a whole one, from 0, is none", "export it anew");
+    }
+    numbers.push_back(static_cast<std::uint64_t>(number));
+  });
+  return numbers;
+}
+
+void VtkCursor::skip_numbers(std::uint64_t count, std::string_view type) {
+  if (type == "string" || type == "bit") {
+    fail("it has a field of type " + in_quotes(type) + " before its cells", "save it without that field");
+  }
+  visit_numbers(count, type, [](double) {});
+}
+
+void VtkCursor::skip_block() {
+  line();
+  while (at_ < bytes_.size() && !line().empty()) {
+  }
+}
+
+}  // namespace chainmail

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "files/text/regular_file.h"
+#include "files/text/temporary_folder.h"
+
+namespace chainmail {
+
+/// What an import reads: a private folder with nothing but its files, under names that are chosen here. Libraries go by
+/// names, and look beside a file for others: Gmsh carries out the commands in FILE.opt.
+class ImportInput {
+ public:
+  /// Errors name `shown_as`. The library reads each file `passes` times, which tells how far it is.
+  explicit ImportInput(std::filesystem::path shown_as, int passes = 1)
+      : shown_as_(std::move(shown_as)), passes_(passes) {}
+
+  /// Adds a file by a link, without a copy. The import program inherits it open, and so reads the file that was opened
+  /// here, whatever its path leads to by then.
+  void link(const std::string& name, RegularFile file);
+  /// Adds a file with these bytes. Throws WriteFailure where the disk is full.
+  void write(const std::string& name, std::string_view bytes);
+
+  const std::filesystem::path& shown_as() const { return shown_as_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
+  /// The file that was added first, which the import program is told to read.
+  std::filesystem::path main_file() const { return folder() / main_name_; }
+  const std::vector<RegularFile>& linked() const { return linked_; }
+  /// Size of the linked files (bytes).
+  std::uint64_t linked_size() const;
+  /// Number of bytes that will be read of them, 0 without linked files.
+  double bytes_to_read() const { return passes_ * double(linked_size()); }
+
+ private:
+  void name_first(const std::string& name);
+
+  std::filesystem::path shown_as_;
+  TemporaryFolder folder_;
+  int passes_;
+  std::string main_name_;
+  std::vector<RegularFile> linked_;
+};
+
+}  // namespace chainmail

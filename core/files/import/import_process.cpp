@@ -1,0 +1,329 @@
+#include "files/import/import_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <utility>
+
+#include "files/import/channels.h"
+#include "files/text/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int wait_milliseconds = 30;               // between two looks at whether it was cancelled
+constexpr int first_free = import::last_input + 1;  // descriptors below have a meaning in the program
+
+/// Beside this program, or where an installation has it.
+std::filesystem::path import_program() {
+  std::error_code none;
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+  for (const char* place : {"", "../bin", "../libexec/chainmail"}) {
+    if (auto program = folder / place / "chainmail-import"; std::filesystem::is_regular_file(program, none)) {
+      return program;
+    }
+  }
+  throw Error("chainmail-import", "the program that reads this format is not beside this one",
+              "install it in the same folder");
+}
+
+/// The environment of the program: what finds its libraries and what a sanitizer reads. Nothing else of the user's can
+/// steer a library, and what would be in the user's home is looked for in the private folder.
+std::vector<std::string> environment_in(const std::string& folder) {
+  std::vector<std::string> variables{"HOME=" + folder, "TMPDIR=" + folder, "LC_ALL=C", "OMP_NUM_THREADS=1",
+                                     "OPENBLAS_NUM_THREADS=1"};
+  for (const char* kept : {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "LSAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS"}) {
+    if (const char* value = std::getenv(kept)) {
+      variables.push_back(std::string(kept) + "=" + value);
+    }
+  }
+  return variables;
+}
+
+/// As the system takes them: pointers, the last one null.
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> pointers(words.size() + 1, nullptr);
+  std::transform(words.begin(), words.end(), pointers.begin(), [](std::string& word) { return word.data(); });
+  return pointers;
+}
+
+/// A copy of a descriptor that no other child inherits, and that is not in the way of those the program knows.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int copied) : number_(fcntl(copied, F_DUPFD_CLOEXEC, first_free)) {
+    if (number_ < 0) {
+      throw Error("chainmail-import", std::string("no file can be opened (") + std::strerror(errno) + ")",
+                  "close other programs");
+    }
+  }
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor() {
+    if (number_ >= 0) {
+      ::close(number_);
+    }
+  }
+
+  int number() const { return number_; }
+
+ private:
+  int number_ = -1;
+};
+
+class Pipe {
+ public:
+  Pipe() {
+    std::array<int, 2> ends{-1, -1};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+      throw Error("chainmail-import", std::string("no pipe can be made (") + std::strerror(errno) + ")",
+                  "close other programs");
+    }
+    const Closed guard{ends};
+    out_ = Descriptor(ends[0]);
+    in_ = Descriptor(ends[1]);
+  }
+
+  int out() const { return out_.number(); }
+  int in() const { return in_.number(); }
+  void close_in() { in_ = Descriptor(); }
+
+ private:
+  struct Closed {
+    const std::array<int, 2>& ends;
+    ~Closed() {
+      ::close(ends[0]);
+      ::close(ends[1]);
+    }
+  };
+
+  Descriptor out_, in_;
+};
+
+/// What the program starts with.
+class SpawnActions {
+ public:
+  SpawnActions() {
+    posix_spawn_file_actions_init(&actions_);
+    for (int standard = 0; standard <= 2; ++standard) {
+      posix_spawn_file_actions_addopen(&actions_, standard, "/dev/null", standard == 0 ? O_RDONLY : O_WRONLY, 0);
+    }
+  }
+  SpawnActions(const SpawnActions&) = delete;
+  SpawnActions& operator=(const SpawnActions&) = delete;
+  ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
+
+  void give(int descriptor, int as) { posix_spawn_file_actions_adddup2(&actions_, descriptor, as); }
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+};
+
+/// The program at work, which does not outlive this.
+class Child {
+ public:
+  Child(std::vector<std::string> words, const ImportInput& input, const Pipe& result, const Pipe& shares) {
+    SpawnActions actions;
+    actions.give(result.in(), import::result_channel);
+    actions.give(shares.in(), import::share_channel);
+    std::vector<Descriptor> files;  // copies, out of the way of where they go
+    int as = import::first_input;
+    for (const RegularFile& file : input.linked()) {
+      files.emplace_back(file.descriptor());
+      actions.give(files.back().number(), as++);
+    }
+    auto environment = environment_in(input.folder().string());
+    const int error = posix_spawn(&process_, words[0].c_str(), actions.get(), nullptr, pointers_to(words).data(),
+                                  pointers_to(environment).data());
+    if (error != 0) {
+      process_ = 0;
+      throw Error(shown(words[0]), std::string("it cannot be started (") + std::strerror(error) + ")",
+                  "install it anew");
+    }
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    if (process_ != 0) {
+      kill(process_, SIGKILL);
+      while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+      }
+    }
+  }
+
+  /// How it ended, as waitpid has it; nothing while it runs.
+  std::optional<int> ended() {
+    int status = 0;
+    if (waitpid(process_, &status, WNOHANG) != process_) {
+      return std::nullopt;
+    }
+    process_ = 0;
+    return status;
+  }
+
+  /// Number of bytes that it has read so far, 0 where the system does not count them.
+  double bytes_read() const {
+    std::ifstream counts("/proc/" + std::to_string(process_) + "/io");
+    std::string word;
+    double bytes = 0;
+    return counts >> word >> bytes && word == "rchar:" ? bytes : 0;
+  }
+
+ private:
+  pid_t process_ = 0;
+};
+
+enum class Ending { closed, too_much, too_late };
+
+/// Reads both pipes until the program has closed the result, or exceeds a limit.
+class Listener {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  Listener(const Pipe& result, const Pipe& shares, const ImportLimits& limits, const Progress& progress)
+      : result_(result),
+        shares_(shares),
+        limits_(limits),
+        progress_(progress),
+        end_(Clock::now() + std::chrono::seconds(limits.wall_seconds)) {}
+
+  /// `share` says how much is done, where the program does not say it itself.
+  template <class Share>
+  Ending listen(Share share) {
+    for (;;) {
+      std::array<pollfd, 2> ready{{{result_.out(), POLLIN, 0}, {shares_.out(), POLLIN, 0}}};
+      poll(ready.data(), shares_open_ ? 2 : 1, wait_milliseconds);
+      progress_.report(std::max(share_, share()));
+      if (shares_open_ && ready[1].revents != 0) {
+        take_share();
+      }
+      if (ready[0].revents != 0 && !take_result()) {
+        return bytes_.size() <= limits_.bytes ? Ending::closed : Ending::too_much;
+      }
+      if (is_late()) {
+        return Ending::too_late;
+      }
+    }
+  }
+  bool is_late() const { return Clock::now() > end_; }
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+
+ private:
+  void take_share() {
+    double share = 0;
+    const ssize_t got = read(shares_.out(), &share, sizeof share);
+    shares_open_ = got > 0;
+    if (got == ssize_t{sizeof share} && share >= 0 && share <= 1) {
+      share_ = share;
+    }
+  }
+  bool take_result() {
+    const std::size_t before = bytes_.size();
+    bytes_.resize(before + piece);
+    const ssize_t got = read(result_.out(), bytes_.data() + before, piece);
+    bytes_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    return (got > 0 || (got < 0 && errno == EINTR)) && bytes_.size() <= limits_.bytes;
+  }
+
+  static constexpr std::size_t piece = std::size_t{1} << 20;
+
+  const Pipe& result_;
+  const Pipe& shares_;
+  const ImportLimits& limits_;
+  const Progress& progress_;
+  Clock::time_point end_;
+  std::vector<std::byte> bytes_;
+  double share_ = 0;
+  bool shares_open_ = true;
+};
+
+[[noreturn]] void refuse_memory(const std::string& where, const ImportLimits& limits) {
+  throw Error(where, "reading it takes more than " + std::to_string(limits.bytes >> 20) + " MiB of memory",
+              "use a smaller file, or another format");
+}
+
+[[noreturn]] void refuse_time(const std::string& where, unsigned seconds) {
+  throw Error(where, "reading it takes longer than " + std::to_string(seconds) + " s",
+              "use a smaller file, or another format");
+}
+
+/// `status` is as waitpid has it.
+void check_end(int status, const std::string& where, const ImportLimits& limits) {
+  if (WIFEXITED(status) && WEXITSTATUS(status) == import::out_of_memory) {
+    refuse_memory(where, limits);
+  }
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
+    refuse_time(where, limits.seconds);
+  }
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) {
+    throw Error(where, "the system ended the program that reads it, as it does when memory is short",
+                "close other programs, or use a smaller file");
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    throw Error(where, "it is damaged: the library that reads it failed on it", "export it anew, or in another format");
+  }
+}
+
+}  // namespace
+
+ImportLimits limits_for(std::uint64_t size) {
+  ImportLimits limits;
+  limits.bytes = (std::uint64_t{2} << 30) + 40 * size;
+  return limits;
+}
+
+Imported run_import(const std::string& task, const ImportInput& input, const std::vector<std::string>& arguments,
+                    const ImportLimits& limits, const Progress& progress) {
+  std::vector<std::string> words{import_program().string(), std::to_string(limits.bytes),
+                                 std::to_string(limits.seconds), task, input.main_file().string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  Pipe result, shares;
+  Child child(std::move(words), input, result, shares);
+  result.close_in();
+  shares.close_in();
+  const std::string where = shown(input.shown_as());
+  const double size = input.bytes_to_read();
+  Listener listener(result, shares, limits, progress);
+  switch (listener.listen([&] { return size > 0 ? std::min(1.0, child.bytes_read() / size) : 0; })) {
+    case Ending::too_much:
+      refuse_memory(where, limits);
+    case Ending::too_late:
+      refuse_time(where, limits.wall_seconds);
+    case Ending::closed:
+      break;
+  }
+  std::optional<int> status;
+  while (!(status = child.ended())) {  // at once, unless it has closed the pipe and goes on
+    progress.report(1);
+    if (listener.is_late()) {
+      refuse_time(where, limits.wall_seconds);
+    }
+    poll(nullptr, 0, 1);
+  }
+  check_end(*status, where, limits);
+  Imported imported = decode_imported(listener.bytes(), input.shown_as());
+  if (const auto* refusal = std::get_if<Refusal>(&imported)) {
+    throw Error(where, refusal->problem, refusal->remedy);
+  }
+  return imported;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,127 @@
+#include <gmsh.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "files/import/program/beginning.h"
+#include "files/import/program/counts.h"
+#include "files/import/program/gmsh_session.h"
+#include "files/import/program/tasks.h"
+#include "mesh/error.h"
+
+namespace chainmail::import {
+namespace {
+
+/// Gmsh's numbers of the types of elements (Geuzaine and Remacle 2009).
+enum GmshType {
+  line = 1,
+  triangle = 2,
+  quadrangle = 3,
+  tetrahedron = 4,
+  hexahedron = 5,
+  prism = 6,
+  pyramid = 7,
+  point = 15
+};
+
+[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) { throw Error("", problem, remedy); }
+
+/// The elements of the tags, in the order of these, and where they stand.
+class Points {
+ public:
+  explicit Points(MeshParts& parts) {
+    std::vector<double> places, unused;
+    gmsh::model::mesh::getNodes(tags_, places, unused);
+    if (tags_.size() > element_limit) {
+      refuse("there are more than " + std::to_string(element_limit) + " points", "use a smaller mesh");
+    }
+    std::vector<std::size_t> order(tags_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [this](auto i, auto j) { return tags_[i] < tags_[j]; });
+    for (const std::size_t i : order) {
+      parts.rest.emplace_back(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
+    }
+    std::sort(tags_.begin(), tags_.end());
+  }
+
+  std::size_t size() const { return tags_.size(); }
+  ElementId of(std::size_t tag) const {
+    const auto found = std::lower_bound(tags_.begin(), tags_.end(), tag);
+    if (found == tags_.end() || *found != tag) {
+      refuse("point " + std::to_string(tag) + " is used and not there", "export it anew");
+    }
+    return static_cast<ElementId>(found - tags_.begin());
+  }
+
+ private:
+  std::vector<std::size_t> tags_;
+};
+
+template <std::size_t Size>
+void take(std::vector<std::array<ElementId, Size>>& groups, const std::vector<std::size_t>& nodes,
+          const Points& points) {
+  for (std::size_t i = 0; i + Size <= nodes.size(); i += Size) {
+    std::array<ElementId, Size> group;
+    std::transform(nodes.begin() + std::ptrdiff_t(i), nodes.begin() + std::ptrdiff_t(i + Size), group.begin(),
+                   [&](std::size_t tag) { return points.of(tag); });
+    groups.push_back(group);
+  }
+}
+
+void take_type(MeshParts& parts, int type, const std::vector<std::size_t>& nodes, const Points& points) {
+  switch (type) {
+    case point:
+      return;
+    case line:
+      return take(parts.links, nodes, points);
+    case triangle:
+      return take(parts.triangles, nodes, points);
+    case quadrangle:
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (i % 4 == 0) {
+          parts.polygons.push_back(4);
+        }
+        parts.polygons.push_back(points.of(nodes[i]));
+      }
+      return;
+    case tetrahedron:
+      return take(parts.tetrahedra, nodes, points);
+    case hexahedron:
+      return take(parts.hexahedra, nodes, points);
+    case prism:
+    case pyramid:
+      refuse("it holds prisms or pyramids", "split them into tetrahedra");
+    default:
+      refuse("it holds elements of higher order or of an uncommon kind (Gmsh's type " + std::to_string(type) + ")",
+             "save it with elements of first order");
+  }
+}
+
+}  // namespace
+
+ImportedMesh read_by_gmsh(const std::string& name, const std::filesystem::path& path) {
+  check_beginning(name, path);
+  GmshSession session;
+  session.open(path);
+  ImportedMesh mesh;
+  const Points points(mesh.parts);
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes);
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    take_type(mesh.parts, types[i], nodes[i], points);
+    taken += tags[i].size();
+  }
+  const FileCounts stated = count_in(name, path);
+  if (stated.elements > taken) {
+    refuse("Gmsh reads only " + std::to_string(taken) + " of its " + std::to_string(stated.elements) +
+               " lines, faces and cells",
+           "save it as another kind of this format, or as .msh");
+  }
+  mesh.unused = stated.points > points.size() ? stated.points - points.size() : 0;
+  return mesh;
+}
+
+}  // namespace chainmail::import

@@ -1,0 +1,128 @@
+// chainmail-import BYTES SECONDS TASK PATH [ARGUMENT…]: the program that core's readers start
+// (files/import/import_process.h).
+
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <new>
+
+#include "files/import/channels.h"
+#include "files/import/program/tasks.h"
+#include "files/import/sandbox.h"
+#include "mesh/error.h"
+
+namespace chainmail::import {
+namespace {
+
+void limit(int resource, rlim_t to, rlim_t until_killed = 0) {
+  const rlimit both{to, to + until_killed};
+  setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
+}
+
+/// Gmsh recurses deeply and does this itself, but not in the sandbox.
+void use_all_of_the_stack() {
+  rlimit stack{};
+  if (getrlimit(RLIMIT_STACK, &stack) == 0) {
+    stack.rlim_cur = stack.rlim_max;
+    setrlimit(RLIMIT_STACK, &stack);
+  }
+}
+
+void set_limits(const char* bytes, const char* seconds) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // who asked is gone: so is the reason
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, std::strtoull(seconds, nullptr, 10), 1);  // first by SIGXCPU, which says why
+#ifndef __SANITIZE_ADDRESS__  // which takes more address space than any machine has memory
+  limit(RLIMIT_AS, std::strtoull(bytes, nullptr, 10));
+#else
+  static_cast<void>(bytes);
+#endif
+}
+
+/// Closes what the parent has open and did not mean to give.
+void close_others() {
+  close_range(STDERR_FILENO + 1, result_channel - 1, 0);
+  close_range(last_input + 1, ~0U, 0);
+}
+
+void report_share(double share) {
+  if (write(share_channel, &share, sizeof share) < 0) {
+    std::_Exit(1);  // nobody listens any more
+  }
+}
+
+using Task = std::function<Imported(const std::filesystem::path&, const std::vector<std::string>&)>;
+
+const std::map<std::string, Task>& tasks() {
+  static const auto polygons = [](const char* name) {
+    return [name](const auto& path, const auto&) { return Imported(read_polygons(name, path)); };
+  };
+  static const auto by_gmsh = [](const char* name) {
+    return [name](const auto& path, const auto&) { return Imported(read_by_gmsh(name, path)); };
+  };
+  static const std::map<std::string, Task> all{
+      {"off", polygons("off")},
+      {"stl", polygons("stl")},
+      {"msh", by_gmsh("msh")},
+      {"mesh", by_gmsh("mesh")},
+      {"nrrd", [](const auto& path, const auto&) { return Imported(read_nrrd(path)); }},
+      {"fill",
+       [](const auto& path, const auto& arguments) {
+         return Imported(fill_surface(path, std::strtod(arguments.at(0).c_str(), nullptr), report_share));
+       }},
+  };
+  return all;
+}
+
+/// Closes the sandbox before a library sees the file.
+Imported carry_out(const std::string& task, const std::filesystem::path& path,
+                   const std::vector<std::string>& arguments) {
+  if (!enter_sandbox()) {
+    return Refusal{"this system cannot confine the program that reads this format (seccomp is missing)",
+                   "use a kernel that has it, or another format"};
+  }
+  try {
+    return tasks().at(task)(path, arguments);
+  } catch (const Error& error) {
+    return Refusal{error.problem(), error.remedy()};
+  }
+}
+
+bool hand_over(const std::vector<std::byte>& bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t written = write(result_channel, bytes.data() + done, bytes.size() - done);
+    if (written <= 0) {
+      return false;
+    }
+    done += static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+}  // namespace
+}  // namespace chainmail::import
+
+int main(int count, char** words) {
+  using namespace chainmail::import;
+  if (count < 5) {
+    std::fputs("chainmail-import: it is started by chainmail and workbench, which read meshes through it\n", stderr);
+    return 2;
+  }
+  close_others();
+  set_limits(words[1], words[2]);
+  use_all_of_the_stack();
+  try {
+    const auto imported = carry_out(words[3], words[4], {words + 5, words + count});
+    // Without the libraries' own clearing up: what they have read may be damaged.
+    std::_Exit(hand_over(chainmail::encode_imported(imported)) ? 0 : 1);
+  } catch (const std::bad_alloc&) {
+    std::_Exit(out_of_memory);
+  } catch (...) {
+    std::_Exit(1);
+  }
+}

@@ -1,0 +1,72 @@
+#include <teem/nrrd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+#include "files/import/program/tasks.h"
+#include "files/text/text.h"
+#include "mesh/error.h"
+
+namespace chainmail::import {
+namespace {
+
+struct Remove {
+  void operator()(Nrrd* nrrd) const { nrrdNuke(nrrd); }
+};
+
+[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) { throw Error("", problem, remedy); }
+
+constexpr std::size_t longest = 150;
+
+/// The last word of teem's account, which begins with what went wrong first.
+std::string complaint() {
+  const std::unique_ptr<char, decltype(&std::free)> text(biffGetDone(NRRD), &std::free);
+  const std::string all = text ? text.get() : "";
+  const std::size_t last = all.find_last_not_of(" \r\n");
+  if (last == std::string::npos) {
+    return "it does not say why";
+  }
+  const std::size_t first = all.rfind('\n', last) + 1;
+  return printable(all.substr(first, std::min(longest, last + 1 - first)));
+}
+
+/// From voxel to voxel: as the file says it of the axis, or as the length of its direction in space, or 1.
+double spacing_of(const NrrdAxisInfo& axis, unsigned dimension) {
+  double squares = 0;
+  for (unsigned k = 0; k < dimension; ++k) {
+    squares += axis.spaceDirection[k] * axis.spaceDirection[k];
+  }
+  for (const double spacing : {std::abs(axis.spacing), std::sqrt(squares)}) {
+    if (std::isfinite(spacing) && spacing > 0) {
+      return spacing;
+    }
+  }
+  return 1;
+}
+
+}  // namespace
+
+Volume read_nrrd(const std::filesystem::path& path) {
+  const std::unique_ptr<Nrrd, Remove> file(nrrdNew());
+  if (nrrdLoad(file.get(), path.c_str(), nullptr) != 0) {
+    refuse("teem cannot read it (" + complaint() + ")", "export it anew");
+  }
+  if (file->dim != 3 || file->type == nrrdTypeBlock) {
+    refuse("it has " + std::to_string(file->dim) + " axes, and a volume of densities has 3",
+           "save one channel and one moment of it");
+  }
+  Volume volume;
+  volume.size = checked_volume_size("", {file->axis[0].size, file->axis[1].size, file->axis[2].size});
+  for (int k = 0; k < 3; ++k) {
+    volume.spacing[k] = spacing_of(file->axis[k], file->spaceDim);
+    const double origin = file->spaceDim == 3 ? file->spaceOrigin[k] : file->axis[k].min;
+    volume.origin[k] = std::isfinite(origin) ? origin : 0;
+  }
+  const auto number = nrrdDLookup[file->type];
+  take_densities(volume, "", [&](std::size_t i) { return number(file->data, i); });
+  return volume;
+}
+
+}  // namespace chainmail::import

@@ -1,0 +1,167 @@
+#include "files/mesh/flaws.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "mesh/cells.h"
+
+namespace chainmail {
+namespace {
+
+// A face or cell counts as flat when it has less than this share of the area or volume that its longest edge would
+// allow: well above what rounding leaves of a flat one, well below any that can be seen to be none.
+constexpr double flat_share = 1e-9;
+
+template <std::size_t Size>
+std::array<ElementId, Size> sorted(std::array<ElementId, Size> corners) {
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+bool names_one_twice(std::span<const ElementId> ascending) {
+  return std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end();
+}
+
+/// Says of each of `count` groups of corners whether it is left out; `corners(i)` gives them ascending.
+template <class Corners>
+std::vector<bool> left_out(std::size_t count, Corners corners, MeshFlaws& flaws) {
+  std::vector<bool> out(count, false);
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto group = corners(i);
+    out[i] = names_one_twice(group);
+    flaws.collapsed += out[i] ? 1 : 0;
+    if (!out[i]) {
+      order.push_back(i);
+    }
+  }
+  std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return corners(i) < corners(j); });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (corners(order[i]) == corners(order[i - 1])) {
+      out[order[i]] = true;
+      ++flaws.doubled;
+    }
+  }
+  return out;
+}
+
+template <std::size_t Size>
+void leave_out(std::vector<std::array<ElementId, Size>>& groups, MeshFlaws& flaws) {
+  const auto out = left_out(
+      groups.size(), [&](std::size_t i) { return sorted(groups[i]); }, flaws);
+  std::size_t place = 0;
+  std::erase_if(groups, [&](const auto& /*group*/) { return out[place++]; });
+}
+
+void leave_out_polygons(std::vector<ElementId>& polygons, MeshFlaws& flaws) {
+  std::vector<std::size_t> begins;
+  for (std::size_t i = 0; i < polygons.size(); i += polygons[i] + 1) {
+    begins.push_back(i);
+  }
+  const auto corners = [&](std::size_t i) {
+    const auto first = polygons.begin() + std::ptrdiff_t(begins[i]) + 1;
+    std::vector<ElementId> group(first, first + polygons[begins[i]]);
+    std::sort(group.begin(), group.end());
+    return group;
+  };
+  const auto out = left_out(begins.size(), corners, flaws);
+  std::vector<ElementId> kept;
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    if (!out[i]) {
+      const auto first = polygons.begin() + std::ptrdiff_t(begins[i]);
+      kept.insert(kept.end(), first, first + *first + 1);
+    }
+  }
+  polygons = std::move(kept);
+}
+
+/// The longest of the edges from a cell's first corner, or the face's.
+double longest(std::initializer_list<Point> edges) {
+  double length = 0;
+  for (const Point& edge : edges) {
+    length = std::max(length, edge.stableNorm());
+  }
+  return length;
+}
+
+void count_volume(double volume, double length, MeshFlaws& flaws) {
+  if (!(std::abs(volume) > flat_share * length * length * length)) {
+    ++flaws.flat;
+  } else if (volume < 0) {
+    ++flaws.inverted;
+  }
+}
+
+void count_coincident(const Mesh& mesh, MeshFlaws& flaws) {
+  const int dimension = mesh.space_dimension;
+  std::vector<ElementId> order(mesh.element_count());
+  std::iota(order.begin(), order.end(), ElementId{0});
+  const auto place = [&](ElementId e) { return std::span(mesh.rest).subspan(std::size_t{e} * dimension, dimension); };
+  std::sort(order.begin(), order.end(),
+            [&](ElementId a, ElementId b) { return std::ranges::lexicographical_compare(place(a), place(b)); });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    flaws.coincident += std::ranges::equal(place(order[i]), place(order[i - 1])) ? 1 : 0;
+  }
+}
+
+void add_words(std::string& words, std::uint64_t count, const char* one, const char* several, const char* behind) {
+  if (count > 0) {
+    words += (words.empty() ? "" : ", ") + std::to_string(count) + " " + (count == 1 ? one : several) + behind;
+  }
+}
+
+}  // namespace
+
+void leave_out_flawed(MeshParts& parts, MeshFlaws& flaws) {
+  std::erase_if(parts.links, [](const auto& link) { return link[0] == link[1]; });
+  leave_out(parts.triangles, flaws);
+  leave_out_polygons(parts.polygons, flaws);
+  leave_out(parts.tetrahedra, flaws);
+  leave_out(parts.hexahedra, flaws);
+}
+
+void count_flaws(const Mesh& mesh, MeshFlaws& flaws) {
+  const auto at = [&](ElementId e) { return mesh.rest_position(e); };
+  for (std::size_t i = 0; i < mesh.own_triangles; ++i) {
+    const auto& t = mesh.triangles[i];
+    const Point u = at(t[1]) - at(t[0]), v = at(t[2]) - at(t[0]);
+    const double length = longest({u, v, v - u});
+    flaws.flat += u.cross(v).norm() > flat_share * length * length ? 0 : 1;
+  }
+  for (const auto& t : mesh.tetrahedra) {
+    const Point u = at(t[1]) - at(t[0]), v = at(t[2]) - at(t[0]), w = at(t[3]) - at(t[0]);
+    count_volume(u.cross(v).dot(w), longest({u, v, w}), flaws);
+  }
+  for (const auto& h : mesh.hexahedra) {
+    // The mean edges along its three ways: their box has about its volume, and its sign.
+    const auto mean = [&](std::array<int, 8> way) {
+      Point sum = Point::Zero();
+      for (int i = 0; i < 8; i += 2) {
+        sum += at(h[way[i + 1]]) - at(h[way[i]]);
+      }
+      return Point(sum / 4);
+    };
+    const Point u = mean({0, 1, 3, 2, 4, 5, 7, 6}), v = mean({0, 3, 1, 2, 4, 7, 5, 6}),
+                w = mean({0, 4, 1, 5, 2, 6, 3, 7});
+    count_volume(u.cross(v).dot(w), longest({u, v, w}), flaws);
+  }
+  count_coincident(mesh, flaws);
+}
+
+std::string in_words(const MeshFlaws& flaws) {
+  std::string out, kept;
+  add_words(out, flaws.unused, "point", "points", " that nothing uses");
+  add_words(out, flaws.collapsed, "face or cell", "faces or cells", " with a point named twice");
+  add_words(out, flaws.doubled, "face or cell", "faces or cells", " there already");
+  add_words(kept, flaws.flat, "face or cell is flat", "faces or cells are flat", "");
+  add_words(kept, flaws.inverted, "cell is inside out", "cells are inside out", "");
+  add_words(kept, flaws.coincident, "element stands where another does", "elements stand where another does", "");
+  out += out.empty() ? "" : " left out" + std::string(flaws.unused > 0 ? " (ids count the others)" : "");
+  return out + (out.empty() || kept.empty() ? "" : "; ") + kept;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,80 @@
+#include "files/results/summary.h"
+
+#include <nlohmann/json.hpp>
+
+namespace chainmail {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Point& point) { return {point.x(), point.y(), point.z()}; }
+
+}  // namespace
+
+MeshSummary summarize(const Mesh& mesh) {
+  MeshSummary summary;
+  summary.elements = mesh.element_count();
+  summary.links = mesh.link_count();
+  summary.triangles = mesh.triangles.size();
+  summary.tetrahedra = mesh.tetrahedra.size();
+  summary.hexahedra = mesh.hexahedra.size();
+  summary.object_dimension = mesh.object_dimension;
+  summary.space_dimension = mesh.space_dimension;
+  summary.components = mesh.part_count;
+  summary.bounds = bounds(mesh);
+  summary.mean_link_length = mesh.mean_link_length;
+  return summary;
+}
+
+MeshSummary summarize(const OpenedMesh& opened) {
+  MeshSummary summary = summarize(*opened.mesh);
+  summary.flaws = opened.flaws;
+  summary.remark = opened.remark;
+  return summary;
+}
+
+void write_json(std::ostream& out, const MeshSummary& summary) {
+  const MeshFlaws& flaws = summary.flaws;
+  const Json json{{"elements", summary.elements},
+                  {"links", summary.links},
+                  {"triangles", summary.triangles},
+                  {"tetrahedra", summary.tetrahedra},
+                  {"hexahedra", summary.hexahedra},
+                  {"object_dimension", summary.object_dimension},
+                  {"space_dimension", summary.space_dimension},
+                  {"components", summary.components},
+                  {"bounds", {to_json(summary.bounds[0]), to_json(summary.bounds[1])}},
+                  {"mean_link_length", summary.mean_link_length},
+                  {"left_out", {{"unused", flaws.unused}, {"collapsed", flaws.collapsed}, {"doubled", flaws.doubled}}},
+                  {"flaws", {{"flat", flaws.flat}, {"inverted", flaws.inverted}, {"coincident", flaws.coincident}}}};
+  out << json.dump(2) << '\n';
+}
+
+void write_json(std::ostream& out, const DeformSummary& summary) {
+  Json passes = Json::array();
+  for (const auto& pass : summary.passes) {
+    Json one{{"element", pass.element},
+             {"target", to_json(pass.target)},
+             {"checked", pass.checked},
+             {"moved", pass.moved},
+             {"milliseconds", pass.milliseconds}};
+    if (pass.stopped_at) {
+      one["stopped_at"] = to_json(*pass.stopped_at);
+    }
+    if (!pass.remark.empty()) {
+      one["remark"] = pass.remark;
+    }
+    passes.push_back(std::move(one));
+  }
+  const auto& violation = summary.violation;
+  const Json json{{"algorithm", summary.algorithm},
+                  {"elements", summary.elements},
+                  {"links", summary.links},
+                  {"passes", std::move(passes)},
+                  {"violation", {{"max", violation.max}, {"rms", violation.rms}, {"fraction", violation.fraction}}},
+                  {"energy", summary.energy},
+                  {"displacement", {{"max", summary.displacement.max}, {"rms", summary.displacement.rms}}}};
+  out << json.dump(2) << '\n';
+}
+
+}  // namespace chainmail

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <ostream>
+#include <vector>
+
+#include "solve/trace.h"
+
+namespace chainmail {
+
+/// CSV `pass,order,element,sponsor,moved`: every candidate of every pass, in order. Passes and orders
+/// count from 0; moved is 1 or 0; where there is no sponsor it is -1.
+void write_trace_csv(std::ostream& out, const std::vector<Trace>& passes);
+
+}  // namespace chainmail

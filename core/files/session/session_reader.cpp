@@ -1,0 +1,242 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "files/session/moves.h"
+#include "files/session/session.h"
+#include "files/session/session_fields.h"
+#include "files/text/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+using Json = nlohmann::json;
+
+class SessionReader {
+ public:
+  SessionReader(const SessionJson& json, const std::filesystem::path& path)
+      : path_(path), file_(shown(path)), fields_(file_, json), tree_(json.tree), moves_(json.moves) {}
+
+  Session read(const Progress& progress);
+
+ private:
+  void check_kind() const;
+  void take_cuts();
+  void take_pins();
+  void take_softness();
+  void take_own(Softness& softness, const Json& object);
+  void take_relaxation();
+  void take_elastic();
+  void take_panels();
+  void take_moves(const Progress& progress);
+  Session::Panel panel(const Json& object);
+  Placement placement(const Json& object, Precision precision) const;
+
+  const std::filesystem::path& path_;
+  std::string file_;
+  SessionFields fields_;  // of the file, then of each member
+  const Json& tree_;
+  std::string_view moves_;
+  Session result_;
+};
+
+void SessionReader::check_kind() const {
+  const bool is_session = tree_.is_object() && tree_.contains("format") && tree_["format"] == Json("chainmail session");
+  if (!is_session) {
+    fields_.fail("it holds no session", "give one that the workbench has saved");
+  }
+  fields_.count(tree_, "version", session_version);
+  fields_.check_keys(tree_, {"format", "version", "name", "mesh", "cuts", "pins", "softness", "relaxation", "elastic",
+                             "panels", "moves", "moves_done", "ui"});
+}
+
+void SessionReader::take_cuts() {
+  const auto& ends = fields_.elements(tree_, "cuts", result_.mesh->element_count());
+  fields_.check_groups(ends.size(), 2, "cuts");
+  for (std::size_t i = 0; i < ends.size(); i += 2) {
+    result_.cuts.push_back(fields_.link(*result_.mesh, ends[i], ends[i + 1]));
+  }
+  std::sort(result_.cuts.begin(), result_.cuts.end());
+  if (std::adjacent_find(result_.cuts.begin(), result_.cuts.end()) != result_.cuts.end()) {
+    fields_.fail("'cuts' holds a link twice", "give each link once");
+  }
+}
+
+void SessionReader::take_pins() {
+  result_.pins = fields_.elements(tree_, "pins", result_.mesh->element_count());
+  std::sort(result_.pins.begin(), result_.pins.end());
+  if (std::adjacent_find(result_.pins.begin(), result_.pins.end()) != result_.pins.end()) {
+    fields_.fail("'pins' holds an element twice", "give each element once");
+  }
+}
+
+void SessionReader::take_softness() {
+  const Json& object = fields_.object(tree_, "softness");
+  fields_.say_at(file_ + ": softness");
+  fields_.check_keys(object, {"compression", "stretch", "shear", "own"});
+  const auto number = [&](const char* key) -> const Json& { return fields_.member(object, key); };
+  Softness softness{fields_.softness(number("compression"), number("stretch"), number("shear")), {}};
+  take_own(softness, object);
+  try {
+    for (const auto& [link, own] : softness.links) {
+      check(own);
+    }
+  } catch (const Error& error) {
+    throw error.at(file_ + ": softness: " + error.where());
+  }
+  result_.softness = std::make_shared<const Softness>(std::move(softness));
+}
+
+void SessionReader::take_own(Softness& softness, const Json& object) {
+  const auto& own = fields_.reals(object, "own");
+  fields_.check_groups(own.size(), 5, "own");
+  const double count = result_.mesh->element_count();
+  for (std::size_t i = 0; i < own.size(); i += 5) {
+    for (const double end : {own[i], own[i + 1]}) {
+      if (!(end >= 0 && end < count && end == std::floor(end))) {
+        fields_.fail("'own' names no element in its link " + std::to_string(i / 5), "ids are whole numbers from 0");
+      }
+    }
+    const auto a = static_cast<ElementId>(own[i]), b = static_cast<ElementId>(own[i + 1]);
+    const LinkId link = fields_.link(*result_.mesh, a, b);
+    if (!softness.links.emplace(link, LinkSoftness{own[i + 2], own[i + 3], own[i + 4]}).second) {
+      fields_.fail("the link " + std::to_string(a) + "-" + std::to_string(b) + " is given twice", "remove one of them");
+    }
+  }
+}
+
+void SessionReader::take_relaxation() {
+  const Json& object = fields_.object(tree_, "relaxation");
+  fields_.say_at(file_ + ": relaxation");
+  fields_.check_keys(object, {"on", "scheme", "step"});
+  const std::string scheme = fields_.text(object, "scheme");
+  if (scheme != "mean" && scheme != "link") {
+    fields_.fail("'scheme' names none", "use mean or link");
+  }
+  const double step = fields_.number(fields_.member(object, "step"));
+  if (!(step > 0 && step <= 1)) {
+    fields_.fail("'step' must lie above 0 and up to 1", "1 goes all the way to the mean");
+  }
+  result_.relaxation = {fields_.boolean(object, "on"), step,
+                        scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link};
+}
+
+void SessionReader::take_elastic() {
+  if (!tree_.contains("elastic")) {
+    return;
+  }
+  const Json& object = fields_.object(tree_, "elastic");
+  fields_.say_at(file_ + ": elastic");
+  fields_.check_keys(object, {"young", "poisson", "lattice"});
+  ElasticOptions options;
+  options.material = {fields_.number(fields_.member(object, "young")),
+                      fields_.number(fields_.member(object, "poisson"))};
+  const Json& lattice = fields_.array(object, "lattice");
+  if (lattice.size() != options.lattice.size()) {
+    fields_.fail("'lattice' has " + std::to_string(lattice.size()) + " numbers", "give one for each of three axes");
+  }
+  for (std::size_t k = 0; k < lattice.size(); ++k) {
+    options.lattice[k] = lattice[k].is_number_unsigned() && lattice[k] < Json(9U) ? lattice[k].get<std::uint32_t>() : 0;
+  }
+  try {
+    check(options);
+  } catch (const Error& error) {
+    throw error.at(fields_.where() + ": " + error.where());
+  }
+  result_.elastic = options;
+}
+
+Placement SessionReader::placement(const Json& object, Precision precision) const {
+  Placement result{fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held")};
+  check(result, *result_.mesh, precision);
+  if (precision == Precision::single_precision) {
+    for (double& held : result.held) {
+      held = static_cast<float>(held);
+    }
+  }
+  return result;
+}
+
+Session::Panel SessionReader::panel(const Json& object) {
+  if (!object.is_object()) {
+    fields_.fail("it is not an object", "write it in { }");
+  }
+  fields_.check_keys(object, {"algorithm", "precision", "from_rest", "runs", "held"});
+  const auto algorithm = find_algorithm(fields_.text(object, "algorithm"));
+  if (!algorithm) {
+    fields_.fail("'algorithm' names none", "use one that 'chainmail deform --help' lists");
+  }
+  const std::string precision = fields_.text(object, "precision");
+  if (precision != "float" && precision != "double") {
+    fields_.fail("'precision' names none", "use float or double");
+  }
+  const auto chosen = precision == "float" ? Precision::single_precision : Precision::double_precision;
+  try {
+    check(*algorithm, *result_.mesh);
+    return {*algorithm, chosen, placement(object, chosen)};
+  } catch (const Error& error) {
+    const bool ours = error.where() == fields_.where();
+    throw ours ? error : error.at(fields_.where() + ": " + error.where());
+  }
+}
+
+void SessionReader::take_panels() {
+  const Json& panels = fields_.array(tree_, "panels");
+  if (panels.empty() || panels.size() > session_panels) {
+    fields_.fail("it has " + std::to_string(panels.size()) + " panels", "give 1 to " + std::to_string(session_panels));
+  }
+  for (const Json& one : panels) {
+    fields_.say_at(file_ + ": panel " + std::to_string(result_.panels.size()));
+    result_.panels.push_back(panel(one));
+  }
+}
+
+void SessionReader::take_moves(const Progress& progress) {
+  if (!tree_.contains("moves")) {
+    return;
+  }
+  const std::string_view text = moves_.empty() ? "null" : moves_;  // a number or a text is none either
+  result_.moves = read_moves(text, path_, file_ + ": moves", *result_.mesh, progress);
+  const Json& done = fields_.member(tree_, "moves_done");
+  if (!done.is_number_unsigned() || done.get<std::uint64_t>() > result_.moves.size()) {
+    fields_.fail("'moves_done' is not a whole number up to how many moves there are",
+                 "write how many were carried out");
+  }
+  result_.moves_done = done.get<std::size_t>();
+}
+
+Session SessionReader::read(const Progress& progress) {
+  check_kind();
+  result_.name = fields_.text(tree_, "name");
+  const Json& mesh = fields_.object(tree_, "mesh");
+  fields_.say_at(file_ + ": mesh");
+  result_.mesh = read_session_mesh(fields_, mesh, progress.part(0, 0.8));
+  fields_.say_at(file_);
+  take_cuts();
+  take_pins();
+  result_.ui = fields_.object(tree_, "ui").dump();
+  take_softness();
+  take_relaxation();
+  fields_.say_at(file_);
+  take_elastic();
+  fields_.say_at(file_);
+  progress.report(0.85);
+  take_panels();
+  fields_.say_at(file_);
+  take_moves(progress.part(0.9, 1));
+  return std::move(result_);
+}
+
+}  // namespace
+
+Session parse_session(std::string_view text, const std::filesystem::path& path, const Progress& progress) {
+  const SessionJson json = parse_session_json(text, path, progress.part(0, 0.6));
+  return SessionReader(json, path).read(progress.part(0.6, 1));
+}
+
+Session read_session(const std::filesystem::path& path, const Progress& progress) {
+  return parse_session(read_text(path, "a session", progress.part(0, 0.1)), path, progress.part(0.1, 1));
+}
+
+}  // namespace chainmail

@@ -1,0 +1,264 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "files/session/moves.h"
+#include "files/session/session.h"
+#include "files/session/session_json.h"
+#include "files/session/session_texture.h"
+#include "files/text/outputs.h"
+#include "files/text/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The fewest digits that read back, by way of a double, as the same number of the precision.
+class Digits {
+ public:
+  std::string_view operator()(double number, Precision precision) {
+    if (!std::isfinite(number)) {
+      throw Error("session", "a coordinate is no finite number", "reset the object first");
+    }
+    if (number == 0 && std::signbit(number)) {
+      return "-0.0";  // -0 would be a whole number
+    }
+    const auto single = static_cast<float>(number);
+    if (precision == Precision::single_precision && double(single) == number) {
+      const std::string_view shorter = text(single);
+      double back = 0;
+      std::from_chars(shorter.data(), shorter.data() + shorter.size(), back);
+      // Rounded twice, a float beside the middle of two may become its neighbour.
+      if (static_cast<float>(back) == single) {
+        return shorter;
+      }
+    }
+    return text(number);
+  }
+
+ private:
+  template <class Number>
+  std::string_view text(Number number) {
+    return {digits_.data(), std::to_chars(digits_.data(), digits_.data() + digits_.size(), number).ptr};
+  }
+
+  std::array<char, 32> digits_;
+};
+
+/// How much a command takes, in drags.
+std::size_t weight(const Command& command) {
+  return std::visit(
+      [](const auto& one) -> std::size_t {
+        if constexpr (requires { one.links; }) {
+          return 1 + one.links.size();
+        } else if constexpr (requires { one.elements; }) {
+          return 1 + one.elements.size();
+        } else if constexpr (requires { one.softness; }) {
+          return 1 + one.softness->links.size();
+        } else {
+          return 1;
+        }
+      },
+      command);
+}
+
+class SessionWriter {
+ public:
+  SessionWriter(std::ostream& out, const Session& session) : out_(out), session_(session), mesh_(*session.mesh) {}
+
+  void write(const Progress& progress);
+
+ private:
+  static constexpr std::size_t in_line = 24;  // numbers
+
+  void write_mesh(const Progress& progress);
+  void write_links(const Progress& progress);
+  void write_state();
+  void write_softness();
+  void write_moves(const Progress& progress);
+  void write_panel(const Session::Panel& panel, const Progress& progress);
+  /// A member and its numbers, of which `put(i)` writes the next.
+  template <class Put>
+  void write_array(const char* key, std::size_t size, const Progress& progress, Put put);
+  void write_ids(const char* key, std::span<const std::uint32_t> ids, const Progress& progress = {});
+  template <std::size_t Size>
+  void write_groups(const char* key, std::span<const std::array<ElementId, Size>> groups, const Progress& progress);
+
+  TextBlocks out_;
+  const Session& session_;
+  const Mesh& mesh_;
+  Digits digits_;
+};
+
+template <class Put>
+void SessionWriter::write_array(const char* key, std::size_t size, const Progress& progress, Put put) {
+  out_ << ",\n\"" << std::string_view(key) << "\": [";
+  for (std::size_t i = 0; i < size; ++i) {
+    progress.report(i, size);
+    if (i > 0) {
+      out_ << ',';
+    }
+    if (i % in_line == 0 && size > in_line) {
+      out_ << '\n';
+    }
+    put(i);
+  }
+  out_ << ']';
+}
+
+void SessionWriter::write_ids(const char* key, std::span<const std::uint32_t> ids, const Progress& progress) {
+  write_array(key, ids.size(), progress, [&](std::size_t i) { out_ << ids[i]; });
+}
+
+template <std::size_t Size>
+void SessionWriter::write_groups(const char* key, std::span<const std::array<ElementId, Size>> groups,
+                                 const Progress& progress) {
+  write_array(key, Size * groups.size(), progress, [&](std::size_t i) { out_ << groups[i / Size][i % Size]; });
+}
+
+/// As pairs, or, where neighbours stand in an order of their own, row by row.
+void SessionWriter::write_links(const Progress& progress) {
+  bool ascending = true;
+  for (ElementId e = 0; e < mesh_.element_count() && ascending; ++e) {
+    progress.part(0, 0.1).report(e, mesh_.element_count());
+    ascending = std::ranges::is_sorted(mesh_.neighbours_of(e));
+  }
+  if (ascending) {
+    write_groups<2>("links", mesh_.links, progress.part(0.1, 1));
+    return;
+  }
+  write_array("counts", mesh_.element_count(), progress.part(0.1, 0.3), [&](std::size_t e) {
+    out_ << static_cast<std::uint32_t>(mesh_.neighbours_of(static_cast<ElementId>(e)).size());
+  });
+  write_ids("neighbours", mesh_.neighbours, progress.part(0.3, 1));
+}
+
+void SessionWriter::write_mesh(const Progress& progress) {
+  out_ << "\"mesh\": {\"elements\": " << mesh_.element_count()
+       << ", \"space\": " << static_cast<std::uint32_t>(mesh_.space_dimension);
+  if (mesh_.lattice) {
+    const Json lattice{{"size", mesh_.lattice->size}, {"spacing", mesh_.lattice->spacing}};
+    out_ << ", \"lattice\": " << lattice.dump();
+  }
+  Point point;
+  write_array("rest", std::size_t{3} * mesh_.element_count(), progress.part(0, 0.3), [&](std::size_t i) {
+    if (i % 3 == 0) {
+      point = mesh_.rest_position(static_cast<ElementId>(i / 3));
+    }
+    out_ << digits_(point[static_cast<Eigen::Index>(i % 3)], Precision::double_precision);
+  });
+  write_links(progress.part(0.3, 0.8));
+  write_groups<3>("triangles", std::span(mesh_.triangles).first(mesh_.own_triangles), progress.part(0.8, 0.9));
+  write_ids("polygons", mesh_.polygons);
+  write_groups<4>("tetrahedra", mesh_.tetrahedra, progress.part(0.9, 1));
+  if (!mesh_.hexahedra.empty()) {
+    write_groups<8>("hexahedra", mesh_.hexahedra, progress);
+  }
+  if (mesh_.texture) {
+    out_ << ",\n\"texture\": ";
+    write_session_texture(out_, *mesh_.texture, progress.part(0.9, 1));
+  }
+  out_ << "}";
+}
+
+void SessionWriter::write_softness() {
+  const auto& [global, links] = *session_.softness;
+  const Json json{{"compression", global.compression}, {"stretch", global.stretch}, {"shear", global.shear}};
+  const std::string text = json.dump();
+  out_ << ",\n\"softness\": " << std::string_view(text).substr(0, text.size() - 1);
+  auto own = links.begin();
+  write_array("own", 5 * links.size(), {}, [&](std::size_t i) {
+    const auto& [link, softness] = *own;
+    const std::array values{double(mesh_.links[link][0]), double(mesh_.links[link][1]), softness.compression,
+                            softness.stretch, softness.shear};
+    out_ << digits_(values[i % 5], Precision::double_precision);
+    own = i % 5 == 4 ? std::next(own) : own;
+  });
+  out_ << "}";
+}
+
+void SessionWriter::write_state() {
+  write_array("cuts", 2 * session_.cuts.size(), {},
+              [&](std::size_t i) { out_ << mesh_.links[session_.cuts[i / 2]][i % 2]; });
+  write_ids("pins", session_.pins);
+  write_softness();
+  const Json relaxation{{"on", session_.relaxation.on},
+                        {"scheme", session_.relaxation.scheme == RelaxationScheme::mean ? "mean" : "link"},
+                        {"step", session_.relaxation.step}};
+  out_ << ",\n\"relaxation\": " << relaxation.dump();
+  if (session_.elastic != ElasticOptions()) {
+    const auto& [material, lattice] = session_.elastic;
+    const Json elastic{{"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}};
+    out_ << ",\n\"elastic\": " << elastic.dump();
+  }
+}
+
+void SessionWriter::write_panel(const Session::Panel& panel, const Progress& progress) {
+  const Placement& placement = panel.placement;
+  const bool single = panel.precision == Precision::single_precision;
+  out_ << "\n{\"algorithm\": \"" << info(panel.algorithm).name << "\", \"precision\": \""
+       << std::string_view(single ? "float" : "double")
+       << "\", \"from_rest\": " << std::string_view(placement.from_rest ? "true" : "false");
+  write_ids("runs", placement.runs);
+  write_array("held", placement.held.size(), progress,
+              [&](std::size_t i) { out_ << digits_(placement.held[i], panel.precision); });
+  out_ << "}";
+}
+
+void SessionWriter::write_moves(const Progress& progress) {
+  std::size_t all = 0;
+  for (const Command& command : session_.moves) {
+    all += weight(command);
+  }
+  if (all > 0 && all <= session_moves) {
+    std::ostringstream moves;
+    chainmail::write_moves(moves, session_.moves, mesh_, progress);
+    out_ << ",\n\"moves\": " << std::string_view(moves.str())
+         << ",\"moves_done\": " << static_cast<std::uint32_t>(session_.moves_done);
+  }
+}
+
+void SessionWriter::write(const Progress& progress) {
+  const std::string name = Json(session_.name).dump(-1, ' ', false, Json::error_handler_t::replace);
+  out_ << "{\"format\": \"chainmail session\", \"version\": " << std::uint32_t{session_version}
+       << ", \"name\": " << name << ",\n";
+  write_mesh(progress.part(0, 0.5));
+  write_state();
+  out_ << ",\n\"panels\": [";
+  const auto share = 0.45 / double(session_.panels.size());
+  for (std::size_t i = 0; i < session_.panels.size(); ++i) {
+    if (i > 0) {
+      out_ << ',';
+    }
+    write_panel(session_.panels[i], progress.part(0.5 + share * double(i), 0.5 + share * double(i + 1)));
+  }
+  out_ << "]";
+  write_moves(progress.part(0.95, 1));
+  out_ << ",\n\"ui\": " << session_.ui << "}\n";
+  out_.flush();
+}
+
+}  // namespace
+
+bool is_session(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == session_ending;
+}
+
+void write_session(std::ostream& out, const Session& session, const Progress& progress) {
+  SessionWriter(out, session).write(progress);
+}
+
+void save_session(const std::filesystem::path& path, const Session& session, const Progress& progress) {
+  write_file(path, [&](std::ostream& out) { write_session(out, session, progress); });
+}
+
+}  // namespace chainmail

@@ -1,0 +1,135 @@
+#include "files/session/softness_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "files/text/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+constexpr std::array<std::string_view, 5> names{"a", "b", "compression", "stretch", "shear"};
+constexpr const char* form = "write 'a,b,compression,stretch,shear'";
+
+std::string_view trimmed(std::string_view text) {
+  static constexpr std::string_view blanks = " \t";
+  const std::size_t first = std::min(text.find_first_not_of(blanks), text.size());
+  text.remove_prefix(first);
+  return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (;;) {
+    const std::size_t end = std::min(line.find(','), line.size());
+    fields.push_back(trimmed(line.substr(0, end)));
+    if (end == line.size()) {
+      return fields;
+    }
+    line.remove_prefix(end + 1);
+  }
+}
+
+class SoftnessReader {
+ public:
+  SoftnessReader(const std::filesystem::path& path, const Mesh& mesh) : path_(path), mesh_(mesh) {}
+
+  std::map<LinkId, LinkSoftness> read(std::string_view text);
+
+ private:
+  [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
+    throw Error(shown(path_, line_), problem, remedy);
+  }
+  void read_row(const std::vector<std::string_view>& fields);
+  LinkId read_link(std::string_view first, std::string_view second) const;
+  ElementId read_id(std::string_view field) const;
+  double read_number(std::string_view field) const;
+
+  const std::filesystem::path& path_;
+  const Mesh& mesh_;
+  std::size_t line_ = 0;
+  std::map<LinkId, LinkSoftness> result_;
+  std::map<LinkId, std::size_t> line_of_;
+};
+
+ElementId SoftnessReader::read_id(std::string_view field) const {
+  const auto id = parse_count(field);
+  if (!id) {
+    fail(in_quotes(field) + " is not an element's id", "ids are whole numbers from 0");
+  }
+  if (*id >= mesh_.element_count()) {
+    fail("there is no element " + std::to_string(*id),
+         "ids run from 0 to " + std::to_string(mesh_.element_count() - 1));
+  }
+  return *id;
+}
+
+double SoftnessReader::read_number(std::string_view field) const {
+  const auto number = parse_number(field);
+  if (!number) {
+    fail(in_quotes(field) + " is not a finite number", "write a decimal number like 0.5");
+  }
+  return *number;
+}
+
+LinkId SoftnessReader::read_link(std::string_view first, std::string_view second) const {
+  const ElementId a = read_id(first), b = read_id(second);
+  const auto link = find_link(mesh_, a, b);
+  if (!link) {
+    fail("the elements " + std::to_string(a) + " and " + std::to_string(b) + " are not linked",
+         "give the two ends of a link");
+  }
+  return *link;
+}
+
+void SoftnessReader::read_row(const std::vector<std::string_view>& fields) {
+  if (fields.size() != names.size()) {
+    fail("the row has " + std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields") + ", not five",
+         form);
+  }
+  const LinkId link = read_link(fields[0], fields[1]);
+  const LinkSoftness softness{read_number(fields[2]), read_number(fields[3]), read_number(fields[4])};
+  try {
+    check(softness);
+  } catch (const Error& error) {
+    throw error.at(shown(path_, line_) + ": " + error.where());
+  }
+  if (const auto [known, is_new] = line_of_.emplace(link, line_); !is_new) {
+    fail("this link is given twice, first in line " + std::to_string(known->second), "remove one of the rows");
+  }
+  result_.emplace(link, softness);
+}
+
+std::map<LinkId, LinkSoftness> SoftnessReader::read(std::string_view text) {
+  Lines lines(text);
+  bool is_first = true;
+  while (lines.next()) {
+    line_ = lines.number();
+    const std::string_view row = trimmed(lines.line().substr(0, lines.line().find('#')));
+    if (row.empty()) {
+      continue;
+    }
+    const auto fields = fields_of(row);
+    if (!is_first || !std::ranges::equal(fields, names)) {
+      read_row(fields);
+    }
+    is_first = false;
+  }
+  return std::move(result_);
+}
+
+}  // namespace
+
+std::map<LinkId, LinkSoftness> read_softness(std::string_view text, const std::filesystem::path& path,
+                                             const Mesh& mesh) {
+  return SoftnessReader(path, mesh).read(text);
+}
+
+std::map<LinkId, LinkSoftness> read_softness(const std::filesystem::path& path, const Mesh& mesh) {
+  return read_softness(read_text(path, "softness"), path, mesh);
+}
+
+}  // namespace chainmail

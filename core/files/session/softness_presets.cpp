@@ -1,0 +1,106 @@
+#include "files/session/softness_presets.h"
+
+#include <algorithm>
+#include <array>
+
+#include "files/text/json_fields.h"
+#include "files/text/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+constexpr std::uint64_t version_read = 1;
+
+// A preset says how far a material gives before its own limit is reached, not how hard it is to get there.
+constexpr std::array built_in{
+    BuiltInPreset{"Standard", {}, "what a new object begins with"},
+    // Rings of wire do not lengthen; they slide into each other until wire lies on wire, at about half their distance
+    // where four pass through one; and they turn in each other by little more than a ring's play.
+    BuiltInPreset{"Steel mail", {0.5, 1, 0.15}, "rings do not lengthen, they slide together and turn a little"},
+    // Weaving bends the yarns: pulled straight they give some percent. Pushed, cloth buckles rather than shortens, and
+    // its ends come to a third of their distance. Yarns that cross turn until they lock, at 30 to 45 degrees.
+    BuiltInPreset{"Cloth", {0.35, 1.05, 0.6}, "yarns hardly lengthen, buckle when pushed, and turn until they lock"},
+    // Twice its length comes back without loss, well below the six times at which it tears. Its volume stays, so that
+    // at twice the length the sides shrink to 1/√2; bearings are sheared by up to about a half.
+    BuiltInPreset{"Rubber", {0.7, 2, 0.5}, "lengthens to twice, keeps its volume, is sheared by half"},
+    // A gel of gelatine is squeezed and pulled by about two fifths before it breaks, and wobbles by as much.
+    BuiltInPreset{"Jelly", {0.6, 1.4, 0.4}, "gives by two fifths each way before it would break"},
+    // Squeezed by three tenths in tests of the tissue (Miller and Chinzei 1997); nerve fibres take harm from
+    // about a fifth more length on (Bain and Meaney 2000); it hardly resists shear.
+    BuiltInPreset{
+        "Brain-soft", {0.7, 1.2, 0.3}, "squeezed by three tenths, lengthened by a fifth, hardly resists shear"}};
+
+SoftnessPreset preset_of(const JsonFields& fields, const nlohmann::json& json) {
+  if (!json.is_object()) {
+    fields.fail("it is not an object", "write {\"name\": …}");
+  }
+  fields.check_keys(json, {"name", "compression", "stretch", "shear"});
+  const auto& name = fields.member(json, "name");
+  if (!name.is_string()) {
+    fields.fail(in_quotes(text_of(name)) + " is not a name", "write it in quotes");
+  }
+  SoftnessPreset preset{name.get<std::string>(), {}};
+  if (const std::string fault = fault_of_name(preset.name); !fault.empty()) {
+    fields.fail(in_quotes(preset.name) + " is no name", fault);
+  }
+  const auto &compression = fields.member(json, "compression"), &stretch = fields.member(json, "stretch"),
+             &shear = fields.member(json, "shear");
+  preset.softness = fields.softness(compression, stretch, shear);
+  return preset;
+}
+
+}  // namespace
+
+std::span<const BuiltInPreset> built_in_presets() { return built_in; }
+
+std::string fault_of_name(std::string_view name) {
+  if (name.empty() || name.front() == ' ' || name.back() == ' ') {
+    return "a name begins and ends with a character";
+  }
+  if (name.size() > longest_preset_name) {
+    return "a name has " + std::to_string(longest_preset_name) + " bytes at most";
+  }
+  return printable(name) == name ? "" : "a name is one line of text";
+}
+
+std::vector<SoftnessPreset> read_presets(std::string_view text, const std::filesystem::path& path) {
+  const auto json = parse_json(text, path, "presets of softness");
+  JsonFields fields(shown(path));
+  if (!json.is_object()) {
+    fields.fail("it holds no presets", "give presets of softness");
+  }
+  const auto& version = fields.member(json, "version");
+  if (!version.is_number_unsigned() || version.get<std::uint64_t>() != version_read) {
+    fields.fail("its version is not " + std::to_string(version_read), "export the presets again with this program");
+  }
+  fields.check_keys(json, {"version", "presets"});
+  std::vector<SoftnessPreset> presets;
+  for (const auto& one : fields.array(json, "presets")) {
+    fields.say_at(shown(path) + ": preset " + std::to_string(presets.size()));
+    SoftnessPreset preset = preset_of(fields, one);
+    if (std::ranges::find(presets, preset.name, &SoftnessPreset::name) != presets.end()) {
+      fields.fail(in_quotes(preset.name) + " comes twice", "rename one of them");
+    }
+    presets.push_back(std::move(preset));
+  }
+  return presets;
+}
+
+std::vector<SoftnessPreset> read_presets(const std::filesystem::path& path) {
+  return read_presets(read_text(path, "presets of softness"), path);
+}
+
+void write_presets(std::ostream& out, std::span<const SoftnessPreset> presets) {
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& [name, softness] : presets) {
+    list.push_back({{"name", name},
+                    {"compression", softness.compression},
+                    {"stretch", softness.stretch},
+                    {"shear", softness.shear}});
+  }
+  const nlohmann::ordered_json json{{"version", version_read}, {"presets", list}};
+  out << json.dump(2) << '\n';
+}
+
+}  // namespace chainmail

@@ -1,0 +1,109 @@
+#include "files/text/json_fields.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "files/text/json_scan.h"
+#include "files/text/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Throws where the text is no JSON of ours; builds nothing.
+class Check : public JsonScan {
+ public:
+  using JsonScan::JsonScan;
+
+ private:
+  void take_value(Json /*value*/) override {}
+  void open(Json /*empty*/) override {}
+  void close() override {}
+  void take_key(const std::string& /*key*/) override {}
+};
+
+}  // namespace
+
+Json parse_json(std::string_view text, const std::filesystem::path& path, const std::string& content) {
+  Check(text, path, content).scan();
+  return Json::parse(text);
+}
+
+std::string text_of(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
+
+void JsonFields::fail(const std::string& problem, const std::string& remedy) const {
+  throw Error(where_, problem, remedy);
+}
+
+void JsonFields::check_keys(const Json& object, const std::vector<std::string>& known) const {
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      fail(in_quotes(key) + " is not known here", "remove it");
+    }
+  }
+}
+
+const Json& JsonFields::member(const Json& object, const std::string& key) const {
+  const auto found = object.find(key);
+  if (found == object.end()) {
+    fail("'" + key + "' is missing", "add it");
+  }
+  return *found;
+}
+
+const Json& JsonFields::array(const Json& object, const std::string& key) const {
+  const Json& json = member(object, key);
+  if (!json.is_array()) {
+    fail("'" + key + "' is not an array", "write it in [ ]");
+  }
+  return json;
+}
+
+const JsonFields::Json& JsonFields::object(const Json& object, const std::string& key) const {
+  const Json& json = member(object, key);
+  if (!json.is_object()) {
+    fail("'" + key + "' is not an object", "write it in { }");
+  }
+  return json;
+}
+
+std::string JsonFields::text(const Json& object, const std::string& key) const {
+  const Json& json = member(object, key);
+  if (!json.is_string()) {
+    fail("'" + key + "' is not a text", "write it in quotes");
+  }
+  return json.get<std::string>();
+}
+
+bool JsonFields::boolean(const Json& object, const std::string& key) const {
+  const Json& json = member(object, key);
+  if (!json.is_boolean()) {
+    fail("'" + key + "' is neither true nor false", "write one of them");
+  }
+  return json.get<bool>();
+}
+
+double JsonFields::number(const Json& json) const {
+  if (!json.is_number()) {
+    fail(in_quotes(text_of(json)) + " is not a number", "write a decimal number");
+  }
+  const auto number = json.get<double>();
+  if (!(std::abs(number) <= coordinate_limit)) {
+    fail(in_quotes(text_of(json)) + " is too large a number", "keep numbers within 1e100");
+  }
+  return number;
+}
+
+LinkSoftness JsonFields::softness(const Json& compression, const Json& stretch, const Json& shear) const {
+  const LinkSoftness softness{number(compression), number(stretch), number(shear)};
+  try {
+    check(softness);
+  } catch (const Error& error) {
+    throw error.at(where_ + ": " + error.where());
+  }
+  return softness;
+}
+
+}  // namespace chainmail

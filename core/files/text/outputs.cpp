@@ -1,0 +1,132 @@
+#include "files/text/outputs.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iostream>
+#include <random>
+#include <string>
+#include <system_error>
+
+#include "files/text/regular_file.h"
+#include "files/text/text.h"
+
+namespace chainmail {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason() { return std::generic_category().message(errno); }
+
+void refuse_unwritable(const fs::path& path, const fs::path& target, const fs::file_status& status) {
+  if (fs::is_directory(status) || !target.has_filename()) {
+    throw Error(shown(path), "it is a folder", "give a file");
+  }
+  std::error_code error;
+  if (target.has_parent_path() && !fs::is_directory(target.parent_path(), error)) {
+    throw Error(shown(path), "its folder is not there", "make the folder first");
+  }
+  // A rename would pass over a file that may not be written.
+  if (fs::exists(status) && !std::ofstream(target, std::ios::app)) {
+    throw Error(shown(path), "it cannot be written (" + reason() + ")", "check its permissions");
+  }
+}
+
+fs::path temporary_beside(const fs::path& target) {
+  // Short and of its own, so that it fits where the target's name is as long as a name may be.
+  static std::random_device random;
+  std::error_code error;
+  for (;;) {
+    fs::path temporary = target.parent_path() / (".chainmail-" + std::to_string(random()) + ".tmp");
+    if (!fs::exists(fs::symlink_status(temporary, error))) {
+      return temporary;
+    }
+  }
+}
+
+void write_stream(std::ostream& out, const fs::path& path, const Outputs::Writer& writer) {
+  errno = 0;
+  writer(out);
+  out.flush();
+  if (!out) {
+    throw WriteFailure(path == "-" ? "standard output" : shown(path),
+                       "it cannot be written to its end (" + reason() + ")", "check the space left and who reads it");
+  }
+}
+
+}  // namespace
+
+Outputs::~Outputs() {
+  for (const File& file : files_) {
+    std::error_code ignored;
+    fs::remove(file.temporary, ignored);
+  }
+}
+
+void Outputs::refuse_twice(const fs::path& path, const fs::path& target) const {
+  const bool twice =
+      std::any_of(files_.begin(), files_.end(), [&](const File& file) { return file.target == target; }) ||
+      std::any_of(streams_.begin(), streams_.end(), [&](const Stream& stream) { return stream.path == path; });
+  if (twice) {
+    throw Error(path == "-" ? "standard output" : shown(path), "two outputs would go there",
+                "give each a file of its own");
+  }
+}
+
+void Outputs::keep(const fs::path& input) { inputs_.push_back(resolved(input)); }
+
+void Outputs::add(const fs::path& path, Writer writer) {
+  if (path.empty()) {
+    throw Error("file name", "it is empty", "give a file, or - for standard output");
+  }
+  std::error_code error;
+  const fs::path target = resolved(path);  // a symbolic link stays one, and the file behind it is replaced
+  const auto status = fs::status(path, error);
+  refuse_twice(path, target);
+  if (path != "-" && std::find(inputs_.begin(), inputs_.end(), target) != inputs_.end()) {
+    throw Error(shown(path), "it was read, and would be replaced", "give the output a file of its own");
+  }
+  if (path == "-" || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))) {
+    streams_.push_back({path, std::move(writer)});
+    return;
+  }
+  refuse_unwritable(path, target, status);
+  const fs::path temporary = temporary_beside(target);
+  std::ofstream out(temporary, std::ios::binary);
+  if (!out) {
+    throw Error(shown(path), "it cannot be written (" + reason() + ")", "check the name and its folder's permissions");
+  }
+  files_.push_back({path, target, temporary});
+  if (fs::exists(status)) {
+    fs::permissions(temporary, status.permissions(), error);
+  }
+  write_stream(out, path, writer);
+}
+
+void Outputs::commit() {
+  for (const Stream& stream : streams_) {
+    if (stream.path == "-") {
+      write_stream(std::cout, stream.path, stream.writer);
+    } else {
+      std::ofstream out(stream.path, std::ios::binary);
+      write_stream(out, stream.path, stream.writer);
+    }
+  }
+  streams_.clear();
+  for (const File& file : files_) {
+    std::error_code error;
+    fs::rename(file.temporary, file.target, error);
+    if (error) {
+      throw WriteFailure(shown(file.path), "it cannot be replaced (" + error.message() + ")", "check its permissions");
+    }
+  }
+  files_.clear();
+}
+
+void write_file(const fs::path& path, const Outputs::Writer& writer) {
+  Outputs outputs;
+  outputs.add(path, writer);
+  outputs.commit();
+}
+
+}  // namespace chainmail

@@ -1,0 +1,86 @@
+#include "files/text/regular_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "files/text/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+std::string reason() { return std::generic_category().message(errno); }
+
+}  // namespace
+
+void require_file(const std::filesystem::path& path) {
+  using std::filesystem::file_type;
+  std::error_code error;
+  switch (std::filesystem::status(path, error).type()) {
+    case file_type::not_found:
+      throw Error(shown(path), "there is no such file", "check the path");
+    case file_type::directory:
+      throw Error(shown(path), "it is a folder", "give a file");
+    case file_type::fifo:
+    case file_type::socket:
+      throw Error(shown(path), "it is a pipe", "save its content as a file, and give that");
+    case file_type::block:
+    case file_type::character:
+      throw Error(shown(path), "it is a device", "give a file");
+    default:
+      break;  // a file, or one that cannot be looked at, which opening it tells
+  }
+}
+
+RegularFile::RegularFile(const std::filesystem::path& path) : path_(path) {
+  require_file(path);  // before it is opened: to open a device may already do something
+  descriptor_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+  struct stat status {};
+  if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) {
+    const std::string why = reason();
+    close(descriptor_);
+    throw Error(shown(path), "it cannot be read (" + why + ")", "check its permissions");
+  }
+  if (!S_ISREG(status.st_mode)) {  // it has changed since
+    close(descriptor_);
+    throw Error(shown(path), "it is no longer a file", "check the path");
+  }
+  size_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+RegularFile::RegularFile(RegularFile&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_) {}
+
+RegularFile::~RegularFile() {
+  if (descriptor_ >= 0) {
+    close(descriptor_);
+  }
+}
+
+std::size_t RegularFile::read(std::span<char> bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t got = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
+    if (got < 0 && errno != EINTR) {
+      throw Error(shown(path_), "it cannot be read to its end (" + reason() + ")", "check the disk");
+    }
+    if (got == 0) {
+      break;
+    }
+    done += got > 0 ? static_cast<std::size_t>(got) : 0;
+  }
+  return done;
+}
+
+std::filesystem::path resolved(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::path target = std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  return error ? path : target;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,259 @@
+#include "files/text/text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <system_error>
+#include <vector>
+
+#include "files/text/regular_file.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+// Ten times what the largest mesh allowed takes.
+constexpr std::size_t largest_text = std::size_t{4} << 30;
+constexpr std::size_t longest_quote = 40;
+constexpr std::size_t lines_between_reports = 4096;  // a millisecond or two
+
+/// The length of the UTF-8 sequence at the start of a text, 0 where there is none.
+std::size_t sequence_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) < 0xc2 ? 0 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
+  if (length == 0 || length > text.size() || byte(0) > 0xf4) {
+    return 0;
+  }
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) {
+      return 0;
+    }
+  }
+  // Overlong forms, surrogates, and what lies beyond Unicode.
+  const bool wrong = length > 2 && ((byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xed && byte(1) > 0x9f) ||
+                                    (byte(0) == 0xf0 && byte(1) < 0x90) || (byte(0) == 0xf4 && byte(1) > 0x8f));
+  return wrong ? 0 : length;
+}
+
+bool is_control(std::string_view sequence) {
+  const auto first = static_cast<unsigned char>(sequence[0]);
+  return first < 0x20 || first == 0x7f || (first == 0xc2 && static_cast<unsigned char>(sequence[1]) < 0xa0);
+}
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  static constexpr std::string_view digits = "0123456789abcdef";
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = sequence_length(text);
+    if (length != 0 && !is_control(text.substr(0, length))) {
+      result += text.substr(0, length);
+    } else {
+      for (const char c : text.substr(0, std::max<std::size_t>(length, 1))) {
+        const auto byte = static_cast<unsigned char>(c);
+        result += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
+      }
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return result;
+}
+
+std::string in_quotes(std::string_view word) {
+  const bool is_long = word.size() > longest_quote;
+  return "'" + printable(word.substr(0, longest_quote)) + (is_long ? "…'" : "'");
+}
+
+std::string shown(const std::filesystem::path& path) { return path.empty() ? "''" : printable(path.string()); }
+
+std::string shown(const std::filesystem::path& path, std::size_t line) {
+  return shown(path) + ":" + std::to_string(line);
+}
+
+namespace {
+
+/// With no byte 0 in it, where it is text.
+std::string read_whole(const std::filesystem::path& path, bool is_text, const std::string& content,
+                       const Progress& progress) {
+  RegularFile file(path);
+  const Error too_large(shown(path), "it is larger than 4 GiB", "give a smaller file");
+  if (file.size() > largest_text) {
+    throw too_large;
+  }
+  std::string text;
+  text.reserve(file.size());
+  std::vector<char> part(std::size_t{1} << 20);
+  while (const std::size_t got = file.read(part)) {
+    text.append(part.data(), got);
+    progress.report(std::min(1.0, double(text.size()) / double(file.size())));
+    if (is_text && text.find('\0', text.size() - got) != std::string::npos) {
+      throw Error(shown(path), "it is not a text file", "give " + content + " as text");
+    }
+    if (text.size() > largest_text) {
+      throw too_large;  // it grew
+    }
+  }
+  if (text.empty()) {
+    throw Error(shown(path), "it is empty", "give a file that holds " + content);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& path, const std::string& content, const Progress& progress) {
+  return read_whole(path, true, content, progress);
+}
+
+std::string read_bytes(const std::filesystem::path& path, const std::string& content, const Progress& progress) {
+  return read_whole(path, false, content, progress);
+}
+
+Lines::Lines(std::string_view text) : size_(text.size()), rest_(text) {
+  static constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (rest_.starts_with(byte_order_mark)) {
+    rest_.remove_prefix(byte_order_mark.size());
+  }
+}
+
+bool Lines::next() {
+  if (rest_.empty()) {
+    return false;
+  }
+  const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+  line_ = rest_.substr(0, end);
+  rest_.remove_prefix(end);
+  rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : rest_.empty() ? 0 : 1);
+  ++number_;
+  return true;
+}
+
+void Lines::report(const Progress& progress) const {
+  if (number_ % lines_between_reports == 0) {
+    progress.report(1 - double(rest_.size()) / double(size_));
+  }
+}
+
+std::string_view take_word(std::string_view& rest) {
+  std::size_t first = 0;
+  while (first < rest.size() && is_blank(rest[first])) {
+    ++first;
+  }
+  std::size_t last = first;
+  while (last < rest.size() && !is_blank(rest[last])) {
+    ++last;
+  }
+  const std::string_view word = rest.substr(first, last - first);
+  rest.remove_prefix(last);
+  return word;
+}
+
+std::optional<double> parse_number(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') {
+    word.remove_prefix(1);  // from_chars does not know it, files do
+  }
+  double number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number)) {
+    return std::nullopt;
+  }
+  return number;
+}
+
+std::optional<std::uint32_t> parse_count(std::string_view word) {
+  std::uint64_t number = 0;
+  for (const char c : word) {
+    const unsigned digit = static_cast<unsigned char>(c) - unsigned{'0'};
+    number = 10 * number + digit;
+    if (digit > 9 || number > std::numeric_limits<std::uint32_t>::max()) {
+      return std::nullopt;
+    }
+  }
+  return word.empty() ? std::nullopt : std::optional(static_cast<std::uint32_t>(number));
+}
+
+void append_number(std::string& text, double number) {
+  std::array<char, 32> digits;
+  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+}
+
+void append_number(std::string& text, std::uint64_t number) {
+  std::array<char, 32> digits;
+  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+}
+
+void TextBlocks::flush() {
+  out_.write(block_.data(), end_ - block_.data());
+  end_ = block_.data();
+}
+
+void TextBlocks::make_room() {
+  if (block_.data() + block_.size() - end_ < longest_word) {
+    flush();
+  }
+}
+
+TextBlocks& TextBlocks::operator<<(char character) {
+  make_room();
+  *end_++ = character;
+  return *this;
+}
+
+TextBlocks& TextBlocks::operator<<(std::string_view text) {
+  while (!text.empty()) {
+    make_room();
+    const auto part = text.substr(0, static_cast<std::size_t>(block_.data() + block_.size() - end_));
+    end_ = std::copy(part.begin(), part.end(), end_);
+    text.remove_prefix(part.size());
+  }
+  return *this;
+}
+
+TextBlocks& TextBlocks::operator<<(double number) {
+  make_room();
+  end_ = std::to_chars(end_, end_ + longest_word, number).ptr;
+  return *this;
+}
+
+TextBlocks& TextBlocks::operator<<(std::uint32_t number) {
+  make_room();
+  end_ = std::to_chars(end_, end_ + longest_word, number).ptr;
+  return *this;
+}
+
+std::optional<std::string_view> stated(std::string_view line, std::string_view word) {
+  std::string_view rest = line;
+  while (!rest.empty() && is_blank(rest[0])) {
+    rest.remove_prefix(1);
+  }
+  if (!rest.starts_with('#')) {
+    return std::nullopt;  // at once: most lines are no comments
+  }
+  rest.remove_prefix(1);
+  const std::string_view first = take_word(rest);
+  std::string_view behind = rest;
+  if (const auto value = take_word(behind);
+      first != word || value.empty() || std::string_view("0123456789+-.").find(value[0]) == std::string_view::npos) {
+    return std::nullopt;
+  }
+  return rest;
+}
+
+std::optional<int> stated_space(std::string_view line, const std::filesystem::path& path, std::size_t number) {
+  auto rest = stated(line, "space");
+  if (!rest) {
+    return std::nullopt;
+  }
+  const auto space = parse_count(take_word(*rest));
+  if (!space || *space < 1 || *space > 3 || !take_word(*rest).empty()) {
+    throw Error(shown(path, number), "the space dimension is no 1, 2 or 3", "write '# space N' with one of these");
+  }
+  return static_cast<int>(*space);
+}
+
+}  // namespace chainmail

@@ -1,0 +1,71 @@
+#include "report/page/figure_table.h"
+
+#include <algorithm>
+
+#include "report/page/format.h"
+
+namespace chainmail::report {
+namespace {
+
+void write_head(std::ostream& out, const FigureTable& table) {
+  const auto& columns = table.columns;
+  out << "<thead><tr><th></th>";
+  for (std::size_t i = 0; i < columns.size();) {
+    std::size_t end = i;
+    while (end < columns.size() && columns[end].group == columns[i].group) {
+      ++end;
+    }
+    out << "<th class=\"group\" colspan=\"" << end - i << "\">" << escaped(columns[i].group) << "</th>";
+    i = end;
+  }
+  out << "</tr>\n<tr><th scope=\"col\">" << escaped(table.corner) << "</th>";
+  for (const FigureTable::Column& column : columns) {
+    out << "<th scope=\"col\">" << escaped(column.name) << "</th>";
+  }
+  out << "</tr></thead>\n";
+}
+
+/// Characters, not bytes.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+void write_html(std::ostream& out, const FigureTable& table) {
+  out << "<div class=\"wide\"><table class=\"" << table.style << "\">\n<caption>" << escaped(table.caption)
+      << " <span class=\"faint\">" << escaped(table.about) << "</span></caption>\n";
+  write_head(out, table);
+  out << "<tbody>\n";
+  for (const FigureTable::Row& row : table.rows) {
+    out << "<tr><th scope=\"row\">" << escaped(row.label) << "</th>";
+    if (!row.refusal.empty()) {
+      out << "<td class=\"refusal\" colspan=\"" << table.columns.size() << "\">" << escaped(row.refusal) << "</td>";
+    }
+    for (const std::string& cell : row.cells) {
+      out << "<td>" << escaped(cell) << "</td>";
+    }
+    out << "</tr>\n";
+  }
+  out << "</tbody></table></div>\n";
+}
+
+void write_columns(std::ostream& out, const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      // A row of two is a name and a sentence, which no column needs to hold.
+      widths[i] = std::max(widths[i], row.size() == 2 && i == 1 ? 0 : width_of(row[i]));
+    }
+  }
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string blanks(widths[i] - std::min(widths[i], width_of(row[i])), ' ');
+      out << (i == 0 ? "  " + row[i] + blanks : "  " + (row.size() == 2 ? "" : blanks) + row[i]);
+    }
+    out << '\n';
+  }
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,111 @@
+#include "report/page/format.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace chainmail::report {
+namespace {
+
+std::string written(double number, std::chars_format format, int precision) {
+  std::array<char, 400> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, format, precision).ptr;
+  return {digits.data(), end};
+}
+
+/// How many bytes the UTF-8 character at the front has; 0 where it is none.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = byte(0) < 0x80                      ? 1
+                             : byte(0) >= 0xC2 && byte(0) < 0xE0 ? 2
+                             : byte(0) >= 0xE0 && byte(0) < 0xF0 ? 3
+                             : byte(0) >= 0xF0 && byte(0) < 0xF5 ? 4
+                                                                 : 0;
+  if (length == 0 || length > text.size()) {
+    return 0;
+  }
+  for (std::size_t i = 1; i < length; ++i) {
+    if (byte(i) < 0x80 || byte(i) >= 0xC0) {
+      return 0;
+    }
+  }
+  // Overlong forms, surrogates, and what lies beyond the last character.
+  const bool wrong = (byte(0) == 0xE0 && byte(1) < 0xA0) || (byte(0) == 0xED && byte(1) >= 0xA0) ||
+                     (byte(0) == 0xF0 && byte(1) < 0x90) || (byte(0) == 0xF4 && byte(1) >= 0x90);
+  return wrong ? 0 : length;
+}
+
+std::string_view entity_of(char character) {
+  switch (character) {
+    case '&':
+      return "&amp;";
+    case '<':
+      return "&lt;";
+    case '>':
+      return "&gt;";
+    case '"':
+      return "&quot;";
+    case '\'':
+      return "&#39;";
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+std::string figure(double number) {
+  std::string text = written(number, std::chars_format::general, 3);
+  // 1e-07 reads better as 1e-7.
+  if (const auto exponent = text.find('e'); exponent != std::string::npos) {
+    const auto digits = exponent + 2;
+    text.erase(digits, text.find_first_not_of('0', digits) - digits);
+    if (text[exponent + 1] == '+') {
+      text.erase(exponent + 1, 1);
+    }
+  }
+  return text;
+}
+
+std::string figure(const std::optional<double>& number) { return number ? figure(*number) : "n/a"; }
+
+std::string percent(double share) { return figure(100 * share) + "%"; }
+
+std::string all_digits(double number) {
+  std::array<char, 40> digits;
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
+}
+
+std::string all_digits(const std::optional<double>& number) { return number ? all_digits(*number) : ""; }
+
+std::string place(double number) { return written(number, std::chars_format::fixed, 2); }
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char character : text) {
+    quoted += character == '"' ? "\"\"" : std::string(1, character);
+  }
+  return quoted + '"';
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    const bool control = static_cast<unsigned char>(text[0]) < 0x20 && text[0] != '\t' && text[0] != '\n';
+    if (length == 0 || control || text[0] == 0x7F) {
+      result += '?';
+    } else if (const auto entity = entity_of(text[0]); !entity.empty()) {
+      result += entity;
+    } else {
+      result += text.substr(0, length);
+    }
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return result;
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,77 @@
+#include "report/page/format.h"
+#include "report/page/physics_report.h"
+
+namespace chainmail::report {
+namespace {
+
+constexpr int figures = 29;  // columns of a measurement
+
+/// Median, quartiles and repetitions; nothing where nothing was timed.
+void write_spread(std::ostream& out, const TimeSpread& ms) {
+  if (ms.count == 0) {
+    out << ",,,,";
+    return;
+  }
+  out << ',' << all_digits(ms.median) << ',' << all_digits(ms.lower_quartile) << ',' << all_digits(ms.upper_quartile)
+      << ',' << ms.count;
+}
+
+void write_measurement(std::ostream& out, const PhysicsMeasurement& measured) {
+  const TimeSpread& ms = measured.ms_per_move;
+  const PhysicalError& error = measured.error;
+  out << ',' << ms.count;
+  for (const double number : {ms.median, ms.lower_quartile, ms.upper_quartile, ms.min, ms.max, measured.prepare.ms(),
+                              error.rms, error.max, error.moving_rms, error.moving_max}) {
+    out << ',' << all_digits(number);
+  }
+  out << ',' << error.moving << ',' << all_digits(error.relative);
+  write_spread(out, measured.first_move);
+  write_spread(out, measured.move_after_cut);
+  write_spread(out, measured.prepare.factorize);
+  write_spread(out, measured.prepare.grab);
+}
+
+void write_growth(std::ostream& out, const PhysicsGrowth& growth) {
+  for (const GrowthSeries& series : growth.series) {
+    for (const GrowthPoint& point : series.points) {
+      const PhysicalError error = point.error.value_or(PhysicalError{});
+      const auto known = [&](double number) { return point.error ? all_digits(number) : ""; };
+      out << csv_field("growing " + growth.name) << ',' << point.elements << ",,,," << name(series.contestant) << ','
+          << series.contestant.sweeps << ",,1," << all_digits(point.ms_per_move) << ",,,,,"
+          << all_digits(point.prepare_ms) << ',' << known(error.rms) << ',' << known(error.max) << ','
+          << known(error.moving_rms) << ',' << known(error.moving_max) << ",," << known(error.relative)
+          << std::string(16, ',') << ",,\n";
+    }
+  }
+}
+
+}  // namespace
+
+void write_csv(std::ostream& out, const PhysicsReport& report) {
+  out << "object,elements,pins,drag,hand,algorithm,sweeps,refusal,repetitions,ms,ms_lower_quartile,ms_upper_quartile,"
+         "ms_min,ms_max,prepare_ms,error_rms,error_max,moving_rms,moving_max,moving_elements,relative,"
+         "first_ms,first_lower_quartile,first_upper_quartile,first_repetitions,"
+         "after_cut_ms,after_cut_lower_quartile,after_cut_upper_quartile,after_cut_repetitions,"
+         "factorize_ms,factorize_lower_quartile,factorize_upper_quartile,factorize_repetitions,"
+         "grab_ms,grab_lower_quartile,grab_upper_quartile,grab_repetitions,handle,calibrated\n";
+  for (const PhysicsObject& object : report.objects) {
+    for (const PhysicsDrag& drag : object.drags) {
+      for (const PhysicsEntry& entry : drag.entries) {
+        out << csv_field(object.name) << ',' << object.elements << ',' << object.pins << ',' << csv_field(drag.name)
+            << ',' << all_digits(drag.hand) << ',' << name(entry.contestant) << ',' << entry.contestant.sweeps << ','
+            << csv_field(entry.refusal);
+        if (entry.measurement) {
+          write_measurement(out, *entry.measurement);
+        } else {
+          out << std::string(figures, ',');
+        }
+        out << ',' << drag.handle << ',' << (entry.contestant.calibrated ? 1 : 0) << '\n';
+      }
+    }
+  }
+  for (const PhysicsGrowth& growth : report.growths) {
+    write_growth(out, growth);
+  }
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,159 @@
+#include <algorithm>
+
+#include "report/page/format.h"
+#include "report/page/physics_means.h"
+#include "report/page/physics_report.h"
+
+namespace chainmail::report {
+namespace {
+
+// Below this the reference is found again: what Newton's method and single precision leave.
+constexpr double as_good_as_true = 1e-5;
+constexpr double smallest_time = 1e-9;  // ms; a clock that saw nothing
+
+/// The time that a drag is about: a later move, or the move after its cut.
+const TimeSpread& time_of(const PhysicsDrag& drag, const PhysicsMeasurement& measured) {
+  return drag.has_cut ? measured.move_after_cut : measured.ms_per_move;
+}
+
+std::string in_words(const PhysicsDrag& drag, const PhysicsEntry& entry) {
+  const PhysicsMeasurement& measured = *entry.measurement;
+  return label(entry.contestant) + ": " + figure(time_of(drag, measured).median) + " ms per move, relative error " +
+         figure(measured.error.relative) + ", RMS error " + percent(measured.error.rms) +
+         " of the handle's displacement, max " + percent(measured.error.max);
+}
+
+/// The series of a contestant, under the name that says which cells it works on.
+std::size_t series_of(Plot& plot, const PhysicsContestant& contestant) {
+  const std::size_t series = series_of(plot, *contestant.algorithm);
+  plot.series[series].label = label(PhysicsContestant{contestant.algorithm, 0});
+  return series;
+}
+
+/// Marks, and for each algorithm with sweeps a line through them; calibrated ones stand alone.
+PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag, const std::string& title) {
+  PlotPanel panel{drag.no_truth.empty() ? title : title + ": no reference", {}, {}};
+  for (const PhysicsEntry& entry : drag.entries) {
+    if (!entry.measurement) {
+      continue;
+    }
+    const double error = entry.measurement->error.relative;
+    if (!entry.contestant.algorithm) {
+      panel.level = PlotLevel{error, "nothing moves"};
+      continue;
+    }
+    const TimeSpread& ms = time_of(drag, *entry.measurement);
+    const std::size_t series = series_of(plot, entry.contestant);
+    const bool calibrated = entry.contestant.calibrated.has_value();
+    panel.marks.push_back({ms.median, ms.lower_quartile, ms.upper_quartile, error, series, entry.contestant.sweeps > 0,
+                           calibrated ? "cal." : "", in_words(drag, entry)});
+    if (!prepares(entry.contestant) && !calibrated) {
+      if (panel.curves.empty() || panel.curves.back().series != series) {
+        panel.curves.push_back({series, {}});
+      }
+      panel.curves.back().points.push_back({ms.median, error});
+    }
+  }
+  return panel;
+}
+
+std::string sweeps_in_words(const PhysicsObject& object) {
+  std::string text;
+  std::vector<int> seen;
+  for (const PhysicsDrag& drag : object.drags) {
+    for (const PhysicsEntry& entry : drag.entries) {
+      const int sweeps = entry.contestant.sweeps;
+      if (sweeps > 0 && !entry.contestant.calibrated && std::ranges::find(seen, sweeps) == seen.end()) {
+        seen.push_back(sweeps);
+        text += (text.empty() ? "" : ", ") + std::to_string(sweeps);
+      }
+    }
+  }
+  return text;
+}
+
+/// A panel for each kind of object, a curve for each contestant; hollow marks are those with sweeps.
+Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& what,
+                 std::optional<double> (*value_of)(const GrowthPoint&)) {
+  Plot plot;
+  plot.title = "Elements against " + what;
+  plot.x_label = "elements";
+  plot.y_label = what;
+  plot.legend_notes = {"filled: without relaxation", "hollow: 10 sweeps per move"};
+  for (const PhysicsGrowth& growth : growths) {
+    PlotPanel& panel = plot.panels.emplace_back();
+    panel.title = growth.name;
+    for (const GrowthSeries& series : growth.series) {
+      if (std::ranges::none_of(series.points, [&](const GrowthPoint& point) { return value_of(point).has_value(); })) {
+        continue;
+      }
+      PlotCurve curve{series_of(plot, series.contestant), {}};
+      for (const GrowthPoint& point : series.points) {
+        if (const auto value = value_of(point)) {
+          const auto elements = double(point.elements);
+          curve.points.push_back({elements, *value});
+          panel.marks.push_back(
+              {elements, elements, elements, *value, curve.series, series.contestant.sweeps > 0, "",
+               label(series.contestant) + ", " + std::to_string(point.elements) + " elements: " + figure(*value)});
+        }
+      }
+      panel.curves.push_back(std::move(curve));
+    }
+  }
+  return plot;
+}
+
+Plot empty_plot(const std::string& title, const PhysicsObject& object) {
+  Plot plot;
+  plot.title = title;
+  plot.x_label = "ms per move";
+  plot.y_label = "relative error";
+  plot.smallest_y = as_good_as_true;
+  plot.legend_notes = {"filled: without relaxation"};
+  if (const std::string sweeps = sweeps_in_words(object); !sweeps.empty()) {
+    plot.legend_notes.push_back("line: " + sweeps + " sweeps per move");
+  }
+  plot.legend_notes.emplace_back("cal.: calibrated on other drags");
+  plot.legend_notes.emplace_back("0: the reference, neo-Hookean FEM");
+  return plot;
+}
+
+}  // namespace
+
+Plot physics_plot(const PhysicsObject& object) {
+  Plot plot = empty_plot("Time against error on " + object.name, object);
+  for (const PhysicsDrag& drag : means_by_name(object)) {
+    plot.panels.push_back(panel_of(plot, drag, drag.name));
+  }
+  return plot;
+}
+
+Plot physics_overview(const PhysicsReport& report) {
+  Plot plot = empty_plot("Time against error, means of the drags", report.objects.front());
+  for (const PhysicsObject& object : report.objects) {
+    plot.panels.push_back(panel_of(plot, mean_of_drags(object), object.name));
+  }
+  return plot;
+}
+
+Plot growth_time_plot(const std::vector<PhysicsGrowth>& growths) {
+  return growth_plot(growths, "ms per move", [](const GrowthPoint& point) {
+    return std::optional(std::max(point.ms_per_move, smallest_time));
+  });
+}
+
+Plot growth_prepare_plot(const std::vector<PhysicsGrowth>& growths) {
+  return growth_plot(growths, "ms to prepare", [](const GrowthPoint& point) {
+    return point.prepare_ms > 0 ? std::optional(point.prepare_ms) : std::nullopt;
+  });
+}
+
+Plot growth_error_plot(const std::vector<PhysicsGrowth>& growths) {
+  Plot plot = growth_plot(growths, "relative error", [](const GrowthPoint& point) {
+    return point.error ? std::optional(point.error->relative) : std::nullopt;
+  });
+  plot.smallest_y = as_good_as_true;
+  return plot;
+}
+
+}  // namespace chainmail::report

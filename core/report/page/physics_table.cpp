@@ -1,0 +1,303 @@
+#include <algorithm>
+
+#include "report/page/format.h"
+#include "report/page/physics_means.h"
+#include "report/page/physics_report.h"
+
+namespace chainmail::report {
+namespace {
+
+using CellOf = std::string (*)(const PhysicsMeasurement&);
+
+// What Newton's method and single precision leave of the reference itself.
+constexpr double found_again = 1e-5;
+
+std::string relative_cell(const PhysicsMeasurement& m) {
+  return m.error.relative < found_again ? "<1e-5" : figure(m.error.relative);
+}
+std::string rms_cell(const PhysicsMeasurement& m) { return percent(m.error.rms); }
+std::string max_cell(const PhysicsMeasurement& m) { return percent(m.error.max); }
+std::string moving_rms_cell(const PhysicsMeasurement& m) { return percent(m.error.moving_rms); }
+std::string moving_max_cell(const PhysicsMeasurement& m) { return percent(m.error.moving_max); }
+
+/// Columns of errors, one a drag.
+struct Group {
+  const char* name;
+  CellOf cell;
+  bool in_text = false;  // on a terminal there is no room for all
+};
+constexpr Group groups[]{{"relative error", relative_cell, true},
+                         {"RMS error", rms_cell},
+                         {"largest error", max_cell},
+                         {"RMS, what moves", moving_rms_cell},
+                         {"largest, what moves", moving_max_cell}};
+
+/// A time that was not taken is none: nothing is prepared, or nothing is cut.
+std::string time_cell(const TimeSpread& ms, bool for_text) {
+  if (ms.count == 0) {
+    return for_text ? "-" : "";
+  }
+  return for_text ? figure(ms.median)
+                  : figure(ms.median) + " (" + figure(ms.lower_quartile) + "–" + figure(ms.upper_quartile) + ", " +
+                        std::to_string(ms.count) + ")";
+}
+
+/// True where a row says what the one before has said: an algorithm that cannot take part has one row for all sweeps.
+template <class One>
+bool repeats(const One& one, const One& before, const std::string& refusal, const std::string& refusal_before) {
+  return !refusal.empty() && refusal == refusal_before && one.contestant.algorithm == before.contestant.algorithm;
+}
+
+/// The means of an object's drags, all that its table shows.
+struct Means {
+  std::vector<PhysicsDrag> by_name;  // those that have a reference solution
+  PhysicsDrag all;                   // without the cut
+  const PhysicsDrag* cut = nullptr;  // among the first; none where nothing is cut
+
+  explicit Means(const PhysicsObject& object) : by_name(means_by_name(object)), all(mean_of_drags(object)) {
+    std::erase_if(by_name, [](const PhysicsDrag& drag) { return !drag.no_truth.empty(); });
+    const auto found = std::ranges::find(by_name, true, &PhysicsDrag::has_cut);
+    cut = found == by_name.end() ? nullptr : &*found;
+  }
+};
+
+void add_times(FigureTable::Row& row, const Means& means, std::size_t entry, bool for_text) {
+  const auto measured = means.all.entries[entry].measurement.value_or(PhysicsMeasurement{});
+  const auto at_cut = means.cut == nullptr ? PhysicsMeasurement{}
+                                           : means.cut->entries[entry].measurement.value_or(PhysicsMeasurement{});
+  for (const TimeSpread& ms : {measured.first_move, measured.ms_per_move, at_cut.move_after_cut,
+                               measured.prepare.factorize, measured.prepare.grab}) {
+    row.cells.push_back(time_cell(ms, for_text));
+  }
+}
+
+void add_errors(FigureTable::Row& row, const Means& means, std::size_t entry, const Group& group) {
+  for (const PhysicsDrag& drag : means.by_name) {
+    if (!drag.has_cut || group.in_text) {
+      const auto& measured = drag.entries[entry].measurement;
+      row.cells.push_back(measured ? group.cell(*measured) : "n/a");
+    }
+  }
+}
+
+FigureTable::Row row_of(const Means& means, std::size_t entry, bool for_text) {
+  FigureTable::Row row;
+  row.label = label(means.all.entries[entry].contestant);
+  if (std::ranges::none_of(means.by_name,
+                           [&](const PhysicsDrag& drag) { return drag.entries[entry].measurement.has_value(); })) {
+    row.refusal = means.all.entries[entry].refusal;
+    return row;
+  }
+  add_errors(row, means, entry, groups[0]);
+  add_times(row, means, entry, for_text);
+  for (const Group& group : groups) {
+    if (!group.in_text && !for_text) {
+      add_errors(row, means, entry, group);
+    }
+  }
+  return row;
+}
+
+std::vector<FigureTable::Column> columns_of(const Means& means, bool for_text) {
+  std::vector<FigureTable::Column> columns;
+  const auto add_group = [&](const Group& group) {
+    for (const PhysicsDrag& drag : means.by_name) {
+      if (!drag.has_cut || group.in_text) {
+        columns.push_back({group.name, drag.has_cut ? "cut" : drag.name});
+      }
+    }
+  };
+  add_group(groups[0]);
+  const char* time = for_text ? "time (ms)" : "time: median (quartiles, repetitions), ms";
+  const char* prepare = for_text ? "prepare (ms)" : "prepare: median (quartiles, repetitions), ms";
+  columns.insert(columns.end(),
+                 {{time, "first"}, {time, "later"}, {time, "after cut"}, {prepare, "factorize"}, {prepare, "grab"}});
+  for (const Group& group : groups) {
+    if (!group.in_text && !for_text) {
+      add_group(group);
+    }
+  }
+  return columns;
+}
+
+/// The cells of some columns as they stand under others; an object may lack a drag that another one has.
+std::vector<std::string> cells_under(const std::vector<FigureTable::Column>& columns,
+                                     const std::vector<FigureTable::Column>& own,
+                                     const std::vector<std::string>& cells) {
+  std::vector<std::string> placed;
+  for (const FigureTable::Column& column : columns) {
+    const auto found = std::ranges::find_if(
+        own, [&](const FigureTable::Column& one) { return one.group == column.group && one.name == column.name; });
+    placed.push_back(found == own.end() ? "-" : cells[std::size_t(found - own.begin())]);
+  }
+  return placed;
+}
+
+std::string about(const Calibration& calibration) {
+  const std::string who = std::string(info(calibration.algorithm).label) + " calibrated";
+  return !calibration.refusal.empty()
+             ? who + ": left out, " + calibration.refusal
+             : who + " in " + figure(calibration.seconds) + " s on " + std::to_string(calibration.drags) +
+                   " drags of other elements: compression " + figure(calibration.softness.compression) + ", stretch " +
+                   figure(calibration.softness.stretch) + ", shear " + figure(calibration.softness.shear) + ", " +
+                   std::to_string(calibration.sweeps) + " sweeps";
+}
+
+/// A drag without its handle: what comes after the element in its description.
+std::string what_happens(const PhysicsDrag& drag) {
+  const std::string handle = "element " + std::to_string(drag.handle) + ", ";
+  return drag.description.starts_with(handle) ? drag.description.substr(handle.size()) : drag.description;
+}
+
+std::string about(const PhysicsObject& object) {
+  std::vector<ElementId> handles;
+  std::vector<std::string> names;
+  std::string drags, left_out;
+  for (const PhysicsDrag& drag : object.drags) {
+    if (std::ranges::find(handles, drag.handle) == handles.end()) {
+      handles.push_back(drag.handle);
+    }
+    if (std::ranges::find(names, drag.name) == names.end()) {
+      names.push_back(drag.name);
+      drags += "; " + drag.name + ": " + (drag.has_cut ? drag.description : what_happens(drag));
+    }
+    if (!drag.no_truth.empty()) {
+      left_out += "; left out: " + drag.name + " of element " + std::to_string(drag.handle) + ", " + drag.no_truth;
+    }
+  }
+  std::string text = object.description + "; " + std::to_string(object.elements) + " elements, " +
+                     std::to_string(object.links) + " links, " + std::to_string(object.pins) + " pinned; handles: ";
+  for (const ElementId handle : handles) {
+    text += (handle == handles.front() ? "" : ", ") + std::to_string(handle);
+  }
+  text += drags + left_out;
+  for (const Calibration& calibration : object.calibrations) {
+    text += "; " + about(calibration);
+  }
+  return text;
+}
+
+constexpr const char* how_to_read_text =
+    "Relative error: RMS of the error over RMS of the reference's displacements, over all elements; means over the\n"
+    "handles of an object. An object that does not move has about 1: what is above it is no better than nothing.\n"
+    "The reference is neo-Hookean FEM, converged on the same cells as linear FEM, not under refinement of the mesh;\n"
+    "BEM works on its own surface mesh. Times are medians in ms, means over the drags: the first move of a drag, a\n"
+    "later one, and the move after a cut with all that it prepares anew. Prepare: to factorize is done once for an\n"
+    "object, its pins and its cuts; to grab, once for each handle.\n";
+
+void write_table(std::ostream& out, const FigureTable& table) {
+  std::vector<std::vector<std::string>> rows{{""}, {table.corner}};
+  std::string group;
+  for (const FigureTable::Column& column : table.columns) {
+    rows[0].push_back(column.group == group ? "" : column.group);
+    rows[1].push_back(column.name);
+    group = column.group;
+  }
+  for (const FigureTable::Row& row : table.rows) {
+    rows.push_back({row.label});
+    rows.back().insert(rows.back().end(), row.cells.begin(), row.cells.end());
+    if (!row.refusal.empty()) {
+      rows.back().push_back(row.refusal);
+    }
+  }
+  out << '\n' << table.caption << ": " << table.about << '\n';
+  write_columns(out, rows);
+}
+
+FigureTable::Row row_of(const GrowthSeries& series) {
+  FigureTable::Row row;
+  row.label = label(series.contestant);
+  if (series.points.empty()) {
+    row.refusal = series.end;
+    return row;
+  }
+  const GrowthPoint& last = series.points.back();
+  std::vector<double> errors;
+  for (const GrowthPoint& point : series.points) {
+    if (point.error) {
+      errors.push_back(point.error->relative);
+    }
+  }
+  row.cells = {std::to_string(last.elements),
+               figure(last.ms_per_move),
+               figure(last.prepare_ms),
+               series.growth ? figure(series.growth->exponent) : "n/a",
+               errors.empty() ? "n/a" : figure(errors.front()),
+               errors.empty() ? "n/a" : figure(errors.back()),
+               series.end};
+  return row;
+}
+
+}  // namespace
+
+FigureTable physics_table(const PhysicsObject& object, bool for_text) {
+  const Means means(object);
+  FigureTable table{object.name, about(object), "detail", "contestant", columns_of(means, for_text), {}};
+  const auto& entries = means.all.entries;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (i == 0 || !repeats(entries[i], entries[i - 1], entries[i].refusal, entries[i - 1].refusal)) {
+      table.rows.push_back(row_of(means, i, for_text));
+    }
+  }
+  return table;
+}
+
+FigureTable physics_summary(const PhysicsReport& report) {
+  FigureTable table{"In short", "those without sweeps and those calibrated", "detail", "object, contestant", {}, {}};
+  for (const PhysicsObject& object : report.objects) {
+    if (auto columns = columns_of(Means(object), true); columns.size() > table.columns.size()) {
+      table.columns = std::move(columns);
+    }
+  }
+  for (const PhysicsObject& object : report.objects) {
+    const Means means(object);
+    const auto columns = columns_of(means, true);
+    for (std::size_t i = 0; i < means.all.entries.size(); ++i) {
+      const PhysicsContestant& contestant = means.all.entries[i].contestant;
+      FigureTable::Row row = row_of(means, i, true);
+      if ((contestant.sweeps == 0 || contestant.calibrated) && row.refusal.empty()) {
+        table.rows.push_back({object.name + ": " + row.label, cells_under(table.columns, columns, row.cells), {}});
+      }
+    }
+  }
+  return table;
+}
+
+FigureTable growth_table(const PhysicsGrowth& growth) {
+  FigureTable table{growth.name,
+                    growth.description,
+                    "detail",
+                    "contestant",
+                    {{"the largest that it reached", "elements"},
+                     {"the largest that it reached", "ms a move"},
+                     {"the largest that it reached", "prepare ms"},
+                     {"growth of time", "exponent"},
+                     {"relative error", "first size"},
+                     {"relative error", "last known"},
+                     {"why no further", ""}},
+                    {}};
+  for (std::size_t i = 0; i < growth.series.size(); ++i) {
+    const GrowthSeries& series = growth.series[i];
+    if (!series.points.empty() || i == 0 ||
+        !repeats(series, growth.series[i - 1], series.end, growth.series[i - 1].end)) {
+      table.rows.push_back(row_of(series));
+    }
+  }
+  return table;
+}
+
+void write_text(std::ostream& out, const PhysicsReport& report) {
+  out << how_to_read_text;
+  if (report.objects.size() > 1) {
+    write_table(out, physics_summary(report));
+  }
+  for (const PhysicsObject& object : report.objects) {
+    write_table(out, physics_table(object, true));
+  }
+  for (const PhysicsGrowth& growth : report.growths) {
+    out << (&growth == &report.growths.front() ? "\nGrowing objects\n" : "");
+    write_table(out, growth_table(growth));
+  }
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,200 @@
+#include "report/run/compare.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <set>
+
+#include "mesh/error.h"
+#include "report/run/errors.h"
+#include "report/run/move_times.h"
+#include "report/run/runner.h"
+
+namespace chainmail::report {
+namespace {
+
+constexpr int fewest_repetitions = 5;
+constexpr int most_repetitions = 51;
+constexpr double warm_up_share = 0.25;  // of the progress: the references and both precisions take about that
+
+using Clock = std::chrono::steady_clock;
+
+/// An algorithm's runner serves all its contestants; where there is none, the refusal says why.
+struct Participant {
+  std::unique_ptr<Runner> runner;
+  std::string refusal;
+};
+
+/// One drag on one object, by all contestants.
+class Experiment {
+ public:
+  Experiment(const Case& object, const RecordedMoves& moves, const CompareOptions& options, const std::stop_token& stop)
+      : object_(object), moves_(moves), options_(options), stop_(stop) {
+    result_ = {moves.name, moves.description, count_moves(moves), {}, {}};
+    for (const Algorithm algorithm : options.algorithms) {
+      for (const int sweeps : options.sweeps) {
+        result_.entries.push_back({{algorithm, sweeps}, std::nullopt, {}});
+      }
+    }
+    times_.resize(result_.entries.size());
+  }
+
+  /// Calls `tell` with the share that is done. Nothing comes back where it was stopped.
+  std::optional<DragResult> run(const std::function<void(double)>& tell) {
+    make_runners();
+    measure_errors(tell);
+    for (int repetition = 0; repetition < repetitions_ && !stop_.stop_requested(); ++repetition) {
+      tell(warm_up_share + (1 - warm_up_share) * repetition / repetitions_);
+      repeat(static_cast<std::size_t>(repetition));
+    }
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      if (auto& measurement = result_.entries[i].measurement) {
+        measurement->ms_per_move = times_[i].spread();
+        measurement->worst_move_ms = times_[i].worst();
+      }
+    }
+    return stop_.stop_requested() ? std::nullopt : std::optional(std::move(result_));
+  }
+
+ private:
+  Participant& participant_of(std::size_t entry) { return participants_[entry / options_.sweeps.size()]; }
+
+  void make_runners() {
+    for (const Algorithm algorithm : options_.algorithms) {
+      Participant& participant = participants_.emplace_back();
+      try {
+        participant.runner = std::make_unique<Runner>(object_, algorithm, options_.precision, options_);
+      } catch (const Error& error) {
+        participant.refusal = error.what();
+      }
+    }
+  }
+
+  /// The warm-up, which is not timed: errors are the same in every repetition.
+  void measure_errors(const std::function<void(double)>& tell) {
+    References references(object_, moves_, options_, stop_);
+    result_.no_exact = references.no_exact();
+    double seconds = 0;
+    for (std::size_t i = 0; i < result_.entries.size() && !stop_.stop_requested(); ++i) {
+      tell(warm_up_share * double(i) / double(result_.entries.size()));
+      Entry& entry = result_.entries[i];
+      entry.refusal = participant_of(i).refusal;
+      if (participant_of(i).runner) {
+        seconds += try_out(entry, *participant_of(i).runner, references);
+      }
+    }
+    repetitions_ = options_.repetitions.value_or(static_cast<int>(
+        std::clamp<double>(options_.seconds / std::max(seconds, 1e-6), fewest_repetitions, most_repetitions)));
+  }
+
+  /// Returns the seconds that a run takes.
+  double try_out(Entry& entry, Runner& runner, References& references) {
+    const auto start = Clock::now();
+    try {
+      const Runner::Run run = runner.run(moves_, entry.contestant.sweeps, stop_);
+      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      if (!run.stopped) {
+        entry.measurement = Measurement{{}, 0, run.checked, run.moved, references.errors_of(runner, entry.contestant)};
+      }
+      return seconds;
+    } catch (const Error& error) {
+      entry.refusal = error.what();
+      return 0;
+    }
+  }
+
+  /// Everyone once, each time another one first: who comes after whom must not matter.
+  void repeat(std::size_t repetition) {
+    const std::size_t count = result_.entries.size();
+    for (std::size_t turn = 0; turn < count && !stop_.stop_requested(); ++turn) {
+      const std::size_t i = (turn + repetition) % count;
+      if (result_.entries[i].measurement) {
+        auto run = participant_of(i).runner->run(moves_, result_.entries[i].contestant.sweeps, stop_);
+        if (!run.stopped) {
+          times_[i].add(std::move(run.ms));
+        }
+      }
+    }
+  }
+
+  const Case& object_;
+  const RecordedMoves& moves_;
+  const CompareOptions& options_;
+  const std::stop_token& stop_;
+  DragResult result_;
+  std::vector<Participant> participants_;  // one an algorithm
+  std::vector<MoveTimes> times_;           // one a contestant
+  int repetitions_ = 0;
+};
+
+CompareOptions checked(const std::vector<Case>& cases, CompareOptions options) {
+  if (options.algorithms.empty()) {
+    for (const AlgorithmInfo& one : algorithms()) {
+      options.algorithms.push_back(one.algorithm);
+    }
+  }
+  check(options);
+  for (const Case& object : cases) {
+    std::ranges::for_each(object.drags, [](const RecordedMoves& moves) { check(moves); });
+  }
+  return options;
+}
+
+}  // namespace
+
+void check(const CompareOptions& options) {
+  if (options.sweeps.empty() || *std::ranges::min_element(options.sweeps) < 0) {
+    throw Error("relax", "there is no number of sweeps, or one below 0", "give numbers from 0");
+  }
+  if (!(options.relax_step > 0 && options.relax_step <= 1)) {
+    throw Error("relax-step", "it must lie above 0 and up to 1", "1 goes all the way to the mean");
+  }
+  if (options.repetitions && *options.repetitions < 1) {
+    throw Error("repetitions", "there would be none", "use 1 or more");
+  }
+}
+
+std::string label(const Contestant& contestant) {
+  return std::string(info(contestant.algorithm).label) + (contestant.sweeps == 0 ? ""
+                                                          : contestant.sweeps == 1
+                                                              ? ", 1 sweep"
+                                                              : ", " + std::to_string(contestant.sweeps) + " sweeps");
+}
+
+Comparison compare(const std::vector<Case>& cases, const CompareOptions& options, const Progress& progress,
+                   const std::stop_token& stop) {
+  Comparison comparison{checked(cases, options), {}, false};
+  std::size_t drags = 0, done = 0;
+  for (const Case& object : cases) {
+    drags += object.drags.size();
+  }
+  for (const Case& object : cases) {
+    CaseResult& result = comparison.cases.emplace_back();
+    result = {object.name,
+              object.description,
+              object.mesh->element_count(),
+              object.mesh->link_count() - std::set(object.cuts.begin(), object.cuts.end()).size(),
+              {}};
+    for (const RecordedMoves& moves : object.drags) {
+      const auto tell = [&](double share) {
+        if (progress) {
+          progress((double(done) + share) / double(drags), object.name + ", " + moves.name);
+        }
+      };
+      tell(0);
+      auto drag = Experiment(object, moves, comparison.options, stop).run(tell);
+      if (!drag) {
+        comparison.stopped = true;
+        return comparison;
+      }
+      result.drags.push_back(std::move(*drag));
+      ++done;
+    }
+  }
+  if (progress) {
+    progress(1, "done");
+  }
+  return comparison;
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "report/run/physics.h"
+
+namespace chainmail::report {
+
+/// All contestants on one object, drag by drag. What they have prepared for the object and a handle, they keep.
+class Contest {
+ public:
+  /// The object must outlive it. Who cannot take part is listed with the reason.
+  Contest(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options);
+  ~Contest();
+
+  /// A drag by all of them, against the reference solution at its end.
+  std::vector<PhysicsEntry> run(const RecordedMoves& moves, const Truth& truth, const std::function<void(double)>& tell,
+                                const std::stop_token& stop);
+
+ private:
+  class Participant;
+
+  CompareOptions options_;
+  std::vector<std::unique_ptr<Participant>> participants_;
+};
+
+}  // namespace chainmail::report

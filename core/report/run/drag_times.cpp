@@ -1,0 +1,44 @@
+#include "report/run/drag_times.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace chainmail::report {
+
+RecordedMoves with_preparing_move(const Mesh& mesh, RecordedMoves moves) {
+  const auto grab = std::ranges::find_if(
+      moves.commands, [](const Command& command) { return std::holds_alternative<commands::Grab>(command); });
+  if (grab != moves.commands.end()) {
+    const ElementId handle = std::get<commands::Grab>(*grab).element;
+    moves.commands.insert(grab + 1, commands::Drag{mesh.rest_position(handle)});
+  }
+  return moves;
+}
+
+DragTimes split(std::span<const double> ms, bool has_preparing_move, bool has_cut) {
+  DragTimes times;
+  const auto take_first = [&](double& time) {
+    time = ms.empty() ? 0 : ms.front();
+    ms = ms.subspan(std::min<std::size_t>(1, ms.size()));
+  };
+  if (has_preparing_move) {
+    take_first(times.preparing);
+  }
+  if (has_cut && !ms.empty()) {
+    times.after_cut = ms.back();
+    ms = ms.first(ms.size() - 1);
+  }
+  take_first(times.first);
+  if (!ms.empty()) {
+    times.later = std::accumulate(ms.begin(), ms.end(), 0.0) / double(ms.size());
+  }
+  return times;
+}
+
+TimeSpread RepeatedDrag::spread(double DragTimes::*of) const {
+  std::vector<double> all(runs_.size());
+  std::ranges::transform(runs_, all.begin(), of);
+  return spread_of(std::move(all));
+}
+
+}  // namespace chainmail::report

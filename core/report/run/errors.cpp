@@ -1,0 +1,94 @@
+#include "report/run/errors.h"
+
+#include <algorithm>
+
+#include "mesh/error.h"
+
+namespace chainmail::report {
+namespace {
+
+// Beyond this the reference would take longer than all that is compared with it.
+constexpr ElementId equilibrium_limit = 131'072;
+
+double energy_of(const Simulation& simulation) {
+  return elastic_energy(simulation.mesh(), simulation.solver().cuts(), simulation.solver().positions());
+}
+
+Distance between(const Runner& one, const Runner& other) {
+  return measure_distance(one.simulation().mesh(), one.simulation().solver().positions(),
+                          other.simulation().solver().positions());
+}
+
+}  // namespace
+
+References::References(const Case& object, const RecordedMoves& moves, const CompareOptions& options,
+                       const std::stop_token& stop)
+    : object_(object), moves_(moves), options_(options), stop_(stop) {
+  try {
+    exact_ = std::make_unique<Runner>(object, Algorithm::exact, Precision::double_precision, options);
+    exact_->run(moves, 0, stop);
+    energy_of_exact_ = energy_of(exact_->simulation());
+    find_equilibrium();
+  } catch (const Error& error) {
+    exact_.reset();
+    no_exact_ = error.what();
+  }
+}
+
+/// Where full relaxation would end with the hand and the pins where Exact ChainMail has them.
+void References::find_equilibrium() {
+  const Simulation& simulation = exact_->simulation();
+  const auto pins = simulation.solver().pins();
+  std::vector<ElementId> fixed(pins.begin(), pins.end());
+  if (exact_->hand()) {
+    fixed.push_back(*exact_->hand());
+  }
+  if (simulation.mesh().element_count() > equilibrium_limit) {
+    return;
+  }
+  JobState job;
+  const std::stop_callback cancel(stop_, [&job] { job.cancelled = true; });
+  try {
+    equilibrium_ = equilibrium(simulation.mesh(), simulation.softness(), simulation.solver().cuts(), fixed,
+                               simulation.solver().positions(), cholesky_limit, chainmail::Progress(job));
+  } catch (const Cancelled&) {
+    return;  // nobody looks at it then
+  }
+  const bool is_reference =
+      equilibrium_ && !equilibrium_->binds &&
+      std::find(equilibrium_->defined.begin(), equilibrium_->defined.end(), false) == equilibrium_->defined.end();
+  if (!is_reference) {
+    equilibrium_.reset();
+  }
+}
+
+Errors References::errors_of(const Runner& runner, const Contestant& contestant) {
+  const Simulation& simulation = runner.simulation();
+  const PositionView positions = simulation.solver().positions();
+  Errors errors;
+  errors.violation = measure_violation(simulation.mesh(), simulation.softness(), simulation.solver().cuts(), positions);
+  if (exact_) {
+    errors.to_exact = between(runner, *exact_);
+    errors.energy_over_exact = energy_ratio(energy_of(simulation), energy_of_exact_);
+  }
+  if (equilibrium_) {
+    errors.to_equilibrium = measure_distance(simulation.mesh(), positions, equilibrium_->positions(simulation.mesh()));
+  }
+  errors.float_to_double = float_to_double(runner, contestant);
+  if (runner.hand()) {
+    errors.largest_over_hand = largest_over_hand(simulation.mesh(), positions, *runner.hand());
+  }
+  return errors;
+}
+
+Distance References::float_to_double(const Runner& runner, const Contestant& contestant) {
+  const bool in_float = options_.precision == Precision::single_precision;
+  if (!other_ || other_->simulation().statistics().algorithm != contestant.algorithm) {
+    other_ = std::make_unique<Runner>(object_, contestant.algorithm,
+                                      in_float ? Precision::double_precision : Precision::single_precision, options_);
+  }
+  other_->run(moves_, contestant.sweeps, stop_);
+  return between(runner, *other_);
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,51 @@
+#include "report/run/hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "report/run/random.h"
+
+namespace chainmail::report {
+namespace {
+
+// A step of the hand on average, in widths of the object.
+constexpr double mean_step = 0.02;
+// By how much the hand may turn from move to move (radians), and how much of its turning it keeps.
+constexpr double turn = 0.15;
+constexpr double turning_kept = 0.8;
+
+HandDrag draw(const Mesh& mesh, double width, int moves, std::mt19937_64& random) {
+  HandDrag drag{static_cast<ElementId>(random() % mesh.element_count()), {}};
+  Point at = mesh.rest_position(drag.element);
+  const double speed = mean_step * width * std::exp2(uniform(random, -1, 1));
+  double direction = uniform(random, 0, 2 * std::numbers::pi), turning = 0;
+  for (int move = 0; move < moves; ++move) {
+    // Half a sine from the first move to the last, its mean 1.
+    const double pace = std::numbers::pi / 2 * std::sin(std::numbers::pi * (move + 0.5) / moves);
+    turning = turning_kept * turning + uniform(random, -turn, turn);
+    direction += turning;
+    at[mesh.axes[0]] += speed * pace * std::cos(direction);
+    if (mesh.space_dimension > 1) {
+      at[mesh.axes[1]] += speed * pace * std::sin(direction);
+    }
+    drag.targets.push_back(at);
+  }
+  return drag;
+}
+
+}  // namespace
+
+std::vector<HandDrag> hand_drags(const Mesh& mesh, std::uint64_t seed, int drags, int moves) {
+  const auto [low, high] = bounds(mesh);
+  const double width = (high - low).maxCoeff();
+  std::mt19937_64 random(seed);
+  std::vector<HandDrag> result;
+  result.reserve(static_cast<std::size_t>(drags));
+  for (int i = 0; i < drags; ++i) {
+    result.push_back(draw(mesh, width, moves, random));
+  }
+  return result;
+}
+
+}  // namespace chainmail::report

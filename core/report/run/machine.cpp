@@ -1,0 +1,44 @@
+#include "report/run/machine.h"
+
+#include <fstream>
+#include <thread>
+
+namespace chainmail::report {
+namespace {
+
+/// As Linux tells it; elsewhere nothing is known.
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("model name")) {
+      const auto begin = line.find_first_not_of(": \t", line.find(':'));
+      return begin == std::string::npos ? "unknown" : line.substr(begin);
+    }
+  }
+  return "unknown";
+}
+
+std::string compiler() {
+#if defined(__clang__)
+  return "Clang " __clang_version__;
+#elif defined(__GNUC__)
+  return "GCC " __VERSION__;
+#else
+  return "unknown";
+#endif
+}
+
+std::string build() {
+  const std::string type = CHAINMAIL_BUILD_TYPE;
+#ifdef NDEBUG
+  return type.empty() ? "optimised" : type;
+#else
+  return type.empty() ? "with assertions" : type + ", with assertions";
+#endif
+}
+
+}  // namespace
+
+Machine this_machine() { return {processor(), std::thread::hardware_concurrency(), compiler(), build()}; }
+
+}  // namespace chainmail::report

@@ -1,0 +1,188 @@
+#include "report/run/physics.h"
+
+#include <algorithm>
+#include <array>
+
+#include "measure/truth.h"
+#include "mesh/error.h"
+#include "report/run/contest.h"
+#include "report/run/physics_cases.h"
+#include "report/run/preparing.h"
+#include "report/run/runner.h"
+
+namespace chainmail::report {
+namespace {
+
+// Calibration takes longer than a drag, and the others of the family differ little from these.
+constexpr std::array calibrated_algorithms{Algorithm::natural_queue, Algorithm::exact};
+constexpr double share_of_drags = 0.6;  // of the progress, where objects grow as well
+
+PhysicsOptions checked(PhysicsOptions options) {
+  if (options.contest.algorithms.empty()) {
+    for (const AlgorithmInfo& one : every_algorithm()) {
+      options.contest.algorithms.push_back(one.algorithm);
+    }
+  }
+  check(options.contest);
+  if (!(options.growth_seconds >= 0)) {
+    throw Error("grow", "time does not run backward", "use 0 or more seconds");
+  }
+  return options;
+}
+
+/// The solver of the reference solution, without which nothing can be measured.
+TruthSolver reference_of(const Case& object, const std::vector<LinkId>& cut) {
+  std::vector<ElementId> pins = object.pins;
+  std::ranges::sort(pins);
+  const std::vector<double> at_rest(pins.size() * static_cast<std::size_t>(object.mesh->space_dimension), 0.0);
+  if (pins.empty()) {
+    throw Error(object.name, "nothing pins it, so physics has no static answer",
+                "pin a side, the boundary, or elements");
+  }
+  Cuts cuts(object.mesh);
+  for (const LinkId link : cut) {
+    cuts.cut(link);
+  }
+  try {
+    return TruthSolver({object.mesh, cuts, pins, at_rest, object.elastic});
+  } catch (const Error& error) {
+    throw error.at(object.name);
+  }
+}
+
+/// The reference solution at the end of a drag.
+Truth reference_at_end(TruthSolver& solver, const RecordedMoves& moves) {
+  Point target = Point::Zero();
+  for (const Command& command : moves.commands) {
+    if (const auto* drag = std::get_if<commands::Drag>(&command)) {
+      target = drag->target;
+    }
+  }
+  return solver.at(handle_of(moves), target);
+}
+
+PhysicsDrag drag_of(Contest& contest, const Case& object, const RecordedMoves& moves, TruthSolver& uncut,
+                    const std::function<void(double)>& tell, const std::stop_token& stop) {
+  const std::vector<LinkId> cut = cuts_of(moves);
+  PhysicsDrag drag{moves.name, moves.description, handle_of(moves), count_moves(moves), !cut.empty(), 0, {}, {}};
+  try {
+    std::optional<TruthSolver> with_cut;
+    if (drag.has_cut) {
+      with_cut.emplace(reference_of(object, cut));
+    }
+    const Truth truth = reference_at_end(with_cut ? *with_cut : uncut, moves);
+    drag.hand = truth.hand;
+    drag.entries = contest.run(moves, truth, tell, stop);
+  } catch (const Error& error) {
+    drag.no_truth = error.what();
+  }
+  return drag;
+}
+
+/// Calibrates those of the ChainMail family that take part and fit the object.
+std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options,
+                                         const std::function<void(double)>& tell, const std::stop_token& stop) {
+  std::vector<Calibration> found;
+  const std::vector<ElementId> handles = handles_of(object);
+  for (const Algorithm algorithm : calibrated_algorithms) {
+    const bool takes_part = std::ranges::count(options.contest.algorithms, algorithm) != 0;
+    if (!options.calibrate || !takes_part || !fits(algorithm, *object.mesh) || stop.stop_requested()) {
+      continue;
+    }
+    tell(0);
+    try {
+      found.push_back(options.calibrate(object, algorithm, handles, stop));
+    } catch (const Error& error) {
+      found.push_back({algorithm, {}, 0, 0, 0, 0, error.what()});
+    } catch (const Cancelled&) {
+      break;
+    }
+  }
+  return found;
+}
+
+/// What is told while the experiment goes on, of its whole.
+class Teller {
+ public:
+  Teller(const Progress& progress, std::size_t drags, bool grows) : progress_(progress), drags_(drags), grows_(grows) {}
+
+  std::function<void(double)> of_drag(const std::string& text) const {
+    return [this, text, begin = done_](double share) {
+      tell((grows_ ? share_of_drags : 1) * (double(begin) + share) / double(drags_), text);
+    };
+  }
+  void drag_is_done() { ++done_; }
+  std::function<void(double)> of_growth(const std::string& text, int which, int of) const {
+    return [this, text, which, of](double share) {
+      tell(share_of_drags + (1 - share_of_drags) * (which + share) / of, text);
+    };
+  }
+  void tell(double share, const std::string& text) const {
+    if (progress_) {
+      progress_(share, text);
+    }
+  }
+
+ private:
+  const Progress& progress_;
+  std::size_t drags_, done_ = 0;
+  bool grows_;
+};
+
+void add_growths(PhysicsReport& report, const Softness& softness, const Teller& teller, const std::stop_token& stop) {
+  const PhysicsOptions& options = report.options;
+  const ElasticOptions elastic = report.elastic;
+  report.growths.push_back(grow(
+      "bar", "tetrahedra, pinned at the left layer, pulled",
+      [&](std::uint64_t elements) { return pinned_bar(elements, softness, elastic, false); }, options,
+      teller.of_growth("growing bar", 0, 2), stop));
+  report.growths.push_back(grow(
+      "sheet", "triangles in a plane, pinned at the top layer, pulled",
+      [&](std::uint64_t elements) { return pinned_sheet(elements, softness, elastic, false); }, options,
+      teller.of_growth("growing sheet", 1, 2), stop));
+}
+
+}  // namespace
+
+PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& asked,
+                                   const Progress& progress, const std::stop_token& stop) {
+  PhysicsReport report{checked(asked), cases.empty() ? ElasticOptions() : cases.front().elastic, {}, {}, false};
+  std::size_t drags = 0;
+  for (const Case& object : cases) {
+    drags += object.drags.size();
+  }
+  Teller teller(progress, drags, report.options.growth_seconds > 0);
+  for (const Case& object : cases) {
+    PhysicsObject& result = report.objects.emplace_back();
+    result = {object.name,
+              object.description,
+              object.mesh->element_count(),
+              object.mesh->link_count(),
+              object.pins.size(),
+              {},
+              {}};
+    TruthSolver solver = reference_of(object, {});
+    const CompareOptions& how = report.options.contest;
+    result.calibrations = calibrations_of(object, report.options, teller.of_drag(object.name + ", calibrating"), stop);
+    Contest contest(object, contestants_of(how.algorithms, how.sweeps, result.calibrations), how);
+    for (const RecordedMoves& moves : object.drags) {
+      const auto tell = teller.of_drag(object.name + ", " + moves.name);
+      tell(0);
+      PhysicsDrag drag = drag_of(contest, object, moves, solver, tell, stop);
+      if (stop.stop_requested()) {
+        report.stopped = true;
+        return report;
+      }
+      result.drags.push_back(std::move(drag));
+      teller.drag_is_done();
+    }
+  }
+  if (report.options.growth_seconds > 0 && !cases.empty()) {
+    add_growths(report, {cases.front().softness.global, {}}, teller, stop);
+    report.stopped = stop.stop_requested();
+  }
+  teller.tell(1, "done");
+  return report;
+}
+
+}  // namespace chainmail::report

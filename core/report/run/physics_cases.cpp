@@ -1,0 +1,217 @@
+#include "report/run/physics_cases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "elastic/elastic.h"
+#include "mesh/error.h"
+#include "mesh/generate.h"
+#include "mesh/layers.h"
+
+namespace chainmail::report {
+namespace {
+
+constexpr int moves = 24, moves_before_cut = 12;
+constexpr std::size_t most_handles = 3;
+constexpr double nudge = 0.05, far = 0.2;  // of the object's largest extent
+constexpr std::uint64_t usual_elements = 256;
+
+Case made(const char* name, const std::string& description, const MeshPointer& mesh, const char* side,
+          const Softness& softness, const ElasticOptions& elastic, bool with_cut) {
+  Case object{name, description, mesh, {}, layer(*mesh, *find_side(side)), softness, {}, elastic};
+  object.drags = physics_drags(object, with_cut);
+  return object;
+}
+
+/// Elements that a handle can be: of a solid those on its surface.
+std::vector<ElementId> reachable(const Mesh& mesh) {
+  if (!mesh.tetrahedra.empty() || !mesh.hexahedra.empty()) {
+    return boundary(mesh);
+  }
+  std::vector<ElementId> all(mesh.element_count());
+  std::iota(all.begin(), all.end(), ElementId{0});
+  return all;
+}
+
+/// Lowers the distances of some elements to those from one more place.
+void come_near(std::vector<double>& distances, const Mesh& mesh, const std::vector<ElementId>& elements,
+               const Point& place) {
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    distances[i] = std::min(distances[i], (mesh.rest_position(elements[i]) - place).squaredNorm());
+  }
+}
+
+/// Away from the pins' middle; along the first axis where the element stands there.
+Point outward_of(const Case& object, ElementId element) {
+  const Mesh& mesh = *object.mesh;
+  Point middle = Point::Zero();
+  for (const ElementId pin : object.pins) {
+    middle += mesh.rest_position(pin) / double(object.pins.size());
+  }
+  const Point way = mesh.rest_position(element) - middle;
+  return way.norm() > mesh.mean_link_length / 2 ? Point(way.normalized()) : Point(Point::Unit(mesh.axes[0]));
+}
+
+/// At a right angle to it, as near as may be to the last axis that the scene carries; on a line, back.
+Point across_of(const Mesh& mesh, const Point& outward) {
+  for (int k = mesh.space_dimension - 1; k >= 0; --k) {
+    const Point axis = Point::Unit(mesh.axes[k]);
+    const Point across = axis - axis.dot(outward) * outward;
+    if (across.norm() > 0.5) {
+      return across.normalized();
+    }
+  }
+  return -outward;
+}
+
+/// A plane across the way from the handle to the nearest pin, and how far a cut goes along it.
+struct CutPlace {
+  double along = 0.5;  // share of the way from the handle
+  double from = 0;     // the cut ends at this share of the object's extent there, counted from the way
+};
+// A cut through the middle as deep as the object stays held; less deep, or elsewhere, where it would not.
+constexpr CutPlace cut_places[]{{0.5, 0},    {0.5, 0.3}, {0.5, 0.6},  {0.35, 0},  {0.35, 0.3},
+                                {0.35, 0.6}, {0.65, 0},  {0.65, 0.3}, {0.65, 0.6}};
+
+/// The links that such a cut goes through.
+std::vector<LinkId> links_through(const Case& object, ElementId handle, const CutPlace& place) {
+  const Mesh& mesh = *object.mesh;
+  const Point from = mesh.rest_position(handle);
+  const auto distance = [&](ElementId pin) { return (mesh.rest_position(pin) - from).squaredNorm(); };
+  const Point to = mesh.rest_position(*std::ranges::min_element(object.pins, {}, distance));
+  const Point middle = from + place.along * (to - from), normal = (from - to).normalized();
+  const Point across = across_of(mesh, normal);
+  std::vector<std::pair<LinkId, double>> crossings;
+  double farthest = 0;
+  for (LinkId link = 0; link < mesh.link_count(); ++link) {
+    const Point a = mesh.rest_position(mesh.links[link][0]), b = mesh.rest_position(mesh.links[link][1]);
+    const double before = (a - middle).dot(normal), behind = (b - middle).dot(normal);
+    if ((before < 0) != (behind < 0)) {
+      crossings.emplace_back(link, (a + before / (before - behind) * (b - a) - middle).dot(across));
+      farthest = std::max(farthest, crossings.back().second);
+    }
+  }
+  std::vector<LinkId> links;
+  for (const auto& [link, at] : crossings) {
+    if (at > place.from * farthest) {
+      links.push_back(link);
+    }
+  }
+  return links;
+}
+
+/// True where linear elasticity has one answer with these links cut: nothing hangs loose, or as on a hinge.
+bool stays_held(const Case& object, const std::vector<LinkId>& links) {
+  ElasticProblem problem{object.mesh, Cuts(object.mesh), object.pins, {}, object.elastic};
+  std::ranges::sort(problem.pins);
+  problem.pinned.resize(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension));
+  for (const LinkId link : links) {
+    problem.cuts.cut(link);
+  }
+  try {
+    make_elastic(ElasticMethod::linear_fem, problem);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// The links of the first of the cuts after which the object is held; none where there is no such cut.
+std::vector<LinkId> links_to_cut(const Case& object, ElementId handle) {
+  for (const CutPlace& place : cut_places) {
+    std::vector<LinkId> links = links_through(object, handle, place);
+    if (!links.empty() && stays_held(object, links)) {
+      return links;
+    }
+  }
+  return {};
+}
+
+RecordedMoves drag(const Mesh& mesh, ElementId element, const Point& way, const std::string& name,
+                   const std::string& description) {
+  RecordedMoves drag{name, "element " + std::to_string(element) + ", " + description, {commands::Grab{element}}};
+  for (int move = 1; move <= moves; ++move) {
+    drag.commands.emplace_back(commands::Drag{mesh.rest_position(element) + way * move / moves});
+  }
+  return drag;
+}
+
+/// A pull up to its middle, a cut into the object, and one move more; no commands where nothing can be cut.
+RecordedMoves cut_then_move(const Case& object, const RecordedMoves& pull) {
+  const ElementId handle = std::get<commands::Grab>(pull.commands.front()).element;
+  std::vector<LinkId> links = links_to_cut(object, handle);
+  if (links.empty()) {
+    return {};
+  }
+  RecordedMoves cut{"cut, then move",
+                    "element " + std::to_string(handle) + ", half of the pull, a cut through the object (" +
+                        std::to_string(links.size()) + " links), and one move more",
+                    {pull.commands.begin(), pull.commands.begin() + 1 + moves_before_cut}};
+  cut.commands.emplace_back(commands::Cut{std::move(links)});
+  cut.commands.push_back(pull.commands[1 + moves_before_cut]);
+  return cut;
+}
+
+}  // namespace
+
+Case pinned_bar(std::uint64_t elements, const Softness& softness, const ElasticOptions& elastic, bool with_cut) {
+  const auto width = static_cast<std::uint32_t>(std::max(2.0, std::round(std::cbrt(double(elements) / 3))));
+  const auto mesh = generate({MeshKind::tetra, {3 * width, width, width}});
+  return made("bar", "tetrahedra, pinned at the left layer", mesh, "left", softness, elastic, with_cut);
+}
+
+Case pinned_sheet(std::uint64_t elements, const Softness& softness, const ElasticOptions& elastic, bool with_cut) {
+  const auto width = static_cast<std::uint32_t>(std::max(2.0, std::round(std::sqrt(double(elements)))));
+  const auto mesh = generate({MeshKind::cloth, {width, width, 1}});
+  return made("sheet", "triangles in a plane, pinned at the top layer", mesh, "top", softness, elastic, with_cut);
+}
+
+std::vector<Case> physics_cases(const Softness& softness, const ElasticOptions& elastic) {
+  return {pinned_bar(usual_elements, softness, elastic), pinned_sheet(usual_elements, softness, elastic)};
+}
+
+std::vector<ElementId> physics_handles(const Case& object) {
+  const Mesh& mesh = *object.mesh;
+  const std::vector<ElementId> elements = reachable(mesh);
+  std::vector<double> distances(elements.size(), std::numeric_limits<double>::infinity());
+  for (const ElementId pin : object.pins) {
+    come_near(distances, mesh, elements, mesh.rest_position(pin));
+  }
+  std::vector<ElementId> handles;
+  while (handles.size() < most_handles && !object.pins.empty() && !elements.empty()) {
+    const auto farthest = std::ranges::max_element(distances) - distances.begin();
+    if (distances[static_cast<std::size_t>(farthest)] == 0) {
+      break;  // pinned, or a handle already
+    }
+    handles.push_back(elements[static_cast<std::size_t>(farthest)]);
+    come_near(distances, mesh, elements, mesh.rest_position(handles.back()));
+  }
+  if (handles.empty()) {
+    throw Error(object.name, object.pins.empty() ? "nothing pins it" : "every element that could be a handle is pinned",
+                "pin a side of it");
+  }
+  return handles;
+}
+
+std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut) {
+  const Mesh& mesh = *object.mesh;
+  const auto [low, high] = bounds(mesh);
+  const double size = (high - low).maxCoeff();
+  std::vector<RecordedMoves> drags;
+  for (const ElementId handle : physics_handles(object)) {
+    const Point outward = outward_of(object, handle), across = across_of(mesh, outward);
+    drags.push_back(
+        drag(mesh, handle, nudge * size * (outward + across).normalized(), "nudge", "5 % of the object’s size"));
+    drags.push_back(drag(mesh, handle, far * size * outward, "pull", "20 % of the object’s size away from the pins"));
+    drags.push_back(drag(mesh, handle, far * size * across, "bend", "20 % of the object’s size across"));
+  }
+  if (RecordedMoves cut = with_cut ? cut_then_move(object, drags[1]) : RecordedMoves(); !cut.commands.empty()) {
+    drags.push_back(std::move(cut));
+  }
+  return drags;
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,61 @@
+#include "report/run/physics_contestant.h"
+
+#include <algorithm>
+
+namespace chainmail::report {
+namespace {
+
+/// The reference solution shares the cells of two methods: their errors leave out what the mesh does.
+const char* cells_of(Algorithm algorithm) {
+  switch (algorithm) {
+    case Algorithm::linear_fem:
+    case Algorithm::neo_hookean:
+      return ", on the same cells";
+    case Algorithm::boundary_elements:
+      return ", on its surface mesh";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+std::string name(const PhysicsContestant& contestant) {
+  return contestant.algorithm ? std::string(info(*contestant.algorithm).name) : "nothing";
+}
+
+std::string label(const PhysicsContestant& contestant) {
+  if (!contestant.algorithm) {
+    return "Nothing moves";
+  }
+  if (!contestant.calibrated) {
+    return label(Contestant{*contestant.algorithm, contestant.sweeps}) + cells_of(*contestant.algorithm);
+  }
+  return label(Contestant{*contestant.algorithm, 0}) + ", calibrated" +
+         (contestant.sweeps == 0 ? "" : " (" + std::to_string(contestant.sweeps) + " sweeps)");
+}
+
+bool prepares(const PhysicsContestant& contestant) {
+  return contestant.algorithm && elastic_method(*contestant.algorithm);
+}
+
+std::vector<PhysicsContestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps,
+                                              const std::vector<Calibration>& calibrations) {
+  std::vector<PhysicsContestant> contestants{{std::nullopt, 0}};
+  for (const Algorithm algorithm : algorithms) {
+    if (elastic_method(algorithm)) {
+      contestants.push_back({algorithm, 0});
+      continue;
+    }
+    for (const int count : sweeps) {
+      contestants.push_back({algorithm, count});
+    }
+    const auto found = std::ranges::find(calibrations, algorithm, &Calibration::algorithm);
+    if (found != calibrations.end() && found->refusal.empty()) {
+      contestants.push_back({algorithm, found->sweeps, found->softness});
+    }
+  }
+  return contestants;
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "mesh/error.h"
+#include "report/run/contest.h"
+
+namespace chainmail::report {
+namespace {
+
+constexpr std::uint64_t smallest = 100, largest = 1'000'000;  // elements
+constexpr double next_size = 2;
+constexpr double asymptotic_from = 1000;  // elements: below, what is done once a pass counts too much
+const std::vector<int> sweeps_grown{0, 10};
+constexpr std::size_t moves_grown = 6;  // of the drag, in longer steps
+constexpr const char* drag_grown = "pull";
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// The pull alone, in few moves: each size is to cost little more than its passes.
+void shorten(Case& object) {
+  RecordedMoves pull = *std::ranges::find(object.drags, drag_grown, &RecordedMoves::name);
+  std::vector<Command> commands{pull.commands.front()};
+  const std::size_t every = (pull.commands.size() - 1) / moves_grown;
+  for (std::size_t i = every; i < pull.commands.size(); i += every) {
+    commands.push_back(pull.commands[i]);
+  }
+  pull.commands = std::move(commands);
+  object.drags = {std::move(pull)};
+}
+
+/// The time that somebody has, and what the next size will take of it.
+class Budget {
+ public:
+  explicit Budget(double seconds) : left_(seconds) {}
+
+  void spend(double seconds) {
+    left_ -= seconds;
+    // It grows at least as the elements do, and no faster than the last time, or as a dense factorization.
+    ratio_ = last_ > 0 ? std::clamp(seconds / last_, next_size, 8.0) : next_size;
+    last_ = seconds;
+  }
+  bool holds_next() const { return left_ > 0 && last_ * ratio_ <= left_; }
+  void use_up() { left_ = 0; }
+
+ private:
+  double left_, last_ = 0, ratio_ = next_size;
+};
+
+/// The reference solution at a size, as long as its own time lasts.
+std::optional<Truth> truth_at(const Case& object, Budget& budget) {
+  if (!budget.holds_next()) {
+    return std::nullopt;
+  }
+  const double start = now();
+  try {
+    const std::vector<double> at_rest(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension), 0.0);
+    TruthSolver solver({object.mesh, Cuts(object.mesh), object.pins, at_rest, object.elastic});
+    const auto& commands = object.drags.front().commands;
+    Truth truth =
+        solver.at(std::get<commands::Grab>(commands.front()).element, std::get<commands::Drag>(commands.back()).target);
+    budget.spend(now() - start);
+    return truth;
+  } catch (const Error&) {
+    budget.use_up();  // too large for it
+    return std::nullopt;
+  }
+}
+
+/// Without a reference only times count; rest is as good as anything to measure against.
+Truth no_truth(const Case& object) { return {std::vector<double>(object.mesh->rest.size(), 0.0), 1, {}}; }
+
+void measure(GrowthSeries& series, Budget& budget, const Case& object, const std::optional<Truth>& truth,
+             CompareOptions options, const std::stop_token& stop) {
+  const double start = now();
+  options.seconds = 0;
+  options.repetitions = 1;
+  Contest contest(object, {series.contestant}, options);
+  const auto entries = contest.run(
+      object.drags.front(), truth ? *truth : no_truth(object), [](double) {}, stop);
+  budget.spend(now() - start);
+  if (const auto& measurement = entries.front().measurement) {
+    series.points.push_back({object.mesh->element_count(), measurement->ms_per_move.median, measurement->prepare.ms(),
+                             truth ? std::optional(measurement->error) : std::nullopt});
+    series.end = budget.holds_next() ? "" : "its time was used up";
+  } else if (!stop.stop_requested()) {
+    series.end = entries.front().refusal;
+    budget.use_up();
+  }
+}
+
+void find_growth(GrowthSeries& series) {
+  std::vector<SizedTime> times;
+  for (const GrowthPoint& point : series.points) {
+    times.push_back({double(point.elements), point.ms_per_move});
+  }
+  series.growth = growth_of(times, asymptotic_from);
+}
+
+}  // namespace
+
+PhysicsGrowth grow(const std::string& name, const std::string& description,
+                   const std::function<Case(std::uint64_t elements)>& made, const PhysicsOptions& options,
+                   const std::function<void(double)>& tell, const std::stop_token& stop) {
+  PhysicsGrowth growth{name, description, {}};
+  std::vector<Budget> budgets;
+  for (const PhysicsContestant& contestant : contestants_of(options.contest.algorithms, sweeps_grown, {})) {
+    if (!contestant.algorithm) {
+      continue;  // its relative error is about 1 at every size, and it has no times
+    }
+    growth.series.push_back({contestant, {}, {}, {}});
+    budgets.emplace_back(options.growth_seconds);
+  }
+  Budget of_truth(options.growth_seconds);
+  const double sizes = std::log(double(largest) / smallest) / std::log(next_size);
+  double size = smallest;
+  for (int i = 0; size <= largest && std::ranges::any_of(budgets, &Budget::holds_next); ++i, size *= next_size) {
+    tell(i / (sizes + 1));
+    Case object = made(static_cast<std::uint64_t>(size));
+    shorten(object);
+    const auto truth = truth_at(object, of_truth);
+    for (std::size_t k = 0; k < budgets.size() && !stop.stop_requested(); ++k) {
+      if (budgets[k].holds_next()) {
+        measure(growth.series[k], budgets[k], object, truth, options.contest, stop);
+      }
+    }
+    if (stop.stop_requested()) {
+      break;
+    }
+  }
+  for (GrowthSeries& series : growth.series) {
+    find_growth(series);
+    series.end = series.end.empty() ? "no larger object was tried" : series.end;
+  }
+  return growth;
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,78 @@
+#include "report/run/preparing.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "mesh/error.h"
+#include "report/run/clocks.h"
+
+namespace chainmail::report {
+namespace {
+
+constexpr int most_repetitions = 15;
+constexpr double enough = 1;  // seconds
+
+ElasticProblem problem_of(const Case& object) {
+  ElasticProblem problem{object.mesh, Cuts(object.mesh), object.pins, {}, object.elastic};
+  std::ranges::sort(problem.pins);
+  problem.pinned.resize(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension));
+  return problem;
+}
+
+}  // namespace
+
+PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method) {
+  const Clocks clocks = machine_clocks();
+  const ElasticProblem problem = problem_of(object);
+  const std::vector<ElementId> handles = handles_of(object);
+  const double start = clocks.wall();
+  for (int repetition = 0; repetition == 0 || (repetition < most_repetitions && clocks.wall() - start < enough);
+       ++repetition) {
+    std::unique_ptr<ElasticSolver> solver;
+    factorize_.push_back(1e3 * seconds_of(clocks, [&] { solver = make_elastic(method, problem); }));
+    for (const ElementId handle : handles) {
+      try {
+        const double seconds = seconds_of(clocks, [&] { solver->hold(handle); });
+        grab_[handle].push_back(1e3 * seconds);
+      } catch (const Error&) {
+        grab_.erase(handle);  // the drag itself says why
+      }
+    }
+  }
+}
+
+Preparation PreparingTimes::of(ElementId handle) const {
+  const auto found = grab_.find(handle);
+  return {spread_of(factorize_), found == grab_.end() ? TimeSpread() : spread_of(found->second)};
+}
+
+std::vector<ElementId> handles_of(const Case& object) {
+  std::vector<ElementId> handles;
+  for (const RecordedMoves& moves : object.drags) {
+    if (const ElementId handle = handle_of(moves); std::ranges::find(handles, handle) == handles.end()) {
+      handles.push_back(handle);
+    }
+  }
+  return handles;
+}
+
+ElementId handle_of(const RecordedMoves& moves) {
+  for (const Command& command : moves.commands) {
+    if (const auto* grab = std::get_if<commands::Grab>(&command)) {
+      return grab->element;
+    }
+  }
+  return 0;
+}
+
+std::vector<LinkId> cuts_of(const RecordedMoves& moves) {
+  std::vector<LinkId> links;
+  for (const Command& command : moves.commands) {
+    if (const auto* cut = std::get_if<commands::Cut>(&command)) {
+      links.insert(links.end(), cut->links.begin(), cut->links.end());
+    }
+  }
+  return links;
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,113 @@
+#include "report/run/runner.h"
+
+#include <algorithm>
+
+#include "mesh/error.h"
+
+namespace chainmail::report {
+namespace {
+
+template <class Item>
+std::vector<Item> sorted(std::vector<Item> items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+  return items;
+}
+
+template <class... Kinds>
+bool is_one_of(const Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
+}
+
+}  // namespace
+
+Runner::Runner(const Case& object, Algorithm algorithm, Precision precision, const CompareOptions& options)
+    : object_(object),
+      cuts_(sorted(object.cuts)),
+      pins_(sorted(object.pins)),
+      relax_step_(options.relax_step),
+      simulation_(object.mesh, algorithm, precision) {
+  simulation_.apply(commands::SetRelaxation{false, options.relax_step, options.scheme});
+  simulation_.apply(commands::SetElastic{object.elastic});
+}
+
+void Runner::go_to_rest() {
+  simulation_.apply(commands::Release{});
+  simulation_.apply(commands::Reset{});
+  if (simulation_.softness() != object_.softness) {
+    simulation_.apply(commands::SetSoftness{object_.softness});
+  }
+  if (auto cut = simulation_.solver().cuts().links(); cut != cuts_) {
+    simulation_.apply(commands::Uncut{std::move(cut)});
+    simulation_.apply(commands::Cut{cuts_});
+  }
+  if (const auto pinned = simulation_.solver().pins(); !std::ranges::equal(pinned, pins_)) {
+    simulation_.apply(commands::Unpin{{pinned.begin(), pinned.end()}});
+    simulation_.apply(commands::Pin{pins_});
+  }
+  simulation_.apply(commands::Reset{});  // what was changed has woken elements
+  hand_.reset();
+}
+
+Runner::Run Runner::run(const RecordedMoves& moves, int sweeps, const std::stop_token& stop) {
+  job_.cancelled = false;
+  const std::stop_callback cancel(stop, [this] { job_.cancelled = true; });
+  try {
+    return run(moves, sweeps, chainmail::Progress(job_));
+  } catch (const Cancelled&) {
+    Run stopped;
+    stopped.stopped = true;
+    return stopped;
+  }
+}
+
+Runner::Run Runner::run(const RecordedMoves& moves, int sweeps, const chainmail::Progress& progress) {
+  Run run;
+  simulation_.set_progress(progress);
+  go_to_rest();
+  for (const Command& command : moves.commands) {
+    progress.report(0);
+    carry_out(command, sweeps, run);
+  }
+  progress.report(1);
+  return run;
+}
+
+void Runner::carry_out(const Command& command, int sweeps, Run& run) {
+  using namespace commands;
+  if (is_one_of<SetAlgorithm, SetRelaxation, SetElastic, MoveControlPoint, KeepState, DropState>(command)) {
+    return;
+  }
+  const double applying = 1e3 * seconds_of(clocks_, [&] { simulation_.apply(command); });
+  if (const auto* grab = std::get_if<Grab>(&command)) {
+    hand_ = grab->element;
+  }
+  if (!std::holds_alternative<Drag>(command)) {
+    return;
+  }
+  double ms = std::min(applying, simulation_.statistics().last_pass_ms);
+  if (sweeps > 0) {
+    ms += 1e3 * seconds_of(clocks_, [&] { simulation_.relax(sweeps, relax_step_); });
+  }
+  run.ms.push_back(ms);
+  run.checked += simulation_.statistics().last_pass.checked;
+  run.moved += simulation_.statistics().last_pass.moved;
+}
+
+void check(const RecordedMoves& moves) {
+  for (const Command& command : moves.commands) {
+    if (is_one_of<commands::ReplaceMesh, commands::Place, commands::RestoreState>(command)) {
+      throw Error(moves.name, "these moves exchange the object, or undo", "record moves of one object, without undo");
+    }
+  }
+  if (count_moves(moves) == 0) {
+    throw Error(moves.name, "there is no move in it", "record a drag");
+  }
+}
+
+int count_moves(const RecordedMoves& moves) {
+  return static_cast<int>(std::ranges::count_if(
+      moves.commands, [](const Command& command) { return std::holds_alternative<commands::Drag>(command); }));
+}
+
+}  // namespace chainmail::report

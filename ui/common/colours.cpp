@@ -1,0 +1,87 @@
+#include "common/colours.h"
+
+#include <QEvent>
+#include <QGuiApplication>
+#include <QPalette>
+#include <QWidget>
+#include <cmath>
+#include <optional>
+
+namespace chainmail {
+namespace {
+
+constexpr int strongerPercent = 125;
+constexpr int middleLightness = 128;
+
+/// Hears of every change of the palette, and tells of those that change the ground.
+class ThemeFollower : public QObject {
+ public:
+  ThemeFollower(QWidget& widget, std::function<void()> apply)
+      : QObject(&widget), apply_(std::move(apply)), ground_(colours::ground()) {
+    widget.installEventFilter(this);
+    apply_();
+  }
+
+  bool eventFilter(QObject* /*watched*/, QEvent* event) override {
+    const bool palette = event->type() == QEvent::PaletteChange || event->type() == QEvent::ApplicationPaletteChange;
+    if (palette && colours::ground() != ground_) {
+      ground_ = colours::ground();  // first: what is applied may change the widget's palette
+      apply_();
+    }
+    return false;
+  }
+
+ private:
+  std::function<void()> apply_;
+  colours::Ground ground_;
+};
+
+}  // namespace
+
+namespace colours {
+
+namespace {
+
+std::optional<Ground> forced;  // by the one OnGround there is; of the window's thread alone
+
+}  // namespace
+
+OnGround::OnGround(Ground ground) { forced = ground; }
+OnGround::~OnGround() { forced.reset(); }
+
+Ground ground() {
+  if (forced) {
+    return *forced;
+  }
+  const int lightness = QGuiApplication::palette().color(QPalette::Window).lightness();
+  return lightness < middleLightness ? Ground::dark : Ground::light;
+}
+
+QColor stronger(const QColor& colour) {
+  return ground() == Ground::dark ? colour.lighter(strongerPercent) : colour.darker(strongerPercent);
+}
+
+namespace {
+
+/// On a dark ground so many hundredths darker, on a light one with so much of the ground's colour.
+QColor nearer(const QColor& colour, int darker, double own) {
+  if (ground() == Ground::dark) {
+    return colour.darker(darker);
+  }
+  const QColor behind = background;
+  const auto mixed = [own](float of, float with) { return float(with + own * (of - with)); };
+  return QColor::fromRgbF(mixed(colour.redF(), behind.redF()), mixed(colour.greenF(), behind.greenF()),
+                          mixed(colour.blueF(), behind.blueF()));
+}
+
+}  // namespace
+
+QColor faint(const QColor& colour) { return nearer(colour, 320, 0.22); }
+QColor solid(const QColor& colour) { return nearer(colour, 190, 0.6); }
+QColor bright(const QColor& colour) { return nearer(colour, 125, 0.75); }
+
+}  // namespace colours
+
+void followTheme(QWidget& widget, std::function<void()> apply) { new ThemeFollower(widget, std::move(apply)); }
+
+}  // namespace chainmail

@@ -1,0 +1,89 @@
+#include "common/jobs.h"
+
+#include <exception>
+#include <new>
+#include <string>
+
+namespace chainmail {
+
+struct Jobs::Job {
+  Kind kind;
+  std::string text;
+  JobState state;
+  // Written by the thread before `done` is, and read by the window after.
+  Finish finish;
+  std::string error;
+  std::atomic<bool> done = false;
+};
+
+Jobs::~Jobs() {
+  close();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+void Jobs::start(Kind kind, const QString& text, Work work) {
+  if (running() && (kind == Kind::save || current_->kind == Kind::save)) {
+    emit failed(QStringLiteral("%1: the window is still at '%2'; wait for its end, or cancel it").arg(text, text_));
+    return;
+  }
+  cancel();
+  text_ = text;
+  current_ = std::make_shared<Job>();
+  current_->kind = kind;
+  current_->text = text.toStdString();
+  thread_ = std::thread([this, job = current_, work = std::move(work), before = std::move(thread_)]() mutable {
+    // Of two at once each would be slower. The wait is here and not in the window.
+    if (before.joinable()) {
+      before.join();
+    }
+    run(*job, work);
+  });
+  emit changed();
+}
+
+void Jobs::cancel() {
+  if (running()) {
+    current_->state.cancelled = true;
+    current_.reset();
+    emit changed();
+  }
+}
+
+void Jobs::close() {
+  if (running() && current_->kind == Kind::load) {
+    cancel();
+  }
+}
+
+double Jobs::share() const { return current_->state.share; }
+
+void Jobs::run(Job& job, const Work& work) {
+  try {
+    job.finish = work(Progress(job.state));
+  } catch (const Cancelled&) {
+    return;
+  } catch (const std::bad_alloc&) {
+    job.error = job.text + ": there is not enough memory; use a smaller mesh";
+  } catch (const std::exception& error) {
+    job.error = error.what();
+  }
+  job.done = true;
+  QMetaObject::invokeMethod(this, &Jobs::receive, Qt::QueuedConnection);
+}
+
+void Jobs::receive() {
+  if (!running() || !current_->done) {
+    return;  // of a job that was cancelled
+  }
+  const auto job = std::exchange(current_, nullptr);
+  emit changed();
+  if (job->finish) {
+    job->finish();
+  } else {
+    emit failed(QString::fromStdString(job->error));
+  }
+}
+
+}  // namespace chainmail

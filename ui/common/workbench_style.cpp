@@ -1,0 +1,36 @@
+#include "common/workbench_style.h"
+
+#include <QPainter>
+#include <QStyleOption>
+
+#include "common/colours.h"
+
+namespace chainmail {
+namespace {
+
+constexpr double radius = 3;  // pixels, of a button's corners
+
+}  // namespace
+
+WorkbenchStyle::WorkbenchStyle() : QProxyStyle(QStringLiteral("Fusion")) {}
+
+void WorkbenchStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                                   const QWidget* widget) const {
+  if (element != PE_PanelButtonTool || !option->state.testFlag(State_On)) {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    return;
+  }
+  painter->save();
+  painter->setRenderHint(QPainter::Antialiasing);
+  painter->setPen(QColor(colours::checkedEdge));
+  painter->setBrush(QColor(colours::checked));
+  painter->drawRoundedRect(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5), radius, radius);
+  painter->restore();
+}
+
+int WorkbenchStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                              QStyleHintReturn* answer) const {
+  return hint == SH_ComboBox_Popup ? 0 : QProxyStyle::styleHint(hint, option, widget, answer);
+}
+
+}  // namespace chainmail

@@ -1,0 +1,272 @@
+#include "docks/element_dock.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QVBoxLayout>
+#include <limits>
+
+#include "common/dock_scroll.h"
+#include "common/icons.h"
+#include "common/parameter_row.h"
+#include "common/text.h"
+#include "document/element_facts.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int refreshMilliseconds = 100;
+// The hub of a star has as many neighbours as there are elements: nobody reads further.
+constexpr int mostRows = 200;
+constexpr int shownRows = 6;
+
+void put(QTableWidget& table, int row, int column, const QString& words) {
+  auto* item = table.item(row, column);
+  if (item == nullptr) {
+    item = new QTableWidgetItem;
+    item->setTextAlignment(column == 0 ? Qt::AlignLeft | Qt::AlignVCenter : Qt::AlignRight | Qt::AlignVCenter);
+    table.setItem(row, column, item);
+  }
+  item->setText(words);
+}
+
+}  // namespace
+
+ElementDock::ElementDock(Document& document)
+    : QDockWidget(QStringLiteral("Element")),
+      document_(document),
+      id_(new QSpinBox),
+      state_(new QLabel),
+      places_(table("elementPlaces", QStringLiteral("Positions of the element (mesh units)"), {})),
+      neighbours_(table("elementNeighbours", QStringLiteral("Neighbours of the element, and its links to them"),
+                        {QStringLiteral("To"), QStringLiteral("Compr."), QStringLiteral("Stretch"),
+                         QStringLiteral("Shear"), QStringLiteral("Violation")})),
+      pin_(new QPushButton),
+      cut_(new QPushButton(QStringLiteral("&Cut link"))),
+      move_(new ElementMove(document)),
+      refresh_(this) {
+  setObjectName(QStringLiteral("elementDock"));
+  id_->setObjectName(QStringLiteral("elementId"));
+  id_->setKeyboardTracking(false);
+  id_->setToolTip(QStringLiteral("The element's id: its place in the file, from 0. It becomes the selection"));
+  state_->setObjectName(QStringLiteral("elementState"));
+  state_->setWordWrap(true);
+  pin_->setObjectName(QStringLiteral("pinElement"));
+  cut_->setObjectName(QStringLiteral("cutLink"));
+  neighbours_->setToolTip(
+      QStringLiteral("Softness is relative to rest; violation in rest lengths, the largest of all panels.\n"
+                     "Double click or Enter: go to that neighbour"));
+  refresh_.setSingleShot(true);
+  refresh_.setInterval(refreshMilliseconds);
+  arrange();
+  listen();
+  adaptToMesh();
+}
+
+void ElementDock::fill(QMenu& menu) {
+  QAction* show = toggleViewAction();
+  show->setObjectName(QStringLiteral("showElement"));
+  show->setIcon(icon("element"));
+  show->setText(QStringLiteral("&Element by its id"));
+  show->setShortcut(Qt::CTRL | Qt::Key_E);
+  show->setStatusTip(QStringLiteral("Pick an element by its id, move it in numbers, pin it, cut its links"));
+  connect(show, &QAction::triggered, this, [this](bool shown) {
+    if (shown) {
+      id_->setFocus(Qt::ShortcutFocusReason);
+    }
+  });
+  menu.addAction(show);
+}
+
+QTableWidget* ElementDock::table(const char* name, const QString& accessible, const QStringList& columns) {
+  auto* table = new QTableWidget(0, int(columns.size()));
+  table->setObjectName(QLatin1String(name));
+  table->setAccessibleName(accessible);
+  table->setHorizontalHeaderLabels(columns);
+  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table->setSelectionMode(QAbstractItemView::SingleSelection);
+  table->setTabKeyNavigation(false);
+  table->verticalHeader()->hide();
+  table->verticalHeader()->setDefaultSectionSize(table->fontMetrics().height() + 4);
+  table->horizontalHeader()->setMinimumSectionSize(10);
+  table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  return table;
+}
+
+void ElementDock::arrange() {
+  auto* label = new QLabel(QStringLiteral("&Element"));
+  label->setBuddy(id_);
+  auto* head = new QHBoxLayout;
+  head->addWidget(label);
+  head->addWidget(id_, 1);
+  head->addWidget(pin_);
+  auto* content = new QWidget;
+  auto* column = new QVBoxLayout(content);
+  column->setContentsMargins(9, 4, 9, 4);
+  column->addLayout(head);
+  column->addWidget(state_);
+  column->addWidget(places_);
+  column->addWidget(move_);
+  column->addWidget(neighbours_);
+  column->addWidget(cut_);
+  column->addStretch();
+  const int row = neighbours_->verticalHeader()->defaultSectionSize();
+  neighbours_->setFixedHeight((shownRows + 1) * row + 10);
+  setWidget(new DockScroll(content));
+}
+
+void ElementDock::listen() {
+  connect(id_, &QSpinBox::valueChanged, this, &ElementDock::pick);
+  // The id that it shows already, too.
+  connect(id_->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this, &ElementDock::pick);
+  connect(pin_, &QPushButton::clicked, this,
+          [this] { document_.setPinned({*element_}, !document_.isPinned(*element_)); });
+  connect(cut_, &QPushButton::clicked, this, [this] { document_.cut({*chosenLink()}); });
+  connect(neighbours_, &QTableWidget::itemSelectionChanged, this, &ElementDock::adaptButtons);
+  connect(neighbours_, &QTableWidget::cellActivated, this,
+          [this](int row) { id_->setValue(neighbours_->item(row, 0)->data(Qt::UserRole).toInt()); });
+  connect(&refresh_, &QTimer::timeout, this, &ElementDock::showElement);
+  const auto later = [this] {
+    if (!refresh_.isActive() && isVisible()) {
+      refresh_.start();
+    }
+  };
+  connect(this, &QDockWidget::visibilityChanged, this, later);
+  for (const auto signal : {&Document::softnessChanged, &Document::pinsChanged}) {
+    connect(&document_, signal, this, later);
+  }
+  connect(&document_, &Document::cutsChanged, this, later);
+  connect(&document_, &Document::frameReady, this, later);
+  connect(&document_, &Document::meshChanged, this, &ElementDock::adaptToMesh);
+  connect(&document_, &Document::selectionChanged, this, &ElementDock::followSelection);
+}
+
+void ElementDock::adaptToMesh() {
+  const Mesh& mesh = *document_.mesh();
+  {
+    const QSignalBlocker quiet(id_);
+    id_->setRange(0, std::numeric_limits<int>::max());  // what is typed beyond the last one gets an answer
+    id_->setSuffix(QStringLiteral(" (0 to %1)").arg(mesh.element_count() - 1));
+  }
+  QStringList columns{QString()};
+  for (int k = 0; k < mesh.space_dimension; ++k) {
+    columns << QString(QLatin1Char("xyz"[mesh.axes[std::size_t(k)]]));
+  }
+  places_->setColumnCount(int(columns.size()));
+  places_->setHorizontalHeaderLabels(columns);
+  followSelection();
+}
+
+void ElementDock::followSelection() {
+  const auto& selected = document_.selection().elements;
+  element_.reset();
+  if (selected.size() == 1) {
+    element_ = selected.front();
+    const QSignalBlocker quiet(id_);
+    id_->setValue(int(*element_));
+  }
+  showElement();
+}
+
+void ElementDock::pick() {
+  const auto count = document_.mesh()->element_count();
+  if (std::size_t(id_->value()) < count) {
+    if (element_ != ElementId(id_->value())) {
+      document_.select({ElementId(id_->value())});
+    }
+    return;
+  }
+  const int asked = id_->value();
+  if (element_) {
+    const QSignalBlocker quiet(id_);
+    id_->setValue(int(*element_));
+  }
+  state_->setText(QStringLiteral("There is no element %1: ids go from 0 to %2.").arg(asked).arg(count - 1));
+}
+
+void ElementDock::showElement() {
+  const std::size_t selected = document_.selection().elements.size();
+  state_->setText(element_
+                      ? QStringLiteral("%1%2").arg(
+                            counted(document_.mesh()->neighbours_of(*element_).size(), QStringLiteral("neighbour")),
+                            document_.isPinned(*element_) ? QStringLiteral(" · pinned") : QString())
+                  : selected == 0 ? QStringLiteral("Type an id and press Enter, or select one element in a view.")
+                                  : QStringLiteral("%L1 elements are selected: type an id to pick one.").arg(selected));
+  move_->setElement(element_);
+  showPlaces();
+  showNeighbours();
+  adaptButtons();
+}
+
+void ElementDock::showPlaces() {
+  const Mesh& mesh = *document_.mesh();
+  const auto show = [&](int row, const QString& name, const Point& at) {
+    put(*places_, row, 0, name);
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      put(*places_, row, k + 1, figure(at[mesh.axes[std::size_t(k)]]));
+    }
+  };
+  places_->setRowCount(element_ ? document_.panels() + 1 : 0);
+  if (element_) {
+    show(0, QStringLiteral("rest"), mesh.rest_position(*element_));
+    for (int panel = 0; panel < document_.panels(); ++panel) {
+      show(panel + 1, panelName(panel), positionIn(document_, panel, *element_));
+    }
+  }
+  places_->setFixedHeight((places_->rowCount() + 1) * places_->verticalHeader()->defaultSectionSize() + 10);
+}
+
+void ElementDock::showNeighbours() {
+  const Mesh& mesh = *document_.mesh();
+  const EntryId first = element_ ? mesh.first_entry[*element_] : 0;
+  const int count = element_ ? int(mesh.first_entry[*element_ + 1] - first) : 0;
+  neighbours_->setRowCount(std::min(count, mostRows));
+  for (int row = 0; row < neighbours_->rowCount(); ++row) {
+    showNeighbour(row, first + EntryId(row));
+  }
+  if (count > mostRows) {
+    state_->setText(QStringLiteral("%1, of which the first %2 are listed").arg(state_->text()).arg(mostRows));
+  }
+}
+
+void ElementDock::showNeighbour(int row, EntryId entry) {
+  const LinkId link = document_.mesh()->entry_link[entry];
+  const ElementId to = document_.mesh()->neighbours[entry];
+  const bool isCut = document_.cuts().is_cut(link);
+  double violation = 0;
+  for (int panel = 0; panel < document_.panels(); ++panel) {
+    violation = std::max(violation, violationOfLink(document_, panel, link));
+  }
+  const LinkSoftness& softness = document_.wholeSoftness()->of(link);
+  put(*neighbours_, row, 0, QString::number(to));
+  neighbours_->item(row, 0)->setData(Qt::UserRole, to);
+  put(*neighbours_, row, 1, figure(softness.compression));
+  put(*neighbours_, row, 2, figure(softness.stretch));
+  put(*neighbours_, row, 3, figure(softness.shear));
+  put(*neighbours_, row, 4, isCut ? QStringLiteral("cut") : QLocale().toString(violation, 'g', 3));
+}
+
+std::optional<LinkId> ElementDock::chosenLink() const {
+  const auto rows = neighbours_->selectionModel()->selectedRows();
+  if (!element_ || rows.isEmpty()) {
+    return {};
+  }
+  return document_.mesh()->entry_link[document_.mesh()->first_entry[*element_] + EntryId(rows.first().row())];
+}
+
+void ElementDock::adaptButtons() {
+  const bool pinned = element_ && document_.isPinned(*element_);
+  pin_->setText(pinned ? QStringLiteral("Un&pin") : QStringLiteral("&Pin"));
+  pin_->setEnabled(element_.has_value());
+  pin_->setToolTip(!element_ ? QStringLiteral("Choose an element first")
+                   : pinned  ? QStringLiteral("The element may move again")
+                             : QStringLiteral("The element stays where it stands"));
+  const auto link = chosenLink();
+  const bool isCut = link && document_.cuts().is_cut(*link);
+  cut_->setEnabled(link && !isCut);
+  cut_->setToolTip(!link   ? QStringLiteral("Choose a neighbour in the table first")
+                   : isCut ? QStringLiteral("This link is cut; Undo brings it back")
+                           : QStringLiteral("Cut the link to the neighbour chosen in the table"));
+}
+
+}  // namespace chainmail

@@ -1,0 +1,257 @@
+#include "docks/frame_rate/frame_rate_dock.h"
+
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QSettings>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "common/icons.h"
+#include "common/panel_names.h"
+#include "common/parameter_row.h"
+#include "common/text.h"
+#include "files/text/outputs.h"
+#include "mesh/error.h"
+#include "panels/panel.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int refreshMilliseconds = 200;
+
+QString quantityKey() { return QStringLiteral("rateQuantity"); }
+QString spanKey() { return QStringLiteral("rateSeconds"); }
+
+}  // namespace
+
+FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& panels)
+    : QDockWidget(QStringLiteral("Frame rate")),
+      document_(document),
+      panels_(panels),
+      histories_(Document::mostPanels),
+      passesSeen_(Document::mostPanels, 0),
+      figures_(new RateFigures(document)),
+      plot_(new RatePlot),
+      quantity_(new QComboBox),
+      span_(new QComboBox),
+      menu_(new QMenu(QStringLiteral("&Rates over time"), this)),
+      timer_(this) {
+  setObjectName(QStringLiteral("frameRateDock"));
+  plot_->setObjectName(QStringLiteral("ratePlot"));
+  plot_->setAccessibleName(QStringLiteral("Rates of the panels over time"));
+  plot_->setToolTip(QStringLiteral(
+      "A line a panel, in its colour; it breaks off where nothing happened. Beside a line its figures are shown"));
+  addActions();
+  auto* content = new QWidget;
+  auto* column = new QVBoxLayout(content);
+  column->setContentsMargins(5, 4, 5, 4);
+  column->setSpacing(4);
+  column->addWidget(figures_);
+  column->addWidget(makeControls());
+  column->addWidget(plot_, 1);
+  content->setMinimumWidth(dockWidth);
+  setWidget(content);
+  clock_.start();
+  timer_.setInterval(refreshMilliseconds);
+  connect(&timer_, &QTimer::timeout, this, &FrameRateDock::refresh);
+  connect(&document, &Document::frameReady, this, &FrameRateDock::receive);
+  connect(&document, &Document::panelLeaves, this, [this](int panel) {
+    histories_[std::size_t(panel)] = {};
+    passesSeen_[std::size_t(panel)] = 0;
+  });
+  connect(&document, &Document::panelsChanged, this, &FrameRateDock::showPlot);
+  showPlot();
+}
+
+void FrameRateDock::fillChoices() {
+  quantity_->setObjectName(QStringLiteral("rateQuantity"));
+  quantity_->setAccessibleName(QStringLiteral("What is plotted"));
+  for (const RateQuantity& one : rateQuantities()) {
+    quantity_->addItem(QStringLiteral("%1 (%2)").arg(text(one.label), text(one.unit)), text(one.name));
+    quantity_->setItemData(quantity_->count() - 1, text(one.help), Qt::ToolTipRole);
+  }
+  quantity_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  span_->setObjectName(QStringLiteral("rateSpan"));
+  span_->setAccessibleName(QStringLiteral("Stretch of time that is plotted"));
+  span_->setToolTip(QStringLiteral("How far back the plot reaches; the last 10 minutes are kept"));
+  for (const int seconds : {10, 30, 60, 300, 600}) {
+    span_->addItem(seconds < 60 ? QStringLiteral("%1 s").arg(seconds) : QStringLiteral("%1 min").arg(seconds / 60),
+                   seconds);
+  }
+  const QSettings settings;
+  quantity_->setCurrentIndex(std::max(0, quantity_->findData(settings.value(quantityKey(), QStringLiteral("ms")))));
+  span_->setCurrentIndex(std::max(0, span_->findData(settings.value(spanKey(), 10).toInt())));
+  connect(quantity_, &QComboBox::activated, this, &FrameRateDock::choose);
+  connect(span_, &QComboBox::activated, this, &FrameRateDock::choose);
+}
+
+QWidget* FrameRateDock::makeControls() {
+  fillChoices();
+  auto* pause = new QToolButton;
+  pause->setDefaultAction(pause_);
+  auto* save = new QToolButton;  // its list is the menu's, but for the first
+  save->setObjectName(QStringLiteral("rateSave"));
+  save->setIcon(icon("save"));
+  save->setAccessibleName(QStringLiteral("Save the rates as a table or a picture"));
+  save->setToolTip(save->accessibleName());
+  save->setPopupMode(QToolButton::InstantPopup);
+  save->addActions(menu_->actions().mid(1));
+  auto* controls = new QWidget;
+  auto* column = new QVBoxLayout(controls);
+  column->setContentsMargins(0, 2, 0, 0);
+  column->setSpacing(4);
+  auto* row = new QHBoxLayout;
+  row->addWidget(span_, 1);
+  row->addWidget(pause);
+  row->addWidget(save);
+  column->addWidget(quantity_);
+  column->addLayout(row);
+  return controls;
+}
+
+void FrameRateDock::addActions() {
+  pause_ = menu_->addAction(QStringLiteral("&Pause the plot"));
+  pause_->setObjectName(QStringLiteral("pauseRates"));
+  pause_->setIcon(icon("pause"));
+  pause_->setIconText(QStringLiteral("Pause"));
+  pause_->setCheckable(true);
+  pause_->setShortcut(Qt::Key_Pause);
+  pause_->setStatusTip(
+      QStringLiteral("The plot of the frame rate stands still, and nothing is added to it, until it "
+                     "goes on"));
+  auto* table = menu_->addAction(QStringLiteral("Save rates as &table…"), this, &FrameRateDock::saveTable);
+  table->setIcon(icon("save"));
+  table->setObjectName(QStringLiteral("saveRateTable"));
+  table->setStatusTip(QStringLiteral("All quantities of the last 10 minutes with all digits, time in seconds, as CSV"));
+  auto* picture = menu_->addAction(QStringLiteral("Save rates as p&icture…"), this, &FrameRateDock::savePicture);
+  picture->setIcon(icon("picture"));
+  picture->setObjectName(QStringLiteral("saveRatePicture"));
+  picture->setStatusTip(QStringLiteral("The plot as it stands, with its legend, as PNG or, for print, as PDF"));
+}
+
+void FrameRateDock::receive(int panel) {
+  if (std::size_t(panel) >= panels_.size()) {
+    return;
+  }
+  const Frame* frame = document_.frame(panel);
+  if (frame != nullptr && !pause_->isChecked()) {
+    RateSample sample = read(panel);
+    if (std::exchange(passesSeen_[std::size_t(panel)], frame->statistics.passes) == frame->statistics.passes) {
+      sample.ms = sample.medianMs = sample.worstMs = RateSample::none;
+    }
+    histories_[std::size_t(panel)].add(sample);
+  }
+  if (!timer_.isActive()) {
+    timer_.start();
+  }
+}
+
+/// What there is to say of a panel now.
+RateSample FrameRateDock::read(int panel) {
+  RateSample sample;
+  sample.time = now();
+  sample.painted = panels_[std::size_t(panel)]->view().meter().framesPerSecond();
+  sample.algorithm = document_.algorithm(panel);
+  if (const Frame* frame = document_.frame(panel)) {
+    const Statistics& statistics = frame->statistics;
+    sample.violationMax = statistics.violation.max;
+    sample.violationRms = statistics.violation.rms;
+    sample.ofWholeMesh = statistics.violation_of_whole_mesh;
+    if (statistics.last_second.passes != 0) {
+      sample.ms = statistics.last_pass_ms;
+      sample.medianMs = statistics.last_second.median_ms;
+      sample.worstMs = statistics.last_second.worst_ms;
+    }
+  }
+  return sample;
+}
+
+/// What is painted may go on, or end, without a frame of the solver's.
+void FrameRateDock::refresh() {
+  bool busy = false;
+  for (int panel = 0; panel < int(panels_.size()); ++panel) {
+    const RateSample sample = read(panel);
+    figures_->show(panel, sample);
+    busy = busy || sample.painted > 0;
+    if (!pause_->isChecked()) {
+      RateSample painted;
+      painted.time = sample.time;
+      painted.painted = sample.painted;
+      painted.algorithm = sample.algorithm;
+      histories_[std::size_t(panel)].add(painted);
+    }
+  }
+  if (!pause_->isChecked()) {
+    shownTo_ = now();
+    showPlot();
+  }
+  if (!busy) {
+    timer_.stop();  // until the next frame
+  }
+}
+
+void FrameRateDock::choose() {
+  QSettings settings;
+  settings.setValue(quantityKey(), quantity_->currentData());
+  settings.setValue(spanKey(), span_->currentData());
+  showPlot();
+}
+
+void FrameRateDock::showPlot() {
+  quantity_->setToolTip(quantity_->currentData(Qt::ToolTipRole).toString());
+  plot_->show(picture());
+}
+
+RatePicture FrameRateDock::picture() const {
+  RatePicture picture;
+  picture.quantity = &rateQuantities()[std::size_t(quantity_->currentIndex())];
+  picture.to = shownTo_;
+  picture.from = shownTo_ - span_->currentData().toDouble();
+  for (std::size_t panel = 0; panel < panels_.size(); ++panel) {
+    picture.curves.push_back(
+        {QStringLiteral("%1 %2").arg(panelName(int(panel)), text(info(document_.algorithm(int(panel))).label)),
+         colours::ofPanel(int(panel)),
+         curveOf(histories_[panel].since(picture.from), *picture.quantity, picture.from, picture.to,
+                 drawnPoints / panels_.size())});
+  }
+  return picture;
+}
+
+void FrameRateDock::saveTable() {
+  const QString path =
+      QFileDialog::getSaveFileName(this, QStringLiteral("Save rates as table"), QStringLiteral("rates.csv"),
+                                   QStringLiteral("Comma-separated values (*.csv)"));
+  if (!path.isEmpty()) {
+    saveTablePath(path);
+  }
+}
+
+void FrameRateDock::saveTablePath(const QString& path) {
+  attempt(path, [&] {
+    write_file(std::filesystem::path(path.toStdU16String()), [this](std::ostream& out) { writeCsv(out, histories_); });
+  });
+}
+
+void FrameRateDock::savePicture() {
+  const QString path =
+      QFileDialog::getSaveFileName(this, QStringLiteral("Save rates as picture"), QStringLiteral("rates.png"),
+                                   QStringLiteral("PNG picture (*.png);;PDF for print (*.pdf)"));
+  if (!path.isEmpty()) {
+    savePicturePath(path);
+  }
+}
+
+void FrameRateDock::savePicturePath(const QString& path) {
+  attempt(path, [&] { saveRates(picture(), path); });
+}
+
+void FrameRateDock::attempt(const QString& path, const std::function<void()>& write) {
+  try {
+    write();
+    emit saved(path);
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+}
+
+}  // namespace chainmail

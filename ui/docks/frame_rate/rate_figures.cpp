@@ -1,0 +1,110 @@
+#include "docks/frame_rate/rate_figures.h"
+
+#include <QGridLayout>
+#include <QLocale>
+#include <array>
+#include <cmath>
+
+#include "common/panel_names.h"
+#include "common/text.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int columns = 4;
+constexpr std::array widths{58, 62, 44, 44};  // pixels: of the heads, and of 1,000,000
+
+}  // namespace
+
+RateFigures::RateFigures(const Document& document) : document_(document) {
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(3);
+  grid->setVerticalSpacing(1);
+  addHead(*grid);
+  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+    addRow(*grid);
+  }
+  followPanels();
+  connect(&document, &Document::panelsChanged, this, &RateFigures::followPanels);
+  connect(&document, &Document::algorithmChanged, this, &RateFigures::nameRow);
+}
+
+void RateFigures::addHead(QGridLayout& grid) {
+  const auto add = [&](int column, const QString& text, const QString& help) {
+    auto* label = new QLabel(text);
+    label->setAlignment(Qt::AlignRight);
+    label->setToolTip(help);
+    label->setMinimumWidth(widths[std::size_t(column)]);
+    grid.addWidget(label, 0, column);
+    grid.setColumnStretch(column, 1);
+  };
+  add(0, QStringLiteral("painted/s"), QStringLiteral("Frames that reached the screen in the last second"));
+  add(1, QStringLiteral("passes/s"),
+      QStringLiteral("1 over the median time of a pass: what the algorithm alone could do"));
+  add(2, QStringLiteral("ms"), QStringLiteral("Median time of a pass over the last second (ms)"));
+  add(3, QStringLiteral("worst"), QStringLiteral("Longest pass of the last second (ms)"));
+}
+
+/// The panel's name in a line of its own: four figures take the width.
+void RateFigures::addRow(QGridLayout& grid) {
+  const int panel = int(rows_.size());
+  const auto figure = [&](const char* name, const QString& meaning) {
+    auto* label = new QLabel(QStringLiteral("–"));
+    label->setObjectName(QStringLiteral("%1%2").arg(QLatin1String(name)).arg(panel));
+    label->setAlignment(Qt::AlignRight);
+    label->setAccessibleDescription(meaning);
+    return label;
+  };
+  Row row{new QLabel, nullptr, nullptr, nullptr, nullptr};
+  row.name->setObjectName(QStringLiteral("rateName%1").arg(panel));
+  row.painted = figure("painted", QStringLiteral("Painted frames a second"));
+  row.passes = figure("passes", QStringLiteral("Passes a second"));
+  row.median = figure("median", QStringLiteral("Median time of a pass, ms"));
+  row.worst = figure("worst", QStringLiteral("Longest pass, ms"));
+  row.name->setTextFormat(Qt::RichText);
+  row.name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  const int line = 2 * panel + 1;
+  grid.addWidget(row.name, line, 0, 1, columns);
+  int column = 0;
+  for (QLabel* label : {row.painted, row.passes, row.median, row.worst}) {
+    grid.addWidget(label, line + 1, column++);
+  }
+  rows_.push_back(row);
+  followTheme(*row.name, [this, panel] { nameRow(panel); });
+}
+
+/// Rows of panels that are not there take no room.
+void RateFigures::followPanels() {
+  for (int panel = 0; panel < int(rows_.size()); ++panel) {
+    const Row& row = rows_[std::size_t(panel)];
+    for (QLabel* label : {row.name, row.painted, row.passes, row.median, row.worst}) {
+      label->setVisible(panel < document_.panels());
+    }
+    nameRow(panel);
+  }
+}
+
+void RateFigures::nameRow(int panel) {
+  if (panel < int(rows_.size())) {
+    const Row& row = rows_[std::size_t(panel)];
+    row.name->setText(QStringLiteral("<span style='color:%1'>━━</span> <b>%2</b> %3")
+                          .arg(QColor(colours::ofPanel(panel)).name(), panelName(panel),
+                               text(info(document_.algorithm(panel)).label)));
+  }
+}
+
+void RateFigures::show(int panel, const RateSample& sample) {
+  const Row& row = rows_[std::size_t(panel)];
+  row.painted->setText(sample.painted > 0 ? QString::number(int(sample.painted)) : QStringLiteral("idle"));
+  if (std::isnan(sample.medianMs)) {
+    return;
+  }
+  const QLocale locale;
+  const double passes = sample.passesPerSecond();
+  row.passes->setText(std::isnan(passes) ? QStringLiteral("–") : locale.toString(passes, 'f', 0));
+  row.median->setText(locale.toString(sample.medianMs, 'f', 3));
+  row.worst->setText(locale.toString(sample.worstMs, 'f', 3));
+}
+
+}  // namespace chainmail

@@ -1,0 +1,81 @@
+#include "docks/frame_rate/rate_history.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/panel_names.h"
+#include "report/page/format.h"
+
+namespace chainmail {
+namespace {
+
+constexpr std::array quantities{
+    RateQuantity{"passes", "Passes a second", "1/s", "1 over the median time of the last second's passes",
+                 [](const RateSample& one) { return one.passesPerSecond(); }},
+    RateQuantity{"ms", "Time of a pass", "ms", "How long each pass took the solver, drawing left out",
+                 [](const RateSample& one) { return one.ms; }},
+    RateQuantity{"painted", "Painted frames a second", "1/s", "Frames that reached the screen in the last second",
+                 [](const RateSample& one) { return one.painted; }},
+    RateQuantity{"violation-max", "Violation, max", "rest lengths",
+                 "How far the worst link lies outside its valid region; in a drag, of the links that a pass touched",
+                 [](const RateSample& one) { return one.violationMax; }},
+    RateQuantity{"violation-rms", "Violation, RMS", "rest lengths",
+                 "Root of the mean square over the links; in a drag, over those that a pass touched",
+                 [](const RateSample& one) { return one.violationRms; }}};
+
+std::string digits(double number) { return std::isnan(number) ? std::string() : report::all_digits(number); }
+
+void writeRow(std::ostream& out, std::size_t panel, const RateSample& one) {
+  out << digits(one.time) << ',' << panelName(int(panel)).toStdString() << ',' << info(one.algorithm).name << ','
+      << digits(one.painted) << ',' << digits(one.passesPerSecond()) << ',' << digits(one.ms) << ','
+      << digits(one.medianMs) << ',' << digits(one.worstMs) << ',' << digits(one.violationMax) << ','
+      << digits(one.violationRms) << ','
+      << (std::isnan(one.violationMax) ? ""
+          : one.ofWholeMesh            ? "all"
+                                       : "touched")
+      << '\n';
+}
+
+}  // namespace
+
+std::span<const RateQuantity> rateQuantities() { return quantities; }
+
+void RateHistory::add(const RateSample& sample) {
+  const auto old = [&](const RateSample& one) { return one.time < sample.time - kept; };
+  // In large pieces, so that each sample is moved at most once or so.
+  if (samples_.size() > 1 && old(samples_[samples_.size() / 2])) {
+    samples_.erase(samples_.begin(), std::ranges::partition_point(samples_, old));
+  }
+  samples_.push_back(sample);
+}
+
+std::span<const RateSample> RateHistory::since(double time) const {
+  auto from = std::ranges::lower_bound(samples_, time, {}, &RateSample::time);
+  if (from != samples_.begin()) {
+    --from;
+  }
+  return {from, samples_.end()};
+}
+
+void writeCsv(std::ostream& out, std::span<const RateHistory> panels) {
+  out << "time_s,panel,algorithm,painted_per_s,passes_per_s,pass_ms,pass_median_ms,pass_worst_ms,violation_max,"
+         "violation_rms,violation_of\n";
+  std::vector<std::size_t> next(panels.size(), 0);
+  for (;;) {
+    std::size_t first = panels.size();
+    for (std::size_t panel = 0; panel < panels.size(); ++panel) {
+      const auto& samples = panels[panel].samples();
+      if (next[panel] < samples.size() &&
+          (first == panels.size() || samples[next[panel]].time < panels[first].samples()[next[first]].time)) {
+        first = panel;
+      }
+    }
+    if (first == panels.size()) {
+      return;
+    }
+    writeRow(out, first, panels[first].samples()[next[first]++]);
+  }
+}
+
+}  // namespace chainmail

@@ -1,0 +1,175 @@
+#include "docks/mesh_dock.h"
+
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLocale>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "common/dock_scroll.h"
+#include "common/icons.h"
+#include "common/text.h"
+#include "docks/gallery.h"
+#include "io/samples.h"
+
+namespace chainmail {
+namespace {
+
+/// The largest size offered along an axis, by the number of sizes of a kind.
+constexpr std::array largestSize{1'000'000, 1024, 100};
+constexpr std::array axisNames{"W", "H", "D"};
+
+QString capitalised(QString name) {
+  name[0] = name[0].toUpper();
+  return name;
+}
+
+const MeshKindInfo& infoOf(MeshKind kind) {
+  return *std::find_if(mesh_kinds().begin(), mesh_kinds().end(), [kind](auto& info) { return info.kind == kind; });
+}
+
+}  // namespace
+
+QString recipeName(const MeshRecipe& recipe) {
+  const MeshKindInfo& info = infoOf(recipe.kind);
+  QStringList size;
+  for (int k = 0; k < info.sizes; ++k) {
+    size << QString::number(recipe.size[k]);
+  }
+  return QStringLiteral("%1 %2").arg(text(info.name), size.join(QStringLiteral("×")));
+}
+
+MeshDock::MeshDock(Document& document, Jobs& jobs)
+    : QDockWidget(QStringLiteral("Mesh")),
+      document_(document),
+      jobs_(jobs),
+      kind_(new QComboBox),
+      spacing_(new ParameterRow(parameters::spacing)),
+      space_(new QComboBox),
+      build_(new QPushButton(QStringLiteral("Build"))),
+      description_(new QLabel) {
+  setObjectName(QStringLiteral("meshDock"));
+  kind_->setObjectName(QStringLiteral("meshKind"));
+  for (const auto& info : mesh_kinds()) {
+    kind_->addItem(capitalised(text(info.name)));
+    kind_->setItemData(kind_->count() - 1, text(info.help), Qt::ToolTipRole);
+  }
+  kind_->setCurrentText(capitalised(text(infoOf(sampleRecipe().kind).name)));
+  space_->setObjectName(QStringLiteral("spaceDimension"));
+  space_->setToolTip(QStringLiteral("How many coordinates exist: a plane scene carries no third"));
+  kind_->setToolTip(QStringLiteral("What is built: a chain, a surface or a volume, with or without diagonal links"));
+  build_->setToolTip(
+      QStringLiteral("Builds this mesh in place of the present object, in the background, as a step of undo"));
+  build_->setObjectName(QStringLiteral("buildMesh"));
+  description_->setObjectName(QStringLiteral("meshDescription"));
+  description_->setWordWrap(true);
+  arrange();
+
+  connect(kind_, &QComboBox::currentIndexChanged, this, &MeshDock::adaptToKind);
+  connect(build_, &QPushButton::clicked, this, &MeshDock::build);
+  connect(&document, &Document::meshChanged, this, &MeshDock::describe);
+  connect(&document, &Document::cutsChanged, this, &MeshDock::describe);
+  describe();
+}
+
+QLayout* MeshDock::makeSizes() {
+  auto* row = new QHBoxLayout;
+  for (int k = 0; k < 3; ++k) {
+    sizes_[k] = new QSpinBox;
+    sizes_[k]->setObjectName(QStringLiteral("size%1").arg(QLatin1String(axisNames[k])));
+    sizes_[k]->setAccessibleName(QStringLiteral("Elements along %1").arg(QLatin1Char("xyz"[k])));
+    sizes_[k]->setToolTip(sizes_[k]->accessibleName());
+    sizes_[k]->setKeyboardTracking(false);
+    connect(sizes_[k], &QSpinBox::editingFinished, sizes_[k], &QWidget::clearFocus);  // shortcuts work again
+    sizes_[k]->setRange(2, largestSize[0]);
+    sizes_[k]->setValue(k == 2 ? 16 : int(sampleRecipe().size[k]));
+    row->addWidget(sizes_[k]);
+  }
+  return row;
+}
+
+void MeshDock::arrange() {
+  auto* open = new QPushButton(QStringLiteral("Open…"));
+  auto* save = new QPushButton(QStringLiteral("Save…"));
+  open->setIcon(icon("open"));
+  open->setToolTip(QStringLiteral("A mesh, a session or a picture from a file, in place of the present object"));
+  save->setIcon(icon("save"));
+  save->setToolTip(QStringLiteral("The object at rest, without its cut links, into a file"));
+  build_->setIcon(icon("mesh"));
+  connect(open, &QPushButton::clicked, this, &MeshDock::openRequested);
+  connect(save, &QPushButton::clicked, this, &MeshDock::saveRequested);
+  auto* content = new QWidget;
+  auto* column = new QVBoxLayout(content);
+  auto* form = new QFormLayout;
+  form->addRow(QStringLiteral("Kind"), kind_);
+  form->addRow(QStringLiteral("Size"), makeSizes());
+  form->addRow(QStringLiteral("Space"), space_);
+  column->addLayout(form);
+  column->addWidget(spacing_);
+  column->addWidget(build_);
+  column->addWidget(description_);
+  auto* files = new QHBoxLayout;
+  files->addWidget(open);
+  files->addWidget(save);
+  column->addLayout(files);
+  column->addWidget(new QLabel(QStringLiteral("Samples")));
+  auto* gallery = new Gallery(samplesFolder());
+  connect(gallery, &Gallery::chosen, this, &MeshDock::sampleRequested);
+  column->addWidget(gallery, 1);
+  adaptToKind();
+  setWidget(new DockScroll(content));  // a screen of 768 pixels has no room for all of it
+}
+
+void MeshDock::adaptToKind() {
+  const int count = kind().sizes;
+  for (int k = 0; k < 3; ++k) {
+    sizes_[k]->setVisible(k < count);
+    sizes_[k]->setRange(2, largestSize[count - 1]);
+  }
+  space_->clear();
+  for (int dimension = count; dimension <= 3; ++dimension) {
+    space_->addItem(QStringLiteral("%1D").arg(dimension), dimension);
+  }
+}
+
+MeshRecipe MeshDock::recipe() const {
+  MeshRecipe recipe;
+  recipe.kind = kind().kind;
+  for (int k = 0; k < 3; ++k) {
+    recipe.size[k] = k < kind().sizes ? std::uint32_t(sizes_[k]->value()) : 1;
+  }
+  recipe.spacing = spacing_->value();
+  recipe.space_dimension = space_->currentData().toInt();
+  return recipe;
+}
+
+void MeshDock::build() {
+  const QString name = recipeName(recipe());
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Building %1").arg(name),
+              [this, name, recipe = recipe()](const Progress& progress) -> Jobs::Finish {
+                const MeshPointer mesh = generate(recipe, progress);
+                return [this, name, mesh] { document_.replaceMesh(mesh, name, QStringLiteral("build %1").arg(name)); };
+              });
+}
+
+void MeshDock::describe() {
+  const Mesh& mesh = *document_.mesh();
+  const QLocale locale;
+  QString what = QStringLiteral("<b>%1</b><br>%2 elements, %3 links")
+                     .arg(document_.name().toHtmlEscaped(), locale.toString(mesh.element_count()),
+                          locale.toString(mesh.link_count()));
+  if (document_.cuts().count() != 0) {
+    what += QStringLiteral(", %1 cut").arg(locale.toString(document_.cuts().count()));
+  }
+  if (document_.parts() > 1) {
+    what += QStringLiteral(", %1 parts").arg(locale.toString(document_.parts()));
+  }
+  // A file that lists links alone, with no faces and no lattice, may hold anything.
+  const bool linksAlone = mesh.object_dimension == 1 && !mesh.lattice;
+  const QStringList kinds{linksAlone ? QStringLiteral("links") : QStringLiteral("a chain"), QStringLiteral("a surface"),
+                          QStringLiteral("a volume")};
+  what += QStringLiteral("<br>%1 in %2D space").arg(kinds[mesh.object_dimension - 1]).arg(mesh.space_dimension);
+  description_->setText(what);
+}
+
+}  // namespace chainmail

@@ -1,0 +1,121 @@
+#include "docks/physics_dock.h"
+
+#include <QHBoxLayout>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <algorithm>
+
+#include "common/dock_scroll.h"
+#include "common/icons.h"
+#include "common/text.h"
+#include "docks/calibration_box.h"
+
+namespace chainmail {
+PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
+    : QDockWidget(QStringLiteral("Physics")),
+      document_(document),
+      column_(new QVBoxLayout),
+      young_(new ParameterRow(parameters::young)),
+      poisson_(new ParameterRow(parameters::poisson)),
+      pins_(new QLabel) {
+  setObjectName(QStringLiteral("physicsDock"));
+  addRow(young_, &Material::young);
+  addRow(poisson_, &Material::poisson);
+  column_->addLayout(makeLattice());
+  column_->addLayout(makePins(layers));
+  auto* calibration = new CalibrationBox(document, jobs);
+  column_->addWidget(calibration);
+  connect(calibration, &CalibrationBox::presetRequested, this, &PhysicsDock::presetRequested);
+  setColumn(*this, *column_);
+  connect(&document, &Document::elasticChanged, this, &PhysicsDock::showElastic);
+  connect(&document, &Document::pinsChanged, this, &PhysicsDock::showPins);
+  connect(&document, &Document::meshChanged, this, &PhysicsDock::adaptToMesh);
+  showElastic();
+  adaptToMesh();
+}
+
+void PhysicsDock::addRow(ParameterRow* row, double Material::*member) {
+  column_->addWidget(row);
+  connect(row, &ParameterRow::changed, this, [this, row, member](double value, int gesture) {
+    ElasticOptions options = document_.elastic();
+    options.material.*member = value;
+    document_.setElastic(options, row->label(), gesture);
+  });
+}
+
+QLayout* PhysicsDock::makeLattice() {
+  constexpr const Parameter& parameter = parameters::lattice;
+  QString help = text(parameter.help);
+  help[0] = help[0].toUpper();
+  auto* label = new QLabel(text(parameter.label));
+  label->setToolTip(help);
+  auto* row = new QHBoxLayout;
+  row->addWidget(label, 1);
+  for (int k = 0; k < 3; ++k) {
+    auto* count = new QSpinBox;
+    count->setObjectName(QStringLiteral("lattice%1").arg(QLatin1Char("XYZ"[k])));
+    count->setAccessibleName(QStringLiteral("Control points along %1").arg(QLatin1Char("xyz"[k])));
+    count->setToolTip(help);
+    count->setRange(int(parameter.lowest), int(parameter.highest));
+    count->setKeyboardTracking(false);
+    connect(count, &QSpinBox::valueChanged, this, &PhysicsDock::setLattice);
+    connect(count, &QSpinBox::editingFinished, count, &QWidget::clearFocus);  // shortcuts work again
+    row->addWidget(count);
+    lattice_[std::size_t(k)] = count;
+  }
+  label->setBuddy(lattice_[0]);
+  return row;
+}
+
+QLayout* PhysicsDock::makePins(PinLayers& layers) {
+  pins_->setObjectName(QStringLiteral("physicsPins"));
+  pins_->setWordWrap(true);
+  auto* pin = new QToolButton;
+  pin->setObjectName(QStringLiteral("physicsPin"));
+  pin->setText(QStringLiteral("Pin"));
+  pin->setIcon(icon("pin"));
+  pin->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  pin->setToolTip(QStringLiteral("Pins a layer of the object, or its boundary; single elements by the pin tool (P)"));
+  pin->setMenu(&layers.menu());
+  pin->setPopupMode(QToolButton::InstantPopup);
+  auto* row = new QHBoxLayout;
+  row->addWidget(pins_, 1);
+  row->addWidget(pin);
+  return row;
+}
+
+void PhysicsDock::setLattice() {
+  ElasticOptions options = document_.elastic();
+  for (std::size_t k = 0; k < lattice_.size(); ++k) {
+    options.lattice[k] = std::uint32_t(lattice_[k]->value());
+  }
+  document_.setElastic(options, QStringLiteral("control points"));
+}
+
+void PhysicsDock::showElastic() {
+  const ElasticOptions& options = document_.elastic();
+  young_->show(options.material.young);
+  poisson_->show(options.material.poisson);
+  for (std::size_t k = 0; k < lattice_.size(); ++k) {
+    const QSignalBlocker block(lattice_[k]);
+    lattice_[k]->setValue(int(options.lattice[k]));
+  }
+}
+
+void PhysicsDock::showPins() {
+  pins_->setText(document_.pins().empty() ? QStringLiteral("Nothing is pinned: FEM and BEM have no answer.")
+                                          : QStringLiteral("<b>%L1</b> of %L2 elements pinned")
+                                                .arg(document_.pins().size())
+                                                .arg(document_.mesh()->element_count()));
+}
+
+void PhysicsDock::adaptToMesh() {
+  const Mesh& mesh = *document_.mesh();
+  const auto end = mesh.axes.begin() + mesh.space_dimension;
+  for (int k = 0; k < 3; ++k) {
+    lattice_[std::size_t(k)]->setVisible(std::find(mesh.axes.begin(), end, k) != end);
+  }
+  showPins();
+}
+
+}  // namespace chainmail

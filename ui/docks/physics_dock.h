@@ -1,0 +1,45 @@
+#pragma once
+
+#include <QDockWidget>
+#include <QLabel>
+#include <QSpinBox>
+#include <QVBoxLayout>
+#include <array>
+
+#include "common/jobs.h"
+#include "common/parameter_row.h"
+#include "document/document.h"
+#include "document/pin_layers.h"
+
+namespace chainmail {
+
+/// What methods of elasticity and free-form deformation go by: the material, the lattice of control points, and what
+/// holds the object.
+class PhysicsDock : public QDockWidget {
+  Q_OBJECT
+
+ public:
+  PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs);
+
+ signals:
+  /// As CalibrationBox has it.
+  void presetRequested();
+
+ private:
+  void addRow(ParameterRow* row, double Material::*member);
+  QLayout* makeLattice();
+  QLayout* makePins(PinLayers& layers);
+  void setLattice();
+  void showElastic();
+  void showPins();
+  void adaptToMesh();
+
+  Document& document_;
+  QVBoxLayout* column_;
+  ParameterRow* young_;
+  ParameterRow* poisson_;
+  std::array<QSpinBox*, 3> lattice_{};
+  QLabel* pins_;
+};
+
+}  // namespace chainmail

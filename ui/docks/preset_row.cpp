@@ -1,0 +1,291 @@
+#include "docks/preset_row.h"
+
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QStandardItemModel>
+#include <algorithm>
+
+#include "common/icons.h"
+#include "common/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+QString filter() { return QStringLiteral("Presets of softness (*.json)"); }
+
+}  // namespace
+
+PresetRow::PresetRow(Document& document)
+    : document_(document),
+      fields_(new QStackedLayout),
+      field_(new QComboBox),
+      name_(new QLineEdit),
+      more_(new QToolButton),
+      menu_(new QMenu(QStringLiteral("&Presets of softness"), this)) {
+  menu_->setIcon(icon("preset"));
+  arrange();
+  addActions();
+  connect(field_, &QComboBox::activated, this, &PresetRow::choose);
+  connect(name_, &QLineEdit::returnPressed, this, &PresetRow::takeName);
+  connect(&document, &Document::softnessChanged, this, &PresetRow::showChosen);
+  try {
+    store_.load();
+  } catch (const Error& error) {
+    // Nobody listens yet.
+    QMetaObject::invokeMethod(
+        this, [this, what = QString::fromStdString(error.what())] { emit failed(what); }, Qt::QueuedConnection);
+  }
+  fill();
+}
+
+void PresetRow::arrange() {
+  field_->setObjectName(QStringLiteral("preset"));
+  field_->setAccessibleName(QStringLiteral("Preset of softness"));
+  field_->setToolTip(QStringLiteral("Compression, stretch and shear of all links at once, in one step of undo"));
+  field_->setFocusPolicy(Qt::StrongFocus);  // the wheel scrolls the dock, and changes nothing on its way
+  field_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  field_->setMinimumContentsLength(8);
+  name_->setObjectName(QStringLiteral("presetName"));
+  name_->setAccessibleName(QStringLiteral("Name of the preset"));
+  name_->setToolTip(QStringLiteral("Enter keeps the name, Esc gives it up"));
+  name_->setPlaceholderText(QStringLiteral("Name, then Enter"));
+  name_->setMaxLength(int(longest_preset_name));
+  more_->setObjectName(QStringLiteral("presetMore"));
+  more_->setText(QStringLiteral("⋯"));
+  more_->setAccessibleName(QStringLiteral("Save, rename, delete, import or export presets"));
+  more_->setToolTip(more_->accessibleName());
+  more_->setPopupMode(QToolButton::InstantPopup);
+  more_->setMenu(menu_);
+  more_->setFocusPolicy(Qt::TabFocus);
+  more_->setStyleSheet(QStringLiteral("QToolButton::menu-indicator{image:none}"));
+  menu_->setToolTipsVisible(true);
+  for (QObject* one : std::initializer_list<QObject*>{field_, name_}) {
+    one->installEventFilter(this);
+  }
+  auto* label = new QLabel(QStringLiteral("Preset"));
+  label->setBuddy(field_);
+  label->setToolTip(field_->toolTip());
+  fields_->addWidget(field_);
+  fields_->addWidget(name_);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(6);
+  row->addWidget(label);
+  row->addLayout(fields_, 1);
+  row->addWidget(more_);
+}
+
+QAction* PresetRow::add(const char* name, const QString& text, const QString& help, void (PresetRow::*act)()) {
+  auto* action = menu_->addAction(text, this, act);
+  action->setObjectName(QLatin1String(name));
+  action->setStatusTip(help);
+  return action;
+}
+
+void PresetRow::addActions() {
+  save_ = add("savePreset", QStringLiteral("&Save as preset…"),
+              QStringLiteral("Keeps compression, stretch and shear of all links under a name"), &PresetRow::saveAs);
+  rename_ = add("renamePreset", QStringLiteral("&Rename preset…"),
+                QStringLiteral("Gives the chosen preset another name; its values stay"), &PresetRow::rename);
+  remove_ = add("deletePreset", QStringLiteral("&Delete preset"),
+                QStringLiteral("Forgets the chosen preset; the object keeps its softness"), &PresetRow::remove);
+  menu_->addSeparator();
+  add("importPresets", QStringLiteral("&Import presets…"),
+      QStringLiteral("Adds the presets of a JSON file to your own"), &PresetRow::import)
+      ->setToolTip(QStringLiteral("Adds the presets of a JSON file to your own"));
+  export_ = add("exportPresets", QStringLiteral("&Export presets…"),
+                QStringLiteral("Writes all of your own presets into a JSON file"), &PresetRow::exportAll);
+}
+
+/// Lists what there is: 'Custom', which cannot be chosen, those built in, the user's own.
+void PresetRow::fill() {
+  all_.clear();
+  field_->clear();
+  field_->addItem(QStringLiteral("Custom"), -1);
+  field_->setItemData(0, QStringLiteral("The values are those of no preset"), Qt::ToolTipRole);
+  qobject_cast<QStandardItemModel*>(field_->model())->item(0)->setEnabled(false);
+  const auto list = [this](const SoftnessPreset& preset, const QString& help) {
+    field_->addItem(QString::fromStdString(preset.name), int(all_.size()));
+    field_->setItemData(field_->count() - 1,
+                        QStringLiteral("Compression %1, stretch %2, shear %3%4")
+                            .arg(preset.softness.compression)
+                            .arg(preset.softness.stretch)
+                            .arg(preset.softness.shear)
+                            .arg(help),
+                        Qt::ToolTipRole);
+    all_.push_back(preset);
+  };
+  for (const BuiltInPreset& one : built_in_presets()) {
+    list({std::string(one.name), one.softness}, QStringLiteral(": %1").arg(text(one.reason)));
+  }
+  if (!store_.own().empty()) {
+    field_->insertSeparator(field_->count());
+  }
+  for (const SoftnessPreset& one : store_.own()) {
+    list(one, {});
+  }
+  showChosen();
+}
+
+void PresetRow::showChosen() {
+  const LinkSoftness& now = document_.softness();
+  auto found = std::ranges::find(all_, SoftnessPreset{last_, now});
+  if (found == all_.end()) {
+    found = std::ranges::find(all_, now, &SoftnessPreset::softness);
+  }
+  const int preset = found == all_.end() ? -1 : int(found - all_.begin());
+  field_->setCurrentIndex(field_->findData(preset));
+  adaptActions();
+}
+
+/// What cannot be done says why.
+void PresetRow::adaptActions() {
+  const SoftnessPreset* one = chosen();
+  const auto allow = [](QAction* action, bool allowed, const QString& why) {
+    action->setEnabled(allowed);
+    action->setToolTip(allowed ? action->statusTip() : why);
+  };
+  allow(save_, one == nullptr,
+        one == nullptr
+            ? QString()
+            : QStringLiteral("These values are those of '%1' already").arg(QString::fromStdString(one->name)));
+  const QString notOwn = one == nullptr ? QStringLiteral("The values are those of no preset: choose one of your own")
+                                        : QStringLiteral("This preset is always there: choose one of your own");
+  allow(rename_, chosenOwn() != nullptr, notOwn);
+  allow(remove_, chosenOwn() != nullptr, notOwn);
+  allow(export_, !store_.own().empty(), QStringLiteral("There are no presets of your own: save one first"));
+}
+
+const SoftnessPreset* PresetRow::chosen() const {
+  const int preset = field_->currentData().toInt();
+  return preset < 0 ? nullptr : &all_[std::size_t(preset)];
+}
+
+const SoftnessPreset* PresetRow::chosenOwn() const {
+  const SoftnessPreset* one = chosen();
+  return one == nullptr || one < &all_[built_in_presets().size()] ? nullptr : one;
+}
+
+void PresetRow::choose(int index) {
+  const SoftnessPreset preset = all_[std::size_t(field_->itemData(index).toInt())];
+  last_ = preset.name;
+  document_.setSoftness(preset.softness, QStringLiteral("preset %1").arg(QString::fromStdString(preset.name)));
+  showChosen();
+}
+
+/// The field for a name takes the place of the list until Enter or Esc.
+void PresetRow::ask(Naming naming, const QString& name) {
+  naming_ = naming;
+  name_->setText(name);
+  name_->selectAll();
+  fields_->setCurrentWidget(name_);
+  for (QWidget* above = parentWidget(); above != nullptr; above = above->parentWidget()) {
+    if (above->isHidden()) {
+      above->show();  // asked for in the menu while the dock is closed
+    }
+  }
+  name_->setFocus();
+}
+
+void PresetRow::takeName() {
+  const std::string name = name_->text().trimmed().toStdString();
+  const bool done = attempt([&] {
+    if (naming_ == Naming::rename) {
+      store_.rename(renamed_, name);
+    } else {
+      store_.save({name, document_.softness()});
+    }
+  });
+  if (done) {
+    last_ = name;
+    endNaming();
+    fill();
+  }
+}
+
+void PresetRow::endNaming() {
+  naming_ = Naming::none;
+  fields_->setCurrentWidget(field_);
+}
+
+void PresetRow::saveAs() { ask(Naming::save, {}); }
+
+void PresetRow::rename() {
+  renamed_ = chosen()->name;
+  ask(Naming::rename, QString::fromStdString(renamed_));
+}
+
+void PresetRow::remove() {
+  const std::string name = chosen()->name;
+  store_.remove(name);
+  endNaming();  // it may have been about to be renamed
+  fill();
+  emit told(QStringLiteral("Deleted the preset '%1'").arg(QString::fromStdString(name)));
+}
+
+void PresetRow::import() {
+  const QString path = QFileDialog::getOpenFileName(this, QStringLiteral("Import presets"), {}, filter());
+  if (!path.isEmpty()) {
+    importPath(path);
+  }
+}
+
+void PresetRow::importPath(const QString& path) {
+  std::size_t added = 0;
+  if (attempt([&] { added = store_.addFrom(path); })) {
+    fill();
+    emit told(counted(QStringLiteral("Added"), added, QStringLiteral("preset")));
+  }
+}
+
+void PresetRow::exportAll() {
+  QString path =
+      QFileDialog::getSaveFileName(this, QStringLiteral("Export presets"), QStringLiteral("presets.json"), filter());
+  if (!path.isEmpty()) {
+    exportPath(path);
+  }
+}
+
+void PresetRow::exportPath(const QString& path) {
+  if (attempt([&] { store_.writeTo(path); })) {
+    emit told(QStringLiteral("Saved %1").arg(path));
+  }
+}
+
+bool PresetRow::attempt(const std::function<void()>& act) {
+  try {
+    act();
+    return true;
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+    return false;
+  }
+}
+
+bool PresetRow::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == field_ && event->type() == QEvent::Wheel && !field_->hasFocus()) {
+    event->ignore();
+    return true;
+  }
+  if (watched == name_ && (event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress) &&
+      dynamic_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
+    event->accept();  // here Esc gives up the name, and not what the window would
+    if (event->type() == QEvent::KeyPress) {
+      endNaming();
+      field_->setFocus();
+    }
+    return true;
+  }
+  if (watched == name_ && event->type() == QEvent::FocusOut && naming_ != Naming::none) {
+    const Qt::FocusReason reason = dynamic_cast<QFocusEvent*>(event)->reason();
+    if (reason != Qt::ActiveWindowFocusReason && reason != Qt::PopupFocusReason) {
+      endNaming();
+    }
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+}  // namespace chainmail

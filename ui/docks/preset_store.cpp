@@ -1,0 +1,108 @@
+#include "docks/preset_store.h"
+
+#include <QSettings>
+#include <algorithm>
+#include <sstream>
+
+#include "common/as_path.h"
+#include "files/text/outputs.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+QString key() { return QStringLiteral("softnessPresets"); }
+
+bool isBuiltIn(const std::string& name) {
+  return std::ranges::any_of(built_in_presets(), [&](const BuiltInPreset& one) { return one.name == name; });
+}
+
+std::vector<SoftnessPreset>::iterator find(std::vector<SoftnessPreset>& presets, const std::string& name) {
+  return std::ranges::find(presets, name, &SoftnessPreset::name);
+}
+
+/// A name that is not taken yet: 'felt', 'felt (2)', 'felt (3)'.
+std::string freeName(std::vector<SoftnessPreset>& presets, const std::string& name) {
+  std::string free = name;
+  for (int i = 2; isBuiltIn(free) || find(presets, free) != presets.end(); ++i) {
+    const std::string ending = " (" + std::to_string(i) + ")";
+    QString start = QString::fromStdString(name);
+    while (start.toStdString().size() + ending.size() > longest_preset_name) {
+      start.chop(1);
+    }
+    free = start.trimmed().toStdString() + ending;
+  }
+  return free;
+}
+
+}  // namespace
+
+void PresetStore::load() {
+  own_.clear();
+  const std::string text = QSettings().value(key()).toString().toStdString();
+  if (!text.empty()) {
+    own_ = read_presets(text, "settings");
+  }
+}
+
+void PresetStore::check(const std::string& name) const {
+  const std::string where = "preset '" + name + "'";
+  if (const std::string fault = fault_of_name(name); !fault.empty()) {
+    throw Error(where, "it cannot be called so", fault);
+  }
+  if (isBuiltIn(name)) {
+    throw Error(where, "a preset that is always there is called so", "choose another name");
+  }
+}
+
+void PresetStore::save(const SoftnessPreset& preset) {
+  check(preset.name);
+  if (const auto there = find(own_, preset.name); there != own_.end()) {
+    *there = preset;
+  } else {
+    own_.push_back(preset);
+  }
+  keep();
+}
+
+void PresetStore::rename(const std::string& name, const std::string& to) {
+  if (name == to) {
+    return;
+  }
+  check(to);
+  if (find(own_, to) != own_.end()) {
+    throw Error("preset '" + to + "'", "another one is called so", "choose another name");
+  }
+  find(own_, name)->name = to;
+  keep();
+}
+
+void PresetStore::remove(const std::string& name) {
+  own_.erase(find(own_, name));
+  keep();
+}
+
+std::size_t PresetStore::addFrom(const QString& path) {
+  std::size_t added = 0;
+  for (SoftnessPreset& preset : read_presets(asPath(path))) {
+    if (std::ranges::find(own_, preset) == own_.end()) {
+      preset.name = freeName(own_, preset.name);
+      own_.push_back(std::move(preset));
+      ++added;
+    }
+  }
+  keep();
+  return added;
+}
+
+void PresetStore::writeTo(const QString& path) const {
+  write_file(asPath(path), [this](std::ostream& out) { write_presets(out, own_); });
+}
+
+void PresetStore::keep() const {
+  std::ostringstream text;
+  write_presets(text, own_);
+  QSettings().setValue(key(), QString::fromStdString(text.str()));
+}
+
+}  // namespace chainmail

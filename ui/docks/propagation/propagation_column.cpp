@@ -1,0 +1,121 @@
+#include "docks/propagation/propagation_column.h"
+
+#include <QHeaderView>
+#include <QLocale>
+#include <QVBoxLayout>
+
+#include "common/colours.h"
+#include "common/panel_names.h"
+#include "common/text.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int smallestWidth = 198;  // pixels: what three columns take
+constexpr int smallestList = 84;    // pixels: some four candidates, below which it scrolls
+constexpr int swatchSize = 10;
+constexpr int cellMargin = 4;
+
+}  // namespace
+
+PropagationColumn::PropagationColumn(Document& document, Propagation& propagation, int panel)
+    : document_(document),
+      propagation_(propagation),
+      panel_(panel),
+      title_(new QLabel),
+      choice_(new QRadioButton(QStringLiteral("Step this panel"))),
+      slider_(new QSlider(Qt::Horizontal)),
+      state_(new QLabel),
+      list_(new QTreeView) {
+  title_->setObjectName(QStringLiteral("propagationPanel%1").arg(panel));
+  choice_->setObjectName(QStringLiteral("propagationChoice%1").arg(panel));
+  choice_->setAccessibleName(QStringLiteral("Step panel %1").arg(panelName(panel)));
+  choice_->setToolTip(QStringLiteral("The buttons and keys step this panel; its own slider always does"));
+  choice_->setAutoExclusive(false);
+  slider_->setObjectName(QStringLiteral("propagationStep%1").arg(panel));
+  slider_->setAccessibleName(QStringLiteral("Step of the pass of panel %1").arg(panelName(panel)));
+  slider_->setToolTip(QStringLiteral("The step of the pass that the panel shows: how many candidates have been taken"));
+  state_->setObjectName(QStringLiteral("propagationState%1").arg(panel));
+  state_->setWordWrap(true);
+  title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // the panels beside must not be pushed about
+  makeList();
+  arrange();
+  connect(choice_, &QRadioButton::clicked, this, [this] {
+    propagation_.choose(panel_);
+    refresh();  // it stays checked
+  });
+  connect(slider_, &QSlider::valueChanged, this, [this](int step) { propagation_.setStep(panel_, std::size_t(step)); });
+}
+
+void PropagationColumn::makeList() {
+  list_->setObjectName(QStringLiteral("waitingList%1").arg(panel_));
+  list_->setAccessibleName(QStringLiteral("Waiting list of panel %1").arg(panelName(panel_)));
+  list_->setModel(&model_);
+  list_->setRootIsDecorated(false);
+  list_->setUniformRowHeights(true);
+  list_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
+  list_->setMinimumHeight(smallestList);
+  list_->setIconSize({swatchSize, swatchSize});
+  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  list_->setAllColumnsShowFocus(true);
+  list_->header()->setSectionResizeMode(QHeaderView::Fixed);
+  list_->header()->setSectionResizeMode(WaitingListModel::what, QHeaderView::Stretch);
+  for (const int column : {WaitingListModel::element, WaitingListModel::sponsor}) {
+    list_->header()->resizeSection(column, list_->header()->sectionSizeHint(column) + cellMargin);
+  }
+  list_->header()->setSectionsMovable(false);
+  list_->header()->setMinimumSectionSize(30);
+  connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex& current) {
+    if (const auto element = model_.elementAt(current.row())) {
+      document_.setHighlight({*element, false, {}});
+    }
+  });
+}
+
+void PropagationColumn::arrange() {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  column->addWidget(title_);
+  column->addWidget(choice_);
+  column->addWidget(slider_);
+  column->addWidget(state_);
+  column->addWidget(list_, 1);
+  setMinimumWidth(smallestWidth);
+}
+
+QString PropagationColumn::describe(const PassPlayer& player) const {
+  const QLocale locale;
+  QString text = QStringLiteral("Step <b>%1</b> of %2 · ")
+                     .arg(locale.toString(qulonglong(player.step())), locale.toString(qulonglong(player.stepCount())));
+  if (player.history().known()) {
+    return text + QStringLiteral("<b>%1</b> waiting").arg(locale.toString(qulonglong(model_.waitingCount())));
+  }
+  if (player.pass().algorithm == Algorithm::exact) {
+    return text + QStringLiteral("no waiting list: steps to come, who goes furthest first");
+  }
+  return text + (player.stepCount() > PassPlayer::listedSteps
+                     ? QStringLiteral("too long a pass for its waiting list: steps to come")
+                     : QStringLiteral("its waiting list is not known: steps to come"));
+}
+
+void PropagationColumn::refresh() {
+  const PassPlayer* player = propagation_.player(panel_);
+  title_->setText(QStringLiteral("<span style='color:%1'>●</span> <b>%2</b> %3")
+                      .arg(QColor(colours::ofPanel(panel_)).name(), panelName(panel_),
+                           text(info(document_.algorithm(panel_)).label)));
+  choice_->setVisible(!propagation_.together());
+  choice_->setChecked(propagation_.chosen() == panel_);
+  model_.show(player, propagation_.stepCount());
+  const QSignalBlocker block(slider_);
+  slider_->setEnabled(player != nullptr && player->stepCount() > 0);
+  slider_->setRange(0, player != nullptr ? int(player->stepCount()) : 0);
+  slider_->setPageStep(std::max(1, slider_->maximum() / 10));
+  slider_->setValue(player != nullptr ? int(player->step()) : 0);
+  state_->setText(elastic_method(document_.algorithm(panel_))
+                      ? QStringLiteral("No candidates: it solves for all elements at once")
+                  : player != nullptr ? describe(*player)
+                                      : QStringLiteral("No pass yet: drag an element"));
+}
+
+}  // namespace chainmail

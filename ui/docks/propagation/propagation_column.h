@@ -1,0 +1,39 @@
+#pragma once
+
+#include <QLabel>
+#include <QRadioButton>
+#include <QSlider>
+#include <QTreeView>
+#include <QWidget>
+
+#include "docks/propagation/waiting_list_model.h"
+
+namespace chainmail {
+
+/// One panel's pass in the Propagation dock: where it is, and its waiting list.
+class PropagationColumn : public QWidget {
+  Q_OBJECT
+
+ public:
+  PropagationColumn(Document& document, Propagation& propagation, int panel);
+
+  /// Shows the pass as it is looked at now.
+  void refresh();
+
+ private:
+  void makeList();
+  void arrange();
+  QString describe(const PassPlayer& player) const;
+
+  Document& document_;
+  Propagation& propagation_;
+  int panel_;
+  QLabel* title_;
+  QRadioButton* choice_;
+  QSlider* slider_;
+  QLabel* state_;
+  QTreeView* list_;
+  WaitingListModel model_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,186 @@
+#include "docks/propagation/propagation_dock.h"
+
+#include <QAction>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <array>
+
+#include "common/dock_scroll.h"
+#include "common/icons.h"
+
+namespace chainmail {
+namespace {
+
+constexpr std::array speeds{1, 2, 5, 10, 30, 100, 1000, 10'000};  // steps a second
+constexpr int usualSpeed = 5;
+constexpr int columnsInARow = 2;
+
+}  // namespace
+
+PropagationDock::PropagationDock(Document& document, Propagation& propagation, PropagationOverlay& overlay)
+    : QDockWidget(QStringLiteral("Propagation")),
+      propagation_(propagation),
+      overlay_(overlay),
+      speed_(new QComboBox),
+      together_(new QCheckBox(QStringLiteral("Panels &together"))),
+      arrows_(new QCheckBox(QStringLiteral("&Arrows"))) {
+  setObjectName(QStringLiteral("propagationDock"));
+  makeActions();
+  auto* content = new QWidget;
+  auto* column = new QVBoxLayout(content);
+  column->addWidget(makeButtons());
+  column->addWidget(makeChoices());
+  auto* lists = new QGridLayout;  // two in a row, as the panels are
+  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+    columns_.push_back(new PropagationColumn(document, propagation, panel));
+    lists->addWidget(columns_.back(), panel / columnsInARow, panel % columnsInARow);
+  }
+  const auto adapt = [this, &document] {
+    for (int panel = 0; panel < Document::mostPanels; ++panel) {
+      columns_[std::size_t(panel)]->setVisible(panel < document.panels());
+    }
+  };
+  connect(&document, &Document::panelsChanged, this, adapt);
+  adapt();
+  column->addLayout(lists, 1);
+  setWidget(new DockScroll(content));
+  connect(this, &QDockWidget::visibilityChanged, this, [this](bool) { propagation_.setOpen(!isHidden()); });
+  connect(toggleViewAction(), &QAction::toggled, &propagation, &Propagation::setOpen);
+  connect(&propagation, &Propagation::changed, this, &PropagationDock::refresh);
+  connect(&document, &Document::algorithmChanged, this, &PropagationDock::refresh);
+  refresh();
+}
+
+QAction* PropagationDock::add(const QString& name, const QString& text, const QKeySequence& key, const QString& tip) {
+  auto* action = new QAction(text, this);
+  action->setObjectName(name);
+  action->setShortcut(key);
+  action->setStatusTip(tip);
+  return action;
+}
+
+void PropagationDock::makeActions() {
+  first_ = add(QStringLiteral("passFirst"), QStringLiteral("&First step"), Qt::CTRL | Qt::Key_Comma,
+               QStringLiteral("To where the pass begins: the hand is at its target, nothing has followed yet"));
+  back_ = add(QStringLiteral("passBack"), QStringLiteral("Step &back"), Qt::Key_Comma,
+              QStringLiteral("One candidate of the pass back"));
+  play_ = add(QStringLiteral("passPlay"), QStringLiteral("&Slow motion"), Qt::CTRL | Qt::Key_Space,
+              QStringLiteral("Goes through the pass at the chosen steps a second, or stops there"));
+  forward_ = add(QStringLiteral("passForward"), QStringLiteral("Step f&orward"), Qt::Key_Period,
+                 QStringLiteral("One candidate of the pass on"));
+  last_ = add(QStringLiteral("passLast"), QStringLiteral("&Last step"), Qt::CTRL | Qt::Key_Period,
+              QStringLiteral("To where the pass ends"));
+  follow_ = add(QStringLiteral("passFollow"), QStringLiteral("Follow the &hand"), Qt::SHIFT | Qt::Key_O,
+                QStringLiteral("Shows the last pass as it comes; else one pass is held and looked at"));
+  play_->setCheckable(true);
+  follow_->setCheckable(true);
+  connect(first_, &QAction::triggered, this, [this] { propagation_.goTo(0); });
+  connect(back_, &QAction::triggered, this, [this] { propagation_.stepBy(-1); });
+  connect(play_, &QAction::triggered, &propagation_, &Propagation::setPlays);
+  connect(forward_, &QAction::triggered, this, [this] { propagation_.stepBy(1); });
+  connect(last_, &QAction::triggered, this, [this] { propagation_.goTo(propagation_.stepCount()); });
+  connect(follow_, &QAction::triggered, &propagation_, &Propagation::setFollows);
+  first_->setIcon(icon("toStart"));
+  back_->setIcon(icon("stepBack"));
+  forward_->setIcon(icon("stepForward"));
+  last_->setIcon(icon("toEnd"));
+}
+
+QWidget* PropagationDock::makeButtons() {
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(2);
+  for (QAction* action : {first_, back_, play_, forward_, last_}) {
+    auto* button = new QToolButton;
+    button->setDefaultAction(action);
+    button->setFocusPolicy(Qt::StrongFocus);
+    layout->addWidget(button);
+  }
+  makeSpeeds();
+  layout->addSpacing(6);
+  layout->addWidget(speed_);
+  layout->addStretch();
+  return row;
+}
+
+void PropagationDock::makeSpeeds() {
+  speed_->setObjectName(QStringLiteral("passSpeed"));
+  speed_->setAccessibleName(QStringLiteral("Speed of slow motion"));
+  speed_->setToolTip(QStringLiteral("Speed of slow motion: steps a second"));
+  for (const int speed : speeds) {
+    speed_->addItem(QStringLiteral("%L1 steps/s").arg(speed), speed);
+  }
+  connect(speed_, &QComboBox::currentIndexChanged, this,
+          [this] { propagation_.setSpeed(speed_->currentData().toDouble()); });
+  speed_->setCurrentIndex(speed_->findData(usualSpeed));
+}
+
+QWidget* PropagationDock::makeChoices() {
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  auto* follow = new QToolButton;
+  follow->setDefaultAction(follow_);
+  follow->setFocusPolicy(Qt::StrongFocus);
+  layout->addWidget(follow);
+  together_->setObjectName(QStringLiteral("passTogether"));
+  together_->setChecked(true);
+  together_->setToolTip(QStringLiteral("All panels go to the same step, or the chosen one alone"));
+  arrows_->setObjectName(QStringLiteral("passArrows"));
+  arrows_->setChecked(true);
+  arrows_->setToolTip(QStringLiteral("Arrows from each sponsor to the element that it has updated"));
+  layout->addWidget(together_);
+  layout->addWidget(arrows_);
+  layout->addStretch();
+  connect(together_, &QCheckBox::toggled, &propagation_, &Propagation::setTogether);
+  connect(arrows_, &QCheckBox::toggled, this, [this](bool on) {
+    overlay_.setArrows(on);
+    emit changed();
+  });
+  return row;
+}
+
+void PropagationDock::fill(QMenu& menu) {
+  QAction* show = toggleViewAction();
+  show->setObjectName(QStringLiteral("showPropagation"));
+  show->setIcon(icon("propagation"));
+  show->setText(QStringLiteral("&Propagation, step by step"));
+  show->setShortcut(Qt::Key_O);
+  show->setStatusTip(QStringLiteral("Slow motion and single steps through a pass, its waiting list and its order"));
+  menu.addAction(show);
+  auto* steps = menu.addMenu(QStringLiteral("Steps of the p&ass"));
+  steps->addActions({first_, back_, play_, forward_, last_});
+  steps->addSeparator();
+  steps->addAction(follow_);
+}
+
+void PropagationDock::refresh() {
+  refreshActions();
+  for (PropagationColumn* column : columns_) {
+    column->refresh();
+  }
+  emit changed();
+}
+
+/// What has nothing to act on says why.
+void PropagationDock::refreshActions() {
+  const bool ready = propagation_.isOpen() && propagation_.hasPass();
+  const QString why = propagation_.isOpen() ? QStringLiteral("no pass yet: drag an element")
+                                            : QStringLiteral("open the Propagation dock first (O)");
+  for (QAction* action : {first_, back_, play_, forward_, last_, follow_}) {
+    const QString name = QString(action->text()).remove(QLatin1Char('&'));
+    action->setEnabled(ready);
+    action->setToolTip(ready ? QStringLiteral("%1 (%2)").arg(name, action->shortcut().toString())
+                             : QStringLiteral("%1: %2").arg(name, why));
+  }
+  play_->setChecked(propagation_.plays());
+  play_->setIcon(icon(propagation_.plays() ? "pause" : "play"));
+  follow_->setChecked(propagation_.follows());
+}
+
+}  // namespace chainmail

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDockWidget>
+
+#include "docks/propagation/propagation_column.h"
+#include "tools/propagation_overlay.h"
+
+class QAction;
+class QMenu;
+
+namespace chainmail {
+
+/// Slow motion and single steps through a pass, forward and back, with the waiting lists of all panels.
+class PropagationDock : public QDockWidget {
+  Q_OBJECT
+
+ public:
+  PropagationDock(Document& document, Propagation& propagation, PropagationOverlay& overlay);
+
+  /// Adds its switch and its steps to a menu.
+  void fill(QMenu& menu);
+
+ signals:
+  /// The panels have something else to draw.
+  void changed();
+
+ private:
+  QAction* add(const QString& name, const QString& text, const QKeySequence& key, const QString& tip);
+  void makeActions();
+  QWidget* makeButtons();
+  QWidget* makeChoices();
+  void makeSpeeds();
+  void refresh();
+  void refreshActions();
+
+  Propagation& propagation_;
+  PropagationOverlay& overlay_;
+  std::vector<PropagationColumn*> columns_;
+  QAction *first_, *back_, *play_, *forward_, *last_, *follow_;
+  QComboBox* speed_;
+  QCheckBox *together_, *arrows_;
+};
+
+}  // namespace chainmail

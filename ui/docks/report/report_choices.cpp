@@ -1,0 +1,167 @@
+#include "docks/report/report_choices.h"
+
+#include <QFormLayout>
+#include <QStandardItemModel>
+#include <QVBoxLayout>
+
+#include "common/colours.h"
+#include "common/text.h"
+#include "docks/report/report_looks.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int generatedDrags = 0, lastDrag = 1;  // in the list of drags
+constexpr int sweepsAMove = 10;
+constexpr int markSize = 13;  // pixels
+
+void name(QWidget* widget, const char* object, const QString& accessible, const QString& help) {
+  widget->setObjectName(QLatin1String(object));
+  widget->setAccessibleName(accessible);
+  widget->setToolTip(help);
+}
+
+void enable(QComboBox* box, int row, bool enabled) {
+  qobject_cast<QStandardItemModel*>(box->model())->item(row)->setEnabled(enabled);
+}
+
+}  // namespace
+
+ReportChoices::ReportChoices(Document& document)
+    : document_(document),
+      drags_(new QComboBox),
+      algorithms_(new QListWidget),
+      sweeps_(new QComboBox),
+      precision_(new QComboBox),
+      seconds_(new QDoubleSpinBox) {
+  fillDrags();
+  fillAlgorithms();
+  fillRest();
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* form = new QFormLayout;
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  form->setVerticalSpacing(3);
+  form->addRow(QStringLiteral("Drags"), drags_);
+  form->addRow(QStringLiteral("Sweeps"), sweeps_);
+  form->addRow(QStringLiteral("Precision"), precision_);
+  form->addRow(QStringLiteral("Effort"), seconds_);
+  column->addWidget(algorithms_, 1);
+  column->addLayout(form);
+  connect(algorithms_, &QListWidget::itemChanged, this, &ReportChoices::changed);
+  connect(&document, &Document::meshChanged, this, &ReportChoices::adaptToMesh);
+  connect(&document, &Document::lastDragChanged, this, &ReportChoices::adaptToHand);
+  adaptToMesh();
+  adaptToHand();
+}
+
+void ReportChoices::fillDrags() {
+  name(drags_, "reportDrags", QStringLiteral("Drags to compare on"),
+       QStringLiteral("Three generated drags: local, of the whole body, back and forth.\n"
+                      "My last drag: what the hand did last in a panel, carried out anew from rest."));
+  drags_->addItems({QStringLiteral("three generated"), QStringLiteral("my last drag")});
+}
+
+void ReportChoices::fillAlgorithms() {
+  name(algorithms_, "reportAlgorithms", QStringLiteral("Algorithms that take part"),
+       QStringLiteral("Who takes part; the marks are those of the plot"));
+  algorithms_->setIconSize({markSize, markSize});
+  algorithms_->setUniformItemSizes(true);
+  algorithms_->setMinimumHeight(48);
+  for (const AlgorithmInfo& one : algorithms()) {
+    auto* item = new QListWidgetItem(text(one.label), algorithms_);
+    item->setData(Qt::UserRole, int(one.algorithm));
+    item->setCheckState(Qt::Checked);
+  }
+  followTheme(*this, [this] {
+    const QSignalBlocker block(algorithms_);  // nothing was chosen
+    for (int row = 0; row < algorithms_->count(); ++row) {
+      const auto algorithm = Algorithm(algorithms_->item(row)->data(Qt::UserRole).toInt());
+      algorithms_->item(row)->setIcon(QIcon(reportMark({algorithm, 0}, markSize, devicePixelRatioF())));
+    }
+  });
+}
+
+void ReportChoices::fillRest() {
+  name(sweeps_, "reportSweeps", QStringLiteral("Sweeps of relaxation"),
+       QStringLiteral("Each algorithm without relaxation, with 10 sweeps after each move, or both.\n"
+                      "Scheme and step are those of the Relaxation dock."));
+  sweeps_->addItems({QStringLiteral("off"), QStringLiteral("%1 a move").arg(sweepsAMove),
+                     QStringLiteral("off, and %1 a move").arg(sweepsAMove)});
+  sweeps_->setCurrentIndex(2);
+  name(precision_, "reportPrecision", QStringLiteral("Precision of the contestants"),
+       QStringLiteral("The numbers that the contestants compute in; what they are compared with is in double"));
+  precision_->addItems({QStringLiteral("float"), QStringLiteral("double")});
+  name(seconds_, "reportSeconds", QStringLiteral("Effort in seconds"),
+       QStringLiteral("Time for the repetitions of one drag by all; five repetitions are made at least.\n"
+                      "More makes the times steadier; the errors are the same."));
+  seconds_->setRange(0.1, 60);
+  seconds_->setDecimals(1);
+  seconds_->setValue(2);
+  seconds_->setSuffix(QStringLiteral(" s a drag"));
+  seconds_->setKeyboardTracking(false);
+  connect(seconds_, &QDoubleSpinBox::editingFinished, seconds_, &QWidget::clearFocus);  // shortcuts work again
+}
+
+/// An algorithm that does not work on the mesh cannot be chosen, and says why.
+void ReportChoices::adaptToMesh() {
+  for (int row = 0; row < algorithms_->count(); ++row) {
+    QListWidgetItem* item = algorithms_->item(row);
+    const auto algorithm = Algorithm(item->data(Qt::UserRole).toInt());
+    QString help = text(info(algorithm).source);
+    try {
+      check(algorithm, *document_.mesh());
+      item->setFlags(item->flags() | Qt::ItemIsEnabled);
+    } catch (const Error& error) {
+      item->setFlags(item->flags() & ~Qt::ItemIsEnabled);
+      help = QString::fromStdString(error.what());
+    }
+    item->setToolTip(help);
+  }
+}
+
+void ReportChoices::adaptToHand() {
+  const bool there = !document_.lastDrag().empty();
+  enable(drags_, lastDrag, there);
+  if (!there) {
+    drags_->setCurrentIndex(generatedDrags);
+  }
+}
+
+std::vector<Algorithm> ReportChoices::chosen() const {
+  std::vector<Algorithm> algorithms;
+  for (int row = 0; row < algorithms_->count(); ++row) {
+    const QListWidgetItem* item = algorithms_->item(row);
+    if (item->checkState() == Qt::Checked && (item->flags() & Qt::ItemIsEnabled) != 0) {
+      algorithms.push_back(Algorithm(item->data(Qt::UserRole).toInt()));
+    }
+  }
+  return algorithms;
+}
+
+ReportThread::Order ReportChoices::order() const {
+  ReportThread::Order order;
+  order.object = {document_.name().toStdString(),
+                  "as it is in the window, from rest",
+                  document_.mesh(),
+                  document_.cuts().links(),
+                  document_.pins(),
+                  *document_.wholeSoftness(),
+                  {}};
+  order.generateDrags = drags_->currentIndex() == generatedDrags;
+  if (!order.generateDrags) {
+    order.object.drags.push_back({"my last drag", "what the hand did last in the window", document_.lastDrag()});
+  }
+  order.options.algorithms = chosen();
+  order.options.sweeps = sweeps_->currentIndex() == 0   ? std::vector{0}
+                         : sweeps_->currentIndex() == 1 ? std::vector{sweepsAMove}
+                                                        : std::vector{0, sweepsAMove};
+  order.options.scheme = document_.relaxation().scheme;
+  order.options.relax_step = document_.relaxation().step;
+  order.options.precision = precision_->currentIndex() == 0 ? Precision::single_precision : Precision::double_precision;
+  order.options.seconds = seconds_->value();
+  return order;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,171 @@
+#include "docks/report/report_results.h"
+
+#include <QClipboard>
+#include <QDir>
+#include <QFileDialog>
+#include <QGuiApplication>
+#include <QLocale>
+#include <QSettings>
+#include <QSplitter>
+#include <QVBoxLayout>
+
+#include "common/colours.h"
+#include "common/table_text.h"
+#include "common/text.h"
+#include "docks/report/report_files.h"
+#include "docks/report/report_plot.h"
+#include "docks/report/report_table.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+QString folderKey() { return QStringLiteral("reportFolder"); }
+
+/// Each sentence once, with all whom it concerns.
+QString refusalsOf(const report::DragResult& drag) {
+  QStringList sentences;
+  QMap<QString, QStringList> who;
+  for (const report::Entry& entry : drag.entries) {
+    if (entry.measurement) {
+      continue;
+    }
+    const QString sentence = text(entry.refusal);
+    const QString name = text(info(entry.contestant.algorithm).label);
+    if (!sentences.contains(sentence)) {
+      sentences << sentence;
+    }
+    if (!who[sentence].contains(name)) {
+      who[sentence] << name;
+    }
+  }
+  QStringList lines;
+  for (const QString& sentence : sentences) {
+    lines << QStringLiteral("%1: refused. %2").arg(who[sentence].join(QStringLiteral(", ")), sentence);
+  }
+  if (!drag.no_exact.empty()) {
+    lines << QStringLiteral("No distances to Exact ChainMail: %1").arg(text(drag.no_exact));
+  }
+  return lines.join(QLatin1Char('\n'));
+}
+
+}  // namespace
+
+ReportResults::ReportResults()
+    : heading_(new QLabel),
+      drag_(new QComboBox),
+      error_(new QComboBox),
+      copy_(new QPushButton(QStringLiteral("Copy table"))),
+      save_(new QPushButton(QStringLiteral("Save…"))),
+      plot_(new ReportPlot),
+      table_(new ReportTable),
+      refusals_(new QLabel) {
+  auto* split = new QSplitter;
+  split->setObjectName(QStringLiteral("reportSplitter"));
+  split->setChildrenCollapsible(false);
+  split->addWidget(plot_);
+  split->addWidget(table_);
+  split->setStretchFactor(0, 2);
+  split->setStretchFactor(1, 3);
+  split->setSizes({330, 440});
+  refusals_->setObjectName(QStringLiteral("reportRefusals"));
+  refusals_->setAccessibleName(QStringLiteral("Who was refused, and why"));
+  refusals_->setToolTip(refusals_->accessibleName());
+  refusals_->setTextFormat(Qt::PlainText);
+  refusals_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  refusals_->setWordWrap(true);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  column->addLayout(makeBar());
+  column->addWidget(split, 1);
+  column->addWidget(refusals_);
+  followTheme(*this, [this] { showDrag(); });  // marks are drawn for one ground
+}
+
+QLayout* ReportResults::makeBar() {
+  const auto name = [](QWidget* widget, const char* object, const QString& accessible, const QString& help) {
+    widget->setObjectName(QLatin1String(object));
+    widget->setAccessibleName(accessible);
+    widget->setToolTip(help);
+  };
+  name(heading_, "reportHeading", QStringLiteral("What was compared"), QStringLiteral("The object of the last run"));
+  heading_->setTextFormat(Qt::PlainText);
+  heading_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // a long name pushes nothing away
+  name(drag_, "reportDrag", QStringLiteral("Drag shown"), QStringLiteral("Which of the drags plot and table show"));
+  name(error_, "reportError", QStringLiteral("Error shown"), QStringLiteral("Which error the plot shows against time"));
+  name(copy_, "reportCopy", QStringLiteral("Copy the table"),
+       QStringLiteral("Puts the table on the clipboard, columns parted by tabs, in the order shown"));
+  name(save_, "reportSave", QStringLiteral("Save the report"),
+       QStringLiteral("Writes report.html, report.json and report.csv, with all drags, into a folder"));
+  for (const ReportError& error : reportErrors()) {
+    error_->addItem(QLatin1String(error.label));
+  }
+  auto* bar = new QHBoxLayout;
+  bar->addWidget(drag_);
+  bar->addWidget(error_);
+  bar->addWidget(heading_, 1);
+  bar->addWidget(copy_);
+  bar->addWidget(save_);
+  connect(drag_, &QComboBox::currentIndexChanged, this, &ReportResults::showDrag);
+  connect(error_, &QComboBox::currentIndexChanged, this, &ReportResults::showDrag);
+  connect(copy_, &QPushButton::clicked, this, &ReportResults::copy);
+  connect(save_, &QPushButton::clicked, this, &ReportResults::save);
+  return bar;
+}
+
+void ReportResults::show(const ReportThread::Result& result) {
+  result_ = result;
+  const report::CaseResult& object = result->cases.front();
+  {
+    const QSignalBlocker block(drag_);
+    drag_->clear();
+    for (const report::DragResult& drag : object.drags) {
+      drag_->addItem(text(drag.name));
+      drag_->setItemData(drag_->count() - 1, text(drag.description), Qt::ToolTipRole);
+    }
+  }
+  drag_->setEnabled(object.drags.size() > 1);
+  showDrag();
+}
+
+void ReportResults::showDrag() {
+  if (result_ == nullptr) {
+    return;
+  }
+  const report::CaseResult& object = result_->cases.front();
+  const report::DragResult& drag = object.drags[std::size_t(drag_->currentIndex())];
+  const QLocale locale;
+  heading_->setText(
+      QStringLiteral("%1, %2 elements; %3 moves")
+          .arg(text(object.name), locale.toString(qulonglong(object.elements)), locale.toString(drag.moves)));
+  heading_->setToolTip(text(drag.description));
+  plot_->show(drag, reportErrors()[std::size_t(error_->currentIndex())]);
+  table_->show(drag);
+  const QString refusals = refusalsOf(drag);
+  refusals_->setText(refusals);
+  refusals_->setVisible(!refusals.isEmpty());
+}
+
+void ReportResults::save() {
+  const QString folder =
+      QFileDialog::getExistingDirectory(this, QStringLiteral("Folder for report.html, report.json and report.csv"),
+                                        QSettings().value(folderKey(), QDir::currentPath()).toString());
+  if (!folder.isEmpty()) {
+    saveTo(folder);
+  }
+}
+
+void ReportResults::saveTo(const QString& folder) {
+  try {
+    saveReport(std::filesystem::path(folder.toStdU16String()), *result_);
+    QSettings().setValue(folderKey(), folder);
+    emit saved(folder + QStringLiteral("/report.html, .json and .csv"));
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+}
+
+void ReportResults::copy() { QGuiApplication::clipboard()->setText(textOf(*table_)); }
+
+}  // namespace chainmail

@@ -1,0 +1,129 @@
+#include "docks/report/report_table.h"
+
+#include <QHeaderView>
+#include <limits>
+
+#include "common/table_text.h"
+#include "common/text.h"
+#include "docks/report/report_looks.h"
+#include "report/page/format.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int markSize = 13;  // pixels
+
+/// Sorted by its number and not by its text; what has none comes last.
+class FigureItem : public QTableWidgetItem {
+ public:
+  FigureItem(const QString& words, std::optional<double> number)
+      : QTableWidgetItem(words), number_(number.value_or(std::numeric_limits<double>::infinity())) {
+    setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
+  }
+  bool operator<(const QTableWidgetItem& other) const override {
+    const auto* figure = dynamic_cast<const FigureItem*>(&other);
+    return figure != nullptr && number_ < figure->number_;
+  }
+
+ private:
+  double number_;
+};
+
+using report::Measurement;
+
+struct Column {
+  const char* head;
+  const char* help;
+  std::optional<double> (*number)(const Measurement& one);
+  /// As it is shown, where that is not the number alone.
+  std::string (*words)(const Measurement& one) = nullptr;
+};
+
+template <double Distance::*member>
+std::optional<double> of(const std::optional<Distance>& distance) {
+  return distance ? std::optional((*distance).*member) : std::nullopt;
+}
+
+constexpr std::array columns{
+    Column{"ms\na move", "Median over the repetitions: a pass and its sweeps",
+           [](auto& one) { return std::optional(one.ms_per_move.median); }},
+    Column{"quartiles", "Half of the repetitions took a time between these two (ms a move)",
+           [](auto& one) { return std::optional(one.ms_per_move.lower_quartile); },
+           [](auto& one) {
+             return report::figure(one.ms_per_move.lower_quartile) + " – " +
+                    report::figure(one.ms_per_move.upper_quartile);
+           }},
+    Column{"moved", "Elements moved, in all moves together, without the one in the hand",
+           [](auto& one) { return std::optional(double(one.moved)); },
+           [](auto& one) { return QLocale().toString(qulonglong(one.moved)).toStdString(); }},
+    Column{"violation\nmax", "The largest violation of a link, in its rest lengths",
+           [](auto& one) { return std::optional(one.errors.violation.max); }},
+    Column{"violation\nRMS", "Root mean square of the violation over all links, in rest lengths",
+           [](auto& one) { return std::optional(one.errors.violation.rms); }},
+    Column{"violated\nlinks", "Share of the links with a violation above 1e-4",
+           [](auto& one) { return std::optional(one.errors.violation.fraction); },
+           [](auto& one) { return report::percent(one.errors.violation.fraction); }},
+    Column{"to Exact\nmax",
+           "The largest distance of an element to where Exact ChainMail in double puts it, in mean "
+           "rest lengths",
+           [](auto& one) { return of<&Distance::max>(one.errors.to_exact); }},
+    Column{"to Exact\nRMS", "Root mean square of the distance to Exact ChainMail in double, in mean rest lengths",
+           [](auto& one) { return of<&Distance::rms>(one.errors.to_exact); }},
+    Column{"energy\nratio", "Elastic energy over that of Exact ChainMail; n/a where that holds none",
+           [](auto& one) { return one.errors.energy_over_exact; }},
+    Column{"float to\ndouble",
+           "The largest distance between the contestant in float and in double, in mean rest lengths",
+           [](auto& one) { return std::optional(one.errors.float_to_double.max); }},
+};
+
+}  // namespace
+
+ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
+  setObjectName(QStringLiteral("reportTable"));
+  setAccessibleName(QStringLiteral("Table of the contestants' figures"));
+  setToolTip(QStringLiteral("A click on a column's head sorts by it; hover it for what it says"));
+  setSelectionBehavior(SelectRows);
+  setAlternatingRowColors(true);
+  setShowGrid(false);
+  setIconSize({markSize, markSize});
+  verticalHeader()->hide();
+  verticalHeader()->setDefaultSectionSize(21);
+  verticalHeader()->setMinimumSectionSize(21);
+  auto* contestant = new QTableWidgetItem(QStringLiteral("contestant"));
+  contestant->setToolTip(QStringLiteral("The algorithm, and the sweeps of relaxation after each of its moves"));
+  setHorizontalHeaderItem(0, contestant);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    auto* head = new QTableWidgetItem(QLatin1String(columns[i].head));
+    head->setToolTip(QLatin1String(columns[i].help));
+    setHorizontalHeaderItem(int(i) + 1, head);
+  }
+  horizontalHeader()->setHighlightSections(false);
+  sortByColumn(1, Qt::AscendingOrder);  // the fastest first
+  copyByKeys(*this);
+}
+
+void ReportTable::show(const report::DragResult& drag) {
+  setSortingEnabled(false);  // rows would move while they are filled
+  setRowCount(0);
+  for (const report::Entry& entry : drag.entries) {
+    if (!entry.measurement) {
+      continue;
+    }
+    const int row = rowCount();
+    insertRow(row);
+    auto* name = new QTableWidgetItem(QIcon(reportMark(entry.contestant, markSize, devicePixelRatioF())),
+                                      reportName(entry.contestant));
+    name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
+    setItem(row, 0, name);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const auto number = columns[i].number(*entry.measurement);
+      const auto words = columns[i].words != nullptr ? columns[i].words(*entry.measurement) : report::figure(number);
+      setItem(row, int(i) + 1, new FigureItem(text(words), number));
+    }
+  }
+  setSortingEnabled(true);
+  resizeColumnsToContents();
+}
+
+}  // namespace chainmail

@@ -1,0 +1,84 @@
+#include "docks/report/report_thread.h"
+
+#include <exception>
+
+namespace chainmail {
+
+ReportThread::~ReportThread() {
+  thread_.request_stop();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+void ReportThread::start(Order order) {
+  cancel();
+  running_ = true;
+  ++atWork_;
+  thread_ =
+      std::jthread([this, order = std::move(order), before = std::move(thread_)](const std::stop_token& stop) mutable {
+        // Two at once would spoil each other's times. The wait is here and not in the window.
+        if (before.joinable()) {
+          before.join();
+        }
+        run(order, stop);
+        atWork_.fetch_sub(1, std::memory_order_release);
+      });
+}
+
+void ReportThread::cancel() {
+  thread_.request_stop();
+  running_ = false;
+  const std::scoped_lock lock(mutex_);
+  news_ = {};  // what was told before the request; from here on the thread tells nothing
+}
+
+void ReportThread::run(Order& order, const std::stop_token& stop) {
+  try {
+    if (order.generateDrags) {
+      tell({0, "finding the drags", {}, {}}, stop);
+      order.object.drags = report::three_drags(order.object, stop);
+    }
+    const auto progress = [&](double fraction, const std::string& text) { tell({fraction, text, {}, {}}, stop); };
+    auto comparison = report::compare({order.object}, order.options, progress, stop);
+    tell({1, {}, std::make_shared<report::Comparison>(std::move(comparison)), {}}, stop);
+  } catch (const std::bad_alloc&) {
+    tell({0, {}, {}, order.object.name + ": there is not enough memory; choose fewer algorithms"}, stop);
+  } catch (const std::exception& error) {
+    tell({0, {}, {}, error.what()}, stop);
+  }
+}
+
+void ReportThread::tell(News news, const std::stop_token& stop) {
+  const std::scoped_lock lock(mutex_);
+  // Under the lock that cancel() takes after its request: news of a cancelled run cannot slip in behind it.
+  if (stop.stop_requested()) {
+    return;
+  }
+  news_ = std::move(news);
+  if (!announced_.exchange(true)) {
+    QMetaObject::invokeMethod(this, &ReportThread::receive, Qt::QueuedConnection);
+  }
+}
+
+void ReportThread::receive() {
+  announced_ = false;
+  News news;
+  {
+    const std::scoped_lock lock(mutex_);
+    news = news_;
+  }
+  if (!running_) {
+    return;
+  }
+  running_ = news.result == nullptr && news.error.empty();
+  if (news.result != nullptr) {
+    emit finished(news.result);
+  } else if (!news.error.empty()) {
+    emit failed(QString::fromStdString(news.error));
+  } else {
+    emit progressed(news.fraction, QString::fromStdString(news.text));
+  }
+}
+
+}  // namespace chainmail

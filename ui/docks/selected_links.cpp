@@ -1,0 +1,118 @@
+#include "docks/selected_links.h"
+
+#include <QHBoxLayout>
+#include <QVBoxLayout>
+
+namespace chainmail {
+namespace {
+
+const QString rowPrefix = QStringLiteral("selected-");
+
+}  // namespace
+
+SelectedLinks::SelectedLinks(Document& document)
+    : QGroupBox(QStringLiteral("Selected links")),
+      document_(document),
+      description_(new QLabel),
+      rows_(new QWidget),
+      compression_(new ParameterRow(parameters::compression, rowPrefix)),
+      stretch_(new ParameterRow(parameters::stretch, rowPrefix)),
+      shear_(new ParameterRow(parameters::shear, rowPrefix)),
+      set_(new QPushButton(QStringLiteral("Set"))),
+      back_(new QPushButton(QStringLiteral("Back to global"))) {
+  setObjectName(QStringLiteral("selectedLinks"));
+  arrange();
+  connect(set_, &QPushButton::clicked, this, [this] {
+    document_.setSoftnessOf(document_.selection().links,
+                            LinkSoftness{compression_->value(), stretch_->value(), shear_->value()});
+  });
+  connect(back_, &QPushButton::clicked, this,
+          [this] { document_.setSoftnessOf(document_.selection().links, std::nullopt); });
+  connect(&document, &Document::selectionChanged, this, &SelectedLinks::refresh);
+  connect(&document, &Document::softnessChanged, this, &SelectedLinks::refresh);
+  refresh();
+}
+
+void SelectedLinks::arrange() {
+  description_->setObjectName(QStringLiteral("selectedDescription"));
+  description_->setWordWrap(true);
+  set_->setObjectName(QStringLiteral("setSelected"));
+  set_->setToolTip(QStringLiteral("Gives the selected links this softness of their own, in one step of undo"));
+  back_->setObjectName(QStringLiteral("selectedToGlobal"));
+  back_->setToolTip(QStringLiteral("The selected links take the softness of all links again"));
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(8, 4, 8, 6);
+  column->setSpacing(4);
+  column->addWidget(description_);
+  column->addWidget(rows_);
+  auto* rows = new QVBoxLayout(rows_);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(4);
+  for (ParameterRow* row : {compression_, stretch_, shear_}) {
+    rows->addWidget(row);
+  }
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(set_);
+  buttons->addWidget(back_);
+  rows->addLayout(buttons);
+  setMinimumWidth(minimumSizeHint().width());  // the dock must not change its width with what is shown
+}
+
+void SelectedLinks::refresh() {
+  const Common all = common();
+  const LinkSoftness& global = document_.softness();
+  const bool some = !document_.selection().links.empty();
+  description_->setText(describe(all));
+  rows_->setVisible(some);  // else its room is the others'
+  rows_->setEnabled(some);
+  set_->setEnabled(some);
+  back_->setEnabled(all.own);
+  // Where they differ, the global value is a place to begin from.
+  compression_->show(all.compression ? all.softness.compression : global.compression);
+  stretch_->show(all.stretch ? all.softness.stretch : global.stretch);
+  shear_->show(all.shear ? all.softness.shear : global.shear);
+}
+
+/// One walk along both, which are in order: a slider moves while many links are selected.
+SelectedLinks::Common SelectedLinks::common() const {
+  const Softness& softness = *document_.wholeSoftness();
+  const auto& links = document_.selection().links;
+  Common result{softness.global};
+  auto own = softness.links.begin();
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    while (own != softness.links.end() && own->first < links[i]) {
+      ++own;
+    }
+    const bool hasOwn = own != softness.links.end() && own->first == links[i];
+    const LinkSoftness& here = hasOwn ? own->second : softness.global;
+    result.softness = i == 0 ? here : result.softness;
+    result.own = result.own || hasOwn;
+    result.compression = result.compression && here.compression == result.softness.compression;
+    result.stretch = result.stretch && here.stretch == result.softness.stretch;
+    result.shear = result.shear && here.shear == result.softness.shear;
+  }
+  return result;
+}
+
+QString SelectedLinks::describe(const Common& all) const {
+  const Selection& selection = document_.selection();
+  if (selection.empty()) {
+    return QStringLiteral("Nothing selected: use Select (S).");
+  }
+  // Non-breaking spaces: where the line is too short it breaks between the two.
+  const auto some = [](std::size_t count, const char* one) {
+    return QStringLiteral("<b>%L1</b>\u00a0%2%3")
+        .arg(count)
+        .arg(QLatin1String(one), count == 1 ? QString() : QStringLiteral("s"));
+  };
+  QString description =
+      some(selection.elements.size(), "element") + QStringLiteral(", ") + some(selection.links.size(), "link");
+  if (selection.links.empty()) {
+    description += QStringLiteral("<br>A link counts with both its ends.");
+  } else if (!(all.compression && all.stretch && all.shear)) {
+    description += QStringLiteral("<br>Their softness differs.");
+  }
+  return description;
+}
+
+}  // namespace chainmail

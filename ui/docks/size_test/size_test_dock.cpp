@@ -1,0 +1,233 @@
+#include "docks/size_test/size_test_dock.h"
+
+#include <QBoxLayout>
+#include <QClipboard>
+#include <QFileDialog>
+#include <QGuiApplication>
+#include <QLabel>
+#include <QTimer>
+
+#include "common/icons.h"
+#include "common/table_text.h"
+#include "files/text/outputs.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int controlsWidth = 230;
+constexpr int preferredHeight = 280;
+constexpr int progressSteps = 1000;
+constexpr int progressMilliseconds = 150;
+constexpr int retireMilliseconds = 20;
+
+/// A dock at the bottom is as tall as its content would like to be.
+class Content : public QWidget {
+ public:
+  QSize sizeHint() const override { return {QWidget::sizeHint().width(), preferredHeight}; }
+};
+
+}  // namespace
+
+SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidget& area, Contestants inSight)
+    : QDockWidget(QStringLiteral("Size test")),
+      window_(window),
+      document_(document),
+      area_(area),
+      inSight_(std::move(inSight)),
+      choices_(new SizeTestChoices),
+      table_(new SizeTestTable),
+      run_(new QPushButton(icon("grow"), QStringLiteral("Size test"))),
+      cancel_(new QPushButton(QStringLiteral("Cancel"))),
+      copy_(new QPushButton(icon("copy"), QStringLiteral("Copy table"))),
+      save_(new QPushButton(icon("save"), QStringLiteral("Save…"))),
+      progress_(new QProgressBar),
+      escape_(new QShortcut(Qt::Key_Escape, &window)) {
+  setObjectName(QStringLiteral("sizeTestDock"));
+  auto* note = new QLabel(QStringLiteral("Times measured here share the machine with the window."));
+  note->setToolTip(QStringLiteral("For times to quote, run 'chainmail ramp' on a quiet machine"));
+  note->setEnabled(false);
+  auto* below = new QHBoxLayout;
+  below->addWidget(note, 1);
+  below->addWidget(copy_);
+  below->addWidget(save_);
+  auto* right = new QVBoxLayout;
+  right->setSpacing(3);
+  right->addWidget(table_, 1);
+  right->addLayout(below);
+  auto* content = new Content;
+  auto* row = new QHBoxLayout(content);
+  row->setContentsMargins(6, 4, 6, 2);
+  row->addWidget(makeControls());
+  row->addLayout(right, 1);
+  setWidget(content);
+  // Closed, it takes what it began with it.
+  connect(toggleViewAction(), &QAction::toggled, this, [this](bool shown) { shown ? void() : cancel(); });
+  // What no test has filled speaks of the panels as they are.
+  connect(this, &QDockWidget::visibilityChanged, this, [this](bool seen) { seen ? followPanels() : void(); });
+  for (const auto& changed : {&Document::panelsChanged, &Document::meshChanged}) {
+    connect(&document, changed, this, &SizeTestDock::followPanels, Qt::QueuedConnection);  // after the panels
+  }
+  connect(&document, &Document::algorithmChanged, this, &SizeTestDock::followPanels);
+  connect(escape_, &QShortcut::activated, this, &SizeTestDock::cancel);
+  followPanels();
+  showState();
+}
+
+void SizeTestDock::followPanels() {
+  if (!running() && table_->rows().empty()) {
+    table_->begin(inSight_());
+    table_->setGrowing(false);
+  }
+  offerRun();
+}
+
+void SizeTestDock::offerRun() {
+  const bool any = !inSight_().empty();
+  run_->setEnabled(!running() && any);
+  run_->setToolTip(any ? run_->accessibleName()
+                       : QStringLiteral("It is about the ChainMail family: choose one of it in a panel in sight"));
+}
+
+SizeTestDock::~SizeTestDock() = default;
+
+QWidget* SizeTestDock::makeControls() {
+  const auto name = [](QWidget* widget, const char* object, const QString& help) {
+    widget->setObjectName(QLatin1String(object));
+    widget->setAccessibleName(help);
+    widget->setToolTip(help);
+  };
+  name(run_, "sizeTestRun",
+       QStringLiteral("Grows a grid under a scripted hand in the panels in sight, until each has lost real time"));
+  name(cancel_, "sizeTestCancel", QStringLiteral("Ends the test (Esc); what was found stays, and your object is back"));
+  name(progress_, "sizeTestProgress", QStringLiteral("How many of the sizes are done, and which is at hand"));
+  name(copy_, "sizeTestCopy", QStringLiteral("Puts the table on the clipboard, columns parted by tabs"));
+  name(save_, "sizeTestSave", QStringLiteral("Writes the table with all digits as CSV, a row a size and panel"));
+  progress_->setRange(0, progressSteps);
+  connect(run_, &QPushButton::clicked, this, &SizeTestDock::start);
+  connect(cancel_, &QPushButton::clicked, this, &SizeTestDock::cancel);
+  connect(copy_, &QPushButton::clicked, this,
+          [this] { QGuiApplication::clipboard()->setText(textOf(table_->table())); });
+  connect(save_, &QPushButton::clicked, this, &SizeTestDock::saveTable);
+  auto* controls = new QWidget;
+  controls->setFixedWidth(controlsWidth);
+  auto* column = new QVBoxLayout(controls);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  column->addWidget(choices_);
+  column->addStretch(1);
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(run_);
+  buttons->addWidget(cancel_);
+  column->addLayout(buttons);
+  column->addWidget(progress_);
+  return controls;
+}
+
+void SizeTestDock::start() {
+  const auto contestants = inSight_();
+  if (running() || contestants.empty()) {
+    return;
+  }
+  SizeTestOptions options = choices_->options();
+  options.softness = document_.softness();
+  table_->begin(contestants);
+  stage_ = new SizeTestStage(options, contestants);
+  listen(*stage_);
+  auto* layout = qobject_cast<QBoxLayout*>(area_.parentWidget()->layout());
+  layout->insertWidget(layout->indexOf(&area_), stage_, 1);
+  area_.hide();
+  stage_->show();
+  rest_ = std::make_unique<WindowRest>(window_, *this, QStringList{QStringLiteral("quit")});
+  showState();
+  stage_->start();
+}
+
+void SizeTestDock::listen(const SizeTestStage& stage) {
+  connect(&stage, &SizeTestStage::measured, table_, &SizeTestTable::add);
+  connect(&stage, &SizeTestStage::progressed, this, &SizeTestDock::showProgress);
+  connect(&stage, &SizeTestStage::ended, this, &SizeTestDock::leave);
+  connect(&stage, &SizeTestStage::failed, this, [this](const QString& sentence) {
+    leave();
+    emit failed(sentence);
+  });
+}
+
+void SizeTestDock::cancel() {
+  if (running()) {
+    stage_->halt();
+    leave();
+  }
+}
+
+/// The user's own panels are back at once; what the test leaves behind ends when it can.
+void SizeTestDock::leave() {
+  SizeTestStage* stage = std::exchange(stage_, nullptr).data();
+  disconnect(stage, nullptr, this, nullptr);
+  disconnect(stage, nullptr, table_, nullptr);
+  stage->hide();
+  area_.show();
+  rest_.reset();
+  table_->setGrowing(false);
+  showState();
+  retire(stage);
+}
+
+/// A pass may take longer than a click should: nobody waits for it here.
+void SizeTestDock::retire(SizeTestStage* stage) {
+  QTimer::singleShot(retireMilliseconds, stage,
+                     [this, stage] { stage->idle() ? stage->deleteLater() : retire(stage); });
+}
+
+void SizeTestDock::showState() {
+  choices_->setEnabled(!running());
+  offerRun();
+  cancel_->setEnabled(running());
+  escape_->setEnabled(running());
+  const bool empty = table_->rows().empty();
+  copy_->setEnabled(!empty);
+  save_->setEnabled(!empty && !running());
+  progress_->setEnabled(running());
+  if (!running()) {
+    fillBar(0, QStringLiteral("ready"));
+  }
+}
+
+void SizeTestDock::showProgress(double share, const QString& text) {
+  // Each painting of the window is taken from the machine whose times are measured.
+  if (sinceShown_.isValid() && sinceShown_.elapsed() < progressMilliseconds) {
+    return;
+  }
+  sinceShown_.start();
+  copy_->setEnabled(!table_->rows().empty());
+  fillBar(int(progressSteps * share), text);
+}
+
+void SizeTestDock::fillBar(int value, const QString& text) {
+  // A progress bar paints itself, and with it the whole window, before setValue returns: here it waits its turn.
+  progress_->setUpdatesEnabled(false);
+  progress_->setValue(value);
+  progress_->setFormat(text);
+  progress_->setUpdatesEnabled(true);
+}
+
+void SizeTestDock::saveTable() {
+  const QString path =
+      QFileDialog::getSaveFileName(this, QStringLiteral("Save the table"), QStringLiteral("size-test.csv"),
+                                   QStringLiteral("Comma-separated values (*.csv)"));
+  if (!path.isEmpty()) {
+    saveTablePath(path);
+  }
+}
+
+void SizeTestDock::saveTablePath(const QString& path) {
+  try {
+    write_file(std::filesystem::path(path.toStdU16String()),
+               [this](std::ostream& out) { writeCsv(out, table_->rows()); });
+    emit saved(path);
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+}
+
+}  // namespace chainmail

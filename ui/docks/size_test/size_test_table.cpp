@@ -1,0 +1,130 @@
+#include "docks/size_test/size_test_table.h"
+
+#include <QHeaderView>
+#include <QLocale>
+#include <QVBoxLayout>
+#include <array>
+
+#include "common/panel_names.h"
+#include "common/table_text.h"
+#include "common/text.h"
+#include "report/page/format.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int leading = 2;  // columns before the panels'
+constexpr std::array heads{"median\nms", "slowest\nhundredth ms", "painted\nframes/s", "real\ntime"};
+constexpr std::array helps{"Median time of a pass, of the solver alone (ms)",
+                           "99 % of the passes took no longer (ms); real time is where that fits the budget",
+                           "Frames of this panel that reached the screen in the last second of the drags",
+                           "Whether the slowest hundredth fits the budget; 'no' is said after a second attempt"};
+
+QString sizeOf(std::uint32_t width) { return QStringLiteral("%1×%1").arg(width); }
+
+}  // namespace
+
+SizeTestTable::SizeTestTable() : verdicts_(new QLabel), table_(new QTableWidget) {
+  verdicts_->setObjectName(QStringLiteral("sizeTestVerdicts"));
+  verdicts_->setAccessibleName(QStringLiteral("Up to which size each panel is in real time"));
+  verdicts_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  table_->setObjectName(QStringLiteral("sizeTestTable"));
+  table_->setAccessibleName(QStringLiteral("Times at each size"));
+  table_->setToolTip(QStringLiteral("A row a size; Ctrl+C copies the table"));
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setAlternatingRowColors(true);
+  table_->verticalHeader()->hide();
+  copyByKeys(*table_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(3);
+  column->addWidget(verdicts_);
+  column->addWidget(table_, 1);
+  followTheme(*this, [this] { showVerdicts(); });
+}
+
+void SizeTestTable::begin(const std::vector<SizeTestContestant>& contestants) {
+  contestants_ = contestants;
+  rows_.clear();
+  table_->clear();
+  table_->setRowCount(0);
+  table_->setColumnCount(leading + int(contestants.size() * heads.size()));
+  table_->setHorizontalHeaderItem(0, new QTableWidgetItem(QStringLiteral("\nsize")));
+  table_->setHorizontalHeaderItem(1, new QTableWidgetItem(QStringLiteral("\nelements")));
+  int column = leading;
+  for (const SizeTestContestant& one : contestants) {
+    for (std::size_t i = 0; i < heads.size(); ++i) {
+      const QString name = QString(text(info(one.algorithm).label)).remove(QStringLiteral(" ChainMail"));
+      auto* head =
+          new QTableWidgetItem(QStringLiteral("%1: %2\n%3").arg(panelName(one.panel), name, QLatin1String(heads[i])));
+      head->setToolTip(QLatin1String(helps[i]));
+      table_->setHorizontalHeaderItem(column++, head);
+    }
+  }
+  table_->resizeColumnsToContents();
+  setGrowing(true);
+}
+
+void SizeTestTable::put(int row, int column, const QString& text, const QString& help) {
+  auto* item = new QTableWidgetItem(text);
+  item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  item->setToolTip(help);
+  table_->setItem(row, column, item);
+}
+
+void SizeTestTable::add(const SizeTestRow& row) {
+  const report::RampRow& figures = row.figures;
+  if (rows_.empty() || rows_.back().figures.width != figures.width) {
+    const int last = table_->rowCount();
+    table_->insertRow(last);
+    put(last, 0, sizeOf(figures.width));
+    put(last, 1, QLocale().toString(qulonglong(figures.elements)));
+  }
+  rows_.push_back(row);
+  const int at = table_->rowCount() - 1;
+  int column = leading;
+  for (const SizeTestContestant& one : contestants_) {
+    if (one.panel == row.panel) {
+      put(at, column, text(report::figure(figures.median_ms)));
+      put(at, column + 1, text(report::figure(figures.p99_ms)),
+          figures.repeated ? QStringLiteral("Of fresh drags: the first ones missed the budget") : QString());
+      put(at, column + 2, QString::number(row.painted));
+      put(at, column + 3, figures.in_real_time ? QStringLiteral("yes") : QStringLiteral("no"));
+    }
+    column += int(heads.size());
+  }
+  table_->resizeColumnsToContents();
+  table_->scrollToBottom();
+  showVerdicts();
+}
+
+void SizeTestTable::setGrowing(bool growing) {
+  growing_ = growing;
+  showVerdicts();
+}
+
+void SizeTestTable::showVerdicts() {
+  QStringList lines;
+  for (const SizeTestContestant& one : contestants_) {
+    lines << QStringLiteral("<span style='color:%1'>━━</span> <b>%2: %3</b>: %4")
+                 .arg(QColor(one.colour).name(), panelName(one.panel), text(info(one.algorithm).label),
+                      verdictText(one));
+  }
+  verdicts_->setText(lines.join(QStringLiteral("<br>")));
+}
+
+QString SizeTestTable::verdictText(const SizeTestContestant& contestant) const {
+  const report::RampVerdict verdict = verdictOf(contestant, rows_);
+  if (!verdict.largest_width) {
+    return verdict.lost ? QStringLiteral("never in real time")
+           : growing_   ? QStringLiteral("not measured yet")
+                        : QStringLiteral("not measured; press Size test");
+  }
+  const std::uint32_t width = *verdict.largest_width;
+  const QString upTo =
+      QStringLiteral("real time up to %1, %L2 elements").arg(sizeOf(width)).arg(qulonglong(width) * width);
+  return verdict.lost ? upTo : upTo + (growing_ ? QStringLiteral(" so far") : QStringLiteral(" or more"));
+}
+
+}  // namespace chainmail

@@ -1,0 +1,103 @@
+#include "docks/size_test/size_test_view.h"
+
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
+
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+constexpr double roomForTheHand = 0.3;  // on each side, in widths of the object
+constexpr float handSize = 13;          // pixels
+
+}  // namespace
+
+SizeTestView::SizeTestView(std::shared_ptr<MeshLevels> levels, colours::Colour colour)
+    : colour_(colour), painter_(std::move(levels)) {
+  setMinimumSize(160, 120);
+  connect(this, &QOpenGLWidget::frameSwapped, this, [this] { meter_.swapped(); });
+}
+
+SizeTestView::~SizeTestView() {
+  if (context() != nullptr) {
+    disconnect(context(), nullptr, this, nullptr);  // its end must find nothing of this view
+  }
+  if (ready_) {  // else it was never seen
+    makeCurrent();
+    painter_.destroy();
+    doneCurrent();
+  }
+}
+
+void SizeTestView::show(const Frame& frame, std::optional<ElementId> hand) {
+  frame_ = &frame;
+  hand_ = hand;
+  if (frame.mesh != fitted_) {
+    uncut_ = Cuts(frame.mesh);
+    fit();
+  }
+  update();
+}
+
+void SizeTestView::fit() {
+  fitted_ = frame_->mesh;
+  auto box = bounds(*fitted_);
+  const Point room = roomForTheHand * (box[1] - box[0]);
+  box[0] -= room;
+  box[1] += room;
+  camera_.fit(box, std::span(fitted_->axes).first(std::size_t(fitted_->space_dimension)), size());
+}
+
+void SizeTestView::resizeEvent(QResizeEvent* event) {
+  QOpenGLWidget::resizeEvent(event);
+  if (frame_ != nullptr) {
+    fit();
+  }
+}
+
+void SizeTestView::initializeGL() {
+  connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
+    makeCurrent();
+    painter_.destroy();
+    ready_ = false;
+    doneCurrent();
+  });
+  try {
+    painter_.initialize();
+    ready_ = true;
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+}
+
+ObjectPainter::Scene SizeTestView::scene() const {
+  ObjectPainter::Scene scene;
+  scene.toView = camera_.toView();
+  scene.toClip = camera_.toClip(size());
+  scene.size = QSizeF(size()) * devicePixelRatioF();
+  scene.background = colours::background;
+  scene.pixelRatio = float(devicePixelRatioF());
+  return scene;
+}
+
+void SizeTestView::paintGL() {
+  auto* gl = context()->functions();
+  const QColor ground = colours::background;
+  gl->glClearColor(ground.redF(), ground.greenF(), ground.blueF(), 1);
+  gl->glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl->glDisable(GL_DEPTH_TEST);
+  meter_.painted();
+  if (!ready_ || frame_ == nullptr) {
+    return;
+  }
+  painter_.setFrame(*frame_, uncut_);
+  const auto in = scene();
+  painter_.drawObject(in, {colour_, nullptr, {}}, 1 / camera_.unitsPerPixel(size()));
+  if (hand_) {
+    painter_.drawElements(in, std::span(&*hand_, 1), colours::background, handSize + 4);
+    painter_.drawElements(in, std::span(&*hand_, 1), colours::lit, handSize);
+  }
+}
+
+}  // namespace chainmail

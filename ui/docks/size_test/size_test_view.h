@@ -1,0 +1,49 @@
+#pragma once
+
+#include <QOpenGLWidget>
+#include <memory>
+#include <optional>
+
+#include "common/colours.h"
+#include "drawing/camera.h"
+#include "drawing/frame_meter.h"
+#include "drawing/object_painter.h"
+
+namespace chainmail {
+
+/// Draws the grid of the size test, in the middle of room for the hand.
+class SizeTestView : public QOpenGLWidget {
+  Q_OBJECT
+
+ public:
+  SizeTestView(std::shared_ptr<MeshLevels> levels, colours::Colour colour);
+  ~SizeTestView() override;
+
+  /// A frame that stays as it is until the next one is shown, and the element in the hand.
+  void show(const Frame& frame, std::optional<ElementId> hand);
+  FrameMeter& meter() { return meter_; }
+
+ signals:
+  void failed(const QString& sentence);
+
+ protected:
+  void initializeGL() override;
+  void paintGL() override;
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void fit();
+  ObjectPainter::Scene scene() const;
+
+  colours::Colour colour_;
+  Camera camera_;
+  ObjectPainter painter_;
+  FrameMeter meter_;
+  Cuts uncut_;
+  const Frame* frame_ = nullptr;
+  MeshPointer fitted_;  // the mesh that the camera shows
+  std::optional<ElementId> hand_;
+  bool ready_ = false;
+};
+
+}  // namespace chainmail

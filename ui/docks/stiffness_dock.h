@@ -1,0 +1,33 @@
+#pragma once
+
+#include <QDockWidget>
+#include <QVBoxLayout>
+
+#include "common/parameter_row.h"
+#include "docks/preset_row.h"
+#include "document/document.h"
+
+namespace chainmail {
+
+/// Compression, stretch and shear of all links, live, undoable, each with its way back, and all three as presets;
+/// below, of the selected links.
+class StiffnessDock : public QDockWidget {
+  Q_OBJECT
+
+ public:
+  explicit StiffnessDock(Document& document);
+  PresetRow& presets() { return *presets_; }
+
+ private:
+  void showSoftness();
+  void addRow(ParameterRow* row, double LinkSoftness::*member);
+
+  Document& document_;
+  QVBoxLayout* column_;
+  PresetRow* presets_;
+  ParameterRow* compression_;
+  ParameterRow* stretch_;
+  ParameterRow* shear_;
+};
+
+}  // namespace chainmail

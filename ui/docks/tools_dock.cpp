@@ -1,0 +1,139 @@
+#include "docks/tools_dock.h"
+
+#include <QActionGroup>
+#include <QButtonGroup>
+#include <QGridLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QSpinBox>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "common/icons.h"
+#include "tools/cut_tool.h"
+#include "tools/select_tool.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int columns = 2;
+constexpr int toolHeight = 30;
+
+QToolButton* wideButton() {
+  auto* button = new QToolButton;
+  button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  return button;
+}
+
+}  // namespace
+
+ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select)
+    : QDockWidget(QStringLiteral("Tools")) {
+  setObjectName(QStringLiteral("toolsDock"));
+  auto* content = new QWidget;
+  column_ = new QVBoxLayout(content);
+  auto* grid = new QGridLayout;
+  for (QAction* action : tools.actions()) {
+    auto* button = wideButton();
+    button->setDefaultAction(action);
+    button->setMinimumHeight(toolHeight);
+    const int i = int(tools.actions().indexOf(action));
+    grid->addWidget(button, i / columns, i % columns);
+  }
+  column_->addLayout(grid);
+  setWidget(content);
+  // The buttons need no more height, however tall the column of docks is.
+  content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  for (QAction* action : tools.actions()) {
+    if (action->text() == cut.name()) {
+      showFor(*action, makeCutOptions(document, cut));
+    } else if (action->text() == select.name()) {
+      showFor(*action, makeSelectOptions(select));
+    }
+  }
+}
+
+/// As long as the tool is the one in use.
+void ToolsDock::showFor(QAction& tool, QWidget* options) {
+  column_->addWidget(options);
+  const auto adapt = [this, options](bool on) {
+    options->setVisible(on);
+    widget()->setFixedHeight(column_->sizeHint().height());
+  };
+  connect(&tool, &QAction::toggled, this, adapt);
+  adapt(tool.isChecked());
+}
+
+/// After the tools, before what gives them up.
+void ToolsDock::fill(QMenu& menu) { menu.insertAction(menu.actions().constLast(), frontOnly_); }
+
+/// Through the whole object, or its front layer alone: where nothing lies behind, there is nothing to choose.
+QWidget* ToolsDock::makeCutOptions(Document& document, CutTool& cut) {
+  frontOnly_ = new QAction(QStringLiteral("Cut the &front layer only"), this);
+  frontOnly_->setObjectName(QStringLiteral("cutFrontOnly"));
+  frontOnly_->setIconText(QStringLiteral("Front layer only"));
+  frontOnly_->setCheckable(true);
+  frontOnly_->setShortcut(Qt::SHIFT | Qt::Key_K);
+  connect(frontOnly_, &QAction::toggled, this, [&cut](bool on) { cut.setFrontOnly(on); });
+  const auto adapt = [this, &document] {
+    const bool spatial = document.mesh()->space_dimension == 3;
+    frontOnly_->setEnabled(spatial);
+    frontOnly_->setStatusTip(
+        spatial ? QStringLiteral("On: a stroke cuts what one sees and nothing behind it. Off: through the whole object")
+                : QStringLiteral("In a plane nothing lies behind: a stroke cuts all that it crosses"));
+    frontOnly_->setToolTip(frontOnly_->statusTip() + QStringLiteral(" (Shift+K)"));
+  };
+  connect(&document, &Document::meshChanged, this, adapt);
+  adapt();
+  auto* button = wideButton();
+  button->setDefaultAction(frontOnly_);
+  button->setObjectName(QStringLiteral("cutFrontOnlyButton"));
+  return button;
+}
+
+/// Rectangle or brush, and the brush's radius.
+QWidget* ToolsDock::makeSelectOptions(SelectTool& select) {
+  auto* options = new QWidget;
+  auto* grid = new QGridLayout(options);
+  grid->setContentsMargins(0, 0, 0, 0);
+  auto* shapes = new QButtonGroup(options);
+  auto* radius = new QSpinBox;
+  const auto add = [&](const QString& name, SelectTool::Shape shape, int column, const QString& help) {
+    auto* button = wideButton();
+    button->setText(name);
+    button->setToolTip(help);
+    button->setIcon(icon(qPrintable(QStringLiteral("select") + name)));
+    button->setObjectName(QStringLiteral("select") + name);
+    button->setCheckable(true);
+    button->setChecked(select.shape() == shape);
+    shapes->addButton(button);
+    grid->addWidget(button, 0, column);
+    connect(button, &QToolButton::toggled, this, [&select, shape, radius](bool on) {
+      if (on) {
+        select.setShape(shape);
+        radius->setEnabled(shape == SelectTool::Shape::brush);
+      }
+    });
+  };
+  add(QStringLiteral("Rectangle"), SelectTool::Shape::rectangle, 0,
+      QStringLiteral("Selects the elements in a rectangle that is drawn"));
+  add(QStringLiteral("Brush"), SelectTool::Shape::brush, 1,
+      QStringLiteral("Selects the elements that the brush goes over"));
+  radius->setObjectName(QStringLiteral("brushRadius"));
+  radius->setRange(SelectTool::smallestRadius, SelectTool::largestRadius);
+  radius->setValue(select.radius());
+  radius->setToolTip(QStringLiteral("How far from the cursor the brush reaches, in pixels"));
+  radius->setSuffix(QStringLiteral(" px"));
+  radius->setKeyboardTracking(false);
+  radius->setEnabled(select.shape() == SelectTool::Shape::brush);
+  connect(radius, &QSpinBox::valueChanged, this, [&select](int value) { select.setRadius(value); });
+  connect(radius, &QSpinBox::editingFinished, radius, &QWidget::clearFocus);  // shortcuts work again
+  auto* label = new QLabel(QStringLiteral("Brush radius"));
+  label->setBuddy(radius);
+  grid->addWidget(label, 1, 0);
+  grid->addWidget(radius, 1, 1);
+  return options;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,73 @@
+#include "document/element_facts.h"
+
+#include <QLocale>
+#include <QStringList>
+
+#include "measure/violation.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int digits = 6;  // a single-precision position has hardly more
+
+/// Calls with each link of an element that is not cut.
+template <class Look>
+void eachLink(const Document& document, ElementId element, Look look) {
+  const Mesh& mesh = *document.mesh();
+  for (EntryId entry = mesh.first_entry[element]; entry < mesh.first_entry[element + 1]; ++entry) {
+    if (!document.cuts().is_cut(mesh.entry_link[entry])) {
+      look(mesh.entry_link[entry]);
+    }
+  }
+}
+
+}  // namespace
+
+SoftnessRange softnessOf(const Document& document, ElementId element) {
+  SoftnessRange result;
+  eachLink(document, element, [&](LinkId link) {
+    const LinkSoftness& one = document.wholeSoftness()->of(link);
+    if (result.links++ == 0) {
+      result.least = result.most = one;
+    }
+    for (const auto member : {&LinkSoftness::compression, &LinkSoftness::stretch, &LinkSoftness::shear}) {
+      result.least.*member = std::min(result.least.*member, one.*member);
+      result.most.*member = std::max(result.most.*member, one.*member);
+    }
+  });
+  return result;
+}
+
+Point positionIn(const Document& document, int panel, ElementId element) {
+  const Frame* frame = document.frame(panel);
+  return frame == nullptr ? document.mesh()->rest_position(element) : point_of(*frame->mesh, frame->view(), element);
+}
+
+double violationOfLink(const Document& document, int panel, LinkId link) {
+  const Frame* frame = document.frame(panel);
+  return frame == nullptr ? 0 : link_violation(*frame->mesh, *document.wholeSoftness(), frame->view(), link);
+}
+
+double violationIn(const Document& document, int panel, ElementId element) {
+  double largest = 0;
+  eachLink(document, element,
+           [&](LinkId link) { largest = std::max(largest, violationOfLink(document, panel, link)); });
+  return largest;
+}
+
+QString figure(double value) { return QLocale().toString(value, 'g', digits); }
+
+QString coordinates(const Mesh& mesh, const Point& point, const QString& prefix) {
+  QStringList parts;
+  for (int k = 0; k < mesh.space_dimension; ++k) {
+    const int axis = mesh.axes[std::size_t(k)];
+    parts << QStringLiteral("%1%2 %3").arg(prefix, QChar::fromLatin1("xyz"[axis]), figure(point[axis]));
+  }
+  return parts.join(QStringLiteral(", "));
+}
+
+QString range(double least, double most) {
+  return least == most ? figure(least) : QStringLiteral("%1–%2").arg(figure(least), figure(most));
+}
+
+}  // namespace chainmail

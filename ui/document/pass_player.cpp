@@ -1,0 +1,54 @@
+#include "document/pass_player.h"
+
+#include <algorithm>
+
+namespace chainmail {
+namespace {
+
+/// Each pass that is looked at shows frames of its own.
+std::uint64_t newSeries() {
+  static std::uint64_t last = 0;  // 0 are those of the solvers
+  return ++last;
+}
+
+}  // namespace
+
+PassPlayer::PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& statistics)
+    : pass_(std::move(pass)),
+      history_(stepCount() <= listedSteps ? WaitingHistory(*pass_) : WaitingHistory()),
+      updatedAt_(pass_->mesh->element_count(), never) {
+  for (const ElementId pin : pass_->conditions->pins) {
+    updatedAt_[pin] = 0;
+  }
+  updatedAt_[pass_->grabbed] = 0;
+  for (std::uint32_t row = 0; row < pass_->trace.size(); ++row) {
+    updatedAt_[pass_->trace[row].element] = row + 1;
+  }
+  frame_.mesh = pass_->mesh;
+  frame_.positions = pass_->before;
+  frame_.changed.assign(ElementBlocks(pass_->mesh->element_count()).block_count(), 1);
+  frame_.statistics = statistics;
+  frame_.series = newSeries();
+  frame_.number = 1;
+  place(pass_->grabbed, pass_->grabbed_after());
+  setStep(stepCount());
+}
+
+void PassPlayer::setStep(std::size_t step) {
+  step = std::min(step, stepCount());
+  ++frame_.number;
+  for (; step_ < step; ++step_) {
+    place(pass_->trace[step_].element, pass_->place_after(step_));
+  }
+  for (; step_ > step; --step_) {
+    const ElementId element = pass_->trace[step_ - 1].element;
+    place(element, pass_->place_before(element));
+  }
+}
+
+void PassPlayer::place(ElementId element, std::span<const float> at) {
+  std::ranges::copy(at, frame_.positions.begin() + std::ptrdiff_t(element * at.size()));
+  frame_.changed[element / Frame::block_elements] = frame_.number;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,225 @@
+#include "document/propagation.h"
+
+#include <algorithm>
+
+namespace chainmail {
+namespace {
+
+constexpr int fetchMilliseconds = 100;
+constexpr int tickMilliseconds = 16;
+constexpr std::uint64_t largestWhileDragged = 20'000;  // steps
+// To fetch the passes takes at most this share of the time.
+constexpr int fetchShare = 10;
+
+}  // namespace
+
+Propagation::Propagation(Document& document) : document_(document), players_(Document::mostPanels) {
+  fetch_.setSingleShot(true);
+  connect(&fetch_, &QTimer::timeout, this, &Propagation::takePasses);
+  clock_.setInterval(tickMilliseconds);
+  connect(&clock_, &QTimer::timeout, this, &Propagation::playOn);
+  connect(&document, &Document::frameReady, this, &Propagation::awaitPass);
+  connect(&document, &Document::highlightChanged, this, [this] {
+    if (document_.highlight().grabbed) {
+      setFollows(true);
+    }
+    awaitPass();
+  });
+  connect(&document.undoStack(), &QUndoStack::indexChanged, this, [this] { setFollows(true); });
+  connect(&document, &Document::meshChanged, this, &Propagation::forget);
+  connect(&document, &Document::panelLeaves, this, &Propagation::forget);
+  connect(&document, &Document::panelsChanged, this, &Propagation::forget);
+  connect(&document, &Document::algorithmChanged, this, [this](int panel) {
+    setFollows(true);
+    players_[std::size_t(panel)].reset();
+    emit changed();
+  });
+}
+
+Propagation::~Propagation() {
+  players_.clear();
+  players_.resize(Document::mostPanels);
+  emit changed();  // the window's parts that show them go later
+}
+
+void Propagation::setOpen(bool open) {
+  if (open != open_) {
+    open_ = open;
+    document_.recordPasses(open);
+    forget();
+  }
+}
+
+void Propagation::forget() {
+  letGo();
+  follows_ = true;
+  chosen_ = std::min(chosen_, Document::fewestPanels - 1);  // others may be gone
+  for (auto& player : players_) {
+    player.reset();
+  }
+  emit changed();
+}
+
+void Propagation::setFollows(bool follows) {
+  if (!open_ || follows == follows_ || (!follows && !hasPass())) {
+    return;
+  }
+  follows_ = follows;
+  if (follows) {
+    letGo();
+    awaitPass();
+  } else {
+    for (int panel = 0; panel < document_.panels(); ++panel) {
+      show(panel);
+    }
+  }
+  emit changed();
+}
+
+/// The panels show their newest frames again.
+void Propagation::letGo() {
+  clock_.stop();
+  for (int panel = 0; panel < document_.panels(); ++panel) {
+    if (auto& player = players_[std::size_t(panel)]) {
+      player->setStep(player->stepCount());
+    }
+    document_.showInstead(panel, nullptr);
+  }
+}
+
+void Propagation::awaitPass() {
+  if (open_ && follows_ && !fetch_.isActive()) {
+    fetch_.start(fetchMilliseconds);
+  }
+}
+
+/// To make such passes ready to look at would hold the hand up: it waits until the hand has let go.
+bool Propagation::tooLargeNow() const {
+  for (int panel = 0; panel < document_.panels() && document_.highlight().grabbed; ++panel) {
+    const Frame* frame = document_.frame(panel);
+    if (frame != nullptr && frame->statistics.last_pass.checked > largestWhileDragged) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void Propagation::takePasses() {
+  if (!open_ || !follows_ || tooLargeNow()) {
+    return;
+  }
+  QElapsedTimer clock;
+  clock.start();
+  bool any = false;
+  for (int panel = 0; panel < document_.panels(); ++panel) {
+    auto& player = players_[std::size_t(panel)];
+    const Frame* frame = document_.frame(panel);
+    auto pass = document_.lastPass(panel, player ? player->pass().number : 0);
+    // What solves for all elements at once has no steps.
+    const bool stepped = pass && !elastic_method(pass->algorithm);
+    if (stepped && frame != nullptr && pass->mesh == frame->mesh && pass->algorithm == document_.algorithm(panel)) {
+      player = std::make_unique<PassPlayer>(std::move(pass), frame->statistics);
+      any = true;
+    }
+  }
+  if (any) {
+    fetch_.setInterval(std::max(fetchMilliseconds, fetchShare * int(clock.elapsed())));
+    emit changed();
+  }
+}
+
+bool Propagation::hasPass() const {
+  return std::any_of(players_.begin(), players_.end(), [](auto& player) { return player != nullptr; });
+}
+
+std::size_t Propagation::stepCount() const {
+  std::size_t count = 0;
+  for (const auto& player : players_) {
+    count = std::max(count, player ? player->stepCount() : 0);
+  }
+  return count;
+}
+
+void Propagation::setTogether(bool together) {
+  together_ = together;
+  emit changed();
+}
+
+void Propagation::choose(int panel) {
+  if (panel != chosen_) {
+    chosen_ = panel;
+    emit changed();
+  }
+}
+
+void Propagation::setStep(int panel, std::size_t step) {
+  if (!open_ || !hasPass()) {
+    return;
+  }
+  follows_ = false;
+  chosen_ = panel;
+  for (int one = 0; one < document_.panels(); ++one) {
+    if (auto& player = players_[std::size_t(one)]; player && (together_ || one == panel)) {
+      player->setStep(step);
+    }
+    show(one);
+  }
+  emit changed();
+}
+
+void Propagation::show(int panel) {
+  const auto& player = players_[std::size_t(panel)];
+  document_.showInstead(panel, player ? &player->frame() : nullptr);
+}
+
+/// Where the buttons go on from.
+std::size_t Propagation::position() const {
+  std::size_t position = 0;
+  for (int panel = 0; panel < document_.panels(); ++panel) {
+    const auto& player = players_[std::size_t(panel)];
+    if (player && (together_ || panel == chosen_)) {
+      position = std::max(position, player->step());
+    }
+  }
+  return position;
+}
+
+bool Propagation::atEnd() const {
+  const auto& player = players_[std::size_t(chosen_)];
+  return position() >= (together_ ? stepCount() : player ? player->stepCount() : 0);
+}
+
+void Propagation::stepBy(std::ptrdiff_t steps) {
+  const auto from = std::ptrdiff_t(position());
+  goTo(std::size_t(std::max<std::ptrdiff_t>(0, from + steps)));
+}
+
+void Propagation::setPlays(bool plays) {
+  if (!plays || !hasPass()) {
+    clock_.stop();
+  } else if (!clock_.isActive()) {
+    if (atEnd()) {
+      goTo(0);
+    }
+    due_ = 0;
+    sinceStep_.start();
+    clock_.start();
+  }
+  emit changed();
+}
+
+/// As many steps as the time that has passed asks for.
+void Propagation::playOn() {
+  due_ += double(sinceStep_.restart()) / 1000 * speed_;
+  if (due_ < 1) {
+    return;
+  }
+  const auto steps = std::ptrdiff_t(due_);
+  due_ -= double(steps);
+  stepBy(steps);
+  if (atEnd()) {
+    setPlays(false);
+  }
+}
+
+}  // namespace chainmail

@@ -1,0 +1,41 @@
+#include "document/selection.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace chainmail {
+
+std::vector<ElementId> combined(const std::vector<ElementId>& before, const std::vector<ElementId>& hit,
+                                SelectionMode mode) {
+  if (mode == SelectionMode::replace) {
+    return hit;
+  }
+  std::vector<ElementId> result;
+  if (mode == SelectionMode::add) {
+    std::set_union(before.begin(), before.end(), hit.begin(), hit.end(), std::back_inserter(result));
+  } else {
+    std::set_difference(before.begin(), before.end(), hit.begin(), hit.end(), std::back_inserter(result));
+  }
+  return result;
+}
+
+std::vector<LinkId> linksAmong(const Mesh& mesh, const Cuts& cuts, const std::vector<ElementId>& elements) {
+  std::vector<bool> selected(mesh.element_count());
+  for (const ElementId e : elements) {
+    selected[e] = true;
+  }
+  std::vector<LinkId> links;
+  for (const ElementId e : elements) {
+    for (EntryId entry = mesh.first_entry[e]; entry < mesh.first_entry[e + 1]; ++entry) {
+      const ElementId other = mesh.neighbours[entry];
+      // Each link stands in two rows: it is taken from its smaller end.
+      if (other > e && selected[other] && !cuts.is_cut(mesh.entry_link[entry])) {
+        links.push_back(mesh.entry_link[entry]);
+      }
+    }
+  }
+  std::sort(links.begin(), links.end());
+  return links;
+}
+
+}  // namespace chainmail

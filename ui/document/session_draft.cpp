@@ -1,0 +1,42 @@
+#include "document/session_draft.h"
+
+namespace chainmail {
+
+SessionDraft::SessionDraft(Document& document, std::string look) {
+  session_.name = document.name().toStdString();
+  session_.mesh = document.mesh();
+  session_.cuts = document.cuts().links();
+  session_.pins = document.pins();
+  session_.softness = document.wholeSoftness();
+  session_.relaxation = document.relaxation();
+  session_.elastic = document.elastic();
+  session_.moves = document.tape().commands();
+  session_.moves_done = document.tape().position();
+  session_.ui = std::move(look);
+  for (int panel = 0; panel < document.panels(); ++panel) {
+    session_.panels.push_back({document.algorithm(panel), Precision::single_precision, {}});
+    placements_.push_back(document.placement(panel).share());
+  }
+}
+
+Session SessionDraft::finished(const Progress& progress) const {
+  constexpr std::chrono::milliseconds patience(10);  // between two looks at whether it is still wanted
+  Session result = session_;
+  for (std::size_t panel = 0; panel < placements_.size(); ++panel) {
+    while (placements_[panel].wait_for(patience) != std::future_status::ready) {
+      progress.report(0);
+    }
+    try {
+      result.panels[panel].placement = placements_[panel].get();
+    } catch (const std::future_error&) {
+      if (panel == 0) {
+        throw Cancelled();  // a session without panels would take the place of a good one
+      }
+      result.panels.resize(panel);  // it was removed before its solver answered; those after it too
+      break;
+    }
+  }
+  return result;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,75 @@
+#include "drawing/drawn_indices.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace chainmail {
+namespace {
+
+/// A multiplicative hash (Knuth 1973): neighbouring ids go far apart.
+ElementId scatter(ElementId e) { return e * 2654435761U >> 16; }
+
+}  // namespace
+
+DrawnLinks drawnLinks(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& cells) {
+  DrawnLinks drawn;
+  for (const std::uint32_t cell : cells) {
+    for (const std::uint32_t link : level.cellLinks[cell]) {
+      if (level.isUncut(link, cuts)) {
+        drawn.numbers.push_back(link);
+        drawn.ends.insert(drawn.ends.end(), level.links[link].begin(), level.links[link].end());
+      }
+    }
+  }
+  return drawn;
+}
+
+std::vector<ElementId> drawnFaces(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& cells) {
+  std::vector<ElementId> indices;
+  for (const std::uint32_t cell : cells) {
+    for (const std::uint32_t face : level.cellFaces[cell]) {
+      if (level.isWhole(face, cuts)) {
+        indices.insert(indices.end(), level.faces[face].begin(), level.faces[face].end());
+      }
+    }
+  }
+  return indices;
+}
+
+DrawnLinks surfaceLinks(const Surface& surface, const Cuts& cuts) {
+  const CellTable& table = surface.table();
+  DrawnLinks drawn;
+  drawn.numbers.assign(surface.links().begin(), surface.links().end());
+  std::ranges::copy_if(table.loose_links(), std::back_inserter(drawn.numbers),
+                       [&](LinkId link) { return !cuts.is_cut(link); });
+  drawn.ends.reserve(2 * drawn.numbers.size());
+  for (const LinkId link : drawn.numbers) {
+    const auto& ends = table.mesh()->links[link];
+    drawn.ends.insert(drawn.ends.end(), ends.begin(), ends.end());
+  }
+  return drawn;
+}
+
+std::vector<ElementId> surfaceFaces(const Surface& surface, const Cuts& cuts) {
+  const CellTable& table = surface.table();
+  auto corners = surface.triangles();
+  for (const std::uint32_t i : table.loose_triangles()) {
+    if (const auto& face = table.mesh()->triangles[i]; isWholeFace(*table.mesh(), cuts, face)) {
+      corners.insert(corners.end(), face.begin(), face.end());
+    }
+  }
+  return corners;
+}
+
+std::vector<ElementId> thinned(const std::vector<ElementId>& elements, std::size_t atMost) {
+  const std::size_t share = (elements.size() + atMost - 1) / atMost;
+  if (share <= 1) {
+    return elements;
+  }
+  std::vector<ElementId> indices;
+  std::copy_if(elements.begin(), elements.end(), std::back_inserter(indices),
+               [share](ElementId e) { return scatter(e) % share == 0; });
+  return indices;
+}
+
+}  // namespace chainmail

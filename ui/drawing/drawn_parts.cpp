@@ -1,0 +1,179 @@
+#include "drawing/drawn_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "drawing/picking.h"
+#include "drawing/projection.h"
+
+namespace chainmail {
+namespace {
+
+// Above this many links and faces an object is drawn more coarsely where its links fall below this many pixels or too
+// many are in the view, and cell by cell.
+constexpr std::size_t shapesDrawn = 60'000;
+constexpr double pixelsPerLink = 3;
+constexpr unsigned coarsest = 64;
+
+/// About how many elements every step-th row has, or a level that is as coarse as that.
+double elementsAt(const Mesh& mesh, unsigned step) {
+  if (!mesh.lattice) {
+    return mesh.element_count() / std::pow(step, mesh.object_dimension);
+  }
+  double count = 1;
+  for (const double size : mesh.lattice->size) {
+    count *= step == 1 || size == 1 ? size : std::floor((size - 2) / step) + 2;
+  }
+  return count;
+}
+
+/// About how many links and faces there are at a step for each element.
+double shapesPerElement(const Mesh& mesh, unsigned step) {
+  const double faces = double(mesh.triangles.size()) / mesh.element_count();
+  if (step == 1 || !mesh.lattice) {
+    return faces + double(mesh.link_count()) / mesh.element_count();
+  }
+  const auto& size = mesh.lattice->size;
+  return faces + double(std::count_if(size.begin(), size.end(), [](auto one) { return one > 1; }));
+}
+
+}  // namespace
+
+/// Which share of the elements may be seen.
+double DrawnParts::shareInView(const ObjectDrawing::Scene& scene) {
+  const auto whole = levels_->at(mesh_, 1);
+  const auto seen = visibleCells(scene, whole, wholeBoxes_);
+  return double(seen.size()) / double(whole->cellCount());
+}
+
+/// As finely as its links can be told apart; more coarsely where too many would be seen at once, as in a volume.
+void DrawnParts::chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit) {
+  step_ = 1;
+  const double pixels = mesh_->mean_link_length * pixelsPerUnit;
+  if (mesh_->links.size() + mesh_->triangles.size() <= shapesDrawn || !(pixels > 0)) {
+    return;
+  }
+  while (step_ < coarsest && pixels * step_ < pixelsPerLink) {
+    step_ = MeshLevels::after(step_, *mesh_);
+  }
+  const auto shapes = [&] { return elementsAt(*mesh_, step_) * shapesPerElement(*mesh_, step_); };
+  if (shapes() <= shapesDrawn) {
+    return;
+  }
+  const double share = shareInView(scene);
+  while (step_ < coarsest && share * shapes() > shapesDrawn) {
+    step_ = MeshLevels::after(step_, *mesh_);
+  }
+}
+
+std::vector<std::uint32_t> DrawnParts::visibleCells(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
+                                                    CellBoxes& boxes) const {
+  if (level->links.size() + level->faces.size() <= shapesDrawn) {
+    std::vector<std::uint32_t> all(level->cellCount());
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+  }
+  boxes.follow(level, *frame_);
+  return cellsSeen(boxes, Projection(*mesh_, scene.toView, scene.toClip, scene.size));
+}
+
+void DrawnParts::setFrame(const Frame& frame, const Cuts& cuts) {
+  frame_ = &frame;
+  cuts_ = &cuts;
+  if (frame.mesh != mesh_) {
+    mesh_ = frame.mesh;
+    level_.reset();
+    outdated_ = sectionOutdated_ = true;
+  }
+}
+
+DrawnParts::Parts DrawnParts::partsOf(const ObjectDrawing::Paint& paint, double pixelsPerUnit) const {
+  const Look& look = paint.look;
+  const bool hasCells = !mesh_->tetrahedra.empty() || !mesh_->hexahedra.empty();
+  // Links alone are shown while the surface of a large mesh is being made.
+  const bool ofSurface = look.faces && mesh_->space_dimension == 3 && hasCells && levels_->hasSurface(mesh_);
+  const bool valued = paint.values != nullptr && paint.values->ofLinks;
+  const bool tooFine = ofSurface && look.links && !valued && hidesSurface(surface().links().size(), pixelsPerUnit);
+  return {look.faces, look.links && !tooFine, ofSurface, tooFine};
+}
+
+/// Whether links are too many, and the closer to each other the more they are: they would hide what they lie on.
+bool DrawnParts::hidesSurface(std::size_t links, double pixelsPerUnit) const {
+  return links > shapesDrawn &&
+         mesh_->mean_link_length * pixelsPerUnit < pixelsPerLink * double(links) / double(shapesDrawn);
+}
+
+void DrawnParts::chooseParts(const ObjectDrawing::Paint& paint, double pixelsPerUnit) {
+  const Parts parts = partsOf(paint, pixelsPerUnit);
+  outdated_ = outdated_ || parts != parts_;
+  parts_ = parts;
+  const auto plane = parts_.ofSurface ? paint.look.section : std::nullopt;
+  sectionOutdated_ = sectionOutdated_ || plane != plane_;
+  plane_ = plane;
+}
+
+const Section* DrawnParts::section() const { return plane_ ? &levels_->section(mesh_, *cuts_, *plane_) : nullptr; }
+
+std::vector<QVector3D> placesOf(const Section& section, const Frame& frame) {
+  std::vector<QVector3D> places;
+  places.reserve(section.points().size());
+  for (const SectionPoint& point : section.points()) {
+    const float* from = frame.positions.data() + std::size_t{3} * point.from;
+    const float* to = frame.positions.data() + std::size_t{3} * point.to;
+    const auto at = [&](int k) { return from[k] + point.share * (to[k] - from[k]); };
+    places.emplace_back(at(0), at(1), at(2));
+  }
+  return places;
+}
+
+bool DrawnParts::choose(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint, double pixelsPerUnit) {
+  chooseParts(paint, pixelsPerUnit);
+  if (parts_.ofSurface) {
+    step_ = 1;
+    return std::exchange(outdated_, false);
+  }
+  chooseStep(scene, pixelsPerUnit);
+  if (level_ == nullptr || level_->step != step_) {
+    level_ = levels_->at(mesh_, step_);
+    outdated_ = true;
+  }
+  auto cells = visibleCells(scene, level_, boxes_);
+  if (!outdated_ && cells == cells_) {
+    return false;
+  }
+  outdated_ = false;
+  cells_ = std::move(cells);
+  return true;
+}
+
+DrawnLinks DrawnParts::links() const {
+  return !parts_.links      ? DrawnLinks()
+         : parts_.ofSurface ? surfaceLinks(surface(), *cuts_)
+                            : drawnLinks(*level_, *cuts_, cells_);
+}
+
+std::vector<ElementId> DrawnParts::faces() const {
+  return !parts_.faces      ? std::vector<ElementId>()
+         : parts_.ofSurface ? surfaceFaces(surface(), *cuts_)
+                            : drawnFaces(*level_, *cuts_, cells_);
+}
+
+std::vector<float> DrawnParts::valuesOf(const std::vector<std::uint32_t>& links, const ColourValues& values) const {
+  std::vector<float> drawn;
+  drawn.reserve(links.size());
+  for (const std::uint32_t link : links) {
+    if (step_ == 1) {
+      drawn.push_back(values.values[link]);
+      continue;
+    }
+    float largest = 0;
+    for (const LinkId one : level_->paths[link]) {
+      largest = std::max(largest, values.values[one], [](float a, float b) { return std::abs(a) < std::abs(b); });
+    }
+    drawn.push_back(largest);
+  }
+  return drawn;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,208 @@
+#include "drawing/front_links.h"
+
+#include <algorithm>
+
+#include "mesh/cells.h"
+
+namespace chainmail {
+namespace {
+
+// What lies on a face is not behind it: rounding, in the projection's depth from -1 to 1.
+constexpr double rounding = 1e-6;
+// In mean links' lengths: an object without faces is as near as its elements so far about, and what is so far behind is
+// the next layer. A grid has an element within 0.71 of every place.
+constexpr double layer = 0.75;
+
+/// A place in the view with a depth that is even along straight lines there, growing away from the eye.
+struct Spot {
+  QPointF at;
+  double depth = 0;
+};
+
+Projection::Place placeOf(const Frame& frame, const Projection& projection, ElementId element) {
+  return projection(frame.positions.data() + std::size_t{element} * frame.mesh->space_dimension);
+}
+
+Spot spotOf(const Projection::Place& place) { return {{place.x, place.y}, double(place.z) / double(place.distance)}; }
+
+double cross(QPointF a, QPointF b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Where between a link's ends, from 0 to 1, the stroke crosses it.
+double shareAt(QLineF stroke, QPointF a, QPointF b) {
+  const QPointF along = stroke.p2() - stroke.p1();
+  const double before = cross(along, a - stroke.p1()), after = cross(along, b - stroke.p1());
+  return before == after ? 0.5 : std::clamp(before / (before - after), 0.0, 1.0);
+}
+
+Spot between(const Spot& a, const Spot& b, double share) {
+  return {a.at + share * (b.at - a.at), a.depth + share * (b.depth - a.depth)};
+}
+
+QRectF boundsOf(std::span<const Spot> spots) {
+  QRectF bounds(spots[0].at, spots[0].at);
+  for (const Spot& spot : spots) {
+    bounds.setLeft(std::min(bounds.left(), spot.at.x()));
+    bounds.setRight(std::max(bounds.right(), spot.at.x()));
+    bounds.setTop(std::min(bounds.top(), spot.at.y()));
+    bounds.setBottom(std::max(bounds.bottom(), spot.at.y()));
+  }
+  return bounds;
+}
+
+/// Unlike Qt's own, for rectangles without area too.
+bool meet(const QRectF& a, const QRectF& b) {
+  return a.left() <= b.right() && b.left() <= a.right() && a.top() <= b.bottom() && b.top() <= a.bottom();
+}
+
+/// A face as it appears.
+struct SeenFace {
+  Face corners;
+  std::array<Spot, 3> spots;
+
+  bool has(ElementId element) const { return std::ranges::find(corners, element) != corners.end(); }
+  /// Whether it appears there, and nearer.
+  bool hides(const Spot& spot) const {
+    const auto& [a, b, c] = spots;
+    const double all = cross(b.at - a.at, c.at - a.at);
+    const double ofB = cross(spot.at - a.at, c.at - a.at) / all, ofC = cross(b.at - a.at, spot.at - a.at) / all;
+    if (!(ofB >= 0 && ofC >= 0 && ofB + ofC <= 1)) {
+      return false;  // nor a face that is seen edge-on
+    }
+    return a.depth + ofB * (b.depth - a.depth) + ofC * (c.depth - a.depth) < spot.depth - rounding;
+  }
+};
+
+std::vector<SeenFace> facesAt(const Frame& frame, const Projection& projection, std::span<const Face> faces,
+                              const QRectF& part) {
+  std::vector<SeenFace> seen;
+  for (const Face& face : faces) {
+    SeenFace one{face, {}};
+    bool visible = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto place = placeOf(frame, projection, face[k]);
+      visible = visible && place.visible();
+      one.spots[k] = spotOf(place);
+    }
+    if (visible && meet(boundsOf(one.spots), part)) {
+      seen.push_back(one);
+    }
+  }
+  return seen;
+}
+
+/// Where the faces of each cell may appear: they lead to the cells that it reaches.
+std::vector<ViewBounds> faceBounds(const CellBoxes& boxes, const Projection& projection) {
+  const MeshLevel& level = boxes.level();
+  std::vector<ViewBounds> own(level.cellCount());
+  for (std::size_t cell = 0; cell < own.size(); ++cell) {
+    own[cell] = projection.bounds(boxes[cell]);
+  }
+  std::vector<ViewBounds> bounds = own;
+  for (std::size_t cell = 0; cell < own.size(); ++cell) {
+    for (const std::uint32_t other : level.reached[cell]) {
+      if (own[cell].empty() != own[other].empty()) {
+        bounds[cell] = ViewBounds::everywhere();  // from before the eye to behind it
+      }
+      bounds[cell].unite(own[other]);
+    }
+  }
+  return bounds;
+}
+
+/// Where a link crosses a stroke, and how deep (pixels both).
+struct Crossing {
+  QPointF at;
+  double depth = 0;
+  double radius = 0;  // of what is about there
+};
+
+Crossing crossingOf(const Frame& frame, const Projection& projection, QLineF stroke, LinkId link) {
+  const auto a = placeOf(frame, projection, frame.mesh->links[link][0]);
+  const auto b = placeOf(frame, projection, frame.mesh->links[link][1]);
+  const QPointF first(a.x, a.y), second(b.x, b.y);
+  const double share = shareAt(stroke, first, second);
+  const double perUnit = std::max(projection.pixelsPerUnit(a), projection.pixelsPerUnit(b));
+  return {first + share * (second - first),
+          projection.depth(a) + share * double(projection.depth(b) - projection.depth(a)),
+          layer * frame.mesh->mean_link_length * perUnit};
+}
+
+/// The elements that appear no further than `about` from a stroke, each with its depth in pixels.
+std::vector<Spot> elementsAbout(const Frame& frame, const CellBoxes& boxes, const Projection& projection, QLineF stroke,
+                                double about) {
+  const QRectF bounds = QRectF(stroke.p1(), stroke.p2()).normalized().adjusted(-about, -about, about, about);
+  std::vector<Spot> spots;
+  for (const ElementId element :
+       elementsWhere(frame, boxes, projection, bounds, [&](QPointF at) { return bounds.contains(at); })) {
+    const auto place = placeOf(frame, projection, element);
+    spots.push_back({{place.x, place.y}, projection.depth(place)});
+  }
+  return spots;
+}
+
+}  // namespace
+
+std::vector<Face> wholeFaces(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts, const Projection& projection,
+                             QRectF part) {
+  const MeshLevel& level = boxes.level();
+  std::vector<Face> faces;
+  const auto bounds = faceBounds(boxes, projection);
+  for (std::size_t cell = 0; cell < level.cellCount(); ++cell) {
+    if (!bounds[cell].meets(part)) {
+      continue;
+    }
+    for (const std::uint32_t face : level.cellFaces[cell]) {
+      const auto& [a, b, c] = level.faces[face];
+      if (!is_cut_between(*frame.mesh, cuts, a, b) && !is_cut_between(*frame.mesh, cuts, b, c) &&
+          !is_cut_between(*frame.mesh, cuts, c, a)) {
+        faces.push_back(level.faces[face]);
+      }
+    }
+  }
+  return faces;
+}
+
+void appendFaces(const Surface& surface, std::vector<Face>& faces) {
+  const std::vector<ElementId> corners = surface.triangles();
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    faces.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  }
+}
+
+std::vector<LinkId> unhiddenLinks(const Frame& frame, const Projection& projection, QLineF stroke,
+                                  std::span<const LinkId> crossed, std::span<const Face> faces) {
+  const auto seen = facesAt(frame, projection, faces, QRectF(stroke.p1(), stroke.p2()).normalized());
+  std::vector<LinkId> unhidden;
+  for (const LinkId link : crossed) {
+    const auto [a, b] = frame.mesh->links[link];
+    const Spot first = spotOf(placeOf(frame, projection, a)), second = spotOf(placeOf(frame, projection, b));
+    const Spot spot = between(first, second, shareAt(stroke, first.at, second.at));
+    if (std::ranges::none_of(seen, [&](const SeenFace& f) { return !(f.has(a) && f.has(b)) && f.hides(spot); })) {
+      unhidden.push_back(link);
+    }
+  }
+  return unhidden;
+}
+
+std::vector<LinkId> nearestLinks(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
+                                 QLineF stroke, std::span<const LinkId> crossed) {
+  std::vector<Crossing> crossings;
+  double about = 0;
+  for (const LinkId link : crossed) {
+    crossings.push_back(crossingOf(frame, projection, stroke, link));
+    about = std::max(about, crossings.back().radius);
+  }
+  const auto spots = elementsAbout(frame, boxes, projection, stroke, about);
+  std::vector<LinkId> nearest;
+  for (std::size_t i = 0; i < crossed.size(); ++i) {
+    const auto& [at, depth, radius] = crossings[i];
+    const bool behind = std::ranges::any_of(
+        spots, [&](const Spot& spot) { return spot.depth < depth - radius && QLineF(at, spot.at).length() <= radius; });
+    if (!behind) {
+      nearest.push_back(crossed[i]);
+    }
+  }
+  return nearest;
+}
+
+}  // namespace chainmail

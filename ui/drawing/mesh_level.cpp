@@ -1,0 +1,191 @@
+#include "drawing/mesh_level.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+#include "mesh/cells.h"
+#include "simulate/frame.h"
+
+namespace chainmail {
+namespace {
+
+constexpr std::size_t cellElements = 256;  // about
+constexpr unsigned keyBits = 10;           // of each axis
+
+/// Spreads ten bits so that two fit between each and the next.
+std::uint32_t spread(std::uint32_t bits) {
+  bits = (bits | bits << 16) & 0x030000ff;
+  bits = (bits | bits << 8) & 0x0300f00f;
+  bits = (bits | bits << 4) & 0x030c30c3;
+  return (bits | bits << 2) & 0x09249249;
+}
+
+/// Places along a curve that stays near where it is (Morton 1966), of the elements' rest positions.
+std::vector<std::uint32_t> curveKeys(const Mesh& mesh, const std::vector<ElementId>& elements) {
+  const auto box = bounds(mesh);
+  const double extent = std::max((box[1] - box[0]).maxCoeff(), std::numeric_limits<double>::min());
+  const double scale = ((1U << keyBits) - 1) / extent;
+  std::vector<std::uint32_t> keys(elements.size());
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const double* at = mesh.rest.data() + std::size_t{elements[i]} * mesh.space_dimension;
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      keys[i] |= spread(std::uint32_t((at[k] - box[0][mesh.axes[k]]) * scale)) << k;
+    }
+  }
+  return keys;
+}
+
+/// In the order of their keys, ten bits at a time from the lowest.
+std::vector<ElementId> sortedAlongCurve(const Mesh& mesh, std::vector<ElementId> elements) {
+  auto keys = curveKeys(mesh, elements);
+  for (unsigned shift = 0; shift < 3 * keyBits; shift += keyBits) {
+    const Groups order =
+        grouped(1U << keyBits, keys.size(), [&](std::uint32_t i) { return keys[i] >> shift & ((1U << keyBits) - 1); });
+    std::vector<ElementId> sorted(elements.size());
+    std::vector<std::uint32_t> sortedKeys(keys.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+      sorted[i] = elements[order.items[i]];
+      sortedKeys[i] = keys[order.items[i]];
+    }
+    elements.swap(sorted);
+    keys.swap(sortedKeys);
+  }
+  return elements;
+}
+
+/// Bricks of a lattice: about as many rows along each axis as fill a cell.
+struct Bricks {
+  Bricks(const Mesh& mesh, unsigned step) : size(mesh.lattice->size) {
+    const auto axes = std::count_if(size.begin(), size.end(), [](auto one) { return one > 1; });
+    rows = step * std::uint32_t(axes == 3 ? 6 : axes == 2 ? 16 : cellElements);
+    for (int k = 0; k < 3; ++k) {
+      count[k] = (size[k] + rows - 1) / rows;
+    }
+  }
+  std::uint32_t of(ElementId e) const {
+    const ElementId x = e % size[0] / rows, y = e / size[0] % size[1] / rows, z = e / size[0] / size[1] / rows;
+    return x + count[0] * (y + count[1] * z);
+  }
+  std::array<std::uint32_t, 3> size, count{};
+  std::uint32_t rows = 1;
+};
+
+Groups cellsOf(const MeshLevel& level) {
+  if (level.mesh->lattice) {
+    const Bricks bricks(*level.mesh, level.step);
+    Groups cells = grouped(std::size_t{bricks.count[0]} * bricks.count[1] * bricks.count[2], level.elements.size(),
+                           [&](std::uint32_t i) { return bricks.of(level.elements[i]); });
+    std::ranges::transform(cells.items, cells.items.begin(), [&](std::uint32_t i) { return level.elements[i]; });
+    return cells;
+  }
+  Groups cells;
+  cells.items = sortedAlongCurve(*level.mesh, level.elements);
+  for (std::size_t end = cellElements; end < cells.items.size(); end += cellElements) {
+    cells.first.push_back(std::uint32_t(end));
+  }
+  cells.close();
+  return cells;
+}
+
+/// Which cells each cell reaches, and its links in the order of those.
+void findReached(MeshLevel& level, const std::vector<std::uint32_t>& cellOf) {
+  std::vector<std::uint32_t> slotOf(level.cellCount()), seenBy(level.cellCount(), MeshLevel::none), ends, sorted;
+  for (std::uint32_t cell = 0; cell < level.cellCount(); ++cell) {
+    const auto add = [&](ElementId element) {
+      const std::uint32_t other = cellOf[element];
+      if (seenBy[other] != cell) {
+        seenBy[other] = cell;
+        slotOf[other] = std::uint32_t(ends.size());
+        level.reached.items.push_back(other);
+        ends.push_back(0);
+      }
+      return slotOf[other];
+    };
+    const auto links = level.cellLinks[cell];
+    ends.clear();
+    for (const std::uint32_t link : links) {
+      ++ends[add(level.links[link][1])];
+    }
+    for (const std::uint32_t face : level.cellFaces[cell]) {
+      add(level.faces[face][1]);
+      add(level.faces[face][2]);
+    }
+    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), 0U);
+    const std::uint32_t first = level.cellLinks.first[cell];
+    std::ranges::transform(ends, std::back_inserter(level.reachedLinks), [first](auto end) { return first + end; });
+    sorted.resize(links.size());
+    for (const std::uint32_t link : links) {
+      sorted[ends[slotOf[cellOf[level.links[link][1]]]]++] = link;
+    }
+    std::ranges::copy(sorted, level.cellLinks.items.begin() + first);
+    level.reached.close();
+  }
+  level.reachedLinks.push_back(std::uint32_t(level.links.size()));
+}
+
+/// The blocks that each cell's elements lie in.
+Groups blocksOf(const MeshLevel& level) {
+  Groups result;
+  std::vector<std::uint32_t> seenBy(level.mesh->element_count() / Frame::block_elements + 1, MeshLevel::none);
+  for (std::uint32_t cell = 0; cell < level.cellCount(); ++cell) {
+    for (const ElementId e : level.cells[cell]) {
+      if (std::uint32_t& seen = seenBy[e / Frame::block_elements]; seen != cell) {
+        seen = cell;
+        result.items.push_back(e / Frame::block_elements);
+      }
+    }
+    result.close();
+  }
+  return result;
+}
+
+}  // namespace
+
+bool MeshLevel::isUncut(std::uint32_t link, const Cuts& cuts) const {
+  if (step == 1 || cuts.count() == 0) {
+    return !cuts.is_cut(link);
+  }
+  const auto path = paths[link];
+  return std::none_of(path.begin(), path.end(), [&](LinkId one) { return cuts.is_cut(one); });
+}
+
+bool MeshLevel::isWhole(std::uint32_t face, const Cuts& cuts) const {
+  if (step > 1) {
+    return std::all_of(faceSides[face].begin(), faceSides[face].end(),
+                       [&](std::uint32_t side) { return side == none || isUncut(side, cuts); });
+  }
+  return isWholeFace(*mesh, cuts, faces[face]);
+}
+
+bool isWholeFace(const Mesh& mesh, const Cuts& cuts, const MeshLevel::Face& face) {
+  const auto& [a, b, c] = face;
+  return !is_cut_between(mesh, cuts, a, b) && !is_cut_between(mesh, cuts, b, c) && !is_cut_between(mesh, cuts, c, a);
+}
+
+void makeCells(MeshLevel& level) {
+  level.cells = cellsOf(level);
+  std::vector<std::uint32_t> cellOf(level.mesh->element_count());
+  for (std::uint32_t cell = 0; cell < level.cellCount(); ++cell) {
+    for (const ElementId e : level.cells[cell]) {
+      cellOf[e] = cell;
+    }
+  }
+  level.cellLinks = grouped(level.cellCount(), level.links.size(), [&](auto i) { return cellOf[level.links[i][0]]; });
+  level.cellFaces = grouped(level.cellCount(), level.faces.size(), [&](auto i) { return cellOf[level.faces[i][0]]; });
+  findReached(level, cellOf);
+  level.cellBlocks = blocksOf(level);
+}
+
+MeshLevelPointer wholeLevel(const MeshPointer& mesh) {
+  auto level = std::make_shared<MeshLevel>();
+  level->mesh = mesh;
+  level->links = mesh->links;
+  level->faces = mesh->triangles;
+  level->elements.resize(mesh->element_count());
+  std::iota(level->elements.begin(), level->elements.end(), ElementId{0});
+  makeCells(*level);
+  return level;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,155 @@
+#include "drawing/picking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace chainmail {
+namespace {
+
+// A pixel of depth weighs this much against a pixel of distance from the cursor.
+constexpr float depthWeight = 0.15F;
+
+/// Which side of the line a point lies on: twice the area of the triangle they span.
+double side(QLineF line, QPointF point) {
+  return line.dx() * (point.y() - line.y1()) - line.dy() * (point.x() - line.x1());
+}
+
+/// Whether two segments have a point in common. Most do not come near each other: that is seen first, and
+/// it is what tells apart two segments on one line.
+bool cross(QLineF a, QLineF b) {
+  const auto apart = [](double p, double q, double r, double s) {
+    return std::max(p, q) < std::min(r, s) || std::max(r, s) < std::min(p, q);
+  };
+  if (apart(a.x1(), a.x2(), b.x1(), b.x2()) || apart(a.y1(), a.y2(), b.y1(), b.y2())) {
+    return false;
+  }
+  return side(a, b.p1()) * side(a, b.p2()) <= 0 && side(b, a.p1()) * side(b, a.p2()) <= 0 && !a.isNull() && !b.isNull();
+}
+
+/// Where links between two cells may appear: one from before the eye to behind it leaves the view at any side.
+ViewBounds united(ViewBounds a, const ViewBounds& b) {
+  if (a.empty() != b.empty()) {
+    return ViewBounds::everywhere();
+  }
+  a.unite(b);
+  return a;
+}
+
+std::vector<ViewBounds> cellBounds(const CellBoxes& boxes, const Projection& projection) {
+  std::vector<ViewBounds> bounds(boxes.level().cellCount());
+  for (std::size_t cell = 0; cell < bounds.size(); ++cell) {
+    bounds[cell] = projection.bounds(boxes[cell]);
+  }
+  return bounds;
+}
+
+}  // namespace
+
+std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
+                                        QPointF place, double reach, const std::function<bool(ElementId)>& shown) {
+  const int dimension = frame.mesh->space_dimension;
+  const QRectF within(place - QPointF(reach, reach), place + QPointF(reach, reach));
+  std::optional<ElementId> best;
+  float bestScore = 0;
+  for (std::size_t cell = 0; cell < boxes.level().cellCount(); ++cell) {
+    if (!projection.bounds(boxes[cell]).meets(within)) {
+      continue;
+    }
+    for (const ElementId e : boxes.level().cells[cell]) {
+      const auto at = projection(frame.positions.data() + std::size_t{e} * dimension);
+      const float dx = at.x - float(place.x()), dy = at.y - float(place.y());
+      if (!(dx * dx + dy * dy <= float(reach * reach)) || !at.visible() || (shown && !shown(e))) {
+        continue;
+      }
+      const float score = std::hypot(dx, dy) + depthWeight * projection.depth(at);
+      // Of two alike the first by id, in whatever order they come.
+      if (!best || score < bestScore || (score == bestScore && e < *best)) {
+        best = e;
+        bestScore = score;
+      }
+    }
+  }
+  return best;
+}
+
+std::vector<ElementId> elementsWhere(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
+                                     QRectF bounds, const std::function<bool(QPointF)>& inside,
+                                     const std::function<bool(ElementId)>& shown) {
+  std::vector<ElementId> found;
+  for (std::size_t cell = 0; cell < boxes.level().cellCount(); ++cell) {
+    if (!projection.bounds(boxes[cell]).meets(bounds)) {
+      continue;
+    }
+    for (const ElementId e : boxes.level().cells[cell]) {
+      const auto at = projection(frame.positions.data() + std::size_t{e} * frame.mesh->space_dimension);
+      if (at.visible() && inside(QPointF(at.x, at.y)) && (!shown || shown(e))) {
+        found.push_back(e);
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+double distanceFrom(QLineF segment, QPointF place) {
+  const QPointF along = segment.p2() - segment.p1(), from = place - segment.p1();
+  const double squared = QPointF::dotProduct(along, along);
+  const double share = squared > 0 ? std::clamp(QPointF::dotProduct(from, along) / squared, 0.0, 1.0) : 0;
+  return QLineF(segment.p1() + share * along, place).length();
+}
+
+std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& projection) {
+  const MeshLevel& level = boxes.level();
+  std::vector<unsigned> beyond(level.cellCount());
+  for (std::size_t cell = 0; cell < beyond.size(); ++cell) {
+    beyond[cell] = projection.beyond(boxes[cell]);
+  }
+  std::vector<std::uint32_t> seen;
+  for (std::uint32_t cell = 0; cell < beyond.size(); ++cell) {
+    const auto isSeen = [&](std::uint32_t other) { return (beyond[cell] & beyond[other]) == 0; };
+    if (isSeen(cell) || std::ranges::any_of(level.reached[cell], isSeen)) {
+      seen.push_back(cell);
+    }
+  }
+  return seen;
+}
+
+std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts,
+                                 const Projection& projection, QLineF stroke) {
+  const MeshLevel& level = boxes.level();
+  // Room for all elements, of which only those near the stroke are looked at.
+  const auto places = std::make_unique_for_overwrite<Projection::Place[]>(level.mesh->element_count());
+  std::vector<bool> placed(level.cellCount());
+  const auto place = [&](std::size_t cell) {
+    if (!placed[cell]) {
+      for (const ElementId e : level.cells[cell]) {
+        places[e] = projection(frame.positions.data() + std::size_t{e} * level.mesh->space_dimension);
+      }
+      placed[cell] = true;
+    }
+  };
+  const auto bounds = cellBounds(boxes, projection);
+  std::vector<LinkId> crossed;
+  for (std::size_t cell = 0; cell < bounds.size(); ++cell) {
+    for (std::uint32_t i = level.reached.first[cell]; i < level.reached.first[cell + 1]; ++i) {
+      const std::uint32_t other = level.reached.items[i];
+      if (!united(bounds[cell], bounds[other]).meets(stroke)) {
+        continue;
+      }
+      place(cell);
+      place(other);
+      for (std::uint32_t at = level.reachedLinks[i]; at < level.reachedLinks[i + 1]; ++at) {
+        const LinkId link = level.cellLinks.items[at];
+        const auto &a = places[level.links[link][0]], &b = places[level.links[link][1]];
+        if (a.visible() && b.visible() && cross(stroke, QLineF(a.x, a.y, b.x, b.y)) && !cuts.is_cut(link)) {
+          crossed.push_back(link);
+        }
+      }
+    }
+  }
+  std::sort(crossed.begin(), crossed.end());
+  return crossed;
+}
+
+}  // namespace chainmail

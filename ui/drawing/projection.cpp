@@ -1,0 +1,138 @@
+#include "drawing/projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chainmail {
+namespace {
+
+// Of a sum of four products in single precision, of the sum of their sizes; a little more than rounding can take.
+constexpr double rounding = 8 * std::numeric_limits<float>::epsilon();
+
+// A view goes from -1 to 1; what is drawn has some width, and is rounded.
+constexpr double viewEdge = 1.05;
+
+}  // namespace
+
+QMatrix4x4 placement(const Mesh& mesh) {
+  QMatrix4x4 matrix;
+  matrix.fill(0);
+  matrix(3, 3) = 1;
+  for (int k = 0; k < 3; ++k) {
+    matrix(k, 3) = float(mesh.origin[k]);
+  }
+  for (int k = 0; k < mesh.space_dimension; ++k) {
+    matrix(mesh.axes[k], k) = 1;
+    matrix(mesh.axes[k], 3) = 0;
+  }
+  return matrix;
+}
+
+void ViewBounds::unite(const ViewBounds& other) {
+  left = std::min(left, other.left);
+  top = std::min(top, other.top);
+  right = std::max(right, other.right);
+  bottom = std::max(bottom, other.bottom);
+}
+
+bool ViewBounds::meets(const QRectF& rectangle) const {
+  return !empty() && !(right < rectangle.left() || left > rectangle.right() || bottom < rectangle.top() ||
+                       top > rectangle.bottom());
+}
+
+/// Not if all corners lie on one side of the line, or the bounds of the segment elsewhere.
+bool ViewBounds::meets(const QLineF& segment) const {
+  if (!meets(QRectF(segment.p1(), segment.p2()).normalized())) {
+    return false;
+  }
+  const auto across = [&](double x, double y) {
+    return segment.dx() * (y - segment.y1()) - segment.dy() * (x - segment.x1());
+  };
+  const auto [lowest, highest] =
+      std::minmax({across(left, top), across(left, bottom), across(right, top), across(right, bottom)});
+  return !(lowest > 0 || highest < 0);
+}
+
+Projection::Projection(const Mesh& mesh, const QMatrix4x4& toView, const QMatrix4x4& toClip, QSizeF view)
+    : matrix_(toClip * toView * placement(mesh)), dimension_(mesh.space_dimension), view_(view) {
+  // One unit along the view's vertical spans this many pixels at the depth of the origin of the view.
+  pixelsPerDepth_ = float(toClip(1, 1) * view.height() / 2);
+  const bool parallel = toClip(3, 3) != 0;
+  pixelsPerZ_ = parallel ? -pixelsPerDepth_ / toClip(2, 2) : 0;
+}
+
+Projection::Place Projection::operator()(const float* carried) const {
+  const float* m = matrix_.constData();  // column by column
+  float clip[4]{m[12], m[13], m[14], m[15]};
+  for (int k = 0; k < dimension_; ++k) {
+    for (int row = 0; row < 4; ++row) {
+      clip[row] += m[4 * k + row] * carried[k];
+    }
+  }
+  const float w = clip[3];
+  return {(clip[0] / w + 1) / 2 * float(view_.width()), (1 - clip[1] / w) / 2 * float(view_.height()), w, clip[2]};
+}
+
+float Projection::depth(const Place& place) const {
+  // At a distance w from the eye a unit of depth spans pixelsPerDepth_ / w pixels.
+  return pixelsPerZ_ != 0 ? pixelsPerZ_ * place.z : pixelsPerDepth_ * std::log(place.distance);
+}
+
+std::array<double, 4> Projection::clipped(const CellBoxes::Box& box, int corner) const {
+  const float* m = matrix_.constData();
+  std::array<double, 4> clip{m[12], m[13], m[14], m[15]};
+  for (int k = 0; k < dimension_; ++k) {
+    const double at = (corner >> k & 1) != 0 ? box.highest[k] : box.lowest[k];
+    for (int row = 0; row < 4; ++row) {
+      clip[row] += m[4 * k + row] * at;
+    }
+  }
+  return clip;
+}
+
+unsigned Projection::beyond(const CellBoxes::Box& box) const {
+  unsigned sides = 31;
+  for (int corner = 0; corner < 1 << dimension_ && sides != 0; ++corner) {
+    const auto clip = clipped(box, corner);
+    const double edge = viewEdge * clip[3];
+    sides &= unsigned(clip[0] > edge) | unsigned(clip[0] < -edge) << 1 | unsigned(clip[1] > edge) << 2 |
+             unsigned(clip[1] < -edge) << 3 | unsigned(clip[3] < 0) << 4;
+  }
+  return sides;
+}
+
+/// What is convex and before the eye appears between its corners.
+ViewBounds Projection::bounds(const CellBoxes::Box& box) const {
+  const float* m = matrix_.constData();
+  std::array<double, 4> size{};  // of the terms of each row
+  for (int row = 0; row < 4; ++row) {
+    size[row] = std::abs(m[12 + row]);
+    for (int k = 0; k < dimension_; ++k) {
+      size[row] += std::abs(double(m[4 * k + row])) * std::max(std::abs(box.lowest[k]), std::abs(box.highest[k]));
+    }
+  }
+  ViewBounds result;
+  double nearest = std::numeric_limits<double>::max(), furthest = -nearest;
+  for (int corner = 0; corner < 1 << dimension_; ++corner) {
+    const auto clip = clipped(box, corner);
+    nearest = std::min(nearest, clip[3]);
+    furthest = std::max(furthest, clip[3]);
+    const double x = (clip[0] / clip[3] + 1) / 2 * view_.width(), y = (1 - clip[1] / clip[3]) / 2 * view_.height();
+    result.unite({x, y, x, y});
+  }
+  const double ofDistance = rounding * size[3];
+  if (furthest < -ofDistance) {
+    return {};
+  }
+  if (!(nearest > 4 * ofDistance)) {
+    return ViewBounds::everywhere();
+  }
+  // A place is x / w: it is off by what x is off, and by what w is off where x is large.
+  const double spanX = 1 + std::max(std::abs(result.left), std::abs(result.right)) / view_.width();
+  const double spanY = 1 + std::max(std::abs(result.top), std::abs(result.bottom)) / view_.height();
+  const double offX = 2 * (rounding * size[0] + ofDistance * 2 * spanX) / nearest * view_.width();
+  const double offY = 2 * (rounding * size[1] + ofDistance * 2 * spanY) / nearest * view_.height();
+  return {result.left - offX, result.top - offY, result.right + offX, result.bottom + offY};
+}
+
+}  // namespace chainmail

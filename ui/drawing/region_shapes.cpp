@@ -1,0 +1,83 @@
+#include "drawing/region_shapes.h"
+
+#include <cmath>
+
+namespace chainmail {
+namespace {
+
+constexpr float barPixels = 9;  // on either side of a line
+constexpr float dashPixels = 4;
+constexpr int dashesOfAnEdge = 400;  // more cannot be told apart
+
+QVector3D vector(const Point& point) { return {float(point.x()), float(point.y()), float(point.z())}; }
+
+}  // namespace
+
+RegionShape::RegionShape(const NeighbourRegion& region, const QMatrix4x4& toView, int spaceDimension,
+                         double unitsPerPixel)
+    : at_(vector(region.at)), nearest_(vector(region.nearest)) {
+  right_ = toView.row(0).toVector3D().normalized() * float(unitsPerPixel);
+  up_ = toView.row(1).toVector3D().normalized() * float(unitsPerPixel);
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      corners_[std::size_t(i)][k] = float((i >> k & 1) != 0 ? region.high[k] : region.low[k]);
+    }
+  }
+  if (spaceDimension == 1) {
+    // The axis that is carried tells the two sides of a bar apart.
+    const QVector3D along = (vector(region.high) - vector(region.low)).normalized();
+    const bool upright = std::abs(QVector3D::dotProduct(along, up_)) > std::abs(QVector3D::dotProduct(along, right_));
+    const QVector3D across = (upright ? right_ : up_) * barPixels;
+    const QVector3D low = vector(region.low), high = vector(region.high);
+    corners_ = {low - across, high - across, low + across, high + across,
+                low - across, high - across, low + across, high + across};
+  }
+}
+
+std::vector<QVector3D> RegionShape::faces() const {
+  std::vector<QVector3D> triangles;
+  for (int k = 0; k < 3; ++k) {
+    const int a = 1 << (k + 1) % 3, b = 1 << (k + 2) % 3;
+    for (const int from : {0, 1 << k}) {
+      for (const int corner : {from, from + a, from + b, from + a, from + b, from + a + b}) {
+        triangles.push_back(corners_[std::size_t(corner)]);
+      }
+    }
+  }
+  return triangles;
+}
+
+std::vector<QVector3D> RegionShape::edges() const {
+  std::vector<QVector3D> ends;
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const QVector3D &from = corners_[std::size_t(i)], &to = corners_[std::size_t(i | 1 << k)];
+      if ((i >> k & 1) == 0 && from != to) {
+        ends.insert(ends.end(), {from, to});
+      }
+    }
+  }
+  return ends;
+}
+
+std::vector<QVector3D> RegionShape::dashedEdges() const {
+  const auto whole = edges();
+  std::vector<QVector3D> ends;
+  for (std::size_t i = 0; i < whole.size(); i += 2) {
+    const QVector3D along = whole[i + 1] - whole[i];
+    const double dashes = along.length() / (dashPixels * up_.length());
+    const int count = int(std::min<double>(dashesOfAnEdge, std::ceil(dashes))) | 1;  // odd: both ends are drawn
+    for (int dash = 0; dash < count; dash += 2) {
+      ends.push_back(whole[i] + along * (float(dash) / float(count)));
+      ends.push_back(whole[i] + along * (float(dash + 1) / float(count)));
+    }
+  }
+  return ends;
+}
+
+std::vector<QVector3D> RegionShape::cross(double pixels) const {
+  const QVector3D right = right_ * float(pixels), up = up_ * float(pixels);
+  return {at_ - right - up, at_ + right + up, at_ - right + up, at_ + right - up};
+}
+
+}  // namespace chainmail

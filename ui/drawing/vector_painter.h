@@ -1,0 +1,80 @@
+#pragma once
+
+#include <QPainter>
+
+#include "drawing/drawn_parts.h"
+#include "drawing/object_drawing.h"
+
+namespace chainmail {
+
+/// Draws in lines and areas, for print. What the screen hides by depth, is here drawn from the back to the front.
+class VectorPainter : public ObjectDrawing {
+ public:
+  /// `levels` of the mesh may be shared.
+  VectorPainter(QPainter& painter, std::shared_ptr<MeshLevels> levels);
+  ~VectorPainter() override;
+
+  void setFrame(const Frame& frame, const Cuts& cuts) override;
+  void drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) override;
+  void drawSeeThrough(const Scene& scene, double opacity, const std::function<void()>& draw) override;
+  void drawElements(const Scene& scene, std::span<const ElementId> elements, QColor colour, float diameter,
+                    Mark mark = Mark::disc) override;
+  void setSelection(const std::vector<ElementId>& elements) override { selected_ = elements; }
+  void drawSelection(const Scene& scene, QColor colour, float diameter) override;
+  void drawLinks(const Scene& scene, std::span<const LinkId> links, QColor colour) override;
+  void drawStroke(const Scene& scene, std::span<const QPointF> places, QColor colour) override;
+  void drawInSpace(const Scene& scene, std::span<const QVector3D> places, Shape shape, QColor colour,
+                   float width = 1) override;
+  void drawValued(const Scene& scene, std::span<const QVector3D> places, std::span<const float> values,
+                  const ColourScale& scale, Shape shape, float width) override;
+  void drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) override;
+
+ private:
+  /// A place of space in the view: where it appears, and its distance from the eye.
+  struct Seen {
+    QPointF at;
+    float distance = 0;
+    bool before = false;  // the eye
+  };
+  /// A mark, a line or a face, by how many of its corners count.
+  struct Piece {
+    std::array<QPointF, 3> corners;
+    int count = 1;
+    float distance = 0;
+    QColor colour;
+    float width = 1;  // of a line, or the diameter of a mark
+    Mark mark = Mark::disc;
+  };
+
+  QVector3D inSpace(ElementId element) const;
+  static Seen seen(const Scene& scene, const QVector3D& place);
+  static QColor faded(const Scene& scene, const QColor& colour, float distance);
+  void add(const Scene& scene, std::span<const QVector3D> places, const QColor& colour, float width,
+           Mark mark = Mark::disc, float lift = 0);
+  void addClipped(Piece piece, const QRectF& view);
+  void addFaceClipped(Piece piece, const QRectF& view);
+  /// How far in front of the section an element lies at rest (mesh units); 0 without one.
+  double beforeSection(ElementId element, const Look& look) const;
+  /// What a section leaves: of a line, from which share of the way to which; of a face, its corners.
+  std::array<float, 2> shown(ElementId from, ElementId to, const Look& look) const;
+  std::vector<QVector3D> shown(std::span<const ElementId> corners, const Look& look) const;
+  static QColor lit(const Scene& scene, std::span<const QVector3D> places, const QColor& colour, const Look& look);
+  void addFaces(const Scene& scene, const Paint& paint);
+  void addCap(const Scene& scene, const Paint& paint);
+  void addLinks(const Scene& scene, const Paint& paint);
+  void addLink(const Scene& scene, const std::array<QVector3D, 2>& ends, const std::array<float, 2>& values,
+               const ColourScale& scale, float width);
+  void addElements(const Scene& scene, const Paint& paint);
+  /// Draws what has gathered, from the back to the front.
+  void flush();
+  void draw(const Piece& piece);
+
+  QPainter& painter_;
+  DrawnParts parts_;
+  const Frame* frame_ = nullptr;
+  QMatrix4x4 placement_;
+  std::vector<ElementId> selected_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,202 @@
+#include "io/film.h"
+
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QStandardPaths>
+#include <QWidget>
+
+#include "io/pictures.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int waitMilliseconds = 4;
+constexpr int mostWaiting = 4;                   // pictures that are not encoded yet
+constexpr qint64 mostUnsent = 64 * 1024 * 1024;  // bytes that ffmpeg has not taken yet
+
+QString ffmpegPath() { return QStandardPaths::findExecutable(QStringLiteral("ffmpeg")); }
+
+QString pictureName(std::size_t number) {
+  return QStringLiteral("move-%1.png").arg(qulonglong(number), 6, 10, QLatin1Char('0'));
+}
+
+}  // namespace
+
+Film::Film(Document& document, QWidget& scene) : document_(document), scene_(scene) {
+  encoders_.setMaxThreadCount(1);
+  wait_.setInterval(waitMilliseconds);
+  connect(&wait_, &QTimer::timeout, this, &Film::goOn);
+  connect(&ffmpeg_, &QProcess::finished, this, [this] { endVideo(); });
+  connect(&ffmpeg_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
+    if (running_ && error == QProcess::FailedToStart) {
+      fail(QStringLiteral("%1: ffmpeg could not be started; save pictures instead").arg(path_));
+    }
+  });
+}
+
+Film::~Film() {
+  disconnect(&ffmpeg_, nullptr, this, nullptr);
+  stopWriters();
+}
+
+bool Film::canMakeVideos() { return !ffmpegPath().isEmpty(); }
+
+void Film::begin(const QString& path) {
+  const Tape& tape = document_.tape();
+  path_ = path;
+  video_ = !QFileInfo(path).isDir();
+  places_ = {0};
+  for (std::size_t i = 0; i < tape.length(); ++i) {
+    if (std::holds_alternative<commands::Drag>(tape.at(i))) {
+      places_.push_back(i + 1);
+    }
+  }
+  if (places_.back() != tape.length()) {
+    places_.push_back(tape.length());
+  }
+  folder_ = std::make_unique<QTemporaryDir>((video_ ? QFileInfo(path).absolutePath() : path) +
+                                            QStringLiteral("/.film-XXXXXX"));
+  if (!folder_->isValid()) {
+    emit failed(QStringLiteral("%1: nothing can be written there; choose another folder").arg(path));
+    return;
+  }
+  next_ = 0;
+  size_ = {};
+  unwritten_ = false;
+  before_ = tape.position();
+  running_ = true;
+  emit changed();
+  document_.goTo(places_.front());
+  wait_.start();
+}
+
+/// A picture once the panels show the move, and the next move.
+void Film::goOn() {
+  const bool behind = video_ ? ffmpeg_.bytesToWrite() > mostUnsent : waiting_ >= mostWaiting;
+  if (!document_.settled() || behind) {
+    return;
+  }
+  take();
+  if (!running_) {
+    return;
+  }
+  emit progressed(int(next_), int(places_.size()));
+  if (next_ < places_.size()) {
+    document_.goTo(places_[next_]);
+  } else {
+    wait_.stop();
+    finish();
+  }
+}
+
+void Film::take() {
+  QImage picture = pictureOf(scene_);
+  if (size_.isEmpty()) {
+    size_ = QSize(picture.width() & ~1, picture.height() & ~1);  // what most codecs ask for
+    if (video_) {
+      startVideo(size_);
+    }
+  }
+  picture = picture.convertToFormat(QImage::Format_RGB32).copy(QRect(QPoint(), size_));
+  ++next_;
+  video_ ? sendPicture(picture) : savePicture(picture);
+}
+
+void Film::savePicture(const QImage& picture) {
+  ++waiting_;
+  encoders_.start([this, picture, path = folder_->filePath(pictureName(next_))] {
+    if (!picture.save(path)) {
+      unwritten_ = true;
+    }
+    --waiting_;
+  });
+}
+
+void Film::startVideo(QSize size) {
+  const QString made = folder_->filePath(QFileInfo(path_).fileName());
+  ffmpeg_.setStandardOutputFile(QProcess::nullDevice());
+  ffmpeg_.setStandardErrorFile(folder_->filePath(QStringLiteral("log")));
+  ffmpeg_.start(ffmpegPath(), {QStringLiteral("-y"), QStringLiteral("-f"), QStringLiteral("rawvideo"),
+                               QStringLiteral("-pixel_format"), QStringLiteral("bgr0"), QStringLiteral("-video_size"),
+                               QStringLiteral("%1x%2").arg(size.width()).arg(size.height()),
+                               QStringLiteral("-framerate"), QString::number(picturesASecond), QStringLiteral("-i"),
+                               QStringLiteral("-"), QStringLiteral("-pix_fmt"), QStringLiteral("yuv420p"), made});
+}
+
+void Film::sendPicture(const QImage& picture) {
+  ffmpeg_.write(reinterpret_cast<const char*>(picture.constBits()), picture.sizeInBytes());
+}
+
+void Film::finish() {
+  if (video_) {
+    ffmpeg_.closeWriteChannel();  // it ends when it has taken all
+  } else {
+    encoders_.waitForDone();
+    finishPictures();
+  }
+}
+
+/// All pictures are there: they take their places, those of an earlier film included.
+void Film::finishPictures() {
+  for (std::size_t number = 1; number <= places_.size() && !unwritten_; ++number) {
+    const QString name = pictureName(number), place = QDir(path_).filePath(name);
+    QFile::remove(place);
+    unwritten_ = !QFile::rename(folder_->filePath(name), place);
+  }
+  if (unwritten_) {
+    fail(QStringLiteral("%1: a picture could not be written; see how much room there is").arg(path_));
+    return;
+  }
+  end();
+  emit saved(path_);
+}
+
+void Film::endVideo() {
+  if (!running_) {
+    return;
+  }
+  const QString made = folder_->filePath(QFileInfo(path_).fileName());
+  const bool whole = next_ == places_.size() && ffmpeg_.exitStatus() == QProcess::NormalExit && ffmpeg_.exitCode() == 0;
+  if (whole && (!QFile::exists(path_) || QFile::remove(path_)) && QFile::rename(made, path_)) {
+    end();
+    emit saved(path_);
+    return;
+  }
+  QFile log(folder_->filePath(QStringLiteral("log")));
+  const QString said = log.open(QIODevice::ReadOnly) ? QString::fromUtf8(log.readAll()).trimmed() : QString();
+  fail(QStringLiteral("%1: ffmpeg could not make it; name a file that ends in .mp4 (%2)")
+           .arg(path_, said.section(QLatin1Char('\n'), -1)));
+}
+
+/// Waits for the picture that is being encoded, and for no other.
+void Film::stopWriters() {
+  ffmpeg_.kill();
+  ffmpeg_.waitForFinished();
+  encoders_.clear();
+  encoders_.waitForDone();
+  waiting_ = 0;
+}
+
+void Film::cancel() {
+  if (running_) {
+    end();
+  }
+}
+
+void Film::fail(const QString& sentence) {
+  end();
+  emit failed(sentence);
+}
+
+/// The object goes back to where it stood.
+void Film::end() {
+  running_ = false;
+  wait_.stop();
+  stopWriters();
+  folder_.reset();
+  document_.goTo(before_);
+  emit changed();
+}
+
+}  // namespace chainmail

@@ -1,0 +1,197 @@
+#include "io/picture_actions.h"
+
+#include <QActionGroup>
+#include <QClipboard>
+#include <QDir>
+#include <QFileInfo>
+#include <QGuiApplication>
+#include <QSettings>
+
+#include "common/ask_where.h"
+#include "common/panel_names.h"
+#include "mesh/error.h"
+#include "panels/panel.h"
+
+namespace chainmail {
+namespace {
+
+constexpr std::array scales{1, 2, 4};
+
+QString subjectKey() { return QStringLiteral("picture/of"); }
+QString scaleKey() { return QStringLiteral("picture/scale"); }
+QString transparentKey() { return QStringLiteral("picture/transparent"); }
+QString folderKey() { return QStringLiteral("picture/folder"); }
+
+}  // namespace
+
+PictureActions::PictureActions(QWidget& window, Document& document, PanelArea& area, Jobs& jobs)
+    : QObject(&window),
+      window_(window),
+      document_(document),
+      area_(area),
+      jobs_(jobs),
+      scales_(new QActionGroup(this)) {}
+
+void PictureActions::fill(QMenu& menu) {
+  auto* pictures = menu.addMenu(QStringLiteral("&Picture"));
+  fillSubjects(*pictures);
+  pictures->addSeparator();
+  fillScales(*pictures);
+  fillTransparent(*pictures);
+  pictures->addSeparator();
+  auto* copy = pictures->addAction(QStringLiteral("&Copy picture"), Qt::CTRL | Qt::SHIFT | Qt::Key_C, this,
+                                   &PictureActions::copy);
+  copy->setObjectName(QStringLiteral("copyPicture"));
+  copy->setStatusTip(QStringLiteral("To the clipboard, as it is chosen here"));
+  auto* save = pictures->addAction(QStringLiteral("&Save picture…"), Qt::Key_F12, this, &PictureActions::save);
+  save->setObjectName(QStringLiteral("savePicture"));
+  save->setStatusTip(QStringLiteral("As it is chosen here: PNG, or the panels in lines for print, as SVG or PDF"));
+}
+
+void PictureActions::fillSubjects(QMenu& menu) {
+  addSubject(menu, What::window, 0, QStringLiteral("Of the &window"), QStringLiteral("As it stands, docks and all"));
+  addSubject(menu, What::panels, 0, QStringLiteral("Of &all panels"), QStringLiteral("Those in sight, side by side"));
+  for (const What what : {What::panel, What::object}) {
+    for (int panel = 0; panel < Document::mostPanels; ++panel) {
+      const QString name = panelName(panel);
+      what == What::panel ? addSubject(menu, what, panel, QStringLiteral("Of panel %1").arg(name),
+                                       QStringLiteral("Its view with algorithm, legend and figures"))
+                          : addSubject(menu, what, panel, QStringLiteral("Of the object in %1").arg(name),
+                                       QStringLiteral("Its view alone"));
+    }
+  }
+  auto* group = new QActionGroup(this);
+  const QString last = QSettings().value(subjectKey()).toString();
+  for (const Subject& one : subjects_) {
+    group->addAction(one.action);
+    one.action->setChecked(one.action->objectName() == last || &one == &subjects_.front());
+  }
+  connect(group, &QActionGroup::triggered, this,
+          [](const QAction* chosen) { QSettings().setValue(subjectKey(), chosen->objectName()); });
+  connect(&document_, &Document::panelsChanged, this, &PictureActions::followPanels);
+  followPanels();
+}
+
+void PictureActions::addSubject(QMenu& menu, What what, int panel, const QString& text, const QString& tip) {
+  static constexpr std::array names{"pictureOfWindow", "pictureOfPanels", "pictureOfPanel", "pictureOfObject"};
+  QAction* action = menu.addAction(text);
+  const bool one = what == What::panel || what == What::object;
+  action->setObjectName(QLatin1String(names[std::size_t(what)]) + (one ? panelName(panel) : QString()));
+  action->setCheckable(true);
+  action->setStatusTip(tip);
+  subjects_.push_back({action, what, panel});
+}
+
+void PictureActions::fillScales(QMenu& menu) {
+  const int last = QSettings().value(scaleKey(), scales.front()).toInt();
+  for (const int times : scales) {
+    QAction* action = scales_->addAction(QStringLiteral("&%1 ×").arg(times));
+    action->setObjectName(QStringLiteral("pictureScale%1").arg(times));
+    action->setStatusTip(times == 1
+                             ? QStringLiteral("As many pixels as on the screen, and the same ones")
+                             : QStringLiteral("%1 times as many pixels a side, drawn anew and sharp").arg(times));
+    action->setCheckable(true);
+    action->setData(times);
+    action->setChecked(times == last || times == scales.front());
+    menu.addAction(action);
+  }
+  connect(scales_, &QActionGroup::triggered, this,
+          [](const QAction* chosen) { QSettings().setValue(scaleKey(), chosen->data()); });
+}
+
+void PictureActions::fillTransparent(QMenu& menu) {
+  transparent_ = menu.addAction(QStringLiteral("&Transparent ground"));
+  transparent_->setObjectName(QStringLiteral("pictureTransparent"));
+  transparent_->setStatusTip(QStringLiteral("Pictures without a ground, to be laid over another"));
+  transparent_->setCheckable(true);
+  transparent_->setChecked(QSettings().value(transparentKey()).toBool());
+  connect(transparent_, &QAction::toggled, this, [](bool on) { QSettings().setValue(transparentKey(), on); });
+}
+
+void PictureActions::followPanels() {
+  for (const Subject& one : subjects_) {
+    one.action->setVisible(one.panel < document_.panels());
+    if (one.action->isChecked() && !one.action->isVisible()) {
+      subjects_.front().action->setChecked(true);
+    }
+  }
+}
+
+const PictureActions::Subject& PictureActions::subject() const {
+  return *std::ranges::find_if(subjects_, [](const Subject& one) { return one.action->isChecked(); });
+}
+
+/// Of a panel that is out of sight there is nothing to take a picture of.
+Panel& PictureActions::shownPanel() const {
+  const int number = subject().panel;
+  Panel& panel = *area_.panels()[std::size_t(number)];
+  if (!panel.isVisible()) {
+    throw Error("picture", "panel " + panelName(number).toStdString() + " is not in sight",
+                "show it, or choose another under File > Picture");
+  }
+  return panel;
+}
+
+QImage PictureActions::picture() const {
+  const What what = subject().what;
+  QWidget& drawn = what == What::window   ? window_
+                   : what == What::panels ? static_cast<QWidget&>(area_)
+                   : what == What::panel  ? static_cast<QWidget&>(shownPanel())
+                                          : shownPanel().view();
+  return pictureOf(drawn, scales_->checkedAction()->data().toDouble(), transparent_->isChecked());
+}
+
+/// Of the window it holds the panels: docks are no drawing.
+Drawing PictureActions::drawing() const {
+  const bool transparent = transparent_->isChecked();
+  switch (subject().what) {
+    case What::panel:
+      return drawingOf(shownPanel(), transparent);
+    case What::object:
+      return drawingOf(shownPanel().view(), transparent);
+    default:
+      return drawingOf(area_, transparent);
+  }
+}
+
+void PictureActions::copy() {
+  try {
+    QGuiApplication::clipboard()->setImage(picture());
+    emit told(QStringLiteral("The picture is in the clipboard"));
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+}
+
+void PictureActions::save() {
+  QSettings settings;
+  const QString path = askWhere(window_, QStringLiteral("Save picture"),
+                                {QStringLiteral("PNG picture (*.png)"), QStringLiteral("Panels as SVG drawing (*.svg)"),
+                                 QStringLiteral("Panels as PDF drawing (*.pdf)")},
+                                settings.value(folderKey(), QDir::currentPath()).toString());
+  if (!path.isEmpty()) {
+    settings.setValue(folderKey(), QFileInfo(path).absolutePath());
+    savePath(path);
+  }
+}
+
+void PictureActions::savePath(const QString& path) {
+  std::function<void()> write;
+  try {
+    if (isDrawing(path)) {
+      write = [path, what = drawing()] { writeDrawing(path, what); };
+    } else {
+      write = [path, what = picture()] { writePicture(path, what); };
+    }
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+    return;
+  }
+  jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
+              [this, path, write](const Progress&) -> Jobs::Finish {
+                write();
+                return [this, path] { emit saved(path); };
+              });
+}
+
+}  // namespace chainmail

@@ -1,0 +1,106 @@
+#include "io/recovery_bar.h"
+
+#include <QDateTime>
+#include <QDir>
+#include <QHBoxLayout>
+#include <QLocale>
+#include <QPushButton>
+
+#include "common/colours.h"
+#include "io/autosave.h"
+
+namespace chainmail {
+namespace {
+
+QPushButton* makeButton(const QString& text, const char* name, const QString& help) {
+  auto* button = new QPushButton(text);
+  button->setObjectName(QLatin1String(name));
+  button->setToolTip(help);
+  return button;
+}
+
+/// What was being written when a program crashed is no work yet. A program that runs writes it in seconds.
+void removeRests(const QDir& folder) {
+  const QDateTime old = QDateTime::currentDateTime().addSecs(-600);
+  for (const QFileInfo& file : folder.entryInfoList({QStringLiteral("*.tmp")}, QDir::Files | QDir::Hidden)) {
+    if (file.lastModified() < old) {
+      QFile::remove(file.filePath());
+    }
+  }
+  const QString ending = Autosave::lockOf({});
+  for (const QFileInfo& file : folder.entryInfoList({QLatin1Char('*') + ending}, QDir::Files)) {
+    QLockFile lock(file.filePath());
+    lock.setStaleLockTime(0);
+    if (!QFile::exists(file.filePath().chopped(ending.size()))) {
+      lock.tryLock();  // which takes it away again, unless a program that runs holds it
+    }
+  }
+}
+
+}  // namespace
+
+RecoveryBar::RecoveryBar() : text_(new QLabel) {
+  setObjectName(QStringLiteral("recoveryBar"));
+  setFrameShape(QFrame::StyledPanel);
+  setAutoFillBackground(true);
+  text_->setObjectName(QStringLiteral("recovery"));
+  text_->setWordWrap(true);
+  auto* restore = makeButton(QStringLiteral("&Restore"), "restoreWork",
+                             QStringLiteral("Opens it as one step of undo: object, cuts, pins, stiffness, positions"));
+  auto* discard = makeButton(QStringLiteral("Dis&card"), "discardWork",
+                             QStringLiteral("Deletes it for good; what is open here stays as it is"));
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(10, 4, 6, 4);
+  row->addWidget(text_, 1);
+  row->addWidget(restore);
+  row->addWidget(discard);
+  connect(restore, &QPushButton::clicked, this, [this] { emit restoreRequested(found_.back().path); });
+  connect(discard, &QPushButton::clicked, this, &RecoveryBar::discard);
+  hide();
+  followTheme(*this, [this] {
+    QPalette own;
+    own.setColor(QPalette::Window, colours::infoGround);
+    setPalette(own);
+  });
+}
+
+void RecoveryBar::offer() {
+  const QDir folder(Autosave::folder());
+  removeRests(folder);
+  for (const QFileInfo& file :
+       folder.entryInfoList({QStringLiteral("*.chainmail")}, QDir::Files, QDir::Time | QDir::Reversed)) {
+    auto lock = std::make_unique<QLockFile>(Autosave::lockOf(file.filePath()));
+    lock->setStaleLockTime(0);  // a program that runs holds its own however long
+    if (lock->tryLock()) {
+      found_.push_back({file.filePath(), std::move(lock)});
+    }
+  }
+  show();
+}
+
+void RecoveryBar::show() {
+  setVisible(!found_.empty());
+  if (found_.empty()) {
+    return;
+  }
+  const QString time = QLocale().toString(QFileInfo(found_.back().path).lastModified(), QLocale::ShortFormat);
+  const QString others = found_.size() > 1 ? QStringLiteral(" (1 of %1)").arg(found_.size()) : QString();
+  const bool closed = Autosave::isClosed(found_.back().path);
+  text_->setText((closed ? QStringLiteral("Unsaved work of %1 is still there: the window was closed on it%2")
+                         : QStringLiteral("Unsaved work of %1 was found: the workbench ended before it was saved%2"))
+                     .arg(time, others));
+}
+
+void RecoveryBar::discard() {
+  QFile::remove(found_.back().path);
+  taken();
+}
+
+void RecoveryBar::taken() {
+  if (!found_.empty()) {
+    found_.pop_back();
+  }
+  show();
+}
+
+}  // namespace chainmail

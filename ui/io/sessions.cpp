@@ -1,0 +1,111 @@
+#include "io/sessions.h"
+
+#include <QFileInfo>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <algorithm>
+
+#include "common/as_path.h"
+#include "document/session_draft.h"
+#include "io/autosave.h"
+#include "io/recovery_bar.h"
+#include "io/samples.h"
+
+namespace chainmail {
+namespace {
+
+/// The file that an autosaved session was opened from or saved to, if any.
+QString ownFile(const Session& session) {
+  const auto look = QJsonDocument::fromJson(QByteArray::fromStdString(session.ui)).object();
+  return look[QStringLiteral("file")].toString();
+}
+
+/// As many panels as the session has, or the window can.
+void showPanels(Document& document, const Session& session) {
+  const int wanted = std::clamp(int(session.panels.size()), Document::fewestPanels, Document::mostPanels);
+  while (document.panels() < wanted) {
+    document.addPanel();
+  }
+  while (document.panels() > wanted) {
+    document.removePanel();
+  }
+}
+
+}  // namespace
+
+Sessions::Sessions(Document& document, Jobs& jobs, LookAccess look, QObject* parent)
+    : QObject(parent), document_(document), jobs_(jobs), look_(std::move(look)), recovery_(new RecoveryBar) {
+  connect(recovery_, &RecoveryBar::restoreRequested, this, &Sessions::restore);
+  connect(&document_.undoStack(), &QUndoStack::indexChanged, this, [this] { ++steps_; });
+}
+
+Sessions::~Sessions() = default;
+
+void Sessions::openPath(const QString& path, bool first) {
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
+              [this, path, first](const Progress& progress) -> Jobs::Finish {
+                const auto session = std::make_shared<const Session>(read_session(asPath(path), progress));
+                return [this, session, path, first] { show(session, path, first); };
+              });
+}
+
+void Sessions::show(const std::shared_ptr<const Session>& session, const QString& path, bool first) {
+  const QString file = isSample(path) ? QString() : QFileInfo(path).absoluteFilePath();
+  showPanels(document_, *session);
+  document_.restore(session, file, QStringLiteral("open %1").arg(QFileInfo(path).fileName()));
+  if (first) {
+    document_.undoStack().clear();
+  }
+  document_.undoStack().setClean();
+  look_.set(session->ui);
+  emit opened(path);
+}
+
+void Sessions::savePath(const QString& path) {
+  jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
+              [this, path, steps = steps_,
+               draft = SessionDraft(document_, look_.read())](const Progress& progress) -> Jobs::Finish {
+                save_session(asPath(path), draft.finished(progress), progress);
+                return [this, path, steps] {
+                  document_.setSessionFile(QFileInfo(path).absoluteFilePath());
+                  // What was done meanwhile is not in the file.
+                  if (steps_ == steps) {
+                    document_.undoStack().setClean();
+                  }
+                  emit this->saved(path);
+                };
+              });
+}
+
+void Sessions::protect() {
+  autosave_ = std::make_unique<Autosave>(document_, look_, this);
+  connect(autosave_.get(), &Autosave::failed, this, &Sessions::failed);
+  recovery_->offer();
+}
+
+void Sessions::keep() {
+  if (autosave_) {
+    autosave_->keep();
+  }
+}
+
+void Sessions::close() { autosave_.reset(); }
+
+/// What a crash left becomes this window's, and stays on the disk until this window has no more need of it.
+void Sessions::restore(const QString& path) {
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Restoring what was unsaved"),
+              [this, path](const Progress& progress) -> Jobs::Finish {
+                const auto session = std::make_shared<const Session>(read_session(asPath(path), progress));
+                return [this, session, path] {
+                  showPanels(document_, *session);
+                  document_.restore(session, ownFile(*session), QStringLiteral("restore unsaved work"));
+                  look_.set(session->ui);
+                  if (autosave_) {
+                    autosave_->adopt(path);
+                  }
+                  recovery_->taken();
+                };
+              });
+}
+
+}  // namespace chainmail

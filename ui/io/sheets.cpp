@@ -1,0 +1,116 @@
+#include "io/sheets.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QSettings>
+
+#include "common/ask_where.h"
+#include "common/panel_names.h"
+#include "files/mesh/warp.h"
+#include "io/picture_file.h"
+#include "io/sheet_bar.h"
+#include "mesh/error.h"
+#include "mesh/sheet.h"
+
+namespace chainmail {
+namespace {
+
+QString folderKey() { return QStringLiteral("picture/folder"); }
+
+}  // namespace
+
+Sheets::Sheets(QWidget& window, Document& document, Jobs& jobs)
+    : QObject(&window), window_(window), document_(document), jobs_(jobs), bar_(new SheetBar) {
+  connect(bar_, &AskBar::agreed, this, [this] { open(asked_, bar_->across(), first_); });
+}
+
+void Sheets::fill(QMenu& menu) {
+  menu_ = menu.addMenu(QStringLiteral("Save &warped picture"));
+  menu_->menuAction()->setObjectName(QStringLiteral("warpedPictureMenu"));
+  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+    auto* action = menu_->addAction(QStringLiteral("Panel &%1…").arg(panelName(panel)));
+    action->setObjectName(QStringLiteral("saveWarped%1").arg(panelName(panel)));
+    action->setStatusTip(
+        QStringLiteral("The picture as this panel's sheet has warped it, a pixel a mesh unit, as PNG or JPEG"));
+    connect(action, &QAction::triggered, this, [this, panel] { save(panel); });
+    const auto adaptToPanels = [this, action, panel] { action->setVisible(panel < document_.panels()); };
+    connect(&document_, &Document::panelsChanged, action, adaptToPanels);
+    adaptToPanels();
+  }
+  menu_->addSeparator();
+  ownFrame_ = menu_->addAction(QStringLiteral("Within the picture's own &frame"));
+  ownFrame_->setObjectName(QStringLiteral("warpOwnFrame"));
+  ownFrame_->setStatusTip(QStringLiteral("As many pixels as the picture has; otherwise all of the sheet is saved"));
+  ownFrame_->setCheckable(true);
+  connect(&document_, &Document::meshChanged, this, &Sheets::adapt);
+  adapt();
+}
+
+void Sheets::adapt() {
+  const bool sheet = is_sheet(*document_.mesh());
+  menu_->setEnabled(sheet);
+  menu_->menuAction()->setStatusTip(sheet ? QStringLiteral("The picture as a panel's sheet has warped it")
+                                          : QStringLiteral("This object shows no picture: open a PNG or a JPEG first"));
+  for (QAction* action : menu_->actions()) {
+    action->setEnabled(sheet);
+  }
+}
+
+void Sheets::openPath(const QString& path, bool first) {
+  try {
+    const QSize size = pictureSize(path);
+    asked_ = path;
+    first_ = first;
+    bar_->ask(QFileInfo(path).fileName(), size);
+  } catch (const Error& error) {
+    bar_->hide();
+    emit failed(QString::fromStdString(error.what()));
+  }
+}
+
+void Sheets::open(const QString& path, int across, bool first) {
+  const QString name = QFileInfo(path).fileName();
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
+              [this, path, name, across, first](const Progress& progress) -> Jobs::Finish {
+                const MeshPointer sheet = make_sheet(readPictureFile(path, progress.part(0, 0.7)),
+                                                     std::uint32_t(across), progress.part(0.7, 1));
+                return [this, path, name, first, sheet] {
+                  document_.replaceMesh(sheet, name, QStringLiteral("open %1").arg(name));
+                  if (first) {
+                    document_.undoStack().clear();
+                  }
+                  emit opened(path);
+                };
+              });
+}
+
+void Sheets::save(int panel) {
+  QSettings settings;
+  const QString path = askWhere(window_, QStringLiteral("Save warped picture"),
+                                {QStringLiteral("PNG picture (*.png)"), QStringLiteral("JPEG picture (*.jpg)")},
+                                settings.value(folderKey(), QDir::currentPath()).toString());
+  if (!path.isEmpty()) {
+    settings.setValue(folderKey(), QFileInfo(path).absolutePath());
+    saveWarpedPath(panel, path);
+  }
+}
+
+/// The sheet as it stands now, whatever becomes of it until the picture is written.
+void Sheets::saveWarpedPath(int panel, const QString& path) {
+  const Frame* frame = document_.frame(panel);
+  if (frame == nullptr || !is_sheet(*frame->mesh)) {
+    emit failed(path + QStringLiteral(": the object shows no picture; open a PNG or a JPEG first"));
+    return;
+  }
+  jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
+              [this, path, shape = std::make_shared<const Frame>(*frame), cuts = document_.cuts(),
+               own = ownFrame_->isChecked()](const Progress& progress) -> Jobs::Finish {
+                const Mesh& sheet = *shape->mesh;
+                const PictureFrame about = own ? own_frame(sheet) : frame_about(sheet, cuts, shape->view());
+                writePictureFile(path, warped(sheet, cuts, shape->view(), about, progress.part(0, 0.5)),
+                                 progress.part(0.5, 1));
+                return [this, path] { emit saved(path); };
+              });
+}
+
+}  // namespace chainmail

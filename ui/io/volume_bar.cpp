@@ -1,0 +1,118 @@
+#include "io/volume_bar.h"
+
+#include <QSignalBlocker>
+#include <algorithm>
+#include <cmath>
+
+namespace chainmail {
+namespace {
+
+constexpr int sliderSteps = 1000;
+
+double highestOf(const OpenedVolume& one) {
+  return one.volume.lowest + one.volume.step * double(one.atLeast.size() - 1);
+}
+
+}  // namespace
+
+OpenedVolume::OpenedVolume(Volume&& opened) : volume(std::move(opened)), standardThreshold(otsu_threshold(volume)) {
+  const auto highest = *std::max_element(volume.densities.begin(), volume.densities.end());
+  atLeast.resize(std::size_t{highest} + 1);
+  for (const std::uint16_t density : volume.densities) {
+    ++atLeast[density];
+  }
+  for (std::size_t i = atLeast.size() - 1; i > 0; --i) {
+    atLeast[i - 1] += atLeast[i];
+  }
+}
+
+std::uint64_t OpenedVolume::above(double density) const {
+  const double step = std::ceil((density - volume.lowest) / volume.step);
+  return step >= double(atLeast.size()) ? 0 : atLeast[std::size_t(std::max(step, 0.0))];
+}
+
+VolumeBar::VolumeBar()
+    : AskBar(QStringLiteral("volume"), QStringLiteral("Open &block"),
+             QStringLiteral("Opens what is dense enough in place of the present object, as a step of undo")),
+      slider_(new QSlider(Qt::Horizontal)),
+      threshold_(new QDoubleSpinBox),
+      every_(new QSpinBox),
+      stiff_(new QCheckBox(QStringLiteral("Sti&ff where dense"))) {
+  makeFields();
+  connect(slider_, &QSlider::valueChanged, this, [this](int place) { threshold_->setValue(fromSlider(place)); });
+  connect(threshold_, &QDoubleSpinBox::valueChanged, this, &VolumeBar::describe);
+  connect(every_, &QSpinBox::valueChanged, this, &VolumeBar::describe);
+}
+
+void VolumeBar::makeFields() {
+  slider_->setObjectName(QStringLiteral("volumeSlider"));
+  slider_->setAccessibleName(QStringLiteral("Lowest density, on a slider"));
+  slider_->setRange(0, sliderSteps);
+  slider_->setMinimumWidth(60);
+  threshold_->setObjectName(QStringLiteral("volumeThreshold"));
+  threshold_->setAccessibleName(QStringLiteral("Lowest density"));
+  every_->setObjectName(QStringLiteral("volumeEvery"));
+  every_->setAccessibleName(QStringLiteral("Voxels along each axis to an element"));
+  every_->setRange(0, 64);
+  every_->setSpecialValueText(QStringLiteral("auto"));
+  stiff_->setObjectName(QStringLiteral("volumeStiff"));
+  stiff_->setChecked(true);
+  slider_->setToolTip(QStringLiteral("Voxels of this density and more become elements"));
+  threshold_->setToolTip(slider_->toolTip() + QStringLiteral("; at first where it parts the densities best"));
+  every_->setToolTip(
+      QStringLiteral("How many voxels along each axis make one element; auto takes as many as leave %L1 elements")
+          .arg(voxel_elements));
+  stiff_->setToolTip(
+      QStringLiteral("Links from the standard stiffness, at the lowest density, to rigid, at the highest"));
+  addField(QStringLiteral("&Density from"), threshold_);
+  addField({}, slider_);
+  addField(QStringLiteral("&Voxels to an element"), every_);
+  addField({}, stiff_);
+}
+
+int VolumeBar::toSlider(double density) const {
+  const double range = highestOf(*volume_) - volume_->volume.lowest;
+  return range > 0 ? int(std::lround(sliderSteps * (density - volume_->volume.lowest) / range)) : 0;
+}
+
+double VolumeBar::fromSlider(int place) const {
+  return volume_->volume.lowest + (highestOf(*volume_) - volume_->volume.lowest) * place / sliderSteps;
+}
+
+void VolumeBar::ask(const QString& name, std::shared_ptr<const OpenedVolume> volume) {
+  volume_ = std::move(volume);
+  const Volume& of = volume_->volume;
+  const double range = highestOf(*volume_) - of.lowest;
+  const QSignalBlocker quiet(threshold_);
+  threshold_->setDecimals(range >= 100 ? 0 : range >= 1 ? 2 : 6);
+  threshold_->setRange(of.lowest, highestOf(*volume_));
+  threshold_->setSingleStep(range / 100);
+  threshold_->setValue(volume_->standardThreshold);
+  describe();
+  AskBar::ask(QStringLiteral("%1: %L2 × %L3 × %L4 voxels").arg(name).arg(of.size[0]).arg(of.size[1]).arg(of.size[2]),
+              threshold_);
+}
+
+VoxelOptions VolumeBar::options() const {
+  VoxelOptions options;
+  options.threshold = threshold_->value();
+  if (every_->value() > 0) {
+    options.every = std::uint32_t(every_->value());
+  }
+  options.stiff_where_dense = stiff_->isChecked();
+  return options;
+}
+
+void VolumeBar::describe() {
+  const QSignalBlocker quiet(slider_);
+  slider_->setValue(toSlider(threshold_->value()));
+  const std::uint64_t above = volume_->above(threshold_->value());
+  const double elements = double(above) / std::pow(std::max(every_->value(), 1), 3);
+  QString result = QStringLiteral("%L1 voxels").arg(above);
+  if (every_->value() > 1) {
+    result += QStringLiteral(", about %L1 elements").arg(std::llround(elements));
+  }
+  showResult(result, above > 0 && elements <= double(element_limit));
+}
+
+}  // namespace chainmail

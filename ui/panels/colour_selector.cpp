@@ -1,0 +1,35 @@
+#include "panels/colour_selector.h"
+
+#include "common/text.h"
+
+namespace chainmail {
+
+ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), actions_(new QActionGroup(this)) {
+  setObjectName(QStringLiteral("colourBy"));
+  setAccessibleName(QStringLiteral("Colour by"));
+  setToolTip(QStringLiteral("What the colours of all panels show"));
+  for (const ColourModeInfo& info : colourModes()) {
+    addItem(text(info.label), int(info.mode));
+    auto* action = actions_->addAction(text(info.label));
+    action->setObjectName(QStringLiteral("colourBy-") + text(info.name));
+    action->setCheckable(true);
+    action->setStatusTip(info.title.empty()
+                             ? QStringLiteral("Each panel's object in the panel's own colour")
+                             : QStringLiteral("Colours show: %1 (%2)").arg(text(info.title), text(info.unit)));
+    connect(action, &QAction::triggered, this, [this, mode = info.mode] { colouring_.setMode(mode); });
+  }
+  connect(this, &QComboBox::activated, this, [this] {
+    colouring_.setMode(ColourMode(currentData().toInt()));
+    clearFocus();  // shortcuts work again
+  });
+  connect(&colouring, &Colouring::modeChanged, this, &ColourSelector::showMode);
+  showMode();
+}
+
+void ColourSelector::showMode() {
+  const int index = findData(int(colouring_.mode()));
+  setCurrentIndex(index);
+  actions_->actions().at(index)->setChecked(true);
+}
+
+}  // namespace chainmail

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <QActionGroup>
+#include <QComboBox>
+
+#include "panels/colouring.h"
+
+namespace chainmail {
+
+/// 'Colour by', for all panels: a field for the tool bar and the same choices as actions for a menu.
+class ColourSelector : public QComboBox {
+  Q_OBJECT
+
+ public:
+  explicit ColourSelector(Colouring& colouring);
+  QList<QAction*> menuActions() const { return actions_->actions(); }
+
+ private:
+  void showMode();
+
+  Colouring& colouring_;
+  QActionGroup* actions_;
+};
+
+}  // namespace chainmail

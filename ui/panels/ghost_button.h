@@ -1,0 +1,30 @@
+#pragma once
+
+#include <QMenu>
+#include <QToolButton>
+
+#include "document/document.h"
+
+namespace chainmail {
+
+class View;
+
+/// Chooses whose object is laid over a panel's own as a ghost, and how far it is blended over.
+class GhostButton : public QToolButton {
+  Q_OBJECT
+
+ public:
+  GhostButton(Document& document, View& view, int panel);
+
+ private:
+  void fill();
+  void addChoice(const QString& text, std::optional<int> of);
+  void addBlend();
+
+  Document& document_;
+  View& view_;
+  int panel_;
+  QMenu* menu_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,140 @@
+#include "panels/panel_head.h"
+
+#include <QHBoxLayout>
+#include <QStandardItemModel>
+#include <QToolButton>
+
+#include "common/colours.h"
+#include "common/icons.h"
+#include "common/panel_names.h"
+#include "common/text.h"
+#include "mesh/error.h"
+#include "panels/ghost_button.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int smallestSelector = 90;  // pixels: a narrow panel shortens its name
+
+}  // namespace
+
+PanelHead::PanelHead(Document& document, View& view, int panel)
+    : document_(document),
+      panel_(panel),
+      selector_(new QComboBox),
+      state_(new QLabel),
+      alone_(makeAloneButton()),
+      row_(new QHBoxLayout(this)) {
+  state_->setObjectName(QStringLiteral("state%1").arg(panel));
+  state_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  // What it says comes and goes during a drag: the view must not change its size with it.
+  state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  fillSelector();
+  arrange(view);
+}
+
+void PanelHead::fillSelector() {
+  selector_->setObjectName(QStringLiteral("algorithm%1").arg(panel_));
+  selector_->setAccessibleName(QStringLiteral("Algorithm of panel %1").arg(panelName(panel_)));
+  selector_->setToolTip(QStringLiteral("The algorithm that deforms this panel's object"));
+  selector_->setMinimumWidth(smallestSelector);
+  for (const auto& info : every_algorithm()) {
+    if (info.algorithm == elastic_algorithms().front().algorithm) {
+      selector_->insertSeparator(selector_->count());
+    }
+    selector_->addItem(text(info.label), int(info.algorithm));
+  }
+  selector_->setMaxVisibleItems(selector_->count());
+  connect(selector_, &QComboBox::activated, this,
+          [this] { document_.setAlgorithm(panel_, Algorithm(selector_->currentData().toInt())); });
+  connect(&document_, &Document::algorithmChanged, this, [this](int panel) {
+    if (panel == panel_) {
+      showAlgorithm();
+    }
+  });
+  connect(&document_, &Document::meshChanged, this, &PanelHead::showAlgorithm);
+  showAlgorithm();
+}
+
+/// What runs, and what does not work on this mesh, with the reason.
+void PanelHead::showAlgorithm() {
+  const auto* items = qobject_cast<QStandardItemModel*>(selector_->model());
+  for (int i = 0; i < selector_->count(); ++i) {
+    if (!selector_->itemData(i).isValid()) {
+      continue;  // the line between
+    }
+    const auto algorithm = Algorithm(selector_->itemData(i).toInt());
+    QString help = text(info(algorithm).source);
+    try {
+      check(algorithm, *document_.mesh());
+      items->item(i)->setEnabled(true);
+    } catch (const Error& error) {
+      items->item(i)->setEnabled(false);
+      help = QString::fromStdString(error.what());
+    }
+    items->item(i)->setToolTip(help);
+  }
+  selector_->setCurrentIndex(selector_->findData(int(document_.algorithm(panel_))));
+}
+
+QToolButton* PanelHead::makeAloneButton() {
+  auto* button = new QToolButton;
+  button->setObjectName(QStringLiteral("aloneButton%1").arg(panel_));
+  button->setAccessibleName(QStringLiteral("Show panel %1 alone").arg(panelName(panel_)));
+  button->setToolTip(QStringLiteral("Shows this panel alone, or all again (as a double-click here)"));
+  button->setIcon(icon("alone"));
+  button->setCheckable(true);
+  button->setAutoRaise(true);
+  connect(button, &QToolButton::clicked, this, &PanelHead::aloneToggled);
+  return button;
+}
+
+void PanelHead::arrange(View& view) {
+  auto* name = new QLabel(panelName(panel_));
+  QFont bold = name->font();
+  bold.setBold(true);
+  name->setFont(bold);
+  auto* swatch = new QLabel;
+  swatch->setFixedSize(10, 10);
+  followTheme(*swatch, [swatch, colour = colours::ofPanel(panel_)] {
+    swatch->setStyleSheet(QStringLiteral("background:%1; border-radius:5px").arg(QColor(colour).name()));
+  });
+  row_->setContentsMargins(8, 6, 4, 6);
+  row_->setSpacing(8);
+  row_->addWidget(swatch);
+  row_->addWidget(name);
+  row_->addWidget(selector_);
+  row_->addWidget(state_, 1);
+  row_->addWidget(new GhostButton(document_, view, panel_));
+  row_->addWidget(alone_);
+}
+
+void PanelHead::showState(const QString& state) {
+  state_->setText(state_->fontMetrics().elidedText(state, Qt::ElideRight, state_->width()));
+  state_->setToolTip(state);
+}
+
+void PanelHead::showAlone(bool alone) { alone_->setChecked(alone); }
+
+void PanelHead::setActions(const QList<QAction*>& actions) {
+  for (QAction* action : actions) {
+    auto* button = new QToolButton;
+    button->setDefaultAction(action);
+    button->setObjectName(action->objectName().chopped(5) + QStringLiteral("Button%1").arg(panel_));
+    button->setAutoRaise(true);
+    row_->addWidget(button);
+    buttons_ << button;
+    connect(action, &QAction::changed, button, [this] { showActions(actionsShown_); });
+  }
+}
+
+void PanelHead::showActions(bool shown) {
+  actionsShown_ = shown;
+  for (QToolButton* button : buttons_) {
+    button->setVisible(shown && button->defaultAction()->isEnabled());
+  }
+}
+
+void PanelHead::mouseDoubleClickEvent(QMouseEvent* /*event*/) { emit aloneToggled(); }
+
+}  // namespace chainmail

@@ -1,0 +1,64 @@
+#include "tools/cut_tool.h"
+
+#include <QLineF>
+
+#include "panels/view.h"
+
+namespace chainmail {
+namespace {
+
+constexpr double shortestSegment = 2;  // pixels
+
+}  // namespace
+
+QString CutTool::hint() const {
+  return QStringLiteral(
+      "Left: draw a stroke, release to cut the links it crosses in all panels  ·  Esc: give up  ·  Ctrl+Z: undo");
+}
+
+void CutTool::hover(View& /*view*/, QPointF /*place*/) { document_.setHighlight({}); }
+
+void CutTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modifiers*/) {
+  at_ = &view;
+  stroke_ = {place};
+  crossed_.clear();
+}
+
+void CutTool::move(View& view, QPointF place) {
+  if (at_ != &view) {
+    return;
+  }
+  const QLineF segment(stroke_.back(), place);
+  if (segment.length() < shortestSegment) {
+    return;
+  }
+  stroke_.push_back(place);
+  const auto crossed = frontOnly_ ? view.frontLinksCrossing(segment) : view.linksCrossing(segment);
+  crossed_.insert(crossed.begin(), crossed.end());
+  document_.setHighlight({std::nullopt, false, {crossed_.begin(), crossed_.end()}});
+  view.update();
+}
+
+void CutTool::release(View& view, QPointF place) {
+  if (at_ != &view) {
+    return;
+  }
+  move(view, place);
+  const std::vector<LinkId> links(crossed_.begin(), crossed_.end());
+  cancel();
+  document_.cut(links);
+  view.update();
+}
+
+void CutTool::cancel() {
+  at_ = nullptr;
+  stroke_.clear();
+  crossed_.clear();
+  document_.setHighlight({});
+}
+
+std::span<const QPointF> CutTool::stroke(const View& view) const {
+  return at_ == &view ? std::span<const QPointF>(stroke_) : std::span<const QPointF>();
+}
+
+}  // namespace chainmail

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "document/document.h"
+#include "panels/tool.h"
+
+namespace chainmail {
+
+/// Draws a stroke; the links that it crosses light up, and are cut in all panels on release: through the whole object,
+/// or in its front layer alone.
+class CutTool : public Tool {
+ public:
+  explicit CutTool(Document& document) : document_(document) {}
+
+  void setFrontOnly(bool frontOnly) { frontOnly_ = frontOnly; }
+
+  QString name() const override { return QStringLiteral("Cut"); }
+  QString hint() const override;
+  QCursor cursor() const override { return Qt::CrossCursor; }
+
+  void hover(View& view, QPointF place) override;
+  void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
+  void move(View& view, QPointF place) override;
+  void release(View& view, QPointF place) override;
+  bool busy() const override { return at_ != nullptr; }
+  void cancel() override;
+  std::span<const QPointF> stroke(const View& view) const override;
+
+ private:
+  Document& document_;
+  bool frontOnly_ = false;
+  const View* at_ = nullptr;  // the view that the stroke is drawn in
+  std::vector<QPointF> stroke_;
+  std::set<LinkId> crossed_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <QVector3D>
+#include <optional>
+
+#include "document/document.h"
+#include "panels/tool.h"
+#include "tools/control_points.h"
+
+namespace chainmail {
+
+/// Takes hold of the element under the cursor and moves it in all panels, in the plane parallel to the
+/// view through the element; or of a control point of free-form deformation, where one is nearer.
+class DragTool : public Tool {
+ public:
+  DragTool(Document& document, ControlPoints& controlPoints) : document_(document), controlPoints_(controlPoints) {}
+
+  QString name() const override { return QStringLiteral("Drag"); }
+  QString hint() const override;
+  QCursor cursor() const override { return Qt::ArrowCursor; }
+
+  void hover(View& view, QPointF place) override;
+  void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
+  void move(View& view, QPointF place) override;
+  void release(View& view, QPointF place) override;
+  void leave(View& view) override;
+  bool busy() const override { return grabbed_ || point_; }
+  void cancel() override;
+  std::span<const QPointF> stroke(const View&) const override { return {}; }
+
+ private:
+  bool pressOnPoint(View& view, QPointF place);
+
+  Document& document_;
+  ControlPoints& controlPoints_;
+  std::optional<ElementId> grabbed_;
+  std::optional<ControlPoints::Handle> point_;
+  Point start_ = Point::Zero();  // where what is held was taken (mesh units)
+  QVector3D hand_;               // where the cursor was then, in the same plane
+};
+
+}  // namespace chainmail

@@ -1,0 +1,121 @@
+#include "tools/filling.h"
+
+#include <Eigen/Geometry>
+#include <QSignalBlocker>
+#include <cmath>
+
+#include "files/mesh/fill.h"
+
+namespace chainmail {
+namespace {
+
+// From a third of the surface's mean link to three of them, evenly in logarithms: what is much finer than its surface
+// takes minutes.
+constexpr double widest = 3;
+constexpr int sliderSteps = 200;  // to either side
+
+// More take minutes and are too many for a hand.
+constexpr double mostElements = 2e6;
+
+/// To two digits.
+double roughly(double number) {
+  const double unit = std::pow(10, std::floor(std::log10(number)) - 1);
+  return unit * std::round(number / unit);
+}
+
+double enclosedVolume(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Point from = mesh.rest_position(a) - mesh.box[0];
+    sum += from.dot((mesh.rest_position(b) - mesh.box[0]).cross(mesh.rest_position(c) - mesh.box[0])) / 6;
+  }
+  return std::abs(sum);
+}
+
+bool isSurfaceInSpace(const Mesh& mesh) { return mesh.object_dimension == 2 && mesh.space_dimension == 3; }
+
+}  // namespace
+
+Filling::Filling(Document& document, Jobs& jobs)
+    : AskBar(QStringLiteral("fill"), QStringLiteral("&Fill"),
+             QStringLiteral("Puts a volume of tetrahedra in the surface's place, as a step of undo")),
+      document_(document),
+      jobs_(jobs),
+      size_(new QDoubleSpinBox),
+      slider_(new QSlider(Qt::Horizontal)) {
+  makeFields();
+  connect(slider_, &QSlider::valueChanged, this, [this](int place) {
+    size_->setValue(document_.mesh()->mean_link_length * std::pow(widest, double(place) / sliderSteps));
+  });
+  connect(size_, &QDoubleSpinBox::valueChanged, this, &Filling::describe);
+  connect(this, &AskBar::agreed, this, &Filling::start);
+  connect(&document_, &Document::meshChanged, this, &Filling::adapt);
+}
+
+void Filling::makeFields() {
+  size_->setObjectName(QStringLiteral("fillSize"));
+  size_->setAccessibleName(QStringLiteral("Length of edges within, in mesh units"));
+  size_->setToolTip(
+      QStringLiteral("About how long the edges of tetrahedra become, in mesh units; the surface keeps "
+                     "its own"));
+  slider_->setObjectName(QStringLiteral("fillSlider"));
+  slider_->setAccessibleName(QStringLiteral("Length of edges within, on a slider"));
+  slider_->setToolTip(QStringLiteral("From a third of the surface's mean link to three of them"));
+  slider_->setRange(-sliderSteps, sliderSteps);
+  slider_->setMinimumWidth(60);
+  addField(QStringLiteral("&Edges of"), size_);
+  addField({}, slider_);
+}
+
+void Filling::fill(QMenu& menu) {
+  action_ = menu.addAction(QStringLiteral("&Fill with tetrahedra…"), this, &Filling::askSize);
+  action_->setObjectName(QStringLiteral("fillSurface"));
+  adapt();
+}
+
+void Filling::adapt() {
+  hide();
+  const bool surface = isSurfaceInSpace(*document_.mesh());
+  action_->setEnabled(surface);
+  action_->setStatusTip(surface ? QStringLiteral("Makes a volume of this surface, if it is closed; asks how fine")
+                                : QStringLiteral("This object is no surface in space: nothing can be filled"));
+}
+
+void Filling::askSize() {
+  const Mesh& mesh = *document_.mesh();
+  volume_ = enclosedVolume(mesh);
+  const double mean = mesh.mean_link_length;
+  {
+    const QSignalBlocker quiet(size_);
+    size_->setDecimals(std::clamp(3 - int(std::floor(std::log10(mean))), 0, 9));
+    size_->setRange(mean / widest, mean * widest);
+    size_->setSingleStep(mean / 20);
+    size_->setValue(mean);
+  }
+  describe();
+  ask(QStringLiteral("Fill %1 with tetrahedra").arg(document_.name()), size_);
+}
+
+void Filling::describe() {
+  const double size = size_->value();
+  const QSignalBlocker quiet(slider_);
+  slider_->setValue(
+      int(std::lround(sliderSteps * std::log(size / document_.mesh()->mean_link_length) / std::log(widest))));
+  const double within = points_per_cube * volume_ / (size * size * size);
+  const double elements = double(document_.mesh()->element_count()) + within;
+  showResult(QStringLiteral("about %L1 elements").arg(qlonglong(roughly(elements))), elements < mostElements);
+}
+
+void Filling::start() {
+  const QString name = document_.name();
+  jobs_.start(
+      Jobs::Kind::load, QStringLiteral("Filling %1").arg(name),
+      [this, name, surface = document_.mesh(), size = size_->value()](const Progress& progress) -> Jobs::Finish {
+        const MeshPointer filled = chainmail::fill(*surface, size, progress);
+        return [this, name, filled] {
+          document_.replaceMesh(filled, name + QStringLiteral(", filled"), QStringLiteral("fill %1").arg(name));
+        };
+      });
+}
+
+}  // namespace chainmail

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <QDoubleSpinBox>
+#include <QMenu>
+#include <QSlider>
+
+#include "common/ask_bar.h"
+#include "common/jobs.h"
+#include "document/document.h"
+
+namespace chainmail {
+
+/// Fills the object, where it is a closed surface, with tetrahedra: asks how long their edges are to be, and works in
+/// the background.
+class Filling : public AskBar {
+  Q_OBJECT
+
+ public:
+  Filling(Document& document, Jobs& jobs);
+
+  void fill(QMenu& menu);
+
+ private:
+  void makeFields();
+  void askSize();
+  void describe();
+  void adapt();
+  void start();
+
+  Document& document_;
+  Jobs& jobs_;
+  QDoubleSpinBox* size_;
+  QSlider* slider_;
+  QAction* action_ = nullptr;
+  double volume_ = 0;  // enclosed, where it is closed (mesh units cubed)
+};
+
+}  // namespace chainmail

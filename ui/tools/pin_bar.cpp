@@ -1,0 +1,69 @@
+#include "tools/pin_bar.h"
+
+#include <QPushButton>
+
+#include "common/text.h"
+
+namespace chainmail {
+
+PinBar::PinBar(Document& document, PinLayers& layers)
+    : AskBar(QStringLiteral("pins"), QStringLiteral("Pin &bottom layer"),
+             QStringLiteral("Pins the layer that the object stands on, where it is, as one step of undo")),
+      document_(document),
+      layers_(layers) {
+  addChoices();
+  connect(this, &AskBar::agreed, this, [this] { layers_.pin(layers_.foot()); });
+  connect(&document, &Document::unpinned, this, &PinBar::await);
+  // A drag that ends is a step.
+  connect(&document.undoStack(), &QUndoStack::indexChanged, this, &PinBar::offer);
+  connect(&document, &Document::pinsChanged, this, &PinBar::follow);
+  connect(&document, &Document::meshChanged, this, &PinBar::follow);
+  connect(&document, &Document::algorithmChanged, this, &PinBar::follow);
+  connect(&document, &Document::panelsChanged, this, &PinBar::follow);
+}
+
+void PinBar::addChoices() {
+  const auto add = [this](const char* name, const QString& text, const QString& help) {
+    auto* button = new QPushButton(text);
+    button->setObjectName(QLatin1String(name));
+    button->setToolTip(help);
+    addAnswer(button);
+    return button;
+  };
+  auto* boundary = add("pinsBoundary", QStringLiteral("Pin b&oundary"),
+                       QStringLiteral("Pins all elements on the boundary where they are, as one step of undo"));
+  auto* byHand = add("pinsByHand", QStringLiteral("Pin by &hand"),
+                     QStringLiteral("Takes up the pin tool: click the elements that are to hold the object"));
+  connect(boundary, &QPushButton::clicked, this, [this] { layers_.pinBoundary(); });
+  connect(byHand, &QPushButton::clicked, this, [this] {
+    hide();
+    emit byHandChosen();
+  });
+  byHand_ = byHand;
+}
+
+/// The panels stay where they are under the hand.
+void PinBar::await(int panel) {
+  panel_ = panel;
+  awaits_ = !asked_;
+  offer();
+}
+
+void PinBar::offer() {
+  if (!awaits_ || document_.held() || panel_ >= document_.panels() || !document_.lacksPins(panel_)) {
+    return;
+  }
+  awaits_ = false;
+  asked_ = true;
+  setAgree(QStringLiteral("Pin &%1 layer").arg(text(layers_.foot().name)));
+  ask(QStringLiteral("Nothing pins this object, so %1 has no static answer.")
+          .arg(text(info(document_.algorithm(panel_)).label)),
+      byHand_);
+}
+
+void PinBar::follow() {
+  awaits_ = asked_ = false;
+  hide();
+}
+
+}  // namespace chainmail

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "document/document.h"
+#include "panels/tool.h"
+
+namespace chainmail {
+
+/// Pins the element under the cursor where it stands, or lets it go again.
+class PinTool : public Tool {
+ public:
+  explicit PinTool(Document& document) : document_(document) {}
+
+  QString name() const override { return QStringLiteral("Pin"); }
+  QString hint() const override;
+  QCursor cursor() const override { return Qt::PointingHandCursor; }
+
+  void hover(View& view, QPointF place) override;
+  void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
+  void move(View&, QPointF) override {}
+  void release(View& view, QPointF place) override { hover(view, place); }
+  bool clicks() const override { return true; }
+  bool busy() const override { return false; }
+  void cancel() override { document_.setHighlight({}); }
+  std::span<const QPointF> stroke(const View&) const override { return {}; }
+
+ private:
+  Document& document_;
+};
+
+}  // namespace chainmail

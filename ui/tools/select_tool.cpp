@@ -1,0 +1,142 @@
+#include "tools/select_tool.h"
+
+#include <QRectF>
+#include <cmath>
+
+#include "drawing/picking.h"
+#include "panels/view.h"
+
+namespace chainmail {
+namespace {
+
+constexpr double smallestRectangle = 4;  // pixels: below, it was a click
+constexpr int circleCorners = 48;
+
+SelectionMode modeOf(Qt::KeyboardModifiers modifiers) {
+  if ((modifiers & Qt::ShiftModifier) != 0) {
+    return SelectionMode::add;
+  }
+  const bool removes = (modifiers & (Qt::ControlModifier | Qt::AltModifier)) != 0;
+  return removes ? SelectionMode::remove : SelectionMode::replace;
+}
+
+}  // namespace
+
+QString SelectTool::hint() const {
+  return QStringLiteral("Left: select elements, those behind too  ·  Shift: add  ·  Ctrl or Alt: remove  ·  Esc: none");
+}
+
+void SelectTool::setShape(Shape shape) {
+  cancel();
+  shape_ = shape;
+}
+
+void SelectTool::hover(View& view, QPointF place) {
+  if (pressed_) {
+    cancel();  // no button is down: its release went to someone else
+  }
+  document_.setHighlight({});
+  at_ = &view;
+  const bool shown = !outline_.empty();
+  outline_.clear();
+  if (shape_ == Shape::brush) {
+    outline(place);
+  }
+  if (shown || !outline_.empty()) {
+    view.update();
+  }
+}
+
+void SelectTool::press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) {
+  at_ = &view;
+  pressed_ = true;
+  mode_ = modeOf(modifiers);
+  start_ = last_ = place;
+  mesh_ = document_.mesh();
+  before_ = document_.selection().elements;
+  hit_.clear();
+  if (shape_ == Shape::brush) {
+    brush(view, QLineF(place, place));
+  }
+}
+
+void SelectTool::move(View& view, QPointF place) {
+  if (!pressed_ || at_ != &view) {
+    return;
+  }
+  if (shape_ == Shape::brush) {
+    brush(view, QLineF(last_, place));
+  }
+  last_ = place;
+  outline(place);
+  view.update();
+}
+
+void SelectTool::release(View& view, QPointF place) {
+  if (!pressed_ || at_ != &view) {
+    return;
+  }
+  move(view, place);
+  if (shape_ == Shape::rectangle) {
+    const QRectF rectangle = QRectF(start_, place).normalized();
+    if (std::max(rectangle.width(), rectangle.height()) >= smallestRectangle) {
+      hit_ = view.elementsWhere(rectangle, [&rectangle](QPointF at) { return rectangle.contains(at); });
+    } else if (const auto element = view.elementAt(place)) {
+      hit_ = {*element};
+    }
+    document_.select(combined(before_, hit_, mode_));
+  }
+  pressed_ = false;
+  hover(view, place);
+}
+
+/// Lives on every step of the stroke, so that one sees what it takes.
+void SelectTool::brush(View& view, QLineF along) {
+  const QRectF bounds = QRectF(along.p1(), along.p2()).normalized().adjusted(-radius_, -radius_, radius_, radius_);
+  const auto reached =
+      view.elementsWhere(bounds, [this, along](QPointF at) { return distanceFrom(along, at) <= radius_; });
+  hit_ = combined(hit_, reached, SelectionMode::add);
+  document_.select(combined(before_, hit_, mode_));
+}
+
+void SelectTool::outline(QPointF place) {
+  outline_.clear();
+  if (shape_ == Shape::rectangle) {
+    outline_ = {start_, {place.x(), start_.y()}, place, {start_.x(), place.y()}, start_};
+    return;
+  }
+  for (int i = 0; i <= circleCorners; ++i) {
+    const double angle = 2 * M_PI * i / circleCorners;
+    outline_.push_back(place + radius_ * QPointF(std::cos(angle), std::sin(angle)));
+  }
+}
+
+void SelectTool::cancel() {
+  if (pressed_ && shape_ == Shape::brush && document_.mesh() == mesh_) {
+    document_.select(before_);
+  }
+  pressed_ = false;
+  at_ = nullptr;
+  outline_.clear();
+  document_.setHighlight({});
+}
+
+void SelectTool::escape() {
+  if (!pressed_) {
+    document_.select({});
+  }
+  cancel();
+}
+
+void SelectTool::leave(View& view) {
+  if (!pressed_ && at_ == &view) {
+    outline_.clear();
+    view.update();
+  }
+}
+
+std::span<const QPointF> SelectTool::stroke(const View& view) const {
+  return at_ == &view ? std::span<const QPointF>(outline_) : std::span<const QPointF>();
+}
+
+}  // namespace chainmail

@@ -1,0 +1,108 @@
+#include "window/example_drag.h"
+
+#include <QCoreApplication>
+#include <QEvent>
+#include <QThread>
+#include <cmath>
+
+namespace chainmail {
+namespace {
+
+constexpr int milliseconds = 16;      // from move to move
+constexpr double longest = 40;        // seconds: nobody is there
+constexpr double swing = 5.2;         // seconds there and back, across
+constexpr double rise = 3.4;          // the same, up and down
+constexpr double beginning = 2;       // seconds until it swings in full
+constexpr double reachInLinks = 3.5;  // across; less up and down
+constexpr int patience = 200;         // milliseconds for the object to be seen at rest again
+constexpr double asGood = 1e-6;       // as at rest, in reaches: what is nearer the numbers do not tell apart
+
+bool isTouch(const QEvent& event) {
+  switch (event.type()) {
+    case QEvent::MouseButtonPress:
+    case QEvent::Wheel:
+    case QEvent::TouchBegin:
+    case QEvent::KeyPress:
+    case QEvent::ShortcutOverride:  // comes before the action of a key
+    case QEvent::DragEnter:
+    case QEvent::Close:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+ExampleDrag::ExampleDrag(Document& document, QObject* parent) : QObject(parent), document_(document) {
+  clock_.setTimerType(Qt::PreciseTimer);
+  clock_.setInterval(milliseconds);
+  connect(&clock_, &QTimer::timeout, this, &ExampleDrag::move);
+}
+
+ExampleDrag::~ExampleDrag() { QCoreApplication::instance()->removeEventFilter(this); }
+
+void ExampleDrag::start() {
+  if (running() || document_.undoStack().count() != 0) {
+    return;
+  }
+  const Mesh& mesh = *document_.mesh();
+  element_ = mesh.element_count() * 4 / 5;  // off the middle: what is near and what is far moves differently
+  from_ = mesh.rest_position(element_);
+  reach_ = reachInLinks * mesh.mean_link_length;
+  QCoreApplication::instance()->installEventFilter(this);
+  document_.grab(element_);
+  since_.start();
+  clock_.start();
+}
+
+void ExampleDrag::move() {
+  const double seconds = double(since_.elapsed()) / 1000;
+  if (seconds > longest) {
+    stop();
+    return;
+  }
+  const double share = reach_ * std::min(1.0, seconds / beginning);
+  document_.setHighlight({element_, true, {}});
+  document_.drag(from_ + Point(share * std::sin(2 * M_PI * seconds / swing),
+                               share * 0.6 * std::sin(2 * M_PI * seconds / rise), 0));
+}
+
+void ExampleDrag::stop() {
+  if (!running()) {
+    return;
+  }
+  clock_.stop();
+  QCoreApplication::instance()->removeEventFilter(this);
+  document_.release();
+  document_.undo();
+  document_.undoStack().clear();
+  document_.forgetMoves();
+  document_.setHighlight({});
+  // Who has just pressed a button takes hold of what is there after that.
+  QElapsedTimer waited;
+  waited.start();
+  while (!showsRest() && waited.elapsed() < patience) {
+    QThread::msleep(1);
+    QCoreApplication::sendPostedEvents(&document_, QEvent::MetaCall);  // frames, and nothing a user did
+  }
+}
+
+bool ExampleDrag::showsRest() const {
+  for (int panel = 0; panel < document_.panels(); ++panel) {
+    const Frame* frame = document_.frame(panel);
+    if (frame == nullptr || (point_of(*frame->mesh, frame->view(), element_) - from_).norm() > asGood * reach_) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool ExampleDrag::eventFilter(QObject* /*watched*/, QEvent* event) {
+  if (isTouch(*event)) {
+    stop();
+  }
+  return false;
+}
+
+}  // namespace chainmail

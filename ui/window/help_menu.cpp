@@ -1,0 +1,36 @@
+#include "window/help_menu.h"
+
+#include <QMainWindow>
+
+namespace chainmail {
+
+HelpMenu::HelpMenu(QMainWindow& window, Document& document)
+    : QObject(&window), window_(window), shortcuts_(window), example_(document, nullptr), hints_(new Hints) {}
+
+void HelpMenu::fill(QMenu& menu) {
+  auto* keys = menu.addAction(QStringLiteral("&Keyboard shortcuts…"), this, &HelpMenu::showShortcuts);
+  keys->setObjectName(QStringLiteral("showShortcuts"));
+  keys->setShortcut(QKeySequence::HelpContents);
+  keys->setStatusTip(QStringLiteral("All actions with their keys and effects; keys can be changed there"));
+  auto* again = menu.addAction(QStringLiteral("Show the &hints again"), hints_, &Hints::present);
+  again->setObjectName(QStringLiteral("showHints"));
+  again->setStatusTip(QStringLiteral("The three hints of the first start, under the views"));
+}
+
+void HelpMenu::welcome() {
+  if (!Hints::seen()) {
+    hints_->present();
+    example_.start();
+  }
+}
+
+void HelpMenu::showShortcuts() {
+  if (dialog_ == nullptr) {
+    dialog_ = new ShortcutsDialog(shortcuts_, &window_);
+  }
+  dialog_->show();
+  dialog_->raise();
+  dialog_->activateWindow();
+}
+
+}  // namespace chainmail

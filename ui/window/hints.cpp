@@ -1,0 +1,66 @@
+#include "window/hints.h"
+
+#include <QGridLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSettings>
+
+#include "common/colours.h"
+#include "common/icons.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int iconSize = 20;  // pixels
+
+QString seenKey() { return QStringLiteral("hintsSeen"); }
+
+struct Hint {
+  const char* icon;
+  const char* words;
+};
+constexpr std::array hints{
+    Hint{"drag", "<b>Drag</b> an element in any panel: all algorithms answer, side by side."},
+    Hint{"fit", "The <b>wheel</b> zooms, the middle button shifts, the right one turns; <b>F</b> shows all again."},
+    Hint{"keyboard", "<b>F1</b> lists every action and its keys; the tools on the left cut, pin and select."}};
+
+}  // namespace
+
+Hints::Hints() {
+  setObjectName(QStringLiteral("hints"));
+  setAccessibleName(QStringLiteral("Hints for the start"));
+  setFrameShape(QFrame::StyledPanel);
+  setAutoFillBackground(true);
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(12, 6, 12, 6);
+  grid->setHorizontalSpacing(10);
+  for (int row = 0; row < int(hints.size()); ++row) {
+    auto* sign = new QLabel;
+    followTheme(*sign, [sign, name = hints[std::size_t(row)].icon] {
+      sign->setPixmap(icon(name).pixmap({iconSize, iconSize}, sign->devicePixelRatioF()));
+    });
+    grid->addWidget(sign, row, 0);
+    grid->addWidget(new QLabel(QLatin1String(hints[std::size_t(row)].words)), row, 1);
+  }
+  auto* done = new QPushButton(QStringLiteral("Got it"));
+  done->setObjectName(QStringLiteral("hintsDone"));
+  done->setToolTip(QStringLiteral("Takes the hints away (Esc); Help > Show the hints again brings them back"));
+  grid->setColumnStretch(1, 1);
+  grid->addWidget(done, 0, 2, int(hints.size()), 1, Qt::AlignVCenter);
+  connect(done, &QPushButton::clicked, this, &QWidget::hide);
+  followTheme(*this, [this] {
+    QPalette own;
+    own.setColor(QPalette::Window, colours::infoGround);
+    setPalette(own);
+  });
+  hide();
+}
+
+bool Hints::seen() { return QSettings().value(seenKey()).toBool(); }
+
+void Hints::present() {
+  QSettings().setValue(seenKey(), true);
+  show();
+}
+
+}  // namespace chainmail

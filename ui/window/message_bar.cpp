@@ -1,0 +1,115 @@
+#include "window/message_bar.h"
+
+#include <QAccessible>
+#include <QHBoxLayout>
+#include <QToolButton>
+#include <algorithm>
+
+#include "common/colours.h"
+#include "common/icons.h"
+
+namespace chainmail {
+namespace {
+
+constexpr std::size_t most = 50;  // nobody reads more; the oldest go
+constexpr int signSize = 18;      // pixels
+
+struct Look {
+  const char* icon;
+  const char* name;
+  colours::Colour ground, sign;
+};
+
+const Look& lookOf(Severity severity) {
+  static constexpr std::array looks{Look{"info", "Note", colours::infoGround, colours::infoSign},
+                                    Look{"warning", "Warning", colours::warningGround, colours::warningSign},
+                                    Look{"error", "Error", colours::errorGround, colours::errorSign}};
+  return looks[std::size_t(severity)];
+}
+
+}  // namespace
+
+MessageBar::MessageBar()
+    : sign_(new QLabel), text_(new QLabel), waiting_(new QLabel), all_(new QToolButton), close_(new QToolButton) {
+  setObjectName(QStringLiteral("messageBar"));
+  setAutoFillBackground(true);
+  text_->setObjectName(QStringLiteral("message"));
+  text_->setWordWrap(true);
+  text_->setTextFormat(Qt::PlainText);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  waiting_->setObjectName(QStringLiteral("messagesWaiting"));
+  all_->setObjectName(QStringLiteral("dismissAll"));
+  all_->setText(QStringLiteral("Dismiss all"));
+  all_->setToolTip(QStringLiteral("Takes all messages away, unread ones too"));
+  close_->setObjectName(QStringLiteral("dismiss"));
+  close_->setIcon(icon("close"));
+  close_->setToolTip(QStringLiteral("Takes this message away (Esc); the one before it is shown again"));
+  close_->setAccessibleName(QStringLiteral("Dismiss the message"));
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(10, 4, 6, 4);
+  row->setSpacing(8);
+  row->addWidget(sign_);
+  row->addWidget(text_, 1);
+  row->addWidget(waiting_);
+  for (QToolButton* button : {all_, close_}) {
+    button->setAutoRaise(true);
+    row->addWidget(button);
+  }
+  connect(close_, &QToolButton::clicked, this, &MessageBar::dismiss);
+  connect(all_, &QToolButton::clicked, this, &MessageBar::clear);
+  hide();
+  followTheme(*this, [this] { paintGround(); });
+}
+
+void MessageBar::add(Severity severity, const QString& sentence) {
+  const Message message{severity, sentence};
+  std::erase(messages_, message);  // said again it is the newest, not a second one
+  messages_.push_back(message);
+  if (messages_.size() > most) {
+    messages_.erase(messages_.begin());
+  }
+  refresh();
+  show();
+  QAccessibleEvent alert(this, QAccessible::Alert);
+  QAccessible::updateAccessibility(&alert);
+}
+
+void MessageBar::dismiss() {
+  if (!messages_.empty()) {
+    messages_.pop_back();
+  }
+  messages_.empty() ? hide() : refresh();
+}
+
+void MessageBar::clear() {
+  messages_.clear();
+  hide();
+}
+
+void MessageBar::hideEvent(QHideEvent* event) {
+  QFrame::hideEvent(event);
+  if (isHidden()) {  // itself, and not with the window
+    messages_.clear();
+  }
+}
+
+void MessageBar::refresh() {
+  text_->setText(sentence());
+  setAccessibleName(QStringLiteral("%1: %2").arg(QLatin1String(lookOf(severity()).name), sentence()));
+  const bool several = messages_.size() > 1;
+  waiting_->setText(QStringLiteral("1 of %1").arg(count()));
+  waiting_->setVisible(several);
+  all_->setVisible(several);
+  paintGround();
+}
+
+void MessageBar::paintGround() {
+  const Look& look = lookOf(severity());
+  QPalette own;
+  own.setColor(QPalette::Window, look.ground);
+  setPalette(own);
+  sign_->setPixmap(icon(look.icon, look.sign).pixmap({signSize, signSize}, devicePixelRatioF()));
+  sign_->setToolTip(QLatin1String(look.name));
+}
+
+}  // namespace chainmail

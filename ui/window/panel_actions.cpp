@@ -1,0 +1,164 @@
+#include "window/panel_actions.h"
+
+#include <QMenu>
+#include <QToolBar>
+#include <QToolButton>
+#include <algorithm>
+
+#include "common/icons.h"
+#include "common/panel_names.h"
+#include "panels/panel_area.h"
+
+namespace chainmail {
+
+PanelActions::PanelActions(PanelArea& area, Document& document, Colouring& colouring)
+    : QObject(&area),
+      area_(area),
+      document_(document),
+      colouring_(colouring),
+      compare_(new QMenu(QStringLiteral("Co&mpare with"), &area)),
+      compared_(new QAction(this)),
+      add_(add(QStringLiteral("addPanel"), QStringLiteral("&Add panel"), Qt::Key_N, {})),
+      remove_(add(QStringLiteral("removePanel"), QStringLiteral("&Remove panel"), Qt::SHIFT | Qt::Key_N, {})),
+      swap_(add(QStringLiteral("swapPanels"), QStringLiteral("S&wap places"), Qt::Key_W,
+                QStringLiteral("Each panel takes the next one's place: two exchange sides, with all that is theirs"))),
+      ghosts_(add(QStringLiteral("ghosts"), QStringLiteral("&Ghosts"), Qt::Key_G,
+                  QStringLiteral("Lays the next panel's object over each panel's own, see-through and in that panel's "
+                                 "colour; the button above a panel chooses another"))) {
+  add_->setIcon(icon("plus"));
+  remove_->setIcon(icon("close"));
+  swap_->setIcon(icon("swap"));
+  ghosts_->setIcon(icon("overlay"));
+  ghosts_->setCheckable(true);
+  compare_->setObjectName(QStringLiteral("compareWith"));
+  compare_->setToolTipsVisible(true);
+  compared_->setMenu(compare_);
+  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+    makeOnes(panel);
+  }
+  refreshCount();
+  area.setHeadActions({add_, remove_});
+  listen();
+  refresh();
+}
+
+void PanelActions::listen() {
+  connect(add_, &QAction::triggered, &document_, &Document::addPanel);
+  // Later: the button that was pressed goes with its panel.
+  connect(remove_, &QAction::triggered, &document_, &Document::removePanel, Qt::QueuedConnection);
+  connect(swap_, &QAction::triggered, &area_, &PanelArea::moveOn);
+  connect(ghosts_, &QAction::triggered, &area_, &PanelArea::setGhosts);
+  connect(&area_, &PanelArea::arranged, this, &PanelActions::refresh);
+  connect(&area_, &PanelArea::ghostsChanged, this, &PanelActions::refresh);
+  connect(&colouring_, &Colouring::modeChanged, this, &PanelActions::refresh);
+}
+
+QAction* PanelActions::add(const QString& name, const QString& text, const QKeySequence& key,
+                           const QString& statusTip) {
+  auto* action = new QAction(text, this);
+  action->setObjectName(name);
+  action->setShortcut(key);
+  action->setStatusTip(statusTip);
+  const QString keys = key.toString(QKeySequence::NativeText);
+  action->setToolTip(keys.isEmpty() ? statusTip : QStringLiteral("%1 (%2)").arg(statusTip, keys));
+  return action;
+}
+
+/// Those that every panel has one of.
+void PanelActions::makeOnes(int panel) {
+  const QString name = panelName(panel);
+  const auto key = Qt::Key(Qt::Key_1 + panel);
+  show_ << add(
+      QStringLiteral("showPanel%1").arg(name), QStringLiteral("Show &%1").arg(name), Qt::CTRL | key,
+      QStringLiteral("Panel %1 is on the screen; out of sight it goes on as the others do. One stays").arg(name));
+  connect(show_.last(), &QAction::triggered, this, [this, panel](bool shown) {
+    area_.setShown(panel, shown);
+    refresh();
+  });
+  reference_ << add(
+      QStringLiteral("compareWith%1").arg(name), QStringLiteral("Panel &%1").arg(name), {},
+      QStringLiteral("Colours of distance and difference compare all other panels with panel %1").arg(name));
+  connect(reference_.last(), &QAction::triggered, this, [this, panel] {
+    colouring_.setReference(panel);
+    refresh();
+  });
+  compare_->addAction(reference_.last());
+  makeOneAlone(panel);
+  for (QAction* action : {show_.last(), alone_.last(), reference_.last()}) {
+    action->setCheckable(true);
+  }
+}
+
+void PanelActions::makeOneAlone(int panel) {
+  const QString name = panelName(panel);
+  alone_ << add(QStringLiteral("showAlone%1").arg(name), QStringLiteral("%1 alone").arg(name),
+                Qt::ALT | Qt::Key(Qt::Key_1 + panel),
+                QStringLiteral("Panel %1 has all the room, or all are back (as a double-click on its head)").arg(name));
+  connect(alone_.last(), &QAction::triggered, this,
+          [this, panel](bool alone) { area_.setAlone(alone ? std::optional(panel) : std::nullopt); });
+}
+
+void PanelActions::fill(QMenu& menu) {
+  menu.addActions(area_.links().actions());
+  auto* panels = menu.addMenu(QStringLiteral("&Panels"));
+  panels->addActions({add_, remove_, swap_, ghosts_});
+  panels->addSeparator();
+  panels->addActions(show_);
+  panels->addSeparator();
+  panels->addActions(alone_);
+  menu.addMenu(compare_);
+}
+
+void PanelActions::fill(QToolBar& bar) {
+  bar.addAction(compared_);
+  qobject_cast<QToolButton*>(bar.widgetForAction(compared_))->setPopupMode(QToolButton::InstantPopup);
+}
+
+/// What there are too many or too few panels for says so.
+void PanelActions::refreshCount() {
+  const auto say = [](QAction* action, bool enabled, const QString& help) {
+    action->setEnabled(enabled);
+    action->setStatusTip(help);
+    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+    action->setToolTip(QStringLiteral("%1 (%2)").arg(help, keys));
+  };
+  const int count = document_.panels();
+  const bool full = count == Document::mostPanels, least = count == Document::fewestPanels;
+  say(add_, !full,
+      full ? QStringLiteral("There are as many panels as there can be")
+           : QStringLiteral("One more panel, with the object as it stands in A, by another algorithm"));
+  say(remove_, !least,
+      least ? QStringLiteral("Two panels stay: hide one of them, or show the other alone")
+            : QStringLiteral("Panel %1 goes, and what its algorithm did with it").arg(panelName(count - 1)));
+}
+
+void PanelActions::refresh() {
+  refreshCount();
+  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+    refreshOnes(panel);
+  }
+  ghosts_->setChecked(area_.hasGhosts());
+  compared_->setText(QStringLiteral("with %1").arg(panelName(colouring_.reference())));
+  compared_->setToolTip(QStringLiteral("The panel that all others are compared with"));
+  compared_->setVisible(comparesPanels(colouring_.mode()) && document_.panels() > 2);
+}
+
+void PanelActions::refreshOnes(int panel) {
+  const auto seen = area_.inSight();
+  const bool exists = panel < document_.panels();
+  const bool isSeen = std::find(seen.begin(), seen.end(), panel) != seen.end();
+  const bool compares = comparesPanels(colouring_.mode());
+  for (QAction* action : {show_[panel], alone_[panel], reference_[panel]}) {
+    action->setVisible(exists);
+  }
+  show_[panel]->setChecked(isSeen);
+  show_[panel]->setEnabled(!isSeen || seen.size() > 1);  // one stays, as its tip says
+  alone_[panel]->setChecked(area_.alone() == panel);
+  reference_[panel]->setChecked(colouring_.reference() == panel);
+  reference_[panel]->setEnabled(compares);
+  reference_[panel]->setToolTip(
+      compares ? reference_[panel]->statusTip()
+               : QStringLiteral("Colours compare panels when they show a distance or a difference: see 'Colour by'"));
+}
+
+}  // namespace chainmail

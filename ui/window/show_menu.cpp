@@ -1,0 +1,100 @@
+#include "window/show_menu.h"
+
+#include <QActionGroup>
+
+#include "common/icons.h"
+#include "drawing/object_drawing.h"
+
+namespace chainmail {
+namespace {
+
+struct Choice {
+  const char* name;
+  const char* action;
+  const char* text;
+  Qt::Key key;
+  const char* tip;
+  Look look;
+};
+constexpr std::array choices{
+    Choice{"links", "showLinks", "&Links", Qt::Key_1, "Every link of the object, and no faces", {false, true}},
+    Choice{"surface",
+           "showSurface",
+           "&Surface",
+           Qt::Key_2,
+           "The faces alone, of a volume those of its outside; links only where they are coloured by a value",
+           {true, false}},
+    Choice{"both",
+           "showSurfaceAndLinks",
+           "Surface &and links",
+           Qt::Key_3,
+           "The faces, of a volume those of its outside, and the links on them",
+           {true, true}}};
+
+bool hasFaces(const Mesh& mesh) {
+  return !mesh.triangles.empty() || !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
+}
+
+QString settingsKey(const Mesh& mesh) {
+  return ObjectDrawing::showsPicture(mesh) ? QStringLiteral("showOfPictures") : QStringLiteral("show");
+}
+
+}  // namespace
+
+ShowMenu::ShowMenu(const Document& document, QObject* parent) : QObject(parent), document_(document) {
+  connect(&document, &Document::meshChanged, this, &ShowMenu::adapt);
+}
+
+void ShowMenu::fill(QMenu& menu) {
+  auto* show = menu.addMenu(icon("mesh"), QStringLiteral("Sho&w"));
+  show->setObjectName(QStringLiteral("showMenu"));
+  show->setToolTipsVisible(true);
+  auto* group = new QActionGroup(this);
+  for (const Choice& one : choices) {
+    auto* action = group->addAction(QString::fromUtf8(one.text));
+    action->setObjectName(QLatin1String(one.action));
+    action->setCheckable(true);
+    action->setShortcut(one.key);
+    action->setStatusTip(QString::fromUtf8(one.tip));
+    const QString name = QLatin1String(one.name);
+    connect(action, &QAction::triggered, this, [this, name] { choose(name); });
+    show->addAction(action);
+    actions_[name] = action;
+  }
+  adapt();
+}
+
+QString ShowMenu::chosen() const {
+  const Mesh& mesh = *document_.mesh();
+  const QString otherwise = ObjectDrawing::showsPicture(mesh) ? QStringLiteral("surface") : QStringLiteral("both");
+  const QString remembered = QSettings().value(settingsKey(mesh), otherwise).toString();
+  return actions_.count(remembered) != 0 ? remembered : otherwise;
+}
+
+void ShowMenu::choose(const QString& name) {
+  if (actions_.count(name) != 0) {
+    QSettings().setValue(settingsKey(*document_.mesh()), name);
+    adapt();
+  }
+}
+
+Look ShowMenu::look() const {
+  if (!hasFaces(*document_.mesh())) {
+    return {};
+  }
+  const QString name = chosen();
+  return std::ranges::find_if(choices, [&](const Choice& one) { return name == QLatin1String(one.name); })->look;
+}
+
+void ShowMenu::adapt() {
+  const bool faces = hasFaces(*document_.mesh());
+  for (const auto& [name, action] : actions_) {
+    const bool possible = faces || name == QLatin1String("links");
+    action->setEnabled(possible);
+    action->setToolTip(possible ? action->statusTip() : QStringLiteral("This object has links alone, and no faces"));
+  }
+  actions_.at(faces ? chosen() : QStringLiteral("links"))->setChecked(true);
+  emit changed();
+}
+
+}  // namespace chainmail

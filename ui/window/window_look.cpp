@@ -1,0 +1,117 @@
+#include "window/window_look.h"
+
+#include <QAction>
+#include <QDockWidget>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <algorithm>
+#include <cmath>
+
+#include "common/text.h"
+#include "docks/section_dock.h"
+#include "panels/panel.h"
+#include "panels/panel_area.h"
+#include "window/main_window.h"
+#include "window/show_menu.h"
+
+namespace chainmail {
+namespace {
+
+QAction& linkCameras(MainWindow& window) { return *window.findChild<QAction*>(QStringLiteral("linkCameras")); }
+
+QJsonObject toJson(const Camera::Pose& pose) {
+  return {{QStringLiteral("centre"), QJsonArray{pose.centre.x(), pose.centre.y(), pose.centre.z()}},
+          {QStringLiteral("height"), pose.height},
+          {QStringLiteral("yaw"), pose.yaw},
+          {QStringLiteral("pitch"), pose.pitch},
+          {QStringLiteral("parallel"), pose.parallel},
+          {QStringLiteral("framed"), pose.framed}};
+}
+
+/// JSON holds no numbers that are none, but some that no float holds.
+Camera::Pose poseOf(const QJsonObject& json, const Camera::Pose& present) {
+  const auto number = [&](const char* key, double otherwise) { return json[QLatin1String(key)].toDouble(otherwise); };
+  Camera::Pose pose{present.centre,
+                    number("height", present.height),
+                    number("yaw", present.yaw),
+                    number("pitch", present.pitch),
+                    json[QStringLiteral("parallel")].toBool(present.parallel),
+                    json[QStringLiteral("framed")].toBool()};
+  const QJsonArray centre = json[QStringLiteral("centre")].toArray();
+  for (int k = 0; k < 3 && centre.size() == 3; ++k) {
+    const auto at = float(centre[k].toDouble(pose.centre[k]));
+    pose.centre[k] = std::isfinite(at) ? at : pose.centre[k];
+  }
+  return pose;
+}
+
+void takeCameras(MainWindow& window, const QJsonObject& look) {
+  linkCameras(window).setChecked(look[QStringLiteral("linked")].toBool(linkCameras(window).isChecked()));
+  const QJsonArray cameras = look[QStringLiteral("cameras")].toArray();
+  for (int panel = 0; panel < std::min(int(cameras.size()), window.document().panels()); ++panel) {
+    View& view = window.panel(panel).view();
+    view.camera()->setPose(poseOf(cameras[panel].toObject(), view.camera()->pose()));
+    view.fitAgain();  // this window may have another size
+    emit view.cameraChanged();
+    view.update();
+  }
+}
+
+void takeColours(MainWindow& window, const QString& name) {
+  const auto found =
+      std::find_if(colourModes().begin(), colourModes().end(), [&](const auto& one) { return name == text(one.name); });
+  if (found != colourModes().end()) {
+    window.colouring().setMode(found->mode);
+  }
+}
+
+}  // namespace
+
+std::string lookOf(MainWindow& window) {
+  QJsonArray cameras;
+  for (int panel = 0; panel < window.document().panels(); ++panel) {
+    cameras << toJson(window.panel(panel).view().camera()->pose());
+  }
+  const QString layout = QString::fromLatin1(window.savedLayout().toBase64());
+  const QJsonObject look{{QStringLiteral("cameras"), cameras},
+                         {QStringLiteral("linked"), linkCameras(window).isChecked()},
+                         {QStringLiteral("colour"), text(info(window.colouring().mode()).name)},
+                         {QStringLiteral("show"), window.findChild<ShowMenu*>()->chosen()},
+                         {QStringLiteral("section"), window.findChild<SectionDock*>()->toJson()},
+                         {QStringLiteral("layout"), layout},
+                         {QStringLiteral("file"), window.document().sessionFile()}};
+  return QJsonDocument(look).toJson(QJsonDocument::Compact).toStdString();
+}
+
+void takeLook(MainWindow& window, const std::string& json) {
+  const QJsonObject look = QJsonDocument::fromJson(QByteArray::fromStdString(json)).object();
+  if (const QString layout = look[QStringLiteral("layout")].toString(); !layout.isEmpty()) {
+    window.takeLayout(QByteArray::fromBase64(layout.toLatin1()));
+  }
+  window.findChild<ShowMenu*>()->choose(look[QStringLiteral("show")].toString());
+  window.findChild<SectionDock*>()->take(look[QStringLiteral("section")].toObject());
+  takeColours(window, look[QStringLiteral("colour")].toString());
+  takeCameras(window, look);
+}
+
+void followLook(MainWindow& window, QObject& context, const std::function<void()>& changed) {
+  const auto followPanel = [&context, changed](Panel* panel) {
+    QObject::connect(&panel->view(), &View::cameraChanged, &context, changed);
+  };
+  auto* area = window.findChild<PanelArea*>();
+  std::ranges::for_each(area->panels(), followPanel);
+  QObject::connect(area, &PanelArea::added, &context, followPanel);
+  QObject::connect(&window.document(), &Document::panelsChanged, &context, changed);
+  QObject::connect(&window.colouring(), &Colouring::modeChanged, &context, changed);
+  QObject::connect(&linkCameras(window), &QAction::toggled, &context, changed);
+  QObject::connect(window.findChild<ShowMenu*>(), &ShowMenu::changed, &context, changed);
+  QObject::connect(window.findChild<SectionDock*>(), &SectionDock::changed, &context, changed);
+  for (const QDockWidget* dock : window.findChildren<QDockWidget*>()) {
+    QObject::connect(dock, &QDockWidget::visibilityChanged, &context, changed);
+    QObject::connect(dock, &QDockWidget::topLevelChanged, &context, changed);
+    QObject::connect(dock, &QDockWidget::dockLocationChanged, &context, changed);
+  }
+}
+
+}  // namespace chainmail
