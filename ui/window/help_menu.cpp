@@ -2,12 +2,18 @@
 
 #include <QMainWindow>
 
+#include "common/icons.h"
+
 namespace chainmail {
 
 HelpMenu::HelpMenu(QMainWindow& window, Document& document)
     : QObject(&window), window_(window), shortcuts_(window), example_(document, nullptr), hints_(new Hints) {}
 
 void HelpMenu::fill(QMenu& menu) {
+  auto* manual = menu.addAction(icon("help"), QStringLiteral("&Manual"), this, &HelpMenu::showManual);
+  manual->setObjectName(QStringLiteral("showManual"));
+  manual->setShortcut(Qt::CTRL | Qt::Key_F1);
+  manual->setStatusTip(QStringLiteral("Opens the manual: a tour, the algorithms, results, files and the command line"));
   auto* keys = menu.addAction(QStringLiteral("&Keyboard shortcuts…"), this, &HelpMenu::showShortcuts);
   keys->setObjectName(QStringLiteral("showShortcuts"));
   keys->setShortcut(QKeySequence::HelpContents);
@@ -22,6 +28,15 @@ void HelpMenu::welcome() {
     hints_->present();
     example_.start();
   }
+}
+
+void HelpMenu::showManual() {
+  if (manual_ == nullptr) {
+    manual_ = new ManualWindow(&window_);
+  }
+  manual_->show();
+  manual_->raise();
+  manual_->activateWindow();
 }
 
 void HelpMenu::showShortcuts() {

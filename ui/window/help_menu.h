@@ -5,13 +5,14 @@
 
 #include "window/example_drag.h"
 #include "window/hints.h"
+#include "window/manual_window.h"
 #include "window/shortcuts_dialog.h"
 
 class QMainWindow;
 
 namespace chainmail {
 
-/// What helps to find one's way: the first start's example and hints, and the list of shortcuts.
+/// The Help menu: the manual, the list of shortcuts, and the example and hints of the first start.
 class HelpMenu : public QObject {
   Q_OBJECT
 
@@ -19,18 +20,20 @@ class HelpMenu : public QObject {
   HelpMenu(QMainWindow& window, Document& document);
   void fill(QMenu& menu);
   Shortcuts& shortcuts() { return shortcuts_; }
-  /// To who sees the workbench for the first time, an example and hints.
+  /// Shows an example and hints on the first start.
   void welcome();
   void dismissHints() { hints_->hide(); }
   /// To be placed in the window, which owns it then.
   QWidget& hints() { return *hints_; }
 
  private:
+  void showManual();
   void showShortcuts();
 
   QMainWindow& window_;
   Shortcuts shortcuts_;
-  ShortcutsDialog* dialog_ = nullptr;  // made when it is first asked for
+  ManualWindow* manual_ = nullptr;     // made on first use
+  ShortcutsDialog* dialog_ = nullptr;  // made on first use
   ExampleDrag example_;
   Hints* hints_;
 };

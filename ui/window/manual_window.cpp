@@ -1,0 +1,336 @@
+#include "window/manual_window.h"
+
+#include <QFile>
+#include <QHBoxLayout>
+#include <QImageReader>
+#include <QResizeEvent>
+#include <QScrollBar>
+#include <QShortcut>
+#include <QSplitter>
+#include <QTextBlock>
+#include <QTextTable>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <array>
+
+#include "common/colours.h"
+#include "common/icons.h"
+
+namespace chainmail {
+namespace {
+
+constexpr QSize preferredSize(1100, 720);
+constexpr int listWidth = 170;
+constexpr int searchWidth = 220;
+constexpr int pageMargin = 18;
+constexpr int cellPadding = 4;
+constexpr int codeIndent = 12;
+constexpr int codeSpace = 6;
+constexpr int headingSpace = 14;
+constexpr int tableSpace = 8;
+constexpr int lineHeight = 125;  // percent
+constexpr int rowSpacing = 3;    // of the list
+
+constexpr std::array files{"index.md",   "tour.md",         "algorithms.md", "hard-cases.md", "speed.md",
+                           "physics.md", "command-line.md", "formats.md",    "sessions.md",   "library.md"};
+
+QUrl urlOf(const QString& page) { return QStringLiteral("qrc:/manual/") + page; }
+
+/// The first heading of a page.
+QString titleOf(const QString& page) {
+  QFile file(QStringLiteral(":/manual/") + page);
+  return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readLine()).mid(2).trimmed() : page;
+}
+
+/// The anchor of a heading, as code hosts make it: "Files from others" is files-from-others.
+QString anchorOf(const QString& heading) {
+  QString anchor;
+  for (const QChar one : heading.toLower()) {
+    if (one.isLetterOrNumber() || one == QLatin1Char('-') || one == QLatin1Char('_')) {
+      anchor += one;
+    } else if (one.isSpace()) {
+      anchor += QLatin1Char('-');
+    }
+  }
+  return anchor;
+}
+
+/// A page of the manual. Headings are anchors, tables have lines, and pictures are as wide as the page.
+class Page : public QTextBrowser {
+ public:
+  Page() {
+    setOpenExternalLinks(true);
+    setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);  // so that the width does not depend on the page
+    document()->setDocumentMargin(pageMargin);
+  }
+
+  /// Loads the page again, as a change of its width or its colours requires, at the same position.
+  void renew() {
+    const int position = verticalScrollBar()->value();
+    reload();
+    verticalScrollBar()->setValue(position);
+  }
+
+ protected:
+  void doSetSource(const QUrl& url, QTextDocument::ResourceType type) override {
+    QTextBrowser::doSetSource(url, type);
+    format();
+    if (!url.fragment().isEmpty()) {
+      scrollToAnchor(url.fragment());
+    }
+  }
+
+  QVariant loadResource(int type, const QUrl& name) override {
+    const QUrl url = source().resolved(name);
+    if (type != QTextDocument::ImageResource || url.scheme() != QLatin1String("qrc")) {
+      return QTextBrowser::loadResource(type, name);
+    }
+    QImageReader reader(QLatin1Char(':') + url.path());
+    const int room = viewport()->width() - 2 * pageMargin;
+    if (reader.size().width() > room) {
+      reader.setScaledSize(reader.size().scaled(room, reader.size().height(), Qt::KeepAspectRatio));
+    }
+    pictures_ = true;
+    return reader.read();
+  }
+
+  void resizeEvent(QResizeEvent* event) override {
+    QTextBrowser::resizeEvent(event);
+    if (pictures_ && event->size().width() != event->oldSize().width()) {
+      renew();
+    }
+  }
+
+ private:
+  void format() {
+    for (QTextBlock block = document()->begin(); block.isValid(); block = block.next()) {
+      if (block.blockFormat().headingLevel() > 0) {
+        makeAnchor(block);
+      } else if (isCode(block)) {
+        markCode(block);
+      } else if (QTextCursor(block).currentTable() == nullptr) {
+        QTextBlockFormat format;
+        format.setLineHeight(lineHeight, QTextBlockFormat::ProportionalHeight);
+        QTextCursor(block).mergeBlockFormat(format);
+      }
+    }
+    for (QTextFrame* frame : document()->rootFrame()->childFrames()) {
+      if (auto* table = qobject_cast<QTextTable*>(frame)) {
+        splitCells(*table);
+        formatTable(*table);
+      }
+    }
+  }
+
+  static bool isCode(const QTextBlock& block) {
+    return block.isValid() && block.blockFormat().hasProperty(QTextFormat::BlockCodeLanguage);
+  }
+
+  static void makeAnchor(const QTextBlock& block) {
+    QTextCursor cursor(block);
+    cursor.movePosition(QTextCursor::EndOfBlock, QTextCursor::KeepAnchor);
+    QTextCharFormat anchor;
+    anchor.setAnchor(true);
+    anchor.setAnchorNames({anchorOf(block.text())});
+    cursor.mergeCharFormat(anchor);
+    QTextBlockFormat space;
+    space.setTopMargin(headingSpace);
+    cursor.mergeBlockFormat(space);
+  }
+
+  /// Each line of code is a block of its own.
+  void markCode(const QTextBlock& line) {
+    QTextBlockFormat format;
+    format.setBackground(palette().alternateBase());
+    format.setLeftMargin(codeIndent);
+    format.setTopMargin(isCode(line.previous()) ? 0 : codeSpace);
+    format.setBottomMargin(isCode(line.next()) ? 0 : codeSpace);
+    QTextCursor(line).mergeBlockFormat(format);
+  }
+
+  /// Undoes a habit of Qt's Markdown reader: empty cells at the end of a row become one with the cell before them.
+  static void splitCells(QTextTable& table) {
+    for (int row = 0; row < table.rows(); ++row) {
+      for (int column = 0; column < table.columns(); ++column) {
+        if (table.cellAt(row, column).columnSpan() > 1) {
+          table.splitCell(row, column, 1, 1);
+        }
+      }
+    }
+  }
+
+  void formatTable(QTextTable& table) {
+    QTextTableFormat format = table.format();
+    format.setBorder(1);
+    format.setBorderCollapse(true);
+    format.setBorderStyle(QTextFrameFormat::BorderStyle_Solid);
+    format.setBorderBrush(palette().mid());
+    format.setCellPadding(cellPadding);
+    format.setCellSpacing(0);
+    format.setTopMargin(tableSpace);
+    format.setBottomMargin(tableSpace);
+    table.setFormat(format);
+    QTextCharFormat head;
+    head.setBackground(palette().alternateBase());
+    for (int column = 0; column < table.columns(); ++column) {
+      QTextTableCell cell = table.cellAt(0, column);
+      QTextCharFormat merged = cell.format();
+      merged.merge(head);
+      cell.setFormat(merged);
+    }
+  }
+
+  bool pictures_ = false;  // true once a page had one
+};
+
+QToolButton* makeButton(const char* name, const char* picture, const QString& tip) {
+  auto* button = new QToolButton;
+  button->setObjectName(QLatin1String(name));
+  button->setIcon(icon(picture));
+  button->setAutoRaise(true);
+  button->setToolTip(tip);
+  button->setAccessibleName(tip);
+  return button;
+}
+
+}  // namespace
+
+ManualWindow::ManualWindow(QWidget* parent)
+    : QWidget(parent, Qt::Window),
+      list_(new QListWidget),
+      page_(new Page),
+      back_(makeButton("manualBack", "left", QStringLiteral("Previous page (Alt+Left)"))),
+      forward_(makeButton("manualForward", "right", QStringLiteral("Next page (Alt+Right)"))),
+      search_(new QLineEdit),
+      answer_(new QLabel) {
+  setObjectName(QStringLiteral("manualWindow"));
+  setWindowTitle(QStringLiteral("ChainMail manual"));
+  resize(preferredSize);
+  list_->setObjectName(QStringLiteral("manualPages"));
+  list_->setAccessibleName(QStringLiteral("Pages of the manual"));
+  auto* split = new QSplitter;
+  split->addWidget(list_);
+  split->addWidget(makePageArea());
+  split->setSizes({listWidth, preferredSize.width() - listWidth});
+  split->setStretchFactor(1, 1);
+  split->setChildrenCollapsible(false);
+  auto* all = new QHBoxLayout(this);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->addWidget(split);
+  fillList();
+  addKeys();
+  connect(page_, &QTextBrowser::sourceChanged, this, &ManualWindow::showCurrent);
+  open(pages().front());
+  followTheme(*this, [this] { static_cast<Page*>(page_)->renew(); });
+}
+
+QStringList ManualWindow::pages() {
+  QStringList all;
+  std::ranges::transform(files, std::back_inserter(all), [](const char* file) { return QString::fromLatin1(file); });
+  return all;
+}
+
+void ManualWindow::open(const QString& page) { page_->setSource(urlOf(page)); }
+
+QWidget* ManualWindow::makePageArea() {
+  auto* area = new QWidget;
+  auto* column = new QVBoxLayout(area);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addLayout(makeBar());
+  column->addWidget(page_, 1);
+  page_->setObjectName(QStringLiteral("manualPage"));
+  page_->setAccessibleName(QStringLiteral("Page of the manual"));
+  return area;
+}
+
+QHBoxLayout* ManualWindow::makeBar() {
+  search_->setObjectName(QStringLiteral("manualSearch"));
+  search_->setPlaceholderText(QStringLiteral("Search this page"));
+  search_->setAccessibleName(search_->placeholderText());
+  search_->setToolTip(
+      QStringLiteral("Searches the page (Ctrl+F); Enter shows the next match, Shift+Enter the previous one"));
+  search_->setClearButtonEnabled(true);
+  search_->addAction(icon("search"), QLineEdit::LeadingPosition);
+  search_->setFixedWidth(searchWidth);
+  answer_->setObjectName(QStringLiteral("manualAnswer"));
+  auto* bar = new QHBoxLayout;
+  bar->setContentsMargins(4, 4, 4, 0);
+  bar->addWidget(back_);
+  bar->addWidget(forward_);
+  bar->addStretch(1);
+  bar->addWidget(answer_);
+  bar->addWidget(search_);
+  connect(back_, &QToolButton::clicked, page_, &QTextBrowser::backward);
+  connect(forward_, &QToolButton::clicked, page_, &QTextBrowser::forward);
+  connect(page_, &QTextBrowser::backwardAvailable, back_, &QWidget::setEnabled);
+  connect(page_, &QTextBrowser::forwardAvailable, forward_, &QWidget::setEnabled);
+  connect(search_, &QLineEdit::textChanged, this, &ManualWindow::search);
+  back_->setEnabled(false);
+  forward_->setEnabled(false);
+  return bar;
+}
+
+void ManualWindow::fillList() {
+  list_->setSpacing(rowSpacing);
+  for (const QString& page : pages()) {
+    list_->addItem(titleOf(page));
+    list_->item(list_->count() - 1)->setData(Qt::UserRole, page);
+  }
+  connect(list_, &QListWidget::currentItemChanged, this,
+          [this](const QListWidgetItem* item) { open(item->data(Qt::UserRole).toString()); });
+}
+
+void ManualWindow::addKeys() {
+  const auto add = [this](const QKeySequence& keys, QWidget* receiver, auto action) {
+    connect(new QShortcut(keys, receiver, nullptr, nullptr, Qt::WidgetWithChildrenShortcut), &QShortcut::activated,
+            this, action);
+  };
+  add(QKeySequence::Find, this, [this] {
+    search_->setFocus(Qt::ShortcutFocusReason);
+    search_->selectAll();
+  });
+  add(QKeySequence::Back, this, [this] { page_->backward(); });
+  add(QKeySequence::Forward, this, [this] { page_->forward(); });
+  add(QKeySequence::ZoomIn, this, [this] { page_->zoomIn(); });
+  add(QKeySequence::ZoomOut, this, [this] { page_->zoomOut(); });
+  add(Qt::CTRL | Qt::Key_0, this, [this] { resetZoom(); });
+  add(Qt::Key_Return, search_, [this] { searchOn({}); });
+  add(Qt::SHIFT | Qt::Key_Return, search_, [this] { searchOn(QTextDocument::FindBackward); });
+  add(Qt::Key_Escape, search_, [this] { page_->setFocus(); });
+}
+
+/// Marks the page in the list, however it was reached.
+void ManualWindow::showCurrent(const QUrl& url) {
+  const QSignalBlocker block(list_);
+  list_->setCurrentRow(int(pages().indexOf(url.fileName())));
+  search_->clear();
+}
+
+/// Searches while the words are typed: from the present match, so that it stays as long as it suits.
+void ManualWindow::search(const QString& words) {
+  QTextCursor from = page_->textCursor();
+  from.setPosition(from.selectionStart());
+  page_->setTextCursor(from);
+  answer_->clear();
+  if (!words.isEmpty()) {
+    searchOn({});
+  }
+}
+
+/// Shows the next match, or the first one after the last.
+void ManualWindow::searchOn(QTextDocument::FindFlags direction) {
+  const QTextCursor before = page_->textCursor();
+  bool found = page_->find(search_->text(), direction);
+  if (!found) {
+    page_->moveCursor(direction.testFlag(QTextDocument::FindBackward) ? QTextCursor::End : QTextCursor::Start);
+    found = page_->find(search_->text(), direction);
+  }
+  answer_->setText(found || search_->text().isEmpty() ? QString() : QStringLiteral("Not found on this page"));
+  if (!found) {
+    page_->setTextCursor(before);
+  }
+}
+
+void ManualWindow::resetZoom() { page_->setFont(font()); }
+
+}  // namespace chainmail
