@@ -1,0 +1,78 @@
+// Makes the pictures of README.md: the target `pictures`.
+
+#include "file_actions.h"
+#include "samples.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+constexpr QSize size{1600, 900};
+constexpr ElementId width = 24;  // elements per row of the sample
+
+/// The window with the sample of a cloth.
+struct Cloth : Workbench {
+  Cloth() {
+    window.resize(size);
+    window.findChild<FileActions*>()->openSample(samplesFolder() + QStringLiteral("/cloth.obj"));
+    settle();
+    choose(0, "Generalized ChainMail");
+    choose(1, "Natural Queue ChainMail");
+  }
+
+  /// Drags an element and marks it.
+  void drag(ElementId element, const Point& by, int passes) {
+    const Point from = document().mesh()->rest_position(element);
+    document().grab(element);
+    for (int i = 1; i <= passes; ++i) {
+      document().drag(from + by * i / passes);
+      settle();
+    }
+    document().release();
+    document().setHighlight(element);
+    settleFigures();
+  }
+
+  bool save(const QString& path) { return window.grab().save(path, nullptr, 0); }  // compressed most
+};
+
+/// One drag, with the violation of each link in colour.
+bool saveViolation(const QString& path) {
+  Cloth bench;
+  bench.document().setPinned({10 * width}, true);
+  bench.trigger("colourBy-violation");
+  bench.drag(8 * width + 19, Point(-2, 4, 0), 60);
+  return bench.save(path);
+}
+
+/// A pass, stopped on its way.
+bool savePropagation(const QString& path) {
+  constexpr int back = 150;
+  Cloth bench;
+  bench.trigger("showPropagation");
+  bench.drag(8 * width + 12, Point(4, 3, 0), 1);
+  for (int i = 0; i < back; ++i) {
+    bench.trigger("passBack");
+  }
+  bench.settleFigures();
+  return bench.save(path);
+}
+
+}  // namespace
+
+/// Takes the resources' folder.
+int main(int argc, char** argv) {
+  prepareApplication();
+  const QTemporaryDir settings;
+  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
+  qputenv("XDG_DATA_HOME", settings.path().toUtf8());  // nothing of the user's
+  QApplication application(argc, argv);
+  remember(Theme::dark);
+  styleApplication();
+  const QString folder = QString::fromLocal8Bit(argv[1]);
+  return saveViolation(folder + QStringLiteral("/screenshot.png")) &&
+                 savePropagation(folder + QStringLiteral("/propagation.png"))
+             ? 0
+             : 1;
+}
