@@ -21,7 +21,7 @@ struct Cloth : Workbench {
     choose(1, "Natural Queue ChainMail");
   }
 
-  /// Drags an element and marks it.
+  /// Drags an element in so many passes.
   void drag(ElementId element, const Point& by, int passes) {
     const Point from = document().mesh()->rest_position(element);
     document().grab(element);
@@ -30,7 +30,6 @@ struct Cloth : Workbench {
       settle();
     }
     document().release();
-    document().setHighlight(element);
     settleFigures();
   }
 
@@ -50,6 +49,9 @@ bool saveViolation(const QString& path) {
 bool savePropagation(const QString& path) {
   constexpr int back = 150;
   Cloth bench;
+  for (const char* hidden : {"showStiffnessDock", "showRelaxationDock", "showFrameRateDock"}) {
+    bench.trigger(hidden);
+  }
   bench.trigger("showPropagation");
   bench.drag(8 * width + 12, Point(4, 3, 0), 1);
   for (int i = 0; i < back; ++i) {

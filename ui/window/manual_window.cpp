@@ -281,9 +281,10 @@ void ManualWindow::fillList() {
 }
 
 void ManualWindow::addKeys() {
-  const auto add = [this](const QKeySequence& keys, QWidget* receiver, auto action) {
-    connect(new QShortcut(keys, receiver, nullptr, nullptr, Qt::WidgetWithChildrenShortcut), &QShortcut::activated,
-            this, action);
+  const auto add = [this](const QKeySequence& keys, QWidget* where, auto action) {
+    auto* key = new QShortcut(keys, where);
+    key->setContext(where == this ? Qt::WindowShortcut : Qt::WidgetShortcut);
+    connect(key, &QShortcut::activated, this, action);
   };
   add(QKeySequence::Find, this, [this] {
     search_->setFocus(Qt::ShortcutFocusReason);
@@ -294,8 +295,10 @@ void ManualWindow::addKeys() {
   add(QKeySequence::ZoomIn, this, [this] { page_->zoomIn(); });
   add(QKeySequence::ZoomOut, this, [this] { page_->zoomOut(); });
   add(Qt::CTRL | Qt::Key_0, this, [this] { resetZoom(); });
-  add(Qt::Key_Return, search_, [this] { searchOn({}); });
-  add(Qt::SHIFT | Qt::Key_Return, search_, [this] { searchOn(QTextDocument::FindBackward); });
+  for (const auto enter : {Qt::Key_Return, Qt::Key_Enter}) {
+    add(enter, search_, [this] { searchOn({}); });
+    add(Qt::SHIFT | enter, search_, [this] { searchOn(QTextDocument::FindBackward); });
+  }
   add(Qt::Key_Escape, search_, [this] { page_->setFocus(); });
 }
 

@@ -1,0 +1,318 @@
+// The manual in a real window, and the links of all pages that people read.
+
+#include <QDesktopServices>
+#include <QDir>
+#include <QFile>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QRegularExpression>
+#include <QScrollBar>
+#include <QTextBlock>
+#include <QTextBrowser>
+#include <QTextTable>
+#include <QToolButton>
+#include <QWheelEvent>
+
+#include "window.h"
+#include "window/manual_window.h"
+
+using namespace chainmail;
+
+namespace {
+
+const QString root = QStringLiteral(PROJECT_SOURCE_DIR);
+const QString manual = QStringLiteral("resources/manual/");
+
+QString textOf(const QString& file) {
+  QFile page(root + QLatin1Char('/') + file);
+  return page.open(QIODevice::ReadOnly) ? QString::fromUtf8(page.readAll()) : QString();
+}
+
+/// Markdown without its code, where brackets and # mean something else.
+QString withoutCode(QString text) {
+  static const QRegularExpression fenced(QStringLiteral("```.*?```"), QRegularExpression::DotMatchesEverythingOption);
+  static const QRegularExpression indented(QStringLiteral("^ {4}.*$"), QRegularExpression::MultilineOption);
+  return text.remove(fenced).remove(indented);
+}
+
+/// Targets of all links and pictures of a file.
+QStringList linksOf(const QString& file) {
+  static const QRegularExpression link(QStringLiteral(R"(\]\(([^)\s]+)\))"));
+  QStringList targets;
+  for (auto match = link.globalMatch(withoutCode(textOf(file))); match.hasNext();) {
+    targets << match.next().captured(1);
+  }
+  return targets;
+}
+
+/// The anchors of a page's headings.
+QStringList anchorsOf(const QString& file) {
+  static const QRegularExpression heading(QStringLiteral("^#+ (.*)$"), QRegularExpression::MultilineOption);
+  static const QRegularExpression dropped(QStringLiteral("[^\\w\\- ]"), QRegularExpression::UseUnicodePropertiesOption);
+  QStringList anchors;
+  for (auto match = heading.globalMatch(withoutCode(textOf(file))); match.hasNext();) {
+    anchors << match.next().captured(1).toLower().remove(dropped).replace(QLatin1Char(' '), QLatin1Char('-'));
+  }
+  return anchors;
+}
+
+bool isExternal(const QString& target) { return target.contains(QStringLiteral("://")); }
+
+/// Why a link of a file leads nowhere; empty if it leads somewhere.
+QString fault(const QString& file, const QString& target) {
+  const QString anchor = target.section(QLatin1Char('#'), 1);
+  const QString path = target.section(QLatin1Char('#'), 0, 0);
+  const QString to = path.isEmpty() ? file : QDir::cleanPath(QFileInfo(file).path() + QLatin1Char('/') + path);
+  if (!QFileInfo::exists(root + QLatin1Char('/') + to)) {
+    return QStringLiteral("%1: there is no file %2").arg(file, target);
+  }
+  if (!anchor.isEmpty() && !anchorsOf(to).contains(anchor)) {
+    return QStringLiteral("%1: there is no heading %2").arg(file, target);
+  }
+  return {};
+}
+
+QStringList pagesInSource() {
+  return QDir(root + QLatin1Char('/') + manual).entryList({QStringLiteral("*.md")}, QDir::Files, QDir::Name);
+}
+
+/// A manual as Help > Manual opens it.
+struct Manual : Workbench {
+  Manual() {
+    trigger("showManual");
+    manual = find<ManualWindow>("manualWindow");
+    page = manual->findChild<QTextBrowser*>(QStringLiteral("manualPage"));
+    list = manual->findChild<QListWidget*>(QStringLiteral("manualPages"));
+    search = manual->findChild<QLineEdit*>(QStringLiteral("manualSearch"));
+    active = QTest::qWaitFor([this] { return manual->isActiveWindow(); });
+  }
+
+  QString file() const { return page->source().fileName(); }
+  QString listed() const { return list->currentItem()->data(Qt::UserRole).toString(); }
+
+  /// Clicks in the middle of the first word that links to a target.
+  void clickLink(const QString& target) {
+    for (QTextBlock block = page->document()->begin(); block.isValid(); block = block.next()) {
+      for (auto part = block.begin(); !part.atEnd(); ++part) {
+        if (part.fragment().charFormat().anchorHref() == target) {
+          QTextCursor cursor(page->document());
+          cursor.setPosition(part.fragment().position() + 1);
+          page->setTextCursor(cursor);
+          page->ensureCursorVisible();
+          QTest::mouseClick(page->viewport(), Qt::LeftButton, {}, page->cursorRect().center());
+          return;
+        }
+      }
+    }
+    QFAIL(qPrintable(QStringLiteral("no link to ") + target));
+  }
+
+  /// True if a heading is in the visible part of the page.
+  bool showsHeading(const QString& text) const {
+    for (QTextBlock block = page->document()->begin(); block.isValid(); block = block.next()) {
+      if (block.blockFormat().headingLevel() > 0 && block.text() == text) {
+        return page->viewport()->rect().intersects(page->cursorRect(QTextCursor(block)));
+      }
+    }
+    return false;
+  }
+
+  void press(const char* button) {
+    QTest::mouseClick(manual->findChild<QToolButton*>(QLatin1String(button)), Qt::LeftButton);
+  }
+
+  ManualWindow* manual;
+  QTextBrowser* page;
+  QListWidget* list;
+  QLineEdit* search;
+  bool active = false;
+};
+
+/// Stands for the browser that external links open in.
+class Browser : public QObject {
+  Q_OBJECT
+
+ public:
+  Browser() { QDesktopServices::setUrlHandler(QStringLiteral("https"), this, "open"); }
+  ~Browser() override { QDesktopServices::unsetUrlHandler(QStringLiteral("https")); }
+  QList<QUrl> opened;
+
+ public slots:
+  void open(const QUrl& url) { opened << url; }
+};
+
+}  // namespace
+
+class WindowManual : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+
+  void everyPageIsListedByItsTitle() {
+    QStringList listed = ManualWindow::pages();
+    listed.sort();
+    QVERIFY(listed.size() > 5);
+    QCOMPARE(listed, pagesInSource());
+    ManualWindow window(nullptr);
+    const auto* list = window.findChild<QListWidget*>(QStringLiteral("manualPages"));
+    QCOMPARE(list->count(), int(listed.size()));
+    for (int row = 0; row < list->count(); ++row) {
+      const QString page = ManualWindow::pages()[row];
+      QCOMPARE(QStringLiteral("# ") + list->item(row)->text(), textOf(manual + page).section(QLatin1Char('\n'), 0, 0));
+    }
+  }
+
+  void everyLinkLeadsSomewhere_data() {
+    QTest::addColumn<QString>("file");
+    for (const QString& page : pagesInSource()) {
+      QTest::newRow(qPrintable(page)) << manual + page;
+    }
+    QTest::newRow("README.md") << QStringLiteral("README.md");
+    QTest::newRow("CONTRIBUTING.md") << QStringLiteral("CONTRIBUTING.md");
+  }
+  void everyLinkLeadsSomewhere() {
+    QFETCH(QString, file);
+    QVERIFY(!textOf(file).isEmpty());
+    for (const QString& target : linksOf(file)) {
+      if (!isExternal(target)) {
+        QVERIFY2(fault(file, target).isEmpty(), qPrintable(fault(file, target)));
+      }
+    }
+  }
+
+  void faultyLinksAreFound() {
+    QVERIFY(linksOf(QStringLiteral("README.md")).contains(QStringLiteral("resources/manual/tour.md")));
+    QCOMPARE(fault(manual + "index.md", QStringLiteral("formats.md#files-from-others")), QString());
+    QVERIFY(!fault(manual + "index.md", QStringLiteral("format.md")).isEmpty());
+    QVERIFY(!fault(manual + "index.md", QStringLiteral("formats.md#files")).isEmpty());
+    QVERIFY(!fault(manual + "index.md", QStringLiteral("#files-from-others")).isEmpty());
+  }
+
+  /// What the window shows must be compiled in, pictures too.
+  void everyLinkOfAPageIsInTheWindow() {
+    for (const QString& page : ManualWindow::pages()) {
+      QCOMPARE(textOf(manual + page).isEmpty(), false);
+      for (const QString& target : linksOf(manual + page)) {
+        const QUrl url = QUrl(QStringLiteral("qrc:/manual/") + page).resolved(QUrl(target));
+        QVERIFY2(isExternal(target) || QFile::exists(QLatin1Char(':') + url.path()), qPrintable(page + ": " + target));
+      }
+    }
+  }
+
+  void theMenuOpensItsFirstPage() {
+    Manual bench;
+    QVERIFY(bench.active && bench.manual->isVisible());
+    QCOMPARE(bench.file(), ManualWindow::pages().front());
+    QCOMPARE(bench.listed(), ManualWindow::pages().front());
+    QVERIFY(bench.page->toPlainText().startsWith(QStringLiteral("ChainMail manual")));
+    bench.manual->open(QStringLiteral("speed.md"));
+    bench.trigger("showManual");  // the same window, and the page that it showed
+    QCOMPARE(bench.window.findChildren<ManualWindow*>().size(), qsizetype{1});
+    QCOMPARE(bench.file(), QStringLiteral("speed.md"));
+  }
+
+  void aClickOnALinkShowsItsPage() {
+    Manual bench;
+    bench.clickLink(QStringLiteral("physics.md"));
+    QCOMPARE(bench.file(), QStringLiteral("physics.md"));
+    QCOMPARE(bench.listed(), QStringLiteral("physics.md"));
+    bench.press("manualBack");
+    QCOMPARE(bench.file(), QStringLiteral("index.md"));
+    QCOMPARE(bench.listed(), QStringLiteral("index.md"));
+    bench.press("manualForward");
+    QCOMPARE(bench.file(), QStringLiteral("physics.md"));
+  }
+
+  void aLinkToAHeadingShowsIt() {
+    Manual bench;
+    bench.manual->open(QStringLiteral("tour.md"));
+    QCOMPARE(bench.page->verticalScrollBar()->value(), 0);
+    bench.clickLink(QStringLiteral("command-line.md#scripts-of-moves"));
+    QCOMPARE(bench.file(), QStringLiteral("command-line.md"));
+    QVERIFY(bench.showsHeading(QStringLiteral("Scripts of moves")));
+    bench.manual->open(QStringLiteral("tour.md#cut"));
+    QVERIFY(bench.showsHeading(QStringLiteral("Cut")));
+    QVERIFY(!bench.showsHeading(QStringLiteral("Tour")));
+  }
+
+  void theListShowsAPage() {
+    Manual bench;
+    for (int row = bench.list->count() - 1; row >= 0; --row) {
+      bench.list->setCurrentRow(row);
+      QCOMPARE(bench.file(), ManualWindow::pages()[row]);
+    }
+  }
+
+  void otherLinksOpenInTheBrowser() {
+    Manual bench;
+    Browser browser;
+    bench.page->setMarkdown(QStringLiteral("[elsewhere](https://example.org/page)"));
+    bench.clickLink(QStringLiteral("https://example.org/page"));
+    QCOMPARE(browser.opened, QList<QUrl>{QUrl(QStringLiteral("https://example.org/page"))});
+  }
+
+  void aPageIsSearched() {
+    Manual bench;
+    bench.manual->open(QStringLiteral("tour.md"));
+    QTest::keyClick(bench.page, Qt::Key_F, Qt::ControlModifier);
+    QVERIFY(bench.search->hasFocus());
+    QTest::keyClicks(bench.search, QStringLiteral("ffmpeg"));
+    QCOMPARE(bench.page->textCursor().selectedText(), QStringLiteral("ffmpeg"));
+    QVERIFY(bench.page->verticalScrollBar()->value() > 0);
+    const int only = bench.page->textCursor().position();
+    QTest::keyClick(bench.search, Qt::Key_Return);  // the first one again
+    QCOMPARE(bench.page->textCursor().position(), only);
+    bench.search->setText(QStringLiteral("panel"));
+    QTest::keyClick(bench.search, Qt::Key_Return);
+    const int second = bench.page->textCursor().position();
+    QTest::keyClick(bench.search, Qt::Key_Return);
+    QVERIFY(bench.page->textCursor().position() > second);
+    QTest::keyClick(bench.search, Qt::Key_Return, Qt::ShiftModifier);
+    QCOMPARE(bench.page->textCursor().position(), second);
+    const auto* answer = bench.manual->findChild<QLabel*>(QStringLiteral("manualAnswer"));
+    QVERIFY(answer->text().isEmpty());
+    bench.search->setText(QStringLiteral("no such words"));
+    QCOMPARE(answer->text(), QStringLiteral("Not found on this page"));
+    bench.search->clear();
+    QVERIFY(answer->text().isEmpty());
+  }
+
+  void theWheelZooms() {
+    Manual bench;
+    const double before = bench.page->font().pointSizeF();
+    const QPointF at = bench.page->viewport()->rect().center();
+    QWheelEvent wheel(at, bench.page->viewport()->mapToGlobal(at), {}, {0, 120}, Qt::NoButton, Qt::ControlModifier,
+                      Qt::NoScrollPhase, false);
+    QApplication::sendEvent(bench.page->viewport(), &wheel);
+    QVERIFY(bench.page->font().pointSizeF() > before);
+    QTest::keyClick(bench.page, Qt::Key_0, Qt::ControlModifier);
+    QCOMPARE(bench.page->font().pointSizeF(), before);
+  }
+
+  /// Neither a table nor a picture is wider than the page, where a window is as small as it starts.
+  void nothingIsCutOff() {
+    Manual bench;
+    for (const QString& page : ManualWindow::pages()) {
+      bench.manual->open(page);
+      QVERIFY2(bench.page->horizontalScrollBar()->maximum() == 0, qPrintable(page));
+    }
+  }
+
+  void tablesHaveAllTheirCells() {
+    Manual bench;
+    bench.manual->open(QStringLiteral("speed.md"));
+    int tables = 0;
+    for (QTextFrame* frame : bench.page->document()->rootFrame()->childFrames()) {
+      const auto* table = qobject_cast<QTextTable*>(frame);
+      for (int row = 0; table != nullptr && row < table->rows(); ++row) {
+        QCOMPARE(table->cellAt(row, 0).columnSpan() + table->cellAt(row, table->columns() - 2).columnSpan(), 2);
+      }
+      tables += int(table != nullptr);
+    }
+    QVERIFY(tables > 1);
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowManual>(argc, argv); }
+#include "window_manual.moc"
