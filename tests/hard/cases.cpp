@@ -59,7 +59,7 @@ void add_meshes(std::vector<Case>& all) {
 }
 
 void add_hands(std::vector<Case>& all) {
-  all.push_back(make("hand at 1e30", make_grid(12, 12), usual, drag(78, Point(1e30, -1e30, 0))));
+  all.push_back(make("handle at 1e30", make_grid(12, 12), usual, drag(78, Point(1e30, -1e30, 0))));
   all.push_back(make("the smallest step", make_grid(12, 12), usual, [](Scene& scene, Outcome& outcome) {
     const auto before = scene.positions();
     for (int i = 0; i < 100; ++i) {
@@ -87,7 +87,7 @@ void add_pins(std::vector<Case>& all) {
     scene.pin(others);
     scene.drag_by(0, Point(-3, -2, 0), 2);
   }));
-  all.push_back(make("a border pinned, the hand far beyond", make_grid(12, 12), usual, [](Scene& scene, Outcome&) {
+  all.push_back(make("a border pinned, the handle far beyond", make_grid(12, 12), usual, [](Scene& scene, Outcome&) {
     std::vector<ElementId> border;
     for (ElementId row = 0; row < 12; ++row) {
       border.push_back(12 * row);

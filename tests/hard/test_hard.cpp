@@ -102,22 +102,22 @@ QStringList cells_in(const QString& line) {
   return cells;
 }
 
-/// The text of README.md's section on hard cases, without its line breaks; its table line by line in `table`.
-QString hard_cases_in_readme(QStringList& table) {
-  QFile file(QStringLiteral(README));
+/// Returns the text of the manual's page without its line breaks; its table line by line in `table`.
+QString page_text(QStringList& table) {
+  QFile file(QStringLiteral(PAGE));
   if (!file.open(QIODevice::ReadOnly)) {
     return {};
   }
-  const QString section = QString::fromUtf8(file.readAll()).section("\n## Hard cases\n", 1).section("\n## ", 0, 0);
-  for (const QString& line : section.split('\n')) {
+  const QString text = QString::fromUtf8(file.readAll());
+  for (const QString& line : text.split('\n')) {
     if (line.startsWith('|')) {
       table << line;
     }
   }
-  return section.simplified();
+  return text.simplified();
 }
 
-/// The algorithms of a column of the README's table, by their labels: 'Spiral and Natural Queue' are two.
+/// Labels of the algorithms in a column of the page's table: 'Spiral and Natural Queue' are two.
 std::vector<std::string> algorithms_in(const QString& column) {
   std::vector<std::string> labels;
   for (const QString& name : column.split(" and ")) {
@@ -131,10 +131,8 @@ std::vector<std::string> algorithms_in(const QString& column) {
   return labels;
 }
 
-/// As the README writes a drift.
-QString in_readme(double drift) {
-  return QString::fromStdString(number(drift)).replace("e-0", "e-").replace("e+0", "e");
-}
+/// Returns a drift as the page writes it.
+QString on_page(double drift) { return QString::fromStdString(number(drift)).replace("e-0", "e-").replace("e+0", "e"); }
 
 }  // namespace
 
@@ -146,8 +144,8 @@ class HardTest : public QObject {
  private slots:
   void holds_data();
   void holds();
-  void the_readme_has_the_table();
-  void the_readme_has_the_drifts();
+  void the_manual_has_the_table();
+  void the_manual_has_the_drifts();
   void what_is_no_number_is_refused_data();
   void what_is_no_number_is_refused();
   void cleanupTestCase();
@@ -216,13 +214,13 @@ void HardTest::holds() {
 }
 
 /// Every cell, and no case more or less: positions are the same to the bit on every machine.
-void HardTest::the_readme_has_the_table() {
+void HardTest::the_manual_has_the_table() {
   if (!has_all_rows()) {
     QSKIP("compares what all cases gave");
   }
   QStringList table, wrong;
-  hard_cases_in_readme(table);
-  QVERIFY2(table.size() > 2, "README.md has a table under 'Hard cases'");
+  page_text(table);
+  QVERIFY2(table.size() > 2, "the manual has a table of hard cases");
   const QStringList head = cells_in(table.front());
   Cells cells = cells_of(rows_, held);
   std::set<std::string> in_table, algorithms_there;
@@ -232,7 +230,7 @@ void HardTest::the_readme_has_the_table() {
     const std::string name = row.front().toStdString();
     in_table.insert(name);
     if (std::ranges::none_of(rows_, [&](const Row& one) { return one.name == name; })) {
-      QVERIFY2(!large, qPrintable("README.md has a case that does not exist: " + row.front()));
+      QVERIFY2(!large, qPrintable("the manual has a case that does not exist: " + row.front()));
       qInfo() << "compared in release builds alone:" << row.front();
       continue;
     }
@@ -247,27 +245,27 @@ void HardTest::the_readme_has_the_table() {
       }
     }
   }
-  QVERIFY2(wrong.isEmpty(), qPrintable("README.md's table is out of date:\n" + wrong.join('\n')));
+  QVERIFY2(wrong.isEmpty(), qPrintable("the manual's table is out of date:\n" + wrong.join('\n')));
   for (const Row& row : rows_) {
-    QVERIFY2(in_table.contains(row.name), ("README.md lacks the case " + row.name).c_str());
+    QVERIFY2(in_table.contains(row.name), ("the manual lacks the case " + row.name).c_str());
   }
   QCOMPARE(algorithms_there.size(), algorithms().size());
 }
 
 /// The text below the table says what the printed table calls drift.
-void HardTest::the_readme_has_the_drifts() {
+void HardTest::the_manual_has_the_drifts() {
   if (!has_all_rows()) {
     QSKIP("compares what all cases gave");
   }
   QStringList table;
-  const QString text = hard_cases_in_readme(table);
+  const QString text = page_text(table);
   const double turned = std::max(largest_drift("turned by 45°", Precision::single_precision, false),
                                  largest_drift("turned by 45°", Precision::double_precision, false));
   const double generalized = std::max(largest_drift("turned by 45°", Precision::single_precision, true),
                                       largest_drift("turned by 45°", Precision::double_precision, true));
   const QString apart =
-      QString("up to %1 rest lengths apart (Generalized %2)").arg(in_readme(turned), in_readme(generalized));
-  QVERIFY2(text.contains(apart), qPrintable("README.md lacks: " + apart));
+      QString("up to %1 rest lengths apart (Generalized %2)").arg(on_page(turned), on_page(generalized));
+  QVERIFY2(text.contains(apart), qPrintable("the manual lacks: " + apart));
   if (!large) {
     QSKIP("the drift of a million moves is compared in release builds alone");
   }
@@ -275,9 +273,9 @@ void HardTest::the_readme_has_the_drifts() {
   QCOMPARE(largest_drift(moves, Precision::single_precision, false), 0.0);
   QCOMPARE(largest_drift(moves, Precision::double_precision, false), 0.0);
   const QString drifted = QString("no algorithm but Generalized (%1 of a rest length in float, %2 in double)")
-                              .arg(in_readme(largest_drift(moves, Precision::single_precision, true)),
-                                   in_readme(largest_drift(moves, Precision::double_precision, true)));
-  QVERIFY2(text.contains(drifted), qPrintable("README.md lacks: " + drifted));
+                              .arg(on_page(largest_drift(moves, Precision::single_precision, true)),
+                                   on_page(largest_drift(moves, Precision::double_precision, true)));
+  QVERIFY2(text.contains(drifted), qPrintable("the manual lacks: " + drifted));
 }
 
 void HardTest::what_is_no_number_is_refused_data() {

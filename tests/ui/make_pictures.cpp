@@ -1,7 +1,7 @@
 // Makes the pictures of README.md: the target `pictures`.
 
-#include "file_actions.h"
-#include "samples.h"
+#include "io/file_actions.h"
+#include "io/samples.h"
 #include "window.h"
 
 using namespace chainmail;
