@@ -303,6 +303,18 @@ class WindowManual : public QObject {
     }
   }
 
+  void aLineWithAPictureIsAsHighAsIt() {
+    Manual bench;
+    bench.manual->open(QStringLiteral("physics.md"));
+    for (QTextBlock block = bench.page->document()->begin(); block.isValid(); block = block.next()) {
+      if (block.text().contains(QChar::ObjectReplacementCharacter)) {
+        QCOMPARE(block.blockFormat().lineHeightType(), int(QTextBlockFormat::SingleHeight));
+        return;
+      }
+    }
+    QFAIL("no picture");
+  }
+
   void tablesHaveAllTheirCells() {
     Manual bench;
     bench.manual->open(QStringLiteral("speed.md"));

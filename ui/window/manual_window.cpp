@@ -108,7 +108,7 @@ class Page : public QTextBrowser {
         makeAnchor(block);
       } else if (isCode(block)) {
         markCode(block);
-      } else if (QTextCursor(block).currentTable() == nullptr) {
+      } else if (QTextCursor(block).currentTable() == nullptr && !hasPicture(block)) {
         QTextBlockFormat format;
         format.setLineHeight(lineHeight, QTextBlockFormat::ProportionalHeight);
         QTextCursor(block).mergeBlockFormat(format);
@@ -125,6 +125,9 @@ class Page : public QTextBrowser {
   static bool isCode(const QTextBlock& block) {
     return block.isValid() && block.blockFormat().hasProperty(QTextFormat::BlockCodeLanguage);
   }
+
+  /// A line with a picture is as high as the picture.
+  static bool hasPicture(const QTextBlock& block) { return block.text().contains(QChar::ObjectReplacementCharacter); }
 
   static void makeAnchor(const QTextBlock& block) {
     QTextCursor cursor(block);
