@@ -10,7 +10,7 @@
 #include "files/mesh/open_mesh.h"
 #include "files/text/outputs.h"
 #include "mesh/error.h"
-#include "simulate/parameters.h"
+#include "mesh/parameters.h"
 
 namespace chainmail::command_line {
 

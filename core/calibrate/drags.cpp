@@ -86,7 +86,7 @@ std::vector<ElementId> without(const std::vector<ElementId>& elements, const std
 }
 
 /// So many drags with their reference solutions; fewer cannot be.
-std::vector<TrueDrag> draw(TruthSolver& solver, const Mesh& mesh, const std::vector<ElementId>& free, int count,
+std::vector<TrueDrag> draw(ReferenceSolver& solver, const Mesh& mesh, const std::vector<ElementId>& free, int count,
                            std::mt19937_64& random, const Progress& progress) {
   std::vector<TrueDrag> drags;
   std::string last_failure;
@@ -114,7 +114,7 @@ TrueDrags true_drags(const MeshPointer& mesh, const Cuts& cuts, const Calibratio
   std::mt19937_64 random(options.seed);
   const std::vector<ElementId> free = without(handles(*mesh, options.pins), options.not_these);
   const std::vector<double> at_rest(options.pins.size() * static_cast<std::size_t>(mesh->space_dimension), 0.0);
-  TruthSolver solver({mesh, cuts, options.pins, at_rest, options.elastic}, progress.part(0, 0.1));
+  ReferenceSolver solver({mesh, cuts, options.pins, at_rest, options.elastic}, progress.part(0, 0.1));
   const double fitted = 0.1 + 0.9 * options.drags / (options.drags + options.held_out);
   TrueDrags drags;
   drags.fitted = draw(solver, *mesh, free, options.drags, random, progress.part(0.1, fitted));

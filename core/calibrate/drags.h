@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "calibrate/calibrate.h"
-#include "measure/truth.h"
+#include "measure/reference_solution.h"
 #include "report/run/cases.h"
 
 namespace chainmail {
@@ -12,7 +12,7 @@ namespace chainmail {
 struct TrueDrag {
   ElementId element = 0;
   Point target = Point::Zero();
-  Truth truth;
+  ReferenceSolution truth;
   report::RecordedMoves moves;
 };
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "measure/truth.h"
+#include "measure/reference_solution.h"
 #include "solve/solver.h"
 
 namespace chainmail {
@@ -26,11 +26,11 @@ struct PhysicalError {
 };
 
 /// The reference must be of this mesh.
-PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions, const Truth& truth);
+PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions, const ReferenceSolution& reference);
 /// The null model: the handle and the pins stand where they are prescribed, and nothing else moves.
-PhysicalError error_of_nothing_moving(const Mesh& mesh, const Truth& truth);
+PhysicalError error_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference);
 
 /// RMS of the reference's displacements over all elements (mesh units).
-double rms_displacement(const Mesh& mesh, const Truth& truth);
+double rms_displacement(const Mesh& mesh, const ReferenceSolution& reference);
 
 }  // namespace chainmail

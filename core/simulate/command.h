@@ -8,7 +8,7 @@
 
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
-#include "solve/placement.h"
+#include "solve/snapshot.h"
 #include "solve/softness.h"
 #include "solve/solver.h"
 
@@ -84,7 +84,7 @@ struct ReplaceMesh {
 
 /// Puts elements where they are said to stand. It must be a placement of this mesh.
 struct Place {
-  std::shared_ptr<const Placement> placement;
+  std::shared_ptr<const Snapshot> placement;
 };
 
 /// Names a state that a simulation keeps for undo.

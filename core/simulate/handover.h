@@ -16,7 +16,7 @@ struct ObjectState {
   std::vector<LinkId> cuts;
   std::vector<ElementId> pins;
   std::shared_ptr<const Softness> softness;
-  KeptPositions positions;
+  PositionBlocks positions;
   bool valid = true;
 };
 

@@ -71,7 +71,7 @@ class Simulation {
   /// The element that the last pass was about.
   std::optional<ElementId> last_moved() const { return last_moved_; }
   /// Where the elements stand, to be placed there again.
-  Placement placement() const { return solver_->placement(away_); }
+  Snapshot placement() const { return solver_->placement(away_); }
   /// The blocks in which a position may have changed since forget_changes().
   const ElementBlocks& changed() const { return changed_; }
   void forget_changes() { changed_.clear(); }
@@ -128,7 +128,7 @@ class Simulation {
   State current_state();
   void take_state(const State& state);
   void take_cuts(const std::vector<LinkId>& cuts);
-  void take_positions(const KeptPositions& positions);
+  void take_positions(const PositionBlocks& positions);
 
   MeshPointer mesh_;
   Algorithm algorithm_;
@@ -138,7 +138,7 @@ class Simulation {
   ElasticOptions elastic_;
   ElementBlocks changed_;    // since they were last forgotten
   ElementBlocks away_;       // no element outside them stands away from rest
-  KeptPositions last_kept_;  // as positions were last kept or taken back
+  PositionBlocks last_kept_;  // as positions were last kept or taken back
   ElementBlocks unkept_;     // the blocks in which a position may have changed since
   std::optional<ElementId> grabbed_;
   std::optional<ElementId> last_moved_;  // the element of the last pass

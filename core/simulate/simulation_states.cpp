@@ -96,7 +96,7 @@ void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
 }
 
 /// Blocks that both states share are as they were kept, unless a position of them has changed since.
-void Simulation::take_positions(const KeptPositions& positions) {
+void Simulation::take_positions(const PositionBlocks& positions) {
   last_kept_.blocks.resize(away_.block_count());
   away_.clear();
   for (std::size_t block = 0; block < away_.block_count(); ++block) {

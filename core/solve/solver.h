@@ -5,53 +5,18 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "elastic/elastic.h"
 #include "mesh/cuts.h"
 #include "mesh/element_blocks.h"
-#include "mesh/mesh.h"
 #include "mesh/progress.h"
-#include "solve/placement.h"
+#include "solve/algorithms.h"
+#include "solve/snapshot.h"
 #include "solve/relaxation_result.h"
 #include "solve/softness.h"
 #include "solve/trace.h"
 
 namespace chainmail {
-
-enum class Algorithm {
-  generalized,
-  spiral,
-  natural_queue,
-  enhanced,
-  original,
-  exact,
-  linear_fem,
-  neo_hookean,
-  boundary_elements,
-  free_form
-};
-
-/// How an algorithm is called: `name` on the command line, `label` in the window, and its source.
-struct AlgorithmInfo {
-  Algorithm algorithm;
-  std::string_view name;
-  std::string_view label;
-  std::string_view source;
-};
-
-/// Every algorithm of the ChainMail family, in the order in which they are offered.
-std::span<const AlgorithmInfo> algorithms();
-/// What they are compared with: methods of elasticity, and free-form deformation.
-std::span<const AlgorithmInfo> elastic_algorithms();
-/// First the ChainMail family, then the others.
-std::span<const AlgorithmInfo> every_algorithm();
-const AlgorithmInfo& info(Algorithm algorithm);
-/// The method of one that is none of the ChainMail family.
-std::optional<ElasticMethod> elastic_method(Algorithm algorithm);
-/// The algorithm of this name, if there is one.
-std::optional<Algorithm> find_algorithm(std::string_view name);
 
 enum class Precision { single_precision, double_precision };
 
@@ -59,12 +24,7 @@ enum class Precision { single_precision, double_precision };
 double position_limit(Precision precision);
 
 /// Throws Error, saying why, where a placement is none of this mesh, or holds numbers beyond that limit.
-void check(const Placement& placement, const Mesh& mesh, Precision precision);
-
-/// Whether an algorithm works on a mesh: 3D ChainMail does on grids alone, others need cells or faces.
-bool fits(Algorithm algorithm, const Mesh& mesh);
-/// Throws Error, saying why, where it does not.
-void check(Algorithm algorithm, const Mesh& mesh);
+void check(const Snapshot& placement, const Mesh& mesh, Precision precision);
 
 /// The current positions of all elements, read in place; valid until the solver is next changed.
 class PositionView {
@@ -168,14 +128,14 @@ class Solver {
   /// Takes every carried coordinate from `in`, as copy_positions wrote it.
   virtual void set_positions(std::span<const double> in) = 0;
   /// Where the elements of these blocks stand; no other may stand away from rest.
-  virtual Placement placement(const ElementBlocks& away) const = 0;
+  virtual Snapshot placement(const ElementBlocks& away) const = 0;
   /// Puts elements there, and all others to rest; none outside `away` stands away from it now. It must be a placement
   /// of the mesh, of numbers within position_limit.
-  virtual void place(const Placement& placement, const ElementBlocks& away) = 0;
+  virtual void place(const Snapshot& placement, const ElementBlocks& away) = 0;
   /// Brings these blocks of `kept` up to date; no element outside `away` may stand away from rest.
-  virtual void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, KeptPositions& kept) const = 0;
+  virtual void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, PositionBlocks& kept) const = 0;
   /// Takes these blocks back; all others must stand as they were kept.
-  virtual void restore(const KeptPositions& kept, const ElementBlocks& blocks) = 0;
+  virtual void restore(const PositionBlocks& kept, const ElementBlocks& blocks) = 0;
 };
 
 /// Throws Error where the algorithm does not work on the mesh.

@@ -11,8 +11,8 @@
 #include "mesh/error.h"
 #include "solve/elastic_body.h"
 #include "solve/exact_solver.h"
-#include "solve/list_solver.h"
-#include "solve/placing.h"
+#include "solve/list_algorithm.h"
+#include "solve/body_positions.h"
 #include "solve/relaxation.h"
 #include "solve/solver.h"
 
@@ -23,15 +23,18 @@ template <class Scalar, int Dimension>
 class TypedSolver final : public Solver {
  public:
   TypedSolver(const MeshPointer& mesh, Algorithm algorithm)
-      : body_(mesh, algorithm == Algorithm::exact), algorithm_(algorithm) {}
+      : body_(mesh, info(algorithm).from_rest), algorithm_(info(algorithm)) {}
 
   void set_algorithm(Algorithm algorithm) override {
     check(algorithm, *body_.mesh);
-    algorithm_ = algorithm;
+    if (algorithm != algorithm_.algorithm) {
+      list_.reset();
+    }
+    algorithm_ = info(algorithm);
     forget();
     elastic_.forget();
-    if (body_.from_rest != (algorithm == Algorithm::exact)) {
-      body_.hold_from_rest(algorithm == Algorithm::exact, softness_);
+    if (body_.from_rest != algorithm_.from_rest) {
+      body_.hold_from_rest(algorithm_.from_rest, softness_);
       exact_.set_valid(at_rest_);
       if (at_rest_) {
         body_.reset_positions();  // what rounding to absolute positions took is known here
@@ -115,9 +118,9 @@ class TypedSolver final : public Solver {
       }
     }
     try {
-      const PassCount count = elastic_method(algorithm_)       ? move_elastically(element, next)
-                              : algorithm_ == Algorithm::exact ? exact_.move(body_, pins_, element, next, moved_, trace)
-                                                               : move_by_lists(element, next, trace);
+      const PassCount count = algorithm_.elastic ? move_elastically(element, next)
+                              : algorithm_.list  ? move_by_list(element, next, trace)
+                                                 : exact_.move(body_, pins_, element, next, moved_, trace);
       at_rest_ = false;
       return count;
     } catch (const std::bad_alloc&) {
@@ -128,10 +131,10 @@ class TypedSolver final : public Solver {
 
   const std::string& remark() const override { return elastic_.remark(); }
   std::span<const double> control_points() override {
-    if (algorithm_ != Algorithm::free_form) {
+    if (!algorithm_.has_control_points) {
       return {};
     }
-    elastic_.prepare(body_, ElasticMethod::free_form, pins_);
+    elastic_.prepare(body_, *algorithm_.elastic, pins_);
     return elastic_.control_points();
   }
 
@@ -188,9 +191,9 @@ class TypedSolver final : public Solver {
     take_positions();
   }
 
-  Placement placement(const ElementBlocks& away) const override { return placement_of(body_, away); }
+  Snapshot placement(const ElementBlocks& away) const override { return placement_of(body_, away); }
 
-  void place(const Placement& placement, const ElementBlocks& away) override {
+  void place(const Snapshot& placement, const ElementBlocks& away) override {
     reset(away);
     if (!placement.runs.empty()) {
       place_elements(body_, placement);
@@ -198,11 +201,11 @@ class TypedSolver final : public Solver {
     }
   }
 
-  void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, KeptPositions& kept) const override {
+  void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, PositionBlocks& kept) const override {
     keep_places(body_, blocks, away, kept);
   }
 
-  void restore(const KeptPositions& kept, const ElementBlocks& blocks) override {
+  void restore(const PositionBlocks& kept, const ElementBlocks& blocks) override {
     restore_places(body_, kept, blocks);
     forget();
     take_positions();
@@ -242,11 +245,15 @@ class TypedSolver final : public Solver {
 
   PassCount move_elastically(ElementId element, const Scalar (&target)[Dimension]) {
     exact_.set_valid(false);
-    return elastic_.move(body_, *elastic_method(algorithm_), pins_, element, target, moved_);
+    return elastic_.move(body_, *algorithm_.elastic, pins_, element, target, moved_);
   }
 
-  PassCount move_by_lists(ElementId element, const Scalar (&target)[Dimension], Trace* trace) {
-    const std::span<const Step> steps = lists_.move(body_, algorithm_, element, target, moved_);
+  PassCount move_by_list(ElementId element, const Scalar (&target)[Dimension], Trace* trace) {
+    if (!list_) {
+      list_ = algorithm_.list->make<Scalar, Dimension>();
+    }
+    std::copy(std::begin(target), std::end(target), body_.places[element].at);
+    const std::span<const Step> steps = list_->propagate(body_, element, moved_);
     if (trace != nullptr) {
       for (const Step& step : steps) {
         trace->push_back({step.element(), step.sponsor, step.has_moved()});
@@ -256,19 +263,21 @@ class TypedSolver final : public Solver {
     return {steps.size(), moved_.size()};
   }
 
-  /// What the next pass would take over from the last one holds no more.
+  /// Drops everything that the next pass would reuse from the last one.
   void forget() {
-    lists_.forget();
+    if (list_) {
+      list_->forget();
+    }
     exact_.forget();
   }
 
-  /// There was no memory in the middle of a pass: nothing of it may come up in the next one.
+  /// Called if memory ran out in the middle of a pass: the next pass reuses nothing of it.
   void drop_pass() {
     moved_.clear();
     at_rest_ = false;
     exact_.set_valid(false);
     forget();
-    lists_ = {};
+    list_.reset();
     exact_ = {};
     exact_.set_valid(false);
     elastic_.forget();
@@ -284,10 +293,10 @@ class TypedSolver final : public Solver {
   }
 
   Body<Scalar, Dimension> body_;
-  Algorithm algorithm_;
+  AlgorithmInfo algorithm_;
   Softness softness_;
   std::vector<ElementId> pins_;  // ascending
-  ListSolver<Scalar, Dimension> lists_;
+  std::unique_ptr<ListMethod<Scalar, Dimension>> list_;  // of the algorithm, made by its first pass
   ExactSolver<Scalar, Dimension> exact_;
   ElasticBody elastic_;
   std::vector<ElementId> moved_;

@@ -60,11 +60,11 @@ class AnyCommand {
   /// A few elements of some mesh, in one to three dimensions.
   Command place() {
     const ElementId first = below(elements_), end = first + 1 + below(70);
-    Placement placement{below(2) == 0, {first, end}, {}};
+    Snapshot placement{below(2) == 0, {first, end}, {}};
     for (std::uint32_t i = 0, count = (end - first) * (1 + below(3)); i < count; ++i) {
       placement.held.push_back(between(-4, 16));
     }
-    return commands::Place{std::make_shared<const Placement>(placement)};
+    return commands::Place{std::make_shared<const Snapshot>(placement)};
   }
   double between(double low, double high) { return uniform(random_, low, high); }
 

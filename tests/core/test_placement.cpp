@@ -20,8 +20,8 @@ class PlacementTest : public QObject {
   void a_solver_is_asked_in_turn();
 
  private:
-  static Command place(Placement placement) {
-    return commands::Place{std::make_shared<const Placement>(std::move(placement))};
+  static Command place(Snapshot placement) {
+    return commands::Place{std::make_shared<const Snapshot>(std::move(placement))};
   }
   static Simulation dragged(const MeshPointer& mesh, Algorithm algorithm, Precision precision) {
     Simulation simulation(mesh, algorithm, precision);
@@ -94,11 +94,11 @@ void PlacementTest::what_does_not_fit_is_refused() {
   const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
   Simulation simulation = dragged(mesh, Algorithm::spiral, Precision::single_precision);
   const Snapshot before(simulation);
-  const std::vector<Placement> wrong{
+  const std::vector<Snapshot> wrong{
       {false, {0, 1}, {1}},       {false, {0, 1}, {1, 2, 3}},        {false, {0}, {}},
       {false, {1, 0}, {}},        {false, {15, 17}, {1, 2, 3, 4}},   {false, {0, 1, 0, 1}, {1, 2, 3, 4}},
       {false, {0, 1}, {1, 1e38}}, {false, {0, 1}, {1, std::nan("")}}};
-  for (const Placement& placement : wrong) {
+  for (const Snapshot& placement : wrong) {
     QVERIFY_THROWS_EXCEPTION(Error, carry_out(simulation, place(placement)));
     QVERIFY(Snapshot(simulation) == before);
   }
@@ -108,7 +108,7 @@ void PlacementTest::a_solver_is_asked_in_turn() {
   const auto mesh = make_mesh(MeshKind::cloth, {16, 16, 1});
   SolverThread solver(mesh, Algorithm::natural_queue, [] {});
   Simulation simulation(mesh, Algorithm::natural_queue, Precision::single_precision);
-  std::vector<Placement> answers;  // the solver's thread alone until it is idle
+  std::vector<Snapshot> answers;  // the solver's thread alone until it is idle
   for (int i = 0; i < 20; ++i) {
     for (const Command& command :
          {Command(commands::Grab{static_cast<ElementId>(i)}), Command(commands::Drag{Point(i, -2, 0)})}) {

@@ -8,7 +8,7 @@
 namespace chainmail {
 
 /// The reference solution: where an elastic object stands while a handle holds one of its elements.
-struct Truth {
+struct ReferenceSolution {
   /// From rest, element by element, space_dimension coordinates each (mesh units).
   std::vector<double> displacements;
   double hand = 0;  // how far the handle's element is from rest (mesh units), above 0
@@ -18,14 +18,14 @@ struct Truth {
 
 /// Finds it by neo-Hookean finite elements in double, with the handle and the pins prescribed. It is converged on the
 /// object's own cells, not under refinement of the mesh: one displaced node has no continuum limit.
-class TruthSolver {
+class ReferenceSolver {
  public:
   /// The options' lattice does not matter. Throws Error where the object has no static answer, and Cancelled.
-  explicit TruthSolver(const ElasticProblem& problem, const Progress& progress = {});
+  explicit ReferenceSolver(const ElasticProblem& problem, const Progress& progress = {});
 
   /// From rest, the hand's element to its target (mesh units; the carried axes count), which is not where it rests.
   /// Throws Error where Newton's method does not converge, with the load step, and Cancelled.
-  Truth at(ElementId hand, const Point& target, const Progress& progress = {});
+  ReferenceSolution at(ElementId hand, const Point& target, const Progress& progress = {});
 
  private:
   MeshPointer mesh_;

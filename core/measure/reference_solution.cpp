@@ -1,4 +1,4 @@
-#include "measure/truth.h"
+#include "measure/reference_solution.h"
 
 #include <cmath>
 #include <utility>
@@ -7,10 +7,10 @@
 
 namespace chainmail {
 
-TruthSolver::TruthSolver(const ElasticProblem& problem, const Progress& progress)
+ReferenceSolver::ReferenceSolver(const ElasticProblem& problem, const Progress& progress)
     : mesh_(problem.mesh), pins_(problem.pins), solver_(make_elastic(ElasticMethod::neo_hookean, problem, progress)) {}
 
-Truth TruthSolver::at(ElementId hand, const Point& target, const Progress& progress) {
+ReferenceSolution ReferenceSolver::at(ElementId hand, const Point& target, const Progress& progress) {
   std::vector<double> displacement;
   double square = 0;
   for (int k = 0; k < mesh_->space_dimension; ++k) {

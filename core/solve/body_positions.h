@@ -6,14 +6,14 @@
 
 #include "mesh/element_blocks.h"
 #include "solve/body.h"
-#include "solve/placement.h"
+#include "solve/snapshot.h"
 
 namespace chainmail {
 
 /// Where the elements of these blocks stand.
 template <class Scalar, int Dimension>
-Placement placement_of(const Body<Scalar, Dimension>& body, const ElementBlocks& away) {
-  Placement result;
+Snapshot placement_of(const Body<Scalar, Dimension>& body, const ElementBlocks& away) {
+  Snapshot result;
   result.from_rest = body.from_rest;
   away.for_each_run([&](ElementId first, ElementId end) {
     result.runs.insert(result.runs.end(), {first, end});
@@ -26,7 +26,7 @@ Placement placement_of(const Body<Scalar, Dimension>& body, const ElementBlocks&
 
 /// Puts the elements of a placement where they stood; what is held otherwise now is rounded.
 template <class Scalar, int Dimension>
-void place_elements(Body<Scalar, Dimension>& body, const Placement& placement) {
+void place_elements(Body<Scalar, Dimension>& body, const Snapshot& placement) {
   auto held = placement.held.begin();
   for (std::size_t i = 0; i < placement.runs.size(); i += 2) {
     for (ElementId e = placement.runs[i]; e < placement.runs[i + 1]; ++e) {
@@ -49,14 +49,14 @@ void put_to_rest(Body<Scalar, Dimension>& body, ElementId first, ElementId end) 
   }
 }
 
-/// What KeptPositions holds of a block.
+/// What PositionBlocks holds of a block.
 template <class Scalar, int Dimension>
 using PlaceBlock = std::array<Place<Scalar, Dimension>, ElementBlocks::block_elements>;
 
 /// Brings these blocks of `kept` up to date; no element outside `away` may stand away from rest.
 template <class Scalar, int Dimension>
 void keep_places(const Body<Scalar, Dimension>& body, const ElementBlocks& blocks, const ElementBlocks& away,
-                 KeptPositions& kept) {
+                 PositionBlocks& kept) {
   kept.blocks.resize(away.block_count());
   kept.from_rest = body.from_rest;
   blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
@@ -85,7 +85,7 @@ void take_places(Body<Scalar, Dimension>& body, const PlaceBlock<Scalar, Dimensi
 
 /// Takes these blocks back; all others must stand as they were kept.
 template <class Scalar, int Dimension>
-void restore_places(Body<Scalar, Dimension>& body, const KeptPositions& kept, const ElementBlocks& blocks) {
+void restore_places(Body<Scalar, Dimension>& body, const PositionBlocks& kept, const ElementBlocks& blocks) {
   blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
     if (const auto* places = static_cast<const PlaceBlock<Scalar, Dimension>*>(kept.blocks[block].get())) {
       take_places(body, *places, first, end, kept.from_rest);
