@@ -17,8 +17,8 @@ namespace {
 // would notice.
 const std::vector<double> low{0, 1, 0}, high{1, 3, 2};
 constexpr std::array every_sweeps{0, 1, 3, 10, 30, 100};
-constexpr double share_everywhere = 0.6;  // of the evaluations; the others are spent about the best
-constexpr double share_of_truth = 0.2;    // of the progress
+constexpr double share_everywhere = 0.6;     // of the evaluations; the others are spent about the best
+constexpr double share_of_references = 0.2;  // of the progress
 
 LinkSoftness softness_at(const std::vector<double>& x) { return {x[0], x[1], x[2]}; }
 std::vector<double> point_of(const LinkSoftness& softness) {
@@ -57,14 +57,14 @@ report::CompareOptions options_of(const CalibrationOptions& options) {
 class Bench {
  public:
   Bench(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options, const Progress& progress)
-      : drags_(true_drags(mesh, cuts, options, progress.part(0, share_of_truth))),
+      : drags_(reference_drags(mesh, cuts, options, progress.part(0, share_of_references))),
         object_{"", "", mesh, cuts.links(), options.pins, {}, {}, options.elastic},
         how_(options_of(options)),
         runner_(object_, options.algorithm, Precision::double_precision, how_),
         wanted_(options.evaluations),
-        progress_(progress.part(share_of_truth, 1)) {}
+        progress_(progress.part(share_of_references, 1)) {}
 
-  const TrueDrags& drags() const { return drags_; }
+  const ReferenceDrags& drags() const { return drags_; }
   const Mesh& mesh() const { return *object_.mesh; }
   int evaluations() const { return evaluations_; }
 
@@ -74,20 +74,20 @@ class Bench {
   }
 
   /// How far a softness and sweeps end from the reference on some drags.
-  std::vector<Residual> residuals(const std::vector<TrueDrag>& drags, const LinkSoftness& softness, int sweeps) {
+  std::vector<Residual> residuals(const std::vector<ReferenceDrag>& drags, const LinkSoftness& softness, int sweeps) {
     std::vector<Residual> residuals;
     object_.softness.global = softness;
     const double done = std::min(1.0, double(evaluations_) / wanted_);
-    for (const TrueDrag& drag : drags) {
+    for (const ReferenceDrag& drag : drags) {
       runner_.run(drag.moves, sweeps, progress_.part(done, done));
-      residuals.push_back(
-          residual_of(measure_physical_error(*object_.mesh, runner_.simulation().solver().positions(), drag.truth)));
+      residuals.push_back(residual_of(
+          measure_physical_error(*object_.mesh, runner_.simulation().solver().positions(), drag.reference)));
     }
     return residuals;
   }
 
  private:
-  TrueDrags drags_;
+  ReferenceDrags drags_;
   report::Case object_;
   report::CompareOptions how_;
   report::Runner runner_;
@@ -133,12 +133,12 @@ CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) 
   return options;
 }
 
-TestedDrags tested(const Mesh& mesh, const std::vector<TrueDrag>& drags, const std::vector<Residual>& before,
+TestedDrags tested(const Mesh& mesh, const std::vector<ReferenceDrag>& drags, const std::vector<Residual>& before,
                    const std::vector<Residual>& after) {
   TestedDrags result;
   std::vector<Residual> nothing;
   for (std::size_t i = 0; i < drags.size(); ++i) {
-    nothing.push_back(residual_of(error_of_nothing_moving(mesh, drags[i].truth)));
+    nothing.push_back(residual_of(error_of_nothing_moving(mesh, drags[i].reference)));
     result.drags.push_back({drags[i].element, drags[i].target, before[i], after[i], nothing.back()});
   }
   result.before = together(before);

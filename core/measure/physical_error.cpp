@@ -22,7 +22,8 @@ struct Squares {
 
 }  // namespace
 
-PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions, const ReferenceSolution& reference) {
+PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions,
+                                     const ReferenceSolution& reference) {
   Squares all, moving, displacements;
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
     double apart = 0, displacement = 0;

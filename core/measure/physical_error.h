@@ -26,7 +26,8 @@ struct PhysicalError {
 };
 
 /// The reference must be of this mesh.
-PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions, const ReferenceSolution& reference);
+PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions,
+                                     const ReferenceSolution& reference);
 /// The null model: the handle and the pins stand where they are prescribed, and nothing else moves.
 PhysicalError error_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference);
 

@@ -1,11 +1,13 @@
 #include "simulate/simulation.h"
 
 #include <algorithm>
+#include <iterator>
 #include <new>
 #include <string>
 #include <utility>
 
 #include "mesh/error.h"
+#include "mesh/parameters.h"
 
 namespace chainmail {
 namespace {
@@ -46,7 +48,7 @@ void Simulation::apply(const Command& command) {
 void Simulation::pass(ElementId element, const Point& target) {
   time_pass([&] { return solver_->move(element, target, trace_); });
   last_moved_ = element;
-  valid_ = algorithm_ == Algorithm::exact;
+  valid_ = info(algorithm_).holds_links;
   for (const auto& moved : {std::span<const ElementId>(&element, 1), solver_->moved()}) {
     mark(moved);
     wake(moved);
@@ -70,8 +72,8 @@ void Simulation::time_pass(Move move) {
 }
 
 void Simulation::carry_out(const commands::MoveControlPoint& command) {
-  if (algorithm_ != Algorithm::free_form) {
-    return;  // the others have none
+  if (!info(algorithm_).has_control_points) {
+    return;
   }
   time_pass([&] { return solver_->move_control_point(command.point, command.target); });
   valid_ = false;
@@ -120,8 +122,8 @@ bool Simulation::step() {
 }
 
 void Simulation::relax(int count, double step) {
-  if (count == 0 || elastic_method(algorithm_)) {
-    return;  // a static answer is where it should be
+  if (count == 0 || !info(algorithm_).relaxes()) {
+    return;
   }
   measure_.reset();
   if (last_moved_) {
@@ -221,7 +223,7 @@ void Simulation::forget_passes() {
 }
 
 void Simulation::wake(std::span<const ElementId> elements) {
-  if (relaxation_on_ && !elastic_method(algorithm_)) {
+  if (relaxation_on_ && info(algorithm_).relaxes()) {
     solver_->wake(elements);
     woken_ = true;
     relaxation_deadline_ = Clock::now() + relaxation_time;
@@ -241,6 +243,289 @@ void Simulation::wake_ends(const std::vector<LinkId>& links) {
 void Simulation::fall_asleep() {
   solver_->sleep();
   statistics_.relaxing = false;
+}
+
+// How each command is carried out.
+
+void Simulation::carry_out(const commands::Grab& command) {
+  check_element(command.element);
+  if (std::ranges::binary_search(solver_->pins(), command.element)) {
+    throw Error("element " + std::to_string(command.element), "it is pinned and may not move",
+                "unpin it, or take another element");
+  }
+  grabbed_ = command.element;
+}
+
+void Simulation::carry_out(const commands::Drag& command) {
+  if (!grabbed_) {
+    throw Error("drag", "no element is grabbed", "grab one first");
+  }
+  pass(*grabbed_, command.target);
+}
+
+void Simulation::carry_out(const commands::Release&) {
+  if (grabbed_) {
+    // It was held; now it may follow its neighbours, in idle time or in sweeps that are asked for.
+    solver_->wake(std::span(&*grabbed_, 1));
+    wake({});
+  }
+  grabbed_.reset();
+  statistics_.last_pass.stopped = false;  // nothing pulls any more
+}
+
+void Simulation::carry_out(const commands::SetSoftness& command) {
+  check(command.softness->global);
+  for (const auto& [link, softness] : command.softness->links) {
+    check_links(std::span(&link, 1));
+    check(softness);
+  }
+  set_softness(command.softness);
+  valid_ = false;
+  if (info(algorithm_).uses_softness()) {
+    answer();
+  }
+}
+
+/// Softness that is the same leaves the regions of all links as they are.
+void Simulation::set_softness(std::shared_ptr<const Softness> softness) {
+  if (softness != softness_ && *softness != *softness_) {
+    solver_->set_softness(*softness);
+  }
+  softness_ = std::move(softness);
+}
+
+/// Under load the object may now violate its links: a pass about the hand, or the element that was moved
+/// last, answers what has changed at once, as far as its propagation reaches. From a valid state it moves
+/// nothing.
+void Simulation::answer() {
+  if (!last_moved_) {
+    return;  // it is at rest
+  }
+  const auto about = grabbed_ ? grabbed_ : last_moved_;
+  if (std::ranges::binary_search(solver_->pins(), *about)) {
+    return;
+  }
+  try {
+    pass(*about, point_of(*mesh_, solver_->positions(), *about));
+  } catch (const Error&) {
+    // Pins that contradict each other now: what was set stands, and the next drag says so.
+  }
+}
+
+void Simulation::carry_out(const commands::SetElastic& command) {
+  check(command.options);
+  if (command.options != elastic_) {
+    elastic_ = command.options;
+    solver_->set_elastic(elastic_);
+    if (elastic_method(algorithm_)) {
+      answer();
+    }
+  }
+}
+
+void Simulation::carry_out(const commands::Relax& command) {
+  check(parameters::relax_step, command.step);
+  solver_->set_relaxation(command.scheme);
+  try {
+    relax(static_cast<int>(command.sweeps), command.step);
+  } catch (...) {  // cancelled, or out of memory
+    solver_->set_relaxation(relaxation_scheme_);
+    throw;
+  }
+  solver_->set_relaxation(relaxation_scheme_);
+}
+
+void Simulation::carry_out(const commands::SetRelaxation& command) {
+  check(parameters::relax_step, command.step);
+  const bool was_on = std::exchange(relaxation_on_, command.on);
+  relaxation_step_ = command.step;
+  solver_->set_relaxation(relaxation_scheme_ = command.scheme);
+  if (command.on && !was_on && info(algorithm_).relaxes()) {
+    solver_->wake_all();
+    wake({});
+  } else if (!command.on) {
+    fall_asleep();
+  }
+}
+
+void Simulation::carry_out(const commands::SetAlgorithm& command) {
+  solver_->set_algorithm(command.algorithm);
+  const Algorithm before = std::exchange(algorithm_, command.algorithm);
+  if (before == algorithm_) {
+    return;
+  }
+  if (info(before).from_rest != info(algorithm_).from_rest && !away_.empty()) {
+    mark_all();  // the change between displacements and positions rounds every one
+  }
+  statistics_.algorithm = algorithm_;
+  forget_passes();
+  if (!info(algorithm_).relaxes()) {
+    fall_asleep();
+  }
+  if (info(algorithm_).answers_any_state()) {
+    answer();
+  }
+}
+
+void Simulation::carry_out(const commands::Cut& command) {
+  check_links(command.links);
+  solver_->cut(command.links);
+  wake_ends(command.links);
+}
+
+void Simulation::carry_out(const commands::Uncut& command) {
+  check_links(command.links);
+  solver_->uncut(command.links);
+  valid_ = false;  // the ends may have gone apart
+  wake_ends(command.links);
+}
+
+void Simulation::carry_out(const commands::Pin& command) {
+  for (const ElementId element : command.elements) {
+    check_element(element);
+    if (element == grabbed_) {
+      throw Error("element " + std::to_string(element), "it is in the hand", "let it go, then pin it");
+    }
+  }
+  solver_->pin(command.elements);
+}
+
+void Simulation::carry_out(const commands::Unpin& command) {
+  for (const ElementId element : command.elements) {
+    check_element(element);
+  }
+  solver_->unpin(command.elements);
+  solver_->wake(command.elements);
+  wake({});
+}
+
+void Simulation::carry_out(const commands::Reset&) {
+  solver_->reset(away_);
+  changed_.insert(away_);
+  unkept_.insert(away_);
+  away_.clear();
+  last_moved_.reset();
+  forget_passes();
+  valid_ = true;
+  fall_asleep();
+}
+
+void Simulation::carry_out(const commands::ReplaceMesh& command) {
+  if (!command.mesh) {
+    throw Error("replace mesh", "no mesh is given", "give one");
+  }
+  auto softness = std::make_shared<const Softness>(Softness{softness_->global, {}});
+  take_mesh(command.mesh);
+  set_softness(std::move(softness));
+}
+
+// Kept states, for undo and for going back and forth in what was recorded.
+
+void Simulation::carry_out(const commands::KeepState& command) { kept_[command.state] = current_state(); }
+
+void Simulation::carry_out(const commands::RestoreState& command) { take_state(kept(command.state)); }
+
+void Simulation::carry_out(const commands::DropState& command) { kept_.erase(command.state); }
+
+void Simulation::carry_out(const commands::SetPositions& command) {
+  check(*command.snapshot, *mesh_, precision_);
+  solver_->restore(*command.snapshot, away_);
+  changed_.insert(away_);
+  unkept_.insert(away_);
+  away_.clear();
+  const auto& runs = command.snapshot->runs;
+  for (std::size_t i = 0; i < runs.size(); i += 2) {
+    away_.insert_run(runs[i], runs[i + 1]);
+  }
+  changed_.insert(away_);
+  unkept_.insert(away_);
+  valid_ = runs.empty();
+  forget_passes();
+  grabbed_.reset();
+  last_moved_.reset();
+  fall_asleep();
+}
+
+Simulation::State& Simulation::kept(commands::StateId state) {
+  const auto found = kept_.find(state);
+  if (found == kept_.end()) {
+    throw Error("state " + std::to_string(state), "no such state is kept", "keep it first");
+  }
+  return found->second;
+}
+
+Handover Simulation::hand_over() { return {current_state(), kept_, relaxation(), elastic_, grabbed_, last_moved_}; }
+
+void Simulation::take(const Handover& handover, Algorithm algorithm) {
+  measure_.reset();
+  algorithm_ = algorithm;
+  elastic_ = handover.elastic;
+  take_mesh(handover.object.mesh);
+  take_state(handover.object);
+  kept_ = handover.kept;
+  carry_out(handover.relaxation);
+  grabbed_ = handover.grabbed;
+  last_moved_ = handover.last_moved;
+}
+
+Simulation::State Simulation::current_state() {
+  solver_->keep_positions(unkept_, away_, last_kept_);
+  unkept_.clear();
+  const auto pins = solver_->pins();
+  return {mesh_, solver_->cuts().links(), {pins.begin(), pins.end()}, softness_, last_kept_, valid_};
+}
+
+void Simulation::take_state(const State& state) {
+  if (state.mesh != mesh_) {
+    take_mesh(state.mesh);
+  }
+  set_softness(state.softness);
+  take_cuts(state.cuts);
+  if (!std::ranges::equal(state.pins, solver_->pins())) {
+    solver_->unpin(std::vector<ElementId>(solver_->pins().begin(), solver_->pins().end()));
+    solver_->pin(state.pins);
+  }
+  take_positions(state.positions);
+  valid_ = state.valid;
+  forget_passes();
+  grabbed_.reset();
+  last_moved_.reset();
+  fall_asleep();
+}
+
+void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
+  const std::vector<LinkId> present = solver_->cuts().links();
+  std::vector<LinkId> excess, missing;
+  std::ranges::set_difference(present, cuts, std::back_inserter(excess));
+  std::ranges::set_difference(cuts, present, std::back_inserter(missing));
+  // A method of elasticity prepares anew for other cuts: not where there are none.
+  if (!excess.empty()) {
+    solver_->uncut(excess);
+  }
+  if (!missing.empty()) {
+    solver_->cut(missing);
+  }
+}
+
+/// Blocks that both states share are as they were kept, unless a position of them has changed since.
+void Simulation::take_positions(const PositionBlocks& positions) {
+  last_kept_.blocks.resize(away_.block_count());
+  away_.clear();
+  for (std::size_t block = 0; block < away_.block_count(); ++block) {
+    if (positions.blocks[block] != last_kept_.blocks[block]) {
+      unkept_.insert_block(block);
+    }
+    if (positions.blocks[block] != nullptr) {
+      away_.insert_block(block);
+    }
+  }
+  solver_->restore(positions, unkept_);
+  changed_.insert(unkept_);
+  last_kept_ = positions;
+  unkept_.clear();
+  if (positions.from_rest != info(algorithm_).from_rest) {
+    unkept_ = away_;  // they are held otherwise now, and rounded
+  }
 }
 
 }  // namespace chainmail

@@ -37,11 +37,11 @@ struct ListAlgorithm;  // see solve/list_algorithm.h
 /// One row of the algorithm table: everything that other code knows about an algorithm.
 struct AlgorithmInfo {
   Algorithm algorithm;
-  std::string_view name;     // value in JSON, CSV and session files; the command line accepts it
-  std::string_view alias;    // name that the command line also accepts, and offers instead of `name`; may be empty
-  std::string_view label;    // title in the window and in reports
-  std::string_view source;   // publication
-  std::string_view summary;  // one sentence for help texts
+  std::string_view name;        // value in JSON, CSV and session files; the command line accepts it
+  std::string_view alias = {};  // another name for the command line, which offers it instead of `name`
+  std::string_view label;       // title in the window and in reports
+  std::string_view source;      // publication
+  std::string_view summary;     // one sentence for help texts
   Look look;
 
   // What answers a move: a waiting list, a method of elasticity or, without either, Exact ChainMail.

@@ -10,85 +10,86 @@
 
 namespace chainmail {
 
-/// Where the elements of these blocks stand.
+/// Returns the positions of these blocks as a snapshot.
 template <class Scalar, int Dimension>
-Snapshot placement_of(const Body<Scalar, Dimension>& body, const ElementBlocks& away) {
+Snapshot snapshot_of(const Body<Scalar, Dimension>& body, const ElementBlocks& away) {
   Snapshot result;
   result.from_rest = body.from_rest;
   away.for_each_run([&](ElementId first, ElementId end) {
     result.runs.insert(result.runs.end(), {first, end});
     for (ElementId e = first; e < end; ++e) {
-      result.held.insert(result.held.end(), body.places[e].at, body.places[e].at + Dimension);
+      result.held.insert(result.held.end(), body.positions[e].at, body.positions[e].at + Dimension);
     }
   });
   return result;
 }
 
-/// Puts the elements of a placement where they stood; what is held otherwise now is rounded.
+/// Restores the positions of a snapshot. Rounds them if the snapshot holds displacements and the body positions, or the
+/// other way round.
 template <class Scalar, int Dimension>
-void place_elements(Body<Scalar, Dimension>& body, const Snapshot& placement) {
-  auto held = placement.held.begin();
-  for (std::size_t i = 0; i < placement.runs.size(); i += 2) {
-    for (ElementId e = placement.runs[i]; e < placement.runs[i + 1]; ++e) {
+void restore_snapshot(Body<Scalar, Dimension>& body, const Snapshot& snapshot) {
+  auto held = snapshot.held.begin();
+  for (std::size_t i = 0; i < snapshot.runs.size(); i += 2) {
+    for (ElementId e = snapshot.runs[i]; e < snapshot.runs[i + 1]; ++e) {
       for (int k = 0; k < Dimension; ++k, ++held) {
         const double rest = body.mesh->rest[std::size_t{e} * Dimension + k];
-        const double shift = placement.from_rest == body.from_rest ? -0.0 : placement.from_rest ? rest : -rest;
-        body.places[e][k] = static_cast<Scalar>(*held + shift);  // −0 changes no number
+        const double shift = snapshot.from_rest == body.from_rest ? -0.0 : snapshot.from_rest ? rest : -rest;
+        body.positions[e][k] = static_cast<Scalar>(*held + shift);  // −0 changes no number
       }
     }
   }
 }
 
-/// Puts a run of elements where they rest.
+/// Moves a run of elements to rest.
 template <class Scalar, int Dimension>
 void put_to_rest(Body<Scalar, Dimension>& body, ElementId first, ElementId end) {
   for (ElementId e = first; e < end; ++e) {
     for (int k = 0; k < Dimension; ++k) {
-      body.place(e, k, body.mesh->rest[std::size_t{e} * Dimension + k]);
+      body.set_position(e, k, body.mesh->rest[std::size_t{e} * Dimension + k]);
     }
   }
 }
 
-/// What PositionBlocks holds of a block.
+/// Content of one block of PositionBlocks.
 template <class Scalar, int Dimension>
-using PlaceBlock = std::array<Place<Scalar, Dimension>, ElementBlocks::block_elements>;
+using PositionBlock = std::array<Position<Scalar, Dimension>, ElementBlocks::block_elements>;
 
-/// Brings these blocks of `kept` up to date; no element outside `away` may stand away from rest.
+/// Updates these blocks of `kept`. No element outside `away` may be away from rest.
 template <class Scalar, int Dimension>
-void keep_places(const Body<Scalar, Dimension>& body, const ElementBlocks& blocks, const ElementBlocks& away,
+void save_blocks(const Body<Scalar, Dimension>& body, const ElementBlocks& blocks, const ElementBlocks& away,
                  PositionBlocks& kept) {
   kept.blocks.resize(away.block_count());
   kept.from_rest = body.from_rest;
   blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
     kept.blocks[block].reset();
     if (away.contains_block(block)) {
-      const auto places = std::make_shared<PlaceBlock<Scalar, Dimension>>();
-      std::copy(body.places.begin() + first, body.places.begin() + end, places->begin());
-      kept.blocks[block] = places;
+      const auto positions = std::make_shared<PositionBlock<Scalar, Dimension>>();
+      std::copy(body.positions.begin() + first, body.positions.begin() + end, positions->begin());
+      kept.blocks[block] = positions;
     }
   });
 }
 
-/// Takes places that were held as displacements from rest, or absolute, as the body holds them now.
+/// Restores the positions of one block, which were stored as displacements from rest or absolute.
 template <class Scalar, int Dimension>
-void take_places(Body<Scalar, Dimension>& body, const PlaceBlock<Scalar, Dimension>& places, ElementId first,
-                 ElementId end, bool from_rest) {
+void take_block(Body<Scalar, Dimension>& body, const PositionBlock<Scalar, Dimension>& positions, ElementId first,
+                ElementId end, bool from_rest) {
   for (ElementId e = first; e < end; ++e) {
-    body.places[e] = places[e - first];
+    body.positions[e] = positions[e - first];
     for (int k = 0; k < Dimension && from_rest != body.from_rest; ++k) {
       const double rest = body.mesh->rest[std::size_t{e} * Dimension + k];
-      const double held = places[e - first][k];
-      body.places[e][k] = static_cast<Scalar>(from_rest ? held + rest : held - rest);
+      const double held = positions[e - first][k];
+      body.positions[e][k] = static_cast<Scalar>(from_rest ? held + rest : held - rest);
     }
   }
 }
 
-/// Takes these blocks back; all others must stand as they were kept.
+/// Restores these blocks. All others must be as they were saved.
 template <class Scalar, int Dimension>
-void restore_places(Body<Scalar, Dimension>& body, const PositionBlocks& kept, const ElementBlocks& blocks) {
+void restore_blocks(Body<Scalar, Dimension>& body, const PositionBlocks& kept, const ElementBlocks& blocks) {
   blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
-    if (const auto* places = static_cast<const PlaceBlock<Scalar, Dimension>*>(kept.blocks[block].get())) {
-      take_places(body, *places, first, end, kept.from_rest);
+    if (const auto* positions = static_cast<const PositionBlock<Scalar, Dimension>*>(kept.blocks[block].get())) {
+      take_block(body, *positions, first, end, kept.from_rest);
     } else {
       put_to_rest(body, first, end);
     }

@@ -7,23 +7,23 @@
 
 namespace chainmail {
 
-/// Where the elements of an object stand, coordinate by coordinate as a solver holds them, so that it, or another of
-/// its mesh and precision, takes them back to the bit. A plain value, which knows neither blocks nor scalars.
+/// Positions of an object, as a solver stores them. The same solver, or another of the same mesh and precision,
+/// restores them to the bit. A plain value that knows neither blocks nor scalars.
 struct Snapshot {
-  /// Held are displacements from rest, as Exact ChainMail has them; else positions (mesh units both).
+  /// True if `held` are displacements from rest, as Exact ChainMail stores them; otherwise positions (mesh units).
   bool from_rest = false;
-  /// first, end, first, end… of the runs of elements that are given, ascending. All others stand at rest.
+  /// Runs of elements that are given, ascending: first, end, first, end… All others are at rest.
   std::vector<ElementId> runs;
-  /// Of each element of the runs, space_dimension coordinates.
+  /// space_dimension coordinates for each element of the runs.
   std::vector<double> held;
 
   bool operator==(const Snapshot&) const = default;
 };
 
-/// Positions as a solver holds them, to be given back to it, or to another of its mesh and precision, to the bit. What
-/// is kept at different times shares the blocks that did not change between.
+/// Positions as a solver stores them, in shared blocks: what is saved at different times shares the blocks that did not
+/// change in between. The same solver, or another of the same mesh and precision, restores them to the bit.
 struct PositionBlocks {
-  /// One a block of ElementBlocks; none where all elements of the block stand at rest.
+  /// One entry per block of ElementBlocks; null if all elements of the block are at rest.
   std::vector<std::shared_ptr<const void>> blocks;
   bool from_rest = false;
 };

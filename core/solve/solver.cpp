@@ -31,8 +31,8 @@ double position_limit(Precision precision) {
                                                   : std::numeric_limits<double>::max() / 16;
 }
 
-void check(const Snapshot& placement, const Mesh& mesh, Precision precision) {
-  const auto& runs = placement.runs;
+void check(const Snapshot& snapshot, const Mesh& mesh, Precision precision) {
+  const auto& runs = snapshot.runs;
   std::uint64_t given = 0;
   bool ascending = runs.size() % 2 == 0;
   for (std::size_t i = 0; ascending && i < runs.size(); i += 2) {
@@ -40,19 +40,19 @@ void check(const Snapshot& placement, const Mesh& mesh, Precision precision) {
     given += runs[i + 1] - runs[i];
   }
   if (!ascending) {
-    throw Error("placement", "its runs are not ascending runs of elements",
+    throw Error("positions", "its runs are not ascending runs of elements",
                 "give the first of each run, and the one behind its last");
   }
   const auto dimension = static_cast<std::uint64_t>(mesh.space_dimension);
-  if (placement.held.size() != dimension * given) {
-    throw Error("placement",
-                "it holds " + std::to_string(placement.held.size()) + " coordinates, and its runs name " +
+  if (snapshot.held.size() != dimension * given) {
+    throw Error("positions",
+                "it holds " + std::to_string(snapshot.held.size()) + " coordinates, and its runs name " +
                     std::to_string(given) + " elements in " + std::to_string(dimension) + "D",
                 "give each coordinate of each of them");
   }
   const double limit = position_limit(precision);
-  if (!std::ranges::all_of(placement.held, [limit](double held) { return std::abs(held) <= limit; })) {
-    throw Error("placement", "it holds a number beyond what the precision does", "keep coordinates within 1e37");
+  if (!std::ranges::all_of(snapshot.held, [limit](double held) { return std::abs(held) <= limit; })) {
+    throw Error("positions", "it holds a number beyond what the precision does", "keep coordinates within 1e37");
   }
 }
 

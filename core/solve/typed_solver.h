@@ -9,10 +9,10 @@
 #include <type_traits>
 
 #include "mesh/error.h"
+#include "solve/body_positions.h"
 #include "solve/elastic_body.h"
 #include "solve/exact_solver.h"
 #include "solve/list_algorithm.h"
-#include "solve/body_positions.h"
 #include "solve/relaxation.h"
 #include "solve/solver.h"
 
@@ -37,7 +37,7 @@ class TypedSolver final : public Solver {
       body_.hold_from_rest(algorithm_.from_rest, softness_);
       exact_.set_valid(at_rest_);
       if (at_rest_) {
-        body_.reset_positions();  // what rounding to absolute positions took is known here
+        body_.reset_positions();  // restores what was lost by rounding to absolute positions
       }
     }
   }
@@ -109,11 +109,11 @@ class TypedSolver final : public Solver {
     Scalar next[Dimension];
     for (int k = 0; k < Dimension; ++k) {
       const double to = target[body_.mesh->axes[k]];
-      // A move to where the element is read to be is none, whatever the reading rounded.
+      // A move to the position that was read is no move, whatever rounding did.
       const bool stays = body_.from_rest && to == body_.absolute(element, k);
-      next[k] = stays ? body_.places[element][k] : static_cast<Scalar>(to - body_.origin(element, k));
+      next[k] = stays ? body_.positions[element][k] : static_cast<Scalar>(to - body_.origin(element, k));
       if (!(std::abs(next[k]) <= limit)) {
-        throw Error("element " + std::to_string(element), "its target is no number that the precision holds",
+        throw Error("element " + std::to_string(element), "its target is out of the range of the precision",
                     "give smaller coordinates, or compute in double");
       }
     }
@@ -177,7 +177,7 @@ class TypedSolver final : public Solver {
 
   const Cuts& cuts() const override { return body_.cuts; }
   PositionView positions() const override {
-    return {body_.places.data(), sizeof body_.places[0],
+    return {body_.positions.data(), sizeof body_.positions[0],
             std::is_same_v<Scalar, float> ? Precision::single_precision : Precision::double_precision,
             body_.from_rest ? body_.mesh.get() : nullptr};
   }
@@ -186,27 +186,27 @@ class TypedSolver final : public Solver {
 
   void set_positions(std::span<const double> in) override {
     for (std::size_t i = 0; i < in.size(); ++i) {
-      body_.place(static_cast<ElementId>(i / Dimension), i % Dimension, in[i]);
+      body_.set_position(static_cast<ElementId>(i / Dimension), i % Dimension, in[i]);
     }
     take_positions();
   }
 
-  Snapshot placement(const ElementBlocks& away) const override { return placement_of(body_, away); }
+  Snapshot snapshot(const ElementBlocks& away) const override { return snapshot_of(body_, away); }
 
-  void place(const Snapshot& placement, const ElementBlocks& away) override {
+  void restore(const Snapshot& snapshot, const ElementBlocks& away) override {
     reset(away);
-    if (!placement.runs.empty()) {
-      place_elements(body_, placement);
+    if (!snapshot.runs.empty()) {
+      restore_snapshot(body_, snapshot);
       take_positions();
     }
   }
 
   void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, PositionBlocks& kept) const override {
-    keep_places(body_, blocks, away, kept);
+    save_blocks(body_, blocks, away, kept);
   }
 
   void restore(const PositionBlocks& kept, const ElementBlocks& blocks) override {
-    restore_places(body_, kept, blocks);
+    restore_blocks(body_, kept, blocks);
     forget();
     take_positions();
     at_rest_ = std::none_of(kept.blocks.begin(), kept.blocks.end(), [](const auto& block) { return block != nullptr; });
@@ -214,7 +214,7 @@ class TypedSolver final : public Solver {
   }
 
  private:
-  /// Positions stay below this share of what the scalar holds, so that sums of a few of them are finite.
+  /// Largest coordinate, so that sums of a few of them are finite.
   static constexpr Scalar limit = std::numeric_limits<Scalar>::max() / 16;
 
   static std::vector<ElementId> sorted(std::span<const ElementId> elements) {
@@ -252,7 +252,7 @@ class TypedSolver final : public Solver {
     if (!list_) {
       list_ = algorithm_.list->make<Scalar, Dimension>();
     }
-    std::copy(std::begin(target), std::end(target), body_.places[element].at);
+    std::copy(std::begin(target), std::end(target), body_.positions[element].at);
     const std::span<const Step> steps = list_->propagate(body_, element, moved_);
     if (trace != nullptr) {
       for (const Step& step : steps) {
@@ -295,7 +295,7 @@ class TypedSolver final : public Solver {
   Body<Scalar, Dimension> body_;
   AlgorithmInfo algorithm_;
   Softness softness_;
-  std::vector<ElementId> pins_;  // ascending
+  std::vector<ElementId> pins_;                          // ascending
   std::unique_ptr<ListMethod<Scalar, Dimension>> list_;  // of the algorithm, made by its first pass
   ExactSolver<Scalar, Dimension> exact_;
   ElasticBody elastic_;

@@ -52,8 +52,8 @@ struct SpiralList : BackList {
 };
 
 /// Enhanced ChainMail (Schill et al. 1998): the largest violation is taken first, ties by entry; only those not yet
-/// updated are admitted. Until a candidate is taken, its element does not move, and its sponsor has been updated: so the
-/// violation at entry equals the violation when taken.
+/// updated are admitted. Until a candidate is taken, its element does not move, and its sponsor has been updated: so
+/// the violation at entry equals the violation when taken.
 class EnhancedList {
  public:
   static constexpr bool admits_updated = false;

@@ -67,8 +67,9 @@ void DeformModelTest::original_takes_grids_alone() {
   QCOMPARE(program_->run("generate cloth 3x3 -o cloth.obj").code, 0);
   const auto outcome = program_->run("deform cloth.obj --algorithm original --by 0:1 --json a.json");
   QCOMPARE(outcome.code, 2);
-  QVERIFY2(is_one_sentence(outcome) && outcome.error.startsWith("chainmail: --algorithm original: it works on grids "),
-           outcome.error);
+  QVERIFY2(
+      is_one_sentence(outcome) && outcome.error.startsWith("chainmail: --algorithm original: it works only on grids"),
+      outcome.error);
   QVERIFY(!program_->files().contains("a.json"));
 }
 
@@ -128,7 +129,7 @@ void DeformModelTest::what_does_not_fit_is_refused_data() {
   row("--relaxation links", "--relaxation: 'links'");
   row("--softness none.csv", "none.csv: there is no such file");
   row("--softness bad.csv", "bad.csv:2: ");
-  row("--softness ok.csv --softness ok.csv", "--softness: it is given 2 times");
+  row("--softness ok.csv --softness ok.csv", "--softness: it was given 2 times");
 }
 
 void DeformModelTest::what_does_not_fit_is_refused() {

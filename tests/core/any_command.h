@@ -64,7 +64,7 @@ class AnyCommand {
     for (std::uint32_t i = 0, count = (end - first) * (1 + below(3)); i < count; ++i) {
       placement.held.push_back(between(-4, 16));
     }
-    return commands::Place{std::make_shared<const Snapshot>(placement)};
+    return commands::SetPositions{std::make_shared<const Snapshot>(placement)};
   }
   double between(double low, double high) { return uniform(random_, low, high); }
 
