@@ -13,8 +13,8 @@ namespace chainmail {
 namespace {
 
 constexpr int moves = 24;                // of the handle, as in a comparison
-constexpr int draws_a_drag = 4;          // before it is given up
-constexpr double kept_from_pins = 0.25;  // of the way from the pins to the element farthest from them
+constexpr int draws_per_drag = 4;        // attempts before it is given up
+constexpr double kept_from_pins = 0.25;  // share of the distance from the pins to the farthest element
 
 double squared_to_nearest(const Mesh& mesh, const std::vector<ElementId>& pins, ElementId element) {
   double least = std::numeric_limits<double>::infinity();
@@ -24,7 +24,7 @@ double squared_to_nearest(const Mesh& mesh, const std::vector<ElementId>& pins, 
   return least;
 }
 
-/// Elements that a handle can be: of a solid those on its surface, and none right beside the pins.
+/// Returns the elements that a handle can be: on the surface of a solid, and not close to the pins.
 std::vector<ElementId> handles(const Mesh& mesh, const std::vector<ElementId>& pins) {
   std::vector<ElementId> elements;
   if (mesh.space_dimension == 3) {
@@ -50,7 +50,7 @@ std::vector<ElementId> handles(const Mesh& mesh, const std::vector<ElementId>& p
   return free;
 }
 
-/// Of length 1, along the axes that the scene carries, all directions alike.
+/// Returns a random direction of length 1, along the axes that exist, with uniform distribution.
 Point random_direction(const Mesh& mesh, std::mt19937_64& random) {
   while (true) {
     Point direction = Point::Zero();
@@ -77,7 +77,7 @@ ReferenceDrag draw(const Mesh& mesh, const std::vector<ElementId>& free, std::mt
   return drag;
 }
 
-/// The elements without some others; all of them where none would be left.
+/// Returns the elements without some others; all of them if none would be left.
 std::vector<ElementId> without(const std::vector<ElementId>& elements, const std::vector<ElementId>& others) {
   std::vector<ElementId> left;
   std::ranges::copy_if(elements, std::back_inserter(left),
@@ -85,12 +85,12 @@ std::vector<ElementId> without(const std::vector<ElementId>& elements, const std
   return left.empty() ? elements : left;
 }
 
-/// So many drags with their reference solutions; fewer cannot be.
+/// Returns this many drags with their reference solutions.
 std::vector<ReferenceDrag> draw(ReferenceSolver& solver, const Mesh& mesh, const std::vector<ElementId>& free,
                                 int count, std::mt19937_64& random, const Progress& progress) {
   std::vector<ReferenceDrag> drags;
   std::string last_failure;
-  for (int draws = 0; draws < draws_a_drag * count && int(drags.size()) < count; ++draws) {
+  for (int draws = 0; draws < draws_per_drag * count && int(drags.size()) < count; ++draws) {
     ReferenceDrag drag = draw(mesh, free, random);
     const double done = double(drags.size()) / count, next = double(drags.size() + 1) / count;
     try {

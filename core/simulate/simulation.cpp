@@ -14,10 +14,10 @@ namespace {
 
 using Clock = PassTimes::Clock;
 
-// Relaxation sleeps when no step of a sweep exceeds this share of the mean rest length, or after this long.
+// Relaxation sleeps when no step of a sweep exceeds this share of the mean rest length, or after this time.
 constexpr double asleep_below = 1e-4;
 constexpr auto relaxation_time = std::chrono::seconds(10);
-// About 2 ms: a command never waits longer for a slice of relaxation to end.
+// About 2 ms, so that commands never wait longer for a slice of relaxation.
 constexpr std::uint64_t elements_per_slice = 20'000;
 constexpr LinkId links_per_slice = 20'000;
 
@@ -61,7 +61,7 @@ void Simulation::time_pass(Move move) {
   try {
     statistics_.last_pass = move();
   } catch (const std::bad_alloc&) {
-    mark_all();  // it may have ended in the middle
+    mark_all();  // the pass may have stopped in the middle
     throw;
   }
   const auto end = Clock::now();
@@ -84,7 +84,7 @@ std::span<const double> Simulation::control_points() {
   try {
     return solver_->control_points();
   } catch (const Error&) {
-    return {};  // the next move says why
+    return {};  // the next move reports the reason
   }
 }
 
@@ -109,7 +109,7 @@ bool Simulation::step() {
   mark(solver_->relaxed());
   if (slice.sweep_ended) {
     ++statistics_.sweeps;
-    // What woke during the sweep has not been looked at yet.
+    // Elements that became active during the sweep have not been visited yet.
     if (!woken_ && slice.largest_step <= asleep_below * mesh_->mean_link_length) {
       fall_asleep();
     }
@@ -134,7 +134,7 @@ void Simulation::relax(int count, double step) {
   }
 }
 
-/// One sweep, in slices between which it may be given up. Returns the number of elements that it visited.
+/// Runs one sweep, in slices, and can be cancelled between them. Returns the number of visited elements.
 std::uint64_t Simulation::sweep(double step, const Progress& progress) {
   std::uint64_t visited = 0;
   while (true) {
@@ -197,11 +197,11 @@ void Simulation::check_links(std::span<const LinkId> links) const {
 
 void Simulation::take_mesh(MeshPointer mesh) {
   const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
-  solver_ = make_solver(mesh, algorithm, precision_);  // may find no memory: nothing has changed yet
+  solver_ = make_solver(mesh, algorithm, precision_);  // may run out of memory: nothing has changed yet
   solver_->set_relaxation(relaxation_scheme_);
   solver_->set_elastic(elastic_);
   solver_->set_progress(progress_);
-  softness_ = std::make_shared<const Softness>();  // as every solver begins
+  softness_ = std::make_shared<const Softness>();  // default of a new solver
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
   away_ = changed_ = unkept_ = ElementBlocks(mesh_->element_count());
@@ -214,7 +214,7 @@ void Simulation::take_mesh(MeshPointer mesh) {
   fall_asleep();
 }
 
-/// What passes did to another object, or by another algorithm, is nothing to show beside this one.
+/// Clears the statistics of passes of another object or algorithm.
 void Simulation::forget_passes() {
   statistics_.last_pass = {};
   statistics_.last_pass_ms = 0;
@@ -233,7 +233,7 @@ void Simulation::wake(std::span<const ElementId> elements) {
 }
 
 void Simulation::wake_ends(const std::vector<LinkId>& links) {
-  // Also where relaxation is off in idle time: sweeps may be asked for.
+  // Also if relaxation is off in idle time: sweeps may be requested.
   for (const LinkId link : links) {
     solver_->wake(mesh_->links[link]);
   }
@@ -251,7 +251,7 @@ void Simulation::carry_out(const commands::Grab& command) {
   check_element(command.element);
   if (std::ranges::binary_search(solver_->pins(), command.element)) {
     throw Error("element " + std::to_string(command.element), "it is pinned and may not move",
-                "unpin it, or take another element");
+                "unpin it, or grab another element");
   }
   grabbed_ = command.element;
 }
@@ -265,12 +265,12 @@ void Simulation::carry_out(const commands::Drag& command) {
 
 void Simulation::carry_out(const commands::Release&) {
   if (grabbed_) {
-    // It was held; now it may follow its neighbours, in idle time or in sweeps that are asked for.
+    // The released element may follow its neighbours, in idle time or in requested sweeps.
     solver_->wake(std::span(&*grabbed_, 1));
     wake({});
   }
   grabbed_.reset();
-  statistics_.last_pass.stopped = false;  // nothing pulls any more
+  statistics_.last_pass.stopped = false;  // the handle no longer pulls
 }
 
 void Simulation::carry_out(const commands::SetSoftness& command) {
@@ -286,7 +286,7 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
   }
 }
 
-/// Softness that is the same leaves the regions of all links as they are.
+/// Equal softness leaves all regions unchanged.
 void Simulation::set_softness(std::shared_ptr<const Softness> softness) {
   if (softness != softness_ && *softness != *softness_) {
     solver_->set_softness(*softness);
@@ -294,12 +294,11 @@ void Simulation::set_softness(std::shared_ptr<const Softness> softness) {
   softness_ = std::move(softness);
 }
 
-/// Under load the object may now violate its links: a pass about the hand, or the element that was moved
-/// last, answers what has changed at once, as far as its propagation reaches. From a valid state it moves
-/// nothing.
+/// Answers a change under load, when links may now be violated: runs a pass about the handle, or the element that was
+/// moved last. From a valid state it moves nothing.
 void Simulation::answer() {
   if (!last_moved_) {
-    return;  // it is at rest
+    return;  // the object is at rest
   }
   const auto about = grabbed_ ? grabbed_ : last_moved_;
   if (std::ranges::binary_search(solver_->pins(), *about)) {
@@ -308,7 +307,7 @@ void Simulation::answer() {
   try {
     pass(*about, point_of(*mesh_, solver_->positions(), *about));
   } catch (const Error&) {
-    // Pins that contradict each other now: what was set stands, and the next drag says so.
+    // The pins contradict each other now: the setting stays, and the next drag reports it.
   }
 }
 
@@ -376,7 +375,7 @@ void Simulation::carry_out(const commands::Cut& command) {
 void Simulation::carry_out(const commands::Uncut& command) {
   check_links(command.links);
   solver_->uncut(command.links);
-  valid_ = false;  // the ends may have gone apart
+  valid_ = false;  // the ends may have moved apart
   wake_ends(command.links);
 }
 
@@ -384,7 +383,7 @@ void Simulation::carry_out(const commands::Pin& command) {
   for (const ElementId element : command.elements) {
     check_element(element);
     if (element == grabbed_) {
-      throw Error("element " + std::to_string(element), "it is in the hand", "let it go, then pin it");
+      throw Error("element " + std::to_string(element), "it is grabbed", "release it, then pin it");
     }
   }
   solver_->pin(command.elements);
@@ -412,7 +411,7 @@ void Simulation::carry_out(const commands::Reset&) {
 
 void Simulation::carry_out(const commands::ReplaceMesh& command) {
   if (!command.mesh) {
-    throw Error("replace mesh", "no mesh is given", "give one");
+    throw Error("replace mesh", "no mesh was given", "give a mesh");
   }
   auto softness = std::make_shared<const Softness>(Softness{softness_->global, {}});
   take_mesh(command.mesh);
@@ -498,7 +497,7 @@ void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
   std::vector<LinkId> excess, missing;
   std::ranges::set_difference(present, cuts, std::back_inserter(excess));
   std::ranges::set_difference(cuts, present, std::back_inserter(missing));
-  // A method of elasticity prepares anew for other cuts: not where there are none.
+  // Calls only for changes: a method of elasticity prepares again after each call.
   if (!excess.empty()) {
     solver_->uncut(excess);
   }
@@ -507,7 +506,7 @@ void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
   }
 }
 
-/// Blocks that both states share are as they were kept, unless a position of them has changed since.
+/// Shared blocks of both states need no copy, unless a position in them has changed since.
 void Simulation::take_positions(const PositionBlocks& positions) {
   last_kept_.blocks.resize(away_.block_count());
   away_.clear();
@@ -524,7 +523,7 @@ void Simulation::take_positions(const PositionBlocks& positions) {
   last_kept_ = positions;
   unkept_.clear();
   if (positions.from_rest != info(algorithm_).from_rest) {
-    unkept_ = away_;  // they are held otherwise now, and rounded
+    unkept_ = away_;  // they are stored differently now, and rounded
   }
 }
 

@@ -30,7 +30,7 @@ class AnyCommand {
         return SetRelaxation{relaxed_ && below(4) != 0, between(0.1, 1),
                              below(2) == 0 ? RelaxationScheme::mean : RelaxationScheme::link};
       case 4:
-        return SetAlgorithm{algorithms()[below(6)].algorithm};
+        return SetAlgorithm{algorithms()[below(std::uint32_t(algorithms().size()))].algorithm};
       case 5:
         return below(3) == 0 ? Command(ReplaceMesh{meshes_[below(static_cast<std::uint32_t>(meshes_.size()))]})
                              : Command(Reset{});
