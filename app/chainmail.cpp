@@ -12,7 +12,7 @@ namespace {
 
 enum ExitCode { done = 0, failed = 1, bad_usage = 2 };
 
-/// One line, whatever the message carries.
+/// Prints an error in one line. Characters that cannot be printed are replaced.
 ExitCode complain(std::string_view message, ExitCode code) {
   std::cerr << "chainmail: " << chainmail::printable(message) << '\n';
   return code;
@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   } catch (const chainmail::Error& error) {
     return complain(error.what(), bad_usage);
   } catch (const std::bad_alloc&) {
-    return complain("memory: there is not enough; use a smaller mesh", failed);
+    return complain("memory: not enough memory; use a smaller mesh", failed);
   } catch (const std::exception& error) {
     return complain(std::string("internal: ") + error.what() + "; please report it", failed);
   }

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2034
-# What app/run and tests/run share; sourced by both: the packages, the configuration, the build.
-# Both set -euo pipefail; `root` is the checkout, whatever the working directory.
+# Functions shared by app/run and tests/run: install packages, configure, build. Both source this file and set
+# -euo pipefail. `root` is the folder of the checkout.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
@@ -10,7 +10,7 @@ build_packages=(
   libcgal-dev libgmsh-dev libteem-dev zlib1g-dev libnlopt-dev libseccomp-dev
   qt6-base-dev libqt6opengl6-dev qt6-charts-dev qt6-svg-dev
 )
-# What a bare machine lacks to show a window: a driver that draws in software, and letters.
+# Needed to show a window on a minimal machine: a software driver for OpenGL, and fonts.
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)
 test_packages=(librapidcheck-dev xvfb ffmpeg clang-format)
 check_packages=(clang-tidy python3)
@@ -18,8 +18,7 @@ mutant_packages=(python3)
 bench_packages=(libbenchmark-dev libbullet-dev)
 fuzz_packages=(clang libclang-rt-14-dev)
 
-# Another checkout's build, or one that was here before, fills the cache for this one.
-# The last two let it cache what uses a precompiled header.
+# Lets ccache reuse objects of other checkouts and earlier builds. The last two are needed for precompiled headers.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_PCH_EXTSUM=1
 
 say() { printf '%s\n' "$*"; }
@@ -28,7 +27,7 @@ fail() {
   exit 1
 }
 
-# Installs those of the packages named that are missing.
+# Installs those of the given packages that are missing.
 need_packages() {
   local installed package missing=()
   installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null) || true
@@ -38,7 +37,7 @@ need_packages() {
   [[ ${#missing[@]} -gt 0 ]] || return 0
   if ! command -v apt-get >/dev/null; then
     [[ -z ${CHAINMAIL_PACKAGES_PRESENT:-} ]] || return 0
-    fail "apt-get is not here; install what these Debian packages hold, then start again with" \
+    fail "apt-get was not found; install the contents of these Debian packages, then start again with" \
       "CHAINMAIL_PACKAGES_PRESENT=1: ${missing[*]}"
   fi
   install_packages "${missing[@]}"
@@ -47,12 +46,12 @@ need_packages() {
 install_packages() {
   local log=$root/build/setup.log apt=(env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300)
   if [[ $EUID -ne 0 ]]; then
-    command -v sudo >/dev/null || fail "packages are missing and sudo is not here; as root, run: apt-get install $*"
+    command -v sudo >/dev/null || fail "packages are missing and sudo was not found; run as root: apt-get install $*"
     apt=(sudo "${apt[@]}")
   fi
   mkdir -p "$root/build"
   say "Installing $# packages, which may take a few minutes: $*"
-  # A source of packages that does not answer matters only if what is missing comes from there.
+  # A package source that does not answer matters only if a missing package comes from it.
   "${apt[@]}" update >"$log" 2>&1 || true
   "${apt[@]}" install -y --no-install-recommends "$@" >>"$log" 2>&1 </dev/null || {
     grep '^E:' "$log" >&2 || tail -n 5 "$log" >&2
@@ -60,8 +59,8 @@ install_packages() {
   }
 }
 
-# configure PRESET OPTION…: configures build/PRESET unless it stands configured with these options.
-# An OPTION that begins with ? is for a new build folder: one configured otherwise does as well.
+# configure PRESET OPTION…: configures build/PRESET unless it is configured with these options already.
+# An OPTION that begins with ? is used for a new build folder only.
 configure() {
   local preset=$1 folder=$root/build/$1 wanted=$root$'\n' present='' option options=() fresh=()
   shift
@@ -84,7 +83,7 @@ configure() {
   printf '%s\n' "$root" " ${options[*]}" >"$folder/configured"
 }
 
-# build PRESET [TARGET…]: shows its progress on a terminal, else only what goes wrong.
+# build PRESET [TARGET…]: shows progress on a terminal, otherwise only errors.
 build() {
   local preset=$1 targets=() quiet=()
   shift

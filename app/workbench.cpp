@@ -19,17 +19,17 @@ int fail(const QString& sentence) {
   return 2;
 }
 
-/// Qt ends the process where there is no display; this says so before.
+/// True if there is a display. Without one, Qt would end the process without a helpful message.
 bool hasDisplay(int argc, char** argv) {
   const auto namesPlatform = [](const char* argument) { return std::string_view(argument) == "-platform"; };
   return !qEnvironmentVariableIsEmpty("DISPLAY") || !qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") ||
          !qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") || std::any_of(argv, argv + argc, namesPlatform);
 }
 
-/// What the program takes, and its help.
+/// Sets the options and the help text.
 void describe(QCommandLineParser& parser) {
   parser.setApplicationDescription(
-      QStringLiteral("Soft objects under the ChainMail family of algorithms, two of them side by side.\n"
+      QStringLiteral("Deforms soft objects with the ChainMail family of algorithms, two of them side by side.\n"
                      "Example: workbench meshes/sphere.obj"));
   parser.addHelpOption();
   parser.addVersionOption();

@@ -25,11 +25,11 @@ struct Options {
 };
 
 constexpr const char* footer =
-    "The reference is neo-Hookean FEM on the same cells. Drags are random: elements away from the pins, by 5 to 20 % "
-    "of\n"
-    "the object's size. The search lowers the relative error at the end of the drags: the RMS of the error over the\n"
-    "RMS of the reference's displacements. The result is also tested on drags that the search did not see. The preset\n"
-    "that is saved opens in the workbench and in compare --preset. It holds the softness; set the sweeps yourself.\n\n"
+    "The reference solution is neo-Hookean FEM on the same cells. Drags are random: elements away from the pins, by\n"
+    "5 to 20 % of the object's size. The search lowers the relative error at the end of the drags: the RMS of the\n"
+    "error over the RMS of the reference's displacements. The result is also tested on drags that the search did not\n"
+    "use. The saved preset opens in the workbench and in compare --preset. It contains the softness, not the "
+    "sweeps.\n\n"
     "Example:\n"
     "  chainmail calibrate organ.msh --young 3000 --poisson 0.45 --pins bottom -o liver.json";
 
@@ -37,13 +37,9 @@ CalibrationOptions read_options(const Options& options, const std::string& objec
   CalibrationOptions result;
   result.elastic = elastic_of(options.elastic);
   result.pins = pins_of(options.pins, object, mesh);
-  std::vector<std::string> names;
-  for (const AlgorithmInfo& one : algorithms()) {
-    names.emplace_back(one.name);
+  if (const auto name = value_of(options.algorithm)) {
+    result.algorithm = algorithm_of("--algorithm", *name, algorithms());
   }
-  const std::string algorithm = value_of(options.algorithm).value_or(std::string(info(result.algorithm).name));
-  check_word("--algorithm", algorithm, names);
-  result.algorithm = *find_algorithm(algorithm);
   const std::string scheme = value_of(options.relaxation).value_or("mean");
   check_word("--relaxation", scheme, {"mean", "link"});
   result.scheme = scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link;
@@ -58,7 +54,7 @@ std::string read_name(const Options& options, const CalibrationOptions& how) {
   std::string name = printable(path.stem().string()).substr(0, longest_preset_name - 20);
   name = value_of(options.name).value_or(name + ", Poisson " + figure(how.elastic.material.poisson));
   if (const std::string fault = fault_of_name(name); !fault.empty()) {
-    throw Error("--name", in_quotes(name) + " is no name of a preset", fault);
+    throw Error("--name", in_quotes(name) + " cannot name a preset", fault);
   }
   return name;
 }
@@ -84,11 +80,12 @@ void write_text(std::ostream& out, const CalibrationOptions& how, const Calibrat
       << figure(how.elastic.material.young) << ", Poisson's ratio " << figure(how.elastic.material.poisson)
       << ") with\n  compression " << figure(result.softness.compression) << ", stretch "
       << figure(result.softness.stretch) << ", shear " << figure(result.softness.shear) << ", " << result.sweeps
-      << " sweeps a move\nRelative error, and RMS and max over the handle's displacement. An object that does not move "
-         "has a\nrelative error of about 1.\nThe drags that it came close to, "
-      << result.fitted.drags.size() << " of them in " << result.evaluations << " evaluations:\n";
+      << " sweeps per move\nRelative error, and RMS and max over the handle's displacement. An object that does not "
+         "move "
+         "has a\nrelative error of about 1.\nDrags used by the search ("
+      << result.fitted.drags.size() << ", " << result.evaluations << " evaluations):\n";
   write_residuals(out, result.fitted);
-  out << "Drags that it did not see, " << result.held_out.drags.size() << " of them:\n";
+  out << "Drags not used by the search (" << result.held_out.drags.size() << "):\n";
   write_residuals(out, result.held_out);
 }
 
@@ -105,7 +102,7 @@ void calibrate(const Options& options) {
     try {
       result = chainmail::calibrate(opened.mesh, Cuts(opened.mesh), how, watch.progress());
     } catch (const Error& error) {
-      throw at_option(error, {{"pins", "--pins"}, {"truth", object}, {"neo-Hookean FEM", object}});
+      throw at_option(error, {{"pins", "--pins"}, {"reference solution", object}, {"neo-Hookean FEM", object}});
     }
   }
   Outputs outputs;
@@ -127,21 +124,23 @@ void calibrate(const Options& options) {
 }  // namespace
 
 Command add_calibrate(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("calibrate", "Find the softness that comes closest to an elastic material");
+  CLI::App* app = root.add_subcommand("calibrate", "Find the softness that is closest to an elastic material");
   Options options{};
   options.mesh = add_mesh_options(*app);
-  options.mesh.space = add_value(*app, "--space", "1|2|3", "space dimension [what the mesh states or extends along]");
+  options.mesh.space = add_value(*app, "--space", "1|2|3",
+                                 "space dimension [stated by the file, else the axes that the mesh extends along]");
   options.elastic = add_material(*app);
   options.pins = add_pins(*app);
   options.algorithm =
-      add_value(*app, "--algorithm", "NAME", "of the ChainMail family, as deform has them [natural-queue]");
-  options.relaxation = add_value(*app, "--relaxation", "mean|link", "how an element relaxes [mean]");
-  options.drags = add_value(*app, "--drags", "N", "how many drags it shall come close to [4]");
-  options.seed = add_value(*app, "--seed", "S", "of the drags: another number, other drags [1]");
-  options.evaluations = add_value(*app, "--evaluations", "N", "how often all drags are tried [200]");
-  options.name = add_value(*app, "--name", "NAME", "of the preset [the mesh and Poisson's ratio]");
-  options.preset = add_value(*app, "-o", "FILE", "the softness as a preset, JSON");
-  options.json = add_value(*app, "--json", "FILE", "softness, sweeps and residuals as JSON");
+      add_value(*app, "--algorithm", "NAME", "an algorithm of the ChainMail family: see deform --help [natural-queue]");
+  options.relaxation = add_value(*app, "--relaxation", "mean|link",
+                                 "relaxation scheme: toward the mean of the neighbours, or link by link [mean]");
+  options.drags = add_value(*app, "--drags", "N", "number of drags to fit [4]");
+  options.seed = add_value(*app, "--seed", "S", "random seed of the drags [1]");
+  options.evaluations = add_value(*app, "--evaluations", "N", "most evaluations of all drags [200]");
+  options.name = add_value(*app, "--name", "NAME", "name of the preset [the mesh and Poisson's ratio]");
+  options.preset = add_value(*app, "-o", "FILE", "write the softness as a preset (JSON)");
+  options.json = add_value(*app, "--json", "FILE", "write softness, sweeps and residuals as JSON");
   app->footer(footer);
   return {app, [options] { calibrate(options); }};
 }

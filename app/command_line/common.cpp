@@ -29,14 +29,6 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string range_of(const Parameter& parameter) {
-  if (parameter.lowest == parameters::above_zero) {
-    return "a number above 0";
-  }
-  return digits(parameter.lowest) +
-         (parameter.highest == parameters::no_highest ? " or more" : " to " + digits(parameter.highest));
-}
-
 }  // namespace
 
 CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string& type, const std::string& help) {
@@ -47,9 +39,12 @@ CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+std::string help_of(const Parameter& parameter) {
+  return std::string(parameter.help) + " [" + digits(parameter.standard) + "]";
+}
+
 CLI::Option* add_parameter(CLI::App& app, const Parameter& parameter) {
-  return add_value(app, name_of(parameter), "NUMBER",
-                   std::string(parameter.help) + " [" + digits(parameter.standard) + "]");
+  return add_value(app, name_of(parameter), "NUMBER", help_of(parameter));
 }
 
 std::optional<std::string> value_of(const CLI::Option* option) {
@@ -58,7 +53,7 @@ std::optional<std::string> value_of(const CLI::Option* option) {
     return std::nullopt;
   }
   if (values.size() > 1) {
-    throw Error(option->get_name(), "it is given " + std::to_string(values.size()) + " times", "give it once");
+    throw Error(option->get_name(), "it was given " + std::to_string(values.size()) + " times", "give it once");
   }
   return values.front();
 }
@@ -77,9 +72,7 @@ double value_of(const CLI::Option* option, const Parameter& parameter) {
     return parameter.standard;
   }
   const double number = parse_number_of(name_of(parameter), *text);
-  if (!(number >= parameter.lowest && number <= parameter.highest)) {
-    throw Error(name_of(parameter), *text + " lies out of its range", "use " + range_of(parameter));
-  }
+  in_options({{std::string(parameter.name), name_of(parameter)}}, [&] { check(parameter, number); });
   return number;
 }
 
@@ -90,7 +83,7 @@ std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, s
   }
   const auto number = parse_count(*text);
   if (!number || *number < lowest || *number > highest_whole_number) {
-    throw Error(option->get_name(), in_quotes(*text) + " is not a whole number that it can be",
+    throw Error(option->get_name(), in_quotes(*text) + " is not a whole number in range",
                 "use " + std::to_string(lowest) + " to " + std::to_string(highest_whole_number));
   }
   return *number;
@@ -108,12 +101,52 @@ std::vector<std::string> words_of(const std::string& where, const std::string& l
     const std::size_t end = std::min(list.find(',', begin), list.size());
     const std::string word = list.substr(begin, end - begin);
     if (std::find(words.begin(), words.end(), word) != words.end()) {
-      throw Error(where, in_quotes(word) + " stands there twice", "name each once");
+      throw Error(where, in_quotes(word) + " is given twice", "give each one once");
     }
     words.push_back(word);
     begin = end + 1;
   }
   return words;
+}
+
+std::vector<std::string> names_of(std::span<const AlgorithmInfo> offered) {
+  std::vector<std::string> names;
+  for (const AlgorithmInfo& one : offered) {
+    names.emplace_back(one.offered_name());
+  }
+  return names;
+}
+
+std::string algorithms_help(std::span<const AlgorithmInfo> offered) {
+  constexpr std::size_t column = 15;
+  std::string text;
+  for (const AlgorithmInfo& one : offered) {
+    const std::string name(one.offered_name());
+    text += "  " + name + std::string(column - std::min(column - 1, name.size()), ' ') + std::string(one.label) + ": " +
+            std::string(one.summary) + "\n";
+  }
+  return text;
+}
+
+Algorithm algorithm_of(const std::string& where, const std::string& name, std::span<const AlgorithmInfo> offered) {
+  const auto algorithm = find_algorithm(name);
+  if (!algorithm || std::ranges::find(offered, *algorithm, &AlgorithmInfo::algorithm) == offered.end()) {
+    throw Error(where, in_quotes(name) + " is not known", "use " + joined(names_of(offered)));
+  }
+  return *algorithm;
+}
+
+std::vector<Algorithm> algorithms_of(const CLI::Option* option, std::span<const AlgorithmInfo> offered) {
+  std::vector<Algorithm> chosen;
+  if (const auto list = value_of(option)) {
+    for (const std::string& word : words_of(option->get_name(), *list)) {
+      chosen.push_back(algorithm_of(option->get_name(), word, offered));
+      if (std::ranges::count(chosen, chosen.back()) > 1) {
+        throw Error(option->get_name(), in_quotes(word) + " is given twice", "give each algorithm once");
+      }
+    }
+  }
+  return chosen;
 }
 
 std::optional<int> space_of(const CLI::Option* option) {
@@ -127,15 +160,17 @@ std::optional<int> space_of(const CLI::Option* option) {
 
 MeshOptions add_mesh_options(CLI::App& app) {
   MeshOptions options;
-  options.path = add_value(app, "MESH", "", "the mesh, a file " + mesh_endings(FormatUse::read))->required();
-  options.size = add_value(app, "--size", "WxH[xD]", "how many elements a .dat file has along each axis");
-  options.spacing = add_value(app, "--spacing", "NUMBER", "their distance, before what the file states");
-  options.threshold = add_value(app, "--threshold", "D", "the lowest density of a volume that is there [Otsu's]");
-  options.voxels = add_value(app, "--voxels", "N", "how many voxels along each axis make an element [few enough]");
-  options.by_density =
-      add_value(app, "--density-softness", "on|off", "whether a volume is the stiffer where it is denser [on]");
-  options.data_outside = add_value(app, "--data-outside", "allow|refuse",
-                                   "whether the header of a volume may name data outside its own folder [refuse]");
+  options.path = add_value(app, "MESH", "", "mesh file: " + mesh_endings(FormatUse::read))->required();
+  options.size = add_value(app, "--size", "WxH[xD]", "number of elements of a .dat file along each axis");
+  options.spacing =
+      add_value(app, "--spacing", "NUMBER", "distance between the elements of a .dat file; overrides the file");
+  options.threshold = add_value(app, "--threshold", "D",
+                                "lowest density that counts as material, for volumes of voxels [Otsu's method]");
+  options.voxels =
+      add_value(app, "--voxels", "N", "voxels per element along each axis [chosen to limit the number of elements]");
+  options.by_density = add_value(app, "--density-softness", "on|off", "make denser voxels stiffer [on]");
+  options.data_outside =
+      add_value(app, "--data-outside", "allow|refuse", "data files outside the folder of a volume's header [refuse]");
   return options;
 }
 
@@ -183,7 +218,7 @@ OpenedMesh open_mesh(const MeshOptions& options) {
 }
 
 Error at_option(const Error& error, const std::map<std::string, std::string>& options) {
-  // What the core says of a value, `size` or `space dimension 2`, stands without the number in the table.
+  // Errors of core name a value, like `size` or `space dimension 2`; the table has the name without the number.
   const std::string what = error.where().substr(0, error.where().find_last_not_of(" 0123456789") + 1);
   const auto option = options.find(what);
   return option == options.end() ? error : error.at(option->second + error.where().substr(what.size()));

@@ -4,20 +4,22 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "files/mesh/open_mesh.h"
 #include "files/text/outputs.h"
 #include "mesh/error.h"
-#include "simulate/parameters.h"
+#include "mesh/parameters.h"
+#include "solve/algorithms.h"
 
 namespace chainmail::command_line {
 
-/// Parses the arguments and carries the command out. Throws Error for bad usage and bad input.
+/// Parses the arguments and runs the command. Throws Error for bad usage and bad input.
 void run(int argc, char** argv);
 
-/// A subcommand: what is parsed for it, and what is then done.
+/// A subcommand: its parser, and the function that runs it.
 struct Command {
   CLI::App* app;
   std::function<void()> run;
@@ -27,33 +29,44 @@ Command add_convert(CLI::App& root);
 Command add_fill(CLI::App& root);
 Command add_info(CLI::App& root);
 Command add_deform(CLI::App& root);
-/// `command_line` is what a report says of its own making.
+/// `command_line` is shown in the report.
 Command add_compare(CLI::App& root, const std::string& command_line);
 Command add_calibrate(CLI::App& root);
 Command add_ramp(CLI::App& root);
 
-/// Adds an option that takes one value, or a positional. Values are kept as text, so that every check
-/// and its sentence is our own.
+/// Adds an option with one value, or a positional. Values are kept as text, so that all checks and messages are ours.
 CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string& type, const std::string& help);
-/// The same for a number of the parameter table, with its default in the help.
+/// Adds an option for a number of the parameter table, with its default in the help.
 CLI::Option* add_parameter(CLI::App& app, const Parameter& parameter);
+/// Returns the help of a parameter, with its default.
+std::string help_of(const Parameter& parameter);
 
-/// The value of an option or positional, if it was given. Throws Error where it was given twice.
+/// Returns the value of an option or positional, if given. Throws Error if it was given twice.
 std::optional<std::string> value_of(const CLI::Option* option);
 
-/// A finite number; `where` is the option that it belongs to.
+/// Returns a finite number. `where` is its option, for the message.
 double parse_number_of(const std::string& where, std::string_view text);
-/// A parameter's value, by default its standard one, within its range.
+/// Returns the value of a parameter, or its default. Throws Error if it is out of range.
 double value_of(const CLI::Option* option, const Parameter& parameter);
-/// A whole number of an option, not below `lowest`.
+/// Returns the whole number of an option, or `standard`. Throws Error if it is below `lowest`.
 std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t standard);
-/// One of a few words; throws Error, naming them, for any other.
+/// Throws Error, with the list of words, if the word is not one of them.
 void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words);
-/// The words of a list parted by commas. Throws Error where one comes twice.
+/// Splits a list at its commas. Throws Error if a word comes twice.
 std::vector<std::string> words_of(const std::string& where, const std::string& list);
+
+/// Returns the names that the command line offers for these algorithms.
+std::vector<std::string> names_of(std::span<const AlgorithmInfo> offered);
+/// Returns a help text: one line per algorithm with its name and a sentence.
+std::string algorithms_help(std::span<const AlgorithmInfo> offered);
+/// Returns the algorithm with this name or alias. Throws Error, with the list of names, if it is not offered.
+Algorithm algorithm_of(const std::string& where, const std::string& name, std::span<const AlgorithmInfo> offered);
+/// Returns the algorithms of a list parted by commas; none if the option was not given.
+std::vector<Algorithm> algorithms_of(const CLI::Option* option, std::span<const AlgorithmInfo> offered);
+
 std::optional<int> space_of(const CLI::Option* option);
 
-/// The options with which a mesh is read.
+/// The options for reading a mesh.
 struct MeshOptions {
   CLI::Option* path = nullptr;
   CLI::Option* size = nullptr;
@@ -67,15 +80,15 @@ struct MeshOptions {
 MeshOptions add_mesh_options(CLI::App& app);
 OpenedMesh open_mesh(const MeshOptions& options);
 
-/// The same error, said of the option that the value which it names came from, if any.
+/// Returns the error with the option in place of the value's name. `options` maps names of values to options.
 Error at_option(const Error& error, const std::map<std::string, std::string>& options);
-/// Calls a function of the core and has its errors name the option that a value came from.
+/// Calls a function of core. Its errors name options instead of values: see at_option.
 template <class Make>
 auto in_options(const std::map<std::string, std::string>& options, Make make) {
   try {
     return make();
   } catch (const WriteFailure&) {
-    throw;  // it keeps its exit status
+    throw;  // keeps its exit status
   } catch (const Error& error) {
     throw at_option(error, options);
   }

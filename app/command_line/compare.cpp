@@ -15,19 +15,20 @@ namespace chainmail::command_line {
 namespace {
 
 constexpr const char* footer =
-    "Without a MESH: six objects, a minute or two. Each object is dragged three times: locally, as a whole, and\n"
-    "back and forth, from rest. FOLDER receives report.html, report.json and report.csv; the main table is printed.\n\n"
-    "--against physics: the reference is neo-Hookean FEM on the same cells; FEM, BEM, free-form deformation and an\n"
-    "object that does not move take part. Without a MESH: a bar and a sheet. Each is nudged, pulled and bent at three\n"
-    "handles, and once cut between two moves; FOLDER also receives the plots as SVG.\n\n"
-    "A script of moves is JSON; pin, unpin, cut, uncut and softness are commands as well:\n"
+    "Without MESH, six built-in objects are used, which takes one or two minutes. Each object is dragged three times\n"
+    "from rest: locally, as a whole, and back and forth. Writes report.html, report.json and report.csv to FOLDER and\n"
+    "prints the main table.\n\n"
+    "--against physics: the reference is neo-Hookean FEM on the same cells. FEM, BEM, free-form deformation and an\n"
+    "object that does not move are added. Without MESH, a bar and a sheet are used. Each object is nudged, pulled and\n"
+    "bent at three handles, and cut once between two moves. FOLDER also receives the plots as SVG.\n\n"
+    "Recorded moves are JSON. Other commands are pin, unpin, cut, uncut and softness:\n"
     "  {\"version\": 1, \"commands\": [{\"do\": \"pin\", \"elements\": [0]}, {\"do\": \"grab\", \"element\": 5},\n"
     "    {\"do\": \"drag\", \"target\": [1, 2, 0]}, {\"do\": \"drag\", \"target\": [2, 3, 0]}]}\n\n"
     "Example:\n"
     "  chainmail compare cloth.obj --algorithms natural-queue,exact --relax 0,10 -o report\n"
     "  chainmail compare organ.msh --against physics --pins bottom --poisson 0.45 -o report";
 
-/// The drags of an object: those recorded in a file, or the three that are made for it.
+/// Returns the drags of an object: the recorded ones, or the three standard drags.
 std::vector<report::RecordedMoves> drags_of(const report::Case& object, const std::optional<std::string>& recorded) {
   if (!recorded) {
     return report::three_drags(object);
@@ -37,7 +38,7 @@ std::vector<report::RecordedMoves> drags_of(const report::Case& object, const st
   report::RecordedMoves moves{"recorded", "as " + printable(path.filename().string()) + " has it",
                               read_moves(path, *object.mesh, watch.progress())};
   if (report::count_moves(moves) == 0) {
-    throw Error(printable(*recorded), "there is no move in it", "write a grab and a drag, as compare --help has them");
+    throw Error(printable(*recorded), "it contains no move", "write a grab and a drag, as in compare --help");
   }
   return {std::move(moves)};
 }
@@ -46,7 +47,7 @@ std::vector<report::Case> read_cases(const CompareArguments& options) {
   const LinkSoftness softness = softness_of(options);
   const auto recorded = value_of(options.moves);
   if (options.meshes->count() == 0 && recorded) {
-    throw Error("--moves", "the mesh that they were recorded on is missing", "name its file");
+    throw Error("--moves", "the mesh of the recorded moves is missing", "add its file");
   }
   if (options.meshes->count() == 0) {
     return report::default_cases(softness);
@@ -64,7 +65,7 @@ void refuse_physics(const CompareArguments& arguments) {
   for (const CLI::Option* option : {arguments.pins, arguments.grow, arguments.calibrated, arguments.elastic.young,
                                     arguments.elastic.poisson, arguments.elastic.lattice}) {
     if (option->count() > 0) {
-      throw Error(option->get_name(), "it is for the comparison with physics", "add --against physics");
+      throw Error(option->get_name(), "it works only with --against physics", "add --against physics");
     }
   }
 }
@@ -92,7 +93,7 @@ void compare(const CompareArguments& options, const std::string& command_line) {
 }  // namespace
 
 Command add_compare(CLI::App& root, const std::string& command_line) {
-  CLI::App* app = root.add_subcommand("compare", "Report speed against error");
+  CLI::App* app = root.add_subcommand("compare", "Compare algorithms: a report of speed against error");
   const CompareArguments arguments = add_compare_arguments(*app);
   app->footer(footer);
   return {app, [arguments, command_line] {

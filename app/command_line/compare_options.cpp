@@ -8,21 +8,6 @@
 namespace chainmail::command_line {
 namespace {
 
-std::vector<Algorithm> read_algorithms(const CLI::Option* option, std::span<const AlgorithmInfo> offered) {
-  std::vector<std::string> names;
-  for (const AlgorithmInfo& one : offered) {
-    names.emplace_back(one.name);
-  }
-  std::vector<Algorithm> chosen;
-  if (const auto list = value_of(option)) {
-    for (const std::string& word : words_of("--algorithms", *list)) {
-      check_word("--algorithms", word, names);
-      chosen.push_back(*find_algorithm(word));
-    }
-  }
-  return chosen;
-}
-
 std::vector<int> read_sweeps(const CLI::Option* option, const std::string& usual) {
   constexpr std::uint32_t most_sweeps = 1'000'000;
   std::vector<int> sweeps;
@@ -30,14 +15,14 @@ std::vector<int> read_sweeps(const CLI::Option* option, const std::string& usual
     const auto count = parse_count(word);
     if (!count || *count > most_sweeps) {
       throw Error("--relax", in_quotes(word) + " is not a number of sweeps",
-                  "write whole numbers up to 1000000, parted by commas");
+                  "write whole numbers up to 1000000, separated by commas");
     }
     sweeps.push_back(static_cast<int>(*count));
   }
   return sweeps;
 }
 
-/// The softness of a preset: one that is built in, or the only one of a file.
+/// Returns the softness of a built-in preset, or of the only preset in a file.
 LinkSoftness preset_of(const std::string& name) {
   for (const BuiltInPreset& preset : built_in_presets()) {
     if (preset.name == name) {
@@ -55,31 +40,32 @@ LinkSoftness preset_of(const std::string& name) {
   }
   const std::vector<SoftnessPreset> presets = read_presets(path);
   if (presets.size() != 1) {
-    throw Error(shown(path), "it holds " + std::to_string(presets.size()) + " presets", "leave the one that is meant");
+    throw Error(shown(path), "it contains " + std::to_string(presets.size()) + " presets", "keep only one of them");
   }
   return presets.front().softness;
 }
 
 void add_contest(CLI::App& app, CompareArguments& options) {
-  options.against = add_value(app, "--against", "exact|physics", "what errors are measured against [exact]");
-  options.algorithms = add_value(app, "--algorithms", "A,B,…", "who takes part, by the names of deform [all]");
+  options.against = add_value(app, "--against", "exact|physics", "reference for the errors [exact]");
+  options.algorithms = add_value(app, "--algorithms", "A,B,…", "algorithms to compare: see deform --help [all]");
   options.relax = add_value(app, "--relax", "N,N,…",
-                            "each with so many sweeps of relaxation after a move [0,10; physics: 0,1,3,10,30,100]");
-  options.relaxation = add_value(app, "--relaxation", "mean|link", "how an element relaxes [mean]");
+                            "numbers of relaxation sweeps after each move [0,10; physics: 0,1,3,10,30,100]");
+  options.relaxation = add_value(app, "--relaxation", "mean|link",
+                                 "relaxation scheme: toward the mean of the neighbours, or link by link [mean]");
   options.relax_step = add_parameter(app, parameters::relax_step);
-  options.precision = add_value(app, "--precision", "float|double", "the numbers to compute in [float]");
-  options.repetitions = add_value(app, "--repetitions", "N",
-                                  "of each drag [as many as 4 s hold, 5 at least; physics: 1.5 s, 3 at least]");
+  options.precision = add_value(app, "--precision", "float|double", "precision of the solver [float]");
+  options.repetitions = add_value(
+      app, "--repetitions", "N", "runs of each drag [as many as fit into 4 s, at least 5; physics: 1.5 s, at least 3]");
 }
 
 void add_physics(CLI::App& app, CompareArguments& options) {
   options.pins = add_pins(app);
   options.elastic = add_elastic(app);
   options.grow = add_value(app, "--grow", "SECONDS",
-                           "let a bar and a sheet grow until a contestant has used so much; 0: not at all [1]");
+                           "refine a bar and a sheet until an algorithm has used this much time; 0: off [1]");
   options.calibrated =
       add_value(app, "--calibrated", "on|off",
-                "also calibrate Natural Queue and Exact on each object: other drags, up to 10 sweeps [on]");
+                "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 sweeps [on]");
   for (CLI::Option* option : {options.pins, options.grow, options.calibrated, options.elastic.young,
                               options.elastic.poisson, options.elastic.lattice}) {
     option->group("Against physics");
@@ -91,7 +77,7 @@ void add_physics(CLI::App& app, CompareArguments& options) {
 report::CompareOptions contest_of(const CompareArguments& options, std::span<const AlgorithmInfo> algorithms,
                                   const std::string& sweeps) {
   report::CompareOptions result;
-  result.algorithms = read_algorithms(options.algorithms, algorithms);
+  result.algorithms = algorithms_of(options.algorithms, algorithms);
   result.sweeps = read_sweeps(options.relax, sweeps);
   const std::string scheme = value_of(options.relaxation).value_or("mean");
   check_word("--relaxation", scheme, {"mean", "link"});
@@ -132,7 +118,7 @@ report::Case case_of(const std::string& file, const LinkSoftness& softness) {
 
 CompareArguments add_compare_arguments(CLI::App& app) {
   CompareArguments options;
-  const std::string help = "meshes, files " + mesh_endings(FormatUse::read);
+  const std::string help = "mesh files: " + mesh_endings(FormatUse::read);
   options.meshes = app.add_option("MESH", help)
                        ->type_name("")
                        ->expected(-1)
@@ -143,9 +129,10 @@ CompareArguments add_compare_arguments(CLI::App& app) {
   options.stretch = add_parameter(app, parameters::stretch);
   options.shear = add_parameter(app, parameters::shear);
   options.preset = add_value(app, "--preset", "NAME|FILE",
-                             "softness by a preset's name, or of the one in a file, as calibrate writes it");
-  options.moves = add_value(app, "--moves", "FILE", "drag as recorded in this JSON script, from rest");
-  options.output = add_value(app, "-o", "FOLDER", "where the report goes; made where it is missing")->required();
+                             "softness of a built-in preset, or of a preset file as calibrate writes it");
+  options.moves =
+      add_value(app, "--moves", "FILE", "recorded moves (JSON) to run from rest, instead of the three drags");
+  options.output = add_value(app, "-o", "FOLDER", "folder for the report; created if missing")->required();
   add_physics(app, options);
   return options;
 }

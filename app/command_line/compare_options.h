@@ -6,7 +6,7 @@
 
 namespace chainmail::command_line {
 
-/// What `compare` is told, whatever it compares with.
+/// The options of `compare`, for either reference.
 struct CompareArguments {
   CLI::Option *meshes = nullptr, *output = nullptr, *against = nullptr;
   CLI::Option *algorithms = nullptr, *relax = nullptr, *relaxation = nullptr, *relax_step = nullptr,
@@ -17,12 +17,12 @@ struct CompareArguments {
 };
 CompareArguments add_compare_arguments(CLI::App& app);
 
-/// Who takes part and how, of these algorithms; `sweeps` is the list where nobody says otherwise.
+/// Returns the settings of the comparison. `algorithms` are offered; `sweeps` is the default list of sweeps.
 report::CompareOptions contest_of(const CompareArguments& arguments, std::span<const AlgorithmInfo> algorithms,
                                   const std::string& sweeps);
-/// That of all links: a preset's, by its name or in a file, and what is given beside it.
+/// Returns the global softness: that of the preset, with the single options on top.
 LinkSoftness softness_of(const CompareArguments& arguments);
-/// A mesh as the report calls it: `{name, …}` at rest, without drags.
+/// Reads a mesh as a case of the report: at rest, without drags.
 report::Case case_of(const std::string& file, const LinkSoftness& softness);
 
 /// The comparison with physics. Throws Error before anything is written.

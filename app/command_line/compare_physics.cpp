@@ -12,15 +12,15 @@
 namespace chainmail::command_line {
 namespace {
 
-// A plot that stands alone is read on light and on dark paper.
+// Single plots must be readable on a light and on a dark background.
 constexpr const char* ink = "#808080";
 
 report::PhysicsOptions read_options(const CompareArguments& arguments) {
   report::PhysicsOptions options;
-  const double seconds_a_drag = options.contest.seconds;
+  const double seconds_per_drag = options.contest.seconds;
   options.contest = contest_of(arguments, every_algorithm(), "0,1,3,10,30,100");
-  options.contest.seconds = seconds_a_drag;
-  std::ranges::sort(options.contest.sweeps);  // they are a curve
+  options.contest.seconds = seconds_per_drag;
+  std::ranges::sort(options.contest.sweeps);  // they form a curve
   const std::string calibrated = value_of(arguments.calibrated).value_or("on");
   check_word("--calibrated", calibrated, {"on", "off"});
   if (calibrated == "on") {
@@ -39,11 +39,11 @@ std::vector<report::Case> read_cases(const CompareArguments& arguments) {
   const LinkSoftness softness = softness_of(arguments);
   const ElasticOptions elastic = elastic_of(arguments.elastic);
   if (arguments.moves->count() > 0) {
-    throw Error("--moves", "physics is compared on drags of its own", "leave it out");
+    throw Error("--moves", "the comparison with physics uses its own drags", "leave out the option");
   }
   if (arguments.meshes->count() == 0) {
     if (arguments.pins->count() > 0) {
-      throw Error("--pins", "the built-in objects are pinned as they are", "name a mesh, or leave it out");
+      throw Error("--pins", "the built-in objects have their own pins", "name a mesh, or leave out the option");
     }
     return report::physics_cases({softness, {}}, elastic);
   }

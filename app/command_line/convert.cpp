@@ -8,11 +8,11 @@
 #include "files/text/text.h"
 #include "mesh/error.h"
 
-// Meshes from one format to another, and surfaces to volumes.
+// The subcommands convert and fill.
 namespace chainmail::command_line {
 namespace {
 
-/// What was left out of the file goes to standard error: the result has other ids, or less.
+/// Prints flaws of the file as a note on standard error: the result may have other ids, or fewer elements.
 void say_flaws(const OpenedMesh& opened) {
   const std::string words = in_words(opened.flaws);
   if (!words.empty()) {
@@ -32,10 +32,10 @@ void write(const MeshOptions& options, const std::string& target, const Mesh& me
 }
 
 CLI::Option* add_target(CLI::App& app) {
-  return add_value(app, "-o", "FILE", "where to: " + mesh_endings(FormatUse::write))->required();
+  return add_value(app, "-o", "FILE", "output file: " + mesh_endings(FormatUse::write))->required();
 }
 
-/// The size of the edges within: by default that of the surface's own.
+/// Returns the length of the inner edges; the default is the mean edge of the surface.
 double size_of(const CLI::Option* option, const Mesh& surface) {
   const auto text = value_of(option);
   return text ? parse_number_of("--edge", *text) : surface.mean_link_length;
@@ -59,9 +59,9 @@ Command add_convert(CLI::App& root) {
 Command add_fill(CLI::App& root) {
   CLI::App* app = root.add_subcommand("fill", "Fill a closed surface with tetrahedra");
   MeshOptions options;
-  options.path = add_value(*app, "MESH", "", "the surface, a file " + mesh_endings(FormatUse::read))->required();
-  const CLI::Option* size =
-      add_value(*app, "--edge", "LENGTH", "about how long edges within become, in mesh units [the surface's mean]");
+  options.path = add_value(*app, "MESH", "", "file of the surface: " + mesh_endings(FormatUse::read))->required();
+  const CLI::Option* size = add_value(
+      *app, "--edge", "LENGTH", "approximate length of inner edges, in mesh units [the mean edge of the surface]");
   const CLI::Option* target = add_target(*app);
   app->footer("Example:\n  chainmail fill sphere.obj --edge 0.8 -o ball.msh");
   return {app, [options, size, target] {

@@ -27,40 +27,25 @@ struct Options {
   CLI::Option *positions, *trace, *json;
 };
 
-/// Where the results go; nothing is said twice of one place.
+/// Files for the results.
 struct Targets {
   std::optional<std::string> positions, trace, json;
-  std::vector<std::string> inputs;  // what was read, which no result replaces
+  std::vector<std::string> inputs;  // files that were read, which no result may replace
   bool none() const { return !positions && !trace && !json; }
 };
 
 constexpr const char* example =
-    "Passes, orders and ids in the output count from 0; a sponsor of -1 is none. Links that are cut still count in\n"
-    "\"links\".\n\n"
+    "Passes, orders and ids in the output count from 0. A sponsor of -1 means none. \"links\" includes cut links.\n\n"
     "Example:\n"
     "  chainmail deform grid.dat --algorithm natural-queue --cut 30-31 --by 31:3,2 --steps 10 \\\n"
     "      --relax 20 --positions moved.csv --json -";
 
-std::vector<std::string> algorithm_names() {
-  std::vector<std::string> names;
-  for (const AlgorithmInfo& one : every_algorithm()) {
-    names.emplace_back(one.name);
-  }
-  return names;
-}
-
-Algorithm read_algorithm(const Options& options) {
-  const std::string name = *value_of(options.algorithm);
-  check_word("--algorithm", name, algorithm_names());
-  return *find_algorithm(name);
-}
-
-/// Has what the core says of an algorithm that does not work on the mesh name the option.
-void check_algorithm(Algorithm algorithm, const Mesh& mesh) {
+/// Throws Error, with the option, if the algorithm does not work on the mesh.
+void check_algorithm(const Options& options, Algorithm algorithm, const Mesh& mesh) {
   try {
     check(algorithm, mesh);
   } catch (const Error& error) {
-    throw error.at("--algorithm " + std::string(info(algorithm).name));
+    throw error.at("--algorithm " + *value_of(options.algorithm));
   }
 }
 
@@ -86,7 +71,7 @@ Schedule read_schedule(const Options& options, const Targets& targets) {
           value_of(options.relax_step, parameters::relax_step), targets.trace.has_value()};
 }
 
-/// The acts in the order in which their options stand on the command line.
+/// Returns the acts in the order of their options on the command line.
 std::vector<Act> read_acts(const Options& options) {
   const std::map<const CLI::Option*, Act::Kind> kinds{{options.move, Act::Kind::move},
                                                       {options.by, Act::Kind::by},
@@ -102,7 +87,7 @@ std::vector<Act> read_acts(const Options& options) {
   return acts;
 }
 
-/// Positions on standard output are a table.
+/// Returns the format of positions; on standard output they are CSV.
 MeshFormat positions_format(const std::string& path) {
   try {
     return path == "-" ? MeshFormat::csv : mesh_format(path, FormatUse::write_positions);
@@ -182,7 +167,7 @@ void write_results(const Targets& targets, const Simulation& simulation, const R
 }
 
 void deform(const Options& options) {
-  const Algorithm algorithm = read_algorithm(options);
+  const Algorithm algorithm = algorithm_of("--algorithm", *value_of(options.algorithm), every_algorithm());
   const Precision precision = read_precision(options);
   const RelaxationScheme relaxation = read_relaxation(options);
   Softness softness{read_global_softness(options), {}};
@@ -193,7 +178,7 @@ void deform(const Options& options) {
   OpenedMesh opened = open_mesh(options.mesh);
   const MeshPointer mesh = opened.mesh;
   softness.links = std::move(opened.softness);
-  check_algorithm(algorithm, *mesh);
+  check_algorithm(options, algorithm, *mesh);
   check_acts(acts, *mesh);
   if (const auto file = value_of(options.softness)) {
     for (const auto& [link, own] : read_softness(std::filesystem::path(*file), *mesh)) {
@@ -215,20 +200,22 @@ void deform(const Options& options) {
 }
 
 void add_acts(CLI::App& app, Options& options) {
-  options.move = add_value(app, "--move", "ID:X[,Y[,Z]]", "drag an element to a position; what is left out stays");
-  options.by = add_value(app, "--by", "ID:DX[,DY[,DZ]]", "drag an element from where it is");
-  options.cut = add_value(app, "--cut", "A-B", "cut the link of two elements");
-  options.pin = add_value(app, "--pin", "ID|LAYER", "keep an element where it then is, or all of " + pin_names());
+  options.move = add_value(app, "--move", "ID:X[,Y[,Z]]", "drag an element to a position; omitted coordinates stay");
+  options.by = add_value(app, "--by", "ID:DX[,DY[,DZ]]", "drag an element by a distance");
+  options.cut = add_value(app, "--cut", "A-B", "cut the link between two elements");
+  options.pin =
+      add_value(app, "--pin", "ID|LAYER", "pin an element at its current position, or all elements of " + pin_names());
   for (CLI::Option* option : {options.move, options.by, options.cut, options.pin}) {
-    option->group("Acts, repeated at will and carried out in the order given");
+    option->group("Acts: may be repeated, run in the order given");
   }
-  options.steps = add_value(app, "--steps", "N", "passes of equal steps a move [1]");
-  options.script = add_value(app, "--script", "FILE", "recorded moves, as the workbench saves them; before all acts");
+  options.steps = add_value(app, "--steps", "N", "passes per move, in equal steps [1]");
+  options.script =
+      add_value(app, "--script", "FILE", "recorded moves (JSON) as the workbench saves them; run before all acts");
 }
 
 void add_model(CLI::App& app, Options& options) {
   std::string names;
-  for (const auto& name : algorithm_names()) {
+  for (const std::string& name : names_of(every_algorithm())) {
     names += (names.empty() ? "" : "|") + name;
   }
   options.algorithm = add_value(app, "--algorithm", "NAME", names)->required();
@@ -236,35 +223,37 @@ void add_model(CLI::App& app, Options& options) {
   options.stretch = add_parameter(app, parameters::stretch);
   options.shear = add_parameter(app, parameters::shear);
   options.softness =
-      add_value(app, "--softness", "FILE", "other softness for single links: CSV rows a,b,compression,stretch,shear");
+      add_value(app, "--softness", "FILE", "softness of single links: CSV rows a,b,compression,stretch,shear");
   options.relax = add_value(app, "--relax", "N", "sweeps of relaxation after each pass [0]");
-  options.relaxation =
-      add_value(app, "--relaxation", "mean|link", "toward its neighbours' mean, or link by link [mean]");
+  options.relaxation = add_value(app, "--relaxation", "mean|link",
+                                 "relaxation scheme: toward the mean of the neighbours, or link by link [mean]");
   options.relax_step = add_parameter(app, parameters::relax_step);
-  options.precision = add_value(app, "--precision", "double|float", "the numbers to compute in [double]");
+  options.precision = add_value(app, "--precision", "double|float", "precision of the solver [double]");
   options.elastic = add_elastic(app);
-  options.mesh.space = add_value(app, "--space", "1|2|3", "space dimension [what the mesh states or extends along]");
+  options.mesh.space = add_value(app, "--space", "1|2|3",
+                                 "space dimension [stated by the file, else the axes that the mesh extends along]");
 }
 
 void add_outputs(CLI::App& app, Options& options) {
   options.positions =
-      add_value(app, "--positions", "FILE", "where the elements end: " + mesh_endings(FormatUse::write_positions));
+      add_value(app, "--positions", "FILE", "write the final positions: " + mesh_endings(FormatUse::write_positions));
   options.trace =
-      add_value(app, "--trace", "FILE", "every candidate processed, as CSV pass,order,element,sponsor,moved");
-  options.json = add_value(app, "--json", "FILE", "passes, violation, energy and displacement as JSON");
+      add_value(app, "--trace", "FILE", "write every processed candidate as CSV pass,order,element,sponsor,moved");
+  options.json = add_value(app, "--json", "FILE", "write passes, violation, energy and displacement as JSON");
 }
 
 }  // namespace
 
 Command add_deform(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("deform", "Drag and pin elements and cut links of a mesh");
+  CLI::App* app = root.add_subcommand("deform", "Drag elements of a mesh, pin elements, cut links");
   Options options{};
   options.app = app;
   options.mesh = add_mesh_options(*app);
   add_model(*app, options);
   add_acts(*app, options);
   add_outputs(*app, options);
-  app->footer("Formats of positions:\n" + mesh_formats_help(FormatUse::write_positions) + "\n" + example);
+  app->footer("Algorithms:\n" + algorithms_help(every_algorithm()) + "\nFormats of positions:\n" +
+              mesh_formats_help(FormatUse::write_positions) + "\n" + example);
   return {app, [options] { deform(options); }};
 }
 

@@ -15,7 +15,7 @@ std::array<std::uint32_t, 3> lattice_of(const std::string& text) {
     const std::size_t end = std::min(text.find('x', begin), text.size());
     const auto count = parse_count(text.substr(begin, end - begin));
     if (!count || axis == 3) {
-      throw Error("--lattice", in_quotes(text) + " is no number of control points",
+      throw Error("--lattice", in_quotes(text) + " is not a number of control points",
                   "write one number for all axes, or one for each, as 4x4x4");
     }
     counts[axis] = *count;
@@ -24,7 +24,7 @@ std::array<std::uint32_t, 3> lattice_of(const std::string& text) {
   if (axis == 1) {
     counts = {counts[0], counts[0], counts[0]};
   } else if (axis == 2) {
-    counts[2] = counts[1];  // a plane has no third axis to show it on
+    counts[2] = counts[1];  // a plane has no third axis
   }
   return counts;
 }
@@ -37,8 +37,7 @@ ElasticArguments add_material(CLI::App& app) {
 
 ElasticArguments add_elastic(CLI::App& app) {
   ElasticArguments arguments = add_material(app);
-  arguments.lattice =
-      add_value(app, "--lattice", "N|NxN[xN]", "control points of free-form deformation along each axis [4]");
+  arguments.lattice = add_value(app, "--lattice", "N|NxN[xN]", help_of(parameters::lattice));
   return arguments;
 }
 
@@ -53,8 +52,7 @@ ElasticOptions elastic_of(const ElasticArguments& arguments) {
   if (const auto lattice = arguments.lattice == nullptr ? std::nullopt : value_of(arguments.lattice)) {
     options.lattice = lattice_of(*lattice);
   }
-  in_options({{"young", "--young"}, {"poisson", "--poisson"}, {"lattice", "--lattice"}},
-             [&] { return check(options), 0; });
+  in_options({{"young", "--young"}, {"poisson", "--poisson"}, {"lattice", "--lattice"}}, [&] { check(options); });
   return options;
 }
 
@@ -66,8 +64,9 @@ std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, con
   }
   std::vector<ElementId> pins = side == nullptr ? boundary(mesh) : layer(mesh, *side);
   if (pins.empty()) {
-    throw side == nullptr ? Error(where, "the object is closed and has no boundary", "pin a layer, as bottom, or ids")
-                          : Error(where, "the object does not extend that way", "pin another layer, or ids");
+    throw side == nullptr
+        ? Error(where, "the object is closed and has no boundary", "pin a layer, like bottom, or elements by id")
+        : Error(where, "the object does not extend along that axis", "pin another layer, or elements by id");
   }
   return pins;
 }
@@ -75,7 +74,7 @@ std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, con
 std::vector<ElementId> pins_of(const CLI::Option* option, const std::string& object, const Mesh& mesh) {
   const auto list = value_of(option);
   if (!list) {
-    throw Error(object, "nothing pins it, so physics has no static answer",
+    throw Error(object, "it has no pins, so physics has no static answer",
                 "add --pins bottom, --pins boundary, or --pins ID,ID,…");
   }
   if (auto pins = pins_by_name("--pins", *list, mesh)) {
@@ -85,8 +84,8 @@ std::vector<ElementId> pins_of(const CLI::Option* option, const std::string& obj
   for (const std::string& word : words_of("--pins", *list)) {
     const auto id = parse_count(word);
     if (!id) {
-      throw Error("--pins", in_quotes(word) + " is no element's id",
-                  "use ids from 0, parted by commas, or " + pin_names());
+      throw Error("--pins", in_quotes(word) + " is not an element's id",
+                  "use ids from 0, separated by commas, or " + pin_names());
     }
     if (*id >= mesh.element_count()) {
       throw Error("--pins", object + " has no element " + word,
@@ -99,7 +98,7 @@ std::vector<ElementId> pins_of(const CLI::Option* option, const std::string& obj
 }
 
 CLI::Option* add_pins(CLI::App& app) {
-  return add_value(app, "--pins", "SIDE|ID,ID,…", "what holds the object: a layer, " + pin_names() + ", or elements");
+  return add_value(app, "--pins", "SIDE|ID,ID,…", "pinned elements: a layer (" + pin_names() + ") or ids");
 }
 
 std::string pin_names() {

@@ -5,24 +5,24 @@
 
 namespace chainmail::command_line {
 
-/// What methods of elasticity and free-form deformation go by, as options.
+/// The options for methods of elasticity and free-form deformation.
 struct ElasticArguments {
   CLI::Option *young = nullptr, *poisson = nullptr, *lattice = nullptr;
 };
 ElasticArguments add_elastic(CLI::App& app);
-/// The same without free-form deformation's.
+/// Adds the options of the material only.
 ElasticArguments add_material(CLI::App& app);
-/// Throws Error, naming the option, where they are out of range.
+/// Throws Error, with the option, if a value is out of range.
 ElasticOptions elastic_of(const ElasticArguments& arguments);
 
-/// The elements that a word names to be pinned: `boundary`, or a layer as `bottom`. Nothing where it is no such word.
-/// Throws Error, naming the option, where the object has none.
+/// Returns the elements of `boundary` or of a layer, like `bottom`; nothing for any other word. Throws Error, with the
+/// option, if the object has no such elements.
 std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, const std::string& word, const Mesh& mesh);
-/// The value of `--pins`: such a word, or ids parted by commas; ascending. Throws Error where nothing is named;
-/// `object` is how that calls it.
+/// Returns the elements of `--pins`, a layer or ids separated by commas, in ascending order. Throws Error if the option
+/// is missing; `object` is the object's name for the message.
 std::vector<ElementId> pins_of(const CLI::Option* pins, const std::string& object, const Mesh& mesh);
 CLI::Option* add_pins(CLI::App& app);
-/// All such words, as a help text parts them.
+/// Returns all names of layers, separated by `|`.
 std::string pin_names();
 
 }  // namespace chainmail::command_line

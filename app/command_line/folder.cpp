@@ -38,7 +38,7 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) {
-    fs::remove(*folder, ignored);  // where somebody put something into it, it stays
+    fs::remove(*folder, ignored);  // fails, and keeps the folder, if others wrote into it
   }
 }
 
@@ -54,7 +54,8 @@ void OutputFolder::make() {
       made_.push_back(folder);
     }
     if (error) {
-      throw Error("-o", shown(folder) + " cannot be made (" + error.message() + ")", "check the name and permissions");
+      throw Error("-o", shown(folder) + " cannot be created (" + error.message() + ")",
+                  "check the name and permissions");
     }
   }
 }

@@ -5,15 +5,14 @@
 
 namespace chainmail::command_line {
 
-/// A folder for results, made where it is missing, and unmade where the results did not come.
+/// A folder for results. It is created if missing, and removed again if the results were not written.
 class OutputFolder {
  public:
-  /// Touches nothing yet. Throws Error where there can be no such folder, so that nobody waits for results
-  /// that have no place to go.
+  /// Changes nothing yet. Throws Error if the folder cannot be created, before any long work begins.
   explicit OutputFolder(std::filesystem::path path);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
-  /// Removes what was made and not kept.
+  /// Removes the folders that were created, unless keep() was called.
   ~OutputFolder();
 
   void make();
@@ -22,7 +21,7 @@ class OutputFolder {
 
  private:
   std::filesystem::path path_;
-  std::vector<std::filesystem::path> made_;  // the outermost first
+  std::vector<std::filesystem::path> made_;  // outermost first
 };
 
 }  // namespace chainmail::command_line

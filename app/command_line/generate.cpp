@@ -15,7 +15,7 @@ struct Options {
 std::string size_form(int sizes) { return sizes == 1 ? "N" : sizes == 2 ? "WxH" : "WxHxD"; }
 
 std::string kinds_help() {
-  std::string text = "what to make:";
+  std::string text = "kind of mesh:";
   for (const MeshKindInfo& info : mesh_kinds()) {
     text += "\n" + std::string(info.name) + " " + size_form(info.sizes) + ", " + std::string(info.help);
   }
@@ -62,15 +62,15 @@ void generate_to_file(const Options& options) {
 }  // namespace
 
 Command add_generate(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("generate", "Make a regular mesh");
+  CLI::App* app = root.add_subcommand("generate", "Generate a regular mesh");
   Options options{};
   options.kind = add_value(*app, "KIND", "", kinds_help())->required();
-  options.size = add_value(*app, "SIZE", "", "elements along each axis")->required();
+  options.size = add_value(*app, "SIZE", "", "number of elements along each axis")->required();
   options.spacing = add_parameter(*app, parameters::spacing);
-  options.space = add_value(*app, "--space", "1|2|3", "space dimension [the axes on which the mesh extends]");
-  options.output =
-      add_value(*app, "-o", "FILE", "where to: " + mesh_endings(FormatUse::write) + "; - for .dat on standard output")
-          ->required();
+  options.space = add_value(*app, "--space", "1|2|3", "space dimension [the axes that the mesh extends along]");
+  options.output = add_value(*app, "-o", "FILE",
+                             "output file: " + mesh_endings(FormatUse::write) + "; - writes .dat to standard output")
+                       ->required();
   app->footer("Formats:\n" + mesh_formats_help(FormatUse::write) +
               "\nExample:\n  chainmail generate cloth 24x16 --spacing 0.5 -o cloth.obj");
   return {app, [options] { generate_to_file(options); }};

@@ -40,9 +40,9 @@ void write_text(std::ostream& out, const MeshSummary& summary) {
 }  // namespace
 
 Command add_info(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("info", "Say what a mesh holds");
+  CLI::App* app = root.add_subcommand("info", "Show the contents of a mesh");
   const MeshOptions mesh = add_mesh_options(*app);
-  CLI::Option* json = add_value(*app, "--json", "FILE", "write it as JSON instead");
+  CLI::Option* json = add_value(*app, "--json", "FILE", "write JSON to this file instead");
   app->footer("Formats:\n" + mesh_formats_help(FormatUse::read) + "\nExample:\n  chainmail info 3x3.dat --json -");
   return {app, [mesh, json] {
             const MeshSummary summary = summarize(open_mesh(mesh));

@@ -7,10 +7,10 @@
 
 namespace chainmail::command_line {
 
-/// What a report says of its own making, now.
+/// Returns machine, command line, current time and version, for a report.
 report::Origin origin_of(const std::string& command_line);
 
-/// A line on standard error, where that is a terminal.
+/// A progress line on standard error, if that is a terminal.
 class ProgressLine {
  public:
   ProgressLine();

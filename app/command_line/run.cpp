@@ -9,8 +9,8 @@ namespace chainmail::command_line {
 namespace {
 
 constexpr const char* footer =
-    "Exit status: 0 done; 2 bad usage or bad input, with one line on standard error and no\n"
-    "output file touched; 1 anything else. The file name - is standard output.\n\n"
+    "Exit status: 0 done; 2 bad usage or bad input, with one line on standard error and no output\n"
+    "file changed; 1 any other error. The file name - is standard output.\n\n"
     "Example:\n"
     "  chainmail generate grid 9x7 -o grid.dat\n"
     "  chainmail deform grid.dat --algorithm natural-queue --by 31:3,2 --positions moved.csv";
@@ -24,7 +24,7 @@ const CLI::App& chosen(const CLI::App& root) {
   return commands.empty() ? root : *commands.front();
 }
 
-/// Turns what CLI11 says into one line of ours. Its texts begin with the name of the option or positional.
+/// Turns an error of CLI11 into ours. Its text begins with the name of the option or positional.
 Error usage_error(const CLI::App& root, const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::string name = text.substr(0, text.find_first_of(": "));
@@ -38,7 +38,7 @@ Error usage_error(const CLI::App& root, const CLI::ParseError& error) {
   return {"arguments", text, hint};
 }
 
-/// What no option and no positional has taken.
+/// Throws Error for the first argument that no option and no positional took.
 void refuse_extras(const CLI::App& root) {
   const CLI::App& app = chosen(root);
   for (const CLI::App* with_extras : {&root, &app}) {
@@ -50,12 +50,11 @@ void refuse_extras(const CLI::App& root) {
     if (word.size() > 1 && word.front() == '-') {
       throw Error(word, "there is no such option", help_hint(app));
     }
-    throw Error(word, with_extras == &root ? "there is no such command" : "it is one argument too many",
-                help_hint(app));
+    throw Error(word, with_extras == &root ? "there is no such command" : "unexpected argument", help_hint(app));
   }
 }
 
-/// An option's value that looks like an option: the real one was forgotten.
+/// Throws Error if the value of an option looks like an option: the value was forgotten.
 void refuse_swallowed_options(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& value : option->results()) {
@@ -66,7 +65,7 @@ void refuse_swallowed_options(const CLI::App& app) {
   }
 }
 
-/// The arguments as a shell would take them again.
+/// Returns the arguments, quoted for a shell.
 std::string as_typed(int argc, char** argv) {
   std::string line = "chainmail";
   for (int i = 1; i < argc; ++i) {
@@ -116,7 +115,7 @@ void run(int argc, char** argv) {
       return;
     }
   }
-  throw Error("command", "none is given",
+  throw Error("command", "no command was given",
               "use generate, convert, fill, info, deform, compare, calibrate or ramp; see chainmail --help");
 }
 

@@ -16,7 +16,7 @@
 namespace chainmail::command_line {
 namespace {
 
-/// A line on standard error, where that is a terminal, for work that takes more than a second.
+/// A progress line on standard error, if that is a terminal, for work that takes more than a second.
 class Progress {
  public:
   explicit Progress(std::uint64_t total) : total_(total), is_terminal_(isatty(STDERR_FILENO) != 0) {}
@@ -56,7 +56,7 @@ ElementId parse_id(const std::string& where, std::string_view text) {
   return *id;
 }
 
-/// What a pin pins.
+/// Returns the elements that an act pins.
 std::vector<ElementId> pins_of(const Act& act, const Mesh& mesh) {
   if (act.layer.empty()) {
     return {act.element};
@@ -85,7 +85,7 @@ void check_axes(const Act& act, const Mesh& mesh) {
     if (!carried && !stays) {
       const std::string axis(1, "xyz"[k]);
       throw Error(act.where, "the object does not extend along " + axis,
-                  "write 0 for " + axis + ", or give it more dimensions with --space");
+                  "write 0 for " + axis + ", or use more dimensions with --space");
     }
   }
 }
@@ -171,7 +171,7 @@ void Runner::move(const Act& act) {
   for (std::uint32_t step = 1; step <= schedule_.steps; ++step) {
     Point between;
     for (int k = 0; k < 3; ++k) {
-      // std::lerp ends exactly at the target, and does not leave the numbers' range on the way.
+      // std::lerp ends exactly at the target and does not overflow on the way.
       between[k] = std::lerp(start[k], target[k], double(step) / schedule_.steps);
     }
     pass(act.element, between);
@@ -213,8 +213,8 @@ Act parse_act(Act::Kind kind, const std::string& option, const std::string& text
   const bool is_cut = kind == Act::Kind::cut;
   const std::size_t mark = text.find(is_cut ? '-' : ':');
   if (mark == std::string::npos) {
-    throw Error(act.where, is_cut ? "it names no link" : "it names no place",
-                is_cut ? "write A-B with the ids of a link's ends" : "write ID:X[,Y[,Z]]");
+    throw Error(act.where, is_cut ? "it does not name a link" : "it does not name a target",
+                is_cut ? "write A-B with the ids of the two ends" : "write ID:X[,Y[,Z]]");
   }
   act.element = parse_id(act.where, std::string_view(text).substr(0, mark));
   const std::string_view rest = std::string_view(text).substr(mark + 1);
@@ -243,7 +243,7 @@ void check_acts(const std::vector<Act>& acts, const Mesh& mesh) {
       case Act::Kind::by:
         check_axes(act, mesh);
         if (pinned.contains(act.element)) {
-          throw Error(act.where, "element " + std::to_string(act.element) + " is pinned by then and may not move",
+          throw Error(act.where, "element " + std::to_string(act.element) + " is pinned by then and cannot move",
                       "move another element, or pin it later");
         }
         break;

@@ -9,7 +9,7 @@
 
 namespace chainmail::command_line {
 
-/// One of the options that act in the order given.
+/// One of the options that run in the order given.
 struct Act {
   enum class Kind { move, by, cut, pin };
 
@@ -18,20 +18,20 @@ struct Act {
   ElementId element = 0;
   ElementId other = 0;              // cut: the link's other end
   std::vector<double> coordinates;  // move, by: x, y, z as far as given
-  std::string layer;                // pin: of these elements, instead of one
+  std::string layer;                // pin: the name of a layer, instead of one element
 };
 
 /// Reads `ID:X[,Y[,Z]]` for a move, `A-B` for a cut, `ID` or the name of a layer for a pin. Throws Error naming the
 /// option.
 Act parse_act(Act::Kind kind, const std::string& option, const std::string& text);
 
-/// Throws Error where an act does not fit the mesh or the acts before it: an element or link that is not
-/// there, a coordinate on an axis that does not exist, a move of an element that is pinned by then.
+/// Throws Error if an act does not fit the mesh or the acts before it: the element, link or axis does not exist, or a
+/// moved element is pinned by then.
 void check_acts(const std::vector<Act>& acts, const Mesh& mesh);
 
-/// How each move is made.
+/// Settings of each move.
 struct Schedule {
-  std::uint32_t steps = 1;  // passes a move
+  std::uint32_t steps = 1;  // passes per move
   std::uint32_t relax = 0;  // sweeps after each pass
   double relax_step = 1;
   bool trace = false;
@@ -42,7 +42,7 @@ struct Run {
   std::vector<Trace> traces;
 };
 
-/// Carries recorded moves out as they are, then the acts, one after another; says on a terminal how far it is.
+/// Runs the recorded moves, then the acts. Shows progress on a terminal.
 Run carry_out(Simulation& simulation, const std::vector<chainmail::Command>& moves, const std::vector<Act>& acts,
               const Schedule& schedule);
 

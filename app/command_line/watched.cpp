@@ -17,7 +17,7 @@ struct Watch::Line {
 
   void show(const std::string& text, const JobState& job, const std::stop_token& stop) {
     std::unique_lock lock(mutex);
-    // What is over sooner needs no line.
+    // Short jobs show nothing.
     while (!over.wait_for(lock, stop, std::chrono::milliseconds(300), [&] { return stop.stop_requested(); })) {
       std::cerr << "\r\x1b[K" << int(100 * job.share.load(std::memory_order_relaxed)) << "% " << text << std::flush;
     }

@@ -7,7 +7,7 @@
 
 namespace chainmail::command_line {
 
-/// Shows on standard error, where that is a terminal, how much of a job is done, as long as this lives.
+/// Shows the progress of a job on standard error, if that is a terminal, while this object exists.
 class Watch {
  public:
   explicit Watch(std::string text);
@@ -15,14 +15,14 @@ class Watch {
   Watch& operator=(const Watch&) = delete;
   ~Watch();
 
-  /// Of the job.
+  /// For the job, which reports here.
   Progress progress() { return Progress(job_); }
 
  private:
   struct Line;
 
   JobState job_;
-  std::unique_ptr<Line> line_;  // none where nobody looks
+  std::unique_ptr<Line> line_;  // none without a terminal
 };
 
 }  // namespace chainmail::command_line

@@ -13,12 +13,11 @@
 namespace chainmail {
 namespace {
 
-// Compression, stretch and shear. Beyond these a link holds nothing any more that a drag of a fifth of the object
-// would notice.
+// Bounds of compression, stretch and shear. Beyond these, a link does not limit a drag of a fifth of the object.
 const std::vector<double> low{0, 1, 0}, high{1, 3, 2};
 constexpr std::array every_sweeps{0, 1, 3, 10, 30, 100};
-constexpr double share_everywhere = 0.6;  // of the evaluations; the others are spent about the best
-constexpr double share_of_truth = 0.2;    // of the progress
+constexpr double share_everywhere = 0.6;     // of the evaluations; the others search about the best point
+constexpr double share_of_references = 0.2;  // of the progress
 
 LinkSoftness softness_at(const std::vector<double>& x) { return {x[0], x[1], x[2]}; }
 std::vector<double> point_of(const LinkSoftness& softness) {
@@ -27,7 +26,7 @@ std::vector<double> point_of(const LinkSoftness& softness) {
 
 Residual residual_of(const PhysicalError& error) { return {error.rms, error.max, error.relative}; }
 
-/// The means over some drags, and of the maxima the largest.
+/// Returns the means over some drags, and the largest of the maxima.
 Residual together(const std::vector<Residual>& residuals) {
   Residual mean;
   for (const Residual& one : residuals) {
@@ -38,11 +37,11 @@ Residual together(const std::vector<Residual>& residuals) {
   return mean;
 }
 
-/// A softness and sweeps, and how far from the reference they end.
+/// A softness and a number of sweeps, with their residuals.
 struct Trial {
   LinkSoftness softness;
   int sweeps = 0;
-  std::vector<Residual> residuals;  // one a drag
+  std::vector<Residual> residuals;  // one per drag
 
   double relative() const { return together(residuals).relative; }
 };
@@ -53,18 +52,18 @@ report::CompareOptions options_of(const CalibrationOptions& options) {
   return how;
 }
 
-/// Carries drags out by one algorithm.
+/// Runs drags with one algorithm.
 class Bench {
  public:
   Bench(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options, const Progress& progress)
-      : drags_(true_drags(mesh, cuts, options, progress.part(0, share_of_truth))),
+      : drags_(reference_drags(mesh, cuts, options, progress.part(0, share_of_references))),
         object_{"", "", mesh, cuts.links(), options.pins, {}, {}, options.elastic},
         how_(options_of(options)),
         runner_(object_, options.algorithm, Precision::double_precision, how_),
         wanted_(options.evaluations),
-        progress_(progress.part(share_of_truth, 1)) {}
+        progress_(progress.part(share_of_references, 1)) {}
 
-  const TrueDrags& drags() const { return drags_; }
+  const ReferenceDrags& drags() const { return drags_; }
   const Mesh& mesh() const { return *object_.mesh; }
   int evaluations() const { return evaluations_; }
 
@@ -73,21 +72,21 @@ class Bench {
     return {softness, sweeps, residuals(drags_.fitted, softness, sweeps)};
   }
 
-  /// How far a softness and sweeps end from the reference on some drags.
-  std::vector<Residual> residuals(const std::vector<TrueDrag>& drags, const LinkSoftness& softness, int sweeps) {
+  /// Returns the residuals of a softness and a number of sweeps on some drags.
+  std::vector<Residual> residuals(const std::vector<ReferenceDrag>& drags, const LinkSoftness& softness, int sweeps) {
     std::vector<Residual> residuals;
     object_.softness.global = softness;
     const double done = std::min(1.0, double(evaluations_) / wanted_);
-    for (const TrueDrag& drag : drags) {
+    for (const ReferenceDrag& drag : drags) {
       runner_.run(drag.moves, sweeps, progress_.part(done, done));
-      residuals.push_back(
-          residual_of(measure_physical_error(*object_.mesh, runner_.simulation().solver().positions(), drag.truth)));
+      residuals.push_back(residual_of(
+          measure_physical_error(*object_.mesh, runner_.simulation().solver().positions(), drag.reference)));
     }
     return residuals;
   }
 
  private:
-  TrueDrags drags_;
+  ReferenceDrags drags_;
   report::Case object_;
   report::CompareOptions how_;
   report::Runner runner_;
@@ -96,7 +95,7 @@ class Bench {
   Progress progress_;
 };
 
-/// Goes on from the best so far, with the sweeps given.
+/// Continues from the best result so far, with this number of sweeps.
 void look(Search search, Bench& bench, int sweeps, int evaluations, Trial& best) {
   if (evaluations < 1) {
     return;
@@ -115,10 +114,10 @@ CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) 
   check(options.elastic);
   check(options.algorithm, *mesh);
   if (elastic_method(options.algorithm)) {
-    throw Error("algorithm", "it has no softness that could be calibrated", "choose one of the ChainMail family");
+    throw Error("algorithm", "it has no softness to calibrate", "choose one of the ChainMail family");
   }
   if (options.drags < 1 || options.evaluations < 1) {
-    throw Error(options.drags < 1 ? "drags" : "evaluations", "there would be none", "use 1 or more");
+    throw Error(options.drags < 1 ? "drags" : "evaluations", "it is below 1", "use 1 or more");
   }
   options.held_out = std::max(0, options.held_out);
   std::ranges::sort(options.pins);
@@ -133,12 +132,12 @@ CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) 
   return options;
 }
 
-TestedDrags tested(const Mesh& mesh, const std::vector<TrueDrag>& drags, const std::vector<Residual>& before,
+TestedDrags tested(const Mesh& mesh, const std::vector<ReferenceDrag>& drags, const std::vector<Residual>& before,
                    const std::vector<Residual>& after) {
   TestedDrags result;
   std::vector<Residual> nothing;
   for (std::size_t i = 0; i < drags.size(); ++i) {
-    nothing.push_back(residual_of(error_of_nothing_moving(mesh, drags[i].truth)));
+    nothing.push_back(residual_of(error_of_nothing_moving(mesh, drags[i].reference)));
     result.drags.push_back({drags[i].element, drags[i].target, before[i], after[i], nothing.back()});
   }
   result.before = together(before);
@@ -163,7 +162,7 @@ CalibrationResult calibrate(const MeshPointer& mesh, const Cuts& cuts, const Cal
   const CalibrationOptions options = checked(mesh, asked);
   Bench bench(mesh, cuts, options, progress);
   const Trial before = bench.evaluate({}, 0);
-  // Sweeps are whole numbers, and what they do grows with their logarithm: each is given its own search.
+  // Sweeps are whole numbers, and their effect grows with their logarithm, so each number gets its own search.
   Trial best = before;
   const auto end = std::ranges::upper_bound(every_sweeps, options.most_sweeps);
   const std::span tried(every_sweeps.begin(), end);

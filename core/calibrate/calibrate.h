@@ -12,66 +12,66 @@
 
 namespace chainmail {
 
-// Drags go this far: shares of the object's largest extent.
+// Shortest and longest drags, as shares of the object's largest extent.
 inline constexpr double shortest_drag = 0.05, farthest_drag = 0.20;
 
-/// What softness and relaxation shall come close to, and how hard to try.
+/// Target and effort of a calibration.
 struct CalibrationOptions {
   ElasticOptions elastic;
-  std::vector<ElementId> pins;                     // in any order; some there must be
+  std::vector<ElementId> pins;                     // in any order; at least one
   Algorithm algorithm = Algorithm::natural_queue;  // of the ChainMail family
-  std::uint64_t seed = 1;                          // of the drags
+  std::uint64_t seed = 1;                          // random seed of the drags
   int drags = 4;
-  int held_out = 4;       // more drags, of other elements where there are any, on which the result is only tested
-  int evaluations = 200;  // each carries all drags out
-  int most_sweeps = 100;  // that are tried, of 0, 1, 3, 10, 30 and 100
-  std::vector<ElementId> not_these;  // elements that no drag takes hold of, in any order
+  int held_out = 4;                  // drags only for testing, of other elements if possible
+  int evaluations = 200;             // of all drags
+  int most_sweeps = 100;             // largest number of sweeps tried, of 0, 1, 3, 10, 30 and 100
+  std::vector<ElementId> not_these;  // elements that no drag grabs, in any order
   RelaxationScheme scheme = RelaxationScheme::mean;
 };
 
-/// How far elements stand from the reference solution at the end of a drag.
+/// Distance of the elements from the reference solution at the end of a drag.
 struct Residual {
   double rms = 0, max = 0;  // over the handle's displacement
-  double relative = 0;      // RMS over that of the reference's displacements; about 1 where nothing moves
+  double relative = 0;      // RMS divided by that of the reference's displacements; about 1 if nothing moves
 
   bool operator==(const Residual&) const = default;
 };
 
-/// A drag that was tried, from rest.
+/// A drag from rest, with its residuals.
 struct CalibrationDrag {
   ElementId element = 0;
   Point target = Point::Zero();  // mesh units
   Residual before, after;
-  Residual nothing;  // where nothing moves but the handle
+  Residual nothing;  // if only the handle moves
 
   bool operator==(const CalibrationDrag&) const = default;
 };
 
-/// Some drags, and their residuals together: means over the drags, and of the maxima the largest.
+/// Drags, and their residuals together: means over the drags, and the largest of the maxima.
 struct TestedDrags {
   std::vector<CalibrationDrag> drags;
-  Residual before, after, nothing;  // by the default softness without sweeps; calibrated; where nothing moves
+  Residual before, after, nothing;  // default softness without sweeps; calibrated; if nothing moves
 
   bool operator==(const TestedDrags&) const = default;
 };
 
-/// The softness and the sweeps of relaxation after each move that came closest.
+/// The best softness, and the best number of sweeps of relaxation after each move.
 struct CalibrationResult {
   LinkSoftness softness;
   int sweeps = 0;
-  int evaluations = 0;   // that were made
-  TestedDrags fitted;    // the drags that it came close to
-  TestedDrags held_out;  // drags that it did not see: what to expect of others
+  int evaluations = 0;   // number of evaluations made
+  TestedDrags fitted;    // drags used by the search
+  TestedDrags held_out;  // drags not used by the search
 
   bool operator==(const CalibrationResult&) const = default;
 };
 
-/// Finds the softness, the same for all links, and the sweeps for which the mean relative error against neo-Hookean FEM
-/// on the same cells is lowest, over drags of random elements by `shortest_drag` to `farthest_drag` of the object's
-/// size. The result is the same for the same options.
+/// Finds the softness, the same for all links, and the number of sweeps with the lowest mean relative error against
+/// neo-Hookean FEM on the same cells. Drags are of random elements, by `shortest_drag` to `farthest_drag` of the
+/// object's size. The result is the same for the same options.
 ///
-/// Throws Error where nothing is pinned, where a number is out of its range, where the object has no static answer, and
-/// where no drag's reference converges; and Cancelled.
+/// Throws Error if nothing is pinned, a number is out of range, the object has no static answer, or no reference
+/// converges; and Cancelled.
 CalibrationResult calibrate(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options,
                             const Progress& progress = {});
 

@@ -13,8 +13,8 @@ namespace chainmail {
 namespace {
 
 constexpr int moves = 24;                // of the handle, as in a comparison
-constexpr int draws_a_drag = 4;          // before it is given up
-constexpr double kept_from_pins = 0.25;  // of the way from the pins to the element farthest from them
+constexpr int draws_per_drag = 4;        // attempts before it is given up
+constexpr double kept_from_pins = 0.25;  // share of the distance from the pins to the farthest element
 
 double squared_to_nearest(const Mesh& mesh, const std::vector<ElementId>& pins, ElementId element) {
   double least = std::numeric_limits<double>::infinity();
@@ -24,7 +24,7 @@ double squared_to_nearest(const Mesh& mesh, const std::vector<ElementId>& pins, 
   return least;
 }
 
-/// Elements that a handle can be: of a solid those on its surface, and none right beside the pins.
+/// Returns the elements that a handle can be: on the surface of a solid, and not close to the pins.
 std::vector<ElementId> handles(const Mesh& mesh, const std::vector<ElementId>& pins) {
   std::vector<ElementId> elements;
   if (mesh.space_dimension == 3) {
@@ -50,7 +50,7 @@ std::vector<ElementId> handles(const Mesh& mesh, const std::vector<ElementId>& p
   return free;
 }
 
-/// Of length 1, along the axes that the scene carries, all directions alike.
+/// Returns a random direction of length 1, along the axes that exist, with uniform distribution.
 Point random_direction(const Mesh& mesh, std::mt19937_64& random) {
   while (true) {
     Point direction = Point::Zero();
@@ -63,9 +63,9 @@ Point random_direction(const Mesh& mesh, std::mt19937_64& random) {
   }
 }
 
-TrueDrag draw(const Mesh& mesh, const std::vector<ElementId>& free, std::mt19937_64& random) {
+ReferenceDrag draw(const Mesh& mesh, const std::vector<ElementId>& free, std::mt19937_64& random) {
   const auto [low, high] = bounds(mesh);
-  TrueDrag drag;
+  ReferenceDrag drag;
   drag.element = free[random() % free.size()];
   const double distance = report::uniform(random, shortest_drag, farthest_drag) * (high - low).maxCoeff();
   const Point way = distance * random_direction(mesh, random), start = mesh.rest_position(drag.element);
@@ -77,7 +77,7 @@ TrueDrag draw(const Mesh& mesh, const std::vector<ElementId>& free, std::mt19937
   return drag;
 }
 
-/// The elements without some others; all of them where none would be left.
+/// Returns the elements without some others; all of them if none would be left.
 std::vector<ElementId> without(const std::vector<ElementId>& elements, const std::vector<ElementId>& others) {
   std::vector<ElementId> left;
   std::ranges::copy_if(elements, std::back_inserter(left),
@@ -85,23 +85,23 @@ std::vector<ElementId> without(const std::vector<ElementId>& elements, const std
   return left.empty() ? elements : left;
 }
 
-/// So many drags with their reference solutions; fewer cannot be.
-std::vector<TrueDrag> draw(TruthSolver& solver, const Mesh& mesh, const std::vector<ElementId>& free, int count,
-                           std::mt19937_64& random, const Progress& progress) {
-  std::vector<TrueDrag> drags;
+/// Returns this many drags with their reference solutions.
+std::vector<ReferenceDrag> draw(ReferenceSolver& solver, const Mesh& mesh, const std::vector<ElementId>& free,
+                                int count, std::mt19937_64& random, const Progress& progress) {
+  std::vector<ReferenceDrag> drags;
   std::string last_failure;
-  for (int draws = 0; draws < draws_a_drag * count && int(drags.size()) < count; ++draws) {
-    TrueDrag drag = draw(mesh, free, random);
+  for (int draws = 0; draws < draws_per_drag * count && int(drags.size()) < count; ++draws) {
+    ReferenceDrag drag = draw(mesh, free, random);
     const double done = double(drags.size()) / count, next = double(drags.size() + 1) / count;
     try {
-      drag.truth = solver.at(drag.element, drag.target, progress.part(done, next));
+      drag.reference = solver.at(drag.element, drag.target, progress.part(done, next));
       drags.push_back(std::move(drag));
     } catch (const Error& error) {
       last_failure = error.problem();
     }
   }
   if (int(drags.size()) < count) {
-    throw Error("truth", "too many of the drags do not converge: " + last_failure,
+    throw Error("reference solution", "too many of the drags do not converge: " + last_failure,
                 "try another --seed, or a finer mesh");
   }
   return drags;
@@ -109,17 +109,17 @@ std::vector<TrueDrag> draw(TruthSolver& solver, const Mesh& mesh, const std::vec
 
 }  // namespace
 
-TrueDrags true_drags(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options,
-                     const Progress& progress) {
+ReferenceDrags reference_drags(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options,
+                               const Progress& progress) {
   std::mt19937_64 random(options.seed);
   const std::vector<ElementId> free = without(handles(*mesh, options.pins), options.not_these);
   const std::vector<double> at_rest(options.pins.size() * static_cast<std::size_t>(mesh->space_dimension), 0.0);
-  TruthSolver solver({mesh, cuts, options.pins, at_rest, options.elastic}, progress.part(0, 0.1));
+  ReferenceSolver solver({mesh, cuts, options.pins, at_rest, options.elastic}, progress.part(0, 0.1));
   const double fitted = 0.1 + 0.9 * options.drags / (options.drags + options.held_out);
-  TrueDrags drags;
+  ReferenceDrags drags;
   drags.fitted = draw(solver, *mesh, free, options.drags, random, progress.part(0.1, fitted));
   std::vector<ElementId> seen = options.not_these;
-  for (const TrueDrag& drag : drags.fitted) {
+  for (const ReferenceDrag& drag : drags.fitted) {
     seen.push_back(drag.element);
   }
   drags.held_out = draw(solver, *mesh, without(free, seen), options.held_out, random, progress.part(fitted, 1));

@@ -3,27 +3,27 @@
 #include <vector>
 
 #include "calibrate/calibrate.h"
-#include "measure/truth.h"
+#include "measure/reference_solution.h"
 #include "report/run/cases.h"
 
 namespace chainmail {
 
-/// A drag, and where it should lead.
-struct TrueDrag {
+/// A drag and its reference solution.
+struct ReferenceDrag {
   ElementId element = 0;
   Point target = Point::Zero();
-  Truth truth;
+  ReferenceSolution reference;
   report::RecordedMoves moves;
 };
 
-/// Drags to come close to, and drags to test the result on.
-struct TrueDrags {
-  std::vector<TrueDrag> fitted, held_out;
+/// Drags for the search, and drags for testing the result.
+struct ReferenceDrags {
+  std::vector<ReferenceDrag> fitted, held_out;
 };
 
-/// Random drags of an object, the same for the same seed. Those whose reference does not converge are drawn anew. Drags
-/// that are held out take elements that no fitted drag takes, where there are enough.
-TrueDrags true_drags(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options,
-                     const Progress& progress);
+/// Returns random drags of an object, the same for the same seed. Drags whose reference does not converge are replaced.
+/// Drags for testing use other elements than those for the search, if there are enough.
+ReferenceDrags reference_drags(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options,
+                               const Progress& progress);
 
 }  // namespace chainmail

@@ -4,8 +4,8 @@
 
 namespace chainmail {
 
-/// Calibrates contestants of a comparison with physics, with fewer drags and tries than `calibrate` makes by default:
-/// its time is bounded by their number, so that figures are the same on every machine.
+/// Returns the calibration for comparisons with physics. It uses fewer drags and evaluations than the default of
+/// `calibrate`. Their number is fixed, so results are the same on every machine.
 report::Calibrator calibrator_for_reports(RelaxationScheme scheme);
 
 }  // namespace chainmail

@@ -1,5 +1,6 @@
 #include "elastic/elastic.h"
 
+#include <algorithm>
 #include <array>
 
 #include "elastic/methods.h"
@@ -8,28 +9,27 @@
 namespace chainmail {
 namespace {
 
-// By object dimension: what a factorization takes in seconds and in memory of a desktop, measured.
+// Largest number of elements by space dimension, for acceptable time and memory of a factorization (measured).
 constexpr std::array<std::uint64_t, 4> linear_limit{0, 1'000'000, 150'000, 30'000};
 constexpr std::array<std::uint64_t, 4> neo_hookean_limit{0, 100'000, 20'000, 6'000};
-constexpr std::uint64_t boundary_limit = 2'800;        // triangles: 28 s and 560 MB
-constexpr std::uint64_t boundary_inner_limit = 5'000;  // elements of volumes: 3 s more for each that is taken hold of
+constexpr std::uint64_t boundary_limit = 2'800;        // triangles; takes 28 s and 560 MB
+constexpr std::uint64_t boundary_inner_limit = 5'000;  // elements of volumes; takes 3 s more for each new handle
 
 [[noreturn]] void refuse_size(const std::string& where, std::uint64_t has, std::uint64_t most, const char* what) {
-  throw Error(
-      where,
-      "it takes objects of up to " + std::to_string(most) + " " + what + ", and this one has " + std::to_string(has),
-      "use a coarser mesh");
+  throw Error(where,
+              "it is limited to " + std::to_string(most) + " " + what + ", and this object has " + std::to_string(has),
+              "use a coarser mesh");
 }
 
 void check_fem(const std::string& where, const Mesh& mesh, const std::array<std::uint64_t, 4>& limits) {
   const bool is_full_grid = mesh.is_grid && mesh.object_dimension == mesh.space_dimension;
   const bool has_cells = !mesh.tetrahedra.empty() || !mesh.hexahedra.empty() || is_full_grid;
   if (mesh.space_dimension == 3 && !has_cells) {
-    throw Error(where, "the object has no tetrahedra or hexahedra, so it is no solid",
+    throw Error(where, "the object has no tetrahedra or hexahedra, so it is not a solid",
                 "fill its surface: 'chainmail fill', or Object > Fill with tetrahedra");
   }
   if (mesh.space_dimension == 2 && mesh.triangles.empty() && !is_full_grid) {
-    throw Error(where, "the object has no triangles, so it is no sheet", "use a mesh with faces");
+    throw Error(where, "the object has no triangles, so it is not a sheet", "use a mesh with faces");
   }
   const std::uint64_t most = limits[static_cast<std::size_t>(mesh.space_dimension)];
   if (mesh.element_count() > most) {
@@ -40,12 +40,30 @@ void check_fem(const std::string& where, const Mesh& mesh, const std::array<std:
 void check_boundary(const Mesh& mesh) {
   const bool has_cells = !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
   if (mesh.space_dimension != 3 || (mesh.triangles.empty() && !has_cells)) {
-    throw Error("BEM", "it works on closed surfaces of triangles in space, and this object has none",
+    throw Error("BEM", "it works only on closed surfaces of triangles in space, and this object has none",
                 "open a surface or a volume, or compare by linear FEM");
   }
-  // How many triangles are about a volume is known when its sides have been looked at.
+  // The number of triangles around a volume is known only after its faces were found.
   check_boundary_size(has_cells ? 0 : mesh.triangles.size(), has_cells ? mesh.element_count() : 0);
 }
+
+/// One method: its check of an object, and its maker. To add a method, add a constant to ElasticMethod and an entry
+/// here.
+struct MethodEntry {
+  ElasticMethod method;
+  void (*check)(const Mesh& mesh);
+  std::unique_ptr<ElasticSolver> (*make)(const ElasticProblem& problem, const Progress& progress);
+};
+constexpr std::array methods{
+    MethodEntry{ElasticMethod::linear_fem, [](const Mesh& mesh) { check_fem("linear FEM", mesh, linear_limit); },
+                make_linear_fem},
+    MethodEntry{ElasticMethod::neo_hookean,
+                [](const Mesh& mesh) { check_fem("neo-Hookean FEM", mesh, neo_hookean_limit); }, make_neo_hookean},
+    MethodEntry{ElasticMethod::boundary, check_boundary, make_boundary_elements},
+    MethodEntry{ElasticMethod::free_form, [](const Mesh&) {}, make_free_form},
+};
+
+const MethodEntry& entry_of(ElasticMethod method) { return *std::ranges::find(methods, method, &MethodEntry::method); }
 
 }  // namespace
 
@@ -58,18 +76,7 @@ void check_boundary_size(std::uint64_t triangles, std::uint64_t elements_of_cell
   }
 }
 
-void check(ElasticMethod method, const Mesh& mesh) {
-  switch (method) {
-    case ElasticMethod::linear_fem:
-      return check_fem("linear FEM", mesh, linear_limit);
-    case ElasticMethod::neo_hookean:
-      return check_fem("neo-Hookean FEM", mesh, neo_hookean_limit);
-    case ElasticMethod::boundary:
-      return check_boundary(mesh);
-    case ElasticMethod::free_form:
-      return;
-  }
-}
+void check(ElasticMethod method, const Mesh& mesh) { entry_of(method).check(mesh); }
 
 bool fits(ElasticMethod method, const Mesh& mesh) {
   try {
@@ -84,16 +91,7 @@ std::unique_ptr<ElasticSolver> make_elastic(ElasticMethod method, const ElasticP
                                             const Progress& progress) {
   check(problem.options);
   check(method, *problem.mesh);
-  switch (method) {
-    case ElasticMethod::linear_fem:
-      return make_linear_fem(problem, progress);
-    case ElasticMethod::neo_hookean:
-      return make_neo_hookean(problem, progress);
-    case ElasticMethod::boundary:
-      return make_boundary_elements(problem, progress);
-    default:
-      return make_free_form(problem, progress);
-  }
+  return entry_of(method).make(problem, progress);
 }
 
 }  // namespace chainmail

@@ -12,56 +12,56 @@
 
 namespace chainmail {
 
-/// How an object answers to a hand in statics, each by its own model.
+/// A method of elasticity: a model of the static answer of an object to a handle.
 enum class ElasticMethod { linear_fem, neo_hookean, boundary, free_form };
 
-/// An object, and what holds it.
+/// An object and its pins.
 struct ElasticProblem {
   MeshPointer mesh;
   Cuts cuts;                    // of the mesh
   std::vector<ElementId> pins;  // ascending
-  /// Where the pins stand from rest, space_dimension coordinates each, in their order (mesh units).
+  /// Displacements of the pins from rest, space_dimension coordinates each, in their order (mesh units).
   std::vector<double> pinned;
   ElasticOptions options;
 };
 
-/// A solver of one problem. What depends on the object and its pins alone is prepared once; what depends on which
-/// element is in the hand, when another one is taken hold of; a move costs what is left.
+/// A solver of one problem. It prepares once what depends on the object and its pins, and once per handle what depends
+/// on the grabbed element. A move costs only the rest.
 ///
-/// Displacements are from rest, element by element, space_dimension coordinates each (mesh units). An element that no
-/// cell holds stays at rest unless it is in the hand or pinned.
+/// Displacements are from rest, element by element, space_dimension coordinates each (mesh units). An element without a
+/// cell stays at rest unless it is grabbed or pinned.
 class ElasticSolver {
  public:
   virtual ~ElasticSolver() = default;
 
-  /// The hand takes hold of an element that is not pinned. May throw Error and Cancelled.
+  /// Grabs an element that is not pinned. May throw Error and Cancelled.
   virtual void hold(ElementId element, const Progress& progress = {}) = 0;
-  /// The static answer while the held element stands at this displacement from rest (space_dimension coordinates).
-  /// Throws Error where there is none at all, and Cancelled; it then answers as before.
+  /// Computes the static answer with the grabbed element at this displacement from rest (space_dimension coordinates).
+  /// Throws Error if there is none, and Cancelled; the last answer stays then.
   virtual void move(std::span<const double> displacement, const Progress& progress = {}) = 0;
-  /// Back to rest, or where the pins have it, with no element in the hand; what was prepared stays.
+  /// Returns to rest, or to the answer to the pins, without a grabbed element. The preparation stays.
   virtual void reset() = 0;
-  /// The object was put there by others. What depends on the way that it came goes on from these displacements.
+  /// Call this after others moved the object. Methods that depend on the path continue from these displacements.
   virtual void start_from(std::span<const double> /*displacements*/) {}
-  /// The last answer; that of the pins alone, or rest, before the first.
+  /// The last answer; before the first, the answer to the pins, or rest.
   virtual const std::vector<double>& displacements() const = 0;
-  /// Where the last answer is not the one asked for: why, and which it is. Empty where it is.
+  /// Reason why the last answer is not the requested one, and which one it is. Usually empty.
   virtual const std::string& remark() const = 0;
 
   /// Control points that a user may drag: those of free-form deformation, displaced, space_dimension coordinates each
-  /// (mesh units), the first axis running fastest.
+  /// (mesh units), the first axis first.
   virtual std::span<const double> control_points() const { return {}; }
-  /// Puts one of them somewhere (mesh units); elements follow, pins stay.
+  /// Moves a control point to a position (mesh units). Elements follow, pins stay.
   virtual void move_control_point(std::size_t /*point*/, std::span<const double> /*position*/) {}
 };
 
-/// Whether a method works on objects of this kind and size, cells not looked at. Cheap.
+/// True if a method works on objects of this kind and size. Cheap: cells are not checked.
 bool fits(ElasticMethod method, const Mesh& mesh);
-/// Throws Error, saying why and what to do, where it does not.
+/// Throws Error, with the reason and a remedy, if it does not.
 void check(ElasticMethod method, const Mesh& mesh);
 
-/// Throws Error where the problem has no answer by this method: cells that are flat or inverted, parts that nothing
-/// holds, an open surface, options out of range. Throws Cancelled.
+/// Makes a solver. Throws Error if the problem has no answer with this method: flat or inverted cells, parts without
+/// enough pins, an open surface, options out of range. Throws Cancelled.
 std::unique_ptr<ElasticSolver> make_elastic(ElasticMethod method, const ElasticProblem& problem,
                                             const Progress& progress = {});
 

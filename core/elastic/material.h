@@ -3,32 +3,33 @@
 #include <array>
 #include <cstdint>
 
+#include "mesh/parameters.h"
+
 namespace chainmail {
 
 /// A homogeneous, isotropic elastic material.
 struct Material {
-  double young = 1;      // Young's modulus, force per square of a mesh unit; above 0
-  double poisson = 0.3;  // Poisson's ratio, in [0, 0.5)
+  double young = parameters::young.standard;      // Young's modulus: force per square of a mesh unit
+  double poisson = parameters::poisson.standard;  // Poisson's ratio
 
   bool operator==(const Material&) const = default;
 };
 
-/// Control points of free-form deformation along an axis: fewer span nothing, and of more each costs every element.
-inline constexpr std::uint32_t fewest_control_points = 2, most_control_points = 8;
-
-/// What the methods of elasticity are told beside the object.
+/// Settings of the methods of elasticity and of free-form deformation.
 struct ElasticOptions {
+  static constexpr auto control_points = static_cast<std::uint32_t>(parameters::lattice.standard);
+
   Material material;
-  /// Control points along each axis.
-  std::array<std::uint32_t, 3> lattice{4, 4, 4};
+  /// Control points along each axis. Fewer than 2 span nothing, and each one costs time for every element.
+  std::array<std::uint32_t, 3> lattice{control_points, control_points, control_points};
 
   bool operator==(const ElasticOptions&) const = default;
 };
 
-/// Throws Error, naming the parameter, where the options are none of the above.
+/// Throws Error, with the name of the parameter, if one of the options is out of range.
 void check(const ElasticOptions& options);
 
-/// Lamé's parameters of a material, as in three dimensions.
+/// Lamé's parameters of a material in three dimensions.
 struct Lame {
   double mu = 0, lambda = 0;
 };

@@ -10,29 +10,29 @@
 
 namespace chainmail {
 
-/// Where each element of an object is pinned, from rest (mesh units); nothing where it is not.
+/// Displacement of each pinned element from rest (mesh units); none for free elements.
 using PinnedElements = std::vector<std::optional<Point>>;
 
-/// One solid that pins hold, by boundary elements.
+/// One solid with pins, by boundary elements.
 ///
-/// What is prescribed is prescribed on facets: a pin holds those of which all corners are pinned, or all about it where
-/// it has none of these; the hand holds all about its element. The others are free of tractions. An element is where
-/// the facets about it are in the mean, by area.
+/// Displacements are prescribed on facets. A pin holds the facets with only pinned corners, or all facets around it if
+/// there are none of these; the handle holds all facets around its element. The other facets are free of tractions. The
+/// displacement of an element is the mean of the facets around it, by area.
 ///
-/// As displacements alone are prescribed, Young's modulus cancels out.
+/// Since only displacements are prescribed, Young's modulus cancels out.
 class PinnedSolid {
  public:
-  /// Throws Error where the pins do not hold it, and Cancelled.
+  /// Throws Error if the pins do not hold the solid, and Cancelled.
   PinnedSolid(const Mesh& mesh, Solid solid, const PinnedElements& pinned, double poisson, const Progress& progress);
 
-  /// The corners of its triangles, ascending, then those inside.
+  /// The corners of its triangles, ascending, then the elements inside.
   std::span<const ElementId> elements() const { return elements_; }
   bool has_corner(ElementId element) const;
 
-  /// The displacements of its elements, three rows each, for the pins alone.
+  /// The displacements of its elements, three rows each, with the pins only.
   const Eigen::VectorXd& at_rest() const { return at_rest_; }
-  /// What the hand at a corner adds as it goes by one along each axis, a column each; where pins hold what it holds,
-  /// the hand does. Throws Cancelled.
+  /// Returns what a handle at a corner adds for a unit displacement along each axis, one column each. On facets that
+  /// both hold, the handle counts. Throws Cancelled.
   Eigen::MatrixXd respond(ElementId corner, const Progress& progress) const;
 
  private:

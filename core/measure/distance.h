@@ -7,8 +7,8 @@
 
 namespace chainmail {
 
-/// How far the elements of one state of a mesh lie from those of another, in mean rest lengths of the
-/// mesh (mesh units where it has none); Euclidean over the axes, in double whatever the solvers used.
+/// Distance between the elements of two states of a mesh, in mean rest lengths of the mesh (in mesh units if it has
+/// none). Euclidean over the axes, in double.
 struct Distance {
   double max = 0;
   double rms = 0;
@@ -17,11 +17,11 @@ struct Distance {
 };
 Distance measure_distance(const Mesh& mesh, const PositionView& one, const PositionView& other);
 
-/// Elastic energy over that of a reference; none where the reference holds none.
+/// Returns the elastic energy divided by that of a reference; none if that is 0.
 std::optional<double> energy_ratio(double energy, double of_reference);
 
-/// The largest displacement of any element over that of the hand's element; none where the hand is back where
-/// the element was at rest, to 1e-4 mean rest lengths. Above 1, something went further than it was pulled.
+/// Returns the largest displacement of any element divided by that of the handle's element; none if the handle is at
+/// rest, to 1e-4 mean rest lengths. Above 1, an element moved further than the handle.
 std::optional<double> largest_over_hand(const Mesh& mesh, const PositionView& positions, ElementId hand);
 
 }  // namespace chainmail

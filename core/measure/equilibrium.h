@@ -13,29 +13,28 @@
 
 namespace chainmail {
 
-/// The relaxed equilibrium: where the elastic energy ½ Σ |(x_j − x_i) − r_ij|² is least while some elements
-/// are fixed. Regions play no part in it.
+/// The relaxed equilibrium: the minimum of the elastic energy ½ Σ |(x_j − x_i) − r_ij|² while some elements are fixed.
+/// Valid regions are ignored.
 struct Equilibrium {
-  /// From rest, element by element, space_dimension coordinates each (mesh units): so neither a far origin
-  /// nor a large object costs digits.
+  /// Displacements from rest, element by element, space_dimension coordinates each (mesh units): so neither a far
+  /// origin nor a large object costs digits.
   std::vector<double> displacements;
-  /// Per element: whether its component, over the links that are not cut, holds a fixed element. Without one
-  /// every translate is as good, and the element is left where it stands.
+  /// True, per element, if its component, over the links that are not cut, contains a fixed element. Otherwise every
+  /// translation is equally good, and the element keeps its position.
   std::vector<bool> defined;
-  /// A link between such elements lies outside its valid region. Relaxation, which keeps to the regions,
-  /// cannot come there then: it is no reference.
+  /// True if a link between such elements is outside its valid region. Then it is not a reference for relaxation, which
+  /// cannot reach it.
   bool binds = false;
 
-  /// The positions (mesh units); valid as long as this and the mesh.
+  /// The positions (mesh units); valid while this object and the mesh exist.
   PositionView positions(const Mesh& mesh) const;
 };
 
-/// Up to this many elements by sparse Cholesky, above by conjugate gradients: its memory is linear.
+/// Number of elements up to which sparse Cholesky is used; above, conjugate gradients, whose memory is linear.
 inline constexpr std::uint64_t cholesky_limit = 65'536;
 
-/// The equilibrium with these elements fixed where they stand; the others' positions are only where
-/// conjugate gradients begin. Nothing where no element is fixed, and where conjugate gradients do not come
-/// to an end. May leave by Cancelled.
+/// Returns the equilibrium with these elements fixed at their positions; the positions of the others are only the start
+/// of conjugate gradients. None if no element is fixed, or if conjugate gradients do not converge. May throw Cancelled.
 std::optional<Equilibrium> equilibrium(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                                        std::span<const ElementId> fixed, const PositionView& positions,
                                        std::uint64_t limit = cholesky_limit, const Progress& progress = {});

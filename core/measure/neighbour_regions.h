@@ -10,23 +10,23 @@
 
 namespace chainmail {
 
-/// Where a neighbour of an element may lie as the element stands, and whether it does.
+/// The valid region of a neighbour about an element at its current position, and whether the neighbour is inside.
 struct NeighbourRegion {
   ElementId neighbour = 0;
   LinkId link = 0;
-  /// Lowest and highest corner of the valid region (mesh units). On axes that the scene does not carry both are the
-  /// constant coordinate.
+  /// Lowest and highest corner of the valid region (mesh units). On axes that do not exist both are the constant
+  /// coordinate.
   Point low = Point::Zero(), high = Point::Zero();
-  /// Where the neighbour stands (mesh units).
+  /// Position of the neighbour (mesh units).
   Point at = Point::Zero();
-  /// The place in the region that is nearest to it; the same where it lies in the region.
+  /// Nearest point of the region; equal to the position if that is inside.
   Point nearest = Point::Zero();
-  /// Whether the link holds, but for rounding (counts_as_violated).
+  /// True if the link is valid, up to rounding (counts_as_violated).
   bool inside = true;
 };
 
-/// The valid regions about an element of its neighbours, links that are cut left out, in the neighbours' order; of
-/// the first `at_most` of them. Computed in double, whatever the solver uses.
+/// Returns the valid regions of an element's neighbours, in their order, without cut links; at most `at_most`. Computed
+/// in double.
 std::vector<NeighbourRegion> neighbour_regions(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                                                const PositionView& position, ElementId about, std::size_t at_most);
 

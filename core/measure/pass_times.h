@@ -6,7 +6,7 @@
 
 namespace chainmail {
 
-/// The times of the passes of the last second.
+/// Times of the passes of the last second.
 class PassTimes {
  public:
   using Clock = std::chrono::steady_clock;
@@ -19,7 +19,7 @@ class PassTimes {
 
   PassTimes();
   void add(Clock::time_point when, double milliseconds);
-  /// What the second before `now` held.
+  /// Returns the summary of the second before `now`.
   Summary summary(Clock::time_point now);
   void clear();
 
@@ -30,7 +30,7 @@ class PassTimes {
     Clock::time_point when;
     double milliseconds;
   };
-  // The entries from first_ on count. All memory is taken at once: a pass takes none.
+  // The entries from first_ on count. All memory is allocated at once: a pass allocates none.
   std::vector<Entry> entries_;
   std::size_t first_ = 0;
   std::vector<double> milliseconds_;

@@ -22,47 +22,48 @@ struct Squares {
 
 }  // namespace
 
-PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions, const Truth& truth) {
-  Squares all, moving, reference;
+PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions,
+                                     const ReferenceSolution& reference) {
+  Squares all, moving, displacements;
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
     double apart = 0, displacement = 0;
     for (int k = 0; k < mesh.space_dimension; ++k) {
       const std::size_t at = std::size_t{e} * static_cast<std::size_t>(mesh.space_dimension) + k;
-      const double along_axis = (positions(e, k) - mesh.rest[at]) - truth.displacements[at];
+      const double along_axis = (positions(e, k) - mesh.rest[at]) - reference.displacements[at];
       apart += along_axis * along_axis;
-      displacement += truth.displacements[at] * truth.displacements[at];
+      displacement += reference.displacements[at] * reference.displacements[at];
     }
     all.add(apart);
-    reference.add(displacement);
-    if (std::sqrt(displacement) > counts_as_moving * truth.hand) {
+    displacements.add(displacement);
+    if (std::sqrt(displacement) > counts_as_moving * reference.handle_displacement) {
       moving.add(apart);
     }
   }
   PhysicalError error;
-  error.relative = all.rms() / reference.rms();
-  error.rms = all.rms() / truth.hand;
-  error.max = std::sqrt(all.largest) / truth.hand;
-  error.moving_rms = moving.rms() / truth.hand;
-  error.moving_max = std::sqrt(moving.largest) / truth.hand;
+  error.relative = all.rms() / displacements.rms();
+  error.rms = all.rms() / reference.handle_displacement;
+  error.max = std::sqrt(all.largest) / reference.handle_displacement;
+  error.moving_rms = moving.rms() / reference.handle_displacement;
+  error.moving_max = std::sqrt(moving.largest) / reference.handle_displacement;
   error.moving = moving.count;
   return error;
 }
 
-PhysicalError error_of_nothing_moving(const Mesh& mesh, const Truth& truth) {
+PhysicalError error_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference) {
   const auto dimension = static_cast<std::size_t>(mesh.space_dimension);
   std::vector<double> positions = mesh.rest;
-  for (const ElementId element : truth.prescribed) {
+  for (const ElementId element : reference.prescribed) {
     for (std::size_t at = element * dimension; at < (element + 1) * dimension; ++at) {
-      positions[at] = mesh.rest[at] + truth.displacements[at];
+      positions[at] = mesh.rest[at] + reference.displacements[at];
     }
   }
   return measure_physical_error(
-      mesh, PositionView(positions.data(), dimension * sizeof(double), Precision::double_precision), truth);
+      mesh, PositionView(positions.data(), dimension * sizeof(double), Precision::double_precision), reference);
 }
 
-double rms_displacement(const Mesh& mesh, const Truth& truth) {
+double rms_displacement(const Mesh& mesh, const ReferenceSolution& reference) {
   double sum = 0;
-  for (const double along_axis : truth.displacements) {
+  for (const double along_axis : reference.displacements) {
     sum += along_axis * along_axis;
   }
   return std::sqrt(sum / double(mesh.element_count()));

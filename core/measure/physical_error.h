@@ -2,35 +2,36 @@
 
 #include <cstdint>
 
-#include "measure/truth.h"
+#include "measure/reference_solution.h"
 #include "solve/solver.h"
 
 namespace chainmail {
 
-/// An element that the reference solution displaces by more than this share of the handle's displacement belongs to the
-/// region that moves.
+/// An element belongs to the moving region if the reference solution displaces it by more than this share of the
+/// handle's displacement.
 inline constexpr double counts_as_moving = 0.01;
 
-/// How far elements stand from the reference solution. Euclidean over the axes, in double whatever the solver used.
+/// Distance of the elements from the reference solution. Euclidean over the axes, in double.
 struct PhysicalError {
-  /// RMS of the error over RMS of the reference's displacements, over all elements. An object that does not move has
-  /// about 1: a method above that is worse than no method.
+  /// RMS of the error divided by RMS of the reference's displacements, over all elements. About 1 for an object that
+  /// does not move: a method above that is worse than no method.
   double relative = 0;
-  // Over the handle's displacement: 0.1 is a tenth of the way that the handle went. These hide that most elements of
-  // the reference move little.
-  double rms = 0, max = 0;                // over all elements, the handle's and the pinned among them
-  double moving_rms = 0, moving_max = 0;  // over the region that moves in the reference
-  std::uint64_t moving = 0;               // elements in that region
+  // Divided by the handle's displacement. These hide that most elements of the reference move little.
+  double rms = 0, max = 0;                // over all elements, including the handle and the pins
+  double moving_rms = 0, moving_max = 0;  // over the moving region
+  std::uint64_t moving = 0;               // number of elements in the moving region
 
   bool operator==(const PhysicalError&) const = default;
 };
 
-/// The reference must be of this mesh.
-PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions, const Truth& truth);
-/// The null model: the handle and the pins stand where they are prescribed, and nothing else moves.
-PhysicalError error_of_nothing_moving(const Mesh& mesh, const Truth& truth);
+/// Returns the error of positions. The reference must be of this mesh.
+PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions,
+                                     const ReferenceSolution& reference);
+/// Returns the error of the null model: the handle and the pins are at their prescribed positions, and nothing else
+/// moves.
+PhysicalError error_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference);
 
-/// RMS of the reference's displacements over all elements (mesh units).
-double rms_displacement(const Mesh& mesh, const Truth& truth);
+/// Returns the RMS of the reference's displacements over all elements (mesh units).
+double rms_displacement(const Mesh& mesh, const ReferenceSolution& reference);
 
 }  // namespace chainmail

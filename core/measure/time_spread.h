@@ -4,7 +4,7 @@
 
 namespace chainmail {
 
-/// How times (ms) spread over repetitions. Quartiles are interpolated between the two nearest times.
+/// Spread of times (ms) over repetitions. Quartiles are interpolated between the two nearest times.
 struct TimeSpread {
   double median = 0;
   double lower_quartile = 0;

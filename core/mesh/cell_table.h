@@ -9,12 +9,12 @@
 
 namespace chainmail {
 
-/// A cell by number: the tetrahedra, then the hexahedra.
+/// Index of a cell: the tetrahedra first, then the hexahedra.
 using CellId = std::uint32_t;
-/// A side by number, cell by cell: four of each tetrahedron, then six of each hexahedron.
+/// Index of a side, cell by cell: four per tetrahedron, then six per hexahedron.
 using SideId = std::uint32_t;
 
-/// A side's corners: three, or four in a row about it.
+/// The corners of a side: three, or four in order around it.
 struct Side {
   std::array<ElementId, 4> corner{};
   int count = 0;
@@ -22,8 +22,8 @@ struct Side {
   std::span<const ElementId> corners() const { return std::span(corner).first(std::size_t(count)); }
 };
 
-/// How the cells of a mesh lie beside each other. Immutable, made once a mesh: 16 bytes a tetrahedron and as much again
-/// for the cells of each element; nothing for a mesh without cells.
+/// Neighbourhood of the cells of a mesh. Immutable, made once per mesh. Takes 16 bytes per tetrahedron, the same again
+/// for the cells of each element, and nothing for a mesh without cells.
 class CellTable {
  public:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -37,21 +37,21 @@ class CellTable {
   bool empty() const { return twins_.empty(); }
 
   std::span<const ElementId> corners_of(CellId cell) const;
-  /// As places among its corners.
+  /// As indices of the corners of the cell.
   std::span<const CellEdge> edges_of(CellId cell) const;
   SideId first_side(CellId cell) const { return cell < tetrahedra_ ? 4 * cell : 6 * cell - 2 * tetrahedra_; }
   SideId end_side(CellId cell) const { return first_side(cell) + (cell < tetrahedra_ ? 4 : 6); }
   CellId cell_of(SideId side) const { return side < 4 * tetrahedra_ ? side / 4 : (side + 2 * tetrahedra_) / 6; }
-  /// As seen from outside its cell, counterclockwise, at rest.
+  /// The elements of a side at rest, counterclockwise as seen from outside its cell.
   Side side(SideId side) const;
   bool has_corner(SideId side, ElementId element) const;
-  /// The side of another cell that has the same corners, or none. Where more than two have, they are taken in pairs.
+  /// Returns the side of another cell with the same corners, if any. If more than two sides have them, they are paired.
   SideId twin(SideId side) const { return twins_[side]; }
-  /// The cells that have this corner, ascending.
+  /// Returns the cells with this corner, ascending.
   std::span<const CellId> cells_of(ElementId element) const {
     return {cells_.data() + first_cell_[element], cells_.data() + first_cell_[element + 1]};
   }
-  /// Calls visit(cell) for each cell that has this link for an edge.
+  /// Calls visit(cell) for each cell with this link as an edge.
   template <class Visit>
   void for_each_cell(LinkId link, Visit visit) const {
     if (empty()) {
@@ -64,9 +64,9 @@ class CellTable {
       }
     }
   }
-  /// The links that are no cell's edge, ascending.
+  /// Returns the links that are not an edge of a cell, ascending.
   const std::vector<LinkId>& loose_links() const { return loose_links_; }
-  /// The triangles of the mesh that lie on no cell's side, ascending.
+  /// Returns the triangles of the mesh that are not part of a side of a cell, ascending.
   const std::vector<std::uint32_t>& loose_triangles() const { return loose_triangles_; }
 
  private:

@@ -9,10 +9,10 @@
 
 namespace chainmail {
 
-/// A cell is a tetrahedron or a hexahedron. What follows gives its edges and sides as places among its corners.
+/// A cell is a tetrahedron or a hexahedron. These tables give its edges and sides as indices of its corners.
 
 using CellEdge = std::array<int, 2>;
-/// Sides as they are seen from outside, counterclockwise where the cell is not inverted.
+/// Sides are counterclockwise as seen from outside, unless the cell is inverted.
 template <std::size_t Corners>
 using CellSide = std::array<int, Corners>;
 
@@ -26,20 +26,20 @@ inline constexpr std::array<CellSide<4>, 6> hexahedron_sides{
 constexpr const auto& edges_of(const std::array<ElementId, 4>& /*cell*/) { return tetrahedron_edges; }
 constexpr const auto& edges_of(const std::array<ElementId, 8>& /*cell*/) { return hexahedron_edges; }
 
-/// Whether two elements are linked, and the link is cut.
+/// True if two elements are linked and the link is cut.
 inline bool is_cut_between(const Mesh& mesh, const Cuts& cuts, ElementId a, ElementId b) {
   const auto link = cuts.touches(a) && cuts.touches(b) ? find_link(mesh, a, b) : std::nullopt;
   return link && cuts.is_cut(*link);
 }
 
-/// Whether no link along a cell's edges is cut: else the cell is gone.
+/// True if no link along the edges of a cell is cut. Otherwise the cell is gone.
 template <std::size_t Corners>
 bool is_whole(const Mesh& mesh, const Cuts& cuts, const std::array<ElementId, Corners>& cell) {
   return std::none_of(edges_of(cell).begin(), edges_of(cell).end(),
                       [&](const CellEdge& edge) { return is_cut_between(mesh, cuts, cell[edge[0]], cell[edge[1]]); });
 }
 
-/// Links along the edges of all faces and cells: those of a reader whose file lists none.
+/// Returns links along the edges of all faces and cells, for files that list no links.
 void add_links_along_edges(MeshParts& parts);
 
 }  // namespace chainmail

@@ -10,15 +10,15 @@
 
 namespace chainmail {
 
-/// A set of blocks of 64 elements, in id order. What happens to elements is noted by the block, so that copying
-/// what changed costs what changed: a bit a block makes 8 KiB for four million elements. Larger blocks copy more
-/// beside what moved, since a grid's rows are far apart: 256 cost a frame of 1,600 moved elements twice as much.
+/// A set of blocks of 64 elements, in id order. Changes are recorded per block, so that copying costs only what
+/// changed. One bit per block makes 8 KiB for four million elements. Larger blocks copy more unchanged elements, since
+/// the rows of a grid are far apart: with 256, a frame of 1,600 moved elements cost twice as much.
 class ElementBlocks {
  public:
   static constexpr ElementId block_elements = 64;
 
   ElementBlocks() = default;
-  /// None of the blocks of an object with this many elements.
+  /// An empty set, for an object with this many elements.
   explicit ElementBlocks(ElementId element_count)
       : element_count_(element_count), words_((block_count() + bits - 1) / bits) {}
 
@@ -36,7 +36,8 @@ class ElementBlocks {
       insert_block(block);
     }
   }
-  /// Of more than half of the elements it takes all blocks, without looking at each.
+  /// Inserts the blocks of these elements. For more than half of all elements it inserts all blocks without checking
+  /// each.
   void insert(std::span<const ElementId> elements) {
     if (elements.size() > element_count_ / 2) {
       insert_all();
@@ -55,7 +56,7 @@ class ElementBlocks {
       words_[block / bits] = left < bits ? (std::uint64_t{1} << left) - 1 : ~std::uint64_t{0};
     }
   }
-  /// Those of a set of the same object.
+  /// Inserts the blocks of another set of the same object.
   void insert(const ElementBlocks& others) {
     for (std::size_t i = 0; i < words_.size(); ++i) {
       words_[i] |= others.words_[i];
@@ -63,7 +64,7 @@ class ElementBlocks {
   }
   void clear() { std::fill(words_.begin(), words_.end(), 0); }
 
-  /// Calls visit(first, end), of element ids, for each run of blocks, in ascending order.
+  /// Calls visit(first, end), with element ids, for each run of blocks, in ascending order.
   template <class Visit>
   void for_each_run(Visit visit) const {
     std::size_t first = 0, end = 0;  // of a run of blocks
@@ -100,7 +101,7 @@ class ElementBlocks {
   static constexpr std::size_t bits = 64;
 
   ElementId element_count_ = 0;
-  std::vector<std::uint64_t> words_;  // a bit a block
+  std::vector<std::uint64_t> words_;  // one bit per block
 };
 
 }  // namespace chainmail

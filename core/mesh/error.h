@@ -6,10 +6,7 @@
 
 namespace chainmail {
 
-/// The one exception of the edges: files, arguments and values from outside.
-///
-/// Its text reads `WHERE: what is wrong; what to do`, in one line, where WHERE is
-/// `file:line`, an option or an element.
+/// The one exception for errors from outside: files, arguments and values.
 class Error : public std::runtime_error {
  public:
   Error(const std::string& where, const std::string& problem, const std::string& remedy)
@@ -18,7 +15,7 @@ class Error : public std::runtime_error {
   const std::string& where() const { return where_; }
   const std::string& problem() const { return rest_.first; }
   const std::string& remedy() const { return rest_.second; }
-  /// The same error, said of another place.
+  /// Returns the same error with another WHERE.
   Error at(const std::string& where) const { return {where, rest_.first, rest_.second}; }
 
  private:

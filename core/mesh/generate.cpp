@@ -31,9 +31,9 @@ void check(const MeshRecipe& recipe, const Lattice& lattice) {
     throw Error("size", "the mesh would have more than " + std::to_string(element_limit) + " elements",
                 "use smaller sizes");
   }
-  const double farthest = recipe.spacing * *std::max_element(lattice.size.begin(), lattice.size.end());
-  if (!(recipe.spacing > 0 && farthest <= coordinate_limit)) {
-    throw Error("spacing", "it must be positive, and no coordinate may exceed 1e100", "use a number above 0");
+  chainmail::check(parameters::spacing, recipe.spacing);
+  if (recipe.spacing * *std::max_element(lattice.size.begin(), lattice.size.end()) > coordinate_limit) {
+    throw Error("spacing", "a coordinate would exceed 1e100", "use a smaller spacing");
   }
 }
 

@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// A side of an object, as it stands at rest: the low or the high end of one axis.
+/// A side of an object at rest: the low or the high end of one axis.
 struct ObjectSide {
   std::string_view name;
   int axis;
@@ -22,12 +22,12 @@ inline constexpr std::array<ObjectSide, 6> object_sides{{{"left", 0, false},
                                                          {"front", 2, true}}};
 const ObjectSide* find_side(std::string_view name);
 
-/// The elements of the layer at one side: those within half a mean rest length of the outermost, ascending. Empty where
-/// the scene does not carry the axis.
+/// Returns the elements of the layer at one side: those within half a mean rest length of the outermost element,
+/// ascending. Empty if the axis does not exist.
 std::vector<ElementId> layer(const Mesh& mesh, const ObjectSide& side);
 
-/// The elements on the boundary, ascending: of a volume's cells the outer surface, of faces the edges that one face
-/// alone has, of a grid without faces its rim, of chains their ends. Empty for a closed surface, which has none.
+/// Returns the elements on the boundary, ascending: the outer surface of cells, edges with only one face, the rim of a
+/// grid without faces, the ends of chains. Empty for a closed surface.
 std::vector<ElementId> boundary(const Mesh& mesh);
 
 }  // namespace chainmail

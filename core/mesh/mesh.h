@@ -13,20 +13,20 @@
 
 namespace chainmail {
 
-/// A point of the object, by its place in the file's order, from 0.
+/// Id of an element: its index in the file's order, from 0.
 using ElementId = std::uint32_t;
-/// An unordered pair of elements, numbered by its first element, then in that element's order.
+/// Id of a link: an unordered pair of elements, numbered by its first element, then in that element's order.
 using LinkId = std::uint32_t;
-/// A place in the neighbour table: a link as seen from one of its two elements.
+/// Index of an entry in the neighbour table: a link as seen from one of its two elements.
 using EntryId = std::uint32_t;
-/// More elements than this are refused before memory is taken.
+/// Meshes with more elements are refused before memory is allocated.
 inline constexpr std::uint64_t element_limit = 20'000'000;
 
-/// Coordinates beyond this (mesh units) are refused: their differences and squares must stay finite.
+/// Coordinates beyond this (mesh units) are refused, so that their differences and squares stay finite.
 inline constexpr double coordinate_limit = 1e100;
 
-/// The regular arrangement an object stands in, where it has one: element i of W x H x D stands at
-/// (i mod W, i / W mod H, i / (W·H)) times the spacing (mesh units).
+/// The regular arrangement of an object, if any: element i of W x H x D is at (i mod W, i / W mod H, i / (W·H)) times
+/// the spacing (mesh units).
 struct Lattice {
   std::array<std::uint32_t, 3> size{1, 1, 1};
   double spacing = 1;
@@ -35,37 +35,37 @@ struct Lattice {
   Point position(ElementId element) const;
 };
 
-/// What a reader or a generator hands over; build_mesh makes a Mesh of it.
+/// Input of build_mesh, from a reader or a generator.
 struct MeshParts {
   std::vector<Point> rest;
-  /// Pairs in any order, doubles allowed. Not looked at where the neighbour table is given.
+  /// Pairs in any order; duplicates are allowed. Ignored if the neighbour table is given.
   std::vector<std::array<ElementId, 2>> links;
-  /// Where the file lists neighbours in an order of its own: row i is
-  /// neighbours[first_entry[i] .. first_entry[i + 1]). Each link stands in both its rows.
+  /// For files that list neighbours in their own order: row i is neighbours[first_entry[i] .. first_entry[i + 1]). Each
+  /// link is in both rows.
   std::vector<EntryId> first_entry;
   std::vector<ElementId> neighbours;
   std::vector<std::array<ElementId, 3>> triangles;
-  /// Faces of more than three corners: count, corner…, count, corner…
+  /// Faces with more than three corners: count, corner…, count, corner…
   std::vector<ElementId> polygons;
   std::vector<std::array<ElementId, 4>> tetrahedra;
-  /// The corners of one side in a row about it, then those opposite of them, as in VTK and Gmsh.
+  /// The corners of one side in order around it, then the opposite ones, as in VTK and Gmsh.
   std::vector<std::array<ElementId, 8>> hexahedra;
   std::optional<Lattice> lattice;
-  /// What its faces or sections show, if anything.
+  /// Picture on the faces or sections, if any.
   std::shared_ptr<const Texture> texture;
-  /// Space dimension asked for; by default the axes on which the rest positions are not constant.
+  /// Requested space dimension. Default: the axes on which the rest positions are not constant.
   std::optional<int> space_dimension;
 };
 
-/// What is there: rest positions, neighbour table, faces and cells. Immutable and shared by
-/// everything that deforms it; it knows neither softness nor algorithms.
+/// Rest positions, neighbour table, faces and cells. Immutable, and shared by everything that deforms it. Knows neither
+/// softness nor algorithms.
 struct Mesh {
   /// 1 chain, 2 surface, 3 volume.
   int object_dimension = 1;
-  /// How many coordinates exist, and which ones: a plane scene carries no third.
+  /// Number of coordinates that exist, and their axes: a 2D scene has no third.
   int space_dimension = 1;
   std::array<int, 3> axes{0, 1, 2};
-  /// The constant coordinates on the axes that are not carried.
+  /// The constant coordinates on the axes that do not exist.
   Point origin = Point::Zero();
 
   /// Rest positions, element by element, space_dimension coordinates each (mesh units).
@@ -75,16 +75,16 @@ struct Mesh {
   std::vector<ElementId> neighbours;
   /// The link of each entry of the neighbour table.
   std::vector<LinkId> entry_link;
-  /// The distinct rest vectors of entries, space_dimension coordinates each (mesh units), and the one of each
-  /// entry. Both empty where there are more than shape_limit: a jittered mesh has one a link.
+  /// The distinct rest vectors of entries, space_dimension coordinates each (mesh units), and the index of the vector
+  /// of each entry. Both are empty if there are more than shape_limit: a jittered mesh has one per link.
   std::vector<double> shapes;
   std::vector<std::uint16_t> entry_shape;
   static constexpr std::size_t shape_limit = 4096;
   /// The two elements of each link, the smaller id first.
   std::vector<std::array<ElementId, 2>> links;
 
-  /// Triangles to draw: first the object's own faces, then those its polygons were split into,
-  /// whose diagonals are no links.
+  /// Triangles to draw: first the faces of the object, then the triangles of its polygons, whose diagonals are not
+  /// links.
   std::vector<std::array<ElementId, 3>> triangles;
   std::size_t own_triangles = 0;
   std::vector<ElementId> polygons;
@@ -92,9 +92,9 @@ struct Mesh {
   std::vector<std::array<ElementId, 8>> hexahedra;
   std::optional<Lattice> lattice;
   std::shared_ptr<const Texture> texture;
-  /// How many parts there are that no link joins.
+  /// Number of parts that no link joins.
   std::uint32_t part_count = 0;
-  /// Whether it is rectangular: elements in a lattice, and links along its axes alone, one step each.
+  /// True for a rectangular mesh: elements in a lattice, with links to the next element along its axes only.
   bool is_grid = false;
   /// Mean rest length over the links (mesh units); 0 without links.
   double mean_link_length = 0;
@@ -108,7 +108,7 @@ struct Mesh {
   }
   /// Rest position with all three coordinates.
   Point rest_position(ElementId element) const;
-  /// Puts the carried coordinates (space_dimension of them) among the constant ones.
+  /// Returns a point with all three coordinates, from the space_dimension ones that exist.
   Point to_point(const double* carried) const;
 };
 
@@ -119,15 +119,14 @@ inline std::array<Point, 2> bounds(const Mesh& mesh) { return mesh.box; }
 /// Length of a link at rest (mesh units).
 double rest_length(const Mesh& mesh, LinkId link);
 
-/// The link between two elements, if there is one. Time: the shorter of the two rows.
+/// Returns the link between two elements, if any. Takes time in proportion to the shorter of the two rows.
 std::optional<LinkId> find_link(const Mesh& mesh, ElementId a, ElementId b);
 
-/// Builds the neighbour table and all that follows from the parts.
+/// Builds a mesh from its parts.
 ///
-/// The parts must be consistent (ids below the number of elements, no link to itself, a given
-/// neighbour table symmetric and without doubles): readers check this, each in its file's terms.
-/// Throws Error where the space dimension asked for would flatten the object, and where the parts
-/// exceed element_limit, and Cancelled.
+/// The parts must be consistent (ids below the number of elements, no link from an element to itself, a given neighbour
+/// table symmetric and without duplicates): readers check this, with messages in terms of their file. Throws Error if
+/// the requested space dimension would flatten the object or the parts exceed element_limit, and Cancelled.
 MeshPointer build_mesh(MeshParts parts, const Progress& progress = {});
 
 }  // namespace chainmail

@@ -10,23 +10,23 @@
 
 namespace chainmail {
 
-/// How many parts an object has that no uncut link joins. Looks at all of it; an element without links is a part.
+/// Returns the number of parts that no uncut link joins. Visits the whole object; an element without links is a part.
 std::uint32_t count_parts(const Mesh& mesh, const Cuts& cuts = {}, const Progress& progress = {});
 
-/// The same, kept while links are cut and uncut, at a cost of what changed: searches grow from all ends of the cut
-/// links at once. Where they meet around the end of a slit they are done, and where all but one have nowhere left to
-/// go: a part that comes loose costs its own size, not that of what it leaves.
+/// The number of parts, updated while links are cut and uncut, at a cost in proportion to the change: searches grow
+/// from all ends of the cut links at once. They stop when they meet around the end of a slit, or when all but one have
+/// nowhere left to go. So a part that comes loose costs its own size, not the size of the rest.
 class Parts {
  public:
   Parts() = default;
-  /// Of an object without cuts.
+  /// For an object without cuts.
   explicit Parts(const MeshPointer& mesh);
 
   std::uint32_t count() const { return count_; }
-  /// How many elements the last change made it look at.
+  /// Number of elements that the last change visited.
   std::size_t looked_at() const { return looked_at_; }
 
-  /// Cuts those of the links that `cuts`, of the same mesh and by this alone, do not hold yet.
+  /// Cuts those links that are not cut yet in `cuts`, which is of the same mesh and changed only here.
   void cut(Cuts& cuts, std::span<const LinkId> links);
   void uncut(Cuts& cuts, std::span<const LinkId> links);
 
@@ -36,7 +36,7 @@ class Parts {
   MeshPointer mesh_;
   std::uint32_t count_ = 0;
   std::size_t looked_at_ = 0;
-  // The search, from 1, that has reached each element: all 0 between two calls, and taken at the first.
+  // Number of the search, from 1, that has reached each element. All 0 between two calls; allocated by the first.
   std::vector<std::uint32_t> reached_by_;
 };
 

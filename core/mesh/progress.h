@@ -6,26 +6,26 @@
 
 namespace chainmail {
 
-/// Leaves a job that was cancelled. No Error: nothing is wrong, and nobody wants the result.
+/// Thrown to leave a cancelled job. It is not an Error: nothing is wrong, and the result is not wanted.
 class Cancelled : public std::exception {
  public:
   const char* what() const noexcept override { return "cancelled"; }
 };
 
-/// What the thread that does a job and the one that waits for it share.
+/// State shared by the thread that runs a job and the thread that waits for it.
 struct JobState {
   std::atomic<double> share = 0;  // done, from 0 to 1
   std::atomic<bool> cancelled = false;
 };
 
-/// Where a job, or a part of it, says how far it has come and learns that it is no longer wanted. By default nobody
-/// watches.
+/// Progress of a job or of a part of it: receives the share done, and throws if the job is cancelled. The default does
+/// nothing.
 class Progress {
  public:
   Progress() = default;
   explicit Progress(JobState& job) : job_(&job) {}
 
-  /// The share of this part that is done, from 0 to 1. Throws Cancelled where the job was.
+  /// Reports the share of this part that is done, from 0 to 1. Throws Cancelled if the job was cancelled.
   void report(double share) const {
     if (job_ == nullptr) {
       return;
@@ -36,14 +36,14 @@ class Progress {
     job_->share.store(from_ + share * (to_ - from_), std::memory_order_relaxed);
   }
 
-  /// The same, cheap enough for each turn of a loop: it looks once in a few thousand.
+  /// Reports a share. Cheap enough for each iteration of a loop: it acts once per few thousand calls.
   void report(std::size_t done, std::size_t of) const {
     if (done % stride == 0) {
       report(double(done) / double(of));
     }
   }
 
-  /// What lies between two shares of this part.
+  /// Returns the progress of a part, between two shares of this one.
   Progress part(double from, double to) const {
     Progress part = *this;
     part.from_ = from_ + from * (to_ - from_);

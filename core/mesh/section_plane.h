@@ -4,18 +4,16 @@
 
 namespace chainmail {
 
-/// A plane across an axis of the object at rest. What lies on its far side is
-/// in front of it, and is taken away to show the inside.
+/// A plane across an axis of the object at rest. The part in front of it is hidden, to show the inside.
 struct SectionPlane {
   /// 0 x, 1 y, 2 z.
   int axis = 0;
-  /// Where it stands along the axis (mesh units).
+  /// Position on the axis (mesh units).
   double at = 0;
-  /// Whether what is taken away lies below it, instead of beyond.
+  /// True if the hidden part is below the plane instead of above it.
   bool flipped = false;
 
-  /// How far in front of it a place at rest lies, negative behind it (mesh
-  /// units).
+  /// Returns the distance of a rest position in front of the plane, negative behind it (mesh units).
   double before(const Point& rest) const { return flipped ? at - rest[axis] : rest[axis] - at; }
   bool operator==(const SectionPlane&) const = default;
 };

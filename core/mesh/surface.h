@@ -7,7 +7,7 @@
 
 namespace chainmail {
 
-/// Numbers in no order; putting one in and taking one out costs the same whatever there is.
+/// A set of numbers in no order. Inserting and erasing take constant time.
 class NumberSet {
  public:
   std::span<const std::uint32_t> numbers() const { return numbers_; }
@@ -16,34 +16,34 @@ class NumberSet {
 
  private:
   std::vector<std::uint32_t> numbers_;
-  std::unordered_map<std::uint32_t, std::uint32_t> places_;  // among them
+  std::unordered_map<std::uint32_t, std::uint32_t> places_;  // index of each number in the list
 };
 
-/// The outer surface of a mesh's cells under cuts. A cell is whole as long as no link along its edges is cut; a side is
-/// in sight where its own cell is whole, and none that is whole lies on its other side. A cut shows what is inside, and
-/// costs what is about the link: nothing is built anew.
+/// The outer surface of a mesh's cells under cuts. A cell is whole while no link along its edges is cut. A side is
+/// visible if its own cell is whole and there is no whole cell on its other side. A cut reveals the inside, at a cost
+/// in proportion to the cells around the link.
 class Surface {
  public:
-  /// Of what is not cut.
+  /// The surface of the object without cuts.
   explicit Surface(CellTablePointer table);
   Surface(CellTablePointer table, const Cuts& cuts);
 
   const CellTable& table() const { return *table_; }
   const CellTablePointer& table_pointer() const { return table_; }
-  /// Cuts a link that is not cut.
+  /// Cuts a link, which is not cut.
   void cut(LinkId link) { change(link, true); }
-  /// Uncuts one that is.
+  /// Uncuts a link, which is cut.
   void uncut(LinkId link) { change(link, false); }
 
   bool is_whole(CellId cell) const { return cut_links_.empty() || cut_links_[cell] == 0; }
   bool is_in_sight(SideId side) const { return sides_.contains(side); }
-  /// Those in sight, in no order.
+  /// The visible sides, in no order.
   std::span<const SideId> sides() const { return sides_.numbers(); }
-  /// The links that are not cut and run along sides in sight, or were a cell's and are no whole one's any more. Those
-  /// that never were one's edge are CellTable::loose_links.
+  /// The uncut links along visible sides, and those whose cells are all gone. Links that were never the edge of a cell
+  /// are CellTable::loose_links.
   std::span<const LinkId> links() const { return links_.numbers(); }
-  /// The corners of the sides in sight as triangles, as seen from outside counterclockwise at rest: three for each
-  /// triangle. A diagonal is no link.
+  /// The corners of the visible sides as triangles, three each, counterclockwise at rest as seen from outside. A
+  /// diagonal is not a link.
   std::vector<ElementId> triangles() const;
 
  private:
@@ -54,13 +54,13 @@ class Surface {
   bool is_link_in_sight(LinkId link) const;
 
   CellTablePointer table_;
-  std::vector<std::uint8_t> cut_links_;  // along the edges of each cell; taken at the first cut
+  std::vector<std::uint8_t> cut_links_;  // number along the edges of each cell; allocated by the first cut
   NumberSet cut_;                        // the links
-  NumberSet sides_, links_;              // in sight
+  NumberSet sides_, links_;              // visible
 };
 
-/// The triangles that a side is drawn by: one, or two that a diagonal from its lowest corner parts, whichever of the
-/// two sides that lie on each other it is.
+/// Returns the triangles of a side: one, or two that are split by the diagonal from the lowest corner, the same for
+/// both of two coinciding sides.
 void append_triangles(const Side& side, std::vector<ElementId>& corners);
 
 }  // namespace chainmail

@@ -8,30 +8,29 @@
 
 namespace chainmail {
 
-/// The one log that feeds all solvers: each gets the same commands in the same order.
+/// The log that feeds all solvers: each receives the same commands in the same order.
 ///
-/// Moves of the hand and settings that a slider drags along are sampled: while a solver is busy, the
-/// last one not yet sent is replaced by the next of its kind, for all solvers, so that a slow one never
-/// falls behind the hand. All other commands are sent at once, after what waited before them. Belongs to
-/// one thread.
+/// Moves of the handle, and settings that change while a slider is dragged, are sampled: while a solver is busy, the
+/// last unsent command is replaced by the next one of its kind, for all solvers, so a slow solver never lags behind.
+/// All other commands are sent at once, after any waiting command. Belongs to one thread.
 class CommandLog {
  public:
   explicit CommandLog(std::vector<SolverThread*> solvers) : solvers_(std::move(solvers)) {}
 
   void post(const Command& command);
-  /// Sends a command to one solver alone, after what waited before it.
+  /// Sends a command to one solver only, after any waiting command.
   void post_to(SolverThread& solver, const Command& command);
-  /// Sends to all a command that is on the tape already, or is to leave no mark there.
+  /// Sends a command to all solvers without recording it on the tape: it is there already, or must not be.
   void replay(const Command& command);
-  /// Of all that was sent.
+  /// The tape of all commands that were sent.
   Tape& tape() { return tape_; }
   const Tape& tape() const { return tape_; }
-  /// One more, or one less, after what waited before.
+  /// Adds or removes a solver, after any waiting command.
   void add(SolverThread& solver);
   void remove(const SolverThread& solver);
-  /// Sends what waits; to be called before something is asked of a solver past this log.
+  /// Sends the waiting command. Call this before asking a solver directly.
   void flush();
-  /// Sends the waiting command if every solver is idle; to be called 60 times a second while one waits.
+  /// Sends the waiting command if every solver is idle. Call this 60 times per second while a command waits.
   void sample();
   bool waits() const { return waiting_.has_value(); }
 

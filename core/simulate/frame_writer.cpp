@@ -6,7 +6,7 @@
 namespace chainmail {
 namespace {
 
-/// The stamps of a run of blocks, given by its elements.
+/// Returns the frame numbers of a run of blocks, given by its elements.
 std::span<std::uint64_t> blocks_of(std::vector<std::uint64_t>& stamps, ElementId first, ElementId end) {
   const std::size_t block = first / Frame::block_elements;
   return std::span(stamps).subspan(block, (end - 1) / Frame::block_elements - block + 1);
@@ -21,8 +21,8 @@ void FrameWriter::publish(Simulation& simulation) {
   frames_.publish();
 }
 
-/// What changed since the last frame, in the stamps and for each frame that may be filled next. Of another mesh the
-/// simulation has all blocks changed.
+/// Records what changed since the last frame, for each frame of the buffer. For another mesh the simulation marks all
+/// blocks as changed.
 void FrameWriter::note_changes(Simulation& simulation) {
   if (mesh_ != simulation.mesh_pointer()) {
     mesh_ = simulation.mesh_pointer();

@@ -8,13 +8,13 @@
 
 namespace chainmail {
 
-/// Fills the frames of a buffer from a simulation and hands them over. Each takes only the blocks that changed since
-/// it was last filled.
+/// Fills the frames of a buffer from a simulation and publishes them. Each frame copies only the blocks that changed
+/// since it was last filled.
 class FrameWriter {
  public:
   explicit FrameWriter(TripleBuffer& frames) : frames_(frames) {}
 
-  /// Hands over a frame of the simulation as it is now. It must be the same simulation every time.
+  /// Publishes a frame of the current state. The simulation must be the same in every call.
   void publish(Simulation& simulation);
 
  private:

@@ -10,18 +10,18 @@
 
 namespace chainmail {
 
-/// An object as it stands.
+/// The state of an object.
 struct ObjectState {
   MeshPointer mesh;
   std::vector<LinkId> cuts;
   std::vector<ElementId> pins;
   std::shared_ptr<const Softness> softness;
-  KeptPositions positions;
+  PositionBlocks positions;
   bool valid = true;
 };
 
-/// All of a simulation but its algorithm and its figures, from which another one goes on. A value that shares what is
-/// large and never changes: it may go to another thread.
+/// The state of a simulation except its algorithm and statistics, from which another simulation can continue. A value
+/// that shares large constant data: it may be moved to another thread.
 struct Handover {
   ObjectState object;
   std::map<commands::StateId, ObjectState> kept;  // for undo

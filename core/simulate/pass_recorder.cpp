@@ -6,13 +6,12 @@
 namespace chainmail {
 namespace {
 
-/// Whether it may be a pass to look at, and changes no position beside. Another algorithm may hold positions otherwise,
-/// and rounds them all, before it answers.
+/// True if a command may be a pass and changes no other positions. A change of algorithm may first round all positions.
 bool may_be_pass(const Command& command) {
   return std::holds_alternative<commands::Drag>(command) || std::holds_alternative<commands::SetSoftness>(command);
 }
 
-/// The others change neither cuts, pins nor softness.
+/// True if a command may change cuts, pins or softness.
 bool changes_conditions(const Command& command) {
   return !std::holds_alternative<commands::Grab>(command) && !std::holds_alternative<commands::Drag>(command) &&
          !std::holds_alternative<commands::Release>(command);
@@ -50,7 +49,7 @@ void PassRecorder::begin(const Command& command, Simulation& simulation) {
   follow(simulation);
 }
 
-/// Copies what has changed since the last pass began.
+/// Copies the changes since the last pass began.
 void PassRecorder::follow(const Simulation& simulation) {
   if (record_.mesh != simulation.mesh_pointer()) {
     record_.mesh = simulation.mesh_pointer();
@@ -82,7 +81,7 @@ void PassRecorder::end(Simulation& simulation) {
         PassConditions{simulation.solver().cuts(), {pins.begin(), pins.end()}, simulation.softness()});
   }
   const std::lock_guard lock(mutex_);
-  if (on_ && record_.mesh == simulation.mesh_pointer()) {  // else it was switched off meanwhile
+  if (on_ && record_.mesh == simulation.mesh_pointer()) {  // otherwise recording was turned off in the meantime
     write(simulation);
     is_whole_ = true;
   }

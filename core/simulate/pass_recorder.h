@@ -11,17 +11,16 @@
 
 namespace chainmail {
 
-/// Keeps the last pass of a simulation for whoever wants to look at it, by another thread. Switched off, it costs
-/// nothing; switched on, what a pass changed, and a copy of the positions in advance.
+/// Keeps the last pass of a simulation for another thread. Costs nothing while it is off; while it is on, a copy of the
+/// positions, and of what each pass changed.
 class PassRecorder {
  public:
-  /// For the thread that looks. What was recorded is forgotten when it is switched off.
+  /// Turns recording on or off. Off drops the record. For the reading thread.
   void set_on(bool on);
-  /// The last pass, unless that is the one with this number; none as long as there is none, and while one is under
-  /// way.
+  /// Returns the last pass, unless its number is `seen`; none before the first pass and while a pass is running.
   std::unique_ptr<RecordedPass> last(std::uint64_t seen) const;
 
-  /// For the thread of the simulation, about each command and before the changes of positions are forgotten.
+  /// For the thread of the simulation: call these around each command, and before changes of positions are forgotten.
   void begin(const Command& command, Simulation& simulation);
   void end(Simulation& simulation);
   void note_changes(const Simulation& simulation);
@@ -33,10 +32,10 @@ class PassRecorder {
 
   std::atomic<bool> on_ = false;
   mutable std::mutex mutex_;  // guards the two below
-  RecordedPass record_;       // before: where all stood when the last pass began
+  RecordedPass record_;       // `before` holds the positions at the beginning of the last pass
   bool is_whole_ = false;
 
-  // Of the thread of the simulation alone:
+  // Used by the thread of the simulation only:
   bool runs_ = false;  // between begin and end of a command that may be a pass
   std::uint64_t passes_ = 0;
   Trace trace_;

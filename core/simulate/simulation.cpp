@@ -1,21 +1,23 @@
 #include "simulate/simulation.h"
 
 #include <algorithm>
+#include <iterator>
 #include <new>
 #include <string>
 #include <utility>
 
 #include "mesh/error.h"
+#include "mesh/parameters.h"
 
 namespace chainmail {
 namespace {
 
 using Clock = PassTimes::Clock;
 
-// Relaxation sleeps when no step of a sweep exceeds this share of the mean rest length, or after this long.
+// Relaxation sleeps when no step of a sweep exceeds this share of the mean rest length, or after this time.
 constexpr double asleep_below = 1e-4;
 constexpr auto relaxation_time = std::chrono::seconds(10);
-// About 2 ms: a command never waits longer for a slice of relaxation to end.
+// About 2 ms, so that commands never wait longer for a slice of relaxation.
 constexpr std::uint64_t elements_per_slice = 20'000;
 constexpr LinkId links_per_slice = 20'000;
 
@@ -46,7 +48,7 @@ void Simulation::apply(const Command& command) {
 void Simulation::pass(ElementId element, const Point& target) {
   time_pass([&] { return solver_->move(element, target, trace_); });
   last_moved_ = element;
-  valid_ = algorithm_ == Algorithm::exact;
+  valid_ = info(algorithm_).holds_links;
   for (const auto& moved : {std::span<const ElementId>(&element, 1), solver_->moved()}) {
     mark(moved);
     wake(moved);
@@ -59,7 +61,7 @@ void Simulation::time_pass(Move move) {
   try {
     statistics_.last_pass = move();
   } catch (const std::bad_alloc&) {
-    mark_all();  // it may have ended in the middle
+    mark_all();  // the pass may have stopped in the middle
     throw;
   }
   const auto end = Clock::now();
@@ -70,8 +72,8 @@ void Simulation::time_pass(Move move) {
 }
 
 void Simulation::carry_out(const commands::MoveControlPoint& command) {
-  if (algorithm_ != Algorithm::free_form) {
-    return;  // the others have none
+  if (!info(algorithm_).has_control_points) {
+    return;
   }
   time_pass([&] { return solver_->move_control_point(command.point, command.target); });
   valid_ = false;
@@ -82,7 +84,7 @@ std::span<const double> Simulation::control_points() {
   try {
     return solver_->control_points();
   } catch (const Error&) {
-    return {};  // the next move says why
+    return {};  // the next move reports the reason
   }
 }
 
@@ -107,7 +109,7 @@ bool Simulation::step() {
   mark(solver_->relaxed());
   if (slice.sweep_ended) {
     ++statistics_.sweeps;
-    // What woke during the sweep has not been looked at yet.
+    // Elements that became active during the sweep have not been visited yet.
     if (!woken_ && slice.largest_step <= asleep_below * mesh_->mean_link_length) {
       fall_asleep();
     }
@@ -120,8 +122,8 @@ bool Simulation::step() {
 }
 
 void Simulation::relax(int count, double step) {
-  if (count == 0 || elastic_method(algorithm_)) {
-    return;  // a static answer is where it should be
+  if (count == 0 || !info(algorithm_).relaxes()) {
+    return;
   }
   measure_.reset();
   if (last_moved_) {
@@ -132,7 +134,7 @@ void Simulation::relax(int count, double step) {
   }
 }
 
-/// One sweep, in slices between which it may be given up. Returns the number of elements that it visited.
+/// Runs one sweep, in slices, and can be cancelled between them. Returns the number of visited elements.
 std::uint64_t Simulation::sweep(double step, const Progress& progress) {
   std::uint64_t visited = 0;
   while (true) {
@@ -195,11 +197,11 @@ void Simulation::check_links(std::span<const LinkId> links) const {
 
 void Simulation::take_mesh(MeshPointer mesh) {
   const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
-  solver_ = make_solver(mesh, algorithm, precision_);  // may find no memory: nothing has changed yet
+  solver_ = make_solver(mesh, algorithm, precision_);  // may run out of memory: nothing has changed yet
   solver_->set_relaxation(relaxation_scheme_);
   solver_->set_elastic(elastic_);
   solver_->set_progress(progress_);
-  softness_ = std::make_shared<const Softness>();  // as every solver begins
+  softness_ = std::make_shared<const Softness>();  // default of a new solver
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
   away_ = changed_ = unkept_ = ElementBlocks(mesh_->element_count());
@@ -212,7 +214,7 @@ void Simulation::take_mesh(MeshPointer mesh) {
   fall_asleep();
 }
 
-/// What passes did to another object, or by another algorithm, is nothing to show beside this one.
+/// Clears the statistics of passes of another object or algorithm.
 void Simulation::forget_passes() {
   statistics_.last_pass = {};
   statistics_.last_pass_ms = 0;
@@ -221,7 +223,7 @@ void Simulation::forget_passes() {
 }
 
 void Simulation::wake(std::span<const ElementId> elements) {
-  if (relaxation_on_ && !elastic_method(algorithm_)) {
+  if (relaxation_on_ && info(algorithm_).relaxes()) {
     solver_->wake(elements);
     woken_ = true;
     relaxation_deadline_ = Clock::now() + relaxation_time;
@@ -231,7 +233,7 @@ void Simulation::wake(std::span<const ElementId> elements) {
 }
 
 void Simulation::wake_ends(const std::vector<LinkId>& links) {
-  // Also where relaxation is off in idle time: sweeps may be asked for.
+  // Also if relaxation is off in idle time: sweeps may be requested.
   for (const LinkId link : links) {
     solver_->wake(mesh_->links[link]);
   }
@@ -241,6 +243,288 @@ void Simulation::wake_ends(const std::vector<LinkId>& links) {
 void Simulation::fall_asleep() {
   solver_->sleep();
   statistics_.relaxing = false;
+}
+
+// How each command is carried out.
+
+void Simulation::carry_out(const commands::Grab& command) {
+  check_element(command.element);
+  if (std::ranges::binary_search(solver_->pins(), command.element)) {
+    throw Error("element " + std::to_string(command.element), "it is pinned and may not move",
+                "unpin it, or grab another element");
+  }
+  grabbed_ = command.element;
+}
+
+void Simulation::carry_out(const commands::Drag& command) {
+  if (!grabbed_) {
+    throw Error("drag", "no element is grabbed", "grab one first");
+  }
+  pass(*grabbed_, command.target);
+}
+
+void Simulation::carry_out(const commands::Release&) {
+  if (grabbed_) {
+    // The released element may follow its neighbours, in idle time or in requested sweeps.
+    solver_->wake(std::span(&*grabbed_, 1));
+    wake({});
+  }
+  grabbed_.reset();
+  statistics_.last_pass.stopped = false;  // the handle no longer pulls
+}
+
+void Simulation::carry_out(const commands::SetSoftness& command) {
+  check(command.softness->global);
+  for (const auto& [link, softness] : command.softness->links) {
+    check_links(std::span(&link, 1));
+    check(softness);
+  }
+  set_softness(command.softness);
+  valid_ = false;
+  if (info(algorithm_).uses_softness()) {
+    answer();
+  }
+}
+
+/// Equal softness leaves all regions unchanged.
+void Simulation::set_softness(std::shared_ptr<const Softness> softness) {
+  if (softness != softness_ && *softness != *softness_) {
+    solver_->set_softness(*softness);
+  }
+  softness_ = std::move(softness);
+}
+
+/// Answers a change under load, when links may now be violated: runs a pass about the handle, or the element that was
+/// moved last. From a valid state it moves nothing.
+void Simulation::answer() {
+  if (!last_moved_) {
+    return;  // the object is at rest
+  }
+  const auto about = grabbed_ ? grabbed_ : last_moved_;
+  if (std::ranges::binary_search(solver_->pins(), *about)) {
+    return;
+  }
+  try {
+    pass(*about, point_of(*mesh_, solver_->positions(), *about));
+  } catch (const Error&) {
+    // The pins contradict each other now: the setting stays, and the next drag reports it.
+  }
+}
+
+void Simulation::carry_out(const commands::SetElastic& command) {
+  check(command.options);
+  if (command.options != elastic_) {
+    elastic_ = command.options;
+    solver_->set_elastic(elastic_);
+    if (elastic_method(algorithm_)) {
+      answer();
+    }
+  }
+}
+
+void Simulation::carry_out(const commands::Relax& command) {
+  check(parameters::relax_step, command.step);
+  solver_->set_relaxation(command.scheme);
+  try {
+    relax(static_cast<int>(command.sweeps), command.step);
+  } catch (...) {  // cancelled, or out of memory
+    solver_->set_relaxation(relaxation_scheme_);
+    throw;
+  }
+  solver_->set_relaxation(relaxation_scheme_);
+}
+
+void Simulation::carry_out(const commands::SetRelaxation& command) {
+  check(parameters::relax_step, command.step);
+  const bool was_on = std::exchange(relaxation_on_, command.on);
+  relaxation_step_ = command.step;
+  solver_->set_relaxation(relaxation_scheme_ = command.scheme);
+  if (command.on && !was_on && info(algorithm_).relaxes()) {
+    solver_->wake_all();
+    wake({});
+  } else if (!command.on) {
+    fall_asleep();
+  }
+}
+
+void Simulation::carry_out(const commands::SetAlgorithm& command) {
+  solver_->set_algorithm(command.algorithm);
+  const Algorithm before = std::exchange(algorithm_, command.algorithm);
+  if (before == algorithm_) {
+    return;
+  }
+  if (info(before).from_rest != info(algorithm_).from_rest && !away_.empty()) {
+    mark_all();  // the change between displacements and positions rounds every one
+  }
+  statistics_.algorithm = algorithm_;
+  forget_passes();
+  if (!info(algorithm_).relaxes()) {
+    fall_asleep();
+  }
+  if (info(algorithm_).answers_any_state()) {
+    answer();
+  }
+}
+
+void Simulation::carry_out(const commands::Cut& command) {
+  check_links(command.links);
+  solver_->cut(command.links);
+  wake_ends(command.links);
+}
+
+void Simulation::carry_out(const commands::Uncut& command) {
+  check_links(command.links);
+  solver_->uncut(command.links);
+  valid_ = false;  // the ends may have moved apart
+  wake_ends(command.links);
+}
+
+void Simulation::carry_out(const commands::Pin& command) {
+  for (const ElementId element : command.elements) {
+    check_element(element);
+    if (element == grabbed_) {
+      throw Error("element " + std::to_string(element), "it is grabbed", "release it, then pin it");
+    }
+  }
+  solver_->pin(command.elements);
+}
+
+void Simulation::carry_out(const commands::Unpin& command) {
+  for (const ElementId element : command.elements) {
+    check_element(element);
+  }
+  solver_->unpin(command.elements);
+  solver_->wake(command.elements);
+  wake({});
+}
+
+void Simulation::carry_out(const commands::Reset&) {
+  solver_->reset(away_);
+  changed_.insert(away_);
+  unkept_.insert(away_);
+  away_.clear();
+  last_moved_.reset();
+  forget_passes();
+  valid_ = true;
+  fall_asleep();
+}
+
+void Simulation::carry_out(const commands::ReplaceMesh& command) {
+  if (!command.mesh) {
+    throw Error("replace mesh", "no mesh was given", "give a mesh");
+  }
+  auto softness = std::make_shared<const Softness>(Softness{softness_->global, {}});
+  take_mesh(command.mesh);
+  set_softness(std::move(softness));
+}
+
+// Kept states, for undo and for going back and forth in what was recorded.
+
+void Simulation::carry_out(const commands::KeepState& command) { kept_[command.state] = current_state(); }
+
+void Simulation::carry_out(const commands::RestoreState& command) { take_state(kept(command.state)); }
+
+void Simulation::carry_out(const commands::DropState& command) { kept_.erase(command.state); }
+
+void Simulation::carry_out(const commands::SetPositions& command) {
+  check(*command.snapshot, *mesh_, precision_);
+  solver_->restore(*command.snapshot, away_);
+  changed_.insert(away_);
+  unkept_.insert(away_);
+  away_.clear();
+  const auto& runs = command.snapshot->runs;
+  for (std::size_t i = 0; i < runs.size(); i += 2) {
+    away_.insert_run(runs[i], runs[i + 1]);
+  }
+  changed_.insert(away_);
+  unkept_.insert(away_);
+  valid_ = runs.empty();
+  forget_passes();
+  grabbed_.reset();
+  last_moved_.reset();
+  fall_asleep();
+}
+
+Simulation::State& Simulation::kept(commands::StateId state) {
+  const auto found = kept_.find(state);
+  if (found == kept_.end()) {
+    throw Error("state " + std::to_string(state), "no such state is kept", "keep it first");
+  }
+  return found->second;
+}
+
+Handover Simulation::hand_over() { return {current_state(), kept_, relaxation(), elastic_, grabbed_, last_moved_}; }
+
+void Simulation::take(const Handover& handover, Algorithm algorithm) {
+  measure_.reset();
+  algorithm_ = algorithm;
+  elastic_ = handover.elastic;
+  take_mesh(handover.object.mesh);
+  take_state(handover.object);
+  kept_ = handover.kept;
+  carry_out(handover.relaxation);
+  grabbed_ = handover.grabbed;
+  last_moved_ = handover.last_moved;
+}
+
+Simulation::State Simulation::current_state() {
+  solver_->keep_positions(unkept_, away_, last_kept_);
+  unkept_.clear();
+  const auto pins = solver_->pins();
+  return {mesh_, solver_->cuts().links(), {pins.begin(), pins.end()}, softness_, last_kept_, valid_};
+}
+
+void Simulation::take_state(const State& state) {
+  if (state.mesh != mesh_) {
+    take_mesh(state.mesh);
+  }
+  set_softness(state.softness);
+  take_cuts(state.cuts);
+  if (!std::ranges::equal(state.pins, solver_->pins())) {
+    solver_->unpin(std::vector<ElementId>(solver_->pins().begin(), solver_->pins().end()));
+    solver_->pin(state.pins);
+  }
+  take_positions(state.positions);
+  valid_ = state.valid;
+  forget_passes();
+  grabbed_.reset();
+  last_moved_.reset();
+  fall_asleep();
+}
+
+void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
+  const std::vector<LinkId> present = solver_->cuts().links();
+  std::vector<LinkId> excess, missing;
+  std::ranges::set_difference(present, cuts, std::back_inserter(excess));
+  std::ranges::set_difference(cuts, present, std::back_inserter(missing));
+  // Calls only for changes: a method of elasticity prepares again after each call.
+  if (!excess.empty()) {
+    solver_->uncut(excess);
+  }
+  if (!missing.empty()) {
+    solver_->cut(missing);
+  }
+}
+
+/// Shared blocks of both states need no copy, unless a position in them has changed since.
+void Simulation::take_positions(const PositionBlocks& positions) {
+  last_kept_.blocks.resize(away_.block_count());
+  away_.clear();
+  for (std::size_t block = 0; block < away_.block_count(); ++block) {
+    if (positions.blocks[block] != last_kept_.blocks[block]) {
+      unkept_.insert_block(block);
+    }
+    if (positions.blocks[block] != nullptr) {
+      away_.insert_block(block);
+    }
+  }
+  solver_->restore(positions, unkept_);
+  changed_.insert(unkept_);
+  last_kept_ = positions;
+  unkept_.clear();
+  if (positions.from_rest != info(algorithm_).from_rest) {
+    unkept_ = away_;  // they are stored differently now, and rounded
+  }
 }
 
 }  // namespace chainmail

@@ -16,7 +16,7 @@
 
 namespace chainmail {
 
-/// What a reader of a frame wants to know of the simulation.
+/// Statistics of a simulation, for display.
 struct Statistics {
   Algorithm algorithm = Algorithm::natural_queue;
   std::uint64_t passes = 0;  // since the start
@@ -24,38 +24,37 @@ struct Statistics {
   double last_pass_ms = 0;
   PassTimes::Summary last_second;
   Violation violation;
-  bool violation_of_whole_mesh = false;  // else of the links that the last pass touched
+  bool violation_of_whole_mesh = false;  // false: of the links that the last pass touched
   bool relaxing = false;
   std::uint64_t sweeps = 0;  // since the last pass
-  /// Why the last pass did not end where it should have; empty mostly.
+  /// Reason why the last pass did not reach its target or did not converge. Usually empty.
   std::string remark;
 };
 
-/// An object in time: commands in, positions and statistics out. It knows no thread.
+/// An object in time: receives commands, provides positions and statistics. Uses no threads. Read apply() in
+/// simulation.cpp first.
 class Simulation {
  public:
   Simulation(MeshPointer mesh, Algorithm algorithm, Precision precision);
 
-  /// Carries a command out. Throws Error where the command does not fit the object (an element or link
-  /// that is not there, softness out of range, a drag without a grab, a state that is not kept);
-  /// nothing has changed then.
+  /// Carries out a command. Throws Error if the command does not fit the object (an element or link that does not
+  /// exist, softness out of range, a drag without a grab, a state that is not kept); nothing has changed then.
   void apply(const Command& command);
-  /// Spends idle time: a slice of relaxation of about 2 ms. Returns whether there is more to do.
+  /// Runs a slice of relaxation of about 2 ms, for idle time. Returns true if there is more to do.
   bool step();
 
-  /// All there is but the algorithm and the figures. Shares with what is kept.
+  /// Returns everything except the algorithm and the statistics. Shares data with the kept states.
   Handover hand_over();
-  /// Goes on from there by an algorithm, or by Natural Queue where it does not work on the mesh. Nothing moves; where
-  /// one of Exact and another take over from each other, positions are rounded as SetAlgorithm rounds them.
+  /// Continues from a handover with an algorithm, or with Natural Queue if that does not work on the mesh. Nothing
+  /// moves; a change between displacements and positions rounds positions like SetAlgorithm.
   void take(const Handover& handover, Algorithm algorithm);
 
-  /// Where work that takes long reports and learns that it is no longer wanted: it leaves by Cancelled. A pass by a
-  /// method of elasticity has moved nothing then; sweeps of relaxation end within some milliseconds, and what they have
-  /// moved stays where it is.
+  /// Sets the progress of long work, which throws Cancelled when cancelled. A cancelled pass of a method of elasticity
+  /// has moved nothing. Sweeps of relaxation end within some milliseconds and keep their positions.
   void set_progress(const Progress& progress);
-  /// `trace`, where set, receives every candidate that a pass processes.
+  /// `trace`, if set, receives every candidate that a pass processes.
   void set_trace(Trace* trace) { trace_ = trace; }
-  /// Sweeps of relaxation at once, by the scheme last set, whether it is on or off: `count` of them, or until
+  /// Runs sweeps of relaxation at once, with the scheme last set, even if relaxation is off: `count` of them, or until
   /// nothing moves.
   void relax(int count, double step);
 
@@ -66,24 +65,25 @@ class Simulation {
   const ElasticOptions& elastic() const { return elastic_; }
   commands::SetRelaxation relaxation() const { return {relaxation_on_, relaxation_step_, relaxation_scheme_}; }
   std::optional<ElementId> grabbed() const { return grabbed_; }
-  /// Those of free-form deformation, which is prepared for them; none by other algorithms, or where it has no answer.
+  /// Returns the control points of free-form deformation, and prepares it; empty for other algorithms, or if it has no
+  /// answer.
   std::span<const double> control_points();
-  /// The element that the last pass was about.
+  /// The element of the last pass.
   std::optional<ElementId> last_moved() const { return last_moved_; }
-  /// Where the elements stand, to be placed there again.
-  Placement placement() const { return solver_->placement(away_); }
+  /// Returns the positions, for SetPositions.
+  Snapshot snapshot() const { return solver_->snapshot(away_); }
   /// The blocks in which a position may have changed since forget_changes().
   const ElementBlocks& changed() const { return changed_; }
   void forget_changes() { changed_.clear(); }
   const Statistics& statistics() const { return statistics_; }
-  /// No link violated beyond rounding, as far as is known without looking at the whole mesh.
+  /// True if no link is violated beyond rounding, as far as is known without checking the whole mesh.
   bool valid() const { return valid_; }
 
-  /// Refreshes the figures that cost more than a pass may: the times of the last second and the violation,
-  /// over the whole mesh or over the links that the last pass touched.
+  /// Updates the statistics that are too expensive for each pass: the times of the last second and the violation, of
+  /// the whole mesh or of the links that the last pass touched.
   void refresh_statistics(bool whole_mesh);
-  /// Spends idle time on the same over the whole mesh: a slice of some milliseconds. What was measured before a
-  /// command or a step is dropped. Returns whether there is more to do; the figures are there when there is not.
+  /// Runs a slice, of some milliseconds, of the same for the whole mesh, for idle time. A command or a step drops an
+  /// unfinished measurement. Returns true if there is more to do; the statistics are updated at the end.
   bool measure();
 
  private:
@@ -102,7 +102,7 @@ class Simulation {
   void carry_out(const commands::Unpin& command);
   void carry_out(const commands::Reset& command);
   void carry_out(const commands::ReplaceMesh& command);
-  void carry_out(const commands::Place& command);
+  void carry_out(const commands::SetPositions& command);
   void carry_out(const commands::SetElastic& command);
   void carry_out(const commands::MoveControlPoint& command);
   void carry_out(const commands::KeepState& command);
@@ -128,7 +128,7 @@ class Simulation {
   State current_state();
   void take_state(const State& state);
   void take_cuts(const std::vector<LinkId>& cuts);
-  void take_positions(const KeptPositions& positions);
+  void take_positions(const PositionBlocks& positions);
 
   MeshPointer mesh_;
   Algorithm algorithm_;
@@ -136,10 +136,10 @@ class Simulation {
   std::unique_ptr<Solver> solver_;
   std::shared_ptr<const Softness> softness_ = std::make_shared<const Softness>();
   ElasticOptions elastic_;
-  ElementBlocks changed_;    // since they were last forgotten
-  ElementBlocks away_;       // no element outside them stands away from rest
-  KeptPositions last_kept_;  // as positions were last kept or taken back
-  ElementBlocks unkept_;     // the blocks in which a position may have changed since
+  ElementBlocks changed_;     // since they were last forgotten
+  ElementBlocks away_;        // all elements outside these blocks are at rest
+  PositionBlocks last_kept_;  // as positions were last kept or restored
+  ElementBlocks unkept_;      // the blocks in which a position may have changed since
   std::optional<ElementId> grabbed_;
   std::optional<ElementId> last_moved_;  // the element of the last pass
   bool valid_ = true;
@@ -150,7 +150,7 @@ class Simulation {
   PassTimes::Clock::time_point relaxation_deadline_{};
   std::map<commands::StateId, State> kept_;
   PassTimes times_;
-  std::optional<WholeViolation> measure_;  // as far as it has come
+  std::optional<WholeViolation> measure_;  // unfinished measurement
   TouchedViolation touched_;
   Statistics statistics_;
   Trace* trace_ = nullptr;

@@ -14,9 +14,9 @@ namespace {
 using Clock = PassTimes::Clock;
 
 constexpr auto frame_time = std::chrono::milliseconds(16);
-// Relaxation takes this much of each frame's time, so that drawing and the other panel get the rest.
+// Share of relaxation in each frame's time. The rest is for drawing and for the other panels.
 constexpr auto relaxation_share = std::chrono::milliseconds(8);
-// A figure that is read by eye need not change more often.
+// Interval at which displayed figures change.
 constexpr auto violation_time = std::chrono::milliseconds(250);
 
 using namespace commands;
@@ -26,18 +26,18 @@ bool is_one_of(const Command* command) {
   return command != nullptr && (std::holds_alternative<Kinds>(*command) || ...);
 }
 
-/// True where nobody needs the rest of a pass, or of sweeps, before it.
+/// True if a task makes the rest of passes or sweeps before it useless.
 template <class Task>
 bool overrules(const Task& task) {
   return is_one_of<SetAlgorithm, ReplaceMesh>(std::get_if<Command>(&task));
 }
 
-/// True where all that it does is to move elements of the object as it is.
+/// True if a command only moves elements of the current object.
 bool only_moves(const Command* command) {
   return is_one_of<Drag, MoveControlPoint, Relax, SetSoftness, SetElastic>(command);
 }
 
-/// An object to begin with, where the real one is yet to come.
+/// Returns an object of one element, used until the real one arrives.
 MeshPointer no_mesh() { return generate({MeshKind::line, {1, 1, 1}, 1, {}}); }
 
 }  // namespace
@@ -52,7 +52,7 @@ SolverThread::SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<
 SolverThread::SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready)
     : SolverThread(no_mesh(), Algorithm::natural_queue, std::move(frame_ready)) {
   const auto promise = std::make_shared<std::promise<Handover>>();
-  // Where the other one ends before, the promise is broken: it will not be waited for.
+  // If the other solver ends first, the promise is broken, and nothing waits for it.
   add([taken = promise->get_future().share(), algorithm](Simulation& simulation) {
     simulation.take(taken.get(), algorithm);
   });
@@ -61,7 +61,7 @@ SolverThread::SolverThread(SolverThread& other, Algorithm algorithm, std::functi
 
 SolverThread::~SolverThread() {
   thread_.request_stop();
-  const std::lock_guard lock(mutex_);  // a task is begun before, and learns of this, or after, and knows it
+  const std::lock_guard lock(mutex_);  // a task that begins after this sees it
   work_.cancelled = true;
 }
 
@@ -172,7 +172,7 @@ void SolverThread::run(const std::stop_token& stop) {
   answer_questions(lock, stop);
 }
 
-/// A session that is kept while the window closes waits for the answers. What moves elements is left out.
+/// A session that is saved while the window closes waits for the answers. Commands that move elements are dropped.
 void SolverThread::answer_questions(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
   abandoned_ = true;
   const auto last = std::find_if(tasks_.rbegin(), tasks_.rend(),
@@ -199,7 +199,7 @@ void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_toke
     const auto share = simulation_.statistics().relaxing ? relaxation_share : frame_time.zero();
     changed_.wait_until(lock, stop, last_frame_ + frame_time - share, has_command);
   } else if (!measured_ && !changed_.wait_for(lock, stop, violation_time, has_command) && !stop.stop_requested()) {
-    // Nothing came for a while: the object is at rest.
+    // No command came for a while: the object is at rest.
     lock.unlock();
     if (measure(stop)) {
       measured_ = true;
@@ -209,7 +209,7 @@ void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_toke
   }
 }
 
-/// The violation of the whole mesh, unless a command comes meanwhile; says whether it was measured.
+/// Measures the violation of the whole mesh, unless a command comes. Returns true if it was measured.
 bool SolverThread::measure(const std::stop_token& stop) {
   while (idle() && !stop.stop_requested()) {
     if (!simulation_.measure()) {
@@ -219,14 +219,14 @@ bool SolverThread::measure(const std::stop_token& stop) {
   return false;
 }
 
-/// What is shown of passes while they go on.
+/// Updates the statistics that are shown during a drag.
 void SolverThread::refresh_figures() {
   const auto now = Clock::now();
-  // What moved since the object was at rest must not be shown with the figure of the whole mesh as it was.
+  // A figure of the whole mesh must not be shown after elements have moved.
   const bool outdated = simulation_.statistics().violation_of_whole_mesh;
   if (!simulation_.changed().empty() && (outdated || now >= next_violation_)) {
     simulation_.refresh_statistics(false);
-    // After a pass through a large mesh it costs more than a pass: at most a tenth of the time goes there.
+    // For a large mesh it costs more than a pass: use at most a tenth of the time.
     next_violation_ = now + std::max<Clock::duration>(violation_time, 10 * (Clock::now() - now));
   }
 }

@@ -14,46 +14,46 @@
 
 namespace chainmail {
 
-/// Runs one Simulation on a thread of its own. It sleeps while there is nothing to do, relaxes in idle
-/// time, and hands over a frame when something changed, at most 60 times a second.
+/// Runs one Simulation on its own thread. It sleeps while there is nothing to do, relaxes in idle time, and publishes a
+/// frame after changes, at most 60 times per second.
 class SolverThread {
  public:
   using Question = std::function<void(const Simulation&)>;
 
-  /// `frame_ready` is called after a frame was handed over, for the first frame here and from then on
-  /// by the solver's thread; it must not wait.
+  /// `frame_ready` is called after a frame was published: for the first frame by this constructor, then by the solver's
+  /// thread. It must not block.
   SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready);
-  /// Goes on by `algorithm` from what the other one's object will be when it has carried out all that was asked of it
-  /// so far; until then it shows an object of its own. What is posted here comes after.
+  /// Continues, with `algorithm`, from the object of another solver after all its posted tasks. Until then it shows an
+  /// empty object. Tasks posted here run after that.
   SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready);
-  /// Leaves the commands not yet begun undone, and a pass that takes long unfinished.
+  /// Drops the commands that have not begun, and cancels a long pass.
   ~SolverThread();
 
-  /// Adds a command to the end of the list. Another algorithm or object lets no pass before it take long.
+  /// Appends a command to the queue. Another algorithm or object cancels long passes before it.
   void post(Command command);
-  /// Sweeps of relaxation that were posted so far, which may go on for hours, end at once: the object is brought
-  /// elsewhere next.
+  /// Ends the sweeps of relaxation that were posted so far, which may take hours. Call this before the object is
+  /// replaced.
   void cut_sweeps();
-  /// The window closes: passes and sweeps are no longer wanted. The one under way ends as soon as it can, those posted
-  /// are left out, and questions are answered for the object as it is by then.
+  /// Call this when the window closes: the running pass or sweep ends as soon as it can, posted ones are dropped, and
+  /// questions are answered for the object in that state.
   void abandon();
-  /// Calls `question` on the solver's thread, after what was posted before; it must not wait. When the solver ends, it
-  /// answers the remaining questions for the object as it is.
+  /// Calls `question` on the solver's thread, after everything posted before. It must not block. When the solver ends,
+  /// it answers the remaining questions for the current object.
   void ask(Question question);
-  /// Whether every command posted has been carried out, and every question answered.
+  /// True if every posted command was carried out and every question was answered.
   bool idle() const { return waiting() == 0; }
-  /// Number of commands and questions that are not done, the one under way among them.
+  /// Number of commands and questions that are not done, including the running one.
   int waiting() const { return waiting_.load(std::memory_order_acquire); }
-  /// Whether, beside, a frame that shows what came of them was handed over.
+  /// True when idle and all frames are up to date.
   bool settled() const { return idle() && !unseen_.load(std::memory_order_acquire); }
   /// The newest frame; for one reading thread.
   const Frame& latest_frame() { return frames_.latest(); }
-  /// Takes the sentence of the last command that was refused, if any.
+  /// Returns and clears the message of the last refused command, if any.
   std::string take_error();
 
-  /// From now on passes are recorded, or no more.
+  /// Turns recording of passes on or off.
   void record_passes(bool on) { recorder_.set_on(on); }
-  /// The last pass that was recorded, as PassRecorder::last.
+  /// Returns the last recorded pass: see PassRecorder::last.
   std::unique_ptr<RecordedPass> last_pass(std::uint64_t seen) const { return recorder_.last(seen); }
 
  private:
@@ -72,7 +72,7 @@ class SolverThread {
   void refresh_figures();
   void publish();
 
-  JobState work_;  // of a pass that takes long
+  JobState work_;  // of a long pass
   Simulation simulation_;
   std::function<void()> frame_ready_;
   TripleBuffer frames_;
@@ -89,14 +89,14 @@ class SolverThread {
   std::condition_variable_any changed_;
   std::deque<Task> tasks_;
   std::size_t posted_ = 0;      // number of tasks so far
-  std::size_t sweeps_cut_ = 0;  // of which so many, from the first on, may not go on with sweeps
-  int overrulers_ = 0;          // number of waiting tasks that let nothing before them take long
-  bool sweeping_ = false;       // the task under way, or the last one, is sweeps of relaxation
+  std::size_t sweeps_cut_ = 0;  // the first tasks, in this number, may not continue sweeps
+  int overrulers_ = 0;          // number of waiting tasks that cancel long work before them
+  bool sweeping_ = false;       // the running task, or the last one, is sweeps of relaxation
   std::string error_;
 
   std::atomic<int> waiting_ = 0;  // tasks added and not yet carried out
 
-  std::jthread thread_;  // last: it starts when all else stands, and ends first
+  std::jthread thread_;  // last member: starts after all others exist, and ends first
 };
 
 }  // namespace chainmail

@@ -12,15 +12,15 @@
 
 namespace chainmail {
 
-/// Where an element stands (mesh units). In space it is padded, so that all axes move at once. Bytes: 4, 8, 16
-/// in float, 8, 16, 32 in double for one, two and three dimensions.
+/// Position of an element (mesh units). In 3D it is padded, so that all axes are computed at once. Size in bytes for
+/// one, two and three dimensions: 4, 8, 16 in float; 8, 16, 32 in double.
 template <class Scalar, int Dimension>
-struct Place {
+struct Position {
   static constexpr int lanes = Dimension == 3 ? 4 : Dimension;
 
   Scalar& operator[](int k) { return at[k]; }
   const Scalar& operator[](int k) const { return at[k]; }
-  bool operator==(const Place& other) const {
+  bool operator==(const Position& other) const {
     bool equal = true;
     for (int k = 0; k < Dimension; ++k) {
       equal &= at[k] == other.at[k];
@@ -31,21 +31,23 @@ struct Place {
   alignas(lanes * sizeof(Scalar)) Scalar at[lanes];
 };
 
-/// A place clamped into a region whose lower bounds count from `low`, and upper ones from `high` (mesh units).
+/// Returns a position clamped into a region whose lower bounds are relative to `low`, and upper bounds to `high` (mesh
+/// units).
 template <class Scalar, int Dimension>
-Place<Scalar, Dimension> clamped(Place<Scalar, Dimension> place, const Scalar* low, const Scalar* high,
-                                 const Region<Scalar, Dimension>& region) {
+Position<Scalar, Dimension> clamped(const Position<Scalar, Dimension>& position, const Scalar* low, const Scalar* high,
+                                    const Region<Scalar, Dimension>& region) {
+  Position<Scalar, Dimension> result = position;
   for (int k = 0; k < Dimension; ++k) {
     const Scalar lowest = low[k] + region.low[k];
     const Scalar highest = high[k] + region.high[k];
-    place[k] = place[k] < lowest ? lowest : place[k];
-    place[k] = highest < place[k] ? highest : place[k];
+    result[k] = result[k] < lowest ? lowest : result[k];
+    result[k] = highest < result[k] ? highest : result[k];
   }
-  return place;
+  return result;
 }
 
-/// How far an element at `x` lies outside its valid region about its sponsor at `about`, in rest lengths. In
-/// double, like the metric; what a mesh without a mean length divides by makes no order.
+/// Returns the distance of an element at `x` from its valid region about its sponsor at `about`, in rest lengths.
+/// Computed in double, like the metric. For a mesh without a mean link length the divisor does not affect the order.
 template <class Scalar, int Dimension>
 double candidate_violation(const Mesh& mesh, ElementId element, const Scalar* x, ElementId sponsor, const Scalar* about,
                            const Region<Scalar, Dimension>& region) {
@@ -65,7 +67,7 @@ double candidate_violation(const Mesh& mesh, ElementId element, const Scalar* x,
   return std::sqrt(outside) / (length > 0 ? std::sqrt(length) : mesh.mean_link_length > 0 ? mesh.mean_link_length : 1);
 }
 
-/// An object as the algorithms of one scalar and one space dimension see it.
+/// The state of one object, for one scalar and one space dimension.
 template <class Scalar_, int Dimension_>
 struct Body {
   using Scalar = Scalar_;
@@ -74,36 +76,36 @@ struct Body {
   explicit Body(MeshPointer of, bool held_from_rest = false)
       : mesh(std::move(of)),
         cuts(mesh),
-        places(mesh->element_count()),
+        positions(mesh->element_count()),
         updates(mesh->element_count()),
         from_rest(held_from_rest) {
     reset_positions();
     set_softness({});
   }
 
-  /// What the held positions of an element are measured from, on axis k (mesh units).
+  /// The origin of the stored position of an element, on axis k (mesh units).
   double origin(ElementId element, int k) const {
     return from_rest ? mesh->rest[std::size_t{element} * Dimension + k] : 0;
   }
   double absolute(ElementId element, int k) const {
-    const double held = double(places[element][k]);
+    const double held = double(positions[element][k]);
     return from_rest ? origin(element, k) + held : held;  // 0 + −0 would be 0
   }
-  void place(ElementId element, int k, double absolute_position) {
-    places[element][k] = static_cast<Scalar>(absolute_position - origin(element, k));
+  void set_position(ElementId element, int k, double absolute_position) {
+    positions[element][k] = static_cast<Scalar>(absolute_position - origin(element, k));
   }
 
   void reset_positions() {
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
       for (int k = 0; k < Dimension; ++k) {
-        place(e, k, mesh->rest[std::size_t{e} * Dimension + k]);
+        set_position(e, k, mesh->rest[std::size_t{e} * Dimension + k]);
       }
     }
   }
 
   void set_softness(const Softness& softness) { regions.set(*mesh, softness, from_rest); }
 
-  /// Holds positions as displacements from rest and regions about rest vectors, or both absolute.
+  /// Stores positions as displacements from rest, and regions about rest vectors; or both absolute.
   void hold_from_rest(bool displacements, const Softness& softness) {
     if (displacements == from_rest) {
       return;
@@ -111,7 +113,7 @@ struct Body {
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
       for (int k = 0; k < Dimension; ++k) {
         const double rest = mesh->rest[std::size_t{e} * Dimension + k];
-        Scalar& x = places[e][k];
+        Scalar& x = positions[e][k];
         x = static_cast<Scalar>(displacements ? double(x) - rest : double(x) + rest);
       }
     }
@@ -119,7 +121,7 @@ struct Body {
     set_softness(softness);
   }
 
-  /// Begins a pass: no element but the pinned ones counts as updated any more.
+  /// Begins a pass: only pinned elements count as updated.
   void begin_pass() {
     if (++pass == always) {
       for (auto& update : updates) {
@@ -138,26 +140,26 @@ struct Body {
     updates[element] = is_pinned ? always : 0;
   }
 
-  /// The place of an element clamped into its valid region about its sponsor.
-  Place<Scalar, Dimension> clamped(ElementId element, ElementId sponsor, std::uint32_t region_id) const {
-    const Scalar* about = places[sponsor].at;
-    return chainmail::clamped(places[element], about, about, regions.at(region_id));
+  /// Returns the position of an element clamped into its valid region about its sponsor.
+  Position<Scalar, Dimension> clamped(ElementId element, ElementId sponsor, std::uint32_t region_id) const {
+    const Scalar* about = positions[sponsor].at;
+    return chainmail::clamped(positions[element], about, about, regions.at(region_id));
   }
 
-  /// Clamps the candidate's element into its valid region about its sponsor; says whether it moved.
+  /// Clamps the candidate's element into its valid region about its sponsor. Returns true if it moved.
   bool clamp(ElementId element, ElementId sponsor, EntryId entry) {
-    const auto place = clamped(element, sponsor, regions.id(entry));
-    const bool moved = place != places[element];
-    places[element] = place;
+    const auto position = clamped(element, sponsor, regions.id(entry));
+    const bool moved = position != positions[element];
+    positions[element] = position;
     return moved;
   }
 
-  /// How far the candidate's element lies outside its valid region about its sponsor, in rest lengths.
+  /// Returns the distance of the candidate's element from its valid region about its sponsor, in rest lengths.
   double violation(ElementId element, ElementId sponsor, EntryId entry) const {
-    return candidate_violation(*mesh, element, places[element].at, sponsor, places[sponsor].at, regions[entry]);
+    return candidate_violation(*mesh, element, positions[element].at, sponsor, positions[sponsor].at, regions[entry]);
   }
 
-  /// Calls visit(neighbour, entry) for each neighbour to which the link is not cut, in the file's order.
+  /// Calls visit(neighbour, entry) for each neighbour whose link is not cut, in the file's order.
   template <class Visit>
   [[gnu::always_inline]] void for_each_neighbour(ElementId element, Visit visit) const {
     chainmail::for_each_neighbour(*mesh, cuts, element, visit);
@@ -167,7 +169,7 @@ struct Body {
 
   MeshPointer mesh;
   Cuts cuts;
-  std::vector<Place<Scalar, Dimension>> places;
+  std::vector<Position<Scalar, Dimension>> positions;
   std::vector<std::uint32_t> updates;  // the last pass in which an element counted as updated; pinned: always
   RegionTable<Scalar, Dimension> regions;
   std::uint32_t pass = 1;

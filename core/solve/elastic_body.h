@@ -9,7 +9,7 @@
 
 namespace chainmail {
 
-/// Moves a body by a method of elasticity. What that has prepared is kept until cells, pins or the material change.
+/// Moves a body with a method of elasticity. Its preparation is kept until cells, pins or the material change.
 class ElasticBody {
  public:
   void set(const ElasticOptions& options) {
@@ -24,7 +24,7 @@ class ElasticBody {
       solver_->reset();
     }
   }
-  /// The elements stand elsewhere than where a pass has put them.
+  /// Call this if the elements are not where the last pass left them.
   void start_anew() { anew_ = true; }
 
   const std::string& remark() const { return solver_ ? solver_->remark() : none_; }
@@ -32,7 +32,7 @@ class ElasticBody {
     return solver_ ? solver_->control_points() : std::span<const double>();
   }
 
-  /// A pass: the static answer with an element at its target, all others as the method has them.
+  /// Runs a pass: the static answer with an element at its target.
   template <class Body>
   PassCount move(Body& body, ElasticMethod method, std::span<const ElementId> pins, ElementId element,
                  const typename Body::Scalar (&target)[Body::Dimension], std::vector<ElementId>& moved) {
@@ -50,7 +50,7 @@ class ElasticBody {
     return take_answer(body, element, moved);
   }
 
-  /// The body must have been prepared for a method with control points.
+  /// Moves a control point. The body must have been prepared for a method with control points.
   template <class Body>
   PassCount move_control_point(Body& body, std::size_t point, const double (&target)[Body::Dimension],
                                std::vector<ElementId>& moved) {
@@ -58,7 +58,7 @@ class ElasticBody {
     return take_answer(body, no_element, moved);
   }
 
-  /// Builds what the method needs, unless it is there.
+  /// Prepares the method, unless it is prepared.
   template <class Body>
   void prepare(const Body& body, ElasticMethod method, std::span<const ElementId> pins) {
     pinned_.clear();
@@ -94,18 +94,18 @@ class ElasticBody {
     }
   }
 
-  /// Puts every element where the method has it, and tells which moved.
+  /// Sets the position of every element, and collects those that moved.
   template <class Body>
   PassCount take_answer(Body& body, ElementId grabbed, std::vector<ElementId>& moved) {
     const std::vector<double>& answer = solver_->displacements();
     moved.clear();
     for (ElementId e = 0; e < body.mesh->element_count(); ++e) {
-      const auto before = body.places[e];
+      const auto before = body.positions[e];
       for (int k = 0; k < Body::Dimension && !body.pinned(e); ++k) {
         const std::size_t at = std::size_t{e} * Body::Dimension + k;
-        body.place(e, k, body.mesh->rest[at] + answer[at]);
+        body.set_position(e, k, body.mesh->rest[at] + answer[at]);
       }
-      if (e != grabbed && body.places[e] != before) {
+      if (e != grabbed && body.positions[e] != before) {
         moved.push_back(e);
       }
     }
@@ -113,12 +113,12 @@ class ElasticBody {
   }
 
   ElasticProblem problem_;
-  std::vector<double> pinned_;  // where the pins stand now
+  std::vector<double> pinned_;  // current displacements of the pins
   ElasticMethod method_ = ElasticMethod::linear_fem;
   std::unique_ptr<ElasticSolver> solver_;
   ElementId held_ = no_element;
   Progress progress_;
-  bool anew_ = false;  // it stands elsewhere than the solver knows
+  bool anew_ = false;  // the elements are not where the solver left them
   std::string none_;
 };
 

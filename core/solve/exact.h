@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "solve/hand_regions.h"
+#include "solve/handle_regions.h"
 #include "solve/replay.h"
 #include "solve/trace.h"
 
@@ -12,43 +12,43 @@ namespace chainmail {
 
 /// Exact ChainMail: moves every element, on every axis, as little as any valid answer to the move can.
 ///
-/// HandRegions says in which region about the hand each element may lie; a pass clamps each into its own, like
-/// a neighbour of the hand. No element waits for another one: no order changes a bit of the answer, and no
-/// rounding adds up along the links.
+/// HandleRegions computes the region about the handle in which each element may lie. A pass clamps each element into
+/// its own region, like a neighbour of the handle. No element waits for another one, so no order changes a bit of the
+/// answer, and no rounding adds up along the links.
 template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
 class ExactPropagation {
  public:
   using State = Body<Scalar, Dimension>;
-  using Reach = HandReach<Scalar, Dimension>;
+  using Reach = HandleReach<Scalar, Dimension>;
 
-  /// Answers a move of the grabbed element to this displacement from rest, or, along axes on which pins hold it,
-  /// as far as they let it. The state must be valid. `moved` receives the elements that moved, without the
-  /// grabbed one; `trace`, where given, the same, those that go furthest first, ties by id.
+  /// Moves the grabbed element to this displacement from rest, or, on axes on which pins stop it, as far as they allow.
+  /// The state must be valid. `moved` receives the elements that moved, without the grabbed one. `trace`, if given,
+  /// receives the same elements, the largest move first, ties by id.
   PassCount propagate(State& body, ElementId grabbed, const Scalar (&target)[Dimension], std::vector<ElementId>& moved,
                       Trace* trace) {
     if (grabbed != grabbed_) {
       regions_.begin(body, grabbed);
       grabbed_ = grabbed;
     }
-    Reach reach(body.places[grabbed], target);
+    Reach reach(body.positions[grabbed], target);
     const std::uint64_t visits_before = regions_.visits();
     regions_.extend(body, reach);
     if (trace != nullptr) {
       write_trace(body, reach, *trace);
     }
     move(body, reach, moved);
-    std::copy_n(reach.to, Dimension, body.places[grabbed].at);
+    std::copy_n(reach.to, Dimension, body.positions[grabbed].at);
     drop_what_rests(moved.size());
     const bool stopped = std::find(reach.stopped, reach.stopped + Dimension, true) != reach.stopped + Dimension;
     return {moved.size(), moved.size(), stopped, regions_.visits() - visits_before};
   }
 
-  /// To be called where links, softness or pins were changed.
+  /// Call this when links, softness or pins have changed.
   void forget() { grabbed_ = no_element; }
 
  private:
-  /// A drag that once reached far and then moves little would look at all that it has reached: once that has cost
-  /// as much as to find the regions anew, of what moves alone, it does so.
+  /// A drag that once reached far and then moves little would clamp everything that it has reached. So after enough
+  /// idle passes to pay for a new search, the regions are dropped.
   void drop_what_rests(std::size_t moved) {
     const std::size_t known = regions_.elements().size();
     idle_passes_ = moved < known / 4 ? idle_passes_ + 1 : 0;
@@ -58,20 +58,20 @@ class ExactPropagation {
     }
   }
 
-  static constexpr int passes_of_a_search = 16;  // about; tests/bench has both
+  static constexpr int passes_of_a_search = 16;  // approximate; measured in tests/bench
 
   void move(State& body, const Reach& reach, std::vector<ElementId>& moved) {
     const auto elements = regions_.elements();
     const auto regions = regions_.regions();
-    auto* places = body.places.data();
+    auto* positions = body.positions.data();
     moved.resize(elements.size());
     std::size_t count = 0;
     for (std::size_t i = 1; i < elements.size(); ++i) {
-      __builtin_prefetch(&places[elements[std::min(i + fetched_ahead, elements.size() - 1)]], 1);
-      auto& place = places[elements[i]];
-      const auto next = clamped(place, reach.low, reach.high, regions[i]);
-      if (next != place) {
-        place = next;
+      __builtin_prefetch(&positions[elements[std::min(i + fetched_ahead, elements.size() - 1)]], 1);
+      auto& position = positions[elements[i]];
+      const auto next = clamped(position, reach.low, reach.high, regions[i]);
+      if (next != position) {
+        position = next;
         moved[count++] = elements[i];
       }
     }
@@ -87,16 +87,16 @@ class ExactPropagation {
     std::vector<Row> rows;
     for (std::size_t i = 1; i < regions_.elements().size(); ++i) {
       const ElementId element = regions_.elements()[i];
-      const auto next = clamped(body.places[element], reach.low, reach.high, regions_.regions()[i]);
+      const auto next = clamped(body.positions[element], reach.low, reach.high, regions_.regions()[i]);
       double ways[Dimension];
       for (int k = 0; k < Dimension; ++k) {
-        ways[k] = std::abs(double(next[k]) - double(body.places[element][k]));
+        ways[k] = std::abs(double(next[k]) - double(body.positions[element][k]));
       }
       const double* furthest = std::max_element(ways, ways + Dimension);
       if (*furthest > 0) {
         const auto k = static_cast<int>(furthest - ways);
         rows.push_back(
-            {*furthest, {element, binding_neighbour(body, element, k, next[k] > body.places[element][k]), true}});
+            {*furthest, {element, binding_neighbour(body, element, k, next[k] > body.positions[element][k]), true}});
       }
     }
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
@@ -107,8 +107,8 @@ class ExactPropagation {
     }
   }
 
-  /// The neighbour with the lowest id that the shortest path comes from, along an axis, up or down. Seen from the
-  /// link's other end its region is mirrored, to the bit.
+  /// Returns the neighbour with the lowest id on the shortest path to the element, along an axis, up or down. The
+  /// region of a link seen from its other end is mirrored, to the bit.
   ElementId binding_neighbour(const State& body, ElementId element, int k, bool up) const {
     const auto& to = *regions_.find(element);
     ElementId binding = no_element;
@@ -123,9 +123,9 @@ class ExactPropagation {
     return binding;
   }
 
-  HandRegions<Scalar, Dimension, Schedule> regions_;
+  HandleRegions<Scalar, Dimension, Schedule> regions_;
   ElementId grabbed_ = no_element;
-  int idle_passes_ = 0;  // in a row, that moved little of what is known
+  int idle_passes_ = 0;  // passes in a row that moved few of the known elements
 };
 
 }  // namespace chainmail

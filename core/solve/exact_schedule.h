@@ -11,18 +11,18 @@
 
 namespace chainmail {
 
-/// Schedules say in what order Exact ChainMail visits the elements whose regions about the hand became narrower.
-/// None changes the result by a bit; they differ in how often an element is visited again.
+/// Schedules define the order in which Exact ChainMail visits the elements whose regions about the handle became
+/// narrower. They do not change a bit of the result; they differ in how often an element is visited again.
 ///
-/// A key is the shortest path found since the element's last visit, not below 0. An element whose key shrinks
-/// while it waits is admitted again, and the caller drops what it takes of it later; while the schedule says that
-/// it `keeps_place()`, it is not. One that `adapts` is told after each visit how it goes. `begin_drag()` comes
-/// with another hand, `begin()` with each pass. Elements go by the order in which they became known.
+/// A key is the shortest path found since the element's last visit, at least 0. An element whose key shrinks while it
+/// waits is admitted again, and the caller drops outdated entries; unless `keeps_position()`, when it is not admitted
+/// again. A schedule that `adapts` receives statistics after each visit. `begin_drag()` is called for a new handle,
+/// `begin()` for each pass. Elements are numbered in the order in which they became known.
 
-/// Smallest key first, in a radix heap: with keys that hardly ever fall below the last one taken, an element is visited
-/// at most once a side of each axis (label setting; Ahuja, Mehlhorn, Orlin and Tarjan 1990).
+/// Smallest key first, in a radix heap. Since keys hardly ever fall below the last one taken, an element is visited at
+/// most once per side of each axis (label setting; Ahuja, Mehlhorn, Orlin and Tarjan 1990).
 ///
-/// Keys are compared as the bits of a number that is not below 0, which are in the numbers' order.
+/// Keys are compared as the bits of non-negative numbers, which have the same order as the numbers.
 template <class Scalar>
 class RadixHeapSchedule {
  public:
@@ -32,7 +32,7 @@ class RadixHeapSchedule {
     std::uint32_t index;
   };
 
-  bool keeps_place() const { return false; }
+  bool keeps_position() const { return false; }
   bool empty() const { return size_ == 0; }
 
   void begin_drag() {}
@@ -60,7 +60,7 @@ class RadixHeapSchedule {
   static Bits bits_of(Scalar key) { return std::bit_cast<Bits>(key + Scalar{0}); }  // -0 is 0
   int bucket_of(Bits bits) const { return std::bit_width(static_cast<Bits>(bits ^ last_)); }
 
-  /// Spreads the first bucket that holds any over those before it.
+  /// Distributes the first non-empty bucket over the buckets before it.
   void redistribute() {
     int first = 1;
     while (buckets_[first].empty()) {
@@ -78,23 +78,23 @@ class RadixHeapSchedule {
   }
 
   std::array<std::vector<Entry>, bucket_count> buckets_;
-  Bits last_ = 0;  // the bits of the smallest key there may be
+  Bits last_ = 0;  // bits of the smallest possible key
   std::size_t size_ = 0;
 };
 
 /// First in, first out, as long as hardly any element is visited again; then smallest key first.
 ///
-/// On even softness the front runs outward once, and a queue that follows the links in space is the
-/// fastest. On mixed softness it would visit an element tens of times: once visits exceed the elements
-/// known by a quarter, what waits goes to the heap, and for the rest of the drag an element is visited at most
-/// once a side of each axis.
+/// With uniform softness the front moves outward once, and a queue that follows the links in space is fastest. With
+/// mixed softness it would visit an element tens of times. So once visits exceed the known elements by a quarter,
+/// waiting elements move to the heap, and for the rest of the drag an element is visited at most once per side of each
+/// axis.
 template <class Scalar>
 class AdaptiveSchedule {
  public:
   static constexpr bool adapts = true;
   using Entry = typename RadixHeapSchedule<Scalar>::Entry;
 
-  bool keeps_place() const { return !sets_labels_; }
+  bool keeps_position() const { return !sets_labels_; }
   bool empty() const { return queue_.empty() && heap_.empty(); }
 
   void begin_drag() { sets_labels_ = false; }
@@ -110,7 +110,7 @@ class AdaptiveSchedule {
 
   Entry take() { return sets_labels_ ? heap_.take() : Entry{0, queue_.take()}; }
 
-  /// Told after a visit how many there were in the drag, and how many elements are known.
+  /// Receives, after a visit, the number of visits in the drag and of known elements.
   template <class KeyOf>
   void visited(std::uint64_t visits, std::size_t known, KeyOf key_of) {
     if (sets_labels_ || visits <= known + known / 4 + 64) {

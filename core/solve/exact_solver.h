@@ -10,30 +10,30 @@
 
 namespace chainmail {
 
-/// Exact ChainMail from any state: repairs a start that is not valid, then lets the propagation answer.
+/// Exact ChainMail from any state: repairs an invalid start, then runs the propagation.
 template <class Scalar, int Dimension>
 class ExactSolver {
  public:
   using State = Body<Scalar, Dimension>;
 
-  /// Says what is known of the links without looking at them: that all hold, or nothing. What is not known to
-  /// be valid is looked at before the next pass.
+  /// Sets what is known of the links without checking them: all are valid, or nothing is known. In the second case the
+  /// next pass checks them first.
   void set_valid(bool is_valid) {
     is_valid_ = is_valid;
     reach_ = is_valid ? 0 : reach_;
   }
 
-  /// To be called where links, softness or pins were changed.
+  /// Call this when links, softness or pins have changed.
   void forget() { propagation_.forget(); }
 
-  /// A pass as ExactPropagation has it, from any state.
+  /// Runs a pass like ExactPropagation, from any state.
   PassCount move(State& body, std::span<const ElementId> pins, ElementId grabbed, const Scalar (&target)[Dimension],
                  std::vector<ElementId>& moved, Trace* trace) {
     const double reach = note_reach(body, grabbed, target);
     Repair repair(body, search_, reach_);
-    std::vector<Place<Scalar, Dimension>> before;
+    std::vector<Position<Scalar, Dimension>> before;
     if (!is_valid_ && !repair.is_valid()) {
-      before = body.places;
+      before = body.positions;
       repair.run(pins, grabbed);
     }
     is_valid_ = true;
@@ -46,12 +46,12 @@ class ExactSolver {
   }
 
  private:
-  /// Numbers as large as this leave links with the rounding of their size; once the hand is back among small
-  /// ones, the object must be looked at again.
+  /// Large coordinates leave links with rounding of their size. When the handle is back among small ones, the links
+  /// must be checked again.
   double note_reach(const State& body, ElementId grabbed, const Scalar (&target)[Dimension]) {
     double reach = 0;
     for (int k = 0; k < Dimension; ++k) {
-      const double from = double(body.places[grabbed][k]);
+      const double from = double(body.positions[grabbed][k]);
       reach = std::max({reach, std::abs(double(target[k])), std::abs(from)});
     }
     const double rounding = std::numeric_limits<Scalar>::epsilon() * furthest_;
@@ -63,12 +63,12 @@ class ExactSolver {
     return reach;
   }
 
-  /// A repair and the pass after it count as one: what moved is what stands elsewhere than before. What the
-  /// pass did not reach has moved without a sponsor.
-  void add_repaired(const State& body, const std::vector<Place<Scalar, Dimension>>& before, ElementId grabbed,
+  /// A repair and the pass after it count as one pass: an element has moved if its position changed in total. Elements
+  /// that the pass did not reach moved without a sponsor.
+  void add_repaired(const State& body, const std::vector<Position<Scalar, Dimension>>& before, ElementId grabbed,
                     std::vector<ElementId>& moved, PassCount& count, Trace* trace) const {
     const auto has_moved = [&](ElementId e) {
-      return !std::equal(before[e].at, before[e].at + Dimension, body.places[e].at);
+      return !std::equal(before[e].at, before[e].at + Dimension, body.positions[e].at);
     };
     std::vector<bool> reached(before.size());
     for (const ElementId element : moved) {
@@ -99,7 +99,7 @@ class ExactSolver {
   PathSearch search_;
   bool is_valid_ = true;
   double reach_ = 0;     // the largest displacement or move since the object was at rest (mesh units)
-  double furthest_ = 0;  // displacement or move since the links were last looked at (mesh units)
+  double furthest_ = 0;  // largest displacement or move since the links were last checked (mesh units)
 };
 
 }  // namespace chainmail

@@ -10,23 +10,22 @@
 
 namespace chainmail {
 
-/// Natural Queue ChainMail (thesis 4.1): first in, first out; only those not yet updated are admitted.
+/// Natural Queue ChainMail (thesis 4.1): first in, first out; only elements not yet updated are admitted.
 ///
-/// Of an element's candidates the first one in is the first one out, and later ones would be dropped. So an
-/// element is marked when it is admitted, not when it is taken: each waits once, no list is searched, and the
-/// queue of a pass, from its first candidate to its last, is what was processed, in order.
+/// Only the first candidate of an element counts; later ones would be dropped. So an element is marked when it is
+/// admitted, not when it is taken. Each element waits once, no list is searched, and the queue of a pass lists exactly
+/// the processed candidates in order.
 ///
-/// That queue is kept. The next move of the same element mostly runs the same way, so it is replayed: each
-/// candidate is clamped again, as long as it moves, or stays, as it did before. From the first that does not,
-/// the pass goes on by itself. What comes out is the same, bit for bit.
+/// The queue is kept. The next move of the same element usually runs the same way, so the queue is replayed: each
+/// candidate is clamped again, as long as it moves, or stays, as before. From the first difference on, the pass runs
+/// normally. The result is the same, bit for bit.
 template <class Scalar, int Dimension>
 class NaturalQueue {
  public:
   using State = Body<Scalar, Dimension>;
 
-  /// Answers the move of the grabbed element, which stands at its target already. `moved` receives the elements
-  /// that moved, in order of update, without the grabbed one; it must be as the last pass left it, unless that
-  /// was forgotten.
+  /// Answers the move of the grabbed element, which is at its target already. `moved` receives the elements that moved,
+  /// in order of update, without the grabbed one; it must be as the last pass left it, unless that pass was forgotten.
   void propagate(State& body, ElementId grabbed, std::vector<ElementId>& moved) {
     if (grabbed == grabbed_) {
       const std::size_t agreed = replay(body, steps());
@@ -40,17 +39,17 @@ class NaturalQueue {
     }
   }
 
-  /// What the last pass did, candidate by candidate.
+  /// The processed candidates of the last pass, in order.
   std::span<const Step> steps() const { return {queue_.get(), tail_}; }
 
-  /// To be called where the links, the pins, the regions or `moved` were changed by others.
+  /// Call this when the links, the pins, the regions or `moved` were changed by others.
   void forget() { grabbed_ = no_element; }
 
  private:
   void begin(State& body, ElementId grabbed, std::vector<ElementId>& moved) {
-    if (capacity_ < body.places.size()) {
-      capacity_ = body.places.size();
-      queue_ = std::make_unique_for_overwrite<Step[]>(capacity_ + 1);  // pages not used are not there
+    if (capacity_ < body.positions.size()) {
+      capacity_ = body.positions.size();
+      queue_ = std::make_unique_for_overwrite<Step[]>(capacity_ + 1);  // unused pages take no memory
     }
     grabbed_ = grabbed;
     moved.clear();
@@ -77,12 +76,12 @@ class NaturalQueue {
     for (; head < tail; ++head) {
       Step& step = queue[head];
       const ElementId element = step.element();
-      auto& place = body.places[element];
+      auto& position = body.positions[element];
       const auto next = body.clamped(element, step.sponsor, step.region);
-      const bool moves = next != place;
+      const bool moves = next != position;
       step.note(moves);
       if (moves) {
-        place = next;
+        position = next;
         moved.push_back(element);
         tail = admit(body, element, queue, tail);
       }
@@ -90,7 +89,7 @@ class NaturalQueue {
     tail_ = tail;
   }
 
-  /// Puts the pass to where it stood when candidate `agreed` was taken.
+  /// Restores the state of the pass when candidate `agreed` was taken.
   void take_up(State& body, std::size_t agreed, std::vector<ElementId>& moved) {
     body.begin_pass();
     body.mark_updated(grabbed_);
@@ -100,7 +99,7 @@ class NaturalQueue {
       moved_count += queue_[i].has_moved() ? 1 : 0;
     }
     moved.resize(moved_count);
-    // What waited then was admitted by elements that had been taken.
+    // The candidates that waited then were admitted by elements that had been taken.
     std::size_t tail = agreed;
     while (tail < tail_ && body.updated(queue_[tail].sponsor)) {
       ++tail;

@@ -11,8 +11,8 @@
 
 namespace chainmail {
 
-/// Shortest paths along links (Dijkstra 1959), in double whatever the solver uses. A search costs what it
-/// touches; the memory stays for the next one.
+/// Shortest paths along links (Dijkstra 1959), in double. A search costs only what it touches; its memory is reused by
+/// the next one.
 class PathSearch {
  public:
   static constexpr double unreached = std::numeric_limits<double>::infinity();
@@ -32,8 +32,8 @@ class PathSearch {
 
   void add_source(ElementId element, double label) { lower(element, label, 0); }
 
-  /// Lowers labels until label_j ≤ label_i + weight(i, j, entry) on every link that is not cut; weights are
-  /// not below 0.
+  /// Lowers labels until label_j ≤ label_i + weight(i, j, entry) on every link that is not cut. Weights must be 0 or
+  /// more.
   template <class Body, class Weight>
   void run(const Body& body, Weight weight) {
     while (!heap_.empty()) {
@@ -52,7 +52,7 @@ class PathSearch {
     }
   }
 
-  /// Of the shortest path to an element: its length with the source's label, and its number of links.
+  /// Length of the shortest path to an element, including the source's label, and its number of links.
   double label(ElementId element) const { return labels_[element]; }
   std::uint32_t hops(ElementId element) const { return hops_[element]; }
 

@@ -6,11 +6,11 @@
 
 namespace chainmail {
 
-/// The propagation that answers a move: one loop for all algorithms that differ in their waiting list.
+/// The propagation that answers a move: one loop for all algorithms that differ in their waiting list only.
 ///
-/// The grabbed element stands at its target already. `moved` receives the elements that moved, in order
-/// of update, without the grabbed one; `record`, a PassRecord or what stands for one, the candidates taken and not
-/// dropped. Each element is updated at most once (thesis 3.1 and 4.1; Li and Brodlie 2003).
+/// The grabbed element is at its target already. `moved` receives the elements that moved, in order of update, without
+/// the grabbed one. `record`, a PassRecord or a substitute, receives the processed candidates. Each element is updated
+/// at most once (thesis 3.1 and 4.1; Li and Brodlie 2003).
 template <class List, class Body, class Record>
 void propagate(Body& body, List& list, Record& record, ElementId grabbed, std::vector<ElementId>& moved) {
   const auto admit_neighbours = [&](ElementId sponsor) {
@@ -25,7 +25,7 @@ void propagate(Body& body, List& list, Record& record, ElementId grabbed, std::v
     });
   };
   if constexpr (requires { List::by_violation; }) {
-    record.forget();  // which candidate comes next depends on where elements are
+    record.forget();  // the order of candidates depends on positions
   }
   if (record.begin(body, grabbed, moved)) {
     return;

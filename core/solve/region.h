@@ -15,11 +15,11 @@ struct Region {
   Scalar high[Dimension];
 };
 
-/// The valid region of a link with this rest vector (thesis section 3.1, Li and Brodlie 2003).
+/// Returns the valid region of a link with this rest vector (thesis 3.1, Li and Brodlie 2003).
 ///
-/// The minimum and maximum, which the thesis leaves out, keep the region of a link that runs left or
-/// down from being inside out. Bounds are computed in double and rounded once. About the rest vector, they
-/// bound the difference of two displacements: never above and never below 0, whatever is rounded.
+/// The minimum and maximum, which the thesis omits, keep the region of a link that runs left or down from being inside
+/// out. Bounds are computed in double and rounded once. About the rest vector, they bound the difference of two
+/// displacements: the lower one is never above 0 and the upper one never below 0, whatever is rounded.
 template <class Scalar, int Dimension>
 Region<Scalar, Dimension> valid_region(const double (&rest_vector)[Dimension], const LinkSoftness& softness,
                                        bool about_rest_vector = false) {

@@ -8,20 +8,20 @@
 
 namespace chainmail {
 
-/// The valid regions of an object. Where the mesh has few rest vectors and one softness holds for all links,
-/// there is one region a rest vector, which stays in the cache; else one an entry of the neighbour table.
+/// The valid regions of an object. If the mesh has few rest vectors and all links have one softness, there is one
+/// region per rest vector, which fits into the cache; otherwise one per entry of the neighbour table.
 template <class Scalar, int Dimension>
 class RegionTable {
  public:
   using One = Region<Scalar, Dimension>;
-  /// Names a region: good as long as nothing but values of softness is set.
+  /// Index of a region. Valid until something other than values of softness changes.
   using Id = std::uint32_t;
 
   void set(const Mesh& mesh, const Softness& softness, bool about_rest_vector) {
     const bool by_shape = softness.links.empty() && !mesh.entry_shape.empty();
     const std::size_t count = by_shape ? mesh.shapes.size() / Dimension : mesh.neighbours.size();
     if (count != regions_.size()) {
-      std::vector<One>(count).swap(regions_);  // where there is no memory, what was there stays
+      std::vector<One>(count).swap(regions_);  // if memory runs out, the old regions stay
     }
     shape_of_ = by_shape ? mesh.entry_shape.data() : nullptr;
     by_shape ? set_shapes(mesh, softness.global, about_rest_vector) : set_entries(mesh, softness, about_rest_vector);
@@ -50,7 +50,7 @@ class RegionTable {
   }
 
   std::vector<One> regions_;
-  const std::uint16_t* shape_of_ = nullptr;  // of the mesh, where there is one region a rest vector
+  const std::uint16_t* shape_of_ = nullptr;  // of the mesh, if there is one region per rest vector
 };
 
 }  // namespace chainmail

@@ -16,7 +16,7 @@
 
 namespace chainmail {
 
-/// A set of elements that is walked in ascending order; it costs nothing outside the range in use.
+/// A set of elements, taken in ascending order. Costs nothing outside the range in use.
 class ActiveSet {
  public:
   void insert(ElementId element, std::size_t element_count) {
@@ -35,7 +35,7 @@ class ActiveSet {
     last_ = words_.size() - 1;
   }
 
-  /// Takes the smallest element out, or says that there is none.
+  /// Removes and returns the smallest element, if any.
   std::optional<ElementId> take() {
     for (; first_ <= last_ && first_ < words_.size(); ++first_) {
       if (std::uint64_t& word = words_[first_]; word != 0) {
@@ -58,24 +58,23 @@ class ActiveSet {
   }
 
  private:
-  std::vector<std::uint64_t> words_;  // a bit an element
-  // Nothing is set outside these words.
+  std::vector<std::uint64_t> words_;  // one bit per element
+  // All words outside this range are 0.
   std::size_t first_ = std::numeric_limits<std::size_t>::max();
   std::size_t last_ = 0;
 };
 
-/// Relaxation of the elastic energy, element by element in ascending id: by `mean` an element goes toward
-/// the mean, over its neighbours, of their position less the rest vector to them; by `link` an element and
-/// each neighbour of higher id go half the way each toward their rest vector. Each is kept in the
-/// intersection of its neighbours' valid regions, axis by axis; where that is empty it stays.
+/// Relaxation of the elastic energy, element by element in ascending id. `mean` moves an element toward the mean, over
+/// its neighbours, of their position less the rest vector to them. `link` moves an element and each neighbour of higher
+/// id half the way each toward their rest vector. Each element stays inside the intersection of its neighbours' valid
+/// regions, axis by axis; on an axis where that is empty it does not move.
 ///
-/// The clamp is this project's: without it relaxation leaves links outside their regions, and the next
-/// pass yanks far elements (the jumps of thesis 4.4). From a valid state it keeps every link valid, and
-/// `mean` with a step in (0, 1] never raises the energy. `link` may, and where links contradict each other
-/// it may go round for ever.
+/// The clamp is this project's: without it, relaxation leaves links outside their regions, and the next pass pulls far
+/// elements abruptly (the jumps of thesis 4.4). From a valid state it keeps every link valid, and `mean` with a step in
+/// (0, 1] never raises the energy. `link` may, and if links contradict each other it may never end.
 ///
-/// Only active elements are visited: those that moved, or a neighbour of theirs, since their last visit.
-/// Steps below `still` mean rest lengths are not taken and wake nobody, so a scene comes to rest.
+/// Only active elements are visited: elements that moved, or a neighbour of which moved, since their last visit. Steps
+/// below `still` mean rest lengths are not taken and make nothing active, so a scene comes to rest.
 template <class Scalar, int Dimension>
 class Relaxation {
  public:
@@ -84,12 +83,12 @@ class Relaxation {
 
   /// Makes an element and its neighbours active from the next sweep on.
   void wake(const State& body, ElementId element) {
-    next_.insert(element, body.places.size());
+    next_.insert(element, body.positions.size());
     body.for_each_neighbour(element,
-                            [&](ElementId neighbour, EntryId) { next_.insert(neighbour, body.places.size()); });
+                            [&](ElementId neighbour, EntryId) { next_.insert(neighbour, body.positions.size()); });
   }
 
-  void wake_all(const State& body) { next_.insert_all(body.places.size()); }
+  void wake_all(const State& body) { next_.insert_all(body.positions.size()); }
 
   void sleep() {
     current_.clear();
@@ -97,8 +96,8 @@ class Relaxation {
     end_sweep();
   }
 
-  /// Goes on with the current sweep, or begins one, until it ends or `budget` elements were visited.
-  /// `held` and what is pinned stay where they are.
+  /// Continues the current sweep, or begins one, until it ends or `budget` elements were visited. `held` and pinned
+  /// elements stay.
   RelaxationResult sweep(State& body, RelaxationScheme scheme, double step, std::uint64_t budget,
                          std::optional<ElementId> held) {
     if (!in_sweep_) {
@@ -126,7 +125,7 @@ class Relaxation {
     return result;
   }
 
-  /// The elements that the last slice moved; one that moved twice comes twice.
+  /// The elements that the last slice moved, once per move.
   std::span<const ElementId> moved() const { return moved_; }
 
  private:
@@ -135,19 +134,19 @@ class Relaxation {
     largest_step_ = 0;
   }
 
-  using Place = std::array<Scalar, Dimension>;
+  using Position = std::array<Scalar, Dimension>;
 
-  /// A neighbour's position less the rest vector to it: where the link alone would have the element.
-  static Place place_by(const State& body, ElementId element, ElementId neighbour) {
+  /// Returns a neighbour's position less the rest vector to it: the position that this link alone implies.
+  static Position position_by(const State& body, ElementId element, ElementId neighbour) {
     const double* rest = body.mesh->rest.data();
-    Place place;
+    Position position;
     for (int k = 0; k < Dimension; ++k) {
       const double rest_vector =
           body.from_rest ? 0
                          : rest[std::size_t{neighbour} * Dimension + k] - rest[std::size_t{element} * Dimension + k];
-      place[k] = body.places[neighbour][k] - static_cast<Scalar>(rest_vector);
+      position[k] = body.positions[neighbour][k] - static_cast<Scalar>(rest_vector);
     }
-    return place;
+    return position;
   }
 
   static bool stays(const State& body, ElementId element, std::optional<ElementId> held) {
@@ -158,12 +157,12 @@ class Relaxation {
     if (stays(body, element, held)) {
       return;
     }
-    Place mean{};
+    Position mean{};
     int count = 0;
     body.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
-      const Place place = place_by(body, element, neighbour);
+      const Position position = position_by(body, element, neighbour);
       for (int k = 0; k < Dimension; ++k) {
-        mean[k] += place[k];
+        mean[k] += position[k];
       }
       ++count;
     });
@@ -174,62 +173,62 @@ class Relaxation {
       x /= static_cast<Scalar>(count);
     }
     if (go(body, element, mean, static_cast<Scalar>(step), element) && step < 1) {
-      next_.insert(element, body.places.size());
+      next_.insert(element, body.positions.size());
     }
   }
 
-  /// The links to neighbours of higher id: in a sweep each link comes once, in the links' order.
+  /// Relaxes the links to neighbours of higher id: each link once per sweep, in the order of links.
   void visit_links(State& body, ElementId element, double step, std::optional<ElementId> held) {
     body.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
       if (neighbour < element) {
         return;
       }
-      const Place here = place_by(body, element, neighbour), there = place_by(body, neighbour, element);
+      const Position here = position_by(body, element, neighbour), there = position_by(body, neighbour, element);
       const Scalar half = static_cast<Scalar>(step) / 2;
-      for (const auto& [one, place] : {std::pair(element, here), std::pair(neighbour, there)}) {
-        if (!stays(body, one, held) && go(body, one, place, half, element)) {
-          next_.insert(element, body.places.size());
+      for (const auto& [one, position] : {std::pair(element, here), std::pair(neighbour, there)}) {
+        if (!stays(body, one, held) && go(body, one, position, half, element)) {
+          next_.insert(element, body.positions.size());
         }
       }
     });
   }
 
-  /// Takes an element's step toward a place, as far as its neighbours' regions let it, and wakes its
-  /// neighbours; says whether it moved. Those with a larger id than the visited one's are still to come in
-  /// this sweep, the others in the next.
-  bool go(State& body, ElementId element, const Place& place, Scalar step, ElementId visited) {
-    const double taken = take_step(body, element, place, step);
+  /// Moves an element a step toward a position, as far as its neighbours' regions allow, and wakes its neighbours.
+  /// Returns true if it moved. Elements with a larger id than the visited one are visited in this sweep, the others in
+  /// the next.
+  bool go(State& body, ElementId element, const Position& position, Scalar step, ElementId visited) {
+    const double taken = take_step(body, element, position, step);
     if (taken == 0) {
       return false;
     }
     largest_step_ = std::max(largest_step_, taken);
     moved_.push_back(element);
     body.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
-      (neighbour > visited ? current_ : next_).insert(neighbour, body.places.size());
+      (neighbour > visited ? current_ : next_).insert(neighbour, body.positions.size());
     });
     if (element > visited) {
-      current_.insert(element, body.places.size());
+      current_.insert(element, body.positions.size());
     }
     return true;
   }
 
-  /// Returns the length of the step (mesh units), 0 where the element stayed.
-  static double take_step(State& body, ElementId element, const Place& place, Scalar step) {
-    Place low, high;
+  /// Returns the length of the step (mesh units), 0 if the element stayed.
+  static double take_step(State& body, ElementId element, const Position& position, Scalar step) {
+    Position low, high;
     low.fill(-std::numeric_limits<Scalar>::infinity());
     high.fill(std::numeric_limits<Scalar>::infinity());
     body.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
-      const Scalar* about = body.places[neighbour].at;
+      const Scalar* about = body.positions[neighbour].at;
       for (int k = 0; k < Dimension; ++k) {
         low[k] = std::max(low[k], about[k] - body.regions[entry].high[k]);
         high[k] = std::min(high[k], about[k] - body.regions[entry].low[k]);
       }
     });
-    Scalar* x = body.places[element].at;
-    Place next;
+    Scalar* x = body.positions[element].at;
+    Position next;
     double square = 0;
     for (int k = 0; k < Dimension; ++k) {
-      next[k] = x[k] + step * (place[k] - x[k]);
+      next[k] = x[k] + step * (position[k] - x[k]);
       next[k] = low[k] > high[k] ? x[k] : std::min(std::max(next[k], low[k]), high[k]);
       const double difference = double(next[k]) - double(x[k]);
       square += difference * difference;
@@ -242,8 +241,8 @@ class Relaxation {
     return std::sqrt(square);
   }
 
-  ActiveSet current_;  // still to come in this sweep
-  ActiveSet next_;     // to come in the next
+  ActiveSet current_;  // to be visited in this sweep
+  ActiveSet next_;     // to be visited in the next sweep
   std::vector<ElementId> moved_;
   bool in_sweep_ = false;
   double largest_step_ = 0;  // of this sweep (mesh units)

@@ -12,23 +12,23 @@
 
 namespace chainmail {
 
-/// Makes a body that holds displacements from rest valid, whatever state it is in: the start that Exact
-/// ChainMail needs after softness was edited under load or another algorithm left its state.
+/// Makes any state of a body that stores displacements valid: Exact ChainMail needs this after softness was edited
+/// under load or another algorithm left its state.
 ///
-/// Anchors, the pins and the grabbed element, stay. Every displacement is clamped to what the anchors
-/// allow; then the least and the greatest valid answer about the result are taken and halved between, so
-/// that no order of elements or links matters. An axis at a time; links are difference constraints, their
-/// shortest paths distances over the bounds, and the rest shape makes every weight non-negative. In double.
+/// Anchors, which are the pins and the grabbed element, stay. Every displacement is clamped to what the anchors allow.
+/// Then the result is the mean of the least and the greatest valid answer about it, so no order of elements or links
+/// matters. One axis at a time, in double. Links are difference constraints, their shortest paths are distances over
+/// the bounds, and the rest shape makes every weight non-negative.
 template <class Scalar, int Dimension>
 class Repair {
  public:
   using State = Body<Scalar, Dimension>;
 
-  /// `reach`: the largest displacement or move that the state comes from (mesh units).
+  /// `reach`: the largest displacement or move that led to the state (mesh units).
   Repair(State& body, PathSearch& search, double reach) : body_(body), search_(search), reach_(reach) {}
 
-  /// Whether every link holds, up to what rounding does to displacements of this size, and, as far as nobody sees
-  /// it, to those that the state comes from: an element stands where the hand went, less a length of path.
+  /// True if every link is valid, up to rounding of displacements of this size, and, within an invisible tolerance, up
+  /// to rounding of the displacements that led to the state.
   bool is_valid() const {
     for (ElementId e = 0; e < body_.mesh->element_count(); ++e) {
       bool holds = true;
@@ -41,7 +41,8 @@ class Repair {
     return true;
   }
 
-  /// Throws Error, naming them, where two pins are further apart than links allow; nothing has moved then.
+  /// Repairs the state. Throws Error, with the pins, if two pins are further apart than links allow; nothing has moved
+  /// then.
   void run(std::span<const ElementId> pins, ElementId grabbed) {
     Labels result[Dimension];
     for (int k = 0; k < Dimension; ++k) {
@@ -49,7 +50,7 @@ class Repair {
     }
     for (ElementId e = 0; e < body_.mesh->element_count(); ++e) {
       for (int k = 0; k < Dimension && !body_.pinned(e); ++k) {
-        body_.places[e][k] = static_cast<Scalar>(result[k][e]);
+        body_.positions[e][k] = static_cast<Scalar>(result[k][e]);
       }
     }
   }
@@ -59,16 +60,16 @@ class Repair {
   enum class Way { up, down };
   static constexpr double epsilon = std::numeric_limits<Scalar>::epsilon();
 
-  /// Half of what counts as violated where links are of about one length (mesh units).
+  /// Invisible tolerance: half of the smallest reported violation, for links of average length (mesh units).
   double unseen() const { return 5e-5 * body_.mesh->mean_link_length; }
 
   bool link_holds(ElementId a, ElementId b, EntryId entry) const {
     for (int k = 0; k < Dimension; ++k) {
-      const Scalar from = body_.places[a][k], to = body_.places[b][k];
+      const Scalar from = body_.positions[a][k], to = body_.positions[b][k];
       const double size = std::max(std::abs(double(from)), std::abs(double(to)));
       const double rounding = std::max(8 * epsilon * size, std::min(8 * epsilon * reach_, unseen()));
       const auto& region = body_.regions[entry];
-      // What is no number holds nothing.
+      // NaN counts as a violation.
       const double apart = double(to) - double(from);
       if (!(apart >= double(region.low[k]) - rounding && apart <= double(region.high[k]) + rounding)) {
         return false;
@@ -77,7 +78,7 @@ class Repair {
     return true;
   }
 
-  /// From each source's place, how far up its links let every element stand; or how far down, negated.
+  /// Searches how far up the links let every element be, from each source; or how far down, negated.
   template <class Sources>
   void search(const Labels& u, const Sources& sources, Way way, int k) {
     search_.begin(body_.mesh->element_count());
@@ -92,30 +93,30 @@ class Repair {
 
   /// Clamps to what the anchors allow.
   void clamp(Labels& u, const std::vector<ElementId>& anchors, int k) {
-    const Labels places = u;
-    search(places, anchors, Way::down, k);
+    const Labels positions = u;
+    search(positions, anchors, Way::down, k);
     for (ElementId e = 0; e < u.size(); ++e) {
       u[e] = std::max(u[e], -search_.label(e));
     }
-    search(places, anchors, Way::up, k);
+    search(positions, anchors, Way::up, k);
     for (ElementId e = 0; e < u.size(); ++e) {
       u[e] = std::min(u[e], search_.label(e));
     }
   }
 
   Labels axis(std::span<const ElementId> pins, ElementId grabbed, int k) {
-    Labels u(body_.places.size());
+    Labels u(body_.positions.size());
     for (std::size_t e = 0; e < u.size(); ++e) {
-      u[e] = double(body_.places[e][k]);
+      u[e] = double(body_.positions[e][k]);
     }
     std::vector<ElementId> anchors(pins.begin(), pins.end());
     if (!pins.empty()) {
       const Labels before = u;
       clamp(u, anchors, k);
       check_pins(before, u, pins, k);
-      const double hand = u[grabbed];  // the hand's element goes to where the pins let it be
+      const double handle = u[grabbed];  // the handle's element moves to where the pins allow it
       u = before;
-      u[grabbed] = hand;
+      u[grabbed] = handle;
     }
     anchors.push_back(grabbed);
     clamp(u, anchors, k);
@@ -145,8 +146,8 @@ class Repair {
     }
   }
 
-  /// Throws Error where another pin pulls or pushes this one away by more than rounding explains: a pass puts
-  /// an element half an ulp off its place for each link of the path that leads to it.
+  /// Throws Error if another pin pulls or pushes this one away by more than rounding explains: a pass moves an element
+  /// off by half an ulp for each link of its path.
   void check_pin(const Labels& u, std::span<const ElementId> pins, ElementId pin, int k) {
     ElementId worst = pin;
     double most = 0;

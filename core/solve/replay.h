@@ -11,7 +11,7 @@
 
 namespace chainmail {
 
-/// One processed candidate of a pass, as it is kept for the next one.
+/// One processed candidate of a pass, in the form that is kept for the next one.
 struct Step {
   std::uint32_t element_and_moved;
   ElementId sponsor;
@@ -25,39 +25,39 @@ struct Step {
   void note(bool moved) { element_and_moved = element() | (moved ? moved_bit : 0); }
 };
 
-/// Steps whose places are fetched before they are needed: about what a wait for memory takes.
+/// Number of steps by which positions are prefetched: about the latency of memory.
 inline constexpr std::size_t fetched_ahead = 64;
 
-/// Carries out the steps of the last pass again, as long as each element moves, or stays, as it did then; returns
-/// how many steps that were.
+/// Runs the steps of the last pass again, as long as each element moves, or stays, as it did then. Returns the number
+/// of steps that agreed.
 ///
-/// Which candidate comes next depends, but for the object's links, only on which elements moved. So while the
-/// outcomes agree this is the pass, without its waiting list; and as the steps are known ahead, their places are
-/// fetched from memory before they are needed.
+/// For one object, the next candidate depends only on which elements moved. So while the outcomes agree this is the
+/// pass, without its waiting list. And since the steps are known in advance, their positions are prefetched from
+/// memory.
 template <class Scalar, int Dimension>
 std::size_t replay(Body<Scalar, Dimension>& body, std::span<const Step> steps) {
-  auto* places = body.places.data();
+  auto* positions = body.positions.data();
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Step& later = steps[std::min(i + fetched_ahead, steps.size() - 1)];
-    __builtin_prefetch(&places[later.element()], 1);
+    __builtin_prefetch(&positions[later.element()], 1);
     __builtin_prefetch(&body.regions.at(later.region));
     const Step& step = steps[i];
     const ElementId element = step.element();
     const auto next = body.clamped(element, step.sponsor, step.region);
-    if ((next != places[element]) != step.has_moved()) {
+    if ((next != positions[element]) != step.has_moved()) {
       return i;
     }
-    places[element] = next;
+    positions[element] = next;
   }
   return steps.size();
 }
 
-/// What the passes of one solver by a waiting list did, for the next one. A pass is replayed once two in a row
-/// went the same way, and from where it turns out otherwise only what is known of it is taken over: the list has
-/// to be worked through again.
+/// The steps of the last pass of a waiting list, for the next one. A pass is replayed after two equal passes in a row.
+/// From the first difference on, the list runs again, and the record only saves clamping.
 class PassRecord {
  public:
-  /// Replays a pass; says whether that was all of it. If not, it begins, and each update is to be asked for.
+  /// Replays a pass. Returns true if that was all of it. Otherwise the pass begins, and update() must be called for
+  /// each candidate.
   template <class Body>
   bool begin(Body& body, ElementId grabbed, std::vector<ElementId>& moved) {
     agreed_ = trusts_ && grabbed == grabbed_ ? replay(body, std::span<const Step>(steps_)) : 0;
@@ -71,8 +71,8 @@ class PassRecord {
     return false;
   }
 
-  /// Takes a candidate whose element has not been updated: clamps the element into its valid region about its
-  /// sponsor, and says whether that moved it. Updated it is in either case (thesis 3.1).
+  /// Processes a candidate whose element has not been updated: clamps the element into its valid region about its
+  /// sponsor. Returns true if it moved. The element counts as updated in either case (thesis 3.1).
   template <class Body>
   bool update(Body& body, Candidate candidate, std::vector<ElementId>& moved) {
     const ElementId element = body.mesh->neighbours[candidate.entry];
@@ -93,7 +93,7 @@ class PassRecord {
 
   std::span<const Step> steps() const { return steps_; }
 
-  /// To be called where the links, the pins, the regions or `moved` were changed by others.
+  /// Call this when the links, the pins, the regions or `moved` were changed by others.
   void forget() { grabbed_ = no_element; }
 
  private:
@@ -113,7 +113,7 @@ class PassRecord {
   std::size_t next_ = 0;
   std::size_t agreed_ = 0;
   ElementId grabbed_ = no_element;
-  bool trusts_ = false;  // the last pass went as the one before
+  bool trusts_ = false;  // the last two passes were equal
 };
 
 }  // namespace chainmail

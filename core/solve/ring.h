@@ -5,7 +5,7 @@
 
 namespace chainmail {
 
-/// First in, first out, in a ring that only ever grows: after warm-up a pass takes no memory.
+/// First in, first out, in a ring that only grows: after warm-up a pass allocates no memory.
 template <class T>
 class Ring {
  public:

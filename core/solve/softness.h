@@ -3,22 +3,23 @@
 #include <map>
 
 #include "mesh/mesh.h"
+#include "mesh/parameters.h"
 
 namespace chainmail {
 
-/// How far a link gives, relative to its rest vector: 0 <= compression <= 1 <= stretch, shear >= 0, finite.
+/// How far a link may shorten, lengthen and lean, relative to its rest vector. See mesh/parameters.h for the ranges.
 struct LinkSoftness {
-  double compression = 0.8;
-  double stretch = 1.2;
-  double shear = 0.1;
+  double compression = parameters::compression.standard;
+  double stretch = parameters::stretch.standard;
+  double shear = parameters::shear.standard;
 
   bool operator==(const LinkSoftness&) const = default;
 };
 
-/// Throws Error, naming the parameter, where the softness is not one of the above.
+/// Throws Error, with the name of the parameter, if one of them is out of range.
 void check(const LinkSoftness& softness);
 
-/// The softness of an object: one for all links, and others for single links.
+/// The softness of an object: a global one, and different ones for single links.
 struct Softness {
   LinkSoftness global;
   std::map<LinkId, LinkSoftness> links;

@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// Where a candidate has no sponsor.
+/// Stands for the sponsor of a candidate without one.
 inline constexpr ElementId no_element = std::numeric_limits<ElementId>::max();
 
 /// One processed candidate of a pass.
@@ -19,12 +19,12 @@ struct TraceRow {
 };
 using Trace = std::vector<TraceRow>;
 
-/// What a pass did: candidates taken and not dropped, and elements moved without the grabbed one.
+/// Numbers of a pass: candidates processed, and elements moved without the grabbed one.
 struct PassCount {
   std::uint64_t checked = 0;
   std::uint64_t moved = 0;
-  bool stopped = false;      // Exact ChainMail: pins held the hand short of its target
-  std::uint64_t visits = 0;  // Exact ChainMail: of elements, with those before pins held the hand back
+  bool stopped = false;      // Exact ChainMail: pins stopped the handle before its target
+  std::uint64_t visits = 0;  // Exact ChainMail: visits of elements, including those before pins stopped the handle
 };
 
 }  // namespace chainmail

@@ -9,10 +9,10 @@
 #include <type_traits>
 
 #include "mesh/error.h"
+#include "solve/body_positions.h"
 #include "solve/elastic_body.h"
 #include "solve/exact_solver.h"
-#include "solve/list_solver.h"
-#include "solve/placing.h"
+#include "solve/list_algorithm.h"
 #include "solve/relaxation.h"
 #include "solve/solver.h"
 
@@ -23,18 +23,21 @@ template <class Scalar, int Dimension>
 class TypedSolver final : public Solver {
  public:
   TypedSolver(const MeshPointer& mesh, Algorithm algorithm)
-      : body_(mesh, algorithm == Algorithm::exact), algorithm_(algorithm) {}
+      : body_(mesh, info(algorithm).from_rest), algorithm_(info(algorithm)) {}
 
   void set_algorithm(Algorithm algorithm) override {
     check(algorithm, *body_.mesh);
-    algorithm_ = algorithm;
+    if (algorithm != algorithm_.algorithm) {
+      list_.reset();
+    }
+    algorithm_ = info(algorithm);
     forget();
     elastic_.forget();
-    if (body_.from_rest != (algorithm == Algorithm::exact)) {
-      body_.hold_from_rest(algorithm == Algorithm::exact, softness_);
+    if (body_.from_rest != algorithm_.from_rest) {
+      body_.hold_from_rest(algorithm_.from_rest, softness_);
       exact_.set_valid(at_rest_);
       if (at_rest_) {
-        body_.reset_positions();  // what rounding to absolute positions took is known here
+        body_.reset_positions();  // restores what was lost by rounding to absolute positions
       }
     }
   }
@@ -106,18 +109,18 @@ class TypedSolver final : public Solver {
     Scalar next[Dimension];
     for (int k = 0; k < Dimension; ++k) {
       const double to = target[body_.mesh->axes[k]];
-      // A move to where the element is read to be is none, whatever the reading rounded.
+      // A move to the position that was read is no move, whatever rounding did.
       const bool stays = body_.from_rest && to == body_.absolute(element, k);
-      next[k] = stays ? body_.places[element][k] : static_cast<Scalar>(to - body_.origin(element, k));
+      next[k] = stays ? body_.positions[element][k] : static_cast<Scalar>(to - body_.origin(element, k));
       if (!(std::abs(next[k]) <= limit)) {
-        throw Error("element " + std::to_string(element), "its target is no number that the precision holds",
+        throw Error("element " + std::to_string(element), "its target is out of the range of the precision",
                     "give smaller coordinates, or compute in double");
       }
     }
     try {
-      const PassCount count = elastic_method(algorithm_)       ? move_elastically(element, next)
-                              : algorithm_ == Algorithm::exact ? exact_.move(body_, pins_, element, next, moved_, trace)
-                                                               : move_by_lists(element, next, trace);
+      const PassCount count = algorithm_.elastic ? move_elastically(element, next)
+                              : algorithm_.list  ? move_by_list(element, next, trace)
+                                                 : exact_.move(body_, pins_, element, next, moved_, trace);
       at_rest_ = false;
       return count;
     } catch (const std::bad_alloc&) {
@@ -128,10 +131,10 @@ class TypedSolver final : public Solver {
 
   const std::string& remark() const override { return elastic_.remark(); }
   std::span<const double> control_points() override {
-    if (algorithm_ != Algorithm::free_form) {
+    if (!algorithm_.has_control_points) {
       return {};
     }
-    elastic_.prepare(body_, ElasticMethod::free_form, pins_);
+    elastic_.prepare(body_, *algorithm_.elastic, pins_);
     return elastic_.control_points();
   }
 
@@ -174,7 +177,7 @@ class TypedSolver final : public Solver {
 
   const Cuts& cuts() const override { return body_.cuts; }
   PositionView positions() const override {
-    return {body_.places.data(), sizeof body_.places[0],
+    return {body_.positions.data(), sizeof body_.positions[0],
             std::is_same_v<Scalar, float> ? Precision::single_precision : Precision::double_precision,
             body_.from_rest ? body_.mesh.get() : nullptr};
   }
@@ -183,27 +186,27 @@ class TypedSolver final : public Solver {
 
   void set_positions(std::span<const double> in) override {
     for (std::size_t i = 0; i < in.size(); ++i) {
-      body_.place(static_cast<ElementId>(i / Dimension), i % Dimension, in[i]);
+      body_.set_position(static_cast<ElementId>(i / Dimension), i % Dimension, in[i]);
     }
     take_positions();
   }
 
-  Placement placement(const ElementBlocks& away) const override { return placement_of(body_, away); }
+  Snapshot snapshot(const ElementBlocks& away) const override { return snapshot_of(body_, away); }
 
-  void place(const Placement& placement, const ElementBlocks& away) override {
+  void restore(const Snapshot& snapshot, const ElementBlocks& away) override {
     reset(away);
-    if (!placement.runs.empty()) {
-      place_elements(body_, placement);
+    if (!snapshot.runs.empty()) {
+      restore_snapshot(body_, snapshot);
       take_positions();
     }
   }
 
-  void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, KeptPositions& kept) const override {
-    keep_places(body_, blocks, away, kept);
+  void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, PositionBlocks& kept) const override {
+    save_blocks(body_, blocks, away, kept);
   }
 
-  void restore(const KeptPositions& kept, const ElementBlocks& blocks) override {
-    restore_places(body_, kept, blocks);
+  void restore(const PositionBlocks& kept, const ElementBlocks& blocks) override {
+    restore_blocks(body_, kept, blocks);
     forget();
     take_positions();
     at_rest_ = std::none_of(kept.blocks.begin(), kept.blocks.end(), [](const auto& block) { return block != nullptr; });
@@ -211,7 +214,7 @@ class TypedSolver final : public Solver {
   }
 
  private:
-  /// Positions stay below this share of what the scalar holds, so that sums of a few of them are finite.
+  /// Largest coordinate, so that sums of a few of them are finite.
   static constexpr Scalar limit = std::numeric_limits<Scalar>::max() / 16;
 
   static std::vector<ElementId> sorted(std::span<const ElementId> elements) {
@@ -242,11 +245,15 @@ class TypedSolver final : public Solver {
 
   PassCount move_elastically(ElementId element, const Scalar (&target)[Dimension]) {
     exact_.set_valid(false);
-    return elastic_.move(body_, *elastic_method(algorithm_), pins_, element, target, moved_);
+    return elastic_.move(body_, *algorithm_.elastic, pins_, element, target, moved_);
   }
 
-  PassCount move_by_lists(ElementId element, const Scalar (&target)[Dimension], Trace* trace) {
-    const std::span<const Step> steps = lists_.move(body_, algorithm_, element, target, moved_);
+  PassCount move_by_list(ElementId element, const Scalar (&target)[Dimension], Trace* trace) {
+    if (!list_) {
+      list_ = algorithm_.list->make<Scalar, Dimension>();
+    }
+    std::copy(std::begin(target), std::end(target), body_.positions[element].at);
+    const std::span<const Step> steps = list_->propagate(body_, element, moved_);
     if (trace != nullptr) {
       for (const Step& step : steps) {
         trace->push_back({step.element(), step.sponsor, step.has_moved()});
@@ -256,19 +263,21 @@ class TypedSolver final : public Solver {
     return {steps.size(), moved_.size()};
   }
 
-  /// What the next pass would take over from the last one holds no more.
+  /// Drops everything that the next pass would reuse from the last one.
   void forget() {
-    lists_.forget();
+    if (list_) {
+      list_->forget();
+    }
     exact_.forget();
   }
 
-  /// There was no memory in the middle of a pass: nothing of it may come up in the next one.
+  /// Called if memory ran out in the middle of a pass: the next pass reuses nothing of it.
   void drop_pass() {
     moved_.clear();
     at_rest_ = false;
     exact_.set_valid(false);
     forget();
-    lists_ = {};
+    list_.reset();
     exact_ = {};
     exact_.set_valid(false);
     elastic_.forget();
@@ -284,10 +293,10 @@ class TypedSolver final : public Solver {
   }
 
   Body<Scalar, Dimension> body_;
-  Algorithm algorithm_;
+  AlgorithmInfo algorithm_;
   Softness softness_;
-  std::vector<ElementId> pins_;  // ascending
-  ListSolver<Scalar, Dimension> lists_;
+  std::vector<ElementId> pins_;                          // ascending
+  std::unique_ptr<ListMethod<Scalar, Dimension>> list_;  // of the algorithm, made by its first pass
   ExactSolver<Scalar, Dimension> exact_;
   ElasticBody elastic_;
   std::vector<ElementId> moved_;

@@ -1,48 +1,50 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "solve/recorded_pass.h"
+#include "solve/waiting_list.h"
 
 namespace chainmail {
 
-/// A candidate of a pass, and how long it waited: at step k it is on the waiting list where entered <= k < left.
+/// A candidate of a pass, and how long it waited: at step k it is on the waiting list if entered <= k < left.
 struct WaitingCandidate {
   ElementId element = 0;
   ElementId sponsor = 0;
   std::uint32_t entered = 0;
   std::uint32_t left = 0;
-  bool dropped = false;  // when its turn came its element had been updated
+  bool dropped = false;  // its element had been updated when its turn came
 };
 
-/// What stood on the waiting list of a recorded pass at each of its steps.
+/// The waiting list of a recorded pass at each of its steps.
 ///
-/// It is the algorithm's own list, fed by the loop that every pass runs in; only whether an element moved is read from
-/// the trace instead of computed. Of Exact ChainMail, which has no list, nothing is known, nor of a pass that
-/// the list does not lead through.
+/// The algorithm's own list is fed by the loop that every pass runs in; only whether an element moved is read from the
+/// trace instead of computed. The history of a pass is unknown if its algorithm has no list (Exact ChainMail), or if
+/// the list does not lead to the pass.
 class WaitingHistory {
- public:
+ public:  /// An unknown history.
   WaitingHistory() = default;
+
+  /// The history of a pass, by the algorithm's entry in the table.
   explicit WaitingHistory(const RecordedPass& pass);
 
-  bool known() const { return known_; }
-  /// Every candidate that ever waited, in the order in which they entered.
+  /// A known history. `keys`, one per candidate, are used for TakingOrder::by_key only.
+  WaitingHistory(TakingOrder order, std::vector<WaitingCandidate> candidates, std::vector<double> keys)
+      : known_(true), order_(order), candidates_(std::move(candidates)), keys_(std::move(keys)) {}
+  bool known() const { return known_; }  /// Every candidate that ever waited, in the order in which they entered.
   const std::vector<WaitingCandidate>& candidates() const { return candidates_; }
-  /// Which of them wait at a step, the next one first. Time: the number of candidates.
+
+  /// Returns the indices of the candidates that wait at a step, the next one first. Takes time in proportion to the
+  /// number of candidates.
   std::vector<std::uint32_t> at(std::size_t step) const;
 
  private:
-  enum class Order { first_in, last_in, by_key };
-
-  template <int Dimension>
-  void follow(const RecordedPass& pass);
-  void follow_natural_queue(const RecordedPass& pass);
-
   bool known_ = false;
-  Order order_ = Order::first_in;
+  TakingOrder order_ = TakingOrder::first_in;
   std::vector<WaitingCandidate> candidates_;
-  std::vector<double> keys_;  // of each, where the largest is taken first
+  std::vector<double> keys_;  // the candidate with the largest key is taken first
 };
 
 }  // namespace chainmail

@@ -13,7 +13,7 @@
 
 #include "bench/contestants.h"
 #include "bench/results.h"
-#include "measure/truth.h"
+#include "measure/reference_solution.h"
 
 namespace chainmail::bench {
 namespace {
@@ -212,7 +212,7 @@ std::vector<Point> reference_solution(const Task& task) {
   problem.cuts = Cuts(task.scene.mesh);
   problem.pins = task.pins;
   problem.pinned.assign(task.pins.size() * 2, 0);
-  const auto solution = TruthSolver(problem).at(task.handle, task.target(1)).displacements;
+  const auto solution = ReferenceSolver(problem).at(task.handle, task.target(1)).displacements;
   std::vector<Point> all;
   for (std::size_t i = 0; i < solution.size(); i += 2) {
     all.emplace_back(solution[i], solution[i + 1], 0);

@@ -19,7 +19,7 @@ struct PassBytes {
 };
 
 inline std::size_t place_bytes(const Mesh& mesh) {
-  return mesh.element_count() * (mesh.space_dimension == 2 ? sizeof(Place<float, 2>) : sizeof(Place<float, 3>));
+  return mesh.element_count() * (mesh.space_dimension == 2 ? sizeof(Position<float, 2>) : sizeof(Position<float, 3>));
 }
 inline std::size_t region_bytes(const Mesh& mesh) {
   return mesh.space_dimension == 2 ? sizeof(Region<float, 2>) : sizeof(Region<float, 3>);

@@ -141,7 +141,7 @@ void CompareCommandTest::wrong_usage_data() {
   row("compare grid.dat -o grid.dat/out", "-o: grid.dat is not a folder; ");
   row("compare grid.dat --algorithms best -o out", "--algorithms: 'best' is not known; use generalized, ");
   row("compare grid.dat --algorithms exact,,spiral -o out", "--algorithms: '' ");
-  row("compare grid.dat --algorithms exact,exact -o out", "--algorithms: 'exact' stands there twice; ");
+  row("compare grid.dat --algorithms exact,exact -o out", "--algorithms: 'exact' is given twice; ");
   row("compare grid.dat --relax 0,-1 -o out", "--relax: '-1' ");
   row("compare grid.dat --relax 1e3 -o out", "--relax: '1e3' ");
   row("compare grid.dat --relax 2000000 -o out", "--relax: '2000000' ");
@@ -152,7 +152,7 @@ void CompareCommandTest::wrong_usage_data() {
   row("compare grid.dat --stretch 0.5 -o out", "--stretch: ");
   row("compare grid.dat --moves none.json -o out", "none.json: there is no such file; ");
   row("compare grid.dat --moves grid.dat -o out", "grid.dat:1: it is not JSON; ");
-  row("compare --moves none.json -o out", "--moves: the mesh that they were recorded on is missing; ");
+  row("compare --moves none.json -o out", "--moves: the mesh of the recorded moves is missing; ");
   row("compare grid.dat --pin 3 -o out", "--pin: there is no such option; ");
 }
 

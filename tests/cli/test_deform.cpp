@@ -1,6 +1,7 @@
 #include <csignal>
 
 #include "cli/chainmail_program.h"
+#include "solve/algorithms.h"
 
 using namespace chainmail::test;
 
@@ -72,8 +73,8 @@ void DeformCommandTest::a_chain_follows() {
 
 void DeformCommandTest::every_algorithm_runs_data() {
   QTest::addColumn<QString>("name");
-  for (const char* name : {"generalized", "spiral", "natural-queue", "enhanced", "original", "exact"}) {
-    QTest::newRow(name) << name;
+  for (const chainmail::AlgorithmInfo& one : chainmail::algorithms()) {
+    QTest::addRow("%s", one.name.data()) << QString::fromUtf8(one.name.data(), qsizetype(one.name.size()));
   }
 }
 

@@ -1,4 +1,5 @@
 #include "cli/chainmail_program.h"
+#include "solve/algorithms.h"
 
 using namespace chainmail::test;
 
@@ -14,6 +15,7 @@ class DeformModelTest : public QObject {
   }
   void every_algorithm_runs_data();
   void every_algorithm_runs();
+  void an_alias_writes_the_same();
   void original_takes_grids_alone();
   void the_trace_of_exact_names_who_binds();
   void pinned_elements_stay();
@@ -48,8 +50,8 @@ class DeformModelTest : public QObject {
 
 void DeformModelTest::every_algorithm_runs_data() {
   QTest::addColumn<QString>("name");
-  for (const char* name : {"generalized", "spiral", "natural-queue", "enhanced", "original", "exact"}) {
-    QTest::newRow(name) << name;
+  for (const chainmail::AlgorithmInfo& one : chainmail::algorithms()) {
+    QTest::addRow("%s", one.name.data()) << QString::fromUtf8(one.name.data(), qsizetype(one.name.size()));
   }
 }
 
@@ -63,12 +65,18 @@ void DeformModelTest::every_algorithm_runs() {
   QCOMPARE(json["passes"][0]["moved"].toInt(), 3);
 }
 
+void DeformModelTest::an_alias_writes_the_same() {
+  QVERIFY(close(xs("--move 0:-1 --algorithm 3d"), {-1, 0.2, 1.4, 2.6}));
+  QCOMPARE(program_->json("out.json")["algorithm"].toString(), QString("original"));  // as scripts read it
+}
+
 void DeformModelTest::original_takes_grids_alone() {
   QCOMPARE(program_->run("generate cloth 3x3 -o cloth.obj").code, 0);
   const auto outcome = program_->run("deform cloth.obj --algorithm original --by 0:1 --json a.json");
   QCOMPARE(outcome.code, 2);
-  QVERIFY2(is_one_sentence(outcome) && outcome.error.startsWith("chainmail: --algorithm original: it works on grids "),
-           outcome.error);
+  QVERIFY2(
+      is_one_sentence(outcome) && outcome.error.startsWith("chainmail: --algorithm original: it works only on grids"),
+      outcome.error);
   QVERIFY(!program_->files().contains("a.json"));
 }
 
@@ -128,7 +136,7 @@ void DeformModelTest::what_does_not_fit_is_refused_data() {
   row("--relaxation links", "--relaxation: 'links'");
   row("--softness none.csv", "none.csv: there is no such file");
   row("--softness bad.csv", "bad.csv:2: ");
-  row("--softness ok.csv --softness ok.csv", "--softness: it is given 2 times");
+  row("--softness ok.csv --softness ok.csv", "--softness: it was given 2 times");
 }
 
 void DeformModelTest::what_does_not_fit_is_refused() {

@@ -143,19 +143,20 @@ void PhysicsCommandTest::wrong_usage_data() {
   QTest::addColumn<QString>("where");
   const auto row = [](const char* line, const char* where) { QTest::newRow(line) << where; };
   row("compare cloth.obj --against chance -o out", "--against: 'chance' is not known; use exact or physics");
-  row("compare cloth.obj --pins top -o out", "--pins: it is for the comparison with physics; add --against physics");
-  row("compare --against physics --pins top -o out", "--pins: the built-in objects are pinned as they are; ");
-  row("compare cloth.obj --against physics --pins roof -o out", "--pins: 'roof' is no element's id; ");
+  row("compare cloth.obj --pins top -o out", "--pins: it works only with --against physics; add --against physics");
+  row("compare --against physics --pins top -o out", "--pins: the built-in objects have their own pins; ");
+  row("compare cloth.obj --against physics --pins roof -o out", "--pins: 'roof' is not an element's id; ");
   row("compare cloth.obj --against physics --pins 3,25 -o out", "--pins: cloth.obj has no element 25; ");
-  row("compare cloth.obj --against physics --pins 3,3 -o out", "--pins: '3' stands there twice; ");
-  row("compare cloth.obj --against physics --pins front -o out", "--pins: the object does not extend that way; ");
+  row("compare cloth.obj --against physics --pins 3,3 -o out", "--pins: '3' is given twice; ");
+  row("compare cloth.obj --against physics --pins front -o out",
+      "--pins: the object does not extend along that axis; ");
   row("compare cloth.obj --against physics --pins top --poisson 0.5 -o out", "--poisson: ");
   row("compare cloth.obj --against physics --pins top --young 0 -o out", "--young: ");
   row("compare cloth.obj --against physics --pins top --lattice 9 -o out", "--lattice: ");
   row("compare cloth.obj --against physics --pins top --grow -1 -o out", "--grow: -1 is below 0; ");
   row("compare cloth.obj --against physics --pins top --calibrated maybe -o out",
       "--calibrated: 'maybe' is not known; ");
-  row("compare cloth.obj --calibrated on -o out", "--calibrated: it is for the comparison with physics; ");
+  row("compare cloth.obj --calibrated on -o out", "--calibrated: it works only with --against physics; ");
   row("compare cloth.obj --against physics --pins top --moves x.json -o out", "--moves: ");
   row("compare cloth.obj --preset none -o out", "--preset: 'none' is neither a preset nor a file; ");
   row("compare cloth.obj --preset cloth.obj -o out", "cloth.obj:1: ");

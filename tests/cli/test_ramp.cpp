@@ -90,22 +90,22 @@ void RampCommandTest::wrong_arguments_data() {
   const auto row = [](const char* options, const char* where) { QTest::newRow(options) << where; };
   row("--algorithms best", "--algorithms: 'best' is not known; use generalized, ");
   row("--algorithms spiral,", "--algorithms: '' is not known; ");
-  row("--algorithms spiral,spiral", "--algorithms: 'spiral' stands there twice; ");
+  row("--algorithms spiral,spiral", "--algorithms: 'spiral' is given twice; ");
   row("--algorithms", "--algorithms: its value is missing; ");
   row("--seed -1", "--seed: '-1' ");
   row("--seed 1.5", "--seed: '1.5' ");
-  row("--budget 0", "--budget: 0 leaves no time; ");
-  row("--budget -1", "--budget: -1 leaves no time; ");
+  row("--budget 0", "--budget: 0 is not above 0; ");
+  row("--budget -1", "--budget: -1 is not above 0; ");
   row("--budget nan", "--budget: 'nan' is not a finite number; ");
   row("--largest 15", "--largest: '15' ");
   row("--largest x", "--largest: 'x' ");
-  row("--largest 20000001", "--largest: 20000001 is more than a mesh may have; ");
+  row("--largest 20000001", "--largest: 20000001 is more elements than a mesh may have; ");
   row("--precision half", "--precision: 'half' ");
   row("--shear -1", "--shear: -1 ");
   row("--json none/a.json", "none/a.json: ");
   row("--json a --csv a", "a: ");
   row("--json - --csv -", "standard output: ");
-  row("grid.dat", "grid.dat: it is one argument too many; ");
+  row("grid.dat", "grid.dat: unexpected argument; ");
   row("--steps 3", "--steps: there is no such option; ");
 }
 

@@ -65,16 +65,16 @@ void UsageTest::wrong_arguments_data() {
   row("generate grid", "SIZE: it is missing; ");
   row("generate grid 3x3", "-o: it is missing; ");
   row("generate grid 3x3 -o", "-o: its value is missing; ");
-  row("generate grid 3x3 4 -o a.dat", "4: it is one argument too many; ");
+  row("generate grid 3x3 4 -o a.dat", "4: unexpected argument; ");
   row("generate grid 3x3 --foo -o a.dat", "--foo: there is no such option; ");
   row("info", "MESH: it is missing; ");
-  row("info grid.dat grid.dat", "grid.dat: it is one argument too many; ");
+  row("info grid.dat grid.dat", "grid.dat: unexpected argument; ");
   row("info grid.dat --json", "--json: its value is missing; ");
   row("deform", "MESH: it is missing; ");
   row("deform grid.dat", "--algorithm: it is missing; ");
   row("deform grid.dat --algorithm best",
-      "--algorithm: 'best' is not known; use generalized, spiral, natural-queue, enhanced, original, exact, fem, ");
-  row("deform grid.dat --algorithm spiral --algorithm spiral", "--algorithm: it is given 2 times; ");
+      "--algorithm: 'best' is not known; use generalized, spiral, natural-queue, enhanced, 3d, exact, fem, ");
+  row("deform grid.dat --algorithm spiral --algorithm spiral", "--algorithm: it was given 2 times; ");
   row("deform grid.dat --algorithm spiral --json --trace a.csv", "--json: its value is missing; ");
   for (const char* option : {"--compression 1.1", "--compression -0.1", "--stretch 0.9", "--shear -1", "--relax-step 0",
                              "--relax-step 1.5", "--spacing 0"}) {

@@ -30,7 +30,7 @@ class AnyCommand {
         return SetRelaxation{relaxed_ && below(4) != 0, between(0.1, 1),
                              below(2) == 0 ? RelaxationScheme::mean : RelaxationScheme::link};
       case 4:
-        return SetAlgorithm{algorithms()[below(6)].algorithm};
+        return SetAlgorithm{algorithms()[below(std::uint32_t(algorithms().size()))].algorithm};
       case 5:
         return below(3) == 0 ? Command(ReplaceMesh{meshes_[below(static_cast<std::uint32_t>(meshes_.size()))]})
                              : Command(Reset{});
@@ -60,11 +60,11 @@ class AnyCommand {
   /// A few elements of some mesh, in one to three dimensions.
   Command place() {
     const ElementId first = below(elements_), end = first + 1 + below(70);
-    Placement placement{below(2) == 0, {first, end}, {}};
+    Snapshot placement{below(2) == 0, {first, end}, {}};
     for (std::uint32_t i = 0, count = (end - first) * (1 + below(3)); i < count; ++i) {
       placement.held.push_back(between(-4, 16));
     }
-    return commands::Place{std::make_shared<const Placement>(placement)};
+    return commands::SetPositions{std::make_shared<const Snapshot>(placement)};
   }
   double between(double low, double high) { return uniform(random_, low, high); }
 

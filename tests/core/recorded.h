@@ -50,7 +50,7 @@ struct Player {
   explicit Player(const RecordedPass& of) : pass(of), positions(of.before) {
     place(pass.grabbed, pass.grabbed_after());
   }
-  void take(std::size_t row) { place(pass.trace[row].element, pass.place_after(row)); }
+  void take(std::size_t row) { place(pass.trace[row].element, pass.position_after(row)); }
   void place(ElementId element, std::span<const float> at) {
     std::ranges::copy(at, positions.begin() + element * pass.mesh->space_dimension);
   }
@@ -74,7 +74,7 @@ inline bool updated_once(const RecordedPass& pass) {
 }
 
 inline bool stays(const RecordedPass& pass, std::size_t row) {
-  return std::ranges::equal(pass.place_before(pass.trace[row].element), pass.place_after(row));
+  return std::ranges::equal(pass.position_before(pass.trace[row].element), pass.position_after(row));
 }
 
 /// Where the element of a row goes along an axis, as the sponsor stands at that step. In a space of three, the axis

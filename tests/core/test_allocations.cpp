@@ -49,7 +49,7 @@ class TestAllocations : public QObject {
     QTest::addColumn<bool>("jittered");
     for (const auto& info : algorithms()) {
       QTest::addRow("%s, grid", info.name.data()) << int(info.algorithm) << false;
-      if (info.algorithm != Algorithm::original) {
+      if (info.algorithm != Algorithm::chainmail_3d) {
         QTest::addRow("%s, jittered", info.name.data()) << int(info.algorithm) << true;
       }
     }

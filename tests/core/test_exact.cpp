@@ -61,7 +61,7 @@ std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, cons
     const ElementId element = hand.of(*mesh);
     Scalar target[Dimension];
     for (int k = 0; k < Dimension; ++k) {
-      target[k] = body.places[element][k] + static_cast<Scalar>(hand.by()[k]);
+      target[k] = body.positions[element][k] + static_cast<Scalar>(hand.by()[k]);
     }
     const auto result = exact.propagate(body, element, target, moved, nullptr);
     if (visits_are_bounded != nullptr) {
@@ -69,7 +69,7 @@ std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, cons
     }
   }
   std::vector<Scalar> positions;
-  for (const auto& place : body.places) {
+  for (const auto& position : body.positions) {
     positions.insert(positions.end(), place.at, place.at + Dimension);
   }
   return positions;

@@ -93,7 +93,7 @@ class SideBySide {
         return reference::move<reference::NaturalQueueChainMail>(object_, element, target);
       case Algorithm::enhanced:
         return reference::move_enhanced(object_, element, target);
-      case Algorithm::original:
+      case Algorithm::chainmail_3d:
         return reference::move_3d_chainmail(object_, element, target);
       default:
         return {};  // Exact has an oracle of its own, methods of elasticity have mechanics

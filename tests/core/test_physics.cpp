@@ -87,7 +87,7 @@ constexpr double converged = 1e-6;
 void PhysicsTest::errors_by_hand() {
   // The handle, element 0, moved by 2; the reference solution displaces 1 by 1, 2 by 0.01 and 3 not at all.
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
-  const Truth truth{{-2, -1, -0.01, 0}, 2, {0}};
+  const ReferenceSolution truth{{-2, -1, -0.01, 0}, 2, {0}};
   const std::vector<double> at{-2, 0.4, 1.99, 3};
   const PhysicalError error =
       measure_physical_error(*line, PositionView(at.data(), sizeof(double), Precision::double_precision), truth);
@@ -99,7 +99,7 @@ void PhysicsTest::errors_by_hand() {
   QVERIFY(std::abs(error.relative - std::sqrt(0.4 * 0.4 / (2 * 2 + 1 * 1 + 0.01 * 0.01))) < 1e-15);
   // An element moves from 1 % of the handle's displacement on: 0.02 here.
   for (const auto& [by, moving] : {std::pair(0.019, 2), {0.021, 3}}) {
-    const Truth other{{-2, -1, -by, 0}, 2, {0}};
+    const ReferenceSolution other{{-2, -1, -by, 0}, 2, {0}};
     QCOMPARE(
         int(measure_physical_error(*line, PositionView(at.data(), sizeof(double), Precision::double_precision), other)
                 .moving),
@@ -124,7 +124,7 @@ void PhysicsTest::nothing_moving_on_a_stretched_bar() {
     const bool moved = std::ranges::find(right, pin) != right.end();
     problem.pinned.insert(problem.pinned.end(), {moved ? way.x() : 0, 0, 0});
   }
-  const Truth reference = TruthSolver(problem).at(handle, bar->rest_position(handle) + way);
+  const ReferenceSolution reference = ReferenceSolver(problem).at(handle, bar->rest_position(handle) + way);
   const PhysicalError error = error_of_nothing_moving(*bar, reference);
   QVERIFY(std::abs(error.relative - std::sqrt((n - 2.0) * (2 * n - 3) / (n * (2.0 * n - 1)))) < converged);
   // The error over the handle's displacement, which is the largest: the same sum over n layers.
@@ -136,7 +136,7 @@ void PhysicsTest::half_the_way_is_half_the_relative_error() {
   const auto sheet = make_mesh(MeshKind::cloth, {5, 4, 1});
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> any(-1, 1);
-  Truth reference{std::vector<double>(sheet->rest.size()), 0.7, {}};
+  ReferenceSolution reference{std::vector<double>(sheet->rest.size()), 0.7, {}};
   std::ranges::generate(reference.displacements, [&] { return any(random); });
   const auto relative_at = [&](double share) {
     std::vector<double> at = sheet->rest;
@@ -228,10 +228,10 @@ void PhysicsTest::a_cut_in_the_middle_is_measured_against_the_same_cut() {
   const auto answer = [&](const std::vector<LinkId>& links) {
     Cuts cuts(sheet.mesh);
     std::ranges::for_each(links, [&](LinkId link) { cuts.cut(link); });
-    return TruthSolver({sheet.mesh, cuts, sheet.pins, std::vector<double>(2 * sheet.pins.size(), 0.0), {}})
+    return ReferenceSolver({sheet.mesh, cuts, sheet.pins, std::vector<double>(2 * sheet.pins.size(), 0.0), {}})
         .at(handle, target);
   };
-  const Truth uncut = answer({}), cut = answer(cuts_of(sheet.drags.back()));
+  const ReferenceSolution uncut = answer({}), cut = answer(cuts_of(sheet.drags.back()));
   std::vector<double> at = sheet.mesh->rest;
   for (std::size_t i = 0; i < at.size(); ++i) {
     at[i] += uncut.displacements[i];
@@ -276,10 +276,10 @@ void PhysicsTest::calibrated_contestants_have_their_softness_and_sweeps() {
 void PhysicsTest::the_reference_solution_knows_nothing_of_the_last_one() {
   const Case sheet = pinned_sheet(25, {}, {});
   const std::vector<double> at_rest(2 * sheet.pins.size());
-  TruthSolver solver({sheet.mesh, Cuts(sheet.mesh), sheet.pins, at_rest, {}});
+  ReferenceSolver solver({sheet.mesh, Cuts(sheet.mesh), sheet.pins, at_rest, {}});
   const ElementId hand = std::get<commands::Grab>(sheet.drags[0].commands[0]).element;
   const Point near = sheet.mesh->rest_position(hand) + Point(0.1, -0.05, 0), far = near + Point(0.6, -0.6, 0);
-  const Truth first = solver.at(hand, near);
+  const ReferenceSolution first = solver.at(hand, near);
   QVERIFY(solver.at(hand, far).displacements != first.displacements);
   QVERIFY(chainmail::test::same_bits(solver.at(hand, near).displacements, first.displacements));
 }
@@ -296,7 +296,7 @@ void PhysicsTest::everyone_takes_part() {
         }
         const Algorithm algorithm = *entry.contestant.algorithm;
         const bool fits =
-            algorithm != Algorithm::original && (algorithm != Algorithm::boundary_elements || object.name == "bar");
+            algorithm != Algorithm::chainmail_3d && (algorithm != Algorithm::boundary_elements || object.name == "bar");
         QVERIFY2(entry.measurement.has_value() == fits, entry.refusal.c_str());
         if (fits) {
           QVERIFY(entry.measurement->ms_per_move.median > 0 && entry.measurement->first_move.median > 0);

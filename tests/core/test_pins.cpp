@@ -157,7 +157,7 @@ void PinsTest::softness_that_pins_contradict_stands() {
 void PinsTest::the_hand_is_not_pinned() {
   Simulation simulation(make_mesh(MeshKind::line, {12, 1, 1}), Algorithm::exact, Precision::single_precision);
   carry_out(simulation, commands::Grab{3});
-  QVERIFY(refusal([&] { simulation.apply(commands::Pin{{3}}); }).starts_with("element 3: it is in the hand"));
+  QVERIFY(refusal([&] { simulation.apply(commands::Pin{{3}}); }).starts_with("element 3: it is grabbed"));
   carry_out(simulation, commands::Release{});
   carry_out(simulation, commands::Pin{{3}});
   QVERIFY(refusal([&] { simulation.apply(commands::Grab{3}); }).starts_with("element 3: it is pinned"));

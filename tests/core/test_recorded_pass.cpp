@@ -113,7 +113,7 @@ void RecordedPassTest::each_step_clamps_into_the_region_about_the_sponsor() {
         for (std::size_t row = 0; row < pass.trace.size() && one.algorithm != Algorithm::exact; ++row) {
           QCOMPARE(stays(pass, row), !pass.trace[row].moved);
           for (int k = 0; k < pass.mesh->space_dimension; ++k) {
-            QCOMPARE(clamped_by_hand(player, row, k), pass.place_after(row)[std::size_t(k)]);
+            QCOMPARE(clamped_by_hand(player, row, k), pass.position_after(row)[std::size_t(k)]);
           }
           player.take(row);
         }
@@ -163,7 +163,7 @@ void RecordedPassTest::the_lists_of_a_3x3_grid_by_hand() {
 
 void RecordedPassTest::three_d_chainmail_empties_one_list_after_another() {
   const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
-  Recorded recorded(mesh, Algorithm::original);
+  Recorded recorded(mesh, Algorithm::chainmail_3d);
   recorded.apply(commands::SetSoftness{{{1, 1, 0}, {}}});
   const WaitingHistory history(*recorded.drag(4, Point(5, 5, 0)));
   // Right, left, top, bottom of the centre; 5, on the right, feeds right, top and bottom.

@@ -101,7 +101,7 @@ void RepairTest::states_from_outside_are_looked_at() {
   for (const bool kept : {false, true}) {
     const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
     solver->set_positions(std::vector<double>{0, 5, 2, 3});
-    KeptPositions positions;
+    PositionBlocks positions;
     solver->keep_positions(all, all, positions);
     solver->reset();
     solver->set_algorithm(Algorithm::exact);

@@ -53,7 +53,7 @@ Comparison comparison() {
     return std::vector<Entry>{
         {{Algorithm::natural_queue, 0}, measured(0.01 * scale, 0.5, 0.25 / scale), ""},
         {{Algorithm::natural_queue, 10}, measured(0.1 * scale, 0.25 * scale, 1), ""},
-        {{Algorithm::original, 0}, std::nullopt, "it works, on grids, alone"},
+        {{Algorithm::chainmail_3d, 0}, std::nullopt, "it works, on grids, alone"},
         {{Algorithm::exact, 0}, measured(0.02 * scale, 0, 0), ""},
     };
   };

@@ -4,7 +4,7 @@
 
 #include "core/scenarios.h"
 #include "mesh/error.h"
-#include "simulate/parameters.h"
+#include "mesh/parameters.h"
 
 using namespace chainmail;
 using namespace chainmail::test;

@@ -45,7 +45,7 @@ Comparison comparison() {
             {{"local",
               "a drag",
               4,
-              {{{Algorithm::enhanced, 10}, measurement, ""}, {{Algorithm::original, 0}, {}, "no grid"}},
+              {{{Algorithm::enhanced, 10}, measurement, ""}, {{Algorithm::chainmail_3d, 0}, {}, "no grid"}},
               ""}}}},
           false};
 }

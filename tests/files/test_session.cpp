@@ -156,9 +156,9 @@ void SessionTest::what_was_written_once_opens() {
   QVERIFY((session.relaxation == commands::SetRelaxation{false, 0.5, RelaxationScheme::link}));
   QCOMPARE(session.panels.size(), std::size_t{2});
   QVERIFY(session.panels[0].algorithm == Algorithm::exact && session.panels[1].algorithm == Algorithm::natural_queue);
-  QVERIFY((session.panels[0].placement == Placement{true, {2, 4}, {0.1F, -0.0, 1.0F / 3, -2}}));
+  QVERIFY((session.panels[0].placement == Snapshot{true, {2, 4}, {0.1F, -0.0, 1.0F / 3, -2}}));
   QVERIFY(std::signbit(session.panels[0].placement.held[1]));
-  QVERIFY((session.panels[1].placement == Placement{false, {8, 9}, {2.5, 2.25}}));
+  QVERIFY((session.panels[1].placement == Snapshot{false, {8, 9}, {2.5, 2.25}}));
   QCOMPARE(session.ui, std::string(R"({"colour":"plain"})"));
 }
 

@@ -147,8 +147,8 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"pins\": [0,8]", "\"pins\": [0,9]", "'pins' names element 9, which is not there; ");
   row("\"pins\": [0,8]", "\"pins\": [8,0,8]", "'pins' holds an element twice; ");
   row("\"pins\": [0,8]", "\"pins\": true", "'pins' is not an array; ");
-  row("\"stretch\":1.25", "\"stretch\":0.5", "softness: stretch: it must be 1 or more ");
-  row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,2,1,0]", "softness: compression: it must lie ");
+  row("\"stretch\":1.25", "\"stretch\":0.5", "softness: stretch: 0.5 is out of range; ");
+  row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,2,1,0]", "softness: compression: 2 is out of range; ");
   row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,1,1]", "softness: 'own' ends within a group of 5; ");
   row("\"own\": [3,4,1,1,0]", "\"own\": [3,4.5,1,1,0]", "softness: 'own' names no element in its link 0; ");
   row("\"own\": [3,4,1,1,0]", "\"own\": [3,9,1,1,0]", "softness: 'own' names no element in its link 0; ");
@@ -171,15 +171,15 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"precision\": \"float\", \"from_rest\": false", "\"precision\": \"half\", \"from_rest\": false",
       "panel 1: 'precision' names none; ");
   row("\"from_rest\": true", "\"from_rest\": 1", "panel 0: 'from_rest' is neither true nor false; ");
-  row("\"runs\": [2,4]", "\"runs\": [2]", "panel 0: placement: its runs are not ascending runs of elements; ");
-  row("\"runs\": [2,4]", "\"runs\": [4,2]", "panel 0: placement: its runs are not ascending runs of elements; ");
-  row("\"runs\": [2,4]", "\"runs\": [2,4,3,4]", "panel 0: placement: its runs are not ascending runs of elements; ");
+  row("\"runs\": [2,4]", "\"runs\": [2]", "panel 0: positions: its runs are not ascending runs of elements; ");
+  row("\"runs\": [2,4]", "\"runs\": [4,2]", "panel 0: positions: its runs are not ascending runs of elements; ");
+  row("\"runs\": [2,4]", "\"runs\": [2,4,3,4]", "panel 0: positions: its runs are not ascending runs of elements; ");
   row("\"runs\": [2,4]", "\"runs\": [2,4294967295]",
-      "panel 0: placement: its runs are not ascending runs of elements; ");
+      "panel 0: positions: its runs are not ascending runs of elements; ");
   row("\"runs\": [2,4]", "\"runs\": [2,5]",
-      "panel 0: placement: it holds 4 coordinates, and its runs name 3 elements in 2D; ");
-  row("2.5,2.25", "2.5,2.25,1", "panel 1: placement: it holds 3 coordinates, and its runs name 1 elements in 2D; ");
-  row("2.5,2.25", "2.5,1e38", "panel 1: placement: it holds a number beyond ");
+      "panel 0: positions: it holds 4 coordinates, and its runs name 3 elements in 2D; ");
+  row("2.5,2.25", "2.5,2.25,1", "panel 1: positions: it holds 3 coordinates, and its runs name 1 elements in 2D; ");
+  row("2.5,2.25", "2.5,1e38", "panel 1: positions: it holds a number beyond ");
   row("\"panels\": [", "\"panels\": [7,", "panel 0: it is not an object; ");
   row("\"ui\": {\"colour\":\"plain\"}", "\"ui\": []", "'ui' is not an object; ");
 }

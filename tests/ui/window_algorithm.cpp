@@ -40,7 +40,7 @@ class WindowAlgorithm : public QObject {
 
   void whereItDoesNotWorkItIsRefused() {
     Workbench bench(cloth());
-    bench.document().setAlgorithm(0, Algorithm::original);
+    bench.document().setAlgorithm(0, Algorithm::chainmail_3d);
     QCOMPARE(bench.document().algorithm(0), Algorithm::generalized);
     QVERIFY(bench.window.messages().isVisible());
     QCOMPARE(bench.window.panel(0).selector().currentText(), QStringLiteral("Generalized ChainMail"));
@@ -49,7 +49,7 @@ class WindowAlgorithm : public QObject {
   void theSelectorFollowsWhatRunsOnAnotherMesh() {
     Workbench bench;
     bench.choose(0, "3D ChainMail");
-    QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::original);
+    QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::chainmail_3d);
     bench.document().replaceMesh(cloth(), QStringLiteral("cloth"), QStringLiteral("build cloth"));
     bench.settle();
     QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::natural_queue);

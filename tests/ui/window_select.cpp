@@ -8,7 +8,7 @@
 #include <QToolButton>
 
 #include "common/colours.h"
-#include "simulate/parameters.h"
+#include "mesh/parameters.h"
 #include "window.h"
 
 using namespace chainmail;

@@ -173,7 +173,7 @@ class WindowSession : public QObject {
     const Session saved = sessionOf(bench);
     bench.document().replaceMesh(generate({MeshKind::grid, {5, 4, 1}, 1, {}}), QStringLiteral("grid"),
                                  QStringLiteral("build"));
-    bench.document().setAlgorithm(0, Algorithm::original);
+    bench.document().setAlgorithm(0, Algorithm::chainmail_3d);
     bench.document().setSessionFile({});
     drag(bench.document(), 7, {1, 1, 0});
     bench.settle();

@@ -203,7 +203,7 @@ class WindowUndo : public QObject {
   /// iteration.
   void aDragAfterAnUndoIsThatOfAFreshObject() {
     QFETCH(Algorithm, algorithm);
-    const bool rectangular = algorithm == Algorithm::original;
+    const bool rectangular = algorithm == Algorithm::chainmail_3d;
     const MeshPointer mesh = generate({rectangular ? MeshKind::grid : MeshKind::cloth, {9, 7, 1}, 1, {}});
     Workbench bench(mesh), fresh(mesh);
     for (Workbench* one : {&bench, &fresh}) {
@@ -296,15 +296,15 @@ class WindowUndo : public QObject {
   void anAlgorithmThatDidNotFitComesBackWithItsMesh() {
     Workbench bench;
     bench.choose(0, "3D ChainMail");
-    QCOMPARE(bench.document().algorithm(0), Algorithm::original);
+    QCOMPARE(bench.document().algorithm(0), Algorithm::chainmail_3d);
     bench.document().replaceMesh(generate({MeshKind::tetra, {3, 3, 3}, 1, {}}), QStringLiteral("block"),
                                  QStringLiteral("open block"));
     bench.settle();
     QCOMPARE(bench.document().algorithm(0), Algorithm::natural_queue);
     bench.trigger("undo");
     bench.settle();
-    QCOMPARE(bench.document().algorithm(0), Algorithm::original);
-    QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::original);
+    QCOMPARE(bench.document().algorithm(0), Algorithm::chainmail_3d);
+    QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::chainmail_3d);
   }
 
   void whatIsMeasuredGoesWithItsMesh() {

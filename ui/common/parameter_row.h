@@ -7,7 +7,7 @@
 #include <QToolButton>
 #include <QWidget>
 
-#include "simulate/parameters.h"
+#include "mesh/parameters.h"
 
 namespace chainmail {
 

@@ -28,7 +28,7 @@ class BackgroundTruth::Worker {
     if (!solver_ || !alike(*problem_, problem)) {
       solver_.reset();
       problem_ = problem;
-      solver_ = std::make_unique<TruthSolver>(problem, progress.part(0, 0.3));
+      solver_ = std::make_unique<ReferenceSolver>(problem, progress.part(0, 0.3));
     }
     Answer answer;
     answer.mesh = problem.mesh;
@@ -40,7 +40,7 @@ class BackgroundTruth::Worker {
 
  private:
   std::optional<ElasticProblem> problem_;
-  std::unique_ptr<TruthSolver> solver_;
+  std::unique_ptr<ReferenceSolver> solver_;
 };
 
 BackgroundTruth::BackgroundTruth(const Document& document) : document_(document) {

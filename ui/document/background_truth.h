@@ -6,7 +6,7 @@
 
 #include "common/jobs.h"
 #include "document/document.h"
-#include "measure/truth.h"
+#include "measure/reference_solution.h"
 
 namespace chainmail {
 
@@ -21,7 +21,7 @@ class BackgroundTruth : public QObject {
  public:
   struct Answer {
     MeshPointer mesh;
-    Truth truth;
+    ReferenceSolution truth;
     double rms = 0;      // of the truth's displacements (mesh units)
     double nothing = 0;  // the relative error of an object of which only the handle and the pins move
     std::string fault;   // why it is none; empty where it is one

@@ -84,7 +84,7 @@ class Document : public QObject {
   /// Calls `question` on the thread of a panel's solver when that has done all that was asked so far; it must not wait.
   void ask(int panel, SolverThread::Question question);
   /// The positions of a panel's elements when its solver has done all that was asked so far.
-  std::future<Placement> placement(int panel);
+  std::future<Snapshot> placement(int panel);
   /// The file of the session that this is; empty where it is none yet.
   const QString& sessionFile() const { return sessionFile_; }
   void setSessionFile(const QString& file);

@@ -58,10 +58,7 @@ Algorithm Document::unusedAlgorithm() const {
   return free == all.end() ? Algorithm::natural_queue : *free;
 }
 
-/// Free-form deformation alone needs none.
-bool Document::lacksPins(int panel) const {
-  return pins_.empty() && elastic_method(algorithms_[panel]) && algorithms_[panel] != Algorithm::free_form;
-}
+bool Document::lacksPins(int panel) const { return pins_.empty() && info(algorithms_[panel]).needs_pins; }
 
 void Document::setAlgorithm(int panel, Algorithm algorithm) {
   try {

@@ -38,11 +38,11 @@ void PassPlayer::setStep(std::size_t step) {
   step = std::min(step, stepCount());
   ++frame_.number;
   for (; step_ < step; ++step_) {
-    place(pass_->trace[step_].element, pass_->place_after(step_));
+    place(pass_->trace[step_].element, pass_->position_after(step_));
   }
   for (; step_ > step; --step_) {
     const ElementId element = pass_->trace[step_ - 1].element;
-    place(element, pass_->place_before(element));
+    place(element, pass_->position_before(element));
   }
 }
 

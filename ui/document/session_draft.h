@@ -21,7 +21,7 @@ class SessionDraft {
 
  private:
   Session session_;
-  std::vector<std::shared_future<Placement>> placements_;
+  std::vector<std::shared_future<Snapshot>> placements_;
 };
 
 }  // namespace chainmail

@@ -62,7 +62,7 @@ void SessionEdit::place(int panel) {
   const auto& from = std::size_t(panel) < panels.size() ? panels[panel] : panels.front();
   // It shares the session, and does not copy its numbers.
   document_.log_->post_to(*document_.solvers_[panel],
-                          commands::Place{std::shared_ptr<const Placement>(session_, &from.placement)});
+                          commands::SetPositions{std::shared_ptr<const Snapshot>(session_, &from.placement)});
 }
 
 /// What solvers do not keep with the object. Of the algorithms, those that hold positions as the kept ones are, and
@@ -117,11 +117,11 @@ void Document::ask(int panel, SolverThread::Question question) {
   solvers_[panel]->ask(std::move(question));
 }
 
-std::future<Placement> Document::placement(int panel) {
-  const auto promise = std::make_shared<std::promise<Placement>>();
+std::future<Snapshot> Document::placement(int panel) {
+  const auto promise = std::make_shared<std::promise<Snapshot>>();
   ask(panel, [promise](const Simulation& simulation) {
     try {
-      promise->set_value(simulation.placement());
+      promise->set_value(simulation.snapshot());
     } catch (const std::bad_alloc&) {
       promise->set_exception(std::current_exception());
     }

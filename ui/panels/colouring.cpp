@@ -142,7 +142,7 @@ QString Colouring::errorInWords(const Work& work) const {
   const BackgroundTruth::Answer& answer = *truth_.answer();
   const QLocale locale;
   return QStringLiteral(" on the same cells: relative %1, nothing moves %2; RMS %3")
-      .arg(locale.toString(work.rms * answer.truth.hand / answer.rms, 'g', 3), locale.toString(answer.nothing, 'g', 3),
+      .arg(locale.toString(work.rms * answer.truth.handle_displacement / answer.rms, 'g', 3), locale.toString(answer.nothing, 'g', 3),
            locale.toString(work.rms, 'g', 3));
 }
 

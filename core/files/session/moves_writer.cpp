@@ -45,7 +45,7 @@ class MoveWriter {
     return {{"do", "relax"}, {"sweeps", one.sweeps}, {"step", one.step}, {"scheme", scheme}};
   }
   Json operator()(const commands::ReplaceMesh&) const { refuse(); }
-  Json operator()(const commands::Place&) const { refuse(); }
+  Json operator()(const commands::SetPositions&) const { refuse(); }
   Json operator()(const commands::RestoreState&) const { refuse(); }
   Json operator()(const commands::SetRelaxation&) const { return {}; }
   Json operator()(const commands::SetElastic&) const { return {}; }

@@ -10,7 +10,7 @@
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "simulate/command.h"
-#include "solve/placement.h"
+#include "solve/snapshot.h"
 #include "solve/softness.h"
 #include "solve/solver.h"
 
@@ -23,7 +23,7 @@ struct Session {
     Algorithm algorithm = Algorithm::natural_queue;
     /// Of the numbers in the placement: those of single precision are floats.
     Precision precision = Precision::single_precision;
-    Placement placement;
+    Snapshot placement;
   };
 
   std::string name;  // of the object, as titles show it

@@ -31,7 +31,7 @@ class SessionReader {
   void take_panels();
   void take_moves(const Progress& progress);
   Session::Panel panel(const Json& object);
-  Placement placement(const Json& object, Precision precision) const;
+  Snapshot placement(const Json& object, Precision precision) const;
 
   const std::filesystem::path& path_;
   std::string file_;
@@ -147,8 +147,8 @@ void SessionReader::take_elastic() {
   result_.elastic = options;
 }
 
-Placement SessionReader::placement(const Json& object, Precision precision) const {
-  Placement result{fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held")};
+Snapshot SessionReader::placement(const Json& object, Precision precision) const {
+  Snapshot result{fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held")};
   check(result, *result_.mesh, precision);
   if (precision == Precision::single_precision) {
     for (double& held : result.held) {

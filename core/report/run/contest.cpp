@@ -35,7 +35,7 @@ class Contest::Participant {
   }
 
   /// The first run of a drag, which finds the errors.
-  void try_out(const RecordedMoves& moves, const Truth& truth, const std::stop_token& stop) {
+  void try_out(const RecordedMoves& moves, const ReferenceSolution& truth, const std::stop_token& stop) {
     entry_ = {contestant_, std::nullopt, refusal_};
     times_ = {};
     warm_ = false;
@@ -102,7 +102,7 @@ class Contest::Participant {
     times_.add(times);
   }
 
-  void measure(ElementId handle, const Truth& truth) {
+  void measure(ElementId handle, const ReferenceSolution& truth) {
     const Simulation& simulation = runner_->simulation();
     entry_.refusal = simulation.statistics().remark;
     if (!stopped_ && entry_.refusal.empty()) {
@@ -138,7 +138,7 @@ Contest::Contest(const Case& object, const std::vector<PhysicsContestant>& conte
 
 Contest::~Contest() = default;
 
-std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const Truth& truth,
+std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const ReferenceSolution& truth,
                                        const std::function<void(double)>& tell, const std::stop_token& stop) {
   const double count = double(participants_.size());
   for (std::size_t i = 0; i < participants_.size() && !stop.stop_requested(); ++i) {

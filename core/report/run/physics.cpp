@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "measure/truth.h"
+#include "measure/reference_solution.h"
 #include "mesh/error.h"
 #include "report/run/contest.h"
 #include "report/run/physics_cases.h"
@@ -31,7 +31,7 @@ PhysicsOptions checked(PhysicsOptions options) {
 }
 
 /// The solver of the reference solution, without which nothing can be measured.
-TruthSolver reference_of(const Case& object, const std::vector<LinkId>& cut) {
+ReferenceSolver reference_of(const Case& object, const std::vector<LinkId>& cut) {
   std::vector<ElementId> pins = object.pins;
   std::ranges::sort(pins);
   const std::vector<double> at_rest(pins.size() * static_cast<std::size_t>(object.mesh->space_dimension), 0.0);
@@ -44,14 +44,14 @@ TruthSolver reference_of(const Case& object, const std::vector<LinkId>& cut) {
     cuts.cut(link);
   }
   try {
-    return TruthSolver({object.mesh, cuts, pins, at_rest, object.elastic});
+    return ReferenceSolver({object.mesh, cuts, pins, at_rest, object.elastic});
   } catch (const Error& error) {
     throw error.at(object.name);
   }
 }
 
 /// The reference solution at the end of a drag.
-Truth reference_at_end(TruthSolver& solver, const RecordedMoves& moves) {
+ReferenceSolution reference_at_end(ReferenceSolver& solver, const RecordedMoves& moves) {
   Point target = Point::Zero();
   for (const Command& command : moves.commands) {
     if (const auto* drag = std::get_if<commands::Drag>(&command)) {
@@ -61,17 +61,17 @@ Truth reference_at_end(TruthSolver& solver, const RecordedMoves& moves) {
   return solver.at(handle_of(moves), target);
 }
 
-PhysicsDrag drag_of(Contest& contest, const Case& object, const RecordedMoves& moves, TruthSolver& uncut,
+PhysicsDrag drag_of(Contest& contest, const Case& object, const RecordedMoves& moves, ReferenceSolver& uncut,
                     const std::function<void(double)>& tell, const std::stop_token& stop) {
   const std::vector<LinkId> cut = cuts_of(moves);
   PhysicsDrag drag{moves.name, moves.description, handle_of(moves), count_moves(moves), !cut.empty(), 0, {}, {}};
   try {
-    std::optional<TruthSolver> with_cut;
+    std::optional<ReferenceSolver> with_cut;
     if (drag.has_cut) {
       with_cut.emplace(reference_of(object, cut));
     }
-    const Truth truth = reference_at_end(with_cut ? *with_cut : uncut, moves);
-    drag.hand = truth.hand;
+    const ReferenceSolution truth = reference_at_end(with_cut ? *with_cut : uncut, moves);
+    drag.hand = truth.handle_displacement;
     drag.entries = contest.run(moves, truth, tell, stop);
   } catch (const Error& error) {
     drag.no_truth = error.what();
@@ -161,7 +161,7 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
               object.pins.size(),
               {},
               {}};
-    TruthSolver solver = reference_of(object, {});
+    ReferenceSolver solver = reference_of(object, {});
     const CompareOptions& how = report.options.contest;
     result.calibrations = calibrations_of(object, report.options, teller.of_drag(object.name + ", calibrating"), stop);
     Contest contest(object, contestants_of(how.algorithms, how.sweeps, result.calibrations), how);

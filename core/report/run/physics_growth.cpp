@@ -48,16 +48,16 @@ class Budget {
 };
 
 /// The reference solution at a size, as long as its own time lasts.
-std::optional<Truth> truth_at(const Case& object, Budget& budget) {
+std::optional<ReferenceSolution> truth_at(const Case& object, Budget& budget) {
   if (!budget.holds_next()) {
     return std::nullopt;
   }
   const double start = now();
   try {
     const std::vector<double> at_rest(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension), 0.0);
-    TruthSolver solver({object.mesh, Cuts(object.mesh), object.pins, at_rest, object.elastic});
+    ReferenceSolver solver({object.mesh, Cuts(object.mesh), object.pins, at_rest, object.elastic});
     const auto& commands = object.drags.front().commands;
-    Truth truth =
+    ReferenceSolution truth =
         solver.at(std::get<commands::Grab>(commands.front()).element, std::get<commands::Drag>(commands.back()).target);
     budget.spend(now() - start);
     return truth;
@@ -68,9 +68,9 @@ std::optional<Truth> truth_at(const Case& object, Budget& budget) {
 }
 
 /// Without a reference only times count; rest is as good as anything to measure against.
-Truth no_truth(const Case& object) { return {std::vector<double>(object.mesh->rest.size(), 0.0), 1, {}}; }
+ReferenceSolution no_truth(const Case& object) { return {std::vector<double>(object.mesh->rest.size(), 0.0), 1, {}}; }
 
-void measure(GrowthSeries& series, Budget& budget, const Case& object, const std::optional<Truth>& truth,
+void measure(GrowthSeries& series, Budget& budget, const Case& object, const std::optional<ReferenceSolution>& truth,
              CompareOptions options, const std::stop_token& stop) {
   const double start = now();
   options.seconds = 0;

@@ -96,7 +96,7 @@ void Runner::carry_out(const Command& command, int sweeps, Run& run) {
 
 void check(const RecordedMoves& moves) {
   for (const Command& command : moves.commands) {
-    if (is_one_of<commands::ReplaceMesh, commands::Place, commands::RestoreState>(command)) {
+    if (is_one_of<commands::ReplaceMesh, commands::SetPositions, commands::RestoreState>(command)) {
       throw Error(moves.name, "these moves exchange the object, or undo", "record moves of one object, without undo");
     }
   }

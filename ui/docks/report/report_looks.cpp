@@ -52,7 +52,7 @@ QColor reportColour(Algorithm algorithm) { return lookOf(algorithm).colour; }
 QString reportName(const report::Contestant& contestant) {
   const QString name = text(report::label(contestant));
   // '3D' alone would say nothing.
-  return contestant.algorithm == Algorithm::original ? name : QString(name).remove(QStringLiteral(" ChainMail"));
+  return contestant.algorithm == Algorithm::chainmail_3d ? name : QString(name).remove(QStringLiteral(" ChainMail"));
 }
 
 QPixmap reportMark(const report::Contestant& contestant, int size, double devicePixelRatio) {

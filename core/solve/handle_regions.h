@@ -11,13 +11,13 @@
 
 namespace chainmail {
 
-/// Where the grabbed element goes, as bounds of displacements count from it: on an axis along which it goes up,
-/// `low` is where it goes and `high` is infinite; where it goes down the other way round; where it stays, both are.
+/// Target of the grabbed element, as bounds of displacements: on an axis along which it moves up, `low` is its target
+/// and `high` is infinite; the other way round if it moves down; both are infinite if it stays.
 template <class Scalar, int Dimension>
-struct HandReach {
+struct HandleReach {
   static constexpr Scalar infinite = std::numeric_limits<Scalar>::infinity();
 
-  HandReach(const Place<Scalar, Dimension>& from, const Scalar (&target)[Dimension]) {
+  HandleReach(const Position<Scalar, Dimension>& from, const Scalar (&target)[Dimension]) {
     for (int k = 0; k < Dimension; ++k) {
       start[k] = from[k];
       set(k, target[k]);
@@ -30,8 +30,8 @@ struct HandReach {
     high[k] = target < start[k] ? target : infinite;
   }
 
-  /// Holds the hand back to where an element that cannot move, with this region about the hand, lets it be.
-  void hold(const Place<Scalar, Dimension>& pin, const Region<Scalar, Dimension>& region) {
+  /// Stops the handle where an element that cannot move, with this region about the handle, allows it.
+  void hold(const Position<Scalar, Dimension>& pin, const Region<Scalar, Dimension>& region) {
     for (int k = 0; k < Dimension; ++k) {
       const Scalar furthest = std::max(start[k], pin[k] - region.low[k]);
       const Scalar lowest = std::min(start[k], pin[k] - region.high[k]);
@@ -47,26 +47,27 @@ struct HandReach {
   bool stopped[Dimension]{};
 };
 
-/// The region about the grabbed element in which each element may lie, whatever the object's state: along each
-/// axis, up and down, the shortest path of links from the hand, a link being as long as its region reaches.
+/// The region about the grabbed element in which each element may lie, for any state of the object. Its bounds are the
+/// shortest paths of links from the handle, up and down along each axis; the length of a link is the bound of its
+/// region.
 ///
-/// A link is two difference constraints an axis. In a valid state the slacks along a path, what its links still
-/// give, add up to the path's length less what its ends are apart: which path is shortest depends on the
-/// softness and the links alone, not on where anything is. So the regions hold for a whole drag. They are found
-/// as the drag needs them: an element's neighbours get theirs once it moves itself (as candidates are admitted
-/// in every ChainMail), and no schedule changes a bit of them. The derivation is this project's own.
+/// A link is two difference constraints per axis. In a valid state the slacks along a path add up to the path's length
+/// less the distance of its ends. So the shortest path depends on softness and links only, not on positions, and the
+/// regions are valid for a whole drag. They are computed as the drag needs them: the neighbours of an element get
+/// theirs once it moves (as candidates are admitted in every ChainMail), and no schedule changes a bit of them. The
+/// derivation is this project's own.
 ///
-/// The body holds displacements from rest. All axes go through one search.
+/// The body stores displacements from rest. One search handles all axes.
 template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
-class HandRegions {
+class HandleRegions {
  public:
   using State = Body<Scalar, Dimension>;
-  using Reach = HandReach<Scalar, Dimension>;
+  using Reach = HandleReach<Scalar, Dimension>;
   using Bounds = Region<Scalar, Dimension>;
 
-  /// Another hand, or other links, softness or pins: all that is known is forgotten.
+  /// Drops all regions. Call this for a new handle, or when links, softness or pins have changed.
   void begin(const State& body, ElementId grabbed) {
-    index_.resize(body.places.size(), unknown);
+    index_.resize(body.positions.size(), unknown);
     for (const ElementId element : elements_) {
       index_[element] = unknown;
     }
@@ -81,18 +82,18 @@ class HandRegions {
     visits_ = 0;
   }
 
-  /// Finds the regions of all elements that a hand with this reach moves. Pins that it finds hold the hand back.
+  /// Computes the regions of all elements that a handle with this reach moves. Pins that it finds stop the handle.
   void extend(const State& body, Reach& reach) {
     for (const Pin& pin : pins_) {
-      reach.hold(body.places[pin.element], pin.region);
+      reach.hold(body.positions[pin.element], pin.region);
     }
     schedule_.begin();
     admit_frontier(body, reach);
     while (!schedule_.empty()) {
       const auto [key, index] = schedule_.take();
       Searched& one = searched_[index];
-      if (one.state != queued || (one.key != key && !schedule_.keeps_place())) {
-        continue;  // visited since, or admitted again with less
+      if (one.state != queued || (one.key != key && !schedule_.keeps_position())) {
+        continue;  // visited already, or admitted again with a smaller key
       }
       one.state = done;
       ++visits_;
@@ -103,14 +104,14 @@ class HandRegions {
     }
   }
 
-  /// The elements that have a region, the grabbed one first, and their regions.
+  /// The elements with a region, the grabbed one first, and their regions.
   std::span<const ElementId> elements() const { return elements_; }
   std::span<const Bounds> regions() const { return regions_; }
-  /// The region of an element, or none where the drag has not come near it.
+  /// Returns the region of an element, or null if the drag has not come near it.
   const Bounds* find(ElementId element) const {
     return index_[element] == unknown ? nullptr : &regions_[index_[element]];
   }
-  /// Visits of elements in this drag, on all axes together.
+  /// Number of visits of elements in this drag, on all axes together.
   std::uint64_t visits() const { return visits_; }
 
  private:
@@ -139,11 +140,11 @@ class HandRegions {
   }
 
   bool moves(const State& body, const Reach& reach, Index index) const {
-    const auto& place = body.places[elements_[index]];
+    const auto& position = body.positions[elements_[index]];
     const Bounds& region = regions_[index];
     bool moves = false;
     for (int k = 0; k < Dimension; ++k) {
-      moves |= reach.low[k] + region.low[k] > place[k] || reach.high[k] + region.high[k] < place[k];
+      moves |= reach.low[k] + region.low[k] > position[k] || reach.high[k] + region.high[k] < position[k];
     }
     return moves;
   }
@@ -181,7 +182,7 @@ class HandRegions {
       }
       if (has_pins && body.pinned(neighbour)) {
         pins_.push_back({neighbour, through});
-        reach.hold(body.places[neighbour], through);
+        reach.hold(body.positions[neighbour], through);
       } else {
         narrow(body, reach, neighbour, through);
       }
@@ -207,13 +208,13 @@ class HandRegions {
     }
   }
 
-  /// Its region became narrower: its neighbours' may, as soon as it moves.
+  /// Called when an element's region became narrower: the regions of its neighbours may follow, once it moves.
   void await(const State& body, const Reach& reach, Index index, Scalar key) {
     Searched& one = searched_[index];
     const bool is_smaller = one.state == done || key < one.key;
     one.key = is_smaller ? key : one.key;
     if (one.state == queued) {
-      if (is_smaller && !schedule_.keeps_place()) {
+      if (is_smaller && !schedule_.keeps_position()) {
         schedule_.admit(index, key);
       }
     } else if (moves(body, reach, index)) {
@@ -224,12 +225,12 @@ class HandRegions {
     }
   }
 
-  std::vector<Index> index_;  // of each element; unknown where the drag has not come near
+  std::vector<Index> index_;  // of each element; unknown if the drag has not come near it
   std::vector<ElementId> elements_;
   std::vector<Bounds> regions_;
   std::vector<Searched> searched_;
-  std::vector<Index> frontier_;  // of those that wait until they move, and of some that no longer do
-  std::vector<Pin> pins_;        // one may stand here several times
+  std::vector<Index> frontier_;  // elements that wait until they move, and some that no longer wait
+  std::vector<Pin> pins_;        // may contain duplicates
   Schedule schedule_;
   std::uint64_t visits_ = 0;
 };

@@ -8,7 +8,7 @@ using namespace chainmail;
 using namespace chainmail::test;
 
 /// Where elements stand, taken from one simulation and given to another.
-class PlacementTest : public QObject {
+class SnapshotTest : public QObject {
   Q_OBJECT
 
  private slots:
@@ -20,8 +20,8 @@ class PlacementTest : public QObject {
   void a_solver_is_asked_in_turn();
 
  private:
-  static Command place(Placement placement) {
-    return commands::Place{std::make_shared<const Placement>(std::move(placement))};
+  static Command place(Snapshot placement) {
+    return commands::SetPositions{std::make_shared<const Snapshot>(std::move(placement))};
   }
   static Simulation dragged(const MeshPointer& mesh, Algorithm algorithm, Precision precision) {
     Simulation simulation(mesh, algorithm, precision);
@@ -31,29 +31,29 @@ class PlacementTest : public QObject {
   }
 };
 
-void PlacementTest::another_simulation_takes_it_to_the_bit() {
+void SnapshotTest::another_simulation_takes_it_to_the_bit() {
   for (const Family& family : families()) {
     for (const Precision precision : precisions) {
       for (const Algorithm algorithm : {Algorithm::natural_queue, Algorithm::exact}) {
         const Simulation one = dragged(family.mesh, algorithm, precision);
         Simulation other(family.mesh, algorithm, precision);
-        carry_out(other, place(one.placement()));
+        carry_out(other, place(one.snapshot()));
         QVERIFY2(same_bits(positions_of(other), positions_of(one)), family.name.c_str());
-        QVERIFY(other.placement() == one.placement());
+        QVERIFY(other.snapshot() == one.snapshot());
         QVERIFY(!other.valid());  // as far as is known
       }
     }
   }
 }
 
-void PlacementTest::what_moves_then_is_kept_and_undone() {
+void SnapshotTest::what_moves_then_is_kept_and_undone() {
   const auto mesh = make_mesh(MeshKind::cloth, {20, 20, 1});
   const Simulation one = dragged(mesh, Algorithm::spiral, Precision::single_precision);
   Simulation other(mesh, Algorithm::natural_queue, Precision::single_precision);
   drag_by(other, 399, Point(3, 3, 0));
   const auto before = positions_of(other);
   carry_out(other, commands::KeepState{1});
-  carry_out(other, place(one.placement()));
+  carry_out(other, place(one.snapshot()));
   carry_out(other, commands::KeepState{2});
   drag_by(other, 17, Point(0, -4, 0));
   carry_out(other, commands::RestoreState{2});
@@ -62,7 +62,7 @@ void PlacementTest::what_moves_then_is_kept_and_undone() {
   QVERIFY(same_bits(positions_of(other), before));
 }
 
-void PlacementTest::elements_that_are_not_given_stand_at_rest() {
+void SnapshotTest::elements_that_are_not_given_stand_at_rest() {
   const auto mesh = make_mesh(MeshKind::grid, {30, 10, 1});
   Simulation simulation = dragged(mesh, Algorithm::natural_queue, Precision::double_precision);
   simulation.forget_changes();
@@ -76,13 +76,13 @@ void PlacementTest::elements_that_are_not_given_stand_at_rest() {
   QVERIFY(simulation.valid());
 }
 
-void PlacementTest::held_otherwise_it_is_rounded_alone() {
+void SnapshotTest::held_otherwise_it_is_rounded_alone() {
   const auto mesh = jittered_triangles(8, 8, 3);
   for (const auto& [from, to] :
        {std::pair(Algorithm::exact, Algorithm::spiral), {Algorithm::spiral, Algorithm::exact}}) {
     const Simulation one = dragged(mesh, from, Precision::single_precision);
     Simulation other(mesh, to, Precision::single_precision);
-    carry_out(other, place(one.placement()));
+    carry_out(other, place(one.snapshot()));
     const auto expected = positions_of(one), found = positions_of(other);
     for (std::size_t i = 0; i < found.size(); ++i) {
       QVERIFY(std::abs(found[i] - expected[i]) < 1e-6 * 8);  // two roundings of a float below 16
@@ -90,33 +90,33 @@ void PlacementTest::held_otherwise_it_is_rounded_alone() {
   }
 }
 
-void PlacementTest::what_does_not_fit_is_refused() {
+void SnapshotTest::what_does_not_fit_is_refused() {
   const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
   Simulation simulation = dragged(mesh, Algorithm::spiral, Precision::single_precision);
   const Snapshot before(simulation);
-  const std::vector<Placement> wrong{
+  const std::vector<Snapshot> wrong{
       {false, {0, 1}, {1}},       {false, {0, 1}, {1, 2, 3}},        {false, {0}, {}},
       {false, {1, 0}, {}},        {false, {15, 17}, {1, 2, 3, 4}},   {false, {0, 1, 0, 1}, {1, 2, 3, 4}},
       {false, {0, 1}, {1, 1e38}}, {false, {0, 1}, {1, std::nan("")}}};
-  for (const Placement& placement : wrong) {
+  for (const Snapshot& placement : wrong) {
     QVERIFY_THROWS_EXCEPTION(Error, carry_out(simulation, place(placement)));
     QVERIFY(Snapshot(simulation) == before);
   }
 }
 
-void PlacementTest::a_solver_is_asked_in_turn() {
+void SnapshotTest::a_solver_is_asked_in_turn() {
   const auto mesh = make_mesh(MeshKind::cloth, {16, 16, 1});
   SolverThread solver(mesh, Algorithm::natural_queue, [] {});
   Simulation simulation(mesh, Algorithm::natural_queue, Precision::single_precision);
-  std::vector<Placement> answers;  // the solver's thread alone until it is idle
+  std::vector<Snapshot> answers;  // the solver's thread alone until it is idle
   for (int i = 0; i < 20; ++i) {
     for (const Command& command :
          {Command(commands::Grab{static_cast<ElementId>(i)}), Command(commands::Drag{Point(i, -2, 0)})}) {
       solver.post(command);
       simulation.apply(command);
     }
-    const auto expected = simulation.placement();
-    solver.ask([&answers](const Simulation& asked) { answers.push_back(asked.placement()); });
+    const auto expected = simulation.snapshot();
+    solver.ask([&answers](const Simulation& asked) { answers.push_back(asked.snapshot()); });
     if (i % 5 == 0) {
       QVERIFY(wait_until([&] { return solver.idle(); }));
       QVERIFY(answers.back() == expected);
@@ -124,8 +124,8 @@ void PlacementTest::a_solver_is_asked_in_turn() {
   }
   QVERIFY(wait_until([&] { return solver.idle(); }));
   QCOMPARE(answers.size(), std::size_t{20});
-  QVERIFY(answers.back() == simulation.placement());
+  QVERIFY(answers.back() == simulation.snapshot());
 }
 
-QTEST_APPLESS_MAIN(PlacementTest)
-#include "test_placement.moc"
+QTEST_APPLESS_MAIN(SnapshotTest)
+#include "test_snapshot.moc"

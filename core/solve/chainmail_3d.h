@@ -8,11 +8,11 @@
 
 namespace chainmail {
 
-/// 3D ChainMail (Frisken-Gibson 1997; thesis 2.1), for rectangular meshes: a waiting list a direction.
+/// 3D ChainMail (Frisken-Gibson 1997; thesis 2.1), for rectangular meshes: one waiting list per direction.
 ///
-/// The lists are worked in the order right, left, top, bottom, front, back (+x, −x, +y, −y, +z, −z). A
-/// list feeds itself and those of the axes after its own; the grabbed element feeds all. First in, first
-/// out, all admitted. Arguments and result as in propagate().
+/// The lists are worked through in the order right, left, top, bottom, front, back (+x, −x, +y, −y, +z, −z). A list
+/// feeds itself and the lists of later axes; the grabbed element feeds all. First in, first out; all candidates are
+/// admitted. Arguments and result as in propagate().
 template <class List = BackList>
 class DirectionLists {
  public:
@@ -48,7 +48,7 @@ class DirectionLists {
  private:
   static constexpr int all_lists = -1;
 
-  /// How far apart the ids of neighbours along each axis are; 0 where the lattice is one element thick.
+  /// Difference of the ids of neighbours along each axis; 0 if the lattice is one element thick.
   using Steps = std::array<std::int64_t, 3>;
 
   static Steps steps_of(const Mesh& mesh) {
@@ -56,7 +56,7 @@ class DirectionLists {
     return {size[0] > 1 ? 1 : 0, size[1] > 1 ? size[0] : 0, size[2] > 1 ? std::int64_t{size[0]} * size[1] : 0};
   }
 
-  /// The list of a neighbour whose id is this much larger.
+  /// Returns the list of a neighbour with this difference of ids.
   static int list_of(const Steps& steps, std::int64_t difference) {
     int axis = 0;
     while (steps[axis] != std::abs(difference)) {

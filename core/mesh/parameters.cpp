@@ -1,0 +1,34 @@
+#include "mesh/parameters.h"
+
+#include <array>
+#include <charconv>
+
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+/// Returns the shortest text that reads back as the same number.
+std::string shortest_digits(double number) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
+}  // namespace
+
+std::string range_of(const Parameter& parameter) {
+  if (parameter.lowest == parameters::above_zero) {
+    return "a number above 0";
+  }
+  return shortest_digits(parameter.lowest) + (parameter.highest == parameters::no_highest
+                                                  ? std::string(" or more")
+                                                  : " to " + shortest_digits(parameter.highest));
+}
+
+void check(const Parameter& parameter, double value) {
+  if (!(value >= parameter.lowest && value <= parameter.highest)) {
+    throw Error(std::string(parameter.name), shortest_digits(value) + " is out of range", "use " + range_of(parameter));
+  }
+}
+
+}  // namespace chainmail

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace chainmail {
+
+/// A number that a user may set. Docks, command line, help texts and checks all read the one entry of the table below.
+struct Parameter {
+  std::string_view name;   // on the command line and in errors
+  std::string_view label;  // in the window
+  std::string_view unit;
+  double standard;         // the default
+  double lowest, highest;  // what is accepted
+  double slider_highest;   // right end of the slider, which starts at `lowest`
+  double step;             // one click
+  int decimals;            // in the window
+  std::string_view help;
+};
+
+/// The table. To add a parameter, add an entry here; use it as the default of the value, in the function that checks
+/// the value, in add_parameter of app/command_line and in a ParameterRow of the window.
+namespace parameters {
+
+/// No upper limit: any finite number from the lowest on.
+inline constexpr double no_highest = std::numeric_limits<double>::max();
+/// Lower limit of numbers that must be above 0.
+inline constexpr double above_zero = std::numeric_limits<double>::min();
+
+inline constexpr Parameter compression{.name = "compression",
+                                       .label = "Compression",
+                                       .unit = "of rest length",
+                                       .standard = 0.8,
+                                       .lowest = 0,
+                                       .highest = 1,
+                                       .slider_highest = 1,
+                                       .step = 0.01,
+                                       .decimals = 3,
+                                       .help = "shortest length of a link along each axis: 1 rigid, 0 no limit"};
+inline constexpr Parameter stretch{
+    .name = "stretch",
+    .label = "Stretch",
+    .unit = "of rest length",
+    .standard = 1.2,
+    .lowest = 1,
+    .highest = no_highest,
+    .slider_highest = 3,
+    .step = 0.01,
+    .decimals = 3,
+    .help = "greatest length of a link along each axis: 1 rigid, 2 twice its rest length"};
+inline constexpr Parameter shear{.name = "shear",
+                                 .label = "Shear",
+                                 .unit = "of rest length",
+                                 .standard = 0.1,
+                                 .lowest = 0,
+                                 .highest = no_highest,
+                                 .slider_highest = 1,
+                                 .step = 0.01,
+                                 .decimals = 3,
+                                 .help = "how far a link may lean, per length along the other axes: 0 not at all"};
+inline constexpr Parameter relax_step{
+    .name = "relax-step",
+    .label = "Step",
+    .unit = "of the way",
+    .standard = 1,
+    .lowest = 0.01,
+    .highest = 1,
+    .slider_highest = 1,
+    .step = 0.05,
+    .decimals = 2,
+    .help = "share of the way to its relaxed position that an element moves in one sweep"};
+inline constexpr Parameter spacing{.name = "spacing",
+                                   .label = "Spacing",
+                                   .unit = "mesh units",
+                                   .standard = 1,
+                                   .lowest = above_zero,
+                                   .highest = no_highest,
+                                   .slider_highest = 10,
+                                   .step = 0.1,
+                                   .decimals = 4,
+                                   .help = "distance between neighbouring elements"};
+inline constexpr Parameter young{.name = "young",
+                                 .label = "Young's modulus",
+                                 .unit = "force per area",
+                                 .standard = 1,
+                                 .lowest = above_zero,
+                                 .highest = no_highest,
+                                 .slider_highest = 10,
+                                 .step = 0.1,
+                                 .decimals = 3,
+                                 .help = "stiffness of the elastic material: scales forces, does not change the shape"};
+inline constexpr Parameter poisson{
+    .name = "poisson",
+    .label = "Poisson's ratio",
+    .unit = "of the stretch",
+    .standard = 0.3,
+    .lowest = 0,
+    .highest = 0.499,
+    .slider_highest = 0.499,
+    .step = 0.01,
+    .decimals = 3,
+    .help = "how much the elastic material narrows when stretched: 0 not at all, near 0.5 keeps its volume"};
+inline constexpr Parameter lattice{.name = "lattice",
+                                   .label = "Control points",
+                                   .unit = "along each axis",
+                                   .standard = 4,
+                                   .lowest = 2,
+                                   .highest = 8,
+                                   .slider_highest = 8,
+                                   .step = 1,
+                                   .decimals = 0,
+                                   .help = "control points of free-form deformation along each axis"};
+
+}  // namespace parameters
+
+/// Returns the accepted range in words, like "0 to 1", "1 or more" or "a number above 0".
+std::string range_of(const Parameter& parameter);
+/// Throws Error, with the parameter's name and range, if the value is out of range. NaN is out of range.
+void check(const Parameter& parameter, double value);
+
+}  // namespace chainmail

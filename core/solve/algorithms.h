@@ -1,0 +1,104 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "elastic/elastic.h"
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// Names an algorithm in code. Each one has exactly one entry in the table of algorithms.cpp.
+enum class Algorithm {
+  generalized,
+  spiral,
+  natural_queue,
+  enhanced,
+  chainmail_3d,
+  exact,
+  linear_fem,
+  neo_hookean,
+  boundary_elements,
+  free_form
+};
+
+/// ChainMail, or the methods that ChainMail is compared with.
+enum class Family { chainmail, elastic };
+
+/// Mark of an algorithm in plots.
+struct Look {
+  std::string_view path;    // SVG path about (0, 0), of size 1
+  std::string_view colour;  // empty: the colour of lines and text
+};
+
+struct ListAlgorithm;  // see solve/list_algorithm.h
+
+/// One row of the algorithm table: everything that other code knows about an algorithm.
+struct AlgorithmInfo {
+  Algorithm algorithm;
+  std::string_view name;        // value in JSON, CSV and session files; the command line accepts it
+  std::string_view alias = {};  // another name for the command line, which offers it instead of `name`
+  std::string_view label;       // title in the window and in reports
+  std::string_view source;      // publication
+  std::string_view summary;     // one sentence for help texts
+  Look look;
+
+  // What answers a move: a waiting list, a method of elasticity or, without either, Exact ChainMail.
+  const ListAlgorithm* list = nullptr;
+  std::optional<ElasticMethod> elastic = {};
+
+  // What the object needs. Methods of elasticity also need cells or faces: see check(ElasticMethod, Mesh).
+  bool needs_grid = false;  // links along the axes only
+  bool needs_pins = false;
+
+  // What other code may assume.
+  bool holds_links = false;         // all links are valid after each pass
+  bool from_rest = false;           // the solver holds displacements from rest instead of positions
+  bool has_control_points = false;  // a user may drag control points
+
+  Family family() const { return elastic ? Family::elastic : Family::chainmail; }
+  /// Name in help texts and in messages of the command line.
+  std::string_view offered_name() const { return alias.empty() ? name : alias; }
+  /// True if softness changes the answer.
+  bool uses_softness() const { return family() == Family::chainmail; }
+  /// True if relaxation may follow a pass. The answer of the other methods is an equilibrium already.
+  bool relaxes() const { return family() == Family::chainmail; }
+  /// True if a pass is a series of steps, element after element, that can be replayed.
+  bool has_steps() const { return family() == Family::chainmail; }
+  /// True if the algorithm can answer any state at once when it takes over, without a move.
+  bool answers_any_state() const { return holds_links || family() == Family::elastic; }
+};
+
+/// Returns the ChainMail family, in the order of menus and tables.
+std::span<const AlgorithmInfo> algorithms();
+/// Returns the methods that ChainMail is compared with.
+std::span<const AlgorithmInfo> elastic_algorithms();
+/// Returns the ChainMail family, then the others.
+std::span<const AlgorithmInfo> every_algorithm();
+/// Returns the entry of an algorithm.
+const AlgorithmInfo& info(Algorithm algorithm);
+/// Returns the method of elasticity of an algorithm; none for the ChainMail family.
+std::optional<ElasticMethod> elastic_method(Algorithm algorithm);
+/// Returns the algorithm with this name or alias, if any.
+std::optional<Algorithm> find_algorithm(std::string_view name);
+
+/// True if the algorithm works on the mesh.
+bool fits(Algorithm algorithm, const Mesh& mesh);
+/// Throws Error, with the reason, if the algorithm does not work on the mesh.
+void check(Algorithm algorithm, const Mesh& mesh);
+
+/// Adds an entry to the table while this object exists. For tests: no other thread may read the table meanwhile, and
+/// references to entries become invalid.
+class ExtraAlgorithm {
+ public:
+  explicit ExtraAlgorithm(const AlgorithmInfo& entry);
+  ExtraAlgorithm(const ExtraAlgorithm&) = delete;
+  ExtraAlgorithm& operator=(const ExtraAlgorithm&) = delete;
+  ~ExtraAlgorithm();
+
+ private:
+  Algorithm algorithm_;
+};
+
+}  // namespace chainmail
