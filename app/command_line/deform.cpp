@@ -102,10 +102,10 @@ std::vector<Act> read_acts(const Options& options) {
   return acts;
 }
 
-/// Positions on standard output are a table.
-MeshFormat positions_format(const std::string& path) {
+/// Positions on standard output are a CSV table.
+const MeshFormat& positions_format(const std::string& path) {
   try {
-    return path == "-" ? MeshFormat::csv : mesh_format(path, FormatUse::write_positions);
+    return mesh_format(path == "-" ? "standard_output.csv" : path, FormatUse::write_positions);
   } catch (const Error& error) {
     throw error.at("--positions " + printable(path));
   }
