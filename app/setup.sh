@@ -6,7 +6,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 build_packages=(
   g++ cmake ninja-build ccache
-  libeigen3-dev nlohmann-json3-dev libcli11-dev libtinyobjloader-dev
+  libeigen3-dev nlohmann-json3-dev libcli11-dev
   libcgal-dev libgmsh-dev libteem-dev zlib1g-dev libnlopt-dev libseccomp-dev
   qt6-base-dev libqt6opengl6-dev qt6-charts-dev qt6-svg-dev
 )

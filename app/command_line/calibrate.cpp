@@ -5,7 +5,7 @@
 #include "command_line/common.h"
 #include "command_line/elastic.h"
 #include "command_line/watched.h"
-#include "files/results/calibration_json.h"
+#include "files/results/report_json.h"
 #include "files/session/softness_presets.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"

@@ -4,7 +4,7 @@
 #include "command_line/compare_options.h"
 #include "command_line/folder.h"
 #include "command_line/report_origin.h"
-#include "files/results/physics_json.h"
+#include "files/results/report_json.h"
 #include "files/text/outputs.h"
 #include "report/page/physics_report.h"
 #include "report/run/physics_cases.h"

@@ -87,10 +87,10 @@ std::vector<Act> read_acts(const Options& options) {
   return acts;
 }
 
-/// Returns the format of positions; on standard output they are CSV.
-MeshFormat positions_format(const std::string& path) {
+/// Positions on standard output are a CSV table.
+const MeshFormat& positions_format(const std::string& path) {
   try {
-    return path == "-" ? MeshFormat::csv : mesh_format(path, FormatUse::write_positions);
+    return mesh_format(path == "-" ? "standard_output.csv" : path, FormatUse::write_positions);
   } catch (const Error& error) {
     throw error.at("--positions " + printable(path));
   }

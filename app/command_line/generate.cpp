@@ -53,7 +53,7 @@ MeshRecipe read_recipe(const Options& options) {
 void generate_to_file(const Options& options) {
   const MeshRecipe recipe = read_recipe(options);
   const std::filesystem::path path = *value_of(options.output);
-  const MeshFormat format = path == "-" ? MeshFormat::dat : mesh_format(path, FormatUse::write);
+  const MeshFormat& format = mesh_format(path == "-" ? "standard_output.dat" : path, FormatUse::write);
   const MeshPointer mesh = in_options({{"size", "SIZE"}, {"spacing", "--spacing"}, {"space dimension", "--space"}},
                                       [&] { return generate(recipe); });
   write_file(path, [&](std::ostream& out) { write_mesh(out, format, {*mesh, {}, rest_positions(*mesh), {}}); });

@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "command_line/common.h"
-#include "files/results/ramp_json.h"
+#include "files/results/report_json.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"

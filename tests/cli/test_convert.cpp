@@ -45,7 +45,7 @@ void ConvertCommandTest::what_was_left_out_is_noted() {
   program.write("a.off", "OFF\n3 2 0\n0 0 0\n3 0 0\n0 3 0\n3 0 1 2\n3 2 1 0\n");
   const auto outcome = program.run("convert a.off -o a.obj");
   QCOMPARE(outcome.code, 0);
-  QCOMPARE(outcome.error, QByteArray("chainmail: note: 1 face or cell there already left out\n"));
+  QCOMPARE(outcome.error, QByteArray("chainmail: note: 1 duplicate face or cell left out\n"));
 }
 
 void ConvertCommandTest::a_volume_is_taken_as_asked() {
@@ -81,7 +81,7 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
   QTest::newRow("itself") << "convert a.off -o a.off"
                           << "a.off: a .off file is opened, not written; ";
   QTest::newRow("no volume") << "convert a.off --threshold 3 -o a.obj"
-                             << "a.off: it is no volume of voxels; ";
+                             << "a.off: it is not a volume of voxels; ";
   QTest::newRow("threshold") << "convert a.mha --threshold dense -o a.obj"
                              << "--threshold: ";
   QTest::newRow("voxels") << "convert a.mha --voxels 0 -o a.obj"

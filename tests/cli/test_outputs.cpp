@@ -59,7 +59,7 @@ void OutputsCommandTest::what_was_read_is_not_replaced() {
     const auto outcome =
         program_->run("deform cloth.obj --algorithm exact --softness soft.csv --by 14:1 " + QByteArray(output));
     QCOMPARE(outcome.code, 2);
-    QVERIFY2(outcome.error.contains("it was read, and would be replaced; "), outcome.error);
+    QVERIFY2(outcome.error.contains("it is an input, and this output would replace it; "), outcome.error);
     QCOMPARE(program_->read("cloth.obj"), mesh);
     QCOMPARE(program_->read("soft.csv"), softness);
   }

@@ -13,6 +13,7 @@
 
 #include "files/formats/dat.h"
 #include "files/formats/obj.h"
+#include "files/mesh/open_mesh.h"
 #include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/progress.h"
@@ -35,22 +36,22 @@ inline MeshPointer made(MeshKind kind, std::array<std::uint32_t, 3> size, double
 }
 
 inline MeshPointer dat(const std::string& text, const std::string& name = "mesh.dat", const ReadOptions& options = {}) {
-  return read_dat(text, name, options);
+  return opened(read_dat(text, name, options), name, options).mesh;
 }
 
 inline MeshPointer obj(const std::string& text, const ReadOptions& options = {}) {
-  return read_obj(text, "mesh.obj", options);
+  return opened(read_obj(text, "mesh.obj"), "mesh.obj", options).mesh;
 }
 
 inline std::string dat_text(const Mesh& mesh, const Cuts& cuts = {}) {
   std::ostringstream out;
-  write_dat(out, mesh, cuts);
+  write_dat(out, {mesh, cuts, rest_positions(mesh), {}});
   return out.str();
 }
 
 inline std::string obj_text(const Mesh& mesh, const Cuts& cuts = {}) {
   std::ostringstream out;
-  write_obj(out, mesh, cuts, rest_positions(mesh));
+  write_obj(out, {mesh, cuts, rest_positions(mesh), {}});
   return out.str();
 }
 

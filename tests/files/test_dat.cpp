@@ -139,11 +139,11 @@ void DatTest::the_file_reads_as_documented() {
 
 void DatTest::a_mesh_without_lattice_is_refused() {
   const auto mesh = obj("v 0 0 0\nv 1 0 0\nl 1 2\n");
-  QVERIFY(error_of([&] { dat_text(*mesh); }).contains("it holds lattices alone"));
+  QVERIFY(error_of([&] { dat_text(*mesh); }).contains("it holds only lattices"));
   const QTemporaryDir folder;
   const std::string path = folder.filePath("a.dat").toStdString();
   const auto error = error_of([&] { save_mesh(path, {*mesh, {}, rest_positions(*mesh), {}}); });
-  QVERIFY2(error.startsWith(QString::fromStdString(path) + ": a .dat file holds lattices alone"), qPrintable(error));
+  QVERIFY2(error.startsWith(QString::fromStdString(path) + ": a .dat file holds only lattices"), qPrintable(error));
   QVERIFY(!std::filesystem::exists(path));
 }
 

@@ -57,7 +57,7 @@ void DatErrorsTest::wrong_files_data() {
   row("spacings differ", "# size 1\n# spacing 1\n# spacing 2\n0 0\n",
       "mesh.dat:3: the spacing differs from that of line 2; ");
   row("spacing too large", "# size 2\n# spacing 1e300\n0 0\n1 0\n", "mesh.dat:2: the spacing is too large; ");
-  row("space 4", "# size 1\n# space 4\n0 0\n", "mesh.dat:2: the space dimension is no 1, 2 or 3; ");
+  row("space 4", "# size 1\n# space 4\n0 0\n", "mesh.dat:2: the space dimension is not 1, 2 or 3; ");
   row("space too small", "# size 2 2\n# space 1\n0 0\n1 0\n2 0\n3 0\n", "mesh.dat:2: the mesh extends along 2 axes; ");
 }
 

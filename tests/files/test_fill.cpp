@@ -73,7 +73,7 @@ void FillTest::surfaces_that_enclose_nothing_are_refused_data() {
                            "f 10 8 12\n", "f 7 10 12\n"}) {
     two += face;
   }
-  QTest::newRow("crossing") << QByteArray::fromStdString(two) << "surface: the surface goes through itself, at ";
+  QTest::newRow("crossing") << QByteArray::fromStdString(two) << "surface: the surface intersects itself, at ";
 }
 
 void FillTest::surfaces_that_enclose_nothing_are_refused() {

@@ -86,7 +86,7 @@ void HostileTest::huge_claims_take_no_memory() {
   QVERIFY(
       read("a.dat", "# size 2\n0 1 4294967295\n1 0\n").contains("a.dat:2: element 0 lists the neighbour 4294967295"));
   QVERIFY(read("a.obj", "v 0 0 0\nf 1 2 19999999\n").contains("a.obj:2: there is no vertex"));
-  // Subdivision tags state how many numbers follow; tinyobjloader believes them.
+  // Subdivision tags state how many numbers follow.
   QVERIFY(read("a.obj", "v 0 0 0\nt crease 2000000000/2000000000/0 1\n").contains("a.obj:2: 't' begins no"));
 }
 
@@ -103,14 +103,14 @@ void HostileTest::truncated_files_are_refused_or_whole() {
 
 void HostileTest::changed_bytes_never_crash() {
   std::mt19937 random(11);
-  const std::string dat = "# size 3 2\n# spacing 1\n" + dat_text(*made(MeshKind::grid, {3, 2, 1}));
-  const std::string obj = "f 1/1 2//2 -1\n" + obj_text(*made(MeshKind::cloth, {3, 2, 1}));
+  const std::string lattice = "# size 3 2\n# spacing 1\n" + dat_text(*made(MeshKind::grid, {3, 2, 1}));
+  const std::string surface = "f 1/1 2//2 -1\n" + obj_text(*made(MeshKind::cloth, {3, 2, 1}));
   for (int i = 0; i < 4000; ++i) {
-    std::string text = i % 2 == 0 ? dat : obj;
+    std::string text = i % 2 == 0 ? lattice : surface;
     for (int j = 0; j < 3; ++j) {
       text[random() % text.size()] = "0123456789 -.#/fvl\n\rx\t"[random() % 22];
     }
-    const std::function<void()> read = [&] { i % 2 == 0 ? read_dat(text, "a.dat", {}) : read_obj(text, "a.obj", {}); };
+    const std::function<void()> read = [&] { i % 2 == 0 ? dat(text, "a.dat") : obj(text); };
     QVERIFY(!error_of(read).contains('\n'));
   }
 }

@@ -130,8 +130,8 @@ void MovesTest::other_files_are_refused_data() {
   row(R"({"version": 1, "commands": []} x)", "m.json:1: it is not JSON; ");
   row(R"({"version": 1, "commands": [NaN]})", "m.json:1: it is not JSON; ");
   row(R"({"version": 1, "commands": [1e999]})", "m.json: a number in it is beyond ");
-  row("[]", "m.json: it holds no moves; ");
-  row("null", "m.json: it holds no moves; ");
+  row("[]", "m.json: it holds no recorded moves; ");
+  row("null", "m.json: it holds no recorded moves; ");
   row("{}", "m.json: 'version' is missing; ");
   row(R"({"commands": []})", "m.json: 'version' is missing; ");
   row(R"({"version": 2, "commands": []})", "m.json: its version is not 1; ");
@@ -180,7 +180,7 @@ void MovesTest::other_commands_are_refused_data() {
   row(R"({"do": "pin", "elements": 1})", "0: 'elements' is not an array; ");
   row(R"({"do": "pin", "elements": [6]})", "0: there is no element 6; ");
   row(R"({"do": "pin", "elements": [2]}, {"do": "grab", "element": 2})", "1: element 2 is pinned by then ");
-  row(R"({"do": "grab", "element": 2}, {"do": "pin", "elements": [1, 2]})", "1: element 2 is in the hand by then; ");
+  row(R"({"do": "grab", "element": 2}, {"do": "pin", "elements": [1, 2]})", "1: element 2 is grabbed by then; ");
   row(R"({"do": "softness", "compression": 1, "stretch": 1})", "0: 'shear' is missing; ");
   row(R"({"do": "softness", "compression": 2, "stretch": 1, "shear": 0})", "0: compression: ");
   const char* softness = R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "links": )";
@@ -237,9 +237,9 @@ void MovesTest::a_key_that_stands_twice_is_refused_data() {
   QTest::addColumn<QString>("text");
   QTest::addColumn<QString>("said");
   QTest::newRow("commands") << R"({"version": 1, "commands": [], "commands": []})"
-                            << "m.json: 'commands' stands twice; remove one of them";
+                            << "m.json: 'commands' appears twice; remove one of them";
   QTest::newRow("do") << R"({"version": 1, "commands": [{"do": "reset"}, {"do": "release", "do": "reset"}]})"
-                      << "m.json: command 1: 'do' stands twice; remove one of them";
+                      << "m.json: command 1: 'do' appears twice; remove one of them";
 }
 
 void MovesTest::a_key_that_stands_twice_is_refused() {

@@ -120,7 +120,7 @@ void ObjTest::deformed_positions_are_written() {
   const auto mesh = made(MeshKind::line, {2, 1, 1}, 1, 2);
   const std::vector<double> moved{0.1, 0, 2, -0.5};
   std::ostringstream out;
-  write_obj(out, *mesh, {}, {moved.data(), 2 * sizeof(double), Precision::double_precision});
+  write_obj(out, {*mesh, {}, {moved.data(), 2 * sizeof(double), Precision::double_precision}, {}});
   QCOMPARE(out.str(), std::string("v 0.1 0 0\nv 2 -0.5 0\nl 1 2\n"));
 }
 

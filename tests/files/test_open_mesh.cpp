@@ -41,6 +41,7 @@ class OpenMeshTest : public QObject {
   void ids_are_the_files_order_data();
   void ids_are_the_files_order();
   void content_goes_before_the_name();
+  void each_format_is_known_by_its_signs();
   void what_we_write_comes_back_data();
   void what_we_write_comes_back();
   void voxels_and_pixels_have_corners_in_an_order_of_their_own();
@@ -152,6 +153,21 @@ void OpenMeshTest::content_goes_before_the_name() {
   QCOMPARE(open_mesh(path("box.vtk")).mesh->tetrahedra.size(), std::size_t{91});
 }
 
+/// Each sign belongs to one format, also behind a comment, and no name is needed.
+void OpenMeshTest::each_format_is_known_by_its_signs() {
+  int signs = 0;
+  for (const MeshFormat& format : mesh_formats()) {
+    for (const std::string_view sign : format.signs) {
+      const std::string begin = (signs % 2 == 0 || sign.starts_with('#') ? "" : "# a comment\n\n") + std::string(sign);
+      put_file(path("unnamed"), begin + " and more");
+      QVERIFY2(sign.empty() || &detect_format(path("unnamed")) == &format, begin.c_str());
+      signs += sign.empty() ? 0 : 1;
+    }
+    QVERIFY(format.reads() || format.signs.front().empty());
+  }
+  QVERIFY(signs > 10);
+}
+
 void OpenMeshTest::what_we_write_comes_back_data() {
   QTest::addColumn<QString>("source");
   QTest::newRow("a.msh") << "gmsh22.msh";
@@ -220,8 +236,8 @@ void OpenMeshTest::flaws_are_told() {
   QCOMPARE(opened.mesh->triangles.size(), std::size_t{3});
   QVERIFY2(find_link(*opened.mesh, 3, 5), "the edges of what is left out are links all the same");
   QCOMPARE(QString::fromStdString(in_words(opened.flaws)),
-           QString("1 face or cell with a point named twice, 1 face or cell there already left out; 1 face or cell is "
-                   "flat, 1 element stands where another does"));
+           QString("1 face or cell with a point named twice, 1 duplicate face or cell left out; 1 face or cell is "
+                   "flat, 1 element has the position of another"));
   QCOMPARE(in_words(open_mesh(std::filesystem::path(FOREIGN) / "gmsh22.msh").flaws), std::string());
 }
 
@@ -302,10 +318,10 @@ void OpenMeshTest::what_others_hold_and_we_do_not_is_refused_data() {
                               << "elements of higher order";
   const QByteArray vtk = "# vtk DataFile Version 2.0\na\nASCII\nDATASET ";
   QTest::newRow("grid.vtk") << vtk + "STRUCTURED_POINTS\n"
-                            << "'STRUCTURED_POINTS' has no links of its own; ";
+                            << "'STRUCTURED_POINTS' has no links; ";
   QTest::newRow("cloud.vtk") << vtk + "POLYDATA\nPOINTS 2 float\n0 0 0 1 1 1\n"
-                             << "it holds points and nothing that joins them; ";
-  QTest::newRow("cloud.off") << QByteArray("OFF\n2 0 0\n0 0 0\n1 1 1\n") << "points and nothing that joins them; ";
+                             << "it holds points without links; ";
+  QTest::newRow("cloud.off") << QByteArray("OFF\n2 0 0\n0 0 0\n1 1 1\n") << "it holds points without links; ";
 }
 
 void OpenMeshTest::what_others_hold_and_we_do_not_is_refused() {
@@ -330,7 +346,8 @@ void OpenMeshTest::damaged_files_give_one_sentence() {
 
 void OpenMeshTest::halves_of_a_pair_are_missed() {
   std::filesystem::copy(std::filesystem::path(FOREIGN) / "tetgen.node", path("half.node"));
-  QVERIFY(error_of([&] { open_mesh(path("half.node")); }).contains("its other half, half.ele, is not beside it; "));
+  QVERIFY(
+      error_of([&] { open_mesh(path("half.node")); }).contains("the other file of the pair, half.ele, is missing; "));
 }
 
 void OpenMeshTest::cancelling_ends_the_import_at_once() {

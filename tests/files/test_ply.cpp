@@ -66,25 +66,25 @@ void PlyTest::wrong_files_are_refused_data() {
     QTest::newRow(name) << text << QString(sentence);
   };
   row("no head", "plyx\n", "a.ply:1: it does not begin with 'ply'; ");
-  row("head without end", vertices, "a.ply:7: its head does not end; ");
-  row("no format", "ply\nend_header\n", "its head states no format; ");
+  row("head without end", vertices, "a.ply:7: its header does not end; ");
+  row("no format", "ply\nend_header\n", "its header states no format; ");
   row("format", "ply\nformat morse 1.0\n", "a.ply:2: the format 'morse' is not known; ");
   row("type", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n", "a.ply:4: numbers of type 'real' are");
   row("huge count",
       "ply\nformat ascii 1.0\nelement vertex 4294967295\nproperty float x\nproperty float y\n"
       "property float z\nend_header\n0 0 0\n",
-      "it ends before the elements that its head states; ");
+      "it ends before the last element that its header states; ");
   row("beyond any count", "ply\nformat ascii 1.0\nelement vertex 18446744073709551616\n", "no whole number of them; ");
   row("truncated", face + "0 0 0\n1 0", "a.ply:11: it ends before the elements");
   row("word", face + "0 0 0\n1 zero 0\n", "a.ply:11: 'zero' is not a number; ");
-  row("not finite", face + "0 0 0\n1 nan 0\n", "vertex 1 has a coordinate that is no number");
-  row("dangling", face + points + "3 0 1 4\n", "a face or edge names the vertex 4, which is not there; ");
-  row("negative", face + points + "3 0 1 -1\n", "a face or edge names the vertex -1, which is not there; ");
+  row("not finite", face + "0 0 0\n1 nan 0\n", "vertex 1 has a coordinate that is not a number");
+  row("dangling", face + points + "3 0 1 4\n", "a face or edge names the vertex 4, which does not exist; ");
+  row("negative", face + points + "3 0 1 -1\n", "a face or edge names the vertex -1, which does not exist; ");
   row("count of a list", face + points + "-3 0 1 2\n", "a list has no whole number of entries");
   row("point as face", face + points + "1 0\n", "a face has fewer than 2 corners; ");
   row("strips",
       vertices + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" + points + "3 0 1 2\n",
-      "it holds strips of triangles; save it with faces");
+      "it holds triangle strips; save it with faces");
   row("no z", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
       "an element 'vertex' has no number 'z'; ");
   row("binary", "ply\nformat binary_big_endian 1.0\nelement vertex 9\nproperty float x\nend_header\nabc",

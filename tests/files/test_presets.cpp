@@ -88,13 +88,13 @@ void PresetsTest::other_files_are_refused_data() {
   row(R"({"version": 1, "presets": [], "x": 1})", "p.json: 'x' is not known here; ");
   row(with("3"), "p.json: preset 0: it is not an object; ");
   row(with(felt + R"(, {"name": 5})"), "p.json: preset 1: '5' is not a name; ");
-  row(with(R"({"name": " "})"), "p.json: preset 0: ' ' is no name; ");
+  row(with(R"({"name": " "})"), "p.json: preset 0: ' ' is not a valid name; ");
   row(with(R"({"name": "a"})"), "p.json: preset 0: 'compression' is missing; ");
   row(with(R"({"name": "a", "colour": 1})"), "p.json: preset 0: 'colour' is not known here; ");
   row(with(R"({"name": "a", "compression": "1", "stretch": 1, "shear": 0})"),
       "p.json: preset 0: '\"1\"' is not a number; ");
   row(with(R"({"name": "a", "compression": 1, "stretch": 0.9, "shear": 0})"), "p.json: preset 0: stretch: ");
-  row(with(felt + "," + felt), "p.json: preset 1: 'felt' comes twice; ");
+  row(with(felt + "," + felt), "p.json: preset 1: 'felt' appears twice; ");
   row(std::string(99, '['), "p.json: it is nested too deeply; ");
 }
 

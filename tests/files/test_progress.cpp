@@ -81,8 +81,8 @@ void ProgressTest::cancelled_reading_reads_nothing() {
 
 void ProgressTest::cancelled_saving_leaves_the_file_that_was_there_data() {
   QTest::addColumn<QString>("name");
-  for (const MeshFormatInfo& format : mesh_formats()) {
-    if (format.writes) {
+  for (const MeshFormat& format : mesh_formats()) {
+    if (format.writes()) {
       const QString ending =
           QString::fromUtf8(format.endings.data(), qsizetype(format.endings.size())).section(' ', 0, 0);
       QTest::newRow(qPrintable(ending)) << "mesh" + ending;

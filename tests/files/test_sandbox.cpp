@@ -55,7 +55,7 @@ bool opens_without_seccomp() {
     return true;
   }
   const QString error = error_of([] { chainmail::open_mesh("a.off"); });
-  return !error.startsWith("a.off: this system cannot confine the program that reads this format");
+  return !error.startsWith("a.off: this system cannot sandbox the program that reads this format");
 }
 
 }  // namespace

@@ -54,12 +54,12 @@ void SessionErrorsTest::other_files_are_refused_data() {
   row("{\"format\": NaN}", "a.chainmail:1: it is not JSON; ");
   row("{\"format\": 1e999}", "a.chainmail: a number in it is beyond ");
   row("{\"rest\": [1e999]}", "a.chainmail: a number in it is beyond ");
-  row("[]", "a.chainmail: it holds no session; ");
-  row("[[1], [2]]", "a.chainmail: it holds no session; ");
-  row("null", "a.chainmail: it holds no session; ");
-  row("{}", "a.chainmail: it holds no session; ");
-  row(R"({"version": 1, "commands": []})", "a.chainmail: it holds no session; ");
-  row(R"({"format": ["chainmail session"]})", "a.chainmail: it holds no session; ");
+  row("[]", "a.chainmail: it is not a session; ");
+  row("[[1], [2]]", "a.chainmail: it is not a session; ");
+  row("null", "a.chainmail: it is not a session; ");
+  row("{}", "a.chainmail: it is not a session; ");
+  row(R"({"version": 1, "commands": []})", "a.chainmail: it is not a session; ");
+  row(R"({"format": ["chainmail session"]})", "a.chainmail: it is not a session; ");
   row(R"({"format": "chainmail session"})", "a.chainmail: 'version' is missing; ");
   row(R"({"format": "chainmail session", "version": 1})", "a.chainmail: 'name' is missing; ");
 }
@@ -80,12 +80,12 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   };
   row("\"version\": 1", "\"version\": 2",
       "its version is 2, and this program knows 1 and older; open it with a newer ");
-  row("\"version\": 1", "\"version\": 0", "'version' is no whole number from 1 to 1; ");
-  row("\"version\": 1", "\"version\": \"1\"", "'version' is no whole number from 1 to 1; ");
+  row("\"version\": 1", "\"version\": 0", "'version' is not a whole number from 1 to 1; ");
+  row("\"version\": 1", "\"version\": \"1\"", "'version' is not a whole number from 1 to 1; ");
   row("\"name\": ", "\"nam\": ", "'nam' is not known here; ");
-  row("\"name\": ", "\"format\": 1, \"name\": ", "'format' stands twice; ");
+  row("\"name\": ", "\"format\": 1, \"name\": ", "'format' appears twice; ");
   row("\"cloth 3 × 3\"", "3", "'name' is not a text; ");
-  row("\"name\": ", "\"moves\": 3, \"name\": ", "moves: it holds no moves; ");
+  row("\"name\": ", "\"moves\": 3, \"name\": ", "moves: it holds no recorded moves; ");
   row("\"name\": ", R"("moves": {"version": 1, "commands": [{"do": "grab", "element": 9}]}, "name": )",
       "moves: command 0: ");
   row("\"name\": ", R"("moves": {"version": 1, "commands": [{"do": "cut", "links": [[0, 5]]}]}, "name": )",
@@ -94,27 +94,27 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"name\": ", R"("moves": {"version": 1, "commands": []}, "moves_done": 1, "name": )",
       "'moves_done' is not a whole number up to ");
   row("\"elements\": 9", "\"elements\": 8", "mesh: 'rest' holds 27 numbers, and 8 elements have 24; ");
-  row("\"elements\": 9", "\"elements\": 0", "mesh: 'elements' is no whole number from 1 to 20000000; ");
-  row("\"elements\": 9", "\"elements\": -9", "mesh: 'elements' is no whole number from 1 to 20000000; ");
+  row("\"elements\": 9", "\"elements\": 0", "mesh: 'elements' is not a whole number from 1 to 20000000; ");
+  row("\"elements\": 9", "\"elements\": -9", "mesh: 'elements' is not a whole number from 1 to 20000000; ");
   row("\"space\": 2", "\"space\": 1", "mesh: space dimension 1: the object extends along 2 axes; ");
-  row("\"space\": 2", "\"space\": 4", "mesh: 'space' is no whole number from 1 to 3; ");
+  row("\"space\": 2", "\"space\": 4", "mesh: 'space' is not a whole number from 1 to 3; ");
   row("\"size\": [3,3,1]", "\"size\": [3,2,1]", "mesh: the lattice is not one of 9 elements; ");
   row("\"size\": [3,3,1]", "\"size\": [3,3]", "mesh: the lattice is not one of 9 elements; ");
   row("\"size\": [3,3,1]", "\"size\": [3,3,1.0]", "mesh: the lattice is not one of 9 elements; ");
-  row("\"spacing\": 1.5", "\"spacing\": 1", "mesh: element 1 does not stand in the lattice; ");
+  row("\"spacing\": 1.5", "\"spacing\": 1", "mesh: element 1 is not at its position in the lattice; ");
   row("\"spacing\": 1.5", "\"spacing\": null", "mesh: 'null' is not a number; ");
-  row("3,3,0],", "3,3,1e101],", "mesh: 'rest' places element 8 beyond 1e100; ");
-  row("3,3,0],", "3,3,\"0\"],", "number 26 of 'rest' is no number; ");
-  row("3,3,0],", "3,3,[0]],", "number 26 of 'rest' is no number; ");
-  row("3,3,0],", "3,3,{}],", "number 26 of 'rest' is no number; ");
+  row("3,3,0],", "3,3,1e101],", "mesh: 'rest' puts element 8 beyond 1e100; ");
+  row("3,3,0],", "3,3,\"0\"],", "number 26 of 'rest' is not a number; ");
+  row("3,3,0],", "3,3,[0]],", "number 26 of 'rest' is not a number; ");
+  row("3,3,0],", "3,3,{}],", "number 26 of 'rest' is not a number; ");
   row("3,3,0],", "3,3],", "mesh: 'rest' holds 26 numbers, and 9 elements have 27; ");
-  row("0,1,0,3,0,4", "0,1,0,3,0,9", "mesh: 'links' names element 9, which is not there; ids run from 0 to 8");
+  row("0,1,0,3,0,4", "0,1,0,3,0,9", "mesh: 'links' names element 9, which does not exist; ids run from 0 to 8");
   row("0,1,0,3,0,4", "0,1,0,3,0", "mesh: 'links' ends within a group of 2; ");
   row("0,1,0,3,0,4", "0,1,0,3,1,0", "mesh: 'links' holds a link twice; ");
   row("0,1,0,3,0,4", "0,1,0,3,0,0", "mesh: element 0 is linked to itself; ");
-  row("0,1,0,3,0,4", "0,1,0,3,0,-4", "number 5 of 'links' is no whole number; ");
-  row("0,1,0,3,0,4", "0,1,0,3,0,4.0", "number 5 of 'links' is no whole number; ");
-  row("0,1,0,3,0,4", "0,1,0,3,0,4294967300", "number 5 of 'links' is no whole number; ");
+  row("0,1,0,3,0,4", "0,1,0,3,0,-4", "number 5 of 'links' is not a whole number; ");
+  row("0,1,0,3,0,4", "0,1,0,3,0,4.0", "number 5 of 'links' is not a whole number; ");
+  row("0,1,0,3,0,4", "0,1,0,3,0,4294967300", "number 5 of 'links' is not a whole number; ");
   row("\"triangles\": [0,1,4,", "\"triangles\": [0,1,", "mesh: 'triangles' ends within a group of 3; ");
   row("\"triangles\": [0,1,4,", "\"triangles\": [0,1,40,", "mesh: 'triangles' names element 40, which ");
   row("\"triangles\": ", "\"triangle\": ", "mesh: 'triangle' is not known here; ");
@@ -144,19 +144,21 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   texture(R"("size": [1,1,1], "colour": 1)", "mesh: 'colour' is not known here; ");
   row("\"cuts\": [0,1,", "\"cuts\": [0,2,", "the elements 0 and 2 are not linked; ");
   row("\"cuts\": [0,1,", "\"cuts\": [5,4,", "'cuts' holds a link twice; ");
-  row("\"pins\": [0,8]", "\"pins\": [0,9]", "'pins' names element 9, which is not there; ");
+  row("\"pins\": [0,8]", "\"pins\": [0,9]", "'pins' names element 9, which does not exist; ");
   row("\"pins\": [0,8]", "\"pins\": [8,0,8]", "'pins' holds an element twice; ");
   row("\"pins\": [0,8]", "\"pins\": true", "'pins' is not an array; ");
   row("\"stretch\":1.25", "\"stretch\":0.5", "softness: stretch: 0.5 is out of range; ");
   row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,2,1,0]", "softness: compression: 2 is out of range; ");
   row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,1,1]", "softness: 'own' ends within a group of 5; ");
-  row("\"own\": [3,4,1,1,0]", "\"own\": [3,4.5,1,1,0]", "softness: 'own' names no element in its link 0; ");
-  row("\"own\": [3,4,1,1,0]", "\"own\": [3,9,1,1,0]", "softness: 'own' names no element in its link 0; ");
+  row("\"own\": [3,4,1,1,0]", "\"own\": [3,4.5,1,1,0]",
+      "softness: 'own' names an element that does not exist in its link 0; ");
+  row("\"own\": [3,4,1,1,0]", "\"own\": [3,9,1,1,0]",
+      "softness: 'own' names an element that does not exist in its link 0; ");
   row("\"own\": [3,4,1,1,0]", "\"own\": [3,8,1,1,0]", "softness: the elements 3 and 8 are not linked; ");
   row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,1,1,0,4,3,1,1,0]", "softness: the link 4-3 is given twice; ");
   row("\"on\":false", "\"on\":0", "relaxation: 'on' is neither true nor false; ");
-  row("\"scheme\":\"link\"", "\"scheme\":\"links\"", "relaxation: 'scheme' names none; ");
-  row("\"step\":0.5", "\"step\":0", "relaxation: 'step' must lie above 0 ");
+  row("\"scheme\":\"link\"", "\"scheme\":\"links\"", "relaxation: 'scheme' is not known; ");
+  row("\"step\":0.5", "\"step\":0", "relaxation: 'step' is not above 0 ");
   const auto elastic = [&row](const char* said, const char* members) {
     row("\"step\":0.5}", (std::string("\"step\":0.5}, \"elastic\": {") + members + "}").c_str(), said);
   };
@@ -167,9 +169,9 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   elastic("elastic: poisson: ", R"("young":1,"poisson":0.5,"lattice":[4,4,4])");
   elastic("elastic: young: ", R"("young":0,"poisson":0.3,"lattice":[4,4,4])");
   row("\"algorithm\": \"exact\"", "\"algorithm\": \"original\"", "panel 0: 3D ChainMail: ");
-  row("\"algorithm\": \"exact\"", "\"algorithm\": \"best\"", "panel 0: 'algorithm' names none; ");
+  row("\"algorithm\": \"exact\"", "\"algorithm\": \"best\"", "panel 0: 'algorithm' is not known; ");
   row("\"precision\": \"float\", \"from_rest\": false", "\"precision\": \"half\", \"from_rest\": false",
-      "panel 1: 'precision' names none; ");
+      "panel 1: 'precision' is not known; ");
   row("\"from_rest\": true", "\"from_rest\": 1", "panel 0: 'from_rest' is neither true nor false; ");
   row("\"runs\": [2,4]", "\"runs\": [2]", "panel 0: positions: its runs are not ascending runs of elements; ");
   row("\"runs\": [2,4]", "\"runs\": [4,2]", "panel 0: positions: its runs are not ascending runs of elements; ");
@@ -213,17 +215,18 @@ void SessionErrorsTest::wrong_paths() {
 }
 
 void SessionErrorsTest::huge_claims_take_no_memory() {
-  QVERIFY(with("\"elements\": 9", "\"elements\": 1000000000").contains("mesh: 'elements' is no whole number from 1 "));
+  QVERIFY(
+      with("\"elements\": 9", "\"elements\": 1000000000").contains("mesh: 'elements' is not a whole number from 1 "));
   QVERIFY(with("\"elements\": 9", "\"elements\": 20000000").contains("mesh: 'rest' holds 27 numbers, and 20000000 "));
-  QVERIFY(with("\"elements\": 9", "\"elements\": 18446744073709551617").contains("mesh: 'elements' is no whole "));
+  QVERIFY(with("\"elements\": 9", "\"elements\": 18446744073709551617").contains("mesh: 'elements' is not a whole "));
   QVERIFY(with("[3,3,1]", "[4294967295,4294967295,4294967295]").contains("mesh: the lattice is not one of 9 "));
   const auto table = [&](const char* counts) {
     std::string text = good_;
     const auto first = text.find("\"links\""), end = text.find("\"triangles\"");
     return read(text.replace(first, end - first, "\"counts\": " + std::string(counts) + ", \"neighbours\": [1,0],"));
   };
-  QVERIFY(table("[4294967295,3,0,0,0,0,0,0,0]").contains("mesh: 'counts' and 'neighbours' do not go together; "));
-  QVERIFY(table("[1,1]").contains("mesh: 'counts' and 'neighbours' do not go together; "));
+  QVERIFY(table("[4294967295,3,0,0,0,0,0,0,0]").contains("mesh: 'counts' and 'neighbours' do not match; "));
+  QVERIFY(table("[1,1]").contains("mesh: 'counts' and 'neighbours' do not match; "));
   QVERIFY(table("[2,0,0,0,0,0,0,0,0]").contains("mesh: element 0 is linked to itself; "));
   QVERIFY(table("[0,2,0,0,0,0,0,0,0]").contains("mesh: element 1 is linked to itself; "));
   QVERIFY(table("[1,0,1,0,0,0,0,0,0]").contains("mesh: element 0 lists 1, but 1 does not list 0; "));

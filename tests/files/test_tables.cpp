@@ -24,7 +24,7 @@ void TablesTest::positions() {
   const auto mesh = made(MeshKind::grid, {2, 1, 1}, 1, 2);
   const std::vector<double> at{0.1, -0.0, std::nextafter(1.0, 2.0), 1e-300};
   std::ostringstream out;
-  write_positions_csv(out, *mesh, {at.data(), 2 * sizeof(double), Precision::double_precision});
+  write_positions_csv(out, {*mesh, {}, {at.data(), 2 * sizeof(double), Precision::double_precision}, {}});
   QCOMPARE(out.str(), std::string("id,x,y,z\n0,0.1,-0,0\n1,1.0000000000000002,1e-300,0\n"));
 }
 
@@ -32,7 +32,7 @@ void TablesTest::float_positions_are_told_exactly() {
   const auto mesh = made(MeshKind::line, {1, 1, 1});
   const float at = 0.1F;
   std::ostringstream out;
-  write_positions_csv(out, *mesh, {&at, sizeof(float), Precision::single_precision});
+  write_positions_csv(out, {*mesh, {}, {&at, sizeof(float), Precision::single_precision}, {}});
   QCOMPARE(out.str(), std::string("id,x,y,z\n0,0.10000000149011612,0,0\n"));
 }
 
@@ -41,7 +41,7 @@ void TablesTest::axes_not_carried_print_their_constant() {
   parts.rest = {{5, 0, 7}, {5, 1, 7}};
   const auto mesh = build_mesh(parts);
   std::ostringstream out;
-  write_positions_csv(out, *mesh, {mesh->rest.data(), sizeof(double), Precision::double_precision});
+  write_positions_csv(out, {*mesh, {}, {mesh->rest.data(), sizeof(double), Precision::double_precision}, {}});
   QCOMPARE(out.str(), std::string("id,x,y,z\n0,5,0,7\n1,5,1,7\n"));
 }
 

@@ -125,14 +125,14 @@ void VolumesTest::heads_that_do_not_are_refused_data() {
   QTest::addColumn<QByteArray>("text");
   QTest::addColumn<QString>("sentence");
   QTest::newRow("no data") << QByteArray::fromStdString(head)
-                           << "a.mha:8: the head ends before its line 'ElementDataFile = …'; ";
-  QTest::newRow("no line") << QByteArray("NDims = 3\nfoo\n") << "a.mha:2: 'foo' is no line of a head; ";
+                           << "a.mha:8: the header ends before its line 'ElementDataFile = …'; ";
+  QTest::newRow("no line") << QByteArray("NDims = 3\nfoo\n") << "a.mha:2: 'foo' is not a line of a header; ";
   QTest::newRow("plane") << QByteArray("NDims = 2\nElementDataFile = LOCAL\n") << "does not have 3 dimensions; ";
-  QTest::newRow("size") << QByteArray("NDims = 3\nDimSize = 2 -1 1\n") << "a.mha:2: a size is no whole number";
+  QTest::newRow("size") << QByteArray("NDims = 3\nDimSize = 2 -1 1\n") << "a.mha:2: a size is not a whole number";
   QTest::newRow("huge") << QByteArray("NDims = 3\nDimSize = 2 1e300 1\n") << "a.mha:2: ";
   QTest::newRow("channels") << QByteArray("NDims = 3\nElementNumberOfChannels = 3\nElementDataFile = LOCAL\n")
-                            << "the image has 3 numbers a voxel; ";
-  QTest::newRow("list") << QByteArray::fromStdString(head + "ElementDataFile = LIST\n") << "lie in several files; ";
+                            << "the image has 3 numbers per voxel; ";
+  QTest::newRow("list") << QByteArray::fromStdString(head + "ElementDataFile = LIST\n") << "are in several files; ";
 }
 
 void VolumesTest::heads_that_do_not_are_refused() {
@@ -203,7 +203,7 @@ void VolumesTest::an_nrrd_header_names_one_file_data() {
   QTest::newRow("twice") << QByteArray("data file: a\ndatafile: b") << ""
                          << "a.nhdr:3: its header names its data twice; ";
   QTest::newRow("odd") << QByteArray(" data file: a") << ""
-                       << "a.nhdr:2: ' data file: a' is no field of a header; ";
+                       << "a.nhdr:2: ' data file: a' is not a field of a header; ";
   QTest::newRow("two lines in one") << QByteArray("type: char\rdata file: a") << ""
                                     << "a.nhdr:2: a line of its header holds a carriage return; ";
 }

@@ -46,9 +46,9 @@ MeshPointer one_of_each() {
   return build_mesh(std::move(parts));
 }
 
-std::string written(MeshFormat format, const MeshState& state) {
+std::string written(const char* name, const MeshState& state) {
   std::ostringstream out;
-  write_mesh(out, format, state);
+  write_mesh(out, mesh_format(name, FormatUse::write), state);
   return out.str();
 }
 
@@ -106,7 +106,7 @@ class WritersTest : public QObject {
 };
 
 void WritersTest::ply_holds_faces_and_edges() {
-  const std::string text = written(MeshFormat::ply, {*mesh_, {}, rest_positions(*mesh_), softness_});
+  const std::string text = written("a.ply", {*mesh_, {}, rest_positions(*mesh_), softness_});
   QVERIFY(text.starts_with("ply\nformat ascii 1.0\n"));
   QVERIFY(text.find("element vertex 10\n") != text.npos && text.find("element face 2\n") != text.npos);
   const auto body = rows(text, "end_header", "");
@@ -119,13 +119,13 @@ void WritersTest::ply_holds_faces_and_edges() {
 
 void WritersTest::ply_without_edges_names_none() {
   const auto cloth = made(MeshKind::cloth, {3, 2, 1});
-  const std::string text = written(MeshFormat::ply, {*cloth, {}, rest_positions(*cloth), softness_});
+  const std::string text = written("a.ply", {*cloth, {}, rest_positions(*cloth), softness_});
   QVERIFY(text.find("element edge") == text.npos);
   QCOMPARE(rows(text, "end_header", "").size(), 6 + 4);
 }
 
 void WritersTest::vtu_holds_every_piece() {
-  const std::string text = written(MeshFormat::vtu, {*mesh_, {}, rest_positions(*mesh_), softness_});
+  const std::string text = written("a.vtu", {*mesh_, {}, rest_positions(*mesh_), softness_});
   QVERIFY(text.find("NumberOfPoints=\"10\" NumberOfCells=\"5\"") != text.npos);
   // A line, for 8-9; pentagon, quadrangle, tetrahedron, hexahedron.
   QCOMPARE(array<std::uint8_t>(text, "types"), (QList<std::uint8_t>{3, 7, 9, 10, 12}));
@@ -136,7 +136,7 @@ void WritersTest::vtu_holds_both_fields() {
   Softness softness{{1, 1, 0}, {}};
   softness.links[*find_link(*mesh_, 0, 3)] = {0, 100, 100};
   const PositionView at = view(*mesh_, positions);
-  const std::string text = written(MeshFormat::vtu, {*mesh_, {}, at, softness});
+  const std::string text = written("a.vtu", {*mesh_, {}, at, softness});
   const auto displacement = array<double>(text, "displacement");
   const auto violation = array<double>(text, "violation");
   QCOMPARE(displacement.size(), 30);
@@ -151,7 +151,7 @@ void WritersTest::vtu_holds_both_fields() {
 
 void WritersTest::msh_is_as_documented() {
   const auto cloth = made(MeshKind::cloth, {2, 2, 1}, 0.5);
-  QCOMPARE(written(MeshFormat::msh, {*cloth, {}, rest_positions(*cloth), softness_}),
+  QCOMPARE(written("a.msh", {*cloth, {}, rest_positions(*cloth), softness_}),
            std::string("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
                        "$Entities\n0 0 1 0\n1 0 0 0 0.5 0.5 0 0 0\n$EndEntities\n"
                        "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n0.5 0 0\n0 0.5 0\n0.5 0.5 0\n$EndNodes\n"
@@ -160,7 +160,7 @@ void WritersTest::msh_is_as_documented() {
 
 void WritersTest::msh_tells_large_faces_by_their_links() {
   const auto elements =
-      rows(written(MeshFormat::msh, {*mesh_, {}, rest_positions(*mesh_), softness_}), "$Elements", "$EndElements");
+      rows(written("a.msh", {*mesh_, {}, rest_positions(*mesh_), softness_}), "$Elements", "$EndElements");
   // Lines: 7-8, of the pentagon alone, and 8-9; then the quadrangle and the cells.
   QCOMPARE(elements, (QList<QList<double>>{{4, 5, 1, 5},
                                            {1, 1, 1, 2},
@@ -178,7 +178,7 @@ void WritersTest::msh_of_elements_alone() {
   const auto line = made(MeshKind::line, {2, 1, 1});
   Cuts cuts(line);
   cuts.cut(0);
-  const std::string text = written(MeshFormat::msh, {*line, cuts, rest_positions(*line), softness_});
+  const std::string text = written("a.msh", {*line, cuts, rest_positions(*line), softness_});
   QVERIFY(text.find("$Entities\n0 1 0 0\n1 0 0 0 1 0 0 0 0\n") != text.npos);
   QVERIFY(text.ends_with("$Elements\n0 0 0 0\n$EndElements\n"));
 }
@@ -188,15 +188,15 @@ void WritersTest::cut_pieces_are_gone() {
   Cuts cuts(mesh_);
   cuts.cut(*find_link(*mesh_, 4, 5));  // of the tetrahedron and the hexahedron
   const MeshState state{*mesh_, cuts, rest_positions(*mesh_), softness_};
-  const auto types = array<std::uint8_t>(written(MeshFormat::vtu, state), "types");
+  const auto types = array<std::uint8_t>(written("a.vtu", state), "types");
   QVERIFY(!types.contains(10) && !types.contains(12));
   QVERIFY(types.contains(7) && types.contains(9));
   // Each remaining link once: five along the pentagon, four along the quadrangle, which share one.
   QCOMPARE(types.count(3), qsizetype(mesh_->link_count()) - 1 - 8);
-  const auto lines = rows(written(MeshFormat::msh, state), "$Elements", "$EndElements");
+  const auto lines = rows(written("a.msh", state), "$Elements", "$EndElements");
   QCOMPARE(lines[1][3], double(mesh_->link_count() - 1 - 4));
   cuts.cut(*find_link(*mesh_, 0, 3));  // of both faces
-  QVERIFY(written(MeshFormat::ply, {*mesh_, cuts, rest_positions(*mesh_), softness_}).find("element face 0\n") !=
+  QVERIFY(written("a.ply", {*mesh_, cuts, rest_positions(*mesh_), softness_}).find("element face 0\n") !=
           std::string::npos);
 }
 
@@ -204,12 +204,12 @@ void WritersTest::positions_are_told_to_the_bit() {
   const auto positions = pulled(*mesh_);
   const MeshState state{*mesh_, {}, view(*mesh_, positions), softness_};
   const QList<double> expected(positions.begin(), positions.end());
-  QCOMPARE(array<double>(written(MeshFormat::vtu, state), "Points"), expected);
+  QCOMPARE(array<double>(written("a.vtu", state), "Points"), expected);
   QList<double> ply, msh;
-  for (const auto& row : rows(written(MeshFormat::ply, state), "end_header", "").mid(0, 10)) {
+  for (const auto& row : rows(written("a.ply", state), "end_header", "").mid(0, 10)) {
     ply += row;
   }
-  for (const auto& row : rows(written(MeshFormat::msh, state), "$Nodes", "$EndNodes").mid(2 + 10)) {
+  for (const auto& row : rows(written("a.msh", state), "$Nodes", "$EndNodes").mid(2 + 10)) {
     msh += row;
   }
   QCOMPARE(ply, expected);
@@ -217,23 +217,23 @@ void WritersTest::positions_are_told_to_the_bit() {
 }
 
 void WritersTest::a_full_disk_is_told_data() {
-  QTest::addColumn<int>("format");
-  for (const MeshFormatInfo& format : mesh_formats()) {
-    if (format.writes) {
-      QTest::newRow(format.endings.data()) << int(format.format);
+  QTest::addColumn<const MeshFormat*>("format");
+  for (const MeshFormat& format : mesh_formats()) {
+    if (format.writes()) {
+      QTest::newRow(format.endings.data()) << &format;
     }
   }
 }
 
 void WritersTest::a_full_disk_is_told() {
-  QFETCH(int, format);
+  QFETCH(const MeshFormat*, format);
   if (!fs::exists("/dev/full")) {
     QSKIP("there is no device that is full");
   }
   const auto grid = made(MeshKind::grid, {60, 50, 1});  // more than one block of text
   const auto error = error_of([&] {
     write_file("/dev/full", [&](std::ostream& out) {
-      write_mesh(out, MeshFormat(format), {*grid, {}, rest_positions(*grid), softness_});
+      write_mesh(out, *format, {*grid, {}, rest_positions(*grid), softness_});
     });
   });
   QVERIFY2(error.contains("it cannot be written to its end"), qPrintable(error));

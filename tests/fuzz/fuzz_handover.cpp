@@ -2,8 +2,8 @@
 #include <utility>
 #include <variant>
 
-#include "files/formats/imported.h"
 #include "files/formats/voxel_block.h"
+#include "files/import/handover.h"
 #include "files/mesh/open_mesh.h"
 #include "fuzz/target.h"
 

@@ -5,13 +5,13 @@ namespace {
 
 QString asText(std::string_view text) { return QString::fromUtf8(text.data(), qsizetype(text.size())); }
 
-QStringList endingsOf(const MeshFormatInfo& format) { return asText(format.endings).split(QLatin1Char(' ')); }
+QStringList endingsOf(const MeshFormat& format) { return asText(format.endings).split(QLatin1Char(' ')); }
 
 }  // namespace
 
 QStringList saveFilters(FormatUse use, bool lattice) {
   QStringList filters;
-  for (const MeshFormatInfo& format : mesh_formats()) {
+  for (const MeshFormat& format : mesh_formats()) {
     if (format.allows(use) && (format.holds_positions || lattice)) {
       filters << QStringLiteral("%1 (*%2)").arg(asText(format.name), endingsOf(format).first());
     }
@@ -21,8 +21,8 @@ QStringList saveFilters(FormatUse use, bool lattice) {
 
 QString openFilter() {
   QString endings = QStringLiteral("*.chainmail");
-  for (const MeshFormatInfo& format : mesh_formats()) {
-    if (format.reads) {
+  for (const MeshFormat& format : mesh_formats()) {
+    if (format.reads()) {
       endings += QStringLiteral(" *") + endingsOf(format).join(QStringLiteral(" *"));
     }
   }

@@ -4,23 +4,24 @@
 #include <ostream>
 #include <string_view>
 
+#include "files/formats/imported.h"
+#include "files/formats/mesh_state.h"
 #include "files/formats/read_options.h"
-#include "mesh/cuts.h"
-#include "mesh/mesh.h"
 #include "mesh/progress.h"
-#include "solve/solver.h"
 
 namespace chainmail {
 
-/// Reads the thesis' format (Dean 2004, 4.3): a row `id count neighbour…` an element, in any order;
-/// neighbours keep the row's order. It holds no positions: elements stand in a lattice, whose size comes
-/// from the options, else from a comment `# size W [H [D]]`, else from a file name that is exactly
-/// WxH[xD].dat. `path` gives that name and appears in errors; `text` is what the file holds.
-MeshPointer read_dat(std::string_view text, const std::filesystem::path& path, const ReadOptions& options,
-                     const Progress& progress = {});
+/// Reads the format of the thesis (Dean 2004, 4.3): a row `id count neighbour…` for each element, in any order.
+/// Neighbours keep the order of the row.
+///
+/// The format has no positions: elements stand in a lattice. Its size comes from the options, else from a comment
+/// `# size W H D` (one to three numbers), else from a file name that is exactly WxH.dat or WxHxD.dat. `path` gives that
+/// name and appears in errors. Throws Error with the line, and Cancelled.
+ImportedMesh read_dat(std::string_view text, const std::filesystem::path& path, const ReadOptions& options,
+                      const Progress& progress = {});
 
-/// Writes the lattice's size and spacing as comments, and the links that are not cut. Throws Error for a
-/// mesh that stands in no lattice.
-void write_dat(std::ostream& out, const Mesh& mesh, const Cuts& cuts, const Progress& progress = {});
+/// Writes the size and spacing of the lattice as comments, and the uncut links. Throws Error for a mesh without a
+/// lattice.
+void write_dat(std::ostream& out, const MeshState& state, const Progress& progress = {});
 
 }  // namespace chainmail

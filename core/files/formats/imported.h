@@ -1,41 +1,36 @@
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
+#include <cstdint>
+#include <optional>
 #include <span>
-#include <string>
-#include <variant>
-#include <vector>
 
-#include "files/formats/volume.h"
+#include "files/formats/space.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {
 
-/// Why the import program gave nothing, in the words of Error: what is wrong, what to do.
-struct Refusal {
-  std::string problem;
-  std::string remedy;
-};
-
-/// A mesh as a file has it: faces and cells may be flat or doubled, and `parts.links` are its lines alone.
+/// A mesh as a reader takes it from a file. opened() (files/mesh/open_mesh.h) makes a Mesh of it.
 struct ImportedMesh {
+  /// `links` holds only the lines of the file: opened() adds the edges of faces and cells.
   MeshParts parts;
-  std::uint64_t unused = 0;  // points of the file that nothing uses, and that are left out
+  /// Number of points in the file that nothing uses and that the library leaves out.
+  std::uint64_t unused = 0;
+  /// The space dimension that a comment of the file states.
+  std::optional<Stated<int>> space;
+  /// True if the reader refuses whatever it does not keep: opened() then keeps every face, and a mesh may have no link.
+  bool checked = false;
 };
 
-/// A face of so many corners: two are a line.
-void add_face(MeshParts& parts, std::span<const ElementId> corners);
-
-/// What the import program hands over on its way through a pipe.
-using Imported = std::variant<ImportedMesh, Volume, Refusal>;
-
-/// The bytes of one: a mark, what it is, counts, then numbers in the machine's own layout, as both programs run on it.
-std::vector<std::byte> encode_imported(const Imported& imported);
-
-/// What the bytes hold. Every count is checked against their number before memory is taken, and every id against the
-/// number of elements. Throws Error, said of `path`, the file that was read, where they are damaged, a coordinate is
-/// not finite or beyond coordinate_limit, or there are more than element_limit elements.
-Imported decode_imported(std::span<const std::byte> bytes, const std::filesystem::path& path);
+/// Adds a face with these corners, or a link where there are two.
+inline void add_face(MeshParts& parts, std::span<const ElementId> corners) {
+  if (corners.size() == 2) {
+    parts.links.push_back({corners[0], corners[1]});
+  } else if (corners.size() == 3) {
+    parts.triangles.push_back({corners[0], corners[1], corners[2]});
+  } else {
+    parts.polygons.push_back(static_cast<ElementId>(corners.size()));
+    parts.polygons.insert(parts.polygons.end(), corners.begin(), corners.end());
+  }
+}
 
 }  // namespace chainmail

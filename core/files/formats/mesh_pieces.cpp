@@ -20,20 +20,20 @@ MeshPieces::MeshPieces(const Mesh& mesh, const Cuts& cuts, const ListedPieces& l
   list_lines(progress.part(0.8, 1));
 }
 
-MeshPieces::Corners MeshPieces::corners(Piece piece, std::size_t place) const {
+MeshPieces::Corners MeshPieces::corners(Piece piece, std::size_t index_of_kind) const {
   switch (piece) {
     case Piece::line:
-      return mesh_.links[place];
+      return mesh_.links[index_of_kind];
     case Piece::triangle:
-      return mesh_.triangles[place];
+      return mesh_.triangles[index_of_kind];
     case Piece::tetrahedron:
-      return mesh_.tetrahedra[place];
+      return mesh_.tetrahedra[index_of_kind];
     case Piece::hexahedron:
-      return mesh_.hexahedra[place];
+      return mesh_.hexahedra[index_of_kind];
     case Piece::polygon:
       break;
   }
-  return Corners(mesh_.polygons).subspan(polygons_[place] + 1, mesh_.polygons[polygons_[place]]);
+  return Corners(mesh_.polygons).subspan(polygons_[index_of_kind] + 1, mesh_.polygons[polygons_[index_of_kind]]);
 }
 
 std::size_t MeshPieces::size(Piece piece) const {
@@ -52,7 +52,7 @@ std::size_t MeshPieces::size(Piece piece) const {
   return polygons_.size();
 }
 
-/// Notes the link between two corners; says whether there is one that is not cut.
+/// Adds the link between two corners to `edges_`. Returns false if there is none, or if it is cut.
 bool MeshPieces::take_edge(ElementId a, ElementId b) {
   const auto link = find_link(mesh_, a, b);
   if (!link || cuts_.is_cut(*link)) {
@@ -62,7 +62,7 @@ bool MeshPieces::take_edge(ElementId a, ElementId b) {
   return true;
 }
 
-/// Whether all edges of a piece are uncut links, which then are along it.
+/// Returns true if all edges of a piece are uncut links, and marks them.
 bool MeshPieces::take(Piece piece, Corners corners) {
   const auto edge = [&](const CellEdge& ends) { return take_edge(corners[ends[0]], corners[ends[1]]); };
   edges_.clear();

@@ -12,28 +12,28 @@
 
 namespace chainmail {
 
-/// What files of meshes list; a line is a link along no other piece.
+/// The kinds of pieces in mesh files. A line is a link that is not an edge of another listed piece.
 enum class Piece { line, triangle, polygon, tetrahedron, hexahedron };
 
-/// What a format can list: a piece that it cannot is told by its links.
+/// The pieces that a format can list. Other pieces are written as lines.
 struct ListedPieces {
   bool cells = true;
   std::size_t most_corners = SIZE_MAX;  // of a polygon
 };
 
-/// What a file of an object lists: the faces and cells all of whose edges are links that are not cut (read again, a
-/// face or cell brings its links back), and the other uncut links as lines.
+/// The pieces to write for an object: faces and cells whose edges are all uncut links, and the other uncut links as
+/// lines. A reader that adds links along all edges gets exactly the uncut links back.
 class MeshPieces {
  public:
   using Corners = std::span<const ElementId>;
 
-  /// Time: a search for the link of each edge. Throws Cancelled.
+  /// Searches for the link of each edge. Throws Cancelled.
   MeshPieces(const Mesh& mesh, const Cuts& cuts, const ListedPieces& listed, const Progress& progress);
 
   std::uint32_t count(Piece piece) const { return counts_[index(piece)]; }
-  /// The corners of all pieces of a kind.
+  /// Number of corners of all pieces of a kind.
   std::uint64_t corner_count(Piece piece) const { return corner_counts_[index(piece)]; }
-  /// Calls visit(corners) for each piece of a kind, in the mesh's order.
+  /// Calls visit(corners) for each listed piece of a kind, in the order of the mesh.
   template <class Visit>
   void for_each(Piece piece, Visit visit, const Progress& progress) const {
     const std::vector<bool>& listed = listed_[index(piece)];
@@ -48,7 +48,7 @@ class MeshPieces {
  private:
   static std::size_t index(Piece piece) { return static_cast<std::size_t>(piece); }
 
-  Corners corners(Piece piece, std::size_t place) const;
+  Corners corners(Piece piece, std::size_t index_of_kind) const;
   std::size_t size(Piece piece) const;
   bool take_edge(ElementId a, ElementId b);
   bool take(Piece piece, Corners corners);
@@ -57,12 +57,12 @@ class MeshPieces {
 
   const Mesh& mesh_;
   const Cuts& cuts_;
-  std::vector<std::size_t> polygons_;  // where each begins
+  std::vector<std::size_t> polygons_;  // index where each begins
   std::array<std::vector<bool>, 5> listed_;
   std::array<std::uint32_t, 5> counts_{};
   std::array<std::uint64_t, 5> corner_counts_{};
-  std::vector<LinkId> edges_;  // of the piece that is looked at
-  std::vector<bool> along_;    // links along a piece that is listed
+  std::vector<LinkId> edges_;  // of the current piece
+  std::vector<bool> along_;    // links that are edges of a listed piece
 };
 
 }  // namespace chainmail

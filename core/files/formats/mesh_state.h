@@ -7,7 +7,7 @@
 
 namespace chainmail {
 
-/// The rest positions of a mesh, without a copy; valid as long as the mesh.
+/// Returns a view of the rest positions of a mesh, valid as long as the mesh.
 inline PositionView rest_positions(const Mesh& mesh) {
   return {mesh.rest.data(), sizeof(double) * mesh.space_dimension, Precision::double_precision};
 }

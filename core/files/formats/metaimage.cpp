@@ -3,7 +3,10 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <new>
+#include <string>
 #include <vector>
 
 #include "files/formats/data_file.h"
@@ -13,6 +16,135 @@
 
 namespace chainmail {
 namespace {
+
+constexpr std::size_t longest_metaimage_head = 100'000;
+
+class MetaImageHeadReader {
+ public:
+  MetaImageHeadReader(std::string_view text, const std::filesystem::path& path)
+      : text_(text.substr(0, longest_metaimage_head)), path_(path) {}
+
+  MetaImageHead read() {
+    bool local = false;
+    while (!local) {
+      local = take_line() == "ElementDataFile";
+    }
+    check();
+    return head_;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
+    throw Error(shown(path_, line_), problem, remedy);
+  }
+
+  /// Reads a line and returns its key.
+  std::string_view take_line();
+  void take(std::string_view key, std::string_view value);
+  std::array<double, 3> numbers(std::string_view value) const;
+  bool flag(std::string_view value) const;
+  void check() const;
+
+  std::string_view text_;
+  const std::filesystem::path& path_;
+  std::size_t line_ = 0;
+  std::uint32_t dimension_ = 0, channels_ = 1;
+  bool binary_ = true, head_size_known_ = true;
+  MetaImageHead head_;
+};
+
+std::string_view MetaImageHeadReader::take_line() {
+  ++line_;
+  const std::size_t end = text_.find('\n', head_.length);
+  if (end == std::string_view::npos) {
+    fail("the header ends before its line 'ElementDataFile = …'", "export the image again");
+  }
+  const std::string_view line = text_.substr(head_.length, end - head_.length);
+  head_.length = end + 1;
+  const std::size_t equals = line.find('=');
+  if (equals == std::string_view::npos) {
+    if (trimmed(line).empty()) {
+      return {};
+    }
+    fail(in_quotes(trimmed(line)) + " is not a line of a header", "write 'Key = Value'");
+  }
+  const auto key = trimmed(line.substr(0, equals));
+  take(key, trimmed(line.substr(equals + 1)));
+  return key;
+}
+
+void MetaImageHeadReader::take(std::string_view key, std::string_view value) {
+  if (key == "NDims") {
+    dimension_ = parse_count(value).value_or(0);
+  } else if (key == "DimSize") {
+    const auto size = numbers(value);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(size[k] >= 0 && size[k] <= double(voxel_limit) && size[k] == std::floor(size[k]))) {
+        fail("a size is not a whole number up to " + std::to_string(voxel_limit), "give three sizes");
+      }
+      head_.size[k] = static_cast<std::uint64_t>(size[k]);
+    }
+  } else if (key == "ElementSpacing" || (key == "ElementSize" && head_.spacing == Point::Ones())) {
+    const auto spacing = numbers(value);
+    head_.spacing = Point(spacing[0], spacing[1], spacing[2]).cwiseAbs();
+  } else if (key == "Offset" || key == "Position" || key == "Origin") {
+    const auto origin = numbers(value);
+    head_.origin = Point(origin[0], origin[1], origin[2]);
+  } else if (key == "ElementType") {
+    head_.type = value;
+  } else if (key == "ElementNumberOfChannels") {
+    channels_ = parse_count(value).value_or(0);
+  } else if (key == "BinaryDataByteOrderMSB" || key == "ElementByteOrderMSB") {
+    head_.big_endian = flag(value);
+  } else if (key == "BinaryData") {
+    binary_ = flag(value);
+  } else if (key == "CompressedData") {
+    head_.compressed = flag(value);
+  } else if (key == "HeaderSize") {
+    head_size_known_ = value == "0";
+  } else if (key == "ElementDataFile") {
+    head_.data_file = value;
+  }  // other keys, such as TransformMatrix and Comment, do not affect densities
+}
+
+std::array<double, 3> MetaImageHeadReader::numbers(std::string_view value) const {
+  std::array<double, 3> numbers{};
+  for (double& number : numbers) {
+    const auto word = take_word(value);
+    const auto parsed = parse_number(word);
+    if (!parsed || std::abs(*parsed) > coordinate_limit) {
+      fail(in_quotes(word) + " is not one of three finite numbers", "give one for each axis of a volume");
+    }
+    number = *parsed;
+  }
+  return numbers;
+}
+
+bool MetaImageHeadReader::flag(std::string_view value) const {
+  if (value != "True" && value != "False" && value != "true" && value != "false") {
+    fail(in_quotes(value) + " is neither True nor False", "write one of them");
+  }
+  return value.front() == 'T' || value.front() == 't';
+}
+
+void MetaImageHeadReader::check() const {
+  if (dimension_ != 3) {
+    fail("the image does not have 3 dimensions", "give a volume");
+  }
+  if (channels_ != 1) {
+    fail("the image has " + std::to_string(channels_) + " numbers per voxel",
+         "give a volume with one density per voxel");
+  }
+  if (!binary_ || !head_size_known_) {
+    fail("its data are text, or have a header", "export it with binary data and HeaderSize 0");
+  }
+  if (!(head_.spacing.minCoeff() > 0)) {
+    fail("the spacing of voxels is 0 along an axis", "give spacings above 0");
+  }
+  if (head_.data_file == "LIST" || head_.data_file.find('%') != std::string::npos) {
+    fail("its data are in several files", "export it as one file");
+  }
+}
 
 constexpr std::array metaimage_types{
     number_type<std::int8_t>("MET_CHAR"),
@@ -29,7 +161,7 @@ constexpr std::array metaimage_types{
     number_type<double>("MET_DOUBLE"),
 };
 
-const NumberType& type_of(const MetaImageHead& head, const std::filesystem::path& path) {
+const NumberType& metaimage_type(const MetaImageHead& head, const std::filesystem::path& path) {
   const NumberType* found = find_number_type(metaimage_types, head.type);
   if (found == nullptr) {
     throw Error(shown(path), "numbers of type " + in_quotes(head.type) + " are not known",
@@ -38,8 +170,8 @@ const NumberType& type_of(const MetaImageHead& head, const std::filesystem::path
   return *found;
 }
 
-/// The numbers that zlib (Gailly and Adler) has packed, one after another. They are unpacked in pieces, anew each time
-/// the first one is asked for: what a small file unpacks to may be larger than the memory.
+/// Numbers packed by zlib (Gailly and Adler). They are unpacked in pieces, again from the start for each pass: the
+/// unpacked data of a small file may exceed the memory.
 class PackedNumbers {
  public:
   PackedNumbers(std::span<const char> data, const NumberType& type, bool big_endian, const std::filesystem::path& path)
@@ -52,7 +184,7 @@ class PackedNumbers {
   PackedNumbers& operator=(const PackedNumbers&) = delete;
   ~PackedNumbers() { inflateEnd(&stream_); }
 
-  /// The i-th of `count`; i is 0, or one more than the last time.
+  /// Returns number i of `count`. i is 0, or one more than in the last call.
   double operator()(std::size_t i, std::size_t count) {
     if (i == 0) {
       restart();
@@ -82,7 +214,7 @@ class PackedNumbers {
       }
       const int state = inflate(&stream_, Z_NO_FLUSH);
       if (stream_.avail_out > 0 && (state != Z_OK || (stream_.avail_in == 0 && taken_ == data_.size()))) {
-        throw Error(shown(path_), "its packed data are damaged, or fewer than its size says", "export it anew");
+        throw Error(shown(path_), "its packed data are damaged, or end too early", "export it again");
       }
     }
   }
@@ -99,7 +231,7 @@ class PackedNumbers {
   std::size_t taken_ = 0;
 };
 
-/// Says how much is done of numbers that are gone through twice.
+/// Reports the progress of two passes over the same numbers.
 class TwicePassed {
  public:
   TwicePassed(std::size_t count, const Progress& progress) : count_(2 * count), progress_(progress) {}
@@ -112,9 +244,13 @@ class TwicePassed {
 
 }  // namespace
 
+MetaImageHead read_metaimage_head(std::string_view text, const std::filesystem::path& path) {
+  return MetaImageHeadReader(text, path).read();
+}
+
 Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, const std::filesystem::path& path,
                         const Progress& progress) {
-  const NumberType& type = type_of(head, path);
+  const NumberType& type = metaimage_type(head, path);
   Volume volume;
   volume.size = checked_volume_size(shown(path), head.size);
   volume.spacing = head.spacing;
@@ -133,7 +269,7 @@ Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, c
     throw Error(
         shown(path),
         "its data end after " + std::to_string(data.size()) + " of " + std::to_string(count * type.bytes) + " bytes",
-        "export it anew");
+        "export it again");
   }
   take_densities(volume, shown(path), [&](std::size_t i) {
     passed.count();

@@ -8,9 +8,9 @@
 
 namespace chainmail {
 
-/// Writes Gmsh's .msh, version 4.1 in ASCII: a node an element, whose tag is its id + 1; triangles, quadrangles,
-/// tetrahedra and hexahedra none of whose links is cut, and the other uncut links as lines, each dimension as one
-/// discrete entity. Faces of five corners or more have no place there and are told by their links.
+/// Writes .msh of Gmsh, version 4.1 in ASCII: one node per element, with tag id + 1; the triangles, quadrangles,
+/// tetrahedra and hexahedra without a cut link; the other uncut links as lines. Each dimension is one discrete entity.
+/// The format has no faces of five or more corners: they are written as lines.
 void write_msh(std::ostream& out, const MeshState& state, const Progress& progress = {});
 
 }  // namespace chainmail

@@ -7,15 +7,15 @@ namespace {
 
 std::string named(ElementId id) { return "element " + std::to_string(id); }
 
-/// Rows that are sorted on the way.
-class Rows {
+/// Checks rows one by one, and sorts them.
+class NeighbourRows {
  public:
-  Rows(const std::vector<EntryId>& first_entry, std::vector<ElementId> neighbours)
+  NeighbourRows(const std::vector<EntryId>& first_entry, std::vector<ElementId> neighbours)
       : first_entry_(first_entry), sorted_(std::move(neighbours)) {}
 
   ElementId count() const { return static_cast<ElementId>(first_entry_.size() - 1); }
   std::optional<RowFault> fault_within(ElementId element);
-  /// Of a row that lists one which does not list it.
+  /// Returns the fault of a row with a neighbour that does not list it.
   std::optional<RowFault> fault_across(ElementId element) const;
 
  private:
@@ -23,7 +23,7 @@ class Rows {
   std::vector<ElementId> sorted_;
 };
 
-std::optional<RowFault> Rows::fault_within(ElementId element) {
+std::optional<RowFault> NeighbourRows::fault_within(ElementId element) {
   const auto begin = sorted_.begin() + first_entry_[element], end = sorted_.begin() + first_entry_[element + 1];
   std::sort(begin, end);
   if (begin != end && *(end - 1) >= count()) {
@@ -41,7 +41,7 @@ std::optional<RowFault> Rows::fault_within(ElementId element) {
   return std::nullopt;
 }
 
-std::optional<RowFault> Rows::fault_across(ElementId element) const {
+std::optional<RowFault> NeighbourRows::fault_across(ElementId element) const {
   for (EntryId i = first_entry_[element]; i < first_entry_[element + 1]; ++i) {
     const ElementId other = sorted_[i];
     if (!std::binary_search(sorted_.begin() + first_entry_[other], sorted_.begin() + first_entry_[other + 1],
@@ -58,7 +58,7 @@ std::optional<RowFault> Rows::fault_across(ElementId element) const {
 
 std::optional<RowFault> find_row_fault(const std::vector<EntryId>& first_entry,
                                        const std::vector<ElementId>& neighbours, const Progress& progress) {
-  Rows rows(first_entry, neighbours);
+  NeighbourRows rows(first_entry, neighbours);
   for (ElementId element = 0; element < rows.count(); ++element) {
     progress.part(0, 0.5).report(element, rows.count());
     if (auto fault = rows.fault_within(element)) {

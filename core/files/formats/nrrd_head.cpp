@@ -1,7 +1,6 @@
 #include "files/formats/nrrd_head.h"
 
 #include <algorithm>
-#include <cctype>
 #include <vector>
 
 #include "files/text/text.h"
@@ -10,34 +9,21 @@
 namespace chainmail {
 namespace {
 
-std::string small(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
-}
-
-/// The name of a line's field in small letters; empty for a comment and for a pair of a user's own, `key:=value`.
+/// Returns the field name of a line in lower case; empty for a comment and for a pair `key:=value` of the user.
 std::string field_of(std::string_view line) {
   const std::size_t colon = line.find(':');
   if (line.starts_with('#') || colon == std::string_view::npos || line.substr(colon).starts_with(":=")) {
     return {};
   }
-  return small(line.substr(0, colon));
+  return lower_case(line.substr(0, colon));
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& path, std::size_t line, const std::string& problem) {
-  throw Error(shown(path, line), problem, "export it anew, as one file");
+[[noreturn]] void refuse_header(const std::filesystem::path& path, std::size_t line, const std::string& problem) {
+  throw Error(shown(path, line), problem, "export it again, as one file");
 }
 
-/// The lines up to the empty one that ends a header, or up to the end of the file.
-std::vector<std::string_view> lines_of(std::string_view text, const std::filesystem::path& path) {
+/// Returns the lines up to the empty one that ends a header, or up to the end of the file.
+std::vector<std::string_view> header_lines(std::string_view text, const std::filesystem::path& path) {
   std::vector<std::string_view> lines;
   const bool is_whole = text.size() < longest_nrrd_head;
   while (!text.empty()) {
@@ -49,21 +35,21 @@ std::vector<std::string_view> lines_of(std::string_view text, const std::filesys
     }
     lines.push_back(line);
     if (line.find('\r') != std::string_view::npos) {
-      refuse(path, lines.size(), "a line of its header holds a carriage return");
+      refuse_header(path, lines.size(), "a line of its header holds a carriage return");
     }
     text.remove_prefix(std::min(end, text.size() - 1) + 1);
   }
   if (!is_whole) {
-    refuse(path, lines.size(), "its header has no end");
+    refuse_header(path, lines.size(), "its header has no end");
   }
   return lines;
 }
 
-/// The file that a field names.
+/// Returns the file that a field names.
 std::string named_in(std::string_view line, const std::filesystem::path& path, std::size_t number) {
   const auto name = trimmed(line.substr(line.find(':') + 1));
   if (name.empty() || name.starts_with("LIST") || name.find('%') != std::string_view::npos) {
-    refuse(path, number, "its data are in several files, or in none");
+    refuse_header(path, number, "its data are in several files, or in none");
   }
   return std::string(name);
 }
@@ -73,17 +59,17 @@ std::string named_in(std::string_view line, const std::filesystem::path& path, s
 NrrdHead read_nrrd_head(std::string_view beginning, const std::filesystem::path& path) {
   NrrdHead head;
   std::size_t number = 0;
-  for (std::string_view line : lines_of(beginning, path)) {
+  for (std::string_view line : header_lines(beginning, path)) {
     ++number;
     const std::string field = field_of(line);
     if (field == "data file" || field == "datafile") {
       if (!head.data_file.empty()) {
-        refuse(path, number, "its header names its data twice");
+        refuse_header(path, number, "its header names its data twice");
       }
       head.data_file = named_in(line, path, number);
       line = "data file: data";
-    } else if (field.find("file") != std::string::npos) {  // teem may take it for the same
-      refuse(path, number, in_quotes(line) + " is no field of a header");
+    } else if (field.find("file") != std::string::npos) {  // teem may read it as a data file
+      refuse_header(path, number, in_quotes(line) + " is not a field of a header");
     }
     head.text.append(line).append("\n");
   }

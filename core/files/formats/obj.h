@@ -4,21 +4,17 @@
 #include <ostream>
 #include <string_view>
 
-#include "files/formats/read_options.h"
-#include "mesh/cuts.h"
-#include "mesh/mesh.h"
+#include "files/formats/imported.h"
+#include "files/formats/mesh_state.h"
 #include "mesh/progress.h"
-#include "solve/solver.h"
 
 namespace chainmail {
 
-/// Reads Wavefront OBJ: the edges of faces and of `l` lines become links, each once; ids are the file's
-/// vertex order. `path` appears in errors; `text` is what the file holds.
-MeshPointer read_obj(std::string_view text, const std::filesystem::path& path, const ReadOptions& options,
-                     const Progress& progress = {});
+/// Reads Wavefront OBJ: vertices, faces, and `l` lines as links. Ids are the file's vertex order. Other statements of
+/// the format are skipped. Throws Error with the line, and Cancelled. `path` appears in errors.
+ImportedMesh read_obj(std::string_view text, const std::filesystem::path& path, const Progress& progress = {});
 
-/// Writes the positions, the faces none of whose links is cut, and the other uncut links as `l` lines.
-void write_obj(std::ostream& out, const Mesh& mesh, const Cuts& cuts, const PositionView& positions,
-               const Progress& progress = {});
+/// Writes the positions, the faces without a cut link, and the other uncut links as `l` lines.
+void write_obj(std::ostream& out, const MeshState& state, const Progress& progress = {});
 
 }  // namespace chainmail

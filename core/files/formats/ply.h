@@ -12,12 +12,12 @@
 namespace chainmail {
 
 /// Reads PLY (Turk 1994), text or binary: vertices, faces, and edges of vertex1 and vertex2, in any order. Ids are the
-/// vertices' order; all else is passed over. By hand, because CGAL passes over edges and Assimp changes the order.
-/// Throws Error, with the line where it is text; and Cancelled.
+/// order of the vertices; everything else is skipped. No library is used: CGAL skips edges, and Assimp changes the
+/// order. Throws Error, with the line if the file is text; and Cancelled.
 ImportedMesh read_ply(std::string_view bytes, const std::filesystem::path& path, const Progress& progress = {});
 
-/// Writes ASCII PLY (Turk 1994): vertices in double, the faces none of whose links is cut, and the other uncut links
-/// as elements `edge` of vertex1 and vertex2.
+/// Writes ASCII PLY (Turk 1994): vertices in double, the faces without a cut link, and the other uncut links as
+/// elements `edge` of vertex1 and vertex2.
 void write_ply(std::ostream& out, const MeshState& state, const Progress& progress = {});
 
 }  // namespace chainmail

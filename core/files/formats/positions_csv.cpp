@@ -4,13 +4,14 @@
 
 namespace chainmail {
 
-void write_positions_csv(std::ostream& out, const Mesh& mesh, const PositionView& positions, const Progress& progress) {
+void write_positions_csv(std::ostream& out, const MeshState& state, const Progress& progress) {
   TextBlocks text(out);
   text << "id,x,y,z\n";
-  for (ElementId element = 0; element < mesh.element_count(); ++element) {
-    progress.report(element, mesh.element_count());
+  const ElementId count = state.mesh.element_count();
+  for (ElementId element = 0; element < count; ++element) {
+    progress.report(element, count);
     text << element;
-    for (const double coordinate : point_of(mesh, positions, element)) {
+    for (const double coordinate : point_of(state.mesh, state.positions, element)) {
       text << ',' << coordinate;
     }
     text << '\n';

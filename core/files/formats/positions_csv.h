@@ -2,13 +2,12 @@
 
 #include <ostream>
 
-#include "mesh/mesh.h"
-#include "solve/solver.h"
+#include "files/formats/mesh_state.h"
+#include "mesh/progress.h"
 
 namespace chainmail {
 
-/// CSV `id,x,y,z`, a row an element, with enough digits to read back the same numbers.
-void write_positions_csv(std::ostream& out, const Mesh& mesh, const PositionView& positions,
-                         const Progress& progress = {});
+/// Writes CSV `id,x,y,z`: one row per element, with enough digits to read back the same numbers.
+void write_positions_csv(std::ostream& out, const MeshState& state, const Progress& progress = {});
 
 }  // namespace chainmail

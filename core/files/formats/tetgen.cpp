@@ -10,16 +10,16 @@
 namespace chainmail {
 namespace {
 
-/// The rows of one of the two files: a head that says how many there are, then numbered rows.
-class Table {
+/// The rows of one of the two files: a header with their number, then numbered rows.
+class TetGenTable {
  public:
-  Table(const NamedText& file, const char* rows, const Progress& progress)
+  TetGenTable(const NamedText& file, const char* rows, const Progress& progress)
       : path_(file.path), size_(file.text.size()), rows_(rows), progress_(progress), lines_(file.text) {
     if (!next()) {
-      fail("it holds no row", "begin with how many " + std::string(rows_) + " there are");
+      fail("it holds no row", "begin with the number of " + std::string(rows_));
     }
-    count_ = whole("how many " + std::string(rows_) + " there are");
-    // A row has two characters at least, whatever the head claims.
+    count_ = whole("the number of " + std::string(rows_));
+    // Each row has at least two characters, so a header cannot claim more rows.
     if (count_ > size_ / 2 || count_ > element_limit) {
       fail(std::to_string(count_) + " " + rows_ + " are more than the file holds, or than " +
                std::to_string(element_limit),
@@ -31,7 +31,7 @@ class Table {
     throw Error(shown(path_, std::max<std::size_t>(lines_.number(), 1)), problem, remedy);
   }
 
-  /// To the next line that says something.
+  /// Goes to the next line that is not blank or a comment.
   bool next() {
     while (lines_.next()) {
       lines_.report(progress_);
@@ -43,7 +43,7 @@ class Table {
     }
     return false;
   }
-  /// To the row that must come now; its number is checked against `number`.
+  /// Goes to the next row, which must have this number.
   void next_row(std::uint64_t number) {
     if (!next()) {
       fail("it ends before row " + std::to_string(number) + " of its " + std::to_string(count_) + " " + rows_,
@@ -70,9 +70,9 @@ class Table {
     }
     return *number;
   }
-  /// The number of the first row, which is looked at and not taken.
+  /// Returns the number of the first row without reading the row.
   std::uint32_t first_number() const {
-    Table ahead = *this;
+    TetGenTable ahead = *this;
     return ahead.next() ? ahead.whole("the number of a row") : 0;
   }
   std::uint32_t count() const { return count_; }
@@ -87,10 +87,10 @@ class Table {
   std::uint32_t count_ = 0;
 };
 
-std::uint32_t read_points(const NamedText& nodes, MeshParts& parts, const Progress& progress) {
-  Table table(nodes, "points", progress);
+std::uint32_t read_tetgen_points(const NamedText& nodes, MeshParts& parts, const Progress& progress) {
+  TetGenTable table(nodes, "points", progress);
   if (table.whole("the dimension") != 3) {
-    table.fail("its points have no 3 coordinates", "give points in space");
+    table.fail("its points do not have 3 coordinates", "give points in space");
   }
   const std::uint32_t first = table.first_number();
   if (first > 1) {
@@ -105,10 +105,11 @@ std::uint32_t read_points(const NamedText& nodes, MeshParts& parts, const Progre
   return first;
 }
 
-void read_cells(const NamedText& elements, std::uint32_t first_point, MeshParts& parts, const Progress& progress) {
-  Table table(elements, "tetrahedra", progress);
+void read_tetgen_cells(const NamedText& elements, std::uint32_t first_point, MeshParts& parts,
+                       const Progress& progress) {
+  TetGenTable table(elements, "tetrahedra", progress);
   if (table.whole("the number of corners") != 4) {
-    table.fail("its tetrahedra have no 4 corners", "save them with elements of first order");
+    table.fail("its tetrahedra do not have 4 corners", "save them with elements of first order");
   }
   const std::uint32_t first = table.first_number();
   for (std::uint32_t i = 0; i < table.count(); ++i) {
@@ -125,13 +126,32 @@ void read_cells(const NamedText& elements, std::uint32_t first_point, MeshParts&
   }
 }
 
+/// Returns the path of one file of the pair.
+std::filesystem::path tetgen_file(const std::filesystem::path& path, const char* ending) {
+  auto file = path;
+  file.replace_extension(ending);
+  std::error_code none;
+  if (!std::filesystem::exists(file, none)) {
+    throw Error(shown(path), "the other file of the pair, " + shown(file.filename()) + ", is missing",
+                "put the .node and the .ele file into one folder");
+  }
+  return file;
+}
+
 }  // namespace
 
 ImportedMesh read_tetgen(const NamedText& nodes, const NamedText& elements, const Progress& progress) {
   ImportedMesh mesh;
-  const std::uint32_t first = read_points(nodes, mesh.parts, progress.part(0, 0.5));
-  read_cells(elements, first, mesh.parts, progress.part(0.5, 1));
+  const std::uint32_t first = read_tetgen_points(nodes, mesh.parts, progress.part(0, 0.5));
+  read_tetgen_cells(elements, first, mesh.parts, progress.part(0.5, 1));
   return mesh;
+}
+
+ImportedMesh read_tetgen(const std::filesystem::path& path, const Progress& progress) {
+  const auto nodes = tetgen_file(path, ".node"), elements = tetgen_file(path, ".ele");
+  const std::string points = read_text(nodes, "points", progress.part(0, 0.2));
+  const std::string cells = read_text(elements, "tetrahedra", progress.part(0.2, 0.4));
+  return read_tetgen({points, nodes}, {cells, elements}, progress.part(0.4, 1));
 }
 
 }  // namespace chainmail

@@ -8,7 +8,7 @@ namespace chainmail {
 
 void DensityScale::widen(std::size_t voxel, double number) {
   if (!(std::abs(number) <= density_limit)) {
-    throw Error(where_, "the density of voxel " + std::to_string(voxel) + " is no number, or beyond 1e30",
+    throw Error(where_, "the density of voxel " + std::to_string(voxel) + " is not a number, or is beyond 1e30",
                 "give finite densities");
   }
   lowest_ = voxel == 0 ? number : std::min(lowest_, number);

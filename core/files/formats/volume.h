@@ -14,10 +14,10 @@ namespace chainmail {
 /// A medical or other volume: a density for each voxel of a regular arrangement.
 struct Volume {
   std::array<std::uint32_t, 3> size{1, 1, 1};  // voxels along x, y and z
-  Point spacing = Point::Ones();               // from voxel to voxel (mesh units)
-  Point origin = Point::Zero();                // where the first voxel's centre stands (mesh units)
-  /// Along x, then y, then z, in at most 65,535 steps from the lowest to the highest: whole numbers of 16 bits stay
-  /// exact.
+  Point spacing = Point::Ones();               // between voxels (mesh units)
+  Point origin = Point::Zero();                // centre of the first voxel (mesh units)
+  /// Along x, then y, then z, in at most 65,535 steps from the lowest to the highest density: whole numbers of 16 bits
+  /// stay exact.
   std::vector<std::uint16_t> densities;
   double lowest = 0;
   double step = 1;
@@ -33,7 +33,7 @@ inline constexpr double density_limit = 1e30;
 /// More voxels than this are refused before memory is taken: 2 GiB of them.
 inline constexpr std::uint64_t voxel_limit = std::uint64_t{1} << 30;
 
-/// From the lowest to the highest of some numbers: in steps of 1 where they are whole and near enough.
+/// The range of densities and its step: 1 if all are whole numbers and their range is small enough.
 class DensityScale {
  public:
   explicit DensityScale(std::string where) : where_(std::move(where)) {}
@@ -47,11 +47,11 @@ class DensityScale {
   bool whole_ = true;
 };
 
-/// Throws Error, said of `where`, where a size is 0 or they make more than voxel_limit.
+/// Returns the size, or throws Error about `where` if it has no voxels or more than voxel_limit.
 std::array<std::uint32_t, 3> checked_volume_size(const std::string& where, const std::array<std::uint64_t, 3>& size);
 
-/// Fills the densities in from the numbers of a file, of which `number(i)` gives the i-th as double. Throws Error, said
-/// of `where`, where one is not finite.
+/// Fills in the densities from the numbers of a file; `number(i)` returns number i as double. Throws Error about
+/// `where` if one is not finite.
 template <class Number>
 void take_densities(Volume& volume, const std::string& where, Number number) {
   DensityScale scale(where);

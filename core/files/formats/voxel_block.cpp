@@ -19,7 +19,7 @@ constexpr std::uint64_t most_texels = std::uint64_t{1} << 27;  // 128 MiB on the
 
 using Size = std::array<std::uint32_t, 3>;
 
-/// Voxels taken together, `every` along each axis, their densities averaged.
+/// Bricks of `every` voxels along each axis, with their mean densities.
 struct Bricks {
   Size size{1, 1, 1};
   std::vector<float> densities;
@@ -78,7 +78,7 @@ std::shared_ptr<const Texture> texture_of(const Volume& volume, const Progress& 
   return texture;
 }
 
-/// The elements of bricks above a threshold, numbered along x, then y, then z, and what joins them.
+/// Builds the elements of bricks above a threshold, numbered along x, then y, then z, with their links and cells.
 class BlockBuilder {
  public:
   BlockBuilder(const Volume& volume, const Bricks& bricks, std::uint32_t every, double threshold)
@@ -89,7 +89,7 @@ class BlockBuilder {
     }
   }
 
-  /// The density of each element goes to `densities`.
+  /// Appends the density of each element to `densities`.
   MeshParts build(std::vector<float>& densities, const Progress& progress) {
     const auto& size = bricks_.size;
     for (std::uint32_t z = 0; z < size[2]; ++z) {
@@ -141,10 +141,10 @@ class BlockBuilder {
   MeshParts parts_;
 };
 
-/// From the standard softness, where both ends are at the threshold, to rigid, where they are at the highest density.
+/// Returns softness from standard, if both ends are at the threshold, to rigid, if both have the highest density.
 std::map<LinkId, LinkSoftness> softness_by_density(const Mesh& mesh, const std::vector<float>& densities,
                                                    double threshold) {
-  constexpr double levels = 32;  // as many kinds of links are told apart
+  constexpr double levels = 32;  // number of different softnesses
   const LinkSoftness standard;
   const double range = double(*std::max_element(densities.begin(), densities.end())) - threshold;
   std::map<LinkId, LinkSoftness> softness;
@@ -162,7 +162,7 @@ std::map<LinkId, LinkSoftness> softness_by_density(const Mesh& mesh, const std::
   return softness;
 }
 
-/// As fine as leaves not too many elements.
+/// Returns the smallest bricks that do not make too many elements.
 Bricks chosen_bricks(const Volume& volume, const VoxelOptions& options, double threshold, std::uint32_t& every,
                      const Progress& progress) {
   every = options.every.value_or(1);
@@ -185,7 +185,7 @@ double otsu_threshold(const Volume& volume) {
     sum += density;
   }
   double below = 0, sum_below = 0, best = -1;
-  std::size_t first = 0, last = 0;  // of those that part in the same way: they differ where no density lies
+  std::size_t first = 0, last = 0;  // of thresholds with the same classes: no density lies between them
   for (std::size_t i = 0; i + 1 < bins; ++i) {
     below += histogram[i];
     sum_below += double(i) * histogram[i];
@@ -217,7 +217,7 @@ VoxelBlock voxel_block(const Volume& volume, const VoxelOptions& options, const 
   }
   if (count > element_limit) {
     throw Error(where, std::to_string(count) + " voxels are above the threshold of " + threshold,
-                "take several voxels for one element");
+                "use several voxels per element");
   }
   std::vector<float> densities;
   MeshParts parts =

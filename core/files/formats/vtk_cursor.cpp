@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "files/text/number_type.h"
@@ -12,10 +11,10 @@
 namespace chainmail {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view vtk_blanks = " \t\r\n";
 
-/// As VTK's legacy readers have them on machines of 64 bits.
-constexpr std::array types{
+/// Sizes as in VTK's legacy readers on machines of 64 bits.
+constexpr std::array vtk_types{
     number_type<float>("float"),
     number_type<double>("double"),
     number_type<std::int32_t>("int"),
@@ -31,18 +30,11 @@ constexpr std::array types{
     number_type<std::uint8_t>("unsigned_char"),
 };
 
-std::string small(std::string_view word) {
-  std::string result(word);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
 }  // namespace
 
 void VtkCursor::fail(const std::string& problem, const std::string& remedy) const {
   const auto lines = std::count(bytes_.begin(), bytes_.begin() + std::ptrdiff_t(std::min(at_, bytes_.size())), '\n');
-  // Lines of binary numbers mean nothing.
+  // Binary numbers have no lines.
   throw Error(binary_ ? shown(path_) : shown(path_, static_cast<std::size_t>(lines) + 1), problem, remedy);
 }
 
@@ -57,8 +49,8 @@ std::string_view VtkCursor::line() {
 }
 
 std::string_view VtkCursor::word() {
-  at_ = std::min(bytes_.find_first_not_of(blanks, at_), bytes_.size());
-  const std::size_t end = std::min(bytes_.find_first_of(blanks, at_), bytes_.size());
+  at_ = std::min(bytes_.find_first_not_of(vtk_blanks, at_), bytes_.size());
+  const std::size_t end = std::min(bytes_.find_first_of(vtk_blanks, at_), bytes_.size());
   const std::string_view result = bytes_.substr(at_, end - at_);
   at_ = end;
   return result;
@@ -75,13 +67,13 @@ std::uint64_t VtkCursor::count(const std::string& what) {
 
 template <class Visit>
 void VtkCursor::visit_binary(std::uint64_t count, std::string_view type, Visit visit) {
-  const NumberType* found = find_number_type(types, small(type));
+  const NumberType* found = find_number_type(vtk_types, lower_case(type));
   if (found == nullptr) {
     fail("numbers of type " + in_quotes(type) + " are not known", "save it with floats or doubles");
   }
-  line();  // which the numbers begin behind
+  line();  // the numbers begin on the next line
   if (count > (bytes_.size() - at_) / found->bytes) {
-    fail("it ends within its numbers", "export it anew");
+    fail("it ends within its numbers", "export it again");
   }
   for (std::uint64_t i = 0; i < count; ++i, at_ += found->bytes) {
     progress_.report(at_, bytes_.size());
@@ -96,14 +88,14 @@ void VtkCursor::visit_numbers(std::uint64_t count, std::string_view type, Visit 
     return visit_binary(count, type, visit);
   }
   if (count > (bytes_.size() - at_ + 1) / 2) {
-    fail("it ends within its numbers", "export it anew");
+    fail("it ends within its numbers", "export it again");
   }
   for (std::uint64_t i = 0; i < count; ++i) {
     progress_.report(i, count);
     const auto text = word();
     const auto number = parse_number(text);
     if (!number) {
-      fail(text.empty() ? "it ends within its numbers" : in_quotes(text) + " is not a number", "export it anew");
+      fail(text.empty() ? "it ends within its numbers" : in_quotes(text) + " is not a number", "export it again");
     }
     visit(*number);
   }
@@ -120,7 +112,7 @@ std::vector<std::uint64_t> VtkCursor::wholes(std::uint64_t count, std::string_vi
   std::vector<std::uint64_t> numbers;
   visit_numbers(count, type, [&](double number) {
     if (!(number >= 0 && number <= largest) || number != std::floor(number)) {
-      fail("a number that should be a whole one, from 0, is none", "export it anew");
+      fail("a number is not a whole number from 0", "export it again");
     }
     numbers.push_back(static_cast<std::uint64_t>(number));
   });

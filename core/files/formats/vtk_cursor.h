@@ -10,29 +10,29 @@
 
 namespace chainmail {
 
-/// Goes through the sections of a legacy VTK file, whose words are text and whose numbers are text or binary.
+/// Reads words and numbers of a legacy VTK file. Words are text; numbers are text or binary.
 class VtkCursor {
  public:
   VtkCursor(std::string_view bytes, const std::filesystem::path& path, const Progress& progress)
       : bytes_(bytes), path_(path), progress_(progress) {}
 
-  /// Throws Error at the line where it stands.
+  /// Throws Error at the current line.
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
 
   void set_binary(bool binary) { binary_ = binary; }
-  /// The rest of the line, and to the next.
+  /// Returns the rest of the line, and goes to the next.
   std::string_view line();
-  /// The next word, on whatever line; empty at the end.
+  /// Returns the next word, on this or a later line; empty at the end.
   std::string_view word();
-  /// The next word as a whole number, of `what`.
+  /// Returns the next word as a whole number. `what` names it in errors.
   std::uint64_t count(const std::string& what);
 
-  /// So many numbers of a type. Their count is checked against the bytes left before memory is taken.
+  /// Returns `count` numbers of a type. Checks the count against the remaining bytes before it takes memory.
   std::vector<double> reals(std::uint64_t count, std::string_view type);
-  /// The same, which must be whole, from 0.
+  /// Returns `count` whole numbers from 0.
   std::vector<std::uint64_t> wholes(std::uint64_t count, std::string_view type);
   void skip_numbers(std::uint64_t count, std::string_view type);
-  /// To behind the next blank line.
+  /// Goes to the line after the next blank line.
   void skip_block();
 
  private:

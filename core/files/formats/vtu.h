@@ -8,11 +8,11 @@
 
 namespace chainmail {
 
-/// Writes a VTK XML UnstructuredGrid: every element a point; as cells the faces, tetrahedra and hexahedra none of whose
-/// links is cut, and the links along none of these. Two fields of points: `displacement` from rest (3 components, mesh
-/// units) and `violation`, the largest of the links of an element that are not cut (rest lengths).
+/// Writes a VTK XML UnstructuredGrid: one point per element; as cells, the faces, tetrahedra and hexahedra without a
+/// cut link, and the other uncut links. Points have two fields: `displacement` from rest (3 components, mesh units) and
+/// `violation`, the largest violation of the uncut links of the element (in rest lengths).
 ///
-/// Numbers stand in base64, so that they read back as the same.
+/// Numbers are written in base64, so that they read back exactly.
 void write_vtu(std::ostream& out, const MeshState& state, const Progress& progress = {});
 
 }  // namespace chainmail

@@ -12,28 +12,28 @@
 
 namespace chainmail {
 
-/// What an import reads: a private folder with nothing but its files, under names that are chosen here. Libraries go by
-/// names, and look beside a file for others: Gmsh carries out the commands in FILE.opt.
+/// The input of an import: a private folder with only its files, under names that we choose. Libraries depend on names,
+/// and look for other files in the same folder: Gmsh runs the commands in FILE.opt.
 class ImportInput {
  public:
-  /// Errors name `shown_as`. The library reads each file `passes` times, which tells how far it is.
+  /// Errors name `shown_as`. The library reads each file `passes` times, which is used to compute progress.
   explicit ImportInput(std::filesystem::path shown_as, int passes = 1)
       : shown_as_(std::move(shown_as)), passes_(passes) {}
 
-  /// Adds a file by a link, without a copy. The import program inherits it open, and so reads the file that was opened
-  /// here, whatever its path leads to by then.
+  /// Adds a link to a file, without a copy. The import program inherits the open file, so a file that replaces it at
+  /// its path is not read.
   void link(const std::string& name, RegularFile file);
-  /// Adds a file with these bytes. Throws WriteFailure where the disk is full.
+  /// Adds a file with these bytes. Throws WriteFailure if the disk is full.
   void write(const std::string& name, std::string_view bytes);
 
   const std::filesystem::path& shown_as() const { return shown_as_; }
   const std::filesystem::path& folder() const { return folder_.path(); }
-  /// The file that was added first, which the import program is told to read.
+  /// The file that was added first. The import program reads it.
   std::filesystem::path main_file() const { return folder() / main_name_; }
   const std::vector<RegularFile>& linked() const { return linked_; }
   /// Size of the linked files (bytes).
   std::uint64_t linked_size() const;
-  /// Number of bytes that will be read of them, 0 without linked files.
+  /// Number of bytes that the library will read from linked files.
   double bytes_to_read() const { return passes_ * double(linked_size()); }
 
  private:

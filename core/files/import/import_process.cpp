@@ -25,10 +25,10 @@
 namespace chainmail {
 namespace {
 
-constexpr int wait_milliseconds = 30;               // between two looks at whether it was cancelled
+constexpr int wait_milliseconds = 30;               // between two checks for cancelling
 constexpr int first_free = import::last_input + 1;  // descriptors below have a meaning in the program
 
-/// Beside this program, or where an installation has it.
+/// Finds the program in the folder of this program, or where an installation has it.
 std::filesystem::path import_program() {
   std::error_code none;
   const auto folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
@@ -37,12 +37,11 @@ std::filesystem::path import_program() {
       return program;
     }
   }
-  throw Error("chainmail-import", "the program that reads this format is not beside this one",
-              "install it in the same folder");
+  throw Error("chainmail-import", "the program that reads this format is missing", "install it in the same folder");
 }
 
-/// The environment of the program: what finds its libraries and what a sanitizer reads. Nothing else of the user's can
-/// steer a library, and what would be in the user's home is looked for in the private folder.
+/// Returns the environment of the program: only variables that locate its libraries or configure a sanitizer. No other
+/// variable of the user can affect a library. The private folder takes the place of the home folder.
 std::vector<std::string> environment_in(const std::string& folder) {
   std::vector<std::string> variables{"HOME=" + folder, "TMPDIR=" + folder, "LC_ALL=C", "OMP_NUM_THREADS=1",
                                      "OPENBLAS_NUM_THREADS=1"};
@@ -54,20 +53,20 @@ std::vector<std::string> environment_in(const std::string& folder) {
   return variables;
 }
 
-/// As the system takes them: pointers, the last one null.
+/// Returns pointers to the words, followed by null, as system calls expect.
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
   std::vector<char*> pointers(words.size() + 1, nullptr);
   std::transform(words.begin(), words.end(), pointers.begin(), [](std::string& word) { return word.data(); });
   return pointers;
 }
 
-/// A copy of a descriptor that no other child inherits, and that is not in the way of those the program knows.
+/// A copy of a descriptor that no other child inherits, with a number above those that the program uses.
 class Descriptor {
  public:
   Descriptor() = default;
   explicit Descriptor(int copied) : number_(fcntl(copied, F_DUPFD_CLOEXEC, first_free)) {
     if (number_ < 0) {
-      throw Error("chainmail-import", std::string("no file can be opened (") + std::strerror(errno) + ")",
+      throw Error("chainmail-import", std::string("no more files can be opened (") + std::strerror(errno) + ")",
                   "close other programs");
     }
   }
@@ -93,7 +92,7 @@ class Pipe {
   Pipe() {
     std::array<int, 2> ends{-1, -1};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-      throw Error("chainmail-import", std::string("no pipe can be made (") + std::strerror(errno) + ")",
+      throw Error("chainmail-import", std::string("a pipe cannot be created (") + std::strerror(errno) + ")",
                   "close other programs");
     }
     const Closed guard{ends};
@@ -117,7 +116,7 @@ class Pipe {
   Descriptor out_, in_;
 };
 
-/// What the program starts with.
+/// The descriptors that the program starts with.
 class SpawnActions {
  public:
   SpawnActions() {
@@ -137,14 +136,14 @@ class SpawnActions {
   posix_spawn_file_actions_t actions_;
 };
 
-/// The program at work, which does not outlive this.
+/// The running program. The destructor ends it.
 class Child {
  public:
   Child(std::vector<std::string> words, const ImportInput& input, const Pipe& result, const Pipe& shares) {
     SpawnActions actions;
     actions.give(result.in(), import::result_channel);
     actions.give(shares.in(), import::share_channel);
-    std::vector<Descriptor> files;  // copies, out of the way of where they go
+    std::vector<Descriptor> files;  // copies, with numbers above the targets
     int as = import::first_input;
     for (const RegularFile& file : input.linked()) {
       files.emplace_back(file.descriptor());
@@ -156,7 +155,7 @@ class Child {
     if (error != 0) {
       process_ = 0;
       throw Error(shown(words[0]), std::string("it cannot be started (") + std::strerror(error) + ")",
-                  "install it anew");
+                  "install it again");
     }
   }
   Child(const Child&) = delete;
@@ -169,7 +168,7 @@ class Child {
     }
   }
 
-  /// How it ended, as waitpid has it; nothing while it runs.
+  /// Returns the status of waitpid, or nothing while the program runs.
   std::optional<int> ended() {
     int status = 0;
     if (waitpid(process_, &status, WNOHANG) != process_) {
@@ -179,7 +178,7 @@ class Child {
     return status;
   }
 
-  /// Number of bytes that it has read so far, 0 where the system does not count them.
+  /// Number of bytes that it has read, or 0 if the system does not count them.
   double bytes_read() const {
     std::ifstream counts("/proc/" + std::to_string(process_) + "/io");
     std::string word;
@@ -205,7 +204,7 @@ class Listener {
         progress_(progress),
         end_(Clock::now() + std::chrono::seconds(limits.wall_seconds)) {}
 
-  /// `share` says how much is done, where the program does not say it itself.
+  /// `share()` returns the share that is done, for tasks that do not report it.
   template <class Share>
   Ending listen(Share share) {
     for (;;) {
@@ -265,7 +264,7 @@ class Listener {
               "use a smaller file, or another format");
 }
 
-/// `status` is as waitpid has it.
+/// Throws Error for a `status` of waitpid that is not success.
 void check_end(int status, const std::string& where, const ImportLimits& limits) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == import::out_of_memory) {
     refuse_memory(where, limits);
@@ -274,11 +273,11 @@ void check_end(int status, const std::string& where, const ImportLimits& limits)
     refuse_time(where, limits.seconds);
   }
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) {
-    throw Error(where, "the system ended the program that reads it, as it does when memory is short",
+    throw Error(where, "the system ended the program that reads it, probably because memory was short",
                 "close other programs, or use a smaller file");
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    throw Error(where, "it is damaged: the library that reads it failed on it", "export it anew, or in another format");
+    throw Error(where, "it is damaged: the library that reads it failed on it", "export it again, or in another format");
   }
 }
 
@@ -311,7 +310,7 @@ Imported run_import(const std::string& task, const ImportInput& input, const std
       break;
   }
   std::optional<int> status;
-  while (!(status = child.ended())) {  // at once, unless it has closed the pipe and goes on
+  while (!(status = child.ended())) {  // ends immediately, unless it runs on after closing the pipe
     progress.report(1);
     if (listener.is_late()) {
       refuse_time(where, limits.wall_seconds);

@@ -17,10 +17,10 @@
 namespace chainmail::import {
 namespace {
 
-// The filter lists what is allowed, so that a call which nobody thought of is denied. A denied call gives ENOSYS, as in
-// an old kernel: the C library then takes its older way, clone for clone3, which is examined here.
+// The filter lists the allowed calls, so unknown calls are denied. A denied call returns ENOSYS, as in an old kernel:
+// the C library then uses an older call, such as clone for clone3, which is checked here.
 
-/// Calls that can do no harm whatever their arguments are.
+/// Calls that are safe with any arguments.
 constexpr std::array harmless{
     // reading files
     "access", "close", "close_range", "dup", "dup2", "dup3", "faccessat", "faccessat2", "fstat", "fstatfs", "getcwd",
@@ -38,18 +38,18 @@ constexpr std::array harmless{
     "clock_getres", "clock_gettime", "clock_nanosleep", "getcpu", "getegid", "geteuid", "getgid", "getpgrp", "getppid",
     "getrandom", "getrlimit", "getrusage", "gettimeofday", "getuid", "nanosleep", "sysinfo", "time", "times", "uname"};
 
-/// Of an argument of a call: some of its bits.
+/// Compares some bits of an argument of a call.
 scmp_arg_cmp bits(unsigned argument, scmp_datum_t mask, scmp_datum_t wanted) {
   return {argument, SCMP_CMP_MASKED_EQ, mask, wanted};
 }
 scmp_arg_cmp equal(unsigned argument, scmp_datum_t wanted) { return {argument, SCMP_CMP_EQ, wanted, 0}; }
 
-/// Builds the filter; remembers whether all went well.
+/// Builds the filter, and remembers errors.
 class Filter {
  public:
   Filter() : context_(seccomp_init(SCMP_ACT_ERRNO(ENOSYS)), &seccomp_release) {}
 
-  /// Allows a call, where this machine has it, if its arguments are so.
+  /// Allows a call with these arguments, if this machine has the call.
   void allow(const char* call, const std::vector<scmp_arg_cmp>& arguments = {}) {
     const int number = seccomp_syscall_resolve_name(call);
     good_ = good_ && context_ &&
@@ -57,7 +57,7 @@ class Filter {
                                                                  unsigned(arguments.size()), arguments.data()) == 0);
   }
 
-  /// For all threads of this process: libraries may have started some.
+  /// Applies the filter to all threads of this process: libraries may have started some.
   bool load() const {
     return good_ && seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, 1) == 0 &&
            seccomp_load(context_.get()) == 0;
@@ -80,9 +80,9 @@ void allow_reading(Filter& filter) {
 void allow_threads(Filter& filter) {
   constexpr scmp_datum_t thread = CLONE_VM | CLONE_SIGHAND | CLONE_THREAD;
   filter.allow("clone", {bits(0, thread | CLONE_VFORK, thread)});
-  filter.allow("tgkill", {equal(0, scmp_datum_t(getpid()))});  // how abort ends a process
+  filter.allow("tgkill", {equal(0, scmp_datum_t(getpid()))});  // used by abort
   filter.allow("prctl", {equal(0, PR_SET_NAME)});
-  filter.allow("prlimit64", {equal(0, 0), equal(2, 0)});  // to learn a limit of its own
+  filter.allow("prlimit64", {equal(0, 0), equal(2, 0)});  // reads its own limits
 }
 
 }  // namespace

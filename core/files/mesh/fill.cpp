@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "files/import/handover.h"
 #include "files/import/import_process.h"
 #include "files/mesh/open_mesh.h"
 #include "files/text/text.h"
@@ -29,7 +30,7 @@ ImportedMesh as_imported(const Mesh& surface) {
 
 MeshPointer fill(const Mesh& surface, double size, const Progress& progress) {
   if (!(size > 0) || !std::isfinite(size)) {
-    throw Error("size", "it must be a number above 0", "give the length of the edges to be");
+    throw Error("size", "it must be a number above 0", "give the length of the new edges");
   }
   if (!surface.tetrahedra.empty() || !surface.hexahedra.empty()) {
     throw Error("surface", "the object is a volume already", "take a closed surface");

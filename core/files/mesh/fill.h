@@ -5,14 +5,13 @@
 
 namespace chainmail {
 
-/// About how many elements lie within for each cube whose edges are of the size asked for (measured on a ball, at three
-/// sizes).
+/// Approximate number of inner elements per cube with edges of the requested size (measured on a ball, at three sizes).
 inline constexpr double points_per_cube = 0.6;
 
-/// Fills a closed surface with tetrahedra whose edges are about `size` long (mesh units): the surface's elements keep
-/// their ids, and those within follow.
+/// Fills a closed surface with tetrahedra whose edges are about `size` long (mesh units). The elements of the surface
+/// keep their ids; inner elements follow.
 ///
-/// Throws Error where the surface is open, goes through itself or cannot be filled, saying where; and Cancelled.
+/// Throws Error, with the position, if the surface is open, intersects itself or cannot be filled; and Cancelled.
 MeshPointer fill(const Mesh& surface, double size, const Progress& progress = {});
 
 }  // namespace chainmail

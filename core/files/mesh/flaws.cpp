@@ -12,8 +12,8 @@
 namespace chainmail {
 namespace {
 
-// A face or cell counts as flat when it has less than this share of the area or volume that its longest edge would
-// allow: well above what rounding leaves of a flat one, well below any that can be seen to be none.
+// A face or cell is flat if its area or volume is below this share of that of its longest edge squared or cubed. The
+// limit is well above rounding errors and well below a visible area or volume.
 constexpr double flat_share = 1e-9;
 
 template <std::size_t Size>
@@ -26,7 +26,7 @@ bool names_one_twice(std::span<const ElementId> ascending) {
   return std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end();
 }
 
-/// Says of each of `count` groups of corners whether it is left out; `corners(i)` gives them ascending.
+/// Returns for each of `count` groups of corners whether it is left out. `corners(i)` returns them in ascending order.
 template <class Corners>
 std::vector<bool> left_out(std::size_t count, Corners corners, MeshFlaws& flaws) {
   std::vector<bool> out(count, false);
@@ -53,8 +53,8 @@ template <std::size_t Size>
 void leave_out(std::vector<std::array<ElementId, Size>>& groups, MeshFlaws& flaws) {
   const auto out = left_out(
       groups.size(), [&](std::size_t i) { return sorted(groups[i]); }, flaws);
-  std::size_t place = 0;
-  std::erase_if(groups, [&](const auto& /*group*/) { return out[place++]; });
+  std::size_t i = 0;
+  std::erase_if(groups, [&](const auto& /*group*/) { return out[i++]; });
 }
 
 void leave_out_polygons(std::vector<ElementId>& polygons, MeshFlaws& flaws) {
@@ -79,7 +79,7 @@ void leave_out_polygons(std::vector<ElementId>& polygons, MeshFlaws& flaws) {
   polygons = std::move(kept);
 }
 
-/// The longest of the edges from a cell's first corner, or the face's.
+/// Returns the length of the longest edge.
 double longest(std::initializer_list<Point> edges) {
   double length = 0;
   for (const Point& edge : edges) {
@@ -100,11 +100,13 @@ void count_coincident(const Mesh& mesh, MeshFlaws& flaws) {
   const int dimension = mesh.space_dimension;
   std::vector<ElementId> order(mesh.element_count());
   std::iota(order.begin(), order.end(), ElementId{0});
-  const auto place = [&](ElementId e) { return std::span(mesh.rest).subspan(std::size_t{e} * dimension, dimension); };
+  const auto position = [&](ElementId e) {
+    return std::span(mesh.rest).subspan(std::size_t{e} * dimension, dimension);
+  };
   std::sort(order.begin(), order.end(),
-            [&](ElementId a, ElementId b) { return std::ranges::lexicographical_compare(place(a), place(b)); });
+            [&](ElementId a, ElementId b) { return std::ranges::lexicographical_compare(position(a), position(b)); });
   for (std::size_t i = 1; i < order.size(); ++i) {
-    flaws.coincident += std::ranges::equal(place(order[i]), place(order[i - 1])) ? 1 : 0;
+    flaws.coincident += std::ranges::equal(position(order[i]), position(order[i - 1])) ? 1 : 0;
   }
 }
 
@@ -137,7 +139,7 @@ void count_flaws(const Mesh& mesh, MeshFlaws& flaws) {
     count_volume(u.cross(v).dot(w), longest({u, v, w}), flaws);
   }
   for (const auto& h : mesh.hexahedra) {
-    // The mean edges along its three ways: their box has about its volume, and its sign.
+    // The mean edges along its three axes: their determinant has about its volume, and its sign.
     const auto mean = [&](std::array<int, 8> way) {
       Point sum = Point::Zero();
       for (int i = 0; i < 8; i += 2) {
@@ -154,13 +156,13 @@ void count_flaws(const Mesh& mesh, MeshFlaws& flaws) {
 
 std::string in_words(const MeshFlaws& flaws) {
   std::string out, kept;
-  add_words(out, flaws.unused, "point", "points", " that nothing uses");
+  add_words(out, flaws.unused, "unused point", "unused points", "");
   add_words(out, flaws.collapsed, "face or cell", "faces or cells", " with a point named twice");
-  add_words(out, flaws.doubled, "face or cell", "faces or cells", " there already");
+  add_words(out, flaws.doubled, "duplicate face or cell", "duplicate faces or cells", "");
   add_words(kept, flaws.flat, "face or cell is flat", "faces or cells are flat", "");
   add_words(kept, flaws.inverted, "cell is inside out", "cells are inside out", "");
-  add_words(kept, flaws.coincident, "element stands where another does", "elements stand where another does", "");
-  out += out.empty() ? "" : " left out" + std::string(flaws.unused > 0 ? " (ids count the others)" : "");
+  add_words(kept, flaws.coincident, "element has the position of another", "elements have the position of another", "");
+  out += out.empty() ? "" : " left out" + std::string(flaws.unused > 0 ? " (ids number the other points)" : "");
   return out + (out.empty() || kept.empty() ? "" : "; ") + kept;
 }
 

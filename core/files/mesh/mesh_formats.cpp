@@ -1,59 +1,160 @@
 #include "files/mesh/mesh_formats.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <vector>
 
+#include "files/formats/dat.h"
+#include "files/formats/metaimage.h"
+#include "files/formats/msh.h"
+#include "files/formats/obj.h"
+#include "files/formats/ply.h"
+#include "files/formats/positions_csv.h"
+#include "files/formats/tetgen.h"
+#include "files/formats/vtk.h"
+#include "files/formats/vtu.h"
+#include "files/import/import_file.h"
+#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr std::size_t sign_bytes = 512;  // read at the beginning of a file to recognise its format
+
+ImportedMesh read_obj_file(const fs::path& path, const ReadOptions& /*options*/, const Progress& progress) {
+  return read_obj(read_text(path, "a mesh", progress.part(0, 0.1)), path, progress.part(0.1, 1));
+}
+
+ImportedMesh read_dat_file(const fs::path& path, const ReadOptions& options, const Progress& progress) {
+  return read_dat(read_text(path, "a mesh", progress.part(0, 0.1)), path, options, progress.part(0.1, 1));
+}
+
+/// Reads a file that may be binary.
+template <auto Read>
+ImportedMesh read_file(const fs::path& path, const ReadOptions& /*options*/, const Progress& progress) {
+  return Read(read_bytes(path, "a mesh", progress.part(0, 0.2)), path, progress.part(0.2, 1));
+}
+
 constexpr std::array formats{
-    MeshFormatInfo{MeshFormat::obj, "Wavefront OBJ", ".obj", true, true, true, "surfaces and lines"},
-    MeshFormatInfo{MeshFormat::ply, "Stanford PLY", ".ply", true, true, true, "surfaces; links along no face as edges"},
-    MeshFormatInfo{MeshFormat::vtu, "ParaView", ".vtu", false, true, true,
-                   "all cells, with displacement and violation as fields"},
-    MeshFormatInfo{MeshFormat::msh, "Gmsh", ".msh", true, true, true,
-                   "lines, triangles, quadrangles, tetrahedra and hexahedra"},
-    MeshFormatInfo{MeshFormat::vtk, "legacy VTK", ".vtk", true, false, true, "lines, surfaces and volumes"},
-    MeshFormatInfo{MeshFormat::medit, "Medit", ".mesh", true, false, true, "lines, surfaces and volumes"},
-    MeshFormatInfo{MeshFormat::off, "OFF", ".off", true, false, true, "surfaces"},
-    MeshFormatInfo{MeshFormat::stl, "STL", ".stl", true, false, true, "surfaces, triangle by triangle"},
-    MeshFormatInfo{MeshFormat::tetgen, "TetGen", ".node .ele", true, false, true, "tetrahedra, in a pair of files"},
-    MeshFormatInfo{MeshFormat::nrrd, "NRRD", ".nrrd .nhdr", true, false, true, "volumes of voxels"},
-    MeshFormatInfo{MeshFormat::metaimage, "MetaImage", ".mha .mhd", true, false, true, "volumes of voxels"},
-    MeshFormatInfo{MeshFormat::dat, "Links of a lattice", ".dat", true, true, false,
-                   "the links of a line, a grid or a block, as in Dean's thesis"},
-    MeshFormatInfo{MeshFormat::csv, "Table of positions", ".csv", false, true, true, "a row id,x,y,z an element"},
+    MeshFormat{.name = "Wavefront OBJ",
+               .endings = ".obj",
+               .help = "surfaces and lines",
+               .read_mesh = read_obj_file,
+               .write = write_obj},
+    MeshFormat{.name = "Stanford PLY",
+               .endings = ".ply",
+               .help = "surfaces; links along no face as edges",
+               .signs = {"ply\n", "ply\r"},
+               .read_mesh = read_file<read_ply>,
+               .write = write_ply},
+    MeshFormat{.name = "ParaView",
+               .endings = ".vtu",
+               .help = "all cells, with displacement and violation as fields",
+               .write = write_vtu},
+    MeshFormat{.name = "Gmsh",
+               .endings = ".msh",
+               .help = "lines, triangles, quadrangles, tetrahedra and hexahedra",
+               .signs = {"$MeshFormat", "$NOD"},
+               .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
+                               const Progress& progress) { return import_mesh("msh", path, 2, progress); },
+               .write = write_msh},
+    MeshFormat{.name = "legacy VTK",
+               .endings = ".vtk",
+               .help = "lines, surfaces and volumes",
+               .signs = {"# vtk DataFile"},
+               .read_mesh = read_file<read_vtk>},
+    MeshFormat{.name = "Medit",
+               .endings = ".mesh",
+               .help = "lines, surfaces and volumes",
+               .signs = {"MeshVersionFormatted"},
+               .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
+                               const Progress& progress) { return import_mesh("mesh", path, 2, progress); }},
+    MeshFormat{.name = "OFF",
+               .endings = ".off",
+               .help = "surfaces",
+               .signs = {"OFF", "COFF", "NOFF", "CNOFF", "STOFF"},
+               .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
+                               const Progress& progress) { return import_mesh("off", path, 1, progress); }},
+    MeshFormat{.name = "STL",
+               .endings = ".stl",
+               .help = "surfaces, triangle by triangle",
+               .signs = {"solid "},
+               .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
+                               const Progress& progress) { return import_mesh("stl", path, 1, progress); }},
+    MeshFormat{.name = "TetGen",
+               .endings = ".node .ele",
+               .help = "tetrahedra, in a pair of files",
+               .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
+                               const Progress& progress) { return read_tetgen(path, progress); }},
+    MeshFormat{
+        .name = "NRRD",
+        .endings = ".nrrd .nhdr",
+        .help = "volumes of voxels",
+        .signs = {"NRRD000"},
+        .read_volume = [](const fs::path& path, const ReadOptions& options,
+                          const Progress& progress) { return import_nrrd(path, options.data_outside, progress); }},
+    MeshFormat{
+        .name = "MetaImage",
+        .endings = ".mha .mhd",
+        .help = "volumes of voxels",
+        .signs = {"ObjectType", "NDims"},
+        .read_volume = [](const fs::path& path, const ReadOptions& options,
+                          const Progress& progress) { return read_metaimage(path, options.data_outside, progress); }},
+    MeshFormat{.name = "Links of a lattice",
+               .endings = ".dat",
+               .help = "the links of a line, a grid or a block, as in Dean's thesis",
+               .read_mesh = read_dat_file,
+               .write = write_dat,
+               .holds_positions = false},
+    MeshFormat{.name = "Table of positions",
+               .endings = ".csv",
+               .help = "one row id,x,y,z per element",
+               .write = write_positions_csv},
 };
 
-/// Calls visit(ending) for each of a format's endings.
+/// Calls visit(ending) for each ending of a format.
 template <class Visit>
-void for_each_ending(const MeshFormatInfo& format, Visit visit) {
+void for_each_ending(const MeshFormat& format, Visit visit) {
   std::string_view rest = format.endings;
   for (std::string_view ending = take_word(rest); !ending.empty(); ending = take_word(rest)) {
     visit(ending);
   }
 }
 
-bool has_ending(const MeshFormatInfo& format, std::string_view wanted) {
-  bool found = false;
-  for_each_ending(format, [&](std::string_view ending) { found |= ending == wanted; });
-  return found;
+const MeshFormat* find_by_ending(std::string_view wanted) {
+  const auto has_ending = [wanted](const MeshFormat& format) {
+    bool found = false;
+    for_each_ending(format, [&](std::string_view ending) { found |= ending == wanted; });
+    return found;
+  };
+  const auto found = std::find_if(formats.begin(), formats.end(), has_ending);
+  return found == formats.end() ? nullptr : &*found;
 }
 
-std::string small_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+const MeshFormat* find_by_sign(std::string_view beginning) {
+  const auto has_sign = [beginning](const MeshFormat& format) {
+    return std::any_of(format.signs.begin(), format.signs.end(),
+                       [beginning](std::string_view sign) { return !sign.empty() && beginning.starts_with(sign); });
+  };
+  const auto found = std::find_if(formats.begin(), formats.end(), has_sign);
+  return found == formats.end() ? nullptr : &*found;
 }
 
-/// Why a file of this ending is not for this use.
-std::string refusal(const std::string& ending, const MeshFormatInfo* format, FormatUse use) {
+std::string_view without_comments(std::string_view beginning) {
+  for (;;) {
+    beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
+    if (!beginning.starts_with('#')) {
+      return beginning;
+    }
+    beginning.remove_prefix(std::min(beginning.find('\n'), beginning.size()));
+  }
+}
+
+/// Returns why a file with this ending does not have this use. `format` is the format of the ending, if any.
+std::string refusal(const std::string& ending, const MeshFormat* format, FormatUse use) {
   if (ending.empty()) {
     return "its name has no ending";
   }
@@ -62,21 +163,17 @@ std::string refusal(const std::string& ending, const MeshFormatInfo* format, For
   }
   return "a " + ending + " file " +
          (use == FormatUse::read ? "is written, not opened"
-          : format->writes       ? "holds no positions"
+          : format->writes()     ? "holds no positions"
                                  : "is opened, not written");
 }
 
 }  // namespace
 
-std::span<const MeshFormatInfo> mesh_formats() { return formats; }
-
-const MeshFormatInfo& info(MeshFormat format) {
-  return *std::find_if(formats.begin(), formats.end(), [&](const auto& one) { return one.format == format; });
-}
+std::span<const MeshFormat> mesh_formats() { return formats; }
 
 std::string mesh_endings(FormatUse use, std::string_view last) {
   std::vector<std::string_view> endings;
-  for (const MeshFormatInfo& format : formats) {
+  for (const MeshFormat& format : formats) {
     if (format.allows(use)) {
       for_each_ending(format, [&](std::string_view ending) { endings.push_back(ending); });
     }
@@ -91,7 +188,7 @@ std::string mesh_endings(FormatUse use, std::string_view last) {
 
 std::string mesh_formats_help(FormatUse use) {
   std::string text;
-  for (const MeshFormatInfo& format : formats) {
+  for (const MeshFormat& format : formats) {
     if (format.allows(use)) {
       text +=
           "  " + std::string(format.endings) + ", " + std::string(format.name) + ": " + std::string(format.help) + "\n";
@@ -100,17 +197,27 @@ std::string mesh_formats_help(FormatUse use) {
   return text;
 }
 
-MeshFormat mesh_format(const std::filesystem::path& path, FormatUse use) {
-  const std::string ending = small_ending(path);
-  const auto found =
-      std::find_if(formats.begin(), formats.end(), [&](const auto& format) { return has_ending(format, ending); });
-  if (found != formats.end() && found->allows(use)) {
-    return found->format;
+const MeshFormat& mesh_format(const fs::path& path, FormatUse use) {
+  const std::string ending = lower_case(path.extension().string());
+  const MeshFormat* format = find_by_ending(ending);
+  if (format != nullptr && format->allows(use)) {
+    return *format;
   }
-  throw Error(shown(path), refusal(ending, found == formats.end() ? nullptr : &*found, use),
+  throw Error(shown(path), refusal(ending, format, use),
               use == FormatUse::read    ? "meshes are " + mesh_endings(use)
               : use == FormatUse::write ? "meshes are written as " + mesh_endings(use)
                                         : "positions are written as " + mesh_endings(use));
+}
+
+const MeshFormat& detect_format(const fs::path& path) {
+  std::array<char, sign_bytes> bytes{};
+  const std::string_view beginning(bytes.data(), RegularFile(path).read(bytes));
+  if (beginning.empty()) {
+    throw Error(shown(path), "it is empty", "give a file that holds a mesh");
+  }
+  const MeshFormat* by_comment = find_by_sign(beginning);
+  const MeshFormat* by_sign = by_comment != nullptr ? by_comment : find_by_sign(without_comments(beginning));
+  return by_sign != nullptr ? *by_sign : mesh_format(path);
 }
 
 }  // namespace chainmail

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "files/formats/imported.h"
+#include "files/formats/voxel_block.h"
 #include "files/mesh/flaws.h"
 #include "files/mesh/mesh_file.h"
 #include "mesh/mesh.h"
@@ -13,31 +14,32 @@
 
 namespace chainmail {
 
-/// What a file holds, and what there is to say of it.
+/// The object of a file, and what the user should know about it.
 struct OpenedMesh {
   MeshPointer mesh;
-  std::map<LinkId, LinkSoftness> softness;  // of links with their own: a volume's, which are stiff where it is dense
+  std::map<LinkId, LinkSoftness> softness;  // of links with their own: dense voxels have stiffer links
   MeshFlaws flaws;
-  std::string remark;  // how a volume was taken, or empty
+  std::string remark;  // how voxels became elements, else empty
 };
 
-/// Reads a mesh, a volume, or a pair of TetGen's files, in the format that its content tells, else its ending.
+/// Reads a mesh, a volume, or a pair of TetGen files. Its content decides the format, else its ending does.
 ///
-/// Throws Error, with the line where there is one, and Cancelled. What libraries read they read in a process of their
-/// own, within limits of memory and time.
+/// Throws Error, with the line where there is one, and Cancelled. Libraries read in a process of their own, within
+/// limits of memory and time.
 OpenedMesh open_mesh(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});
 
-/// Whether a file's content, else its ending, tells that it is a volume of voxels. Throws as detect_format.
+/// True if the file is a volume of voxels. Throws as detect_format.
 bool is_volume(const std::filesystem::path& path);
 
-/// The voxels of such a file. Throws as open_mesh.
+/// Returns the voxels of such a file. Throws as open_mesh.
 Volume read_volume(const std::filesystem::path& path, const Progress& progress = {});
 
-/// What voxels are taken as, in words: 'voxels from a density of 250, 2 along each axis to an element'.
+/// Describes how voxels became elements: 'voxels from a density of 250, 2 along each axis to an element'.
 std::string in_words(const VoxelBlock& block);
 
-/// What an import gave, as a mesh: flawed parts left out, links along all edges.
+/// Builds the mesh that a reader took from a file, with links along all edges. Flawed faces and cells are left out,
+/// unless the reader checked them.
 OpenedMesh opened(ImportedMesh imported, const std::filesystem::path& path, const ReadOptions& options,
-                  const Progress& progress);
+                  const Progress& progress = {});
 
 }  // namespace chainmail

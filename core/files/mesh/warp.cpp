@@ -13,9 +13,9 @@
 namespace chainmail {
 namespace {
 
-using Place = Eigen::Vector2d;  // in texels, from a corner of a picture
+using TexelPoint = Eigen::Vector2d;  // in texels, from a corner of a picture
 
-// A bound that is off by rounding takes no row of pixels in (texels).
+// A bound within this distance of a pixel row does not include the row (texels).
 constexpr double rounding = 1e-3;
 
 bool is_whole(const Mesh& mesh, const Cuts& cuts, const std::array<ElementId, 3>& triangle) {
@@ -23,37 +23,37 @@ bool is_whole(const Mesh& mesh, const Cuts& cuts, const std::array<ElementId, 3>
   return !is_cut_between(mesh, cuts, a, b) && !is_cut_between(mesh, cuts, b, c) && !is_cut_between(mesh, cuts, c, a);
 }
 
-/// Positions in mesh units to texels of the sheet's picture.
-class TexelPlaces {
+/// Converts positions from mesh units to texels of the picture.
+class TexelPositions {
  public:
-  explicit TexelPlaces(const Texture& picture)
+  explicit TexelPositions(const Texture& picture)
       : origin_(picture.box[0].head<2>()),
-        per_unit_(Place(picture.size[0], picture.size[1]).array() /
+        per_unit_(TexelPoint(picture.size[0], picture.size[1]).array() /
                   (picture.box[1] - picture.box[0]).head<2>().array()) {}
-  Place operator()(const Point& point) const { return (point.head<2>() - origin_).cwiseProduct(per_unit_); }
+  TexelPoint operator()(const Point& point) const { return (point.head<2>() - origin_).cwiseProduct(per_unit_); }
 
  private:
-  Place origin_, per_unit_;
+  TexelPoint origin_, per_unit_;
 };
 
-/// An edge of a triangle, with all that lies to its left, and of what lies on it the part that is not its neighbour's.
+/// An edge of a triangle: the points to its left, and those on it that do not belong to its neighbour.
 class Edge {
  public:
-  /// Both triangles at an edge compute the same number, since each goes along it from the same end.
-  Edge(const Place& a, const Place& b)
+  /// Both triangles at an edge compute the same number, because both start from the same end.
+  Edge(const TexelPoint& a, const TexelPoint& b)
       : turned_(b.x() < a.x() || (b.x() == a.x() && b.y() < a.y())),
         from_(turned_ ? b : a),
         along_((turned_ ? a : b) - from_),
         owns_((b - a).y() < 0 || ((b - a).y() == 0 && (b - a).x() < 0)) {}
 
-  bool holds(const Place& place) const {
-    const double left = along_.x() * (place.y() - from_.y()) - along_.y() * (place.x() - from_.x());
+  bool holds(const TexelPoint& point) const {
+    const double left = along_.x() * (point.y() - from_.y()) - along_.y() * (point.x() - from_.x());
     return left == 0 ? owns_ : (left > 0) != turned_;
   }
-  /// Widens a range by where the edge crosses the line at this height.
+  /// Extends a range to the point where the edge crosses the line at this height.
   void cross(double y, double& low, double& high) const {
     const double share = (y - from_.y()) / along_.y();
-    if (share >= 0 && share <= 1) {  // no number where the edge is level
+    if (share >= 0 && share <= 1) {  // false for NaN, if the edge is level
       const double x = from_.x() + share * along_.x();
       low = std::min(low, x);
       high = std::max(high, x);
@@ -62,18 +62,18 @@ class Edge {
 
  private:
   bool turned_;
-  Place from_, along_;
+  TexelPoint from_, along_;
   bool owns_;
 };
 
-/// The four channels at a place, between the four texels about it; beyond the border the texels of the border.
+/// Interpolates the four channels between the four nearest texels; outside, the texels of the border.
 class Sampler {
  public:
   explicit Sampler(const Texture& picture) : picture_(picture) {}
 
-  void sample(const Place& place, std::uint8_t* out) const {
-    const Place at = place - Place(0.5, 0.5), corner = at.array().floor();
-    const Place share = at - corner;
+  void sample(const TexelPoint& point, std::uint8_t* out) const {
+    const TexelPoint at = point - TexelPoint(0.5, 0.5), corner = at.array().floor();
+    const TexelPoint share = at - corner;
     Eigen::Vector4d sum = Eigen::Vector4d::Zero(), plain = Eigen::Vector4d::Zero();
     for (int i = 0; i < 4; ++i) {
       const bool right = (i & 1) != 0, up = (i & 2) != 0;
@@ -82,7 +82,7 @@ class Sampler {
       plain += weight * texel;
       sum += weight * texel[3] * Eigen::Vector4d(texel[0], texel[1], texel[2], 1);
     }
-    // What is transparent lends no colour to what is not.
+    // Transparent texels do not contribute colour.
     const Eigen::Vector4d colour = sum[3] > 0 ? Eigen::Vector4d(sum / sum[3]) : plain;
     for (int k = 0; k < 4; ++k) {
       out[k] = static_cast<std::uint8_t>(std::lround(std::clamp(k == 3 ? plain[3] : colour[k], 0.0, 255.0)));
@@ -105,8 +105,8 @@ class Warper {
  public:
   Warper(const Texture& from, Texture& to) : sampler_(from), to_(to) {}
 
-  /// `corners` in texels of the picture drawn, `sources` in those of the one it is taken from.
-  void draw(std::array<Place, 3> corners, std::array<Place, 3> sources, const Progress& progress);
+  /// `corners` are in texels of the drawn picture, `sources` in texels of the original.
+  void draw(std::array<TexelPoint, 3> corners, std::array<TexelPoint, 3> sources, const Progress& progress);
 
  private:
   void draw_row(std::uint32_t y, const std::array<Edge, 3>& edges, const Eigen::Affine2d& map);
@@ -115,14 +115,14 @@ class Warper {
   Texture& to_;
 };
 
-/// The pixels of a side whose centres may lie in a range.
+/// Returns the pixels of a side whose centres may be in a range.
 std::array<std::uint32_t, 2> pixels_in(double low, double high, std::uint32_t side) {
   const double first = std::floor(low - 0.5), end = std::ceil(high + 0.5);
   return {static_cast<std::uint32_t>(std::clamp(first, 0.0, double(side))),
           static_cast<std::uint32_t>(std::clamp(end, 0.0, double(side)))};
 }
 
-void Warper::draw(std::array<Place, 3> corners, std::array<Place, 3> sources, const Progress& progress) {
+void Warper::draw(std::array<TexelPoint, 3> corners, std::array<TexelPoint, 3> sources, const Progress& progress) {
   Eigen::Matrix2d sides;
   sides << corners[1] - corners[0], corners[2] - corners[0];
   if (const double area = sides.determinant(); area == 0 || !std::isfinite(area)) {
@@ -157,7 +157,7 @@ void Warper::draw_row(std::uint32_t y, const std::array<Edge, 3>& edges, const E
   const auto [first, end] = pixels_in(low, high, to_.size[0]);
   std::uint8_t* row = to_.texels.data() + std::size_t{4} * y * to_.size[0];
   for (std::uint32_t x = first; x < end; ++x) {
-    const Place centre(x + 0.5, y + 0.5);
+    const TexelPoint centre(x + 0.5, y + 0.5);
     if (std::all_of(edges.begin(), edges.end(), [&](const Edge& edge) { return edge.holds(centre); })) {
       sampler_.sample(map * centre, row + std::size_t{4} * x);
     }
@@ -167,12 +167,12 @@ void Warper::draw_row(std::uint32_t y, const std::array<Edge, 3>& edges, const E
 Texture empty_picture(const PictureFrame& frame) {
   const double pixels = frame.size[0] * frame.size[1];
   if (!(pixels >= 1)) {
-    throw Error("warped picture", "nothing of the sheet is whole", "undo some cuts");
+    throw Error("warped picture", "no triangle of the sheet is whole", "undo some cuts");
   }
   if (!(pixels <= picture_limit)) {
     throw Error("warped picture",
                 "the sheet spans more than " + std::to_string(std::lround(picture_limit / 1e6)) + " million pixels",
-                "drag it less far, or keep to the picture's own frame");
+                "drag it less far, or use the frame of the picture");
   }
   Texture picture;
   picture.size = {static_cast<std::uint32_t>(frame.size[0]), static_cast<std::uint32_t>(frame.size[1]), 1};
@@ -189,40 +189,40 @@ PictureFrame own_frame(const Mesh& sheet) {
 }
 
 PictureFrame frame_about(const Mesh& sheet, const Cuts& cuts, const PositionView& positions) {
-  const TexelPlaces places(*sheet.texture);
-  Place low = Place::Constant(std::numeric_limits<double>::max()), high = -low;
+  const TexelPositions to_texels(*sheet.texture);
+  TexelPoint low = TexelPoint::Constant(std::numeric_limits<double>::max()), high = -low;
   for (const auto& triangle : sheet.triangles) {
     if (is_whole(sheet, cuts, triangle)) {
       for (const ElementId corner : triangle) {
-        const Place place = places(point_of(sheet, positions, corner));
-        low = low.cwiseMin(place);
-        high = high.cwiseMax(place);
+        const TexelPoint point = to_texels(point_of(sheet, positions, corner));
+        low = low.cwiseMin(point);
+        high = high.cwiseMax(point);
       }
     }
   }
   if (low.x() > high.x()) {
     return {};
   }
-  const Place from = (low.array() + rounding).floor();
-  const Place size = ((high.array() - rounding).ceil() - from.array()).max(0);
+  const TexelPoint from = (low.array() + rounding).floor();
+  const TexelPoint size = ((high.array() - rounding).ceil() - from.array()).max(0);
   return {{from.x(), from.y()}, {size.x(), size.y()}};
 }
 
 Texture warped(const Mesh& sheet, const Cuts& cuts, const PositionView& positions, const PictureFrame& frame,
                const Progress& progress) {
   Texture picture = empty_picture(frame);
-  const TexelPlaces places(*sheet.texture);
-  const Place from(frame.from[0], frame.from[1]);
+  const TexelPositions to_texels(*sheet.texture);
+  const TexelPoint from(frame.from[0], frame.from[1]);
   Warper warper(*sheet.texture, picture);
   for (std::size_t i = 0; i < sheet.triangles.size(); ++i) {
     const auto& triangle = sheet.triangles[i];
     if (!is_whole(sheet, cuts, triangle)) {
       continue;
     }
-    std::array<Place, 3> corners, sources;
+    std::array<TexelPoint, 3> corners, sources;
     for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = places(point_of(sheet, positions, triangle[k])) - from;
-      sources[k] = places(sheet.rest_position(triangle[k]));
+      corners[k] = to_texels(point_of(sheet, positions, triangle[k])) - from;
+      sources[k] = to_texels(sheet.rest_position(triangle[k]));
     }
     const auto count = double(sheet.triangles.size());
     warper.draw(corners, sources, progress.part(double(i) / count, double(i + 1) / count));

@@ -9,29 +9,29 @@
 
 namespace chainmail {
 
-/// More pixels than this are refused before memory is taken, of pictures that are read and of those that are made: one
-/// takes up to 12 bytes while it is decoded, whatever little its file may be.
+/// Largest number of pixels in a picture that is read or made. Larger ones are refused before memory is taken: a pixel
+/// takes up to 12 bytes while it is decoded, however small the file is.
 inline constexpr double picture_limit = 100e6;
 
-/// A part of the plane to make a picture of, in whole texels from the first corner of a sheet's picture: its lowest
-/// corner and its size.
+/// A part of the plane to draw: its lowest corner and its size, in whole texels from the first corner of the picture of
+/// a sheet.
 struct PictureFrame {
   std::array<double, 2> from{0, 0};
   std::array<double, 2> size{0, 0};
 };
-/// Of the picture as it was opened.
+/// Returns the frame of the picture of a sheet.
 PictureFrame own_frame(const Mesh& sheet);
-/// About all that is whole of a sheet as it stands.
+/// Returns the frame around all whole triangles of a sheet at these positions.
 PictureFrame frame_about(const Mesh& sheet, const Cuts& cuts, const PositionView& positions);
 
-/// The picture of a sheet (see is_sheet) as it is warped, texel for texel as large as the one that it was made from.
+/// Returns the warped picture of a sheet (see is_sheet), with texels of the same size as in the original picture.
 ///
-/// Each whole triangle takes its part of the picture along, by the affine map of its corners, sampled bilinearly. A
-/// pixel belongs to the triangle that its centre lies in, of two that share the edge through it to one: there are no
-/// seams. What no triangle covers, outside and in cuts, is transparent; where the sheet is folded over itself, the
-/// later triangle is seen. A sheet at rest gives the picture back to the bit: positions in single precision are off by
-/// less than a thousandth of a pixel, which is less than half of one of 256 steps of brightness. Throws Error
-/// where the frame has no pixels or more than picture_limit, and Cancelled.
+/// Each whole triangle maps its part of the picture by the affine map of its corners, with bilinear sampling. A pixel
+/// belongs to the triangle that contains its centre, and to only one of two triangles with a shared edge: there are no
+/// seams. Pixels without a triangle, outside and in cuts, are transparent. Where the sheet is folded, the later
+/// triangle is visible. A sheet at rest returns the exact picture: positions in single precision are off by less than a
+/// thousandth of a pixel, which is less than half of one of 256 steps of brightness. Throws Error if the frame has no
+/// pixels or more than picture_limit, and Cancelled.
 Texture warped(const Mesh& sheet, const Cuts& cuts, const PositionView& positions, const PictureFrame& frame,
                const Progress& progress = {});
 

@@ -13,26 +13,26 @@
 
 namespace chainmail {
 
-/// What there is to say of a mesh.
+/// Figures of a mesh.
 struct MeshSummary {
   std::uint64_t elements = 0;
   std::uint64_t links = 0;
-  std::uint64_t triangles = 0;  // as they are drawn: those that polygons are split into count
+  std::uint64_t triangles = 0;  // as drawn: includes those that polygons are split into
   std::uint64_t tetrahedra = 0;
   std::uint64_t hexahedra = 0;
   int object_dimension = 1;
   int space_dimension = 1;
-  std::uint64_t components = 0;  // parts that no link joins
+  std::uint64_t components = 0;  // parts without a link between them
   std::array<Point, 2> bounds{Point::Zero(), Point::Zero()};
   double mean_link_length = 0;
   MeshFlaws flaws;
-  std::string remark;  // how a volume was taken, or empty
+  std::string remark;  // how voxels became elements, else empty
 };
 MeshSummary summarize(const Mesh& mesh);
 MeshSummary summarize(const OpenedMesh& opened);
 void write_json(std::ostream& out, const MeshSummary& summary);
 
-/// What a deformation did, pass by pass, and how the object stands after it.
+/// What a deformation did, pass by pass, and the state of the object after it.
 struct DeformSummary {
   struct Pass {
     ElementId element = 0;
@@ -40,8 +40,8 @@ struct DeformSummary {
     std::uint64_t checked = 0;
     std::uint64_t moved = 0;
     double milliseconds = 0;
-    std::optional<Point> stopped_at = {};  // where pins held the hand short of its target
-    std::string remark = {};               // why it ended otherwise than asked for
+    std::optional<Point> stopped_at = {};  // where pins stopped the handle before its target
+    std::string remark = {};               // why it did not end as requested
   };
 
   std::string algorithm;

@@ -65,7 +65,7 @@ void MovesScan::take_key(const std::string& key) {
   const bool in_command = at_ == At::command;
   if ((in_command ? command_.members : head_).contains(key)) {
     throw Error(in_command ? where_ + ": command " + std::to_string(commands_) : where_,
-                in_quotes(key) + " stands twice", "remove one of them");
+                in_quotes(key) + " appears twice", "remove one of them");
   }
   (in_command ? command_key_ : file_key_) = key;
 }
@@ -123,11 +123,11 @@ void MovesScan::close() {
   }
 }
 
-/// Takes a value that is whole, a command among them.
+/// Takes a complete value, which may be a command.
 void MovesScan::put(Json value) {
   switch (at_) {
     case At::outside:
-      break;  // no object: `head` stays null
+      break;  // not an object: `head` stays null
     case At::file:
       if (std::ranges::find(file_keys, file_key_) != file_keys.end() || !std::exchange(head_has_unknown_, true)) {
         head_[file_key_] = std::move(value);

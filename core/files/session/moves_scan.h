@@ -12,21 +12,21 @@
 
 namespace chainmail {
 
-/// The items of an array of numbers, or of an array of arrays of equally many numbers, without a tree. The first item
-/// that is neither ends the list: a check is to refuse it, and those behind it are not kept.
+/// The items of an array of numbers, or of an array of arrays of equally many numbers, without a tree. The first other
+/// item ends the list, for a check to refuse it; later items are dropped.
 class NumberList {
  public:
   using Json = nlohmann::json;
 
   void add(Json item);
   std::size_t size() const;
-  /// A copy of an item.
+  /// Returns a copy of an item.
   Json at(std::size_t i) const;
 
  private:
-  std::size_t width_ = 0;      // numbers of an item that is an array; 0 where items are numbers
+  std::size_t width_ = 0;      // number of numbers in an item; 0 if items are numbers
   std::vector<Json> numbers_;  // item by item
-  std::optional<Json> other_;  // the last item, where it is something else
+  std::optional<Json> other_;  // the last item, if it is anything else
 };
 
 /// One command of a file of moves.
@@ -35,16 +35,15 @@ struct MoveMembers {
   std::map<std::string, NumberList> lists;            // the long ones: elements and links
 };
 
-/// Reads a file of moves command by command, each of which is dropped before the next one is read.
+/// Reads a file of moves command by command, and drops each before it reads the next.
 class MovesScan : public JsonScan {
  public:
   using Take = std::function<void(const nlohmann::json& value, const MoveMembers& command)>;
 
-  /// Calls `take` for each item of `commands`, with the item itself where it is no object. `where` appears in errors.
+  /// Calls `take` for each item of `commands`, with the item itself if it is not an object. `where` appears in errors.
   MovesScan(std::string_view text, const std::filesystem::path& path, std::string where, Take take);
 
-  /// What stands beside the commands: null where the file holds no object, else its members, with an empty array for
-  /// the commands.
+  /// Returns the members of the file, with an empty array for the commands; null if the file is not an object.
   const Json& head() const { return head_; }
 
  private:
@@ -61,7 +60,7 @@ class MovesScan : public JsonScan {
   Take take_;
   At at_ = At::outside;
   Json head_;
-  bool head_has_unknown_ = false, command_has_unknown_ = false;  // the first such key is kept: it is refused
+  bool head_has_unknown_ = false, command_has_unknown_ = false;  // the first unknown key is kept, to be refused
   MoveMembers command_;
   std::string file_key_, command_key_;  // of the value that follows
   SmallTree tree_;                      // a value that is kept whole

@@ -16,12 +16,12 @@
 
 namespace chainmail {
 
-/// All there is in a window, to be put down and taken up again: an object, what was done to it, and where its elements
-/// stand in each panel.
+/// The content of a window, to be saved and restored: an object, its moves, and the positions of its elements in each
+/// panel.
 struct Session {
   struct Panel {
     Algorithm algorithm = Algorithm::natural_queue;
-    /// Of the numbers in the placement: those of single precision are floats.
+    /// Precision of the numbers in the placement: single precision means floats.
     Precision precision = Precision::single_precision;
     Snapshot placement;
   };
@@ -34,26 +34,26 @@ struct Session {
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
   std::vector<Panel> panels;  // 1 to session_panels
-  /// What was done since the object was at rest and whole, and how many of it: the others were taken back and lie
-  /// ahead.
+  /// Moves since the object was at rest and whole. The first `moves_done` are done; the others were undone and can be
+  /// redone.
   std::vector<Command> moves;
   std::size_t moves_done = 0;
-  /// A JSON object that is the window's alone: cameras, layout.
+  /// A JSON object that only the window reads: cameras, layout.
   std::string ui = "{}";
 };
 
 inline constexpr std::size_t session_panels = 16;
-/// A session holds moves as long as they, and the links and elements that they name, are no more than these: some hours
-/// of dragging.
+/// Largest number of moves in a session, with the links and elements that they name: some hours of dragging. A session
+/// with more moves is saved without them.
 inline constexpr std::size_t session_moves = 1'000'000;
 
-/// What the names of sessions end in, with the dot.
+/// The ending of session files, with the dot.
 inline constexpr std::string_view session_ending = ".chainmail";
 
-/// Whether a file's ending, in any case of letters, is that of a session.
+/// True if a file has the ending of a session, in upper or lower case.
 bool is_session(const std::filesystem::path& path);
 
-/// Writes a session as JSON, numbers in the fewest digits that read back as the same:
+/// Writes a session as JSON, with numbers in the fewest digits that read back exactly:
 ///
 ///     {"format": "chainmail session", "version": 1, "name": …,
 ///      "mesh": {"elements": n, "space": 1 to 3, "lattice": {"size": [w, h, d], "spacing": s},
@@ -71,19 +71,18 @@ bool is_session(const std::filesystem::path& path);
 ///      "moves": {as recorded moves are written}, "moves_done": how many of them,
 ///      "ui": {…}}
 ///
-/// The moves may be left out, as they are beyond session_moves, "lattice", "hexahedra" and "texture" where there
-/// are none, and "elastic" where it is the standard one. Where neighbours stand in an order of their own, "counts" (of
-/// each element) and "neighbours" (its ids) take the place of "links". Throws Error for a number that is not finite,
-/// and Cancelled.
+/// "moves" are left out above session_moves; "lattice", "hexahedra" and "texture" if there are none; and "elastic" if
+/// it is the standard one. If the neighbours are not in ascending order, "counts" (of each element) and "neighbours"
+/// (its ids) take the place of "links". Throws Error for a number that is not finite, and Cancelled.
 void write_session(std::ostream& out, const Session& session, const Progress& progress = {});
 
-/// The same into a file, whole or not at all.
+/// Writes a session into a file. A failed write leaves the file as it was.
 void save_session(const std::filesystem::path& path, const Session& session, const Progress& progress = {});
 
-/// Reads a session. Throws Error, which says where, for all that write_session would not have written of an object,
-/// and for a newer version than it knows; and Cancelled.
+/// Reads a session. Throws Error, with the member, for anything that write_session does not write, and for a newer
+/// version; and Cancelled.
 Session read_session(const std::filesystem::path& path, const Progress& progress = {});
-/// The same; `path` appears in errors, and `text` is what the file holds.
+/// Reads a session from the text of a file. `path` appears in errors.
 Session parse_session(std::string_view text, const std::filesystem::path& path, const Progress& progress = {});
 
 }  // namespace chainmail

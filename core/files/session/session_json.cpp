@@ -14,13 +14,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t deepest = 16;
-// Of what is neither packed nor moves. A value takes some hundred times the memory of its text.
-constexpr std::size_t most_values = 10'000'000;
+constexpr std::size_t deepest_session = 16;  // levels of arrays and objects
+// Values that are neither packed nor moves: each takes some hundred times the memory of its text.
+constexpr std::size_t most_session_values = 10'000'000;
 
 enum class Packed { no, ids, reals };
 
-/// What a member of the session that `top` is, or is part of, holds as numbers alone.
+/// Returns how the array `key` is packed. `top` is the outermost key around it.
 Packed packed_as(const std::string& top, const std::string& key) {
   if (top == "ui") {
     return Packed::no;
@@ -34,11 +34,12 @@ Packed packed_as(const std::string& top, const std::string& key) {
   return key == "rest" || key == "own" || key == "held" ? Packed::reals : Packed::no;
 }
 
-/// What nlohmann's parser calls, value by value.
-class Scanner {
+/// Receives values from nlohmann's parser, one by one.
+class SessionScanner {
  public:
   /// Reads from `buffer`, which holds the text.
-  Scanner(std::string_view text, const TextBuffer& buffer, const std::filesystem::path& path, SessionJson& result)
+  SessionScanner(std::string_view text, const TextBuffer& buffer, const std::filesystem::path& path,
+                 SessionJson& result)
       : text_(text), buffer_(buffer), file_(shown(path)), path_(path), result_(result) {}
 
   bool null() { return put(nullptr); }
@@ -64,7 +65,7 @@ class Scanner {
   bool put(Json value);
   bool open(Json container);
   bool close();
-  Json& place(Json value);
+  Json& add(Json value);
   std::size_t packed_count() const;
   [[noreturn]] void refuse_in_array() const;
 
@@ -82,18 +83,18 @@ class Scanner {
   std::size_t in_moves_ = 0;     // number of arrays and objects of the moves that are open
 };
 
-std::size_t Scanner::packed_count() const {
+std::size_t SessionScanner::packed_count() const {
   return packed_ == Packed::ids ? result_.ids.back().size() : result_.reals.back().size();
 }
 
-void Scanner::refuse_in_array() const {
+void SessionScanner::refuse_in_array() const {
   const bool ids = packed_ == Packed::ids;
-  fail("number " + std::to_string(packed_count()) + " of '" + key_ + "' is no " + (ids ? "whole number" : "number"),
-       ids ? "whole numbers run from 0 to 4294967295" : "write decimal numbers alone");
+  fail("number " + std::to_string(packed_count()) + " of '" + key_ + "' is not a " + (ids ? "whole number" : "number"),
+       ids ? "whole numbers run from 0 to 4294967295" : "write only decimal numbers");
 }
 
 template <class Value>
-bool Scanner::number(Value value, double real, std::optional<std::uint64_t> whole) {
+bool SessionScanner::number(Value value, double real, std::optional<std::uint64_t> whole) {
   if (in_moves_ > 0) {
     return true;
   }
@@ -116,9 +117,9 @@ bool Scanner::number(Value value, double real, std::optional<std::uint64_t> whol
   return put(value);
 }
 
-/// Puts a value where it stands in the tree.
-Json& Scanner::place(Json value) {
-  if (++values_ > most_values) {
+/// Adds a value to the tree.
+Json& SessionScanner::add(Json value) {
+  if (++values_ > most_session_values) {
     fail("it holds too many values", "give a session");
   }
   if (open_.empty()) {
@@ -131,7 +132,7 @@ Json& Scanner::place(Json value) {
   return (*open_.back())[key_] = std::move(value);
 }
 
-bool Scanner::put(Json value) {
+bool SessionScanner::put(Json value) {
   if (in_moves_ > 0) {
     return true;
   }
@@ -141,12 +142,12 @@ bool Scanner::put(Json value) {
   if (!open_.empty() && open_.back()->is_object() && packed_as(top_, key_) != Packed::no) {
     fail("'" + key_ + "' is not an array", "write it in [ ]");
   }
-  place(std::move(value));
+  add(std::move(value));
   return true;
 }
 
-bool Scanner::open(Json container) {
-  if (open_.size() + in_moves_ == deepest) {
+bool SessionScanner::open(Json container) {
+  if (open_.size() + in_moves_ == deepest_session) {
     fail("it is nested too deeply", "give a session");
   }
   if (packed_ != Packed::no) {
@@ -154,16 +155,16 @@ bool Scanner::open(Json container) {
   }
   if (in_moves_ > 0 || (open_.size() == 1 && key_ == "moves")) {
     if (in_moves_++ == 0) {
-      place(nullptr);
+      add(nullptr);
       moves_begin_ = buffer_.position() - 1;  // with its bracket
     }
     return true;
   }
-  open_.push_back(&place(std::move(container)));
+  open_.push_back(&add(std::move(container)));
   return true;
 }
 
-bool Scanner::close() {
+bool SessionScanner::close() {
   if (in_moves_ == 0) {
     open_.pop_back();
   } else if (--in_moves_ == 0) {
@@ -172,12 +173,12 @@ bool Scanner::close() {
   return true;
 }
 
-bool Scanner::key(std::string& key) {
+bool SessionScanner::key(std::string& key) {
   if (in_moves_ > 0) {
     return true;
   }
   if (open_.back()->contains(key)) {
-    fail(in_quotes(key) + " stands twice", "remove one of them");
+    fail(in_quotes(key) + " appears twice", "remove one of them");
   }
   key_ = std::move(key);
   if (open_.size() == 1) {
@@ -186,13 +187,13 @@ bool Scanner::key(std::string& key) {
   return true;
 }
 
-bool Scanner::start_array(std::size_t) {
+bool SessionScanner::start_array(std::size_t) {
   const bool named = in_moves_ == 0 && !open_.empty() && open_.back()->is_object();
   const Packed packed = named && packed_ == Packed::no ? packed_as(top_, key_) : Packed::no;
   if (packed == Packed::no) {
     return open(Json::array());
   }
-  place(packed == Packed::ids ? result_.ids.size() : result_.reals.size());
+  add(packed == Packed::ids ? result_.ids.size() : result_.reals.size());
   packed_ = packed;
   if (packed == Packed::ids) {
     result_.ids.emplace_back();
@@ -202,7 +203,7 @@ bool Scanner::start_array(std::size_t) {
   return true;
 }
 
-bool Scanner::end_array() {
+bool SessionScanner::end_array() {
   if (packed_ == Packed::no) {
     return close();
   }
@@ -210,9 +211,9 @@ bool Scanner::end_array() {
   return true;
 }
 
-bool Scanner::parse_error(std::size_t position, const std::string&, const Json::exception& error) {
+bool SessionScanner::parse_error(std::size_t position, const std::string&, const Json::exception& error) {
   if (dynamic_cast<const Json::parse_error*>(&error) == nullptr) {
-    fail("a number in it is beyond what a double holds", "give a session");
+    fail("it holds a number that is too large for a double", "give a session");
   }
   const bool ended = position > text_.size();
   throw Error(shown(path_, line_at(text_, position)), ended ? "it ends too early" : "it is not JSON",
@@ -224,10 +225,52 @@ bool Scanner::parse_error(std::size_t position, const std::string&, const Json::
 SessionJson parse_session_json(std::string_view text, const std::filesystem::path& path, const Progress& progress) {
   SessionJson result;
   TextBuffer buffer(text, progress);
-  Scanner scanner(text, buffer, path, result);
+  SessionScanner scanner(text, buffer, path, result);
   std::istream stream(&buffer);
   Json::sax_parse(stream, &scanner);
   return result;
+}
+
+std::size_t SessionFields::packed(const Json& object, const char* key) const {
+  const Json& json = member(object, key);
+  if (!json.is_number_unsigned()) {
+    fail("'" + std::string(key) + "' is not an array", "write it in [ ]");
+  }
+  return json.get<std::size_t>();
+}
+
+const std::vector<std::uint32_t>& SessionFields::elements(const Json& object, const char* key,
+                                                          std::uint64_t count) const {
+  const auto& result = ids(object, key);
+  const auto beyond = std::find_if(result.begin(), result.end(), [count](auto id) { return id >= count; });
+  if (beyond != result.end()) {
+    fail("'" + std::string(key) + "' names element " + std::to_string(*beyond) + ", which does not exist",
+         "ids run from 0 to " + std::to_string(count - 1));
+  }
+  return result;
+}
+
+void SessionFields::check_groups(std::size_t size, std::size_t of_each, const char* key) const {
+  if (size % of_each != 0) {
+    fail("'" + std::string(key) + "' ends within a group of " + std::to_string(of_each), "give whole groups");
+  }
+}
+
+std::uint64_t SessionFields::count(const Json& object, const char* key, std::uint64_t highest) const {
+  const Json& json = member(object, key);
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() == 0 || json.get<std::uint64_t>() > highest) {
+    fail("'" + std::string(key) + "' is not a whole number from 1 to " + std::to_string(highest), "give one");
+  }
+  return json.get<std::uint64_t>();
+}
+
+LinkId SessionFields::link(const Mesh& mesh, ElementId a, ElementId b) const {
+  const auto found = find_link(mesh, a, b);
+  if (!found) {
+    fail("the elements " + std::to_string(a) + " and " + std::to_string(b) + " are not linked",
+         "give the two ends of a link");
+  }
+  return *found;
 }
 
 }  // namespace chainmail

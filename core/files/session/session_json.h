@@ -3,27 +3,55 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "files/text/json_fields.h"
+#include "mesh/mesh.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
 
 inline constexpr unsigned session_version = 1;
 
-/// A session's JSON. Its long arrays of numbers stand beside the tree, packed, in the order in which they come: in the
-/// tree, in place of each, is its number there. The recorded moves stay in the text, where they are to be read for the
-/// mesh.
+/// The JSON of a session. Long arrays of numbers are packed, outside the tree: in the tree, the index in `ids` or
+/// `reals` takes the place of an array. Recorded moves stay in the text, because they are read after the mesh.
 struct SessionJson {  // NOLINT(bugprone-exception-escape): moving a tree throws nothing, which its library does not say
   nlohmann::json tree;
   std::vector<std::vector<std::uint32_t>> ids;
   std::vector<std::vector<double>> reals;
-  std::string_view moves;  // the array or object of this name, in the text that was parsed; in the tree it is null
+  std::string_view moves;  // the array or object `moves` in the parsed text; null in the tree
 };
 
-/// Throws Error where the text is no JSON, where an array of ids or numbers holds something else, where a key stands
-/// twice, and, before it looks at what follows, where the version is newer than session_version; and Cancelled.
+/// Parses the text of a session. Throws Error where it is not JSON, where an array of ids or numbers holds anything
+/// else, where a key appears twice, and where the version is newer than session_version, before it looks at the rest;
+/// and Cancelled.
 SessionJson parse_session_json(std::string_view text, const std::filesystem::path& path, const Progress& progress);
+
+/// Checks and returns the members of a session, the packed ones too.
+class SessionFields : public JsonFields {
+ public:
+  SessionFields(const std::string& where, const SessionJson& json) : JsonFields(where), json_(json) {}
+
+  const std::vector<std::uint32_t>& ids(const Json& object, const char* key) const {
+    return json_.ids[packed(object, key)];
+  }
+  const std::vector<double>& reals(const Json& object, const char* key) const {
+    return json_.reals[packed(object, key)];
+  }
+  /// Returns ids that are all below a number of elements.
+  const std::vector<std::uint32_t>& elements(const Json& object, const char* key, std::uint64_t count) const;
+  /// Requires an array to hold whole groups of `of_each` numbers.
+  void check_groups(std::size_t size, std::size_t of_each, const char* key) const;
+  /// Returns a whole number from 1 to `highest`.
+  std::uint64_t count(const Json& object, const char* key, std::uint64_t highest) const;
+  LinkId link(const Mesh& mesh, ElementId a, ElementId b) const;
+
+ private:
+  std::size_t packed(const Json& object, const char* key) const;
+
+  const SessionJson& json_;
+};
 
 }  // namespace chainmail

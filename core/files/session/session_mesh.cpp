@@ -1,64 +1,72 @@
+#include "files/session/session_mesh.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
+#include <string>
 
 #include "files/formats/neighbour_rows.h"
-#include "files/session/session_fields.h"
-#include "files/session/session_texture.h"
+#include "files/text/base64.h"
 #include "mesh/error.h"
+#include "mesh/texture.h"
 
-// The mesh of a session.
 namespace chainmail {
-
-std::size_t SessionFields::packed(const Json& object, const char* key) const {
-  const Json& json = member(object, key);
-  if (!json.is_number_unsigned()) {
-    fail("'" + std::string(key) + "' is not an array", "write it in [ ]");
-  }
-  return json.get<std::size_t>();
-}
-
-const std::vector<std::uint32_t>& SessionFields::elements(const Json& object, const char* key,
-                                                          std::uint64_t count) const {
-  const auto& result = ids(object, key);
-  const auto beyond = std::find_if(result.begin(), result.end(), [count](auto id) { return id >= count; });
-  if (beyond != result.end()) {
-    fail("'" + std::string(key) + "' names element " + std::to_string(*beyond) + ", which is not there",
-         "ids run from 0 to " + std::to_string(count - 1));
-  }
-  return result;
-}
-
-void SessionFields::check_groups(std::size_t size, std::size_t of_each, const char* key) const {
-  if (size % of_each != 0) {
-    fail("'" + std::string(key) + "' ends within a group of " + std::to_string(of_each), "give each of them whole");
-  }
-}
-
-std::uint64_t SessionFields::count(const Json& object, const char* key, std::uint64_t highest) const {
-  const Json& json = member(object, key);
-  if (!json.is_number_unsigned() || json.get<std::uint64_t>() == 0 || json.get<std::uint64_t>() > highest) {
-    fail("'" + std::string(key) + "' is no whole number from 1 to " + std::to_string(highest), "give one");
-  }
-  return json.get<std::uint64_t>();
-}
-
-LinkId SessionFields::link(const Mesh& mesh, ElementId a, ElementId b) const {
-  const auto found = find_link(mesh, a, b);
-  if (!found) {
-    fail("the elements " + std::to_string(a) + " and " + std::to_string(b) + " are not linked",
-         "give the two ends of a link");
-  }
-  return *found;
-}
-
 namespace {
 
 using Json = nlohmann::json;
 
-class MeshReader {
+std::array<Point, 2> read_texture_box(const SessionFields& fields, const nlohmann::json& texture) {
+  const auto& numbers = fields.array(texture, "box");
+  if (numbers.size() != 6) {
+    fields.fail("'box' holds " + std::to_string(numbers.size()) + " numbers", "give its lowest and its highest corner");
+  }
+  std::array<Point, 2> box;
+  for (std::size_t i = 0; i < 6; ++i) {
+    box[i / 3][static_cast<Eigen::Index>(i % 3)] = fields.number(numbers[i]);
+  }
+  const Point extent = box[1] - box[0];
+  if (!(box[0].cwiseAbs().maxCoeff() <= coordinate_limit && box[1].cwiseAbs().maxCoeff() <= coordinate_limit) ||
+      !(extent.x() > 0 && extent.y() > 0 && extent.z() >= 0)) {
+    fields.fail("'box' is not the box of a texture", "give its lowest and its highest corner");
+  }
+  return box;
+}
+
+/// Reads the texture of a mesh, if it has one.
+std::shared_ptr<const Texture> read_texture(const SessionFields& fields, const Json& mesh, const Progress& progress) {
+  if (!mesh.contains("texture")) {
+    return nullptr;
+  }
+  progress.report(0);
+  const auto& json = fields.object(mesh, "texture");
+  fields.check_keys(json, {"size", "channels", "box", "texels"});
+  const auto& size = fields.array(json, "size");
+  Texture texture;
+  double bytes = double(fields.count(json, "channels", 4));
+  texture.channels = static_cast<int>(bytes);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool whole = size.size() == 3 && size[k].is_number_unsigned() && size[k].get<std::uint64_t>() <= UINT32_MAX;
+    texture.size[k] = whole ? size[k].get<std::uint32_t>() : 0;
+    bytes *= texture.size[k];
+  }
+  if (bytes == 0 || (texture.channels != 1 && texture.channels != 4)) {
+    fields.fail("the texture has no size [w, h, d] of texels with 1 or 4 channels", "give both");
+  }
+  texture.box = read_texture_box(fields, json);
+  const auto& text = fields.member(json, "texels");
+  auto texels = text.is_string() ? from_base64(text.get_ref<const std::string&>()) : std::nullopt;
+  if (!texels || double(texels->size()) != bytes) {
+    fields.fail("'texels' does not hold one byte for each channel of each texel", "write them in base 64");
+  }
+  texture.texels = std::move(*texels);
+  return std::make_shared<const Texture>(std::move(texture));
+}
+
+class SessionMeshReader {
  public:
-  MeshReader(const SessionFields& fields, const Json& object)
+  SessionMeshReader(const SessionFields& fields, const Json& object)
       : fields_(fields), object_(object), count_(fields.count(object, "elements", element_limit)) {}
 
   MeshPointer read(const Progress& progress);
@@ -79,7 +87,7 @@ class MeshReader {
   MeshParts parts_;
 };
 
-void MeshReader::take_rest(const Progress& progress) {
+void SessionMeshReader::take_rest(const Progress& progress) {
   const auto& rest = fields_.reals(object_, "rest");
   if (rest.size() != 3 * count_) {
     fields_.fail("'rest' holds " + std::to_string(rest.size()) + " numbers, and " + std::to_string(count_) +
@@ -91,14 +99,14 @@ void MeshReader::take_rest(const Progress& progress) {
     progress.report(i, count_);
     const Point point(rest[3 * i], rest[3 * i + 1], rest[3 * i + 2]);
     if (!(point.cwiseAbs().maxCoeff() <= coordinate_limit)) {
-      fields_.fail("'rest' places element " + std::to_string(i) + " beyond 1e100", "scale the mesh down");
+      fields_.fail("'rest' puts element " + std::to_string(i) + " beyond 1e100", "scale the mesh down");
     }
     parts_.rest.push_back(point);
   }
 }
 
-/// Who says that elements stand in a lattice must have them stand there.
-void MeshReader::take_lattice() {
+/// Requires that all elements have the positions of the lattice.
+void SessionMeshReader::take_lattice() {
   if (!object_.contains("lattice")) {
     return;
   }
@@ -114,18 +122,18 @@ void MeshReader::take_lattice() {
     product *= lattice.size[k];
   }
   if (product != double(count_)) {
-    fields_.fail("the lattice is not one of " + std::to_string(count_) + " elements", "write its size [w, h, d]");
+    fields_.fail("the lattice does not have " + std::to_string(count_) + " elements", "write its size [w, h, d]");
   }
   for (ElementId e = 0; e < count_; ++e) {
     if (parts_.rest[e] != lattice.position(e)) {
-      fields_.fail("element " + std::to_string(e) + " does not stand in the lattice", "leave the lattice out");
+      fields_.fail("element " + std::to_string(e) + " is not at its position in the lattice", "leave the lattice out");
     }
   }
   parts_.lattice = lattice;
 }
 
 template <std::size_t Size>
-std::vector<std::array<ElementId, Size>> MeshReader::groups(const char* key, const Progress& progress) const {
+std::vector<std::array<ElementId, Size>> SessionMeshReader::groups(const char* key, const Progress& progress) const {
   const auto& ids = fields_.elements(object_, key, count_);
   fields_.check_groups(ids.size(), Size, key);
   std::vector<std::array<ElementId, Size>> result(ids.size() / Size);
@@ -136,7 +144,7 @@ std::vector<std::array<ElementId, Size>> MeshReader::groups(const char* key, con
   return result;
 }
 
-void MeshReader::take_links(const Progress& progress) {
+void SessionMeshReader::take_links(const Progress& progress) {
   parts_.links = groups<2>("links", progress);
   for (const auto& [a, b] : parts_.links) {
     if (a == b) {
@@ -145,13 +153,13 @@ void MeshReader::take_links(const Progress& progress) {
   }
 }
 
-void MeshReader::take_neighbours(const Progress& progress) {
+void SessionMeshReader::take_neighbours(const Progress& progress) {
   const auto& counts = fields_.ids(object_, "counts");
   parts_.neighbours = fields_.elements(object_, "neighbours", count_);
   const auto sum = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   if (counts.size() != count_ || sum != parts_.neighbours.size()) {
-    fields_.fail("'counts' and 'neighbours' do not go together",
-                 "give a count of each element, and as many neighbours as they add up to");
+    fields_.fail("'counts' and 'neighbours' do not match",
+                 "give one count per element, and as many neighbours as the sum of the counts");
   }
   parts_.first_entry.assign(count_ + 1, 0);
   std::partial_sum(counts.begin(), counts.end(), parts_.first_entry.begin() + 1);
@@ -160,7 +168,7 @@ void MeshReader::take_neighbours(const Progress& progress) {
   }
 }
 
-void MeshReader::check_polygons() const {
+void SessionMeshReader::check_polygons() const {
   const auto& all = parts_.polygons;
   for (std::size_t i = 0; i < all.size(); i += std::size_t{all[i]} + 1) {
     if (all[i] < 3 || all[i] >= all.size() - i) {
@@ -169,24 +177,24 @@ void MeshReader::check_polygons() const {
     }
     for (std::size_t j = i + 1; j <= i + all[i]; ++j) {
       if (all[j] >= count_) {
-        fields_.fail("'polygons' names element " + std::to_string(all[j]) + ", which is not there",
+        fields_.fail("'polygons' names element " + std::to_string(all[j]) + ", which does not exist",
                      "ids run from 0 to " + std::to_string(count_ - 1));
       }
     }
   }
 }
 
-void MeshReader::take_faces(const Progress& progress) {
+void SessionMeshReader::take_faces(const Progress& progress) {
   parts_.triangles = groups<3>("triangles", progress);
   parts_.tetrahedra = groups<4>("tetrahedra", progress);
-  if (object_.contains("hexahedra")) {  // not so where an older program wrote it
+  if (object_.contains("hexahedra")) {  // older programs do not write them
     parts_.hexahedra = groups<8>("hexahedra", progress);
   }
   parts_.polygons = fields_.ids(object_, "polygons");
   check_polygons();
 }
 
-MeshPointer MeshReader::read(const Progress& progress) {
+MeshPointer SessionMeshReader::read(const Progress& progress) {
   fields_.check_keys(object_, {"elements", "space", "lattice", "rest", "links", "counts", "neighbours", "triangles",
                                "polygons", "tetrahedra", "hexahedra", "texture"});
   parts_.space_dimension = static_cast<int>(fields_.count(object_, "space", 3));
@@ -196,7 +204,7 @@ MeshPointer MeshReader::read(const Progress& progress) {
   const std::size_t links = ordered ? 0 : fields_.ids(object_, "links").size() / 2;
   ordered ? take_neighbours(progress.part(0.1, 0.2)) : take_links(progress.part(0.1, 0.2));
   take_faces(progress.part(0.2, 0.3));
-  parts_.texture = read_session_texture(fields_, object_, progress.part(0.3, 0.4));
+  parts_.texture = read_texture(fields_, object_, progress.part(0.3, 0.4));
   MeshPointer mesh;
   try {
     mesh = build_mesh(std::move(parts_), progress.part(0.4, 1));
@@ -211,8 +219,8 @@ MeshPointer MeshReader::read(const Progress& progress) {
 
 }  // namespace
 
-MeshPointer read_session_mesh(const SessionFields& fields, const Json& object, const Progress& progress) {
-  return MeshReader(fields, object).read(progress);
+MeshPointer read_session_mesh(const SessionFields& fields, const nlohmann::json& object, const Progress& progress) {
+  return SessionMeshReader(fields, object).read(progress);
 }
 
 }  // namespace chainmail

@@ -4,7 +4,8 @@
 
 #include "files/session/moves.h"
 #include "files/session/session.h"
-#include "files/session/session_fields.h"
+#include "files/session/session_json.h"
+#include "files/session/session_mesh.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -44,7 +45,7 @@ class SessionReader {
 void SessionReader::check_kind() const {
   const bool is_session = tree_.is_object() && tree_.contains("format") && tree_["format"] == Json("chainmail session");
   if (!is_session) {
-    fields_.fail("it holds no session", "give one that the workbench has saved");
+    fields_.fail("it is not a session", "give one that the workbench has saved");
   }
   fields_.count(tree_, "version", session_version);
   fields_.check_keys(tree_, {"format", "version", "name", "mesh", "cuts", "pins", "softness", "relaxation", "elastic",
@@ -95,7 +96,8 @@ void SessionReader::take_own(Softness& softness, const Json& object) {
   for (std::size_t i = 0; i < own.size(); i += 5) {
     for (const double end : {own[i], own[i + 1]}) {
       if (!(end >= 0 && end < count && end == std::floor(end))) {
-        fields_.fail("'own' names no element in its link " + std::to_string(i / 5), "ids are whole numbers from 0");
+        fields_.fail("'own' names an element that does not exist in its link " + std::to_string(i / 5),
+                     "ids are whole numbers from 0");
       }
     }
     const auto a = static_cast<ElementId>(own[i]), b = static_cast<ElementId>(own[i + 1]);
@@ -112,11 +114,11 @@ void SessionReader::take_relaxation() {
   fields_.check_keys(object, {"on", "scheme", "step"});
   const std::string scheme = fields_.text(object, "scheme");
   if (scheme != "mean" && scheme != "link") {
-    fields_.fail("'scheme' names none", "use mean or link");
+    fields_.fail("'scheme' is not known", "use mean or link");
   }
   const double step = fields_.number(fields_.member(object, "step"));
   if (!(step > 0 && step <= 1)) {
-    fields_.fail("'step' must lie above 0 and up to 1", "1 goes all the way to the mean");
+    fields_.fail("'step' is not above 0 and up to 1", "1 moves elements all the way to the mean");
   }
   result_.relaxation = {fields_.boolean(object, "on"), step,
                         scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link};
@@ -165,11 +167,11 @@ Session::Panel SessionReader::panel(const Json& object) {
   fields_.check_keys(object, {"algorithm", "precision", "from_rest", "runs", "held"});
   const auto algorithm = find_algorithm(fields_.text(object, "algorithm"));
   if (!algorithm) {
-    fields_.fail("'algorithm' names none", "use one that 'chainmail deform --help' lists");
+    fields_.fail("'algorithm' is not known", "use one that 'chainmail deform --help' lists");
   }
   const std::string precision = fields_.text(object, "precision");
   if (precision != "float" && precision != "double") {
-    fields_.fail("'precision' names none", "use float or double");
+    fields_.fail("'precision' is not known", "use float or double");
   }
   const auto chosen = precision == "float" ? Precision::single_precision : Precision::double_precision;
   try {
@@ -196,12 +198,11 @@ void SessionReader::take_moves(const Progress& progress) {
   if (!tree_.contains("moves")) {
     return;
   }
-  const std::string_view text = moves_.empty() ? "null" : moves_;  // a number or a text is none either
+  const std::string_view text = moves_.empty() ? "null" : moves_;  // a number or a text is not a list of moves
   result_.moves = read_moves(text, path_, file_ + ": moves", *result_.mesh, progress);
   const Json& done = fields_.member(tree_, "moves_done");
   if (!done.is_number_unsigned() || done.get<std::uint64_t>() > result_.moves.size()) {
-    fields_.fail("'moves_done' is not a whole number up to how many moves there are",
-                 "write how many were carried out");
+    fields_.fail("'moves_done' is not a whole number up to the number of moves", "write how many moves are done");
   }
   result_.moves_done = done.get<std::size_t>();
 }

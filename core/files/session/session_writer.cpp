@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -10,7 +9,7 @@
 #include "files/session/moves.h"
 #include "files/session/session.h"
 #include "files/session/session_json.h"
-#include "files/session/session_texture.h"
+#include "files/text/base64.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -18,14 +17,14 @@
 namespace chainmail {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-/// The fewest digits that read back, by way of a double, as the same number of the precision.
+/// Formats numbers in the fewest digits that read back, through a double, as the same number of the precision.
 class Digits {
  public:
   std::string_view operator()(double number, Precision precision) {
     if (!std::isfinite(number)) {
-      throw Error("session", "a coordinate is no finite number", "reset the object first");
+      throw Error("session", "a coordinate is not a finite number", "reset the object first");
     }
     if (number == 0 && std::signbit(number)) {
       return "-0.0";  // -0 would be a whole number
@@ -35,7 +34,7 @@ class Digits {
       const std::string_view shorter = text(single);
       double back = 0;
       std::from_chars(shorter.data(), shorter.data() + shorter.size(), back);
-      // Rounded twice, a float beside the middle of two may become its neighbour.
+      // Rounded twice, a float near the middle of two may become its neighbour.
       if (static_cast<float>(back) == single) {
         return shorter;
       }
@@ -52,7 +51,7 @@ class Digits {
   std::array<char, 32> digits_;
 };
 
-/// How much a command takes, in drags.
+/// Returns the size of a command, in drags.
 std::size_t weight(const Command& command) {
   return std::visit(
       [](const auto& one) -> std::size_t {
@@ -76,15 +75,16 @@ class SessionWriter {
   void write(const Progress& progress);
 
  private:
-  static constexpr std::size_t in_line = 24;  // numbers
+  static constexpr std::size_t in_line = 24;  // numbers in one line
 
   void write_mesh(const Progress& progress);
   void write_links(const Progress& progress);
+  void write_texture(const Texture& texture, const Progress& progress);
   void write_state();
   void write_softness();
   void write_moves(const Progress& progress);
   void write_panel(const Session::Panel& panel, const Progress& progress);
-  /// A member and its numbers, of which `put(i)` writes the next.
+  /// Writes a member and its numbers; `put(i)` writes number i.
   template <class Put>
   void write_array(const char* key, std::size_t size, const Progress& progress, Put put);
   void write_ids(const char* key, std::span<const std::uint32_t> ids, const Progress& progress = {});
@@ -123,7 +123,7 @@ void SessionWriter::write_groups(const char* key, std::span<const std::array<Ele
   write_array(key, Size * groups.size(), progress, [&](std::size_t i) { out_ << groups[i / Size][i % Size]; });
 }
 
-/// As pairs, or, where neighbours stand in an order of their own, row by row.
+/// Writes links as pairs, or row by row where the neighbours are not in ascending order.
 void SessionWriter::write_links(const Progress& progress) {
   bool ascending = true;
   for (ElementId e = 0; e < mesh_.element_count() && ascending; ++e) {
@@ -144,7 +144,7 @@ void SessionWriter::write_mesh(const Progress& progress) {
   out_ << "\"mesh\": {\"elements\": " << mesh_.element_count()
        << ", \"space\": " << static_cast<std::uint32_t>(mesh_.space_dimension);
   if (mesh_.lattice) {
-    const Json lattice{{"size", mesh_.lattice->size}, {"spacing", mesh_.lattice->spacing}};
+    const OrderedJson lattice{{"size", mesh_.lattice->size}, {"spacing", mesh_.lattice->spacing}};
     out_ << ", \"lattice\": " << lattice.dump();
   }
   Point point;
@@ -163,14 +163,31 @@ void SessionWriter::write_mesh(const Progress& progress) {
   }
   if (mesh_.texture) {
     out_ << ",\n\"texture\": ";
-    write_session_texture(out_, *mesh_.texture, progress.part(0.9, 1));
+    write_texture(*mesh_.texture, progress.part(0.9, 1));
   }
   out_ << "}";
 }
 
+/// As an object whose texels are bytes in base 64.
+void SessionWriter::write_texture(const Texture& texture, const Progress& progress) {
+  const auto& [low, high] = texture.box;
+  const OrderedJson json{{"size", texture.size},
+                         {"channels", texture.channels},
+                         {"box", {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()}}};
+  const std::string text = json.dump();
+  out_ << std::string_view(text).substr(0, text.size() - 1) << ", \"texels\": \"";
+  Base64Writer texels(out_);
+  for (std::size_t i = 0; i < texture.texels.size(); ++i) {
+    progress.report(i, texture.texels.size());
+    texels.add(texture.texels[i]);
+  }
+  texels.finish();
+  out_ << "\"}";
+}
+
 void SessionWriter::write_softness() {
   const auto& [global, links] = *session_.softness;
-  const Json json{{"compression", global.compression}, {"stretch", global.stretch}, {"shear", global.shear}};
+  const OrderedJson json{{"compression", global.compression}, {"stretch", global.stretch}, {"shear", global.shear}};
   const std::string text = json.dump();
   out_ << ",\n\"softness\": " << std::string_view(text).substr(0, text.size() - 1);
   auto own = links.begin();
@@ -189,13 +206,13 @@ void SessionWriter::write_state() {
               [&](std::size_t i) { out_ << mesh_.links[session_.cuts[i / 2]][i % 2]; });
   write_ids("pins", session_.pins);
   write_softness();
-  const Json relaxation{{"on", session_.relaxation.on},
-                        {"scheme", session_.relaxation.scheme == RelaxationScheme::mean ? "mean" : "link"},
-                        {"step", session_.relaxation.step}};
+  const OrderedJson relaxation{{"on", session_.relaxation.on},
+                               {"scheme", session_.relaxation.scheme == RelaxationScheme::mean ? "mean" : "link"},
+                               {"step", session_.relaxation.step}};
   out_ << ",\n\"relaxation\": " << relaxation.dump();
   if (session_.elastic != ElasticOptions()) {
     const auto& [material, lattice] = session_.elastic;
-    const Json elastic{{"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}};
+    const OrderedJson elastic{{"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}};
     out_ << ",\n\"elastic\": " << elastic.dump();
   }
 }
@@ -226,7 +243,7 @@ void SessionWriter::write_moves(const Progress& progress) {
 }
 
 void SessionWriter::write(const Progress& progress) {
-  const std::string name = Json(session_.name).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string name = OrderedJson(session_.name).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   out_ << "{\"format\": \"chainmail session\", \"version\": " << std::uint32_t{session_version}
        << ", \"name\": " << name << ",\n";
   write_mesh(progress.part(0, 0.5));
@@ -247,11 +264,7 @@ void SessionWriter::write(const Progress& progress) {
 
 }  // namespace
 
-bool is_session(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending == session_ending;
-}
+bool is_session(const std::filesystem::path& path) { return lower_case(path.extension().string()) == session_ending; }
 
 void write_session(std::ostream& out, const Session& session, const Progress& progress) {
   SessionWriter(out, session).write(progress);

@@ -11,15 +11,8 @@
 namespace chainmail {
 namespace {
 
-constexpr std::array<std::string_view, 5> names{"a", "b", "compression", "stretch", "shear"};
-constexpr const char* form = "write 'a,b,compression,stretch,shear'";
-
-std::string_view trimmed(std::string_view text) {
-  static constexpr std::string_view blanks = " \t";
-  const std::size_t first = std::min(text.find_first_not_of(blanks), text.size());
-  text.remove_prefix(first);
-  return text.substr(0, text.find_last_not_of(blanks) + 1);
-}
+constexpr std::array<std::string_view, 5> softness_columns{"a", "b", "compression", "stretch", "shear"};
+constexpr const char* softness_row_form = "write 'a,b,compression,stretch,shear'";
 
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
@@ -86,9 +79,9 @@ LinkId SoftnessReader::read_link(std::string_view first, std::string_view second
 }
 
 void SoftnessReader::read_row(const std::vector<std::string_view>& fields) {
-  if (fields.size() != names.size()) {
+  if (fields.size() != softness_columns.size()) {
     fail("the row has " + std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields") + ", not five",
-         form);
+         softness_row_form);
   }
   const LinkId link = read_link(fields[0], fields[1]);
   const LinkSoftness softness{read_number(fields[2]), read_number(fields[3]), read_number(fields[4])};
@@ -113,7 +106,7 @@ std::map<LinkId, LinkSoftness> SoftnessReader::read(std::string_view text) {
       continue;
     }
     const auto fields = fields_of(row);
-    if (!is_first || !std::ranges::equal(fields, names)) {
+    if (!is_first || !std::ranges::equal(fields, softness_columns)) {
       read_row(fields);
     }
     is_first = false;

@@ -10,10 +10,10 @@
 namespace chainmail {
 namespace {
 
-constexpr std::uint64_t version_read = 1;
+constexpr std::uint64_t presets_version = 1;
 
-// A preset says how far a material gives before its own limit is reached, not how hard it is to get there.
-constexpr std::array built_in{
+// A preset describes how far a material deforms before it reaches its limit, not the force that this takes.
+constexpr std::array all_built_in_presets{
     BuiltInPreset{"Standard", {}, "what a new object begins with"},
     // Rings of wire do not lengthen; they slide into each other until wire lies on wire, at about half their distance
     // where four pass through one; and they turn in each other by little more than a ring's play.
@@ -42,7 +42,7 @@ SoftnessPreset preset_of(const JsonFields& fields, const nlohmann::json& json) {
   }
   SoftnessPreset preset{name.get<std::string>(), {}};
   if (const std::string fault = fault_of_name(preset.name); !fault.empty()) {
-    fields.fail(in_quotes(preset.name) + " is no name", fault);
+    fields.fail(in_quotes(preset.name) + " is not a valid name", fault);
   }
   const auto &compression = fields.member(json, "compression"), &stretch = fields.member(json, "stretch"),
              &shear = fields.member(json, "shear");
@@ -52,7 +52,7 @@ SoftnessPreset preset_of(const JsonFields& fields, const nlohmann::json& json) {
 
 }  // namespace
 
-std::span<const BuiltInPreset> built_in_presets() { return built_in; }
+std::span<const BuiltInPreset> built_in_presets() { return all_built_in_presets; }
 
 std::string fault_of_name(std::string_view name) {
   if (name.empty() || name.front() == ' ' || name.back() == ' ') {
@@ -71,8 +71,8 @@ std::vector<SoftnessPreset> read_presets(std::string_view text, const std::files
     fields.fail("it holds no presets", "give presets of softness");
   }
   const auto& version = fields.member(json, "version");
-  if (!version.is_number_unsigned() || version.get<std::uint64_t>() != version_read) {
-    fields.fail("its version is not " + std::to_string(version_read), "export the presets again with this program");
+  if (!version.is_number_unsigned() || version.get<std::uint64_t>() != presets_version) {
+    fields.fail("its version is not " + std::to_string(presets_version), "export the presets again with this program");
   }
   fields.check_keys(json, {"version", "presets"});
   std::vector<SoftnessPreset> presets;
@@ -80,7 +80,7 @@ std::vector<SoftnessPreset> read_presets(std::string_view text, const std::files
     fields.say_at(shown(path) + ": preset " + std::to_string(presets.size()));
     SoftnessPreset preset = preset_of(fields, one);
     if (std::ranges::find(presets, preset.name, &SoftnessPreset::name) != presets.end()) {
-      fields.fail(in_quotes(preset.name) + " comes twice", "rename one of them");
+      fields.fail(in_quotes(preset.name) + " appears twice", "rename one of them");
     }
     presets.push_back(std::move(preset));
   }
@@ -99,7 +99,7 @@ void write_presets(std::ostream& out, std::span<const SoftnessPreset> presets) {
                     {"stretch", softness.stretch},
                     {"shear", softness.shear}});
   }
-  const nlohmann::ordered_json json{{"version", version_read}, {"presets", list}};
+  const nlohmann::ordered_json json{{"version", presets_version}, {"presets", list}};
   out << json.dump(2) << '\n';
 }
 

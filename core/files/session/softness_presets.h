@@ -11,7 +11,7 @@
 
 namespace chainmail {
 
-/// A softness for all links, by a name.
+/// A named softness for all links.
 struct SoftnessPreset {
   std::string name;  // UTF-8, one line
   LinkSoftness softness;
@@ -19,7 +19,7 @@ struct SoftnessPreset {
   bool operator==(const SoftnessPreset&) const = default;
 };
 
-/// One that is always there, and why it has its values.
+/// A preset that always exists, and the reason for its values.
 struct BuiltInPreset {
   std::string_view name;
   LinkSoftness softness;
@@ -27,19 +27,19 @@ struct BuiltInPreset {
 };
 std::span<const BuiltInPreset> built_in_presets();
 
-/// So many bytes a name has at most.
+/// Largest length of a name (bytes).
 inline constexpr std::size_t longest_preset_name = 60;
-/// What is wrong with a name, and what to do; empty where nothing is.
+/// Returns what a valid name needs, or an empty text if the name is valid.
 std::string fault_of_name(std::string_view name);
 
 /// Presets as JSON: `{"version": 1, "presets": [{"name": "felt", "compression": 0.7, "stretch": 1.1, "shear": 0.2}]}`.
-/// `path` appears in errors; `text` is what the file holds. Throws Error where it is something else, where a name is
-/// empty, too long or comes twice, and for softness out of range.
+/// `path` appears in errors. Throws Error for anything else, for a name that is empty, too long or appears twice, and
+/// for softness out of range.
 std::vector<SoftnessPreset> read_presets(std::string_view text, const std::filesystem::path& path);
-/// The same from a file.
+/// Reads presets from a file.
 std::vector<SoftnessPreset> read_presets(const std::filesystem::path& path);
 
-/// With all digits: what is read back is the same to the bit.
+/// Writes presets with all digits, so that they read back exactly.
 void write_presets(std::ostream& out, std::span<const SoftnessPreset> presets);
 
 }  // namespace chainmail

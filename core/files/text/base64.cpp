@@ -61,7 +61,7 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
       bytes.push_back(static_cast<std::uint8_t>(group >> (16 - 8 * k)));
     }
     if (missing > 0 && (group & ((1U << (8 * missing)) - 1)) != 0) {
-      return std::nullopt;  // bits that belong to no byte
+      return std::nullopt;  // unused bits must be 0
     }
   }
   return bytes;

@@ -12,7 +12,7 @@
 
 namespace chainmail {
 
-/// Numbers as they lie in memory, as base64 (RFC 4648) in a text.
+/// Writes the bytes of numbers in base64 (RFC 4648).
 class Base64Writer {
  public:
   explicit Base64Writer(TextBlocks& text) : text_(text) {}
@@ -24,7 +24,7 @@ class Base64Writer {
       add_byte(byte);
     }
   }
-  /// To be called at the end.
+  /// Call this at the end.
   void finish();
 
  private:
@@ -41,7 +41,7 @@ class Base64Writer {
   int bytes_ = 0;
 };
 
-/// Bytes of a text, if it is just as Base64Writer writes it.
+/// Returns the bytes of a text in the exact form that Base64Writer writes.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
 
 }  // namespace chainmail

@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Throws where the text is no JSON of ours; builds nothing.
-class Check : public JsonScan {
+/// Throws Error if the text is not JSON that we can read; builds nothing.
+class JsonCheck : public JsonScan {
  public:
   using JsonScan::JsonScan;
 
@@ -27,7 +27,7 @@ class Check : public JsonScan {
 }  // namespace
 
 Json parse_json(std::string_view text, const std::filesystem::path& path, const std::string& content) {
-  Check(text, path, content).scan();
+  JsonCheck(text, path, content).scan();
   return Json::parse(text);
 }
 
@@ -91,7 +91,7 @@ double JsonFields::number(const Json& json) const {
   }
   const auto number = json.get<double>();
   if (!(std::abs(number) <= coordinate_limit)) {
-    fail(in_quotes(text_of(json)) + " is too large a number", "keep numbers within 1e100");
+    fail(in_quotes(text_of(json)) + " is too large", "use numbers up to 1e100");
   }
   return number;
 }

@@ -11,23 +11,23 @@
 
 namespace chainmail {
 
-/// The JSON of a file; `content` is what the file should hold. Throws Error where it is none, with the line, where it
-/// is nested deeper than anything of ours is, and where a number in it is beyond a double.
+/// Parses the JSON of a file. `content` is what the file should hold. Throws Error, with the line, if it is not JSON,
+/// and if it is nested deeper than our formats or has a number that is too large for a double.
 nlohmann::json parse_json(std::string_view text, const std::filesystem::path& path, const std::string& content);
 
-/// Looks at the members of objects, and throws Error where one is not what it should be.
+/// Checks and returns the members of objects. Throws Error if one is missing or has the wrong type.
 class JsonFields {
  public:
   using Json = nlohmann::json;
 
-  /// `where` stands in errors.
+  /// `where` appears in errors.
   explicit JsonFields(std::string where) : where_(std::move(where)) {}
 
   const std::string& where() const { return where_; }
   void say_at(const std::string& where) { where_ = where; }
 
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
-  /// Refuses what is not known: a word misspelt would else be passed over in silence.
+  /// Refuses unknown keys, which may be misspelt ones.
   void check_keys(const Json& object, const std::vector<std::string>& known) const;
   const Json& member(const Json& object, const std::string& key) const;
   const Json& array(const Json& object, const std::string& key) const;
@@ -41,7 +41,7 @@ class JsonFields {
   std::string where_;
 };
 
-/// What of a value an error shows.
+/// Returns a value as errors show it.
 std::string text_of(const nlohmann::json& json);
 
 }  // namespace chainmail

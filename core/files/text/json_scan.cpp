@@ -10,9 +10,9 @@
 namespace chainmail {
 namespace {
 
-// Our formats need 5; more is none of them, and must not exhaust memory or stack.
+// Levels of arrays and objects. Our formats need 5; deeper ones must not exhaust memory or stack.
 constexpr std::size_t deepest = 16;
-constexpr std::size_t piece = std::size_t{1} << 18;  // bytes between two reports: some milliseconds
+constexpr std::size_t piece = std::size_t{1} << 18;  // bytes between two reports: a few milliseconds
 
 }  // namespace
 
@@ -66,22 +66,22 @@ bool JsonScan::key(std::string& key) {
 
 bool JsonScan::parse_error(std::size_t position, const std::string& /*last*/, const Json::exception& error) {
   if (dynamic_cast<const Json::parse_error*>(&error) == nullptr) {
-    throw Error(shown(path_), "a number in it is beyond what a double holds", remedy_);
+    throw Error(shown(path_), "it holds a number that is too large for a double", remedy_);
   }
   throw Error(shown(path_, line_at(text_, position)), "it is not JSON", remedy_);
 }
 
 SmallTree::SmallTree() = default;
 
-void SmallTree::open(Json empty) { open_.push_back(place(std::move(empty))); }
+void SmallTree::open(Json empty) { open_.push_back(add(std::move(empty))); }
 
 nlohmann::json SmallTree::take() {
   values_ = 0;
   return std::exchange(tree_, Json());
 }
 
-/// Puts a value where it belongs, and returns its place.
-nlohmann::json* SmallTree::place(Json value) {
+/// Adds a value to the innermost open array or object, and returns its address.
+nlohmann::json* SmallTree::add(Json value) {
   if (open_.empty()) {
     tree_ = std::move(value);
     return &tree_;

@@ -13,7 +13,7 @@
 
 namespace chainmail {
 
-/// A text as a stream reads it: in pieces, so that progress is reported and cancelling is noticed between them.
+/// Gives a text to a stream in pieces. Between pieces it reports progress and notices cancelling.
 class TextBuffer : public std::streambuf {
  public:
   TextBuffer(std::string_view text, const Progress& progress) : text_(text), progress_(progress) {}
@@ -42,16 +42,16 @@ class JsonScan : public nlohmann::json_sax<nlohmann::json> {
   JsonScan(std::string_view text, const std::filesystem::path& path, const std::string& content)
       : text_(text), path_(path), remedy_("give " + content) {}
 
-  /// Reads the whole text. Throws Error where it is no JSON, with the line, where it is nested deeper than any format
-  /// of ours is, and where a number in it is beyond a double; and Cancelled.
+  /// Reads the whole text. Throws Error, with the line, if it is not JSON, and if it is nested deeper than our formats
+  /// or has a number that is too large for a double; and Cancelled.
   void scan(const Progress& progress = {});
 
  protected:
-  /// A value that is no array and no object.
+  /// Receives a value that is neither an array nor an object.
   virtual void take_value(Json value) = 0;
-  /// An array or an object begins, of which `empty` is an empty one.
+  /// An array or an object begins. `empty` is an empty value of its type.
   virtual void open(Json empty) = 0;
-  /// The array or object that was opened last ends.
+  /// The innermost open array or object ends.
   virtual void close() = 0;
   virtual void take_key(const std::string& key) = 0;
 
@@ -80,8 +80,8 @@ class JsonScan : public nlohmann::json_sax<nlohmann::json> {
   std::size_t depth_ = 0;
 };
 
-/// Builds the tree of one value that stands within a larger file. A tree of more values than any of ours has only its
-/// first ones: enough for a check to refuse it, and for an error to quote it.
+/// Builds the tree of one value inside a larger file. A tree with too many values keeps only the first ones: enough for
+/// a check to refuse it and for an error to quote it.
 class SmallTree {
  public:
   using Json = nlohmann::json;
@@ -90,23 +90,23 @@ class SmallTree {
   SmallTree(const SmallTree&) = delete;  // open_ points into the tree
   SmallTree& operator=(const SmallTree&) = delete;
 
-  /// True while an array or object of it is open.
+  /// True while an array or object is open.
   bool is_open() const { return !open_.empty(); }
   void open(Json empty);
-  /// The following are for a tree that is open.
-  void put(Json value) { place(std::move(value)); }
+  /// The following functions need an open tree.
+  void put(Json value) { add(std::move(value)); }
   void take_key(const std::string& key) { key_ = key; }
   void close() { open_.pop_back(); }
-  /// Returns the tree that was closed last, and begins another.
+  /// Returns the closed tree, and begins another.
   Json take();
 
  private:
   static constexpr std::size_t most_values = 64;
 
-  Json* place(Json value);
+  Json* add(Json value);
 
   Json tree_;
-  Json dropped_;             // stands for what is beyond most_values
+  Json dropped_;             // takes the place of values beyond most_values
   std::vector<Json*> open_;  // from the outermost on
   std::string key_;          // of the value that follows, in an object
   std::size_t values_ = 0;

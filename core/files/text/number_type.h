@@ -10,13 +10,13 @@
 
 namespace chainmail {
 
-/// A type of numbers in binary files: how they are called, how many bytes one takes, and how it is read.
+/// A type of numbers in binary files: its name, its size and how to read it.
 struct NumberType {
   std::string_view name;
   std::size_t bytes;
   double (*read_native)(const char* in_native_order);
 
-  /// The number at the beginning of `from`, which holds as many bytes; the highest comes first where it is big-endian.
+  /// Returns the number at the beginning of `from`.
   double read(const char* from, bool big_endian) const {
     if (big_endian == (std::endian::native == std::endian::big)) {
       return read_native(from);
@@ -36,7 +36,7 @@ constexpr NumberType number_type(std::string_view name) {
           }};
 }
 
-/// The type of a name, or none.
+/// Returns the type with this name, or null.
 inline const NumberType* find_number_type(std::span<const NumberType> types, std::string_view name) {
   const auto found = std::find_if(types.begin(), types.end(), [&](const auto& type) { return type.name == name; });
   return found == types.end() ? nullptr : &*found;

@@ -24,16 +24,16 @@ void refuse_unwritable(const fs::path& path, const fs::path& target, const fs::f
   }
   std::error_code error;
   if (target.has_parent_path() && !fs::is_directory(target.parent_path(), error)) {
-    throw Error(shown(path), "its folder is not there", "make the folder first");
+    throw Error(shown(path), "its folder does not exist", "create the folder first");
   }
-  // A rename would pass over a file that may not be written.
+  // A rename would ignore that the file may not be written.
   if (fs::exists(status) && !std::ofstream(target, std::ios::app)) {
     throw Error(shown(path), "it cannot be written (" + reason() + ")", "check its permissions");
   }
 }
 
-fs::path temporary_beside(const fs::path& target) {
-  // Short and of its own, so that it fits where the target's name is as long as a name may be.
+fs::path temporary_for(const fs::path& target) {
+  // Short and unrelated to the target's name, which may be as long as a name can be.
   static std::random_device random;
   std::error_code error;
   for (;;) {
@@ -50,7 +50,8 @@ void write_stream(std::ostream& out, const fs::path& path, const Outputs::Writer
   out.flush();
   if (!out) {
     throw WriteFailure(path == "-" ? "standard output" : shown(path),
-                       "it cannot be written to its end (" + reason() + ")", "check the space left and who reads it");
+                       "it cannot be written to its end (" + reason() + ")",
+                       "free disk space, or check the program that reads the pipe");
   }
 }
 
@@ -68,8 +69,7 @@ void Outputs::refuse_twice(const fs::path& path, const fs::path& target) const {
       std::any_of(files_.begin(), files_.end(), [&](const File& file) { return file.target == target; }) ||
       std::any_of(streams_.begin(), streams_.end(), [&](const Stream& stream) { return stream.path == path; });
   if (twice) {
-    throw Error(path == "-" ? "standard output" : shown(path), "two outputs would go there",
-                "give each a file of its own");
+    throw Error(path == "-" ? "standard output" : shown(path), "two outputs have this name", "give each its own file");
   }
 }
 
@@ -84,14 +84,14 @@ void Outputs::add(const fs::path& path, Writer writer) {
   const auto status = fs::status(path, error);
   refuse_twice(path, target);
   if (path != "-" && std::find(inputs_.begin(), inputs_.end(), target) != inputs_.end()) {
-    throw Error(shown(path), "it was read, and would be replaced", "give the output a file of its own");
+    throw Error(shown(path), "it is an input, and this output would replace it", "give the output another name");
   }
   if (path == "-" || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))) {
     streams_.push_back({path, std::move(writer)});
     return;
   }
   refuse_unwritable(path, target, status);
-  const fs::path temporary = temporary_beside(target);
+  const fs::path temporary = temporary_for(target);
   std::ofstream out(temporary, std::ios::binary);
   if (!out) {
     throw Error(shown(path), "it cannot be written (" + reason() + ")", "check the name and its folder's permissions");

@@ -9,16 +9,16 @@
 
 namespace chainmail {
 
-/// A file that could be begun and not be finished: a full disk, a closed pipe.
+/// A write that started and could not be finished: a full disk, a closed pipe.
 class WriteFailure : public Error {
  public:
   using Error::Error;
 };
 
-/// Files that are written together: all of them, each whole, or none.
+/// Files that are written together: all of them or none.
 ///
-/// Each goes to a temporary beside its target first; commit then renames them all. The path `-` is
-/// standard output; it, devices and pipes receive their text in commit, before the first rename.
+/// Each file is first written to a temporary file in the folder of its target; commit() then renames all. The path `-`
+/// is standard output. Standard output, devices and pipes receive their text in commit(), before the first rename.
 class Outputs {
  public:
   using Writer = std::function<void(std::ostream&)>;
@@ -26,18 +26,18 @@ class Outputs {
   Outputs() = default;
   Outputs(const Outputs&) = delete;
   Outputs& operator=(const Outputs&) = delete;
-  /// Removes the temporaries of what was not committed.
+  /// Removes the temporary files that were not committed.
   ~Outputs();
 
-  /// Names a file that was read: no output may replace it. Before the outputs are added.
+  /// Protects a file that was read: no output may replace it. Call this before add().
   void keep(const std::filesystem::path& input);
-  /// Writes a file's text aside. Throws Error where the target cannot be a file of ours.
+  /// Writes the text of a file to its temporary file. Throws Error if the target cannot be written.
   void add(const std::filesystem::path& path, Writer writer);
   void commit();
 
  private:
   struct File {
-    std::filesystem::path path;  // as it was named
+    std::filesystem::path path;  // as the user named it
     std::filesystem::path target;
     std::filesystem::path temporary;
   };
@@ -48,12 +48,12 @@ class Outputs {
 
   void refuse_twice(const std::filesystem::path& path, const std::filesystem::path& target) const;
 
-  std::vector<std::filesystem::path> inputs_;  // where they lead
+  std::vector<std::filesystem::path> inputs_;  // with links resolved
   std::vector<File> files_;
   std::vector<Stream> streams_;
 };
 
-/// Writes one file, whole or not at all.
+/// Writes one file. A failed write leaves the file as it was.
 void write_file(const std::filesystem::path& path, const Outputs::Writer& writer);
 
 }  // namespace chainmail

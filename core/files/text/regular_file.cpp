@@ -33,12 +33,12 @@ void require_file(const std::filesystem::path& path) {
     case file_type::character:
       throw Error(shown(path), "it is a device", "give a file");
     default:
-      break;  // a file, or one that cannot be looked at, which opening it tells
+      break;  // a file, or one without permission, which opening reports
   }
 }
 
 RegularFile::RegularFile(const std::filesystem::path& path) : path_(path) {
-  require_file(path);  // before it is opened: to open a device may already do something
+  require_file(path);  // before it is opened: opening a device may have effects
   descriptor_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   struct stat status {};
   if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) {
@@ -46,7 +46,7 @@ RegularFile::RegularFile(const std::filesystem::path& path) : path_(path) {
     close(descriptor_);
     throw Error(shown(path), "it cannot be read (" + why + ")", "check its permissions");
   }
-  if (!S_ISREG(status.st_mode)) {  // it has changed since
+  if (!S_ISREG(status.st_mode)) {  // it was replaced in the meantime
     close(descriptor_);
     throw Error(shown(path), "it is no longer a file", "check the path");
   }

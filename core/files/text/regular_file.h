@@ -7,14 +7,14 @@
 
 namespace chainmail {
 
-/// Throws Error where there is no such file, or it is a folder, a pipe or a device.
+/// Throws Error if there is no such file, or if it is a folder, a pipe or a device.
 void require_file(const std::filesystem::path& path);
 
 /// A regular file, open for reading. Everything that a user names is opened through this: a pipe could block the
 /// program, and a device may never end.
 class RegularFile {
  public:
-  /// Throws Error, at once, as require_file does, and where the file may not be read.
+  /// Throws Error without waiting, as require_file does, and if the file may not be read.
   explicit RegularFile(const std::filesystem::path& path);
   RegularFile(RegularFile&& other) noexcept;
   RegularFile& operator=(RegularFile&&) = delete;
@@ -23,8 +23,8 @@ class RegularFile {
   const std::filesystem::path& path() const { return path_; }
   int descriptor() const { return descriptor_; }
   std::uint64_t size() const { return size_; }
-  /// Reads the next bytes and returns their number, less than asked for at the end alone. Throws Error where the disk
-  /// fails.
+  /// Reads the next bytes and returns their number, which is less than requested only at the end. Throws Error if the
+  /// disk fails.
   std::size_t read(std::span<char> bytes);
 
  private:
@@ -33,7 +33,7 @@ class RegularFile {
   std::uint64_t size_ = 0;
 };
 
-/// The path without links and dots, as far as it exists.
+/// Returns the path without links and dots, as far as it exists.
 std::filesystem::path resolved(const std::filesystem::path& path);
 
 }  // namespace chainmail

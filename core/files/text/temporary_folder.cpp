@@ -12,7 +12,7 @@ TemporaryFolder::TemporaryFolder() {
   std::error_code none;
   std::string name = (std::filesystem::temp_directory_path(none) / "chainmail-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) {
-    throw Error(shown(name), "no folder can be made there", "free some space, or set TMPDIR to another folder");
+    throw Error(shown(name), "the folder cannot be created", "free some space, or set TMPDIR to another folder");
   }
   path_ = name;
 }

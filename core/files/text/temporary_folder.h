@@ -4,7 +4,7 @@
 
 namespace chainmail {
 
-/// A folder of its own, gone with what is in it when this goes. Throws Error where none can be made.
+/// A new private folder. The destructor removes it with its content. Throws Error if it cannot be created.
 class TemporaryFolder {
  public:
   TemporaryFolder();

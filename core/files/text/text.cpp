@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -14,12 +15,12 @@
 namespace chainmail {
 namespace {
 
-// Ten times what the largest mesh allowed takes.
+// Ten times the size of the largest mesh allowed.
 constexpr std::size_t largest_text = std::size_t{4} << 30;
 constexpr std::size_t longest_quote = 40;
 constexpr std::size_t lines_between_reports = 4096;  // a millisecond or two
 
-/// The length of the UTF-8 sequence at the start of a text, 0 where there is none.
+/// Returns the length of the UTF-8 sequence at the start of a text, or 0.
 std::size_t sequence_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) < 0xc2 ? 0 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
@@ -31,7 +32,7 @@ std::size_t sequence_length(std::string_view text) {
       return 0;
     }
   }
-  // Overlong forms, surrogates, and what lies beyond Unicode.
+  // Overlong forms, surrogates, and codes beyond Unicode.
   const bool wrong = length > 2 && ((byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xed && byte(1) > 0x9f) ||
                                     (byte(0) == 0xf0 && byte(1) < 0x90) || (byte(0) == 0xf4 && byte(1) > 0x8f));
   return wrong ? 0 : length;
@@ -77,7 +78,7 @@ std::string shown(const std::filesystem::path& path, std::size_t line) {
 
 namespace {
 
-/// With no byte 0 in it, where it is text.
+/// Reads a whole file, which must have no byte 0 if it is text.
 std::string read_whole(const std::filesystem::path& path, bool is_text, const std::string& content,
                        const Progress& progress) {
   RegularFile file(path);
@@ -153,9 +154,23 @@ std::string_view take_word(std::string_view& rest) {
   return word;
 }
 
+std::string_view trimmed(std::string_view text) {
+  static constexpr std::string_view removed = " \t\r";
+  const std::size_t first = text.find_first_not_of(removed);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(removed) + 1 - first);
+}
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
 std::optional<double> parse_number(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') {
-    word.remove_prefix(1);  // from_chars does not know it, files do
+    word.remove_prefix(1);  // from_chars does not accept it, but files contain it
   }
   double number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
@@ -232,7 +247,7 @@ std::optional<std::string_view> stated(std::string_view line, std::string_view w
     rest.remove_prefix(1);
   }
   if (!rest.starts_with('#')) {
-    return std::nullopt;  // at once: most lines are no comments
+    return std::nullopt;  // quickly: most lines are not comments
   }
   rest.remove_prefix(1);
   const std::string_view first = take_word(rest);
@@ -251,7 +266,7 @@ std::optional<int> stated_space(std::string_view line, const std::filesystem::pa
   }
   const auto space = parse_count(take_word(*rest));
   if (!space || *space < 1 || *space > 3 || !take_word(*rest).empty()) {
-    throw Error(shown(path, number), "the space dimension is no 1, 2 or 3", "write '# space N' with one of these");
+    throw Error(shown(path, number), "the space dimension is not 1, 2 or 3", "write '# space N' with one of these");
   }
   return static_cast<int>(*space);
 }

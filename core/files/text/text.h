@@ -13,20 +13,20 @@
 
 namespace chainmail {
 
-/// A text from outside as a message may show it: control characters and what is not UTF-8 become \xNN,
-/// so that a message stays one line and cannot steer a terminal.
+/// Makes a text from outside safe for a message: control characters and invalid UTF-8 become \xNN. A message is then
+/// one line and cannot control a terminal.
 std::string printable(std::string_view text);
-/// A word from a file, in quotes, shortened where it is long.
+/// Returns a word from a file in quotes; long words are shortened.
 std::string in_quotes(std::string_view word);
-/// A path as messages show it, and with a line as `file:line`.
+/// Returns a path as messages show it, or `file:line`.
 std::string shown(const std::filesystem::path& path);
 std::string shown(const std::filesystem::path& path, std::size_t line);
 
-/// The whole of a text file. Throws Error where it is no regular file, empty, too large or not text; `content` is what
-/// the file should hold.
+/// Reads a whole text file. Throws Error if it is not a regular file, or empty, too large or not text. `content` is
+/// what the file should hold.
 std::string read_text(const std::filesystem::path& path, const std::string& content = "a mesh",
                       const Progress& progress = {});
-/// The same of a file that need not be text.
+/// Reads a whole file that may be binary.
 std::string read_bytes(const std::filesystem::path& path, const std::string& content = "a mesh",
                        const Progress& progress = {});
 
@@ -35,11 +35,11 @@ class Lines {
  public:
   explicit Lines(std::string_view text);
 
-  /// Goes to the next line; says whether there is one.
+  /// Goes to the next line; returns false at the end.
   bool next();
   std::string_view line() const { return line_; }
   std::size_t number() const { return number_; }
-  /// How much of the text is done.
+  /// Reports the share of the text that is done.
   void report(const Progress& progress) const;
 
  private:
@@ -49,19 +49,24 @@ class Lines {
   std::size_t number_ = 0;
 };
 
-/// Takes the first word off a line (words are parted by blanks and tabs); empty where none is left.
+/// Removes the first word from a line and returns it; empty if there is none. Blanks and tabs separate words.
 std::string_view take_word(std::string_view& rest);
 
-/// A finite number in decimal digits, nothing behind it; the nearest double.
+/// Returns a text without the blanks, tabs and carriage returns at both ends.
+std::string_view trimmed(std::string_view text);
+/// Returns a text with A to Z in lower case.
+std::string lower_case(std::string_view text);
+
+/// Parses a word that is a finite decimal number, to the nearest double.
 std::optional<double> parse_number(std::string_view word);
-/// A whole number from 0 that fits 32 bits, in digits alone.
+/// Parses a word of digits as a whole number of 32 bits.
 std::optional<std::uint32_t> parse_count(std::string_view word);
 
-/// The fewest digits that read back as the same number.
+/// Appends the fewest digits that read back as the same number.
 void append_number(std::string& text, double number);
 void append_number(std::string& text, std::uint64_t number);
 
-/// Text on its way to a stream, in blocks: a stream, and a string, take long over each word.
+/// Writes text to a stream in blocks: writing each word to a stream or a string is slow.
 class TextBlocks {
  public:
   explicit TextBlocks(std::ostream& out) : out_(out) {}
@@ -70,10 +75,10 @@ class TextBlocks {
 
   TextBlocks& operator<<(char character);
   TextBlocks& operator<<(std::string_view text);
-  /// As append_number does.
+  /// Writes a number as append_number does.
   TextBlocks& operator<<(double number);
   TextBlocks& operator<<(std::uint32_t number);
-  /// To be called at the end.
+  /// Call this at the end.
   void flush();
 
  private:
@@ -86,11 +91,11 @@ class TextBlocks {
   char* end_ = block_.data();
 };
 
-/// A comment `# WORD value…` that states something: the line behind WORD where its first word begins
-/// like a number. Prose that happens to begin with WORD is none.
+/// Returns the values of a comment `# WORD value…`, if the first value begins like a number. Prose that begins with
+/// WORD does not count.
 std::optional<std::string_view> stated(std::string_view line, std::string_view word);
 
-/// The value of a comment `# space N`; throws Error at `path:number` for any N but 1, 2 and 3.
+/// Returns the value of a comment `# space N`. Throws Error at `path:number` unless N is 1, 2 or 3.
 std::optional<int> stated_space(std::string_view line, const std::filesystem::path& path, std::size_t number);
 
 }  // namespace chainmail

@@ -10,9 +10,9 @@
 namespace chainmail::import {
 namespace {
 
-constexpr std::size_t looked_at = 65536;  // bytes, for a long comment
+constexpr std::size_t beginning_bytes = 65536;  // enough for a long comment
 
-/// Gmsh tells a mesh by the very first byte: behind a blank line or a byte order mark it sees a script.
+/// Gmsh recognises a mesh by its first byte: after a blank line or a byte order mark it runs the file as a script.
 bool begins_as_msh(std::string_view text) {
   static constexpr std::array<std::string_view, 3> signs{"$MeshFormat", "$NOD", "$Comments"};
   return std::any_of(signs.begin(), signs.end(), [text](std::string_view sign) { return text.starts_with(sign); });
@@ -36,15 +36,15 @@ bool begins_as_medit(std::string_view text) {
 }  // namespace
 
 void check_beginning(const std::string& name, const std::filesystem::path& path) {
-  std::string text(looked_at, '\0');
+  std::string text(beginning_bytes, '\0');
   std::ifstream file(path, std::ios::binary);
-  file.read(text.data(), looked_at);
+  file.read(text.data(), beginning_bytes);
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (name == "mesh" ? !begins_as_medit(text) : !begins_as_msh(text)) {
     throw Error("",
                 name == "mesh" ? "it does not begin as a Medit mesh, with MeshVersionFormatted"
                                : "it does not begin as a Gmsh mesh, with $MeshFormat or $NOD",
-                "export it anew as a mesh; scripts are not run");
+                "export it again as a mesh; scripts are not run");
   }
 }
 

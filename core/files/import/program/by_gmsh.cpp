@@ -27,7 +27,7 @@ enum GmshType {
 
 [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) { throw Error("", problem, remedy); }
 
-/// The elements of the tags, in the order of these, and where they stand.
+/// Maps tags to elements, in the order of the tags, and stores their positions.
 class Points {
  public:
   explicit Points(MeshParts& parts) {
@@ -49,7 +49,7 @@ class Points {
   ElementId of(std::size_t tag) const {
     const auto found = std::lower_bound(tags_.begin(), tags_.end(), tag);
     if (found == tags_.end() || *found != tag) {
-      refuse("point " + std::to_string(tag) + " is used and not there", "export it anew");
+      refuse("point " + std::to_string(tag) + " is used and does not exist", "export it again");
     }
     return static_cast<ElementId>(found - tags_.begin());
   }

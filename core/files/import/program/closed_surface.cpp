@@ -45,7 +45,7 @@ std::vector<Triangle> split(const MeshParts& parts) {
   return triangles;
 }
 
-/// How many triangles are at each link.
+/// Returns the number of triangles at each link.
 std::map<Link, int> links_of(const std::vector<Triangle>& triangles) {
   std::map<Link, int> links;
   for (const auto& t : triangles) {
@@ -56,7 +56,7 @@ std::map<Link, int> links_of(const std::vector<Triangle>& triangles) {
   return links;
 }
 
-/// How many rings the links of a border make, where no element has more than two of them.
+/// Returns the number of rings in a border in which no element has more than two links.
 std::size_t count_rings(const std::vector<Link>& border) {
   std::map<ElementId, ElementId> leader;
   const auto find = [&leader](ElementId e) {
@@ -105,7 +105,7 @@ void check_crossings(const MeshParts& parts, const std::vector<Triangle>& triang
     faces.push_back({a, b, c});
   }
   namespace processing = CGAL::Polygon_mesh_processing;
-  processing::orient_polygon_soup(points, faces);  // where parts touch, points are doubled: as good for what follows
+  processing::orient_polygon_soup(points, faces);  // doubles points where parts touch, which does not matter below
   CGAL::Surface_mesh<Kernel::Point_3> surface;
   processing::polygon_soup_to_polygon_mesh(points, faces, surface);
   using Face = CGAL::Surface_mesh<Kernel::Point_3>::Face_index;
@@ -113,10 +113,10 @@ void check_crossings(const MeshParts& parts, const std::vector<Triangle>& triang
   processing::self_intersections(surface, std::back_inserter(crossings));
   if (!crossings.empty()) {
     const auto& [one, other] = crossings.front();
-    refuse("the surface goes through itself, at " + std::to_string(crossings.size()) +
+    refuse("the surface intersects itself, at " + std::to_string(crossings.size()) +
                " places: the first is where the faces (" + numbers(triangles[one]) + ") and (" +
                numbers(triangles[other]) + ") meet, near " + place(parts.rest[triangles[one][0]]),
-           "mend it there");
+           "repair it there");
   }
 }
 

@@ -9,11 +9,11 @@ namespace chainmail::import {
 
 using Triangle = std::array<ElementId, 3>;
 
-/// The triangles of a surface, polygons split. Throws Error, with the elements and where they stand, where they do not
-/// enclose a volume: none at all, a flat one, a hole, three that meet at a link, two that go through each other.
+/// Returns the triangles of a surface, with polygons split. Throws Error, with elements and positions, if they do not
+/// enclose a volume: no triangles, a flat one, a hole, three at one link, or two that intersect.
 std::vector<Triangle> closed_surface(const MeshParts& parts);
 
-/// What they enclose (mesh units cubed).
+/// Returns the volume that the triangles enclose (mesh units cubed).
 double enclosed_volume(const MeshParts& parts, const std::vector<Triangle>& triangles);
 
 }  // namespace chainmail::import

@@ -6,13 +6,13 @@
 
 namespace chainmail::import {
 
-/// What a file says it holds, 0 where it does not.
+/// The counts that a file states, or 0.
 struct FileCounts {
   std::uint64_t points = 0;
-  std::uint64_t elements = 0;  // lines, faces, cells, and whatever else it counts among them
+  std::uint64_t elements = 0;  // lines, faces, cells and anything else that it counts with them
 };
 
-/// Looks for the counts of a .msh or .mesh file (`name`): libraries leave out in silence what they do not know.
+/// Finds the counts of a .msh or .mesh file (`name`), because libraries silently skip what they do not know.
 FileCounts count_in(const std::string& name, const std::filesystem::path& path);
 
 }  // namespace chainmail::import

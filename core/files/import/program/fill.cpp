@@ -34,10 +34,10 @@ ImportedMesh load(const std::filesystem::path& path) {
   return std::move(*mesh);
 }
 
-/// Listens to what Gmsh prints, which is where it says how far it has come.
+/// Reads the output of Gmsh, which contains its progress.
 class Narration {
  public:
-  /// `expected` points in the end, about.
+  /// `expected` is the approximate number of points at the end.
   Narration(double expected, const Report& report) : expected_(expected), report_(report) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) == 0) {
@@ -95,11 +95,11 @@ void give_surface(const MeshParts& parts, const std::vector<Triangle>& triangles
   gmsh::model::geo::synchronize();
 }
 
-/// The length decides alone, not the surface's edges: what is within may be finer or coarser than they are. By HXT
-/// (Marot et al. 2019): Gmsh's older algorithm leaves a coarse surface as it is, whatever the size within.
+/// Sets the length of edges, which may be finer or coarser than those of the surface. Uses HXT (Marot et al. 2019):
+/// Gmsh's older algorithm ignores the size inside a coarse surface.
 void set_size(double size) {
   constexpr int hxt = 10;
-  // Of a tetrahedron's quality, from 0 to 1: HXT's own 0.3 takes ten times as long, and ChainMail sees no difference.
+  // Quality of a tetrahedron, from 0 to 1. HXT's default of 0.3 takes ten times as long and does not improve ChainMail.
   constexpr double worst_quality = 0.1;
   gmsh::option::setNumber("Mesh.Algorithm3D", hxt);
   gmsh::option::setNumber("Mesh.OptimizeThreshold", worst_quality);
@@ -121,7 +121,7 @@ void generate() {
   }
 }
 
-/// The surface's points and those within, tetrahedra alone: no face is left that is no side of one.
+/// Returns the points of the surface, then the inner points, with tetrahedra only.
 ImportedMesh filled(const MeshParts& surface) {
   ImportedMesh mesh;
   std::vector<std::size_t> tags, cells, nodes;

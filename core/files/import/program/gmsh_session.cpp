@@ -19,7 +19,7 @@ GmshSession::GmshSession() {
 
 void GmshSession::open(const std::filesystem::path& path) const {
   const auto fail = [] {
-    throw Error("", "Gmsh cannot read it (" + gmsh_complaint() + ")", "export it anew, or in another format");
+    throw Error("", "Gmsh cannot read it (" + gmsh_complaint() + ")", "export it again, or in another format");
   };
   try {
     gmsh::open(path.string());

@@ -4,18 +4,18 @@
 
 namespace chainmail::import {
 
-/// Gmsh, which has one state for the whole program, from start to end of this.
+/// Starts Gmsh, which has one state for the whole program.
 class GmshSession {
  public:
   GmshSession();
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
 
-  /// Throws Error, in Gmsh's words, where it cannot.
+  /// Throws Error, with the message of Gmsh, if it cannot read the file.
   void open(const std::filesystem::path& path) const;
 };
 
-/// The first thing that Gmsh complained of since its start, or a general word.
+/// Returns the first error message of Gmsh since its start, or a general text.
 std::string gmsh_complaint();
 
 }  // namespace chainmail::import

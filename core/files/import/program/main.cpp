@@ -1,5 +1,4 @@
-// chainmail-import BYTES SECONDS TASK PATH [ARGUMENT…]: the program that core's readers start
-// (files/import/import_process.h).
+// chainmail-import BYTES SECONDS TASK PATH [ARGUMENT…]: run_import (files/import/import_process.h) starts this program.
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -24,7 +23,7 @@ void limit(int resource, rlim_t to, rlim_t until_killed = 0) {
   setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 
-/// Gmsh recurses deeply and does this itself, but not in the sandbox.
+/// Gmsh recurses deeply. It would raise this limit itself, but cannot in the sandbox.
 void use_all_of_the_stack() {
   rlimit stack{};
   if (getrlimit(RLIMIT_STACK, &stack) == 0) {
@@ -34,17 +33,17 @@ void use_all_of_the_stack() {
 }
 
 void set_limits(const char* bytes, const char* seconds) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // who asked is gone: so is the reason
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with its caller
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, std::strtoull(seconds, nullptr, 10), 1);  // first by SIGXCPU, which says why
-#ifndef __SANITIZE_ADDRESS__  // which takes more address space than any machine has memory
+  limit(RLIMIT_CPU, std::strtoull(seconds, nullptr, 10), 1);  // SIGXCPU first: its caller then knows the reason
+#ifndef __SANITIZE_ADDRESS__                                  // a sanitizer takes more address space than any limit
   limit(RLIMIT_AS, std::strtoull(bytes, nullptr, 10));
 #else
   static_cast<void>(bytes);
 #endif
 }
 
-/// Closes what the parent has open and did not mean to give.
+/// Closes descriptors that the parent did not intend to pass.
 void close_others() {
   close_range(STDERR_FILENO + 1, result_channel - 1, 0);
   close_range(last_input + 1, ~0U, 0);
@@ -52,7 +51,7 @@ void close_others() {
 
 void report_share(double share) {
   if (write(share_channel, &share, sizeof share) < 0) {
-    std::_Exit(1);  // nobody listens any more
+    std::_Exit(1);  // the caller has ended
   }
 }
 
@@ -79,12 +78,12 @@ const std::map<std::string, Task>& tasks() {
   return all;
 }
 
-/// Closes the sandbox before a library sees the file.
+/// Enters the sandbox before a library reads the file.
 Imported carry_out(const std::string& task, const std::filesystem::path& path,
                    const std::vector<std::string>& arguments) {
   if (!enter_sandbox()) {
-    return Refusal{"this system cannot confine the program that reads this format (seccomp is missing)",
-                   "use a kernel that has it, or another format"};
+    return Refusal{"this system cannot sandbox the program that reads this format (seccomp is missing)",
+                   "use a kernel with seccomp, or another format"};
   }
   try {
     return tasks().at(task)(path, arguments);
@@ -110,7 +109,7 @@ bool hand_over(const std::vector<std::byte>& bytes) {
 int main(int count, char** words) {
   using namespace chainmail::import;
   if (count < 5) {
-    std::fputs("chainmail-import: it is started by chainmail and workbench, which read meshes through it\n", stderr);
+    std::fputs("chainmail-import: only chainmail and workbench start this program, to read meshes\n", stderr);
     return 2;
   }
   close_others();
@@ -118,7 +117,7 @@ int main(int count, char** words) {
   use_all_of_the_stack();
   try {
     const auto imported = carry_out(words[3], words[4], {words + 5, words + count});
-    // Without the libraries' own clearing up: what they have read may be damaged.
+    // Skips the cleanup of the libraries: it may crash after a damaged file.
     std::_Exit(hand_over(chainmail::encode_imported(imported)) ? 0 : 1);
   } catch (const std::bad_alloc&) {
     std::_Exit(out_of_memory);

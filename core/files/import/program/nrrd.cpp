@@ -51,7 +51,7 @@ double spacing_of(const NrrdAxisInfo& axis, unsigned dimension) {
 Volume read_nrrd(const std::filesystem::path& path) {
   const std::unique_ptr<Nrrd, Remove> file(nrrdNew());
   if (nrrdLoad(file.get(), path.c_str(), nullptr) != 0) {
-    refuse("teem cannot read it (" + complaint() + ")", "export it anew");
+    refuse("teem cannot read it (" + complaint() + ")", "export it again");
   }
   if (file->dim != 3 || file->type == nrrdTypeBlock) {
     refuse("it has " + std::to_string(file->dim) + " axes, and a volume of densities has 3",

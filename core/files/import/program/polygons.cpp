@@ -29,7 +29,7 @@ bool read(const std::string& name, const std::string& path, Soup& soup) {
 void add_polygon(MeshParts& parts, const Polygon& polygon) {
   if (polygon.size() < 2 ||
       std::any_of(polygon.begin(), polygon.end(), [&](auto corner) { return corner >= parts.rest.size(); })) {
-    refuse("a face names a point that is not there, or has fewer than 2 corners", "export it anew");
+    refuse("a face names a point that does not exist, or has fewer than 2 corners", "export it again");
   }
   add_face(parts, std::vector<ElementId>(polygon.begin(), polygon.end()));
 }
@@ -39,7 +39,7 @@ void add_polygon(MeshParts& parts, const Polygon& polygon) {
 ImportedMesh read_polygons(const std::string& name, const std::filesystem::path& path) {
   Soup soup;
   if (!read(name, path.string(), soup)) {
-    refuse("it is damaged, or no " + name + " file: CGAL cannot read it to its end", "export it anew");
+    refuse("it is damaged, or not a file of the format " + name + ": CGAL cannot read it to its end", "export it again");
   }
   if (soup.points.size() > element_limit) {
     refuse("there are more than " + std::to_string(element_limit) + " points", "use a smaller mesh");

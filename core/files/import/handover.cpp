@@ -1,4 +1,4 @@
-#include "files/formats/imported.h"
+#include "files/import/handover.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 namespace chainmail {
 namespace {
 
-constexpr std::uint64_t mark = 0x31'6c'69'61'6d'63'6e'69;  // "incmail1", told apart from any other output
+constexpr std::uint64_t mark = 0x31'6c'69'61'6d'63'6e'69;  // "incmail1": no other output begins like this
 constexpr std::size_t longest_text = 10'000;
 
 class Encoder {
@@ -43,8 +43,8 @@ class Encoder {
   }
 
   void operator()(const ImportedMesh& mesh) {
-    const auto& [parts, unused] = mesh;
-    put(unused);
+    const MeshParts& parts = mesh.parts;
+    put(mesh.unused);
     put_sizes(parts.rest, parts.links, parts.triangles, parts.polygons, parts.tetrahedra, parts.hexahedra);
     for (const Point& point : parts.rest) {
       put(std::array{point.x(), point.y(), point.z()});
@@ -94,7 +94,7 @@ class Decoder {
     throw Error(shown(path_), problem, remedy);
   }
   [[noreturn]] void damaged() const {
-    fail("what the import program says of it is damaged", "open it once more, or convert it to another format");
+    fail("the answer of the import program is damaged", "open it again, or convert it to another format");
   }
 
   template <class Value>
@@ -149,11 +149,11 @@ void Decoder::take_rest(MeshParts& parts, std::uint64_t count) {
   if (count > element_limit) {
     fail("there are more than " + std::to_string(element_limit) + " points", "use a smaller mesh");
   }
-  const auto places = take_all<std::array<double, 3>>(count);
+  const auto positions = take_all<std::array<double, 3>>(count);
   parts.rest.reserve(count);
-  for (const auto& [x, y, z] : places) {
+  for (const auto& [x, y, z] : positions) {
     if (!(std::max({std::abs(x), std::abs(y), std::abs(z)}) <= coordinate_limit) || std::isnan(x + y + z)) {
-      fail("point " + std::to_string(parts.rest.size()) + " has a coordinate that is no number, or beyond 1e100",
+      fail("point " + std::to_string(parts.rest.size()) + " has a coordinate that is not a number, or is beyond 1e100",
            "give finite coordinates");
     }
     parts.rest.emplace_back(x, y, z);
@@ -224,17 +224,6 @@ std::string Decoder::take_text() {
 }
 
 }  // namespace
-
-void add_face(MeshParts& parts, std::span<const ElementId> corners) {
-  if (corners.size() == 2) {
-    parts.links.push_back({corners[0], corners[1]});
-  } else if (corners.size() == 3) {
-    parts.triangles.push_back({corners[0], corners[1], corners[2]});
-  } else {
-    parts.polygons.push_back(static_cast<ElementId>(corners.size()));
-    parts.polygons.insert(parts.polygons.end(), corners.begin(), corners.end());
-  }
-}
 
 std::vector<std::byte> encode_imported(const Imported& imported) {
   Encoder encoder(imported.index());

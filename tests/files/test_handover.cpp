@@ -1,7 +1,7 @@
 #include <QtTest>
 #include <random>
 
-#include "files/formats/imported.h"
+#include "files/import/handover.h"
 #include "files/support.h"
 
 using namespace chainmail;
@@ -26,7 +26,7 @@ ImportedMesh sample() {
 }  // namespace
 
 /// What the import program hands over: as it was given, and never believed.
-class ImportedTest : public QObject {
+class HandoverTest : public QObject {
   Q_OBJECT
 
  private slots:
@@ -38,7 +38,7 @@ class ImportedTest : public QObject {
   void coordinates_must_be_finite();
 };
 
-void ImportedTest::a_mesh_comes_over_whole() {
+void HandoverTest::a_mesh_comes_over_whole() {
   const auto mesh = std::get<ImportedMesh>(decode_imported(encode_imported(sample()), "a.msh"));
   const auto expected = sample();
   QCOMPARE(mesh.parts.rest, expected.parts.rest);
@@ -50,7 +50,7 @@ void ImportedTest::a_mesh_comes_over_whole() {
   QCOMPARE(mesh.unused, std::uint64_t{3});
 }
 
-void ImportedTest::a_volume_comes_over_whole() {
+void HandoverTest::a_volume_comes_over_whole() {
   Volume volume;
   volume.size = {2, 1, 1};
   volume.spacing = Point(1, 2, 3);
@@ -64,21 +64,21 @@ void ImportedTest::a_volume_comes_over_whole() {
   QCOMPARE(again.density(0), 1.5);
 }
 
-void ImportedTest::a_refusal_comes_over_in_one_line() {
+void HandoverTest::a_refusal_comes_over_in_one_line() {
   const auto refusal = std::get<Refusal>(decode_imported(encode_imported(Refusal{"bad\nline", "mend it"}), "a"));
   QCOMPARE(refusal.problem, std::string("bad\\x0aline"));
   QCOMPARE(refusal.remedy, std::string("mend it"));
 }
 
-void ImportedTest::cut_off_anywhere_it_is_damaged() {
+void HandoverTest::cut_off_anywhere_it_is_damaged() {
   const auto bytes = encode_imported(sample());
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     const auto part = std::span(bytes).first(size);
-    QVERIFY(error_of([&] { decode_imported(part, "a.msh"); }).startsWith("a.msh: what the import program says"));
+    QVERIFY(error_of([&] { decode_imported(part, "a.msh"); }).startsWith("a.msh: the answer of the import program"));
   }
 }
 
-void ImportedTest::changed_anywhere_it_is_damaged_or_another_mesh() {
+void HandoverTest::changed_anywhere_it_is_damaged_or_another_mesh() {
   const auto whole = encode_imported(sample());
   std::mt19937 random(1);
   for (std::size_t at = 0; at < whole.size(); ++at) {
@@ -97,15 +97,15 @@ void ImportedTest::changed_anywhere_it_is_damaged_or_another_mesh() {
   }
 }
 
-void ImportedTest::coordinates_must_be_finite() {
+void HandoverTest::coordinates_must_be_finite() {
   for (const double bad : {std::nan(""), HUGE_VAL, -1e101}) {
     auto mesh = sample();
     mesh.parts.rest[2][1] = bad;
     QVERIFY(error_of([&] {
               decode_imported(encode_imported(mesh), "a.ply");
-            }).startsWith("a.ply: point 2 has a coordinate that is no number, or beyond 1e100; "));
+            }).startsWith("a.ply: point 2 has a coordinate that is not a number, or is beyond 1e100; "));
   }
 }
 
-QTEST_APPLESS_MAIN(ImportedTest)
-#include "test_imported.moc"
+QTEST_APPLESS_MAIN(HandoverTest)
+#include "test_handover.moc"

@@ -1,15 +1,16 @@
+#include "files/formats/msh.h"
+
 #include <algorithm>
 #include <array>
 #include <vector>
 
 #include "files/formats/mesh_pieces.h"
-#include "files/formats/msh.h"
 #include "files/text/text.h"
 
 namespace chainmail {
 namespace {
 
-/// How Gmsh calls the pieces: the dimension of the entity that they are of, and their type.
+/// How Gmsh names a kind of piece: the dimension of its entity, and its type.
 struct MshType {
   Piece piece;
   std::uint32_t dimension;
@@ -18,12 +19,12 @@ struct MshType {
 constexpr std::array msh_types{MshType{Piece::line, 1, 1}, MshType{Piece::triangle, 2, 2},
                                MshType{Piece::polygon, 2, 3}, MshType{Piece::tetrahedron, 3, 4},
                                MshType{Piece::hexahedron, 3, 5}};
-constexpr std::size_t most_corners = 4;
+constexpr std::size_t most_msh_corners = 4;
 
 class MshWriter {
  public:
   MshWriter(std::ostream& out, const MeshState& state, const Progress& progress)
-      : text_(out), state_(state), pieces_(state.mesh, state.cuts, {.most_corners = most_corners}, progress) {}
+      : text_(out), state_(state), pieces_(state.mesh, state.cuts, {.most_corners = most_msh_corners}, progress) {}
 
   void write_entities(const Progress& progress);
   void write_nodes(const Progress& progress);
@@ -31,7 +32,7 @@ class MshWriter {
 
  private:
   bool has_dimension(std::uint32_t dimension) const;
-  /// That of the entity which the nodes are of: the highest; a curve where there are but nodes.
+  /// Dimension of the entity of the nodes: the highest one, or 1 (a curve) if there are only nodes.
   std::uint32_t node_dimension() const;
   std::array<Point, 2> box(const Progress& progress) const;
 
@@ -59,7 +60,7 @@ std::array<Point, 2> MshWriter::box(const Progress& progress) const {
   return box;
 }
 
-/// An entity of each dimension that there is, with its bounding box, no physical group and no boundary.
+/// Writes one entity per dimension, with its bounding box, no physical group and no boundary.
 void MshWriter::write_entities(const Progress& progress) {
   text_ << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0";
   const std::uint32_t of_nodes = node_dimension();

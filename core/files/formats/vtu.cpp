@@ -1,10 +1,11 @@
+#include "files/formats/vtu.h"
+
 #include <algorithm>
 #include <bit>
 #include <string>
 #include <vector>
 
 #include "files/formats/mesh_pieces.h"
-#include "files/formats/vtu.h"
 #include "files/text/base64.h"
 #include "files/text/text.h"
 #include "measure/violation.h"
@@ -30,7 +31,7 @@ std::uint8_t vtk_type(Piece piece, std::size_t corners) {
   return 0;
 }
 
-/// Of each element, the largest violation of its links that are not cut.
+/// Returns the largest violation of the uncut links of each element.
 std::vector<double> element_violations(const MeshState& state, const Progress& progress) {
   const auto& [mesh, cuts, positions, softness] = state;
   std::vector<double> largest(mesh.element_count(), 0);
@@ -58,7 +59,7 @@ class VtuWriter {
   void write_foot();
 
  private:
-  /// An array of `count` numbers, which `fill` adds to what it is given.
+  /// Writes an array of `count` numbers, which `fill` adds to the writer that it gets.
   template <class Number, class Fill>
   void write_array(std::string_view type, std::string_view name, int components, std::uint64_t count, Fill fill);
   template <class Vector>

@@ -1,11 +1,14 @@
+#include "files/session/moves.h"
+
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
 
-#include "files/session/move_fields.h"
-#include "files/session/moves.h"
+#include "files/session/moves_scan.h"
+#include "files/text/json_fields.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -13,8 +16,76 @@ namespace chainmail {
 namespace {
 
 using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;
 
-constexpr int version_read = 1;
+/// Checks and returns the members of a command. Throws Error where one is wrong.
+class MoveFields : public JsonFields {
+ public:
+  /// `where` appears in errors.
+  MoveFields(std::string where, const Mesh& mesh) : JsonFields(std::move(where)), mesh_(mesh) {}
+
+  ElementId element(const Json& json) const;
+  /// Returns the link whose ends are the first two numbers of an array of this size.
+  LinkId link(const Json& json, std::size_t size) const;
+  /// Return the only member of a command besides `do`.
+  std::vector<LinkId> links(const MoveMembers& command) const;
+  std::vector<ElementId> elements(const MoveMembers& command) const;
+  const NumberList& list(const MoveMembers& command, const std::string& key) const;
+
+ private:
+  const Mesh& mesh_;
+};
+
+ElementId MoveFields::element(const Json& json) const {
+  if (!json.is_number_unsigned()) {
+    fail(in_quotes(text_of(json)) + " is not an element's id", "ids are whole numbers from 0");
+  }
+  if (json.get<std::uint64_t>() >= mesh_.element_count()) {
+    fail("there is no element " + json.dump(), "ids run from 0 to " + std::to_string(mesh_.element_count() - 1));
+  }
+  return json.get<ElementId>();
+}
+
+LinkId MoveFields::link(const Json& json, std::size_t size) const {
+  if (!json.is_array() || json.size() != size) {
+    fail("a link is not an array of " + std::to_string(size),
+         size == 2 ? "write [a, b]" : "write [a, b, compression, stretch, shear]");
+  }
+  const ElementId a = element(json[0]), b = element(json[1]);
+  const auto found = find_link(mesh_, a, b);
+  if (!found) {
+    fail("the elements " + std::to_string(a) + " and " + std::to_string(b) + " are not linked",
+         "give the two ends of a link");
+  }
+  return *found;
+}
+
+const NumberList& MoveFields::list(const MoveMembers& command, const std::string& key) const {
+  array(command.members, key);
+  return command.lists.at(key);
+}
+
+std::vector<LinkId> MoveFields::links(const MoveMembers& command) const {
+  check_keys(command.members, {"do", "links"});
+  const NumberList& ends = list(command, "links");
+  std::vector<LinkId> result;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    result.push_back(link(ends.at(i), 2));
+  }
+  return result;
+}
+
+std::vector<ElementId> MoveFields::elements(const MoveMembers& command) const {
+  check_keys(command.members, {"do", "elements"});
+  const NumberList& ids = list(command, "elements");
+  std::vector<ElementId> result;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    result.push_back(element(ids.at(i)));
+  }
+  return result;
+}
+
+constexpr int moves_version = 1;
 constexpr std::uint64_t most_sweeps = 1'000'000;
 
 /// Checks commands one after another, as a simulation at rest would take them.
@@ -44,7 +115,7 @@ class MovesReader {
   std::string where_;
   MoveFields fields_;  // of the file, then of each command
   std::vector<Command> commands_;
-  std::optional<Error> fault_;  // of the first command that is wrong; what is wrong with the whole file comes before
+  std::optional<Error> fault_;  // of the first wrong command; faults of the whole file are reported before it
   // The state that the simulation would be in.
   std::optional<ElementId> grabbed_;
   std::set<ElementId> pinned_;
@@ -81,7 +152,7 @@ Command MovesReader::release(const Members& of) {
 Command MovesReader::pin(const Members& of) {
   const auto pins = fields_.elements(of);
   if (grabbed_ && std::find(pins.begin(), pins.end(), *grabbed_) != pins.end()) {
-    fields_.fail("element " + std::to_string(*grabbed_) + " is in the hand by then", "release it first");
+    fields_.fail("element " + std::to_string(*grabbed_) + " is grabbed by then", "release it first");
   }
   pinned_.insert(pins.begin(), pins.end());
   return commands::Pin{pins};
@@ -126,7 +197,7 @@ Command MovesReader::relax(const Members& of) {
   }
   const double step = of.members.contains("step") ? fields_.number(of.members["step"]) : 1;
   if (!(step > 0 && step <= 1)) {
-    fields_.fail("'step' does not lie above 0 and up to 1", "1 goes all the way");
+    fields_.fail("'step' is not above 0 and up to 1", "1 moves elements all the way");
   }
   const Json scheme = of.members.value("scheme", Json("mean"));
   if (scheme != "mean" && scheme != "link") {
@@ -167,11 +238,11 @@ void MovesReader::take(const Json& value, const Members& of) {
 
 void MovesReader::check_head(const Json& head) const {
   if (!head.is_object()) {
-    fields_.fail("it holds no moves", "give recorded moves");
+    fields_.fail("it holds no recorded moves", "give recorded moves");
   }
   const Json& version = fields_.member(head, "version");
-  if (!version.is_number_unsigned() || version.get<std::uint64_t>() != version_read) {
-    fields_.fail("its version is not " + std::to_string(version_read), "record the moves again with this program");
+  if (!version.is_number_unsigned() || version.get<std::uint64_t>() != moves_version) {
+    fields_.fail("its version is not " + std::to_string(moves_version), "record the moves again with this program");
   }
   fields_.check_keys(head, {"version", "commands"});
   fields_.array(head, "commands");
@@ -189,6 +260,65 @@ std::vector<Command> MovesReader::read(std::string_view text, const std::filesys
   return std::move(commands_);
 }
 
+OrderedJson links_of(const std::vector<LinkId>& links, const Mesh& mesh) {
+  OrderedJson result = OrderedJson::array();
+  for (const LinkId link : links) {
+    result.push_back(mesh.links[link]);
+  }
+  return result;
+}
+
+/// Returns a command as JSON, or null for a command that is left out.
+class MoveWriter {
+ public:
+  explicit MoveWriter(const Mesh& mesh) : mesh_(mesh) {}
+
+  OrderedJson operator()(const commands::Grab& one) const { return {{"do", "grab"}, {"element", one.element}}; }
+  OrderedJson operator()(const commands::Drag& one) const {
+    return {{"do", "drag"}, {"target", {one.target.x(), one.target.y(), one.target.z()}}};
+  }
+  OrderedJson operator()(const commands::Release&) const { return {{"do", "release"}}; }
+  OrderedJson operator()(const commands::Cut& one) const {
+    return {{"do", "cut"}, {"links", links_of(one.links, mesh_)}};
+  }
+  OrderedJson operator()(const commands::Uncut& one) const {
+    return {{"do", "uncut"}, {"links", links_of(one.links, mesh_)}};
+  }
+  OrderedJson operator()(const commands::Pin& one) const { return {{"do", "pin"}, {"elements", one.elements}}; }
+  OrderedJson operator()(const commands::Unpin& one) const { return {{"do", "unpin"}, {"elements", one.elements}}; }
+  OrderedJson operator()(const commands::Reset&) const { return {{"do", "reset"}}; }
+  OrderedJson operator()(const commands::SetSoftness& one) const {
+    const auto& [compression, stretch, shear] = one.softness->global;
+    OrderedJson json{{"do", "softness"}, {"compression", compression}, {"stretch", stretch}, {"shear", shear}};
+    for (const auto& [link, of_link] : one.softness->links) {
+      const auto [a, b] = mesh_.links[link];
+      json["links"].push_back({a, b, of_link.compression, of_link.stretch, of_link.shear});
+    }
+    return json;
+  }
+  OrderedJson operator()(const commands::Relax& one) const {
+    const char* scheme = one.scheme == RelaxationScheme::link ? "link" : "mean";
+    return {{"do", "relax"}, {"sweeps", one.sweeps}, {"step", one.step}, {"scheme", scheme}};
+  }
+  OrderedJson operator()(const commands::ReplaceMesh&) const { refuse(); }
+  OrderedJson operator()(const commands::SetPositions&) const { refuse(); }
+  OrderedJson operator()(const commands::RestoreState&) const { refuse(); }
+  OrderedJson operator()(const commands::SetRelaxation&) const { return {}; }
+  OrderedJson operator()(const commands::SetElastic&) const { return {}; }
+  OrderedJson operator()(const commands::MoveControlPoint&) const { return {}; }
+  OrderedJson operator()(const commands::SetAlgorithm&) const { return {}; }
+  OrderedJson operator()(const commands::KeepState&) const { return {}; }
+  OrderedJson operator()(const commands::DropState&) const { return {}; }
+
+ private:
+  [[noreturn]] static void refuse() {
+    throw Error("moves", "the object was replaced, or moves were undone, while they were recorded",
+                "record them on one object without undo");
+  }
+
+  const Mesh& mesh_;
+};
+
 }  // namespace
 
 std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const std::string& where,
@@ -203,6 +333,19 @@ std::vector<Command> read_moves(std::string_view text, const std::filesystem::pa
 
 std::vector<Command> read_moves(const std::filesystem::path& path, const Mesh& mesh, const Progress& progress) {
   return read_moves(read_text(path, "recorded moves", progress.part(0, 0.1)), path, mesh, progress.part(0.1, 1));
+}
+
+void write_moves(std::ostream& out, const std::vector<Command>& commands, const Mesh& mesh, const Progress& progress) {
+  out << "{\"version\": 1, \"commands\": [";
+  const char* before = "\n";
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    progress.report(i, commands.size());
+    if (const OrderedJson json = std::visit(MoveWriter(mesh), commands[i]); !json.is_null()) {
+      out << before << json.dump();
+      before = ",\n";
+    }
+  }
+  out << "\n]}\n";
 }
 
 }  // namespace chainmail

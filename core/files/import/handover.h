@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "files/formats/imported.h"
+#include "files/formats/volume.h"
+
+namespace chainmail {
+
+/// Why the import program returns nothing, in the words of Error: the problem and the remedy.
+struct Refusal {
+  std::string problem;
+  std::string remedy;
+};
+
+/// The result of the import program, which it sends through a pipe.
+using Imported = std::variant<ImportedMesh, Volume, Refusal>;
+
+/// Returns the bytes of a result: a mark, the kind, counts, then numbers in the machine's own layout, because both
+/// programs run on the same machine.
+std::vector<std::byte> encode_imported(const Imported& imported);
+
+/// Reads such bytes. It checks every count against the number of bytes before it takes memory, and every id against the
+/// number of elements. Throws Error about `path`, the file that was read, where the bytes are damaged, a coordinate is
+/// not finite or beyond coordinate_limit, or there are more than element_limit elements.
+Imported decode_imported(std::span<const std::byte> bytes, const std::filesystem::path& path);
+
+}  // namespace chainmail

@@ -1,0 +1,37 @@
+#include "files/import/import_file.h"
+
+#include <utility>
+#include <variant>
+
+#include "files/formats/data_file.h"
+#include "files/formats/nrrd_head.h"
+#include "files/import/import_process.h"
+#include "files/text/regular_file.h"
+
+namespace chainmail {
+
+/// Libraries recognise a format by the name: the file is linked under one with the right ending.
+ImportedMesh import_mesh(const std::string& task, const std::filesystem::path& path, int passes,
+                         const Progress& progress) {
+  ImportInput input(path, passes);
+  input.link("mesh." + task, RegularFile(path));
+  return std::get<ImportedMesh>(run_import(task, input, {}, limits_for(input.linked_size()), progress));
+}
+
+/// If the data are in a file of their own, teem gets a header that names a link to it.
+Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progress& progress) {
+  RegularFile file(path);
+  std::string beginning(longest_nrrd_head, '\0');
+  beginning.resize(file.read(beginning));
+  const NrrdHead head = read_nrrd_head(beginning, path);
+  ImportInput input(path);
+  if (head.data_file.empty()) {
+    input.link("volume.nrrd", std::move(file));
+  } else {
+    input.write("volume.nhdr", head.text);
+    input.link("data", RegularFile(data_file(path, head.data_file, outside)));
+  }
+  return std::get<Volume>(run_import("nrrd", input, {}, limits_for(input.linked_size()), progress));
+}
+
+}  // namespace chainmail

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "files/formats/imported.h"
+#include "files/formats/volume.h"
+#include "mesh/progress.h"
+
+namespace chainmail {
+
+/// Reads a mesh by a library in the import program. `task` is the program's word for the format, and `passes` the
+/// number of times that the library reads the file. Throws as run_import (files/import/import_process.h).
+ImportedMesh import_mesh(const std::string& task, const std::filesystem::path& path, int passes,
+                         const Progress& progress);
+
+/// Reads an NRRD volume by teem in the import program. The header may name data outside its folder if `outside` is
+/// true. Throws as run_import.
+Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progress& progress);
+
+}  // namespace chainmail
