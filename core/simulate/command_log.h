@@ -10,9 +10,9 @@ namespace chainmail {
 
 /// The one log that feeds all solvers: each gets the same commands in the same order.
 ///
-/// Moves of the hand and settings that a slider drags along are sampled: while a solver is busy, the
-/// last one not yet sent is replaced by the next of its kind, for all solvers, so that a slow one never
-/// falls behind the hand. All other commands are sent at once, after what waited before them. Belongs to
+/// Moves of the handle and settings on a slider are sampled: while a solver is busy, the last one not
+/// yet sent is replaced by the next of its kind, for all solvers, so that a slow one never falls behind
+/// the mouse. All other commands are sent at once, after what waited before them. Belongs to
 /// one thread.
 class CommandLog {
  public:
@@ -31,7 +31,8 @@ class CommandLog {
   void remove(const SolverThread& solver);
   /// Sends what waits; to be called before something is asked of a solver past this log.
   void flush();
-  /// Sends the waiting command if every solver is idle; to be called 60 times a second while one waits.
+  /// Sends the waiting command if every solver is idle; to be called after each post, and each time a solver becomes
+  /// idle.
   void sample();
   bool waits() const { return waiting_.has_value(); }
 

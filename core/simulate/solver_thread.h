@@ -21,11 +21,13 @@ class SolverThread {
   using Question = std::function<void(const Simulation&)>;
 
   /// `frame_ready` is called after a frame was handed over, for the first frame here and from then on
-  /// by the solver's thread; it must not wait.
-  SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready);
+  /// by the solver's thread; `became_idle` is called by that thread each time idle() becomes true. They must not wait.
+  SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready,
+               std::function<void()> became_idle = {});
   /// Goes on by `algorithm` from what the other one's object will be when it has carried out all that was asked of it
   /// so far; until then it shows an object of its own. What is posted here comes after.
-  SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready);
+  SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready,
+               std::function<void()> became_idle = {});
   /// Leaves the commands not yet begun undone, and a pass that takes long unfinished.
   ~SolverThread();
 
@@ -65,6 +67,7 @@ class SolverThread {
   void run(const std::stop_token& stop);
   void refuse(const std::string& sentence);
   void carry_out(const Task& task);
+  void finish_task();
   void relax();
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void answer_questions(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
@@ -74,7 +77,7 @@ class SolverThread {
 
   JobState work_;  // of a pass that takes long
   Simulation simulation_;
-  std::function<void()> frame_ready_;
+  std::function<void()> frame_ready_, became_idle_;
   TripleBuffer frames_;
   FrameWriter writer_{frames_};
   PassRecorder recorder_;

@@ -345,7 +345,7 @@ class WindowUndo : public QObject {
            document.setSoftnessOf({2, 9}, LinkSoftness{0.5, 2, 1});
          }},
         {QStringLiteral("reset stiffness"), [&] { document.resetSoftness(); }},
-        {QStringLiteral("relaxation's settings"),
+        {QStringLiteral("relaxation settings"),
          [&] {
            document.setRelaxation({document.relaxation().on, 0.5, RelaxationScheme::link});
          }},
