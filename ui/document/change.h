@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -27,11 +28,14 @@ struct DocumentObject {
 /// The values that undo brings back. Positions are not among them: each solver keeps its own. A copy copies pointers,
 /// not elements or links.
 struct Contents {
+  static constexpr int mostPanels = 4;
+
   std::shared_ptr<DocumentObject> object;
   std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
-  std::vector<Algorithm> algorithms;  // one per panel
+  int panels = 0;
+  std::array<Algorithm, mostPanels> algorithms{};  // one per panel; of a removed panel the last one
 };
 
 /// One step of undo, as data: Document::apply carries it out.

@@ -189,8 +189,8 @@ void Document::carryOut(const Change& change, const Contents& before) {
   }
 }
 
-/// Posts the settings that a kept state does not hold. `neutral` stands for an algorithm that works on any mesh and
-/// stores positions as the restored ones are stored: the real algorithm may not work on the mesh that is still there.
+/// Posts the settings that a kept state does not hold. If `neutral`, Natural Queue runs in place of an algorithm that
+/// may not work on the mesh that is still there; Exact works on any mesh and stores positions in its own way.
 void Document::postSettings(const Contents& from, const Contents& to, bool neutral) {
   if (to.relaxation != from.relaxation) {
     post(to.relaxation);
@@ -210,11 +210,10 @@ void Document::postSettings(const Contents& from, const Contents& to, bool neutr
 /// algorithms do not work on every mesh.
 std::vector<int> Document::panelsToSwitch(const Contents& from, const Contents& to) const {
   std::vector<int> result;
-  const std::size_t common = std::min({from.algorithms.size(), to.algorithms.size(), contents_.algorithms.size()});
-  for (std::size_t panel = 0; panel < common; ++panel) {
-    const bool sets = from.object != to.object || from.algorithms[panel] != to.algorithms[panel];
-    if (sets && contents_.algorithms[panel] != to.algorithms[panel]) {
-      result.push_back(int(panel));
+  for (int panel = 0; panel < std::min({from.panels, to.panels, panels()}); ++panel) {
+    const Algorithm before = from.algorithms[std::size_t(panel)], after = to.algorithms[std::size_t(panel)];
+    if ((from.object != to.object || before != after) && algorithm(panel) != after) {
+      result.push_back(panel);
     }
   }
   return result;
@@ -414,7 +413,7 @@ void Document::restore(const std::shared_ptr<const Session>& session, const QStr
   edit.after.softness = session->softness;
   edit.after.relaxation = session->relaxation;
   edit.after.elastic = session->elastic;
-  for (std::size_t panel = 0; panel < edit.after.algorithms.size(); ++panel) {
+  for (std::size_t panel = 0; panel < solvers_.size(); ++panel) {
     Algorithm& algorithm = edit.after.algorithms[panel];
     algorithm = panel < session->panels.size()    ? session->panels[panel].algorithm
                 : fits(algorithm, *session->mesh) ? algorithm
@@ -625,12 +624,13 @@ void Document::addSolver(std::unique_ptr<SolverThread> solver) {
   solver->record_passes(recordsPasses_);
   frames_[std::size_t(panels())] = &solver->latest_frame();
   solvers_.push_back(std::move(solver));
+  contents_.panels = panels();
 }
 
 void Document::addPanel() {
   if (panels() < mostPanels) {
     const Algorithm algorithm = unusedAlgorithm();
-    contents_.algorithms.push_back(algorithm);
+    contents_.algorithms[std::size_t(panels())] = algorithm;
     log_->flush();
     addSolver(std::make_unique<SolverThread>(*solvers_.front(), algorithm, frameAnnouncer(panels()), idleAnnouncer()));
     emit panelsChanged();
@@ -642,7 +642,7 @@ void Document::removePanel() {
     emit panelLeaves(panels() - 1);
     log_->remove(*solvers_.back());
     solvers_.pop_back();
-    contents_.algorithms.pop_back();
+    contents_.panels = panels();
     emit panelsChanged();
   }
 }
@@ -653,7 +653,7 @@ Algorithm Document::unusedAlgorithm() const {
   for (const auto& info : algorithms()) {
     all.push_back(info.algorithm);
   }
-  const auto& used = contents_.algorithms;
+  const auto used = std::span(contents_.algorithms).first(std::size_t(panels()));
   const auto free = std::ranges::find_if(
       all, [&](Algorithm one) { return std::ranges::find(used, one) == used.end() && fits(one, *mesh()); });
   return free == all.end() ? Algorithm::natural_queue : *free;

@@ -36,7 +36,7 @@ class Document : public QObject {
   Q_OBJECT
 
  public:
-  static constexpr int fewestPanels = 2, mostPanels = 4;
+  static constexpr int fewestPanels = 2, mostPanels = Contents::mostPanels;
 
   Document(MeshPointer mesh, const QString& name);
   ~Document() override;
@@ -63,6 +63,7 @@ class Document : public QObject {
   void addPanel();
   /// Removes the last panel.
   void removePanel();
+  /// The algorithm of a panel; of a removed panel, the last one.
   Algorithm algorithm(int panel) const { return contents_.algorithms[std::size_t(panel)]; }
   /// True where the panel's method has no answer because nothing pins the object.
   bool lacksPins(int panel) const;
