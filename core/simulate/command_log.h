@@ -30,7 +30,7 @@ class CommandLog {
   void remove(const SolverThread& solver);
   /// Sends the waiting command. Call this before asking a solver directly.
   void flush();
-  /// Sends the waiting command if every solver is idle. Call this 60 times per second while a command waits.
+  /// Sends the waiting command if every solver is idle. Call this after each post, and each time a solver becomes idle.
   void sample();
   bool waits() const { return waiting_.has_value(); }
 

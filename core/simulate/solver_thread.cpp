@@ -42,15 +42,19 @@ MeshPointer no_mesh() { return generate({MeshKind::line, {1, 1, 1}, 1, {}}); }
 
 }  // namespace
 
-SolverThread::SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready)
-    : simulation_(std::move(mesh), algorithm, Precision::single_precision), frame_ready_(std::move(frame_ready)) {
+SolverThread::SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready,
+                           std::function<void()> became_idle)
+    : simulation_(std::move(mesh), algorithm, Precision::single_precision),
+      frame_ready_(std::move(frame_ready)),
+      became_idle_(std::move(became_idle)) {
   simulation_.set_progress(Progress(work_));
   publish();
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
-SolverThread::SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready)
-    : SolverThread(no_mesh(), Algorithm::natural_queue, std::move(frame_ready)) {
+SolverThread::SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready,
+                           std::function<void()> became_idle)
+    : SolverThread(no_mesh(), Algorithm::natural_queue, std::move(frame_ready), std::move(became_idle)) {
   const auto promise = std::make_shared<std::promise<Handover>>();
   // If the other solver ends first, the promise is broken, and nothing waits for it.
   add([taken = promise->get_future().share(), algorithm](Simulation& simulation) {
@@ -105,12 +109,12 @@ void SolverThread::refuse(const std::string& sentence) {
 void SolverThread::carry_out(const Task& task) {
   if (const auto* question = std::get_if<Question>(&task)) {
     (*question)(simulation_);
-    waiting_.fetch_sub(1, std::memory_order_release);
+    finish_task();
     return;
   }
   const auto* command = std::get_if<Command>(&task);
   if (abandoned_ && only_moves(command)) {
-    waiting_.fetch_sub(1, std::memory_order_release);
+    finish_task();
     return;
   }
   if (command != nullptr) {
@@ -132,7 +136,13 @@ void SolverThread::carry_out(const Task& task) {
   }
   unseen_ = true;
   measured_ = false;
-  waiting_.fetch_sub(1, std::memory_order_release);
+  finish_task();
+}
+
+void SolverThread::finish_task() {
+  if (waiting_.fetch_sub(1, std::memory_order_acq_rel) == 1 && became_idle_) {
+    became_idle_();
+  }
 }
 
 /// With the lock held.

@@ -21,11 +21,13 @@ class SolverThread {
   using Question = std::function<void(const Simulation&)>;
 
   /// `frame_ready` is called after a frame was published: for the first frame by this constructor, then by the solver's
-  /// thread. It must not block.
-  SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready);
+  /// thread. That thread calls `became_idle` each time idle() becomes true. Neither may block.
+  SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready,
+               std::function<void()> became_idle = {});
   /// Continues, with `algorithm`, from the object of another solver after all its posted tasks. Until then it shows an
   /// empty object. Tasks posted here run after that.
-  SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready);
+  SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready,
+               std::function<void()> became_idle = {});
   /// Drops the commands that have not begun, and cancels a long pass.
   ~SolverThread();
 
@@ -65,6 +67,7 @@ class SolverThread {
   void run(const std::stop_token& stop);
   void refuse(const std::string& sentence);
   void carry_out(const Task& task);
+  void finish_task();
   void relax();
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void answer_questions(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
@@ -74,7 +77,7 @@ class SolverThread {
 
   JobState work_;  // of a long pass
   Simulation simulation_;
-  std::function<void()> frame_ready_;
+  std::function<void()> frame_ready_, became_idle_;
   TripleBuffer frames_;
   FrameWriter writer_{frames_};
   PassRecorder recorder_;

@@ -28,6 +28,7 @@ class SolverThreadTest : public QObject {
   void it_sleeps_when_nothing_is_to_do_data();
   void it_sleeps_when_nothing_is_to_do();
   void frames_come_at_most_60_times_a_second();
+  void it_announces_that_it_became_idle();
   void it_ends_without_finishing_the_commands();
   void it_answers_questions_when_it_ends();
   void a_pass_that_takes_long_is_given_up_for_another_algorithm();
@@ -153,6 +154,17 @@ void SolverThreadTest::frames_come_at_most_60_times_a_second() {
   const auto elapsed = std::chrono::steady_clock::now() - start;
   // One every 16 ms, and a frame of rest at either end.
   QVERIFY2(counted <= elapsed / 16ms + 3, qPrintable(QString("%1 frames").arg(counted)));
+}
+
+void SolverThreadTest::it_announces_that_it_became_idle() {
+  std::atomic<int> announced = 0;
+  SolverThread solver(
+      small_grid(), Algorithm::natural_queue, [] {}, [&] { ++announced; });
+  solver.post(commands::Grab{0});
+  QVERIFY(wait_until([&] { return announced == 1; }));
+  QVERIFY(solver.idle());
+  solver.ask([](const Simulation&) {});
+  QVERIFY(wait_until([&] { return announced == 2; }));
 }
 
 void SolverThreadTest::it_ends_without_finishing_the_commands() {

@@ -56,7 +56,7 @@ class WindowAlgorithm : public QObject {
     QCOMPARE(bench.document().algorithm(0), Algorithm::natural_queue);
     QCOMPARE(bench.window.panel(0).selector().currentText(), QStringLiteral("Natural Queue ChainMail"));
     QVERIFY(bench.window.messages().isVisible());
-    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("Natural Queue ChainMail goes on in panel A")));
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("panel A now runs Natural Queue ChainMail")));
     bench.document().undoStack().undo();
     bench.settle();
     // What the selector says is what runs, whichever mesh is there.

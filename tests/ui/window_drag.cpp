@@ -45,6 +45,32 @@ class WindowDrag : public QObject {
     QVERIFY(!bench.document().highlight().grabbed);
   }
 
+  void aMoveGoesToIdleSolversAtOnce() {
+    Workbench bench;
+    Document& document = bench.document();
+    document.grab(31);
+    const auto finish = [&document] {
+      while (!document.idle()) {
+        QCoreApplication::processEvents();
+      }
+    };
+    for (int i = 1; i <= 5; ++i) {
+      finish();
+      const std::size_t recorded = document.tape().length();
+      document.drag(Point(4, 3 + 0.1 * i, 0));
+      QCOMPARE(document.tape().length(), recorded + 1);
+    }
+    // While the solvers are busy only the newest move waits.
+    for (int i = 1; i <= 200; ++i) {
+      document.drag(Point(4, 4 + 0.01 * i, 0));
+    }
+    finish();
+    bench.settle();
+    QCOMPARE(bench.position(1, 31), Point(4, 6, 0));
+    QVERIFY(document.tape().length() < 200);
+    document.release();
+  }
+
   void pressingBesideTheObjectMovesNothing() {
     Workbench bench;
     bench.stroke(0, {QPoint(5, 5), QPoint(80, 80)});

@@ -170,7 +170,7 @@ class WindowUndo : public QObject {
     Document& document = bench.document();
     drag(bench, 10, QPoint(-60, 60));
     const auto positions = [&] {
-      return std::pair(document.placement(0).get().held, document.placement(1).get().held);
+      return std::pair(document.snapshot(0).get().held, document.snapshot(1).get().held);
     };
     const auto before = positions();
     for (const bool released : {true, false}) {  // undo also ends a drag
@@ -345,7 +345,7 @@ class WindowUndo : public QObject {
            document.setSoftnessOf({2, 9}, LinkSoftness{0.5, 2, 1});
          }},
         {QStringLiteral("reset stiffness"), [&] { document.resetSoftness(); }},
-        {QStringLiteral("relaxation's settings"),
+        {QStringLiteral("relaxation settings"),
          [&] {
            document.setRelaxation({document.relaxation().on, 0.5, RelaxationScheme::link});
          }},

@@ -5,7 +5,7 @@
 
 namespace chainmail {
 
-/// A path of the window, for core.
+/// Converts a path of the interface for core.
 inline std::filesystem::path asPath(const QString& path) { return {path.toStdU16String()}; }
 
 }  // namespace chainmail

@@ -21,8 +21,8 @@ AskBar::AskBar(const QString& name, const QString& agree, const QString& help)
   agree_->setToolTip(help);
   auto* leave = new QPushButton(QStringLiteral("&Cancel"));
   leave->setObjectName(name + QStringLiteral("Cancel"));
-  leave->setToolTip(QStringLiteral("Leaves the object as it is"));
-  // In two rows: what it needs must not push the window over the screen.
+  leave->setToolTip(QStringLiteral("Closes this bar; the object does not change"));
+  // Two rows: the bar must not make the window wider than the screen.
   auto* words = new QHBoxLayout;
   words->addWidget(about_, 1);
   words->addWidget(result_);
@@ -75,7 +75,7 @@ void AskBar::agree() {
   }
 }
 
-/// Escape is this bar's as long as it has the keyboard.
+/// Takes the Escape key from the shortcuts while this bar has the keyboard focus.
 bool AskBar::event(QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
     event->accept();

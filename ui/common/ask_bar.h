@@ -8,8 +8,7 @@ class QPushButton;
 
 namespace chainmail {
 
-/// Asks what a job needs to know before it begins, in a line above the panels, without standing in the way: Enter
-/// agrees, Escape leaves.
+/// A bar above the panels that asks for the inputs of a job before it starts. Enter agrees, Escape cancels.
 class AskBar : public QFrame {
   Q_OBJECT
 
@@ -17,18 +16,18 @@ class AskBar : public QFrame {
   void agreed();
 
  protected:
-  /// `name` goes before the names that its parts are found by; `agree` is what its button says.
+  /// `name` is the prefix of the object names of its parts; `agree` is the text of its button, `help` the tooltip.
   AskBar(const QString& name, const QString& agree, const QString& help);
 
-  /// Adds a field with its label before it; where that is empty the field says itself what it is.
+  /// Adds a field and a label before it, unless the label is empty.
   void addField(const QString& label, QWidget* field);
-  /// Says what it is about, and waits for an answer with the keyboard in `field`.
+  /// Shows the bar with a text, and gives the keyboard focus to `field`.
   void ask(const QString& about, QWidget* field);
-  /// Adds another answer beside its button, once all fields are there.
+  /// Adds another answer next to its button; call it after all fields were added.
   void addAnswer(QPushButton* answer);
-  /// What its button says from now on.
+  /// Sets the text of its button.
   void setAgree(const QString& text);
-  /// What would come of the answer as it stands; it is no answer where nothing would.
+  /// Shows the expected result of the present inputs. The button is disabled unless it is possible.
   void showResult(const QString& result, bool possible = true);
 
   bool event(QEvent* event) override;

@@ -7,7 +7,8 @@ class QWidget;
 
 namespace chainmail {
 
-/// Asks where to save; a name without an ending gets that of the filter chosen. Empty where given up.
+/// Asks for a file to save to. A name without an extension gets that of the chosen filter. Returns an empty string if
+/// the user cancels.
 QString askWhere(QWidget& window, const QString& title, const QStringList& filters, const QString& folder);
 
 }  // namespace chainmail

@@ -13,7 +13,7 @@ namespace {
 constexpr int strongerPercent = 125;
 constexpr int middleLightness = 128;
 
-/// Hears of every change of the palette, and tells of those that change the ground.
+/// Watches for palette changes, and calls `apply` when the ground has changed.
 class ThemeFollower : public QObject {
  public:
   ThemeFollower(QWidget& widget, std::function<void()> apply)
@@ -25,7 +25,7 @@ class ThemeFollower : public QObject {
   bool eventFilter(QObject* /*watched*/, QEvent* event) override {
     const bool palette = event->type() == QEvent::PaletteChange || event->type() == QEvent::ApplicationPaletteChange;
     if (palette && colours::ground() != ground_) {
-      ground_ = colours::ground();  // first: what is applied may change the widget's palette
+      ground_ = colours::ground();  // first, because `apply` may change the palette of the widget
       apply_();
     }
     return false;
@@ -42,7 +42,7 @@ namespace colours {
 
 namespace {
 
-std::optional<Ground> forced;  // by the one OnGround there is; of the window's thread alone
+std::optional<Ground> forced;  // set by OnGround, of which there is at most one; used by the GUI thread only
 
 }  // namespace
 
@@ -63,7 +63,8 @@ QColor stronger(const QColor& colour) {
 
 namespace {
 
-/// On a dark ground so many hundredths darker, on a light one with so much of the ground's colour.
+/// Returns the colour darkened (percent, as QColor::darker) on a dark ground. On a light ground, mixes it with the
+/// background; `own` is the share of the colour itself, from 0 to 1.
 QColor nearer(const QColor& colour, int darker, double own) {
   if (ground() == Ground::dark) {
     return colour.darker(darker);

@@ -17,7 +17,7 @@ DockScroll::DockScroll(QWidget* content) {
   fitWidth();
 }
 
-/// What the content shows may need more room, or less, than at first.
+/// Follows the content, whose width may change.
 bool DockScroll::eventFilter(QObject* content, QEvent* event) {
   if (event->type() == QEvent::LayoutRequest) {
     fitWidth();

@@ -6,8 +6,8 @@
 
 namespace chainmail {
 
-/// The content of a dock that a low window scrolls: the docks must not make it taller than a screen. Where there is
-/// room it takes as much as its content, and its bar never lies over that.
+/// The content of a dock, which scrolls in a low window: docks must not make the window taller than the screen. It
+/// takes the size of its content if there is room, and its scroll bar never covers the content.
 class DockScroll : public QScrollArea {
   Q_OBJECT
 
@@ -23,7 +23,7 @@ class DockScroll : public QScrollArea {
   void fitWidth();
 };
 
-/// Makes a column of parameters, closely set from the top, the content of a dock.
+/// Makes a column of parameters the content of a dock, packed at the top.
 void setColumn(QDockWidget& dock, QVBoxLayout& column);
 
 }  // namespace chainmail

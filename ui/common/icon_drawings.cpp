@@ -9,7 +9,7 @@ constexpr std::string_view circle = "E 8 8 6.2 6.2";
 constexpr std::string_view axes = "M 2 2 L 2 14 L 14 14";
 
 constexpr std::array drawings{
-    // Tools: their marks are those in the views.
+    // Tools, with the marks that they make in the views.
     IconDrawing{"drag",
                 "M 8 5 L 8 1 M 6.2 2.8 L 8 1 L 9.8 2.8 M 8 11 L 8 15 M 6.2 13.2 L 8 15 L 9.8 13.2 M 5 8 L 1 8 "
                 "M 2.8 6.2 L 1 8 L 2.8 9.8 M 11 8 L 15 8 M 13.2 6.2 L 15 8 L 13.2 9.8",

@@ -14,10 +14,10 @@
 namespace chainmail {
 namespace {
 
-constexpr double side = 16;  // of the square that the drawings are in
+constexpr double drawingSide = 16;  // of the square of a drawing
 constexpr double lineWidth = 1.4;
 
-/// Adds one command of a drawing to a path. Its numbers are those of the table, which a test reads all of.
+/// Adds one command of a drawing to a path. A test reads all drawings, so the numbers need no check here.
 void add(QPainterPath& path, char command, std::istringstream& numbers) {
   const auto next = [&numbers] {
     double number = 0;
@@ -80,7 +80,7 @@ class DrawnIcon : public QIconEngine {
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
     painter->translate(QRectF(rect).center() - QPointF(size, size) / 2);
-    painter->scale(size / side, size / side);
+    painter->scale(size / drawingSide, size / drawingSide);
     QPen pen(colour, lineWidth, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
     painter->fillPath(pathOf(drawing_.fills), colour);
     painter->fillPath(pathOf(drawing_.marks), mark);
@@ -95,7 +95,7 @@ class DrawnIcon : public QIconEngine {
   QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
     QPixmap picture(size);
     if (picture.isNull()) {
-      return picture;  // there is no room: nothing to paint on
+      return picture;  // of an empty size: there is nothing to paint on
     }
     picture.fill(Qt::transparent);
     QPainter painter(&picture);
@@ -107,7 +107,7 @@ class DrawnIcon : public QIconEngine {
   QString iconName() override { return QString::fromUtf8(drawing_.name.data(), qsizetype(drawing_.name.size())); }
 
  private:
-  IconDrawing drawing_;  // of words that live as long as the program
+  IconDrawing drawing_;  // refers to text in the table
   std::optional<QColor> own_;
 };
 

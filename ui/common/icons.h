@@ -5,13 +5,13 @@
 
 namespace chainmail {
 
-/// The window's icons: drawn when they are painted, so that they are sharp at any scale and always in the colours of
-/// the palette. The names and drawings stand in icon_drawings.cpp; an unknown name gives no icon.
+/// Returns an icon of the window. Icons are drawn each time they are painted: sharp at any scale, in the colours of the
+/// present palette. The names and drawings are in icon_drawings.cpp; an unknown name gives a null icon.
 QIcon icon(const char* name);
-/// One that is drawn in a colour of its own.
+/// The same in a fixed colour.
 QIcon icon(const char* name, const QColor& colour);
 
-/// All names, in the order of the drawings.
+/// Returns all names, in the order of the drawings.
 QStringList iconNames();
 
 }  // namespace chainmail

@@ -10,7 +10,7 @@ struct Jobs::Job {
   Kind kind;
   std::string text;
   JobState state;
-  // Written by the thread before `done` is, and read by the window after.
+  // Written by the thread before it sets `done`; read by the window after that.
   Finish finish;
   std::string error;
   std::atomic<bool> done = false;
@@ -25,7 +25,8 @@ Jobs::~Jobs() {
 
 void Jobs::start(Kind kind, const QString& text, Work work) {
   if (running() && (kind == Kind::save || current_->kind == Kind::save)) {
-    emit failed(QStringLiteral("%1: the window is still at '%2'; wait for its end, or cancel it").arg(text, text_));
+    emit failed(
+        QStringLiteral("%1: another job, '%2', is still running; wait until it ends, or cancel it").arg(text, text_));
     return;
   }
   cancel();
@@ -34,7 +35,7 @@ void Jobs::start(Kind kind, const QString& text, Work work) {
   current_->kind = kind;
   current_->text = text.toStdString();
   thread_ = std::thread([this, job = current_, work = std::move(work), before = std::move(thread_)]() mutable {
-    // Of two at once each would be slower. The wait is here and not in the window.
+    // One job at a time: two would slow each other down. This thread waits, not the window.
     if (before.joinable()) {
       before.join();
     }
@@ -75,7 +76,7 @@ void Jobs::run(Job& job, const Work& work) {
 
 void Jobs::receive() {
   if (!running() || !current_->done) {
-    return;  // of a job that was cancelled
+    return;  // the job was cancelled
   }
   const auto job = std::exchange(current_, nullptr);
   emit changed();

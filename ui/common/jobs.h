@@ -9,39 +9,39 @@
 
 namespace chainmail {
 
-/// The long work of a window, one piece at a time on a thread of its own: opening, building, saving.
+/// Runs the long jobs of a window on a thread of their own, one at a time: opening, building, saving.
 ///
-/// The window never waits for that thread. A job that is cancelled is over at once; its thread ends at its next look
-/// at the progress, and what it still finds is dropped. Only the destructor waits.
+/// The window never waits for that thread. A cancelled job is over at once for the window; its thread ends when it next
+/// reports progress, and its result is dropped. Only the destructor waits.
 class Jobs : public QObject {
   Q_OBJECT
 
  public:
   enum class Kind { load, save };
-  /// What is left for the window to do when the work is done.
+  /// Runs in the GUI thread when the work is done.
   using Finish = std::function<void()>;
-  /// Runs on the job's thread and touches nothing that belongs to the window. May throw Error.
+  /// Runs on the thread of the job and must not access the window. May throw Error.
   using Work = std::function<Finish(const Progress&)>;
 
   Jobs() = default;
   ~Jobs() override;
 
-  /// Begins a job. What is loaded now replaces what was being loaded, as its result would; while a file is saved, or
-  /// to save one, nothing is given up unasked: the new job is refused with a sentence.
+  /// Starts a job. A load job replaces a running load job, as its result would. If either of the two saves, the new job
+  /// is refused with a sentence, so that no work is lost.
   void start(Kind kind, const QString& text, Work work);
   void cancel();
-  /// The window closes: what is being loaded is given up, what is being saved will be saved.
+  /// The window closes: cancels a load job; a save job still ends.
   void close();
 
   bool running() const { return current_ != nullptr; }
-  /// What is being done, and how much of it is, from 0 to 1; while one runs.
+  /// The text of the running job, and the share that is done, from 0 to 1.
   const QString& text() const { return text_; }
   double share() const;
 
  signals:
-  /// A job has begun, or is over.
+  /// A job has started or ended.
   void changed();
-  /// It could not be done: one sentence.
+  /// A job failed; one sentence says why.
   void failed(const QString& sentence);
 
  private:
@@ -52,7 +52,7 @@ class Jobs : public QObject {
 
   QString text_;
   std::shared_ptr<Job> current_;  // shared with its thread
-  std::thread thread_;            // of the newest job; it has waited for those before
+  std::thread thread_;            // of the newest job; it waits for the threads before
 };
 
 }  // namespace chainmail

@@ -5,7 +5,7 @@
 
 namespace chainmail {
 
-/// How a panel is called wherever it is spoken of, beside its colour: A, B, C … by its number from 0.
+/// Returns the name of a panel, which is numbered from 0: A, B, C, …
 inline QString panelName(int panel) { return QChar(u'A' + panel); }
 
 }  // namespace chainmail

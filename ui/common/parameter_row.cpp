@@ -15,7 +15,7 @@ constexpr int sliderSteps = 1000;
 constexpr double largestInField = 1e6;
 constexpr int gesturePauseMilliseconds = 700;
 
-/// Gestures are numbered through the whole window, so that two rows never share one.
+/// Returns a new number of a gesture; unique in the program, so that two rows never share one.
 int nextGesture() {
   static int last = 0;
   return ++last;
@@ -34,7 +34,7 @@ ParameterRow::ParameterRow(const Parameter& parameter, const QString& prefix)
   slider_->setPageStep(sliderSteps / 20);
   spin_->setKeyboardTracking(false);
   spin_->setDecimals(parameter.decimals);
-  // A field shows so many decimals: what lies nearer to 0 would read as 0.
+  // A smaller number would be shown as 0.
   const double least = parameter.lowest > 0 ? std::max(parameter.lowest, std::pow(10, -parameter.decimals)) : 0;
   spin_->setRange(least, std::min(parameter.highest, largestInField));
   spin_->setSingleStep(parameter.step);
@@ -60,11 +60,11 @@ ParameterRow::ParameterRow(const Parameter& parameter, const QString& prefix)
     announce(parameter_.lowest + (parameter_.slider_highest - parameter_.lowest) * at / sliderSteps);
   });
   connect(spin_, &QDoubleSpinBox::valueChanged, this, &ParameterRow::announce);
-  connect(spin_, &QDoubleSpinBox::editingFinished, spin_, &QWidget::clearFocus);  // shortcuts work again
+  connect(spin_, &QDoubleSpinBox::editingFinished, spin_, &QWidget::clearFocus);  // so that shortcuts work again
   connect(reset_, &QToolButton::clicked, this, [this] { announce(parameter_.standard); });
 }
 
-/// Names for tests and screen readers, and what the parameter does.
+/// Sets object names, names for screen readers, and tooltips.
 void ParameterRow::describe(const QString& prefix) {
   const QString name = prefix + text(parameter_.name), label = text(parameter_.label);
   const QString help = QStringLiteral("%1 (%2): %3").arg(label, text(parameter_.unit), text(parameter_.help));
@@ -73,7 +73,7 @@ void ParameterRow::describe(const QString& prefix) {
   spin_->setObjectName(name + QStringLiteral("Spin"));
   label_->setBuddy(spin_);
   reset_->setObjectName(name + QStringLiteral("Reset"));
-  reset_->setToolTip(QStringLiteral("Back to %1").arg(parameter_.standard));
+  reset_->setToolTip(QStringLiteral("Resets to the default, %1").arg(parameter_.standard));
   reset_->setAccessibleName(QStringLiteral("Reset %1").arg(label));
   for (QWidget* widget : std::initializer_list<QWidget*>{label_, slider_, spin_}) {
     widget->setToolTip(help);

@@ -11,20 +11,20 @@
 
 namespace chainmail {
 
-/// Docks are at least this wide (pixels), so that changing figures do not push the panels about.
+/// Minimum width of docks (pixels), so that changing figures do not move the panels.
 inline constexpr int dockWidth = 230;
 
-/// One parameter: its name, a slider, a spin box, and a button back to the default.
+/// A row for one parameter: its name, a slider, a spin box, and a button that resets it to the default.
 class ParameterRow : public QWidget {
   Q_OBJECT
 
  public:
-  /// `prefix` goes before the names that its parts are found by.
+  /// `prefix` starts the object names of its parts.
   explicit ParameterRow(const Parameter& parameter, const QString& prefix = {});
 
   double value() const { return spin_->value(); }
   QString label() const { return label_->text(); }
-  /// Shows a value without announcing it.
+  /// Shows a value without emitting changed().
   void show(double value);
 
  signals:

@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-/// No shortcut of the window's: it would take the keys from fields with text.
+/// Handles the copy keys of a table. A shortcut of the window would take the keys from text fields.
 class CopyKeys : public QObject {
  public:
   explicit CopyKeys(QTableWidget& table) : QObject(&table), table_(table) { table.installEventFilter(this); }

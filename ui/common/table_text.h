@@ -6,10 +6,10 @@ class QTableWidget;
 
 namespace chainmail {
 
-/// A table as it stands, columns parted by tabs, under its heads.
+/// Returns the text of a table with its header, columns separated by tabs.
 QString textOf(const QTableWidget& table);
 
-/// Lets the keys for copying put the table on the clipboard while it has the keyboard.
+/// Makes the copy keys copy the table to the clipboard while it has the keyboard focus.
 void copyByKeys(QTableWidget& table);
 
 }  // namespace chainmail

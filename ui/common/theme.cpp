@@ -88,16 +88,16 @@ void rememberSystem(Ground ground) { QSettings().setValue(systemKey(), nameOf(gr
 
 void applyGround(Ground ground) {
   QApplication::setPalette(paletteOn(ground));
-  // Fusion draws the edge of an empty box as it draws all edges: here the box itself has to be seen.
+  // Fusion draws an empty check box with the edge of all frames, which is too faint.
   QPalette boxes = paletteOn(ground);
   boxes.setColor(QPalette::Base, boxGround.on(ground));
   boxes.setColor(QPalette::Window, boxEdge.on(ground));
   QApplication::setPalette(boxes, "QCheckBox");
-  // The same for the boxes in lists, whose ground is that of what is written there.
+  // Check boxes in lists have the ground of the text there.
   QPalette lists = paletteOn(ground);
   lists.setColor(QPalette::Window, listBoxEdge.on(ground));
   QApplication::setPalette(lists, "QListWidget");
-  // And in menus, where what is checked and has an icon is drawn as a pressed button.
+  // In menus, a checked item with an icon is drawn as a pressed button.
   QPalette menus = lists;
   menus.setColor(QPalette::Button, colours::checked.on(ground));
   QApplication::setPalette(menus, "QMenu");

@@ -7,20 +7,20 @@
 
 namespace chainmail {
 
-/// How the window looks: dark, light, or as the system does.
+/// The theme of the window: dark, light, or that of the system.
 enum class Theme { system, dark, light };
 
-/// The user's choice; the system's look where none was made.
+/// Returns the theme that the user chose; Theme::system if none was chosen.
 Theme rememberedTheme();
-/// What that choice means now: the system's look where it is known, dark where it is not.
+/// Returns the ground of that theme. For Theme::system: that of the system if known, else dark.
 colours::Ground rememberedGround();
 void remember(Theme theme);
-/// What the system was last known to look like.
+/// Stores the ground that the system has now.
 void rememberSystem(colours::Ground ground);
 
-/// Of a ground that need not be the window's: a picture's, say.
+/// Returns the palette for a ground, which need not be that of the window; for example of a picture.
 QPalette paletteOn(colours::Ground ground);
-/// Gives the whole application the palette for a ground, at once.
+/// Sets the palette of the whole application.
 void applyGround(colours::Ground ground);
 
 }  // namespace chainmail

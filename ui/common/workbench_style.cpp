@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-constexpr double radius = 3;  // pixels, of a button's corners
+constexpr double buttonRadius = 3;  // pixels, of a button's corners
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void WorkbenchStyle::drawPrimitive(PrimitiveElement element, const QStyleOption*
   painter->setRenderHint(QPainter::Antialiasing);
   painter->setPen(QColor(colours::checkedEdge));
   painter->setBrush(QColor(colours::checked));
-  painter->drawRoundedRect(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5), radius, radius);
+  painter->drawRoundedRect(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5), buttonRadius, buttonRadius);
   painter->restore();
 }
 

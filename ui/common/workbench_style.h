@@ -4,10 +4,11 @@
 
 namespace chainmail {
 
-/// Fusion, but for checked tool buttons, which it hardly tells from unchecked ones, and the lists of combo boxes.
+/// The Fusion style with two changes: checked tool buttons look different from unchecked ones, and combo boxes open
+/// lists.
 ///
-/// A style sheet of the application would do too, but Qt 6.4 goes through all widgets to change one, and crashes where
-/// one of them goes meanwhile.
+/// A style sheet would do the same, but Qt 6.4 visits all widgets to change one, and crashes if a widget is deleted
+/// meanwhile.
 class WorkbenchStyle : public QProxyStyle {
   Q_OBJECT
 
@@ -15,7 +16,7 @@ class WorkbenchStyle : public QProxyStyle {
   WorkbenchStyle();
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override;
-  /// Combo boxes open lists: as menus, they would be drawn on the ground that makes boxes in menus visible.
+  /// Combo boxes open lists: drawn as menus, they would have the ground that makes check boxes in menus visible.
   int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                 QStyleHintReturn* answer) const override;
 };

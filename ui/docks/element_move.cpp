@@ -16,7 +16,7 @@ constexpr int standardSteps = 10;
 
 ElementMove::ElementMove(Document& document)
     : document_(document),
-      hand_(document),
+      drag_(document),
       how_(new QComboBox),
       steps_(new QSpinBox),
       go_(new QPushButton(QStringLiteral("&Move"))) {
@@ -31,9 +31,9 @@ ElementMove::ElementMove(Document& document)
   steps_->setToolTip(QStringLiteral("Along a straight line, in so many equal steps: each is a pass in every panel"));
   go_->setObjectName(QStringLiteral("moveElement"));
   arrange();
-  connect(go_, &QPushButton::clicked, this, [this] { hand_.running() ? hand_.stop() : go(); });
+  connect(go_, &QPushButton::clicked, this, [this] { drag_.running() ? drag_.stop() : go(); });
   connect(how_, &QComboBox::currentIndexChanged, this, &ElementMove::adapt);
-  connect(&hand_, &SteadyHand::changed, this, &ElementMove::adapt);
+  connect(&drag_, &SteppedDrag::changed, this, &ElementMove::adapt);
   connect(&document, &Document::meshChanged, this, &ElementMove::adapt);
   connect(&document, &Document::pinsChanged, this, &ElementMove::adapt);
   adapt();
@@ -68,7 +68,7 @@ void ElementMove::arrange() {
 
 void ElementMove::setElement(std::optional<ElementId> element) {
   if (element != element_) {
-    hand_.stop();
+    drag_.stop();
     element_ = element;
     if (element && !relative()) {
       const Point at = positionIn(document_, 0, *element);
@@ -91,9 +91,9 @@ void ElementMove::adapt() {
                                        : QStringLiteral("Where it goes on this axis (mesh units)"));
   }
   const bool pinned = element_ && document_.isPinned(*element_);
-  go_->setText(hand_.running() ? QStringLiteral("&Stop at step %1 of %2").arg(hand_.stepsDone()).arg(hand_.steps())
+  go_->setText(drag_.running() ? QStringLiteral("&Stop at step %1 of %2").arg(drag_.stepsDone()).arg(drag_.steps())
                                : QStringLiteral("&Move"));
-  go_->setEnabled(hand_.running() || (element_ && !pinned && typed()));
+  go_->setEnabled(drag_.running() || (element_ && !pinned && typed()));
   go_->setToolTip(!element_ ? QStringLiteral("Choose an element first")
                   : pinned  ? QStringLiteral("This element is pinned and may not move: unpin it first")
                   : !typed()
@@ -120,7 +120,7 @@ void ElementMove::go() {
     return;
   }
   const Point from = positionIn(document_, 0, *element_);
-  hand_.carry(*element_, from, relative() ? Point(from + *numbers) : *numbers, steps_->value());
+  drag_.start(*element_, from, relative() ? Point(from + *numbers) : *numbers, steps_->value());
 }
 
 }  // namespace chainmail

@@ -7,11 +7,11 @@
 #include <QSpinBox>
 #include <array>
 
-#include "document/steady_hand.h"
+#include "document/stepped_drag.h"
 
 namespace chainmail {
 
-/// A target in numbers, and the way there in steps: what the hand does, exactly.
+/// A target in numbers, and the way there in steps: what a drag does, exactly.
 class ElementMove : public QWidget {
   Q_OBJECT
 
@@ -30,7 +30,7 @@ class ElementMove : public QWidget {
   bool relative() const { return how_->currentIndex() == 1; }
 
   Document& document_;
-  SteadyHand hand_;
+  SteppedDrag drag_;
   std::optional<ElementId> element_;
   QComboBox* how_;
   std::array<QLabel*, 3> names_{};

@@ -9,7 +9,7 @@
 #include "common/jobs.h"
 #include "common/parameter_row.h"
 #include "document/document.h"
-#include "document/pin_layers.h"
+#include "tools/pin_layers.h"
 
 namespace chainmail {
 

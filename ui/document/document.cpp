@@ -3,42 +3,584 @@
 #include <QDeadlineTimer>
 #include <QThread>
 #include <algorithm>
+#include <exception>
+#include <new>
 
+#include "common/panel_names.h"
 #include "common/text.h"
-#include "document/edits.h"
+#include "files/session/session.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 namespace {
 
-constexpr int samplingMilliseconds = 16;
-// Some steps keep all positions, 16 MB a panel at a million elements.
+// A step may keep all positions: 16 MB per panel at a million elements.
 constexpr int undoSteps = 30;
+
+/// Replaces the values that differ between `from` and `to`, and the algorithms of these panels.
+void replaceValues(Contents& present, const Contents& from, const Contents& to, const std::vector<int>& panels) {
+  const auto replace = [&](auto Contents::*value) {
+    if (from.*value != to.*value) {
+      present.*value = to.*value;
+    }
+  };
+  replace(&Contents::object);
+  replace(&Contents::softness);
+  replace(&Contents::relaxation);
+  replace(&Contents::elastic);
+  for (const int panel : panels) {
+    present.algorithms[std::size_t(panel)] = to.algorithms[std::size_t(panel)];
+  }
+}
+
+/// Emits the signals of these values.
+void emitSignals(Document& document, const Contents& from, const Contents& to, const std::vector<int>& panels) {
+  if (from.object != to.object) {
+    emit document.meshChanged();
+  }
+  if (from.softness != to.softness) {
+    emit document.softnessChanged();
+  }
+  if (from.relaxation != to.relaxation) {
+    emit document.relaxationChanged();
+  }
+  if (from.elastic != to.elastic) {
+    emit document.elasticChanged();
+  }
+  for (const int panel : panels) {
+    emit document.algorithmChanged(panel);
+  }
+}
 
 }  // namespace
 
-Document::Document(MeshPointer mesh, const QString& name)
-    : mesh_(std::move(mesh)), name_(name), cuts_(mesh_), parts_(mesh_) {
+/// A change on the undo stack. The solvers keep the whole object from before the step. Undo and redo exchange that
+/// state with the present one, so that every position comes back bit for bit, also after drags and relaxation.
+class Document::Edit : public QUndoCommand {
+ public:
+  /// `state` names the kept state; none if the step will be merged into the previous one. `kept` is true if the solvers
+  /// keep it already.
+  Edit(Document& document, Change change, std::optional<commands::StateId> state, bool kept = false)
+      : QUndoCommand(change.text),
+        document_(document),
+        before_(document.contents_),
+        change_(std::move(change)),
+        state_(state),
+        kept_(kept) {}
+
+  ~Edit() override {
+    if (state_) {
+      document_.post(commands::DropState{*state_});
+    }
+  }
+
+  void redo() override {
+    if (done_) {
+      exchange(before_, change_.after, true);
+      return;
+    }
+    done_ = true;
+    if (state_ && !kept_) {
+      document_.post(commands::KeepState{*state_});
+    }
+    document_.carryOut(change_, before_);
+    change_.carryOut = {};
+    document_.show(change_, before_, change_.after, true);
+  }
+
+  void undo() override { exchange(change_.after, before_, false); }
+
+  int id() const override { return change_.gesture == 0 ? -1 : change_.gesture; }
+
+  bool mergeWith(const QUndoCommand* later) override {
+    const auto* other = dynamic_cast<const Edit*>(later);
+    if (other == nullptr || other->text() != text()) {
+      return false;
+    }
+    change_.after = other->change_.after;
+    return true;
+  }
+
+ private:
+  void exchange(const Contents& from, const Contents& to, bool done) {
+    const commands::StateId now = document_.newState();
+    document_.post(commands::KeepState{now});
+    document_.postSettings(from, to, from.object != to.object);
+    document_.post(commands::RestoreState{*state_});
+    document_.post(commands::DropState{*state_});
+    state_ = now;
+    document_.show(change_, from, to, done);
+  }
+
+  Document& document_;
+  Contents before_;
+  Change change_;
+  std::optional<commands::StateId> state_;
+  bool kept_;
+  bool done_ = false;  // was done once
+};
+
+Document::Document(MeshPointer mesh, const QString& name) {
+  contents_.object = std::make_shared<DocumentObject>(std::move(mesh), name);
+  contents_.algorithms = {Algorithm::generalized, Algorithm::natural_queue};
   log_ = std::make_unique<CommandLog>(std::vector<SolverThread*>());
   for (int panel = 0; panel < fewestPanels; ++panel) {
-    takeOn(std::make_unique<SolverThread>(mesh_, algorithms_[panel], announcer(panel)));
+    addSolver(std::make_unique<SolverThread>(this->mesh(), algorithm(panel), frameAnnouncer(panel), idleAnnouncer()));
   }
   undoStack_.setUndoLimit(undoSteps);
-  sampler_.setTimerType(Qt::PreciseTimer);
-  sampler_.setInterval(samplingMilliseconds);
-  connect(&sampler_, &QTimer::timeout, this, [this] {
-    if (!log_->waits()) {
-      sampler_.stop();
-    }
-    log_->sample();
-    emit tapeChanged();
-  });
   connect(&undoStack_, &QUndoStack::indexChanged, this, &Document::lastDragChanged);
 }
 
 Document::~Document() {
-  abandonMoves();                 // of all before the first is waited for
-  undoStack_.blockSignals(true);  // who listened is half gone
+  abandonMoves();                 // of all solvers before the first one is waited for
+  undoStack_.blockSignals(true);  // listeners may be deleted already
   undoStack_.clear();
+}
+
+// Edits: a change becomes a step of undo.
+
+Change Document::change(const QString& text, int gesture) const {
+  Change result;
+  result.text = text;
+  result.after = contents_;
+  result.gesture = gesture;
+  return result;
+}
+
+void Document::apply(Change change) {
+  endDrag();
+  lastRefusal_ = {};
+  const auto state = stateFor(change.gesture, change.text);
+  undoStack_.push(new Edit(*this, std::move(change), state));
+}
+
+/// Returns a new state, or none if the step will be merged into the last one, which keeps the state from before.
+std::optional<commands::StateId> Document::stateFor(int gesture, const QString& text) {
+  const QUndoCommand* last = undoStack_.command(undoStack_.index() - 1);
+  const bool merges = gesture != 0 && last != nullptr && last->id() == gesture && last->text() == text &&
+                      undoStack_.index() != undoStack_.cleanIndex();
+  return merges ? std::nullopt : std::optional(newState());
+}
+
+/// Posts what a change does the first time. Later, undo and redo restore kept states.
+void Document::carryOut(const Change& change, const Contents& before) {
+  const Contents& after = change.after;
+  const bool isOther = after.object != before.object;
+  if (isOther) {
+    post(commands::ReplaceMesh{after.object->mesh});  // which keeps the global softness, and no other
+  }
+  if (after.softness != before.softness && (!isOther || *after.softness != Softness{before.softness->global, {}})) {
+    post(commands::SetSoftness{after.softness});
+  }
+  const auto links = isOther ? after.object->cuts.links() : change.cut;
+  const auto& pinned = isOther ? after.object->pins : change.pin;
+  if (!links.empty()) {
+    post(commands::Cut{links});
+  }
+  if (!pinned.empty()) {
+    post(commands::Pin{pinned});
+  }
+  if (!change.unpin.empty()) {
+    post(commands::Unpin{change.unpin});
+  }
+  postSettings(before, after, false);
+  if (change.carryOut) {
+    change.carryOut();
+  }
+}
+
+/// Posts the settings that a kept state does not hold. If `neutral`, Natural Queue runs in place of an algorithm that
+/// may not work on the mesh that is still there; Exact works on any mesh and stores positions in its own way.
+void Document::postSettings(const Contents& from, const Contents& to, bool neutral) {
+  if (to.relaxation != from.relaxation) {
+    post(to.relaxation);
+  }
+  if (to.elastic != from.elastic) {
+    post(commands::SetElastic{to.elastic});
+  }
+  for (const int panel : panelsToSwitch(from, to)) {
+    const Algorithm target = to.algorithms[std::size_t(panel)];
+    if (target != from.algorithms[std::size_t(panel)]) {
+      postAlgorithm(panel, neutral && target != Algorithm::exact ? Algorithm::natural_queue : target);
+    }
+  }
+}
+
+/// The panels that are still there and need another algorithm. A change of the object sets all of them, because some
+/// algorithms do not work on every mesh.
+std::vector<int> Document::panelsToSwitch(const Contents& from, const Contents& to) const {
+  std::vector<int> result;
+  for (int panel = 0; panel < std::min({from.panels, to.panels, panels()}); ++panel) {
+    const Algorithm before = from.algorithms[std::size_t(panel)], after = to.algorithms[std::size_t(panel)];
+    if ((from.object != to.object || before != after) && algorithm(panel) != after) {
+      result.push_back(panel);
+    }
+  }
+  return result;
+}
+
+/// Shows the values of a step that was done or undone, and emits the signals of those that differ.
+void Document::show(Change& change, const Contents& from, const Contents& to, bool done) {
+  const std::vector<int> panels = panelsToSwitch(from, to);
+  const bool isOther = from.object != to.object;
+  if (isOther) {  // first: listeners still ask for elements of the present mesh
+    setHighlight({});
+    select({});
+  }
+  replaceValues(contents_, from, to, panels);
+  for (const int panel : isOther ? panels : std::vector<int>()) {
+    postAlgorithm(panel, algorithm(panel));
+  }
+  if (change.sessionFile) {
+    std::swap(*change.sessionFile, sessionFile_);
+    emit sessionFileChanged();
+  }
+  emitSignals(*this, from, to, panels);
+  showParts(change, done);
+  if (isOther && done) {
+    replaceUnfitAlgorithms();
+  }
+}
+
+/// Shows what a change does to parts of the object.
+void Document::showParts(const Change& change, bool done) {
+  if (!change.cut.empty()) {
+    showCuts(change.cut, done);
+  }
+  if (!change.pin.empty()) {
+    showPins(change.pin, done);
+  }
+  if (!change.unpin.empty()) {
+    showPins(change.unpin, !done);
+  }
+  if (change.followsTape) {
+    setHighlight({});
+    showTape();
+  }
+}
+
+void Document::showCuts(const std::vector<LinkId>& links, bool cut) {
+  DocumentObject& object = *contents_.object;
+  cut ? object.parts.cut(object.cuts, links) : object.parts.uncut(object.cuts, links);
+  emit cutsChanged(links, cut);
+  if (!selection_.empty()) {
+    selection_.links = linksAmong(*object.mesh, object.cuts, selection_.elements);
+    emit selectionChanged();
+  }
+}
+
+void Document::showPins(const std::vector<ElementId>& elements, bool pinned) {
+  auto& pins = contents_.object->pins;
+  pins = combined(pins, elements, pinned ? SelectionMode::add : SelectionMode::remove);
+  emit pinsChanged();
+}
+
+void Document::undo() {
+  endDrag();
+  endSweeps();
+  undoStack_.undo();
+}
+
+void Document::redo() {
+  endDrag();
+  endSweeps();
+  undoStack_.redo();
+}
+
+// The edits themselves.
+
+void Document::setSoftness(const LinkSoftness& global, const QString& text, int gesture) {
+  if (global != softness()) {
+    Change edit = change(text, gesture);
+    edit.after.softness = std::make_shared<const Softness>(Softness{global, wholeSoftness()->links});
+    apply(std::move(edit));
+  }
+}
+
+void Document::setSoftnessOf(const std::vector<LinkId>& links, const std::optional<LinkSoftness>& own) {
+  Softness softness = *wholeSoftness();
+  for (const LinkId link : links) {
+    if (own) {
+      softness.links.insert_or_assign(link, *own);
+    } else {
+      softness.links.erase(link);
+    }
+  }
+  if (softness.links != wholeSoftness()->links) {
+    Change edit = change(counted(QStringLiteral("stiffness of"), links.size(), QStringLiteral("link")));
+    edit.after.softness = std::make_shared<const Softness>(std::move(softness));
+    apply(std::move(edit));
+  }
+}
+
+void Document::resetSoftness() {
+  if (*wholeSoftness() != Softness()) {
+    Change edit = change(QStringLiteral("reset stiffness"));
+    edit.after.softness = std::make_shared<const Softness>();
+    apply(std::move(edit));
+  }
+}
+
+void Document::setRelaxation(const commands::SetRelaxation& relaxation, int gesture) {
+  const commands::SetRelaxation& present = contents_.relaxation;
+  if (relaxation != present) {
+    Change edit = change(relaxation.on == present.on ? QStringLiteral("relaxation settings")
+                         : relaxation.on             ? QStringLiteral("relaxation on")
+                                                     : QStringLiteral("relaxation off"),
+                         gesture);
+    edit.after.relaxation = relaxation;
+    apply(std::move(edit));
+  }
+}
+
+void Document::setSoftnessAndRelaxation(const LinkSoftness& global, const commands::SetRelaxation& relaxation,
+                                        const QString& text) {
+  if (global != softness() || relaxation != contents_.relaxation) {
+    Change edit = change(text);
+    if (global != softness()) {
+      edit.after.softness = std::make_shared<const Softness>(Softness{global, wholeSoftness()->links});
+    }
+    edit.after.relaxation = relaxation;
+    apply(std::move(edit));
+  }
+}
+
+void Document::setElastic(const ElasticOptions& options, const QString& text, int gesture) {
+  if (options != elastic()) {
+    Change edit = change(text, gesture);
+    edit.after.elastic = options;
+    apply(std::move(edit));
+  }
+}
+
+void Document::setAlgorithm(int panel, Algorithm algorithm) {
+  try {
+    check(algorithm, *mesh());
+  } catch (const Error& error) {
+    emit refused(QString::fromStdString(error.what()));
+    emit algorithmChanged(panel);  // selectors show again which one runs
+    return;
+  }
+  if (this->algorithm(panel) != algorithm) {
+    Change edit = change(chainmail::text(info(algorithm).label));
+    edit.after.algorithms[std::size_t(panel)] = algorithm;
+    apply(std::move(edit));
+  }
+}
+
+bool Document::isPinned(ElementId element) const { return std::ranges::binary_search(pins(), element); }
+
+void Document::setPinned(const std::vector<ElementId>& elements, bool pinned) {
+  if (!elements.empty()) {
+    Change edit = change(
+        counted(pinned ? QStringLiteral("pin") : QStringLiteral("unpin"), elements.size(), QStringLiteral("element")));
+    (pinned ? edit.pin : edit.unpin) = elements;
+    apply(std::move(edit));
+  }
+}
+
+void Document::cut(const std::vector<LinkId>& links) {
+  if (!links.empty()) {
+    Change edit = change(counted(QStringLiteral("cut"), links.size(), QStringLiteral("link")));
+    edit.cut = links;
+    apply(std::move(edit));
+  }
+}
+
+void Document::resetObject() {
+  endSweeps();
+  Change edit = change(QStringLiteral("reset object"));
+  edit.carryOut = [this] { post(commands::Reset{}); };
+  apply(std::move(edit));
+}
+
+void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text,
+                           std::map<LinkId, LinkSoftness> own) {
+  Change edit = change(text);
+  edit.after.object = std::make_shared<DocumentObject>(mesh, name);
+  if (own != wholeSoftness()->links) {
+    edit.after.softness = std::make_shared<const Softness>(Softness{softness(), std::move(own)});
+  }
+  apply(std::move(edit));
+}
+
+void Document::restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text) {
+  Change edit = change(text);
+  auto object = std::make_shared<DocumentObject>(session->mesh, QString::fromStdString(session->name));
+  object->parts.cut(object->cuts, session->cuts);
+  object->pins = session->pins;
+  edit.after.object = std::move(object);
+  edit.after.softness = session->softness;
+  edit.after.relaxation = session->relaxation;
+  edit.after.elastic = session->elastic;
+  for (std::size_t panel = 0; panel < solvers_.size(); ++panel) {
+    Algorithm& algorithm = edit.after.algorithms[panel];
+    algorithm = panel < session->panels.size()    ? session->panels[panel].algorithm
+                : fits(algorithm, *session->mesh) ? algorithm
+                                                  : Algorithm::natural_queue;
+  }
+  edit.sessionFile = file;
+  edit.carryOut = [this, session] { placeSession(session); };
+  apply(std::move(edit));
+}
+
+/// Takes the moves and the positions of a session, whose object the solvers have. A session without moves starts with
+/// the object at rest. The positions come last: then relaxation sleeps, and leaves every element where it is.
+void Document::placeSession(const std::shared_ptr<const Session>& session) {
+  const std::vector<Command> object{commands::SetSoftness{session->softness}, commands::Cut{session->cuts},
+                                    commands::Pin{session->pins}};
+  const bool hasMoves = !session->moves.empty();
+  log_->flush();  // onto the tape that is replaced
+  log_->tape().load(hasMoves ? session->moves : object);
+  log_->tape().go_to(hasMoves ? session->moves_done : object.size());
+  for (int panel = 0; panel < panels(); ++panel) {
+    const auto& saved = session->panels;
+    const auto& from = std::size_t(panel) < saved.size() ? saved[std::size_t(panel)] : saved.front();
+    // The pointer shares the session instead of copying its numbers.
+    log_->post_to(*solvers_[std::size_t(panel)],
+                  commands::SetPositions{std::shared_ptr<const Snapshot>(session, &from.placement)});
+  }
+}
+
+void Document::setSessionFile(const QString& file) {
+  if (file != sessionFile_) {
+    sessionFile_ = file;
+    emit sessionFileChanged();
+  }
+}
+
+// The handle: its moves go straight to the solvers, and a drag becomes a step when it ends.
+
+void Document::grab(ElementId element) {
+  endDrag();
+  if (isPinned(element)) {
+    log_->replay(commands::Grab{element});  // the solvers refuse it, and the tape stays as it is
+    return;
+  }
+  beginDrag(element, QStringLiteral("drag of element %1").arg(element));
+  post(commands::Grab{element});
+}
+
+void Document::grabControlPoint(std::uint32_t point) {
+  endDrag();
+  beginDrag({}, QStringLiteral("move of control point %1").arg(point));
+  handle_->controlPoint = point;
+}
+
+void Document::beginDrag(std::optional<ElementId> element, const QString& text) {
+  noteRelaxation();
+  lastRefusal_ = {};
+  handle_ = Handle{element, 0, text, newState()};
+  post(commands::KeepState{handle_->before});
+}
+
+void Document::drag(const Point& target) {
+  if (handle_) {
+    handle_->moved = true;
+  }
+  post(commands::Drag{target});
+}
+
+void Document::dragControlPoint(const Point& target) {
+  if (handle_) {
+    handle_->moved = true;
+    post(commands::MoveControlPoint{handle_->controlPoint, target});
+  }
+}
+
+void Document::release() {
+  if (!handle_ || handle_->element) {
+    post(commands::Release{});
+  }
+  endDrag();
+}
+
+/// Makes the drag so far a step of undo; a press without a move is none.
+void Document::endDrag() {
+  if (const auto handle = std::exchange(handle_, {})) {
+    if (handle->moved) {
+      undoStack_.push(new Edit(*this, change(handle->text), handle->before, true));
+    } else {
+      post(commands::DropState{handle->before});
+    }
+  }
+}
+
+// The solvers: commands go there through one log, frames come back.
+
+void Document::post(const Command& command) {
+  log_->post(command);
+  replayed_ = replayed_ && (std::holds_alternative<commands::KeepState>(command) ||
+                            std::holds_alternative<commands::DropState>(command));
+  if (log_->waits()) {
+    log_->sample();
+  }
+  emit tapeChanged();
+}
+
+/// A solver has become idle. The newest move, which waited for the slowest solver, is sent as soon as all are idle.
+void Document::receiveIdle() {
+  idleAnnounced_ = false;
+  if (log_->waits()) {
+    log_->sample();
+    if (!log_->waits()) {
+      emit tapeChanged();
+    }
+  }
+  if (idle()) {
+    emit becameIdle();
+  }
+}
+
+void Document::receiveFrame(int panel) {
+  frameAnnounced_[std::size_t(panel)] = false;
+  if (panel >= panels()) {
+    return;  // the panel was removed meanwhile
+  }
+  SolverThread& solver = *solvers_[std::size_t(panel)];
+  frames_[std::size_t(panel)] = &solver.latest_frame();
+  if (const std::string error = solver.take_error(); !error.empty()) {
+    reportRefusal(panel, QString::fromStdString(error));
+  }
+  emit frameReady(panel);
+}
+
+/// Emits a refusal once: every move of a drag is refused for the same reason.
+void Document::reportRefusal(int panel, const QString& sentence) {
+  if (std::exchange(lastRefusal_[std::size_t(panel)], sentence) == sentence) {
+    return;
+  }
+  if (lacksPins(panel)) {
+    emit unpinned(panel);
+  } else {
+    emit refused(sentence);
+  }
+}
+
+std::function<void()> Document::frameAnnouncer(int panel) {
+  return [this, panel] {
+    if (!frameAnnounced_[std::size_t(panel)].exchange(true)) {
+      QMetaObject::invokeMethod(
+          this, [this, panel] { receiveFrame(panel); }, Qt::QueuedConnection);
+    }
+  };
+}
+
+std::function<void()> Document::idleAnnouncer() {
+  return [this] {
+    if (!idleAnnounced_.exchange(true)) {
+      QMetaObject::invokeMethod(this, &Document::receiveIdle, Qt::QueuedConnection);
+    }
+  };
+}
+
+bool Document::idle() const {
+  return !log_->waits() && std::ranges::all_of(solvers_, [](auto& one) { return one->idle(); });
+}
+
+bool Document::settled() const {
+  return !log_->waits() && std::ranges::all_of(solvers_, [](auto& one) { return one->settled(); }) &&
+         std::ranges::none_of(frameAnnounced_, [](auto& one) { return one.load(); });
 }
 
 void Document::abandonMoves(std::chrono::milliseconds patience) {
@@ -51,161 +593,119 @@ void Document::abandonMoves(std::chrono::milliseconds patience) {
   }
 }
 
-bool Document::idle() const {
-  return !log_->waits() && std::all_of(solvers_.begin(), solvers_.end(), [](auto& one) { return one->idle(); });
+void Document::ask(int panel, SolverThread::Question question) {
+  log_->flush();
+  solvers_[std::size_t(panel)]->ask(std::move(question));
 }
 
-bool Document::settled() const {
-  return !log_->waits() && std::all_of(solvers_.begin(), solvers_.end(), [](auto& one) { return one->settled(); }) &&
-         std::none_of(announced_.begin(), announced_.end(), [](auto& one) { return one.load(); });
+std::future<Snapshot> Document::snapshot(int panel) {
+  const auto promise = std::make_shared<std::promise<Snapshot>>();
+  ask(panel, [promise](const Simulation& simulation) {
+    try {
+      promise->set_value(simulation.snapshot());
+    } catch (const std::bad_alloc&) {
+      promise->set_exception(std::current_exception());
+    }
+  });
+  return promise->get_future();
 }
 
-void Document::receiveFrame(int panel) {
-  announced_[panel] = false;
-  if (panel >= panels()) {
-    return;  // it is gone since
-  }
-  frames_[panel] = &solvers_[panel]->latest_frame();
-  if (const std::string error = solvers_[panel]->take_error(); !error.empty()) {
-    tellRefusal(panel, QString::fromStdString(error));
-  }
-  emit frameReady(panel);
-}
-
-/// Every move of a hand is refused alike: it is said once.
-void Document::tellRefusal(int panel, const QString& sentence) {
-  if (std::exchange(told_[panel], sentence) == sentence) {
-    return;
-  }
-  if (lacksPins(panel)) {
-    emit unpinned(panel);
-  } else {
-    emit refused(sentence);
+void Document::recordPasses(bool on) {
+  recordsPasses_ = on;
+  for (const auto& solver : solvers_) {
+    solver->record_passes(on);
   }
 }
 
-void Document::grab(ElementId element) {
-  endDrag();
-  if (isPinned(element)) {
-    log_->replay(commands::Grab{element});  // refused, and no move
-    return;
-  }
-  takeInHand(element, QStringLiteral("drag of element %1").arg(element));
-  post(commands::Grab{element});
+// Panels: a solver, an algorithm and a frame each.
+
+void Document::addSolver(std::unique_ptr<SolverThread> solver) {
+  log_->add(*solver);
+  solver->record_passes(recordsPasses_);
+  frames_[std::size_t(panels())] = &solver->latest_frame();
+  solvers_.push_back(std::move(solver));
+  contents_.panels = panels();
 }
 
-void Document::grabControlPoint(std::uint32_t point) {
-  endDrag();
-  takeInHand({}, QStringLiteral("move of control point %1").arg(point));
-  hand_->controlPoint = point;
-}
-
-void Document::takeInHand(std::optional<ElementId> element, const QString& text) {
-  noteRelaxation();
-  told_ = {};
-  hand_ = Hand{element, 0, text, newState()};
-  post(commands::KeepState{hand_->before});
-}
-
-void Document::dragControlPoint(const Point& target) {
-  if (hand_) {
-    hand_->moved = true;
-    post(commands::MoveControlPoint{hand_->controlPoint, target});
+void Document::addPanel() {
+  if (panels() < mostPanels) {
+    const Algorithm algorithm = unusedAlgorithm();
+    contents_.algorithms[std::size_t(panels())] = algorithm;
+    log_->flush();
+    addSolver(std::make_unique<SolverThread>(*solvers_.front(), algorithm, frameAnnouncer(panels()), idleAnnouncer()));
+    emit panelsChanged();
   }
 }
 
-void Document::drag(const Point& target) {
-  if (hand_) {
-    hand_->moved = true;
-  }
-  post(commands::Drag{target});
-}
-
-void Document::post(const Command& command) {
-  log_->post(command);
-  replayed_ = replayed_ && (std::holds_alternative<commands::KeepState>(command) ||
-                            std::holds_alternative<commands::DropState>(command));
-  emit tapeChanged();
-  // The first sampled command of a while goes at once, later ones 60 times a second.
-  if (log_->waits() && !sampler_.isActive()) {
-    log_->sample();
-    sampler_.start();
+void Document::removePanel() {
+  if (panels() > fewestPanels) {
+    emit panelLeaves(panels() - 1);
+    log_->remove(*solvers_.back());
+    solvers_.pop_back();
+    contents_.panels = panels();
+    emit panelsChanged();
   }
 }
 
-void Document::forgetMoves() {
-  log_->tape().load({});
-  emit tapeChanged();
-  emit lastDragChanged();
-}
-
-void Document::release() {
-  if (!hand_ || hand_->element) {
-    post(commands::Release{});
+/// Returns Exact first, because the others approximate it; then algorithms that give different results.
+Algorithm Document::unusedAlgorithm() const {
+  std::vector<Algorithm> all{Algorithm::exact, Algorithm::enhanced};
+  for (const auto& info : algorithms()) {
+    all.push_back(info.algorithm);
   }
-  endDrag();
+  const auto used = std::span(contents_.algorithms).first(std::size_t(panels()));
+  const auto free = std::ranges::find_if(
+      all, [&](Algorithm one) { return std::ranges::find(used, one) == used.end() && fits(one, *mesh()); });
+  return free == all.end() ? Algorithm::natural_queue : *free;
 }
 
-/// What the hand did so far becomes a step of undo; a press without a move is none.
-void Document::endDrag() {
-  if (const auto hand = std::exchange(hand_, {})) {
-    if (hand->moved) {
-      undoStack_.push(new DragEdit(*this, hand->text, hand->before));
-    } else {
-      post(commands::DropState{hand->before});
+/// Free-form deformation is the only elastic method that needs no pins.
+bool Document::lacksPins(int panel) const {
+  return pins().empty() && info(algorithm(panel)).needs_pins;
+}
+
+void Document::postAlgorithm(int panel, Algorithm algorithm) {
+  dropWaypoints();
+  replayed_ = false;
+  log_->post_to(*solvers_[std::size_t(panel)], commands::SetAlgorithm{algorithm});
+}
+
+/// The solvers have switched to Natural Queue where an algorithm does not work on the new mesh: the panels follow.
+void Document::replaceUnfitAlgorithms() {
+  QStringList where;
+  QString from;
+  for (int panel = 0; panel < panels(); ++panel) {
+    if (!fits(algorithm(panel), *mesh())) {
+      from = chainmail::text(info(algorithm(panel)).label);
+      contents_.algorithms[std::size_t(panel)] = Algorithm::natural_queue;
+      where << panelName(panel);
+      emit algorithmChanged(panel);
     }
   }
-}
-
-void Document::push(QUndoCommand* edit) {
-  endDrag();
-  told_ = {};
-  undoStack_.push(edit);
-}
-
-void Document::undo() {
-  endDrag();
-  cutSweeps();
-  undoStack_.undo();
-}
-
-void Document::redo() {
-  endDrag();
-  cutSweeps();
-  undoStack_.redo();
-}
-
-/// None where the step of this gesture will be merged into the last one, which has kept the state before.
-std::optional<commands::StateId> Document::stateFor(int gesture, const QString& text) {
-  const QUndoCommand* last = undoStack_.command(undoStack_.index() - 1);
-  const bool goesOn = gesture != 0 && last != nullptr && last->id() == gesture && last->text() == text &&
-                      undoStack_.index() != undoStack_.cleanIndex();
-  return goesOn ? std::nullopt : std::optional(newState());
-}
-
-bool Document::isPinned(ElementId element) const { return std::binary_search(pins_.begin(), pins_.end(), element); }
-
-void Document::setPinned(const std::vector<ElementId>& elements, bool pinned) {
-  if (!elements.empty()) {
-    push(new PinEdit(*this, elements, pinned));
+  if (!where.isEmpty()) {
+    emit noticed(
+        QStringLiteral("%1 does not work on this mesh: panel %2 now runs %3")
+            .arg(from, where.join(QStringLiteral(" and ")), chainmail::text(info(Algorithm::natural_queue).label)));
   }
 }
 
-void Document::cut(const std::vector<LinkId>& links) {
-  if (!links.empty()) {
-    push(new CutEdit(*this, links));
+const Frame* Document::frame(int panel) const {
+  if (panel >= panels()) {
+    return nullptr;
+  }
+  const Frame* instead = instead_[std::size_t(panel)];
+  const Frame* frame = instead != nullptr ? instead : frames_[std::size_t(panel)];
+  return frame->mesh == mesh() ? frame : nullptr;
+}
+
+void Document::showInstead(int panel, const Frame* frame) {
+  if (frame != nullptr || instead_[std::size_t(panel)] != nullptr) {
+    instead_[std::size_t(panel)] = frame;
+    emit frameReady(panel);
   }
 }
 
-void Document::resetObject() {
-  cutSweeps();
-  push(new ResetEdit(*this));
-}
-
-void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text,
-                           std::map<LinkId, LinkSoftness> own) {
-  push(new MeshEdit(*this, mesh, name, text, std::move(own)));
-}
+// Highlight and selection.
 
 void Document::setHighlight(const Highlight& highlight) {
   if (highlight != highlight_) {
@@ -214,32 +714,19 @@ void Document::setHighlight(const Highlight& highlight) {
   }
 }
 
+void Document::addToHighlight(std::span<const LinkId> links) {
+  if (!links.empty()) {
+    highlight_.links.insert(highlight_.links.end(), links.begin(), links.end());
+    emit highlightChanged();
+  }
+}
+
 void Document::select(std::vector<ElementId> elements) {
   if (elements != selection_.elements) {
-    selection_.links = linksAmong(*mesh_, cuts_, elements);
+    selection_.links = linksAmong(*mesh(), cuts(), elements);
     selection_.elements = std::move(elements);
     emit selectionChanged();
   }
-}
-
-/// Before another mesh is there: who is told of this still asks for elements of the present one.
-void Document::letGoOfElements() {
-  setHighlight({});
-  select({});
-}
-
-void Document::showCuts(const std::vector<LinkId>& links, bool cut) {
-  cut ? parts_.cut(cuts_, links) : parts_.uncut(cuts_, links);
-  emit cutsChanged(links, cut);
-  if (!selection_.empty()) {
-    selection_.links = linksAmong(*mesh_, cuts_, selection_.elements);
-    emit selectionChanged();
-  }
-}
-
-void Document::showPins(const std::vector<ElementId>& elements, bool pinned) {
-  pins_ = combined(pins_, elements, pinned ? SelectionMode::add : SelectionMode::remove);
-  emit pinsChanged();
 }
 
 }  // namespace chainmail

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QObject>
-#include <QTimer>
 #include <QUndoStack>
 #include <array>
 #include <atomic>
@@ -9,9 +8,10 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <span>
 
+#include "document/change.h"
 #include "document/selection.h"
-#include "mesh/parts.h"
 #include "simulate/command_log.h"
 #include "simulate/solver_thread.h"
 
@@ -19,8 +19,7 @@ namespace chainmail {
 
 struct Session;
 
-/// What all panels share beside the object: the element under the cursor or the hand, and the links
-/// that a stroke would cut.
+/// What all panels highlight: the element under the cursor or in the handle, and the links that a stroke would cut.
 struct Highlight {
   std::optional<ElementId> element;
   bool grabbed = false;
@@ -29,134 +28,147 @@ struct Highlight {
   bool operator==(const Highlight&) const = default;
 };
 
-/// The object, its parameters, their undo stack, and the solvers that deform it side by side, one a panel.
+/// The object, its parameters, their undo stack, and the solvers that deform the object side by side, one per panel.
 ///
-/// Edits go through the undo stack and change the data and all solvers; the moves of the hand go
-/// straight to the solvers' one log.
+/// Every edit is a Change that goes through apply(): one step of undo, which changes the contents and all solvers.
+/// Moves of the handle go straight to the log that feeds all solvers; a drag becomes a step of undo when it ends.
 class Document : public QObject {
   Q_OBJECT
 
  public:
-  static constexpr int fewestPanels = 2, mostPanels = 4;
+  static constexpr int fewestPanels = 2, mostPanels = Contents::mostPanels;
 
   Document(MeshPointer mesh, const QString& name);
   ~Document() override;
 
-  const MeshPointer& mesh() const { return mesh_; }
-  const QString& name() const { return name_; }
-  const Cuts& cuts() const { return cuts_; }
-  /// How many parts it has that no uncut link joins.
-  std::uint32_t parts() const { return parts_.count(); }
+  const MeshPointer& mesh() const { return contents_.object->mesh; }
+  const QString& name() const { return contents_.object->name; }
+  const Cuts& cuts() const { return contents_.object->cuts; }
+  /// Number of parts of the object that no uncut link joins.
+  std::uint32_t parts() const { return contents_.object->parts.count(); }
   /// The pinned elements, ascending.
-  const std::vector<ElementId>& pins() const { return pins_; }
+  const std::vector<ElementId>& pins() const { return contents_.object->pins; }
   bool isPinned(ElementId element) const;
-  /// The softness of all links but those that have one of their own.
-  const LinkSoftness& softness() const { return softness_->global; }
-  const std::shared_ptr<const Softness>& wholeSoftness() const { return softness_; }
-  const commands::SetRelaxation& relaxation() const { return relaxation_; }
-  const ElasticOptions& elastic() const { return elastic_; }
-  /// How many there are, fewestPanels to mostPanels.
+  /// The global softness: of all links without a softness of their own.
+  const LinkSoftness& softness() const { return contents_.softness->global; }
+  const std::shared_ptr<const Softness>& wholeSoftness() const { return contents_.softness; }
+  const commands::SetRelaxation& relaxation() const { return contents_.relaxation; }
+  const ElasticOptions& elastic() const { return contents_.elastic; }
+
+  // Panels: a solver and an algorithm each.
+
+  /// Number of panels, from fewestPanels to mostPanels.
   int panels() const { return int(solvers_.size()); }
-  /// One more, in which the object is as in the first one, undo included, by an algorithm that none runs yet.
+  /// Adds a panel. Its object, undo included, is that of the first panel; its algorithm is one that no panel runs yet.
   void addPanel();
-  /// One less: the last one goes.
+  /// Removes the last panel.
   void removePanel();
-  Algorithm algorithm(int panel) const { return algorithms_[panel]; }
-  /// Whether a panel's method has no answer, because nothing holds the object.
+  /// The algorithm of a panel; of a removed panel, the last one.
+  Algorithm algorithm(int panel) const { return contents_.algorithms[std::size_t(panel)]; }
+  /// True where the panel's method has no answer because nothing pins the object.
   bool lacksPins(int panel) const;
-  QUndoStack& undoStack() { return undoStack_; }
-  /// Ends what the hand is at, so that it is a step of its own, and undoes it or the step before.
-  void undo();
-  void redo();
-
-  /// The newest frame of a panel, or none while it does not show the object yet; it stays as it is until
-  /// frameReady.
+  /// The newest frame of a panel, valid until frameReady; null while the panel does not show the object yet.
   const Frame* frame(int panel) const;
-  /// Shows a frame in place of a panel's newest one, until none is given; it stays as long as it is shown, and this
-  /// is called again when it has changed.
+  /// Shows a frame in place of the panel's newest one, until called with null. The frame must stay alive meanwhile;
+  /// call this again after a change of the frame.
   void showInstead(int panel, const Frame* frame);
-  /// From now on all solvers record their passes, or no more.
+  /// Turns pass recording on or off, for all solvers.
   void recordPasses(bool on);
-  /// A panel's last pass, unless it is the one with this number, as SolverThread::last_pass.
+  /// A panel's last pass, unless its number is `seen`; see SolverThread::last_pass.
   std::unique_ptr<RecordedPass> lastPass(int panel, std::uint64_t seen) const {
-    return solvers_[panel]->last_pass(seen);
+    return solvers_[std::size_t(panel)]->last_pass(seen);
   }
-  /// Calls `question` on the thread of a panel's solver when that has done all that was asked so far; it must not wait.
+  /// Calls `question` on the thread of a panel's solver, after everything posted before. It must not wait.
   void ask(int panel, SolverThread::Question question);
-  /// The positions of a panel's elements when its solver has done all that was asked so far.
-  std::future<Snapshot> placement(int panel);
-  /// The file of the session that this is; empty where it is none yet.
-  const QString& sessionFile() const { return sessionFile_; }
-  void setSessionFile(const QString& file);
-  /// Whether something was done since it was last opened or saved.
-  bool isModified() const { return !undoStack_.isClean() || hand_.has_value(); }
-  /// The window closes: moves that are not done after some time are given up, and the object stays as it is.
-  void abandonMoves(std::chrono::milliseconds patience = {});
-  /// Whether all solvers have carried out all that was asked of them.
+  /// The positions of a panel's elements, after everything posted before.
+  std::future<Snapshot> snapshot(int panel);
+  /// True when all solvers have carried out everything posted.
   bool idle() const;
-  /// Whether, beside, the frames show what came of it. Not so while relaxation goes on.
+  /// True when idle and all frames are up to date; never for long while relaxation runs.
   bool settled() const;
+  /// The window closes: waits up to `patience` for posted moves, then skips the rest.
+  void abandonMoves(std::chrono::milliseconds patience = {});
 
-  /// The hand, in mesh units. From grab to release is one step of undo, if anything was dragged.
+  // The handle; targets are in mesh units. From grab to release is one step of undo, if anything moved.
+
   void grab(ElementId element);
   void drag(const Point& target);
   void release();
-  /// The element in the hand.
-  std::optional<ElementId> held() const { return hand_ ? hand_->element : std::nullopt; }
-  /// The hand takes a control point of free-form deformation and moves it, in the panels that have it; it is released
-  /// as an element is.
+  /// The element in the handle.
+  std::optional<ElementId> held() const { return handle_ ? handle_->element : std::nullopt; }
+  /// Grabs a control point of free-form deformation, in the panels that have it; release() releases it.
   void grabControlPoint(std::uint32_t point);
   void dragControlPoint(const Point& target);
-  /// What the hand did last on this mesh, without the release; empty where it did nothing yet.
+  /// The commands of the last drag of this mesh, without the release; empty if there was none.
   std::vector<Command> lastDrag() const { return tape().last_drag(); }
-  /// As if nothing had been done yet to this object, which stands as it is.
-  void forgetMoves();
 
-  /// What was done to this object since it was at rest, and how far of it the object stands.
+  // The tape.
+
+  /// The commands that were carried out since the object was at rest, and the current position among them.
   const Tape& tape() const { return log_->tape(); }
-  /// Notes on the tape what relaxation did in idle time since the last pass; to be called before the tape is saved.
+  /// Clears the move history; positions stay.
+  void forgetMoves();
+  /// Records the relaxation since the last pass; call it before the tape is saved.
   void noteRelaxation();
-  /// Brings the object, by both solvers, to where it stood after so many commands of the tape, or where their own
-  /// algorithms would have it. Relaxation goes off: what it did is on the tape. One step of undo, as are several in a
-  /// row.
+  /// Brings the object in all panels to its state after `position` commands of the tape, each panel by its own
+  /// algorithm. Turns relaxation off: its result is on the tape. Several calls in a row are one step of undo.
   void goTo(std::size_t position);
-  /// Other moves, of this mesh: the object goes to rest, whole, and they lie ahead. One step of undo.
+  /// Replaces the tape with moves of this mesh, and brings the object to rest, uncut and unpinned. One step of undo.
   void loadMoves(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text);
 
-  /// Edits, each one step of undo. Changes of one gesture (not 0) become one step.
+  // Edits, one step of undo each.
+
+  QUndoStack& undoStack() { return undoStack_; }
+  /// Ends the drag, which becomes a step of its own, and undoes the last step.
+  void undo();
+  void redo();
+  /// True if there are changes since the session was opened or saved.
+  bool isModified() const { return !undoStack_.isClean() || handle_.has_value(); }
+  /// A change that does nothing yet: its values are the current ones.
+  Change change(const QString& text, int gesture = 0) const;
+  /// Carries out a change as one step of undo. All edits go through here.
+  void apply(Change change);
+
   void setSoftness(const LinkSoftness& global, const QString& text, int gesture = 0);
-  /// Gives links a softness of their own, or, with none, back the global one.
+  /// Gives links a softness of their own, or none: then the global one applies to them again.
   void setSoftnessOf(const std::vector<LinkId>& links, const std::optional<LinkSoftness>& own);
-  /// All links back to the default, those with a softness of their own too.
+  /// Resets all links to the default softness, including links with a softness of their own.
   void resetSoftness();
+  void setRelaxation(const commands::SetRelaxation& relaxation, int gesture = 0);
+  void setSoftnessAndRelaxation(const LinkSoftness& global, const commands::SetRelaxation& relaxation,
+                                const QString& text);
+  void setElastic(const ElasticOptions& options, const QString& text, int gesture = 0);
+  /// Emits refused if the algorithm does not work on the mesh.
+  void setAlgorithm(int panel, Algorithm algorithm);
   void setPinned(const std::vector<ElementId>& elements, bool pinned);
   void cut(const std::vector<LinkId>& links);
   void resetObject();
   /// `own` is the softness of links that have their own.
   void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text,
                    std::map<LinkId, LinkSoftness> own = {});
-  /// All that the session holds of an object; `file` is where it is kept, if anywhere.
+  /// Opens a session. Panels that the session does not have show the object of its first panel, by their own algorithm.
   void restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text);
+  /// The file of this session; empty if it has none yet.
+  const QString& sessionFile() const { return sessionFile_; }
+  void setSessionFile(const QString& file);
 
-  /// Refused where the algorithm does not work on the mesh.
-  void setAlgorithm(int panel, Algorithm algorithm);
-  void setRelaxation(const commands::SetRelaxation& relaxation, int gesture = 0);
-  /// Both as one step.
-  void setSoftnessAndRelaxation(const LinkSoftness& global, const commands::SetRelaxation& relaxation,
-                                const QString& text);
-  void setElastic(const ElasticOptions& options, const QString& text, int gesture = 0);
+  // What the panels highlight and select. No edits: the object stays the same.
 
   const Highlight& highlight() const { return highlight_; }
   void setHighlight(const Highlight& highlight);
+  /// Adds links to the highlighted ones, at a cost of these links only.
+  void addToHighlight(std::span<const LinkId> links);
   const Selection& selection() const { return selection_; }
-  /// Elements ascending; not an edit, as the object stays as it is.
+  /// Elements must be ascending.
   void select(std::vector<ElementId> elements);
 
  signals:
   void frameReady(int panel);
-  /// The last panel is about to go, and its frames with it.
+  /// All solvers have carried out everything posted.
+  void becameIdle();
+  /// The last panel and its frames are about to be removed.
   void panelLeaves(int panel);
-  /// There is one more, or one less.
+  /// A panel was added or removed.
   void panelsChanged();
   void meshChanged();
   /// These links were cut, or uncut.
@@ -169,99 +181,86 @@ class Document : public QObject {
   void pinsChanged();
   void selectionChanged();
   void lastDragChanged();
-  /// There is more on the tape, or the object stands elsewhere on it.
+  /// The tape is longer, or the object has another position on it.
   void tapeChanged();
   void sessionFileChanged();
-  /// A command was refused: one sentence.
+  /// A command was refused; one sentence says why.
   void refused(const QString& sentence);
-  /// A panel has no answer, as lacksPins says.
+  /// A panel has no answer; see lacksPins.
   void unpinned(int panel);
-  /// Something was done that was not asked for: one sentence.
+  /// The document changed something by itself; one sentence says what.
   void noticed(const QString& sentence);
 
  private:
-  friend class Edit;
-  friend class CutEdit;
-  friend class PinEdit;
-  template <class Value>
-  friend class GestureEdit;
-  friend class SoftnessEdit;
-  friend class RelaxationEdit;
-  friend class ElasticEdit;
-  friend class AlgorithmEdit;
-  friend class ResetEdit;
-  friend class TravelEdit;
-  friend class MeshEdit;
-  friend class SessionEdit;
+  class Edit;  // of the undo stack
 
-  // The document's own side of edits; the solvers are told beside.
-  void letGoOfElements();
+  // How a change reaches the solvers and the contents.
+  std::optional<commands::StateId> stateFor(int gesture, const QString& text);
+  void carryOut(const Change& change, const Contents& before);
+  void postSettings(const Contents& from, const Contents& to, bool neutral);
+  void show(Change& change, const Contents& from, const Contents& to, bool done);
+  void showParts(const Change& change, bool done);
   void showCuts(const std::vector<LinkId>& links, bool cut);
   void showPins(const std::vector<ElementId>& elements, bool pinned);
-  void showSoftness(std::shared_ptr<const Softness> softness);
-  void showRelaxation(const commands::SetRelaxation& relaxation);
-  void showElastic(const ElasticOptions& options);
-  void runAlgorithm(int panel, Algorithm algorithm);
-  void runAlgorithms(const std::vector<Algorithm>& algorithms);
-  void followFallback();
+  std::vector<int> panelsToSwitch(const Contents& from, const Contents& to) const;
+  void postAlgorithm(int panel, Algorithm algorithm);
+  void replaceUnfitAlgorithms();
+  void placeSession(const std::shared_ptr<const Session>& session);
 
-  void cutSweeps();
+  // How commands reach the solvers, and frames come back.
+  void post(const Command& command);
+  void receiveIdle();
+  void receiveFrame(int panel);
+  void reportRefusal(int panel, const QString& sentence);
+  std::function<void()> frameAnnouncer(int panel);
+  std::function<void()> idleAnnouncer();
+  void addSolver(std::unique_ptr<SolverThread> solver);
+  Algorithm unusedAlgorithm() const;
+
+  void beginDrag(std::optional<ElementId> element, const QString& text);
+  void endDrag();
+
+  // Replay, in document_replay.cpp.
+  void endSweeps();
   void travel(std::size_t position);
   void goToBeginning();
-  void keepOnTheWay(std::size_t position);
-  void dropKeptOnTheWay();
+  void keepWaypoint(std::size_t position);
+  void dropWaypoints();
   void showTape();
 
   commands::StateId newState() { return nextState_++; }
-  std::optional<commands::StateId> stateFor(int gesture, const QString& text);
-  void push(QUndoCommand* edit);
-  void takeInHand(std::optional<ElementId> element, const QString& text);
-  void endDrag();
-  void pushSoftness(Softness softness, const QString& text, int gesture);
-  void post(const Command& command);
-  std::function<void()> announcer(int panel);
-  void takeOn(std::unique_ptr<SolverThread> solver);
-  Algorithm unusedAlgorithm() const;
-  void receiveFrame(int panel);
-  void tellRefusal(int panel, const QString& sentence);
 
-  MeshPointer mesh_;
-  QString name_, sessionFile_;
-  Cuts cuts_;
-  Parts parts_;
-  std::vector<ElementId> pins_;
-  std::shared_ptr<const Softness> softness_ = std::make_shared<Softness>();  // shared with the edits
-  commands::SetRelaxation relaxation_;
-  ElasticOptions elastic_;
-  std::array<Algorithm, mostPanels> algorithms_{Algorithm::generalized, Algorithm::natural_queue};
+  Contents contents_;
+  QString sessionFile_;
   Highlight highlight_;
   Selection selection_;
   commands::StateId nextState_ = 1;
-  struct Hand {
-    std::optional<ElementId> element;  // none where it holds a control point
+
+  struct Handle {
+    std::optional<ElementId> element;  // none while it holds a control point
     std::uint32_t controlPoint = 0;
-    QString text;                  // of the step that this becomes
-    commands::StateId before = 0;  // kept while the hand holds it
+    QString text;                  // of the undo step
+    commands::StateId before = 0;  // the solvers keep this state during the drag
     bool moved = false;
   };
-  std::optional<Hand> hand_;
-  std::array<QString, mostPanels> told_;  // the last refusal, since the hand took hold
+  std::optional<Handle> handle_;
+  std::array<QString, mostPanels> lastRefusal_;  // during the present drag or edit
 
-  // States kept while moves are replayed, by how many commands were carried out then: going back begins at one of them.
-  std::map<std::size_t, commands::StateId> onTheWay_;
-  std::uint64_t timelineOnTheWay_ = 0;  // the tape's
-  bool replayed_ = false;               // the solvers stand where a replay has brought them
-  std::uint64_t relaxationNoted_ = 0;   // the number of passes after which relaxation was last noted
+  // States that the solvers keep along the tape, by position: a replay backwards starts at one of them.
+  std::map<std::size_t, commands::StateId> waypoints_;
+  std::uint64_t waypointTimeline_ = 0;  // Tape::timeline() of the waypoints
+  bool replayed_ = false;               // the last thing that the solvers did is a replay
+  std::uint64_t relaxationNoted_ = 0;   // number of passes when relaxation was last noted
 
-  // The solver threads announce a frame at most once until it is received.
-  std::array<std::atomic<bool>, mostPanels> announced_{};
+  // The solver threads announce a frame, or that they are idle, at most once until it is received.
+  std::array<std::atomic<bool>, mostPanels> frameAnnounced_{};
+  std::atomic<bool> idleAnnounced_ = false;
   std::vector<std::unique_ptr<SolverThread>> solvers_;
   std::array<const Frame*, mostPanels> frames_{};
-  std::array<const Frame*, mostPanels> instead_{};  // of these
+  std::array<const Frame*, mostPanels> instead_{};  // null where the panel shows its own frame
   bool recordsPasses_ = false;
   std::unique_ptr<CommandLog> log_;
-  QTimer sampler_;
-  QUndoStack undoStack_;  // last: its edits post to the log when they go
+  QUndoStack undoStack_;  // last: its edits post to the log when they are deleted
 };
 
 }  // namespace chainmail

@@ -1,19 +1,19 @@
-// How a document goes back and forth in what was done to its object.
+// Replay: how a document goes back and forth on the tape of what was done to its object.
 
 #include <algorithm>
 #include <iterator>
 #include <limits>
 
 #include "document/document.h"
-#include "document/edits.h"
 
 namespace chainmail {
 namespace {
 
 constexpr int travelGesture = std::numeric_limits<int>::max();
-// At most so many states are kept on the way, as far apart as that makes them.
-constexpr std::size_t mostOnTheWay = 16;
+// Waypoints: at most this many states, at least so many commands apart.
+constexpr std::size_t mostWaypoints = 16;
 constexpr std::size_t leastApart = 32;
+constexpr std::uint64_t mostSweepsNoted = 1'000'000;
 
 template <class T>
 std::vector<T> without(const std::vector<T>& all, const std::vector<T>& some) {
@@ -24,112 +24,129 @@ std::vector<T> without(const std::vector<T>& all, const std::vector<T>& some) {
 
 }  // namespace
 
+void Document::forgetMoves() {
+  log_->tape().load({});
+  emit tapeChanged();
+  emit lastDragChanged();
+}
+
 void Document::noteRelaxation() {
   const Frame* now = frame(0);
-  if (!relaxation_.on || now == nullptr || now->statistics.sweeps == 0 || now->statistics.passes == relaxationNoted_) {
+  if (!relaxation().on || now == nullptr || now->statistics.sweeps == 0 || now->statistics.passes == relaxationNoted_) {
     return;
   }
   relaxationNoted_ = now->statistics.passes;
-  const auto sweeps = std::min<std::uint64_t>(now->statistics.sweeps, 1'000'000);
-  log_->tape().note(commands::Relax{static_cast<std::uint32_t>(sweeps), relaxation_.step, relaxation_.scheme});
+  const auto sweeps = std::min<std::uint64_t>(now->statistics.sweeps, mostSweepsNoted);
+  log_->tape().note(commands::Relax{static_cast<std::uint32_t>(sweeps), relaxation().step, relaxation().scheme});
   emit tapeChanged();
 }
 
-/// Sweeps of relaxation may go on for hours: nobody waits for them to bring the object elsewhere. What they would have
-/// done is missing from the states that are kept on the way.
-void Document::cutSweeps() {
+/// Ends sweeps of relaxation, which may run for hours: the object is about to change anyway. Waypoints are dropped,
+/// because they lack the rest of the sweeps.
+void Document::endSweeps() {
   if (idle()) {
     return;
   }
   for (const auto& solver : solvers_) {
     solver->cut_sweeps();
   }
-  dropKeptOnTheWay();
+  dropWaypoints();
   replayed_ = false;
 }
 
 void Document::goTo(std::size_t position) {
   noteRelaxation();
   position = std::min(position, tape().length());
-  if (position != tape().position()) {
-    cutSweeps();
-    push(new TravelEdit(*this, QStringLiteral("replay"), travelGesture, [this, position] { travel(position); }));
-    emit tapeChanged();
+  if (position == tape().position()) {
+    return;
   }
-}
-
-void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text) {
-  cutSweeps();
-  push(new TravelEdit(*this, text, 0, [this, moves] {
-    goToBeginning();
-    log_->tape().load(*moves);
-    replayed_ = true;
-  }));
+  endSweeps();
+  Change edit = change(QStringLiteral("replay"), travelGesture);
+  edit.after.relaxation.on = false;
+  edit.carryOut = [this, position] { travel(position); };
+  edit.followsTape = true;
+  apply(std::move(edit));
   emit tapeChanged();
 }
 
-/// The solvers carry out what lies between the nearest state that is known and the place; what they did live may
-/// differ: another algorithm, relaxation in idle time.
+void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text) {
+  endSweeps();
+  Change edit = change(text);
+  edit.after.relaxation.on = false;
+  edit.carryOut = [this, moves] {
+    goToBeginning();
+    log_->tape().load(*moves);
+    replayed_ = true;
+  };
+  edit.followsTape = true;
+  apply(std::move(edit));
+  emit tapeChanged();
+}
+
+/// The solvers carry out the commands between the nearest known state and the position. The result of a replay may
+/// differ from that of the live moves, because of another algorithm or relaxation in idle time: only a replay can be
+/// continued forwards.
 void Document::travel(std::size_t position) {
   Tape& tape = log_->tape();
-  if (timelineOnTheWay_ != tape.timeline()) {
-    dropKeptOnTheWay();
-    timelineOnTheWay_ = tape.timeline();
+  if (waypointTimeline_ != tape.timeline()) {
+    dropWaypoints();
+    waypointTimeline_ = tape.timeline();
   }
   std::size_t at = tape.position();
   if (!replayed_ || position < at) {
-    const auto after = onTheWay_.upper_bound(position);
-    at = after == onTheWay_.begin() ? 0 : std::prev(after)->first;
-    after == onTheWay_.begin() ? goToBeginning() : log_->replay(commands::RestoreState{std::prev(after)->second});
+    const auto after = waypoints_.upper_bound(position);
+    at = after == waypoints_.begin() ? 0 : std::prev(after)->first;
+    after == waypoints_.begin() ? goToBeginning() : log_->replay(commands::RestoreState{std::prev(after)->second});
   }
   for (; at < position; ++at) {
-    keepOnTheWay(at);
+    keepWaypoint(at);
     log_->replay(tape.at(at));
   }
   tape.go_to(position);
   replayed_ = true;
 }
 
-/// To rest, whole, unpinned, with the default softness: where every tape begins.
+/// Every tape begins with the object at rest, uncut, unpinned, with the default softness.
 void Document::goToBeginning() {
   log_->replay(commands::Release{});
-  log_->replay(commands::Uncut{cuts_.links()});
-  log_->replay(commands::Unpin{pins_});
+  log_->replay(commands::Uncut{cuts().links()});
+  log_->replay(commands::Unpin{pins()});
   log_->replay(commands::SetSoftness{});
   log_->replay(commands::Reset{});
 }
 
-/// Between two drags alone: a state does not know what the hand holds.
-void Document::keepOnTheWay(std::size_t position) {
-  const std::size_t apart = std::max(leastApart, tape().length() / mostOnTheWay);
-  const std::size_t last = onTheWay_.empty() ? 0 : std::prev(onTheWay_.end())->first;
+/// Keeps a waypoint, only between two drags: a state does not include the handle.
+void Document::keepWaypoint(std::size_t position) {
+  const std::size_t apart = std::max(leastApart, tape().length() / mostWaypoints);
+  const std::size_t last = waypoints_.empty() ? 0 : std::prev(waypoints_.end())->first;
   if (position >= last + apart && std::holds_alternative<commands::Grab>(tape().at(position))) {
-    onTheWay_[position] = newState();
-    log_->replay(commands::KeepState{onTheWay_[position]});
+    waypoints_[position] = newState();
+    log_->replay(commands::KeepState{waypoints_[position]});
   }
 }
 
-void Document::dropKeptOnTheWay() {
-  for (const auto& [position, state] : onTheWay_) {
+void Document::dropWaypoints() {
+  for (const auto& [position, state] : waypoints_) {
     log_->replay(commands::DropState{state});
   }
-  onTheWay_.clear();
+  waypoints_.clear();
 }
 
-/// Brings the document's own side to what the tape says of the object.
+/// Brings cuts, pins and softness to what the tape says of the object.
 void Document::showTape() {
   const Tape::Object object = tape().object();
-  const std::vector<LinkId> cuts = cuts_.links();
-  if (cuts != object.cuts) {
-    showCuts(without(cuts, object.cuts), false);
-    showCuts(without(object.cuts, cuts), true);
+  const std::vector<LinkId> cut = cuts().links();
+  if (cut != object.cuts) {
+    showCuts(without(cut, object.cuts), false);
+    showCuts(without(object.cuts, cut), true);
   }
-  if (pins_ != object.pins) {
-    pins_ = object.pins;
+  if (pins() != object.pins) {
+    contents_.object->pins = object.pins;
     emit pinsChanged();
   }
-  if (*softness_ != *object.softness) {
-    showSoftness(object.softness);
+  if (*wholeSoftness() != *object.softness) {
+    contents_.softness = object.softness;
+    emit softnessChanged();
   }
 }
 

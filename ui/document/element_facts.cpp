@@ -8,9 +8,9 @@
 namespace chainmail {
 namespace {
 
-constexpr int digits = 6;  // a single-precision position has hardly more
+constexpr int digits = 6;  // a position in single precision has about 7
 
-/// Calls with each link of an element that is not cut.
+/// Calls `look` with each uncut link of an element.
 template <class Look>
 void eachLink(const Document& document, ElementId element, Look look) {
   const Mesh& mesh = *document.mesh();

@@ -7,26 +7,26 @@
 
 namespace chainmail {
 
-/// What there is to say about single elements, in words for the window. All cost an element's links, no more.
+/// Data of single elements, and its text for the interface. The cost is that of the links of the element.
 
-/// The softness of an element's links that are not cut, from the least to the most.
+/// The range of the softness of the uncut links of an element.
 struct SoftnessRange {
   LinkSoftness least, most;
   std::size_t links = 0;
 };
 SoftnessRange softnessOf(const Document& document, ElementId element);
 
-/// Where an element stands in a panel; at rest as long as the panel shows nothing (mesh units).
+/// Returns the position of an element in a panel (mesh units); at rest while the panel shows nothing.
 Point positionIn(const Document& document, int panel, ElementId element);
-/// The largest violation of an element's links in a panel (rest lengths of the link).
+/// Returns the largest violation of an element's links in a panel (rest lengths of the link).
 double violationIn(const Document& document, int panel, ElementId element);
 double violationOfLink(const Document& document, int panel, LinkId link);
 
-/// The coordinates that the scene carries: 'x 3, y 2.5'.
+/// Returns the coordinates that the scene has: 'x 3, y 2.5'.
 QString coordinates(const Mesh& mesh, const Point& point, const QString& prefix = {});
-/// A figure to as many digits as a panel's positions have.
+/// Returns a number with as many digits as the positions of a panel have.
 QString figure(double value);
-/// '0.8', or '0.8–0.9'.
+/// Returns '0.8', or '0.8–0.9'.
 QString range(double least, double most);
 
 }  // namespace chainmail

@@ -5,9 +5,9 @@
 namespace chainmail {
 namespace {
 
-/// Each pass that is looked at shows frames of its own.
+/// Returns a new series of frames: one per pass.
 std::uint64_t newSeries() {
-  static std::uint64_t last = 0;  // 0 are those of the solvers
+  static std::uint64_t last = 0;  // the solvers use 0
   return ++last;
 }
 
@@ -30,7 +30,7 @@ PassPlayer::PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& sta
   frame_.statistics = statistics;
   frame_.series = newSeries();
   frame_.number = 1;
-  place(pass_->grabbed, pass_->grabbed_after());
+  move(pass_->grabbed, pass_->grabbed_after());
   setStep(stepCount());
 }
 
@@ -38,16 +38,16 @@ void PassPlayer::setStep(std::size_t step) {
   step = std::min(step, stepCount());
   ++frame_.number;
   for (; step_ < step; ++step_) {
-    place(pass_->trace[step_].element, pass_->position_after(step_));
+    move(pass_->trace[step_].element, pass_->position_after(step_));
   }
   for (; step_ > step; --step_) {
     const ElementId element = pass_->trace[step_ - 1].element;
-    place(element, pass_->position_before(element));
+    move(element, pass_->position_before(element));
   }
 }
 
-void PassPlayer::place(ElementId element, std::span<const float> at) {
-  std::ranges::copy(at, frame_.positions.begin() + std::ptrdiff_t(element * at.size()));
+void PassPlayer::move(ElementId element, std::span<const float> to) {
+  std::ranges::copy(to, frame_.positions.begin() + std::ptrdiff_t(element * to.size()));
   frame_.changed[element / Frame::block_elements] = frame_.number;
 }
 

@@ -7,30 +7,30 @@
 
 namespace chainmail {
 
-/// A panel's last pass, held at one of its steps: the object as it stood, and what waited.
+/// A recorded pass at one of its steps: the object and the waiting list at that step.
 class PassPlayer {
  public:
   static constexpr std::uint32_t never = no_element;
-  /// Of a longer pass no waiting list is worked out, which would hold the window up (0.3 s for as many steps).
+  /// A longer pass has no waiting list: to compute it would block the window (0.3 s for this many steps).
   static constexpr std::size_t listedSteps = 300'000;
 
-  /// Takes a pass, at its end.
+  /// Starts at the end of the pass.
   explicit PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& statistics);
 
   const RecordedPass& pass() const { return *pass_; }
   const WaitingHistory& history() const { return history_; }
   std::size_t stepCount() const { return pass_->step_count(); }
   std::size_t step() const { return step_; }
-  /// Time: the number of steps between.
+  /// Takes time in proportion to the number of steps between.
   void setStep(std::size_t step);
 
-  /// The object at this step, as a frame that a panel can show.
+  /// The object at this step, as a frame for a panel.
   const Frame& frame() const { return frame_; }
-  /// The step at which an element was updated: 0 the grabbed one and those pinned, from 1 on the others, or never.
+  /// The step that updated an element: 0 for grabbed and pinned elements, 1 and more for the others, or never.
   std::uint32_t updatedAt(ElementId element) const { return updatedAt_[element]; }
 
  private:
-  void place(ElementId element, std::span<const float> at);
+  void move(ElementId element, std::span<const float> to);
 
   std::unique_ptr<RecordedPass> pass_;
   WaitingHistory history_;

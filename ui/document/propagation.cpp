@@ -8,7 +8,7 @@ namespace {
 constexpr int fetchMilliseconds = 100;
 constexpr int tickMilliseconds = 16;
 constexpr std::uint64_t largestWhileDragged = 20'000;  // steps
-// To fetch the passes takes at most this share of the time.
+// Fetching passes takes at most 1/10 of the time.
 constexpr int fetchShare = 10;
 
 }  // namespace
@@ -39,7 +39,7 @@ Propagation::Propagation(Document& document) : document_(document), players_(Doc
 Propagation::~Propagation() {
   players_.clear();
   players_.resize(Document::mostPanels);
-  emit changed();  // the window's parts that show them go later
+  emit changed();  // widgets that show the passes are deleted later
 }
 
 void Propagation::setOpen(bool open) {
@@ -53,7 +53,7 @@ void Propagation::setOpen(bool open) {
 void Propagation::forget() {
   letGo();
   follows_ = true;
-  chosen_ = std::min(chosen_, Document::fewestPanels - 1);  // others may be gone
+  chosen_ = std::min(chosen_, Document::fewestPanels - 1);  // another panel may be removed
   for (auto& player : players_) {
     player.reset();
   }
@@ -93,7 +93,7 @@ void Propagation::awaitPass() {
   }
 }
 
-/// To make such passes ready to look at would hold the hand up: it waits until the hand has let go.
+/// True while a drag makes passes so large that fetching them would slow the drag down.
 bool Propagation::tooLargeNow() const {
   for (int panel = 0; panel < document_.panels() && document_.highlight().grabbed; ++panel) {
     const Frame* frame = document_.frame(panel);
@@ -115,7 +115,7 @@ void Propagation::takePasses() {
     auto& player = players_[std::size_t(panel)];
     const Frame* frame = document_.frame(panel);
     auto pass = document_.lastPass(panel, player ? player->pass().number : 0);
-    // What solves for all elements at once has no steps.
+    // Elastic methods solve for all elements at once: they have no steps.
     const bool stepped = pass && !elastic_method(pass->algorithm);
     if (stepped && frame != nullptr && pass->mesh == frame->mesh && pass->algorithm == document_.algorithm(panel)) {
       player = std::make_unique<PassPlayer>(std::move(pass), frame->statistics);
@@ -172,7 +172,7 @@ void Propagation::show(int panel) {
   document_.showInstead(panel, player ? &player->frame() : nullptr);
 }
 
-/// Where the buttons go on from.
+/// Returns the step from which the buttons continue.
 std::size_t Propagation::position() const {
   std::size_t position = 0;
   for (int panel = 0; panel < document_.panels(); ++panel) {
@@ -208,7 +208,7 @@ void Propagation::setPlays(bool plays) {
   emit changed();
 }
 
-/// As many steps as the time that has passed asks for.
+/// Makes as many steps as the elapsed time asks for.
 void Propagation::playOn() {
   due_ += double(sinceStep_.restart()) / 1000 * speed_;
   if (due_ < 1) {

@@ -11,11 +11,11 @@
 
 namespace chainmail {
 
-/// Looks at the last pass of every panel, step by step.
+/// Shows the last pass of every panel step by step.
 ///
-/// While it is open the solvers record their passes. It follows them, the panels showing the newest frames, until
-/// someone goes to a step: then it holds that pass, and the panels show the object as it was at the step. To take an
-/// element into the hand, or to change the object, lets go of the pass.
+/// While it is open, the solvers record their passes. It follows the newest passes until the user goes to a step. Then
+/// it holds that pass, and the panels show the object at the step. A drag or a change of the object makes it follow
+/// again.
 class Propagation : public QObject {
   Q_OBJECT
 
@@ -28,30 +28,30 @@ class Propagation : public QObject {
   bool follows() const { return follows_; }
   void setFollows(bool follows);
 
-  /// A panel's pass; none as long as there is none of this object.
+  /// The pass of a panel; null while there is none of this object.
   const PassPlayer* player(int panel) const { return players_[std::size_t(panel)].get(); }
   bool hasPass() const;
-  /// Of the longest pass.
+  /// Number of steps of the longest pass.
   std::size_t stepCount() const;
 
-  /// All panels go to the same step, each as far as its pass leads, or the chosen one alone.
+  /// True if all panels go to the same step, each at most to the end of its pass; else only the chosen panel does.
   bool together() const { return together_; }
   void setTogether(bool together);
   int chosen() const { return chosen_; }
   void choose(int panel);
-  /// Holds the pass, and goes to a step in the panel, or in all.
+  /// Holds the pass, and goes to a step in the panel or in all panels.
   void setStep(int panel, std::size_t step);
-  /// The same for the chosen panel, or the furthest of all: by some steps, or to one end.
+  /// Moves by some steps, from the step of the chosen panel, or from the furthest of all.
   void stepBy(std::ptrdiff_t steps);
   void goTo(std::size_t step) { setStep(chosen_, step); }
 
   bool plays() const { return clock_.isActive(); }
   void setPlays(bool plays);
-  /// Steps a second.
+  /// Sets the speed in steps per second.
   void setSpeed(double speed) { speed_ = speed; }
 
  signals:
-  /// Other passes, another step, or another way to look.
+  /// The passes, the step or a setting has changed.
   void changed();
 
  private:
@@ -71,11 +71,11 @@ class Propagation : public QObject {
   bool follows_ = true;
   bool together_ = true;
   int chosen_ = 0;
-  QTimer fetch_;  // passes are fetched at a rate that can be read, however fast they come
-  QTimer clock_;  // of slow motion
+  QTimer fetch_;  // fetches passes at a rate that can be read
+  QTimer clock_;  // runs during slow motion
   QElapsedTimer sinceStep_;
   double speed_ = 5;
-  double due_ = 0;  // steps, and a part of one
+  double due_ = 0;  // steps still to make, with a fraction
 };
 
 }  // namespace chainmail

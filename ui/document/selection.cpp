@@ -28,7 +28,7 @@ std::vector<LinkId> linksAmong(const Mesh& mesh, const Cuts& cuts, const std::ve
   for (const ElementId e : elements) {
     for (EntryId entry = mesh.first_entry[e]; entry < mesh.first_entry[e + 1]; ++entry) {
       const ElementId other = mesh.neighbours[entry];
-      // Each link stands in two rows: it is taken from its smaller end.
+      // Each link is in two rows: take it from its smaller end.
       if (other > e && selected[other] && !cuts.is_cut(mesh.entry_link[entry])) {
         links.push_back(mesh.entry_link[entry]);
       }

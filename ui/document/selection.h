@@ -6,7 +6,7 @@
 
 namespace chainmail {
 
-/// The elements that the select tool chose, ascending, and the links, not cut, between two of them.
+/// The selected elements, ascending, and the uncut links between them.
 struct Selection {
   std::vector<ElementId> elements;
   std::vector<LinkId> links;
@@ -14,14 +14,14 @@ struct Selection {
   bool empty() const { return elements.empty(); }
 };
 
-/// What a stroke of the select tool does with what was selected before.
+/// What a stroke does with the previous selection.
 enum class SelectionMode { replace, add, remove };
 
-/// What is selected after a stroke over `hit`. All are ascending.
+/// Returns the selection after a stroke over the elements `hit`. All are ascending.
 std::vector<ElementId> combined(const std::vector<ElementId>& before, const std::vector<ElementId>& hit,
                                 SelectionMode mode);
 
-/// The links, not cut, whose two ends are among the elements; both ascending.
+/// Returns the uncut links between these elements; both ascending.
 std::vector<LinkId> linksAmong(const Mesh& mesh, const Cuts& cuts, const std::vector<ElementId>& elements);
 
 }  // namespace chainmail

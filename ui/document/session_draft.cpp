@@ -15,12 +15,12 @@ SessionDraft::SessionDraft(Document& document, std::string look) {
   session_.ui = std::move(look);
   for (int panel = 0; panel < document.panels(); ++panel) {
     session_.panels.push_back({document.algorithm(panel), Precision::single_precision, {}});
-    placements_.push_back(document.placement(panel).share());
+    placements_.push_back(document.snapshot(panel).share());
   }
 }
 
 Session SessionDraft::finished(const Progress& progress) const {
-  constexpr std::chrono::milliseconds patience(10);  // between two looks at whether it is still wanted
+  constexpr std::chrono::milliseconds patience(10);  // between two checks for cancellation
   Session result = session_;
   for (std::size_t panel = 0; panel < placements_.size(); ++panel) {
     while (placements_[panel].wait_for(patience) != std::future_status::ready) {
@@ -30,9 +30,9 @@ Session SessionDraft::finished(const Progress& progress) const {
       result.panels[panel].placement = placements_[panel].get();
     } catch (const std::future_error&) {
       if (panel == 0) {
-        throw Cancelled();  // a session without panels would take the place of a good one
+        throw Cancelled();  // a session without panels must not overwrite a good one
       }
-      result.panels.resize(panel);  // it was removed before its solver answered; those after it too
+      result.panels.resize(panel);  // this panel and those after it were removed before their solvers answered
       break;
     }
   }

@@ -8,15 +8,15 @@
 
 namespace chainmail {
 
-/// A session in the making. The window gives at once what it has, at the cost of some copies of pointers; where the
-/// elements stand the solvers tell, each when it has done what was asked of it before. Copies share that.
+/// A session that is being saved. The constructor copies pointers from the document; the solvers deliver the positions
+/// later, each after everything posted before. Copies of the draft share those.
 class SessionDraft {
  public:
-  /// `look` is the window's part.
+  /// `look` is the state of the window.
   SessionDraft(Document& document, std::string look);
 
   const MeshPointer& mesh() const { return session_.mesh; }
-  /// Waits for the solvers: not to be called by the window's thread. Throws Cancelled.
+  /// Waits for the solvers; do not call it in the GUI thread. Throws Cancelled.
   Session finished(const Progress& progress) const;
 
  private:

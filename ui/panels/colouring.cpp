@@ -53,7 +53,7 @@ Colouring::Colouring(const Document& document) : document_(document), truth_(doc
   connect(&document, &Document::cutsChanged, this, outdate);
   connect(&document, &Document::meshChanged, this, &Colouring::startOver);
   connect(&document, &Document::panelsChanged, this, &Colouring::followPanels);
-  connect(&truth_, &BackgroundTruth::changed, this, &Colouring::followTruth);
+  connect(&truth_, &BackgroundReference::changed, this, &Colouring::followTruth);
 }
 
 void Colouring::receiveFrame(int panel) {
@@ -139,11 +139,11 @@ QString Colouring::title(int panel) const {
 
 /// The error of a panel, first over what the reference itself moves: an object that does not move has about 1 of that.
 QString Colouring::errorInWords(const Work& work) const {
-  const BackgroundTruth::Answer& answer = *truth_.answer();
+  const BackgroundReference::Answer& answer = *truth_.answer();
   const QLocale locale;
   return QStringLiteral(" on the same cells: relative %1, nothing moves %2; RMS %3")
-      .arg(locale.toString(work.rms * answer.truth.handle_displacement / answer.rms, 'g', 3), locale.toString(answer.nothing, 'g', 3),
-           locale.toString(work.rms, 'g', 3));
+      .arg(locale.toString(work.rms * answer.solution.handle_displacement / answer.rms, 'g', 3),
+           locale.toString(answer.nothing, 'g', 3), locale.toString(work.rms, 'g', 3));
 }
 
 void Colouring::startOver() {

@@ -8,8 +8,8 @@
 #include <span>
 #include <string_view>
 
-#include "document/background_truth.h"
 #include "document/document.h"
+#include "document/background_reference.h"
 #include "drawing/colour_values.h"
 
 namespace chainmail {
@@ -76,7 +76,7 @@ class Colouring : public QObject {
     // As they were when the work began, by the panel: frames and softness may change meanwhile.
     std::array<Kept, Document::mostPanels> kept;
     std::shared_ptr<const Softness> softness;
-    std::shared_ptr<const BackgroundTruth::Answer> truth;
+    std::shared_ptr<const BackgroundReference::Answer> truth;
     double squares = 0, rms = 0;  // of what is being built, and of what is shown
   };
 
@@ -98,7 +98,7 @@ class Colouring : public QObject {
   ColourScale finished(ColourScale scale) const;
 
   const Document& document_;
-  BackgroundTruth truth_;
+  BackgroundReference truth_;
   ColourMode mode_ = ColourMode::plain;
   std::array<Work, Document::mostPanels> works_;
   std::array<ColourScale, Document::mostPanels> scales_;

@@ -151,10 +151,11 @@ float Colouring::error(const Work& work, int panel, ElementId element) const {
   double squared = 0;
   for (int k = 0; k < mesh.space_dimension; ++k) {
     const std::size_t at = std::size_t{element} * std::size_t(mesh.space_dimension) + std::size_t(k);
-    const double apart = double(work.kept[panel].positions[at]) - mesh.rest[at] - work.truth->truth.displacements[at];
+    const double apart =
+        double(work.kept[panel].positions[at]) - mesh.rest[at] - work.truth->solution.displacements[at];
     squared += apart * apart;
   }
-  return float(std::sqrt(squared) / work.truth->truth.hand);
+  return float(std::sqrt(squared) / work.truth->solution.hand);
 }
 
 }  // namespace chainmail

@@ -11,12 +11,12 @@
 namespace chainmail {
 namespace {
 
-constexpr double reach = 10;                // pixels
-constexpr float size = 7, markedSize = 12;  // pixels: a square's side
-constexpr float rim = 1.5F;                 // of the ground about it
-constexpr float lineWidth = 1.2F;
+constexpr double pointReach = 10;                     // pixels
+constexpr float pointSize = 7, markedPointSize = 12;  // pixels: a square's side
+constexpr float rim = 1.5F;                           // pixels: the background around a square
+constexpr float latticeWidth = 1.2F;
 
-Point positionOf(const Frame& frame, std::uint32_t point) {
+Point controlPointOf(const Frame& frame, std::uint32_t point) {
   const auto dimension = std::size_t(frame.mesh->space_dimension);
   std::array<double, 3> carried{};
   for (std::size_t k = 0; k < dimension; ++k) {
@@ -29,16 +29,16 @@ std::uint32_t countOf(const Frame& frame) {
   return std::uint32_t(frame.control_points.size() / std::size_t(frame.mesh->space_dimension));
 }
 
-std::vector<QVector3D> placesOf(const Frame& frame) {
-  std::vector<QVector3D> places;
+std::vector<QVector3D> controlPointsOf(const Frame& frame) {
+  std::vector<QVector3D> positions;
   for (std::uint32_t point = 0; point < countOf(frame); ++point) {
-    const Point at = positionOf(frame, point);
-    places.emplace_back(float(at.x()), float(at.y()), float(at.z()));
+    const Point at = controlPointOf(frame, point);
+    positions.emplace_back(float(at.x()), float(at.y()), float(at.z()));
   }
-  return places;
+  return positions;
 }
 
-/// Two triangles about a place that look at the eye.
+/// Adds a square around a point, of two triangles parallel to the screen.
 void addSquare(const Overlay::Canvas& canvas, const QVector3D& at, float side, std::vector<QVector3D>& corners) {
   const float half = side / 2 * float(canvas.unitsPerPixel);
   const QVector3D right = canvas.scene.toView.row(0).toVector3D().normalized() * half;
@@ -48,10 +48,10 @@ void addSquare(const Overlay::Canvas& canvas, const QVector3D& at, float side, s
   }
 }
 
-void drawSquares(const Overlay::Canvas& canvas, const std::vector<QVector3D>& places, float side, QColor colour) {
+void drawSquares(const Overlay::Canvas& canvas, const std::vector<QVector3D>& positions, float side, QColor colour) {
   for (const bool ground : {true, false}) {
     std::vector<QVector3D> corners;
-    for (const QVector3D& at : places) {
+    for (const QVector3D& at : positions) {
       addSquare(canvas, at, side + (ground ? 2 * rim : 0), corners);
     }
     canvas.painter.drawInSpace(canvas.scene, corners, ObjectDrawing::Shape::triangles,
@@ -67,29 +67,29 @@ const Frame* ControlPoints::frame(int panel) const {
   return has && !frame->control_points.empty() ? frame : nullptr;
 }
 
-std::optional<ControlPoints::Handle> ControlPoints::at(const View& view, QPointF place) const {
-  std::optional<Handle> nearest;
+std::optional<ControlPoints::PointId> ControlPoints::at(const View& view, QPointF place) const {
+  std::optional<PointId> nearest;
   if (const Frame* shown = frame(view.panel())) {
-    double least = reach;
+    double least = pointReach;
     for (std::uint32_t point = 0; point < countOf(*shown); ++point) {
-      const double apart = QLineF(place, view.placeOf(positionOf(*shown, point))).length();
+      const double apart = QLineF(place, view.placeOf(controlPointOf(*shown, point))).length();
       if (apart <= least) {
         least = apart;
-        nearest = Handle{view.panel(), point};
+        nearest = PointId{view.panel(), point};
       }
     }
   }
   return nearest;
 }
 
-Point ControlPoints::position(const Handle& handle) const {
-  const Frame* shown = frame(handle.panel);
-  return shown != nullptr && handle.point < countOf(*shown) ? positionOf(*shown, handle.point) : Point(Point::Zero());
+Point ControlPoints::position(const PointId& id) const {
+  const Frame* shown = frame(id.panel);
+  return shown != nullptr && id.point < countOf(*shown) ? controlPointOf(*shown, id.point) : Point(Point::Zero());
 }
 
-void ControlPoints::mark(const std::optional<Handle>& handle, bool held) {
-  if (handle != marked_ || held != held_) {
-    marked_ = handle;
+void ControlPoints::mark(const std::optional<PointId>& id, bool held) {
+  if (id != marked_ || held != held_) {
+    marked_ = id;
     held_ = held;
     emit changed();
   }
@@ -100,17 +100,17 @@ void ControlPoints::draw(const Canvas& canvas) {
   if (shown == nullptr || canvas.frame.control_points.empty()) {
     return;
   }
-  const std::vector<QVector3D> places = placesOf(canvas.frame);
-  drawLattice(canvas, places);
-  drawSquares(canvas, places, size, colours::marked);
-  if (marked_ && marked_->point < places.size()) {
-    drawSquares(canvas, {places[marked_->point]}, markedSize, held_ ? colours::lit : colours::marked);
+  const std::vector<QVector3D> positions = controlPointsOf(canvas.frame);
+  drawLattice(canvas, positions);
+  drawSquares(canvas, positions, pointSize, colours::marked);
+  if (marked_ && marked_->point < positions.size()) {
+    drawSquares(canvas, {positions[marked_->point]}, markedPointSize, held_ ? colours::lit : colours::marked);
   }
 }
 
-/// Lines between neighbours along each axis, the first of which runs fastest. A frame may be of another lattice than
-/// was set since: then its points stand alone.
-void ControlPoints::drawLattice(const Canvas& canvas, const std::vector<QVector3D>& places) const {
+/// Draws lines between neighbours along each axis; the first axis has the index that changes fastest. A frame may be
+/// older than the present lattice: then only its points are drawn.
+void ControlPoints::drawLattice(const Canvas& canvas, const std::vector<QVector3D>& positions) const {
   const Mesh& mesh = *canvas.frame.mesh;
   std::vector<std::size_t> counts;
   std::size_t all = 1;
@@ -118,7 +118,7 @@ void ControlPoints::drawLattice(const Canvas& canvas, const std::vector<QVector3
     counts.push_back(document_.elastic().lattice[std::size_t(mesh.axes[std::size_t(k)])]);
     all *= counts.back();
   }
-  if (all != places.size()) {
+  if (all != positions.size()) {
     return;
   }
   std::vector<QVector3D> ends;
@@ -126,12 +126,12 @@ void ControlPoints::drawLattice(const Canvas& canvas, const std::vector<QVector3
   for (std::size_t k = 0; k < counts.size(); stride *= counts[k], ++k) {
     for (std::size_t i = 0; i < all; ++i) {
       if (i / stride % counts[k] + 1 < counts[k]) {
-        ends.insert(ends.end(), {places[i], places[i + stride]});
+        ends.insert(ends.end(), {positions[i], positions[i + stride]});
       }
     }
   }
   canvas.painter.drawInSpace(canvas.scene, ends, ObjectDrawing::Shape::segments, QColor(colour_map::neutral),
-                             lineWidth);
+                             latticeWidth);
 }
 
 }  // namespace chainmail

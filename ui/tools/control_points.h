@@ -8,26 +8,26 @@
 
 namespace chainmail {
 
-/// The control points of free-form deformation with the lattice between them, in the panels that run it; the drag tool
-/// finds them here.
+/// Draws the control points of free-form deformation and their lattice, in the panels that run it, and finds the point
+/// under the cursor for the drag tool.
 class ControlPoints : public QObject, public Overlay {
   Q_OBJECT
 
  public:
   explicit ControlPoints(const Document& document) : document_(document) {}
 
-  /// One of a panel's.
-  struct Handle {
+  /// Names a control point of a panel.
+  struct PointId {
     int panel = 0;
     std::uint32_t point = 0;
-    bool operator==(const Handle&) const = default;
+    bool operator==(const PointId&) const = default;
   };
-  /// The nearest to a place of a view within the reach of a cursor.
-  std::optional<Handle> at(const View& view, QPointF place) const;
-  /// Where it stands (mesh units).
-  Point position(const Handle& handle) const;
-  /// The one that the cursor is at, or that the hand holds.
-  void mark(const std::optional<Handle>& handle, bool held = false);
+  /// Returns the nearest control point within 10 pixels of a place in a view.
+  std::optional<PointId> at(const View& view, QPointF place) const;
+  /// Returns its position (mesh units).
+  Point position(const PointId& id) const;
+  /// Marks the point under the cursor, or in the handle.
+  void mark(const std::optional<PointId>& id, bool held = false);
 
   void draw(const Canvas& canvas) override;
 
@@ -35,12 +35,12 @@ class ControlPoints : public QObject, public Overlay {
   void changed();
 
  private:
-  /// The frame of a panel that has control points.
+  /// Returns the frame of a panel; null unless it has control points.
   const Frame* frame(int panel) const;
-  void drawLattice(const Canvas& canvas, const std::vector<QVector3D>& places) const;
+  void drawLattice(const Canvas& canvas, const std::vector<QVector3D>& positions) const;
 
   const Document& document_;
-  std::optional<Handle> marked_;
+  std::optional<PointId> marked_;
   bool held_ = false;
 };
 

@@ -13,7 +13,7 @@ constexpr double shortestSegment = 2;  // pixels
 
 QString CutTool::hint() const {
   return QStringLiteral(
-      "Left: draw a stroke, release to cut the links it crosses in all panels  ·  Esc: give up  ·  Ctrl+Z: undo");
+      "Left: draw a stroke, release to cut the links it crosses in all panels  ·  Esc: cancel  ·  Ctrl+Z: undo");
 }
 
 void CutTool::hover(View& /*view*/, QPointF /*place*/) { document_.setHighlight({}); }
@@ -22,6 +22,7 @@ void CutTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modifiers
   at_ = &view;
   stroke_ = {place};
   crossed_.clear();
+  document_.setHighlight({});
 }
 
 void CutTool::move(View& view, QPointF place) {
@@ -33,9 +34,9 @@ void CutTool::move(View& view, QPointF place) {
     return;
   }
   stroke_.push_back(place);
-  const auto crossed = frontOnly_ ? view.frontLinksCrossing(segment) : view.linksCrossing(segment);
-  crossed_.insert(crossed.begin(), crossed.end());
-  document_.setHighlight({std::nullopt, false, {crossed_.begin(), crossed_.end()}});
+  auto crossed = frontOnly_ ? view.frontLinksCrossing(segment) : view.linksCrossing(segment);
+  std::erase_if(crossed, [this](LinkId link) { return !crossed_.insert(link).second; });
+  document_.addToHighlight(crossed);
   view.update();
 }
 

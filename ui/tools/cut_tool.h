@@ -8,8 +8,8 @@
 
 namespace chainmail {
 
-/// Draws a stroke; the links that it crosses light up, and are cut in all panels on release: through the whole object,
-/// or in its front layer alone.
+/// Draws a stroke and highlights the links that it crosses; release cuts them in all panels. The stroke cuts through
+/// the whole object, or only its front layer.
 class CutTool : public Tool {
  public:
   explicit CutTool(Document& document) : document_(document) {}
@@ -31,9 +31,9 @@ class CutTool : public Tool {
  private:
   Document& document_;
   bool frontOnly_ = false;
-  const View* at_ = nullptr;  // the view that the stroke is drawn in
+  const View* at_ = nullptr;  // the view of the stroke; null when there is none
   std::vector<QPointF> stroke_;
-  std::set<LinkId> crossed_;
+  std::set<LinkId> crossed_;  // by the stroke so far
 };
 
 }  // namespace chainmail

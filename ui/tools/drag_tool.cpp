@@ -11,7 +11,7 @@ QString DragTool::hint() const {
 
 void DragTool::hover(View& view, QPointF place) {
   if (busy()) {
-    cancel();  // no button is down: its release went to someone else, a dialog say
+    cancel();  // no button is down: the release went elsewhere, for example to a dialog
   }
   const auto point = controlPoints_.at(view, place);
   controlPoints_.mark(point);
@@ -28,7 +28,7 @@ bool DragTool::pressOnPoint(View& view, QPointF place) {
   point_ = controlPoints_.at(view, place);
   if (point_) {
     start_ = controlPoints_.position(*point_);
-    hand_ = view.pointAt(place, start_);
+    grip_ = view.pointAt(place, start_);
     controlPoints_.mark(point_, true);
     document_.grabControlPoint(point_->point);
   }
@@ -41,12 +41,12 @@ void DragTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modifier
     return;
   }
   if (document_.isPinned(*element)) {
-    document_.grab(*element);  // refused, and the refusal says why
+    document_.grab(*element);  // is refused, and the message says why
     return;
   }
   grabbed_ = element;
   start_ = view.position(*element);
-  hand_ = view.pointAt(place, start_);
+  grip_ = view.pointAt(place, start_);
   document_.setHighlight({element, true, {}});
   document_.grab(*element);
 }
@@ -55,7 +55,7 @@ void DragTool::move(View& view, QPointF place) {
   if (!busy()) {
     return;
   }
-  const QVector3D travel = view.pointAt(place, start_) - hand_;
+  const QVector3D travel = view.pointAt(place, start_) - grip_;
   const Point target = start_ + Point(travel.x(), travel.y(), travel.z());
   grabbed_ ? document_.drag(target) : document_.dragControlPoint(target);
 }

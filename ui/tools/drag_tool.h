@@ -9,8 +9,8 @@
 
 namespace chainmail {
 
-/// Takes hold of the element under the cursor and moves it in all panels, in the plane parallel to the
-/// view through the element; or of a control point of free-form deformation, where one is nearer.
+/// Grabs the element under the cursor and moves it in all panels, in the plane through the element that is parallel to
+/// the view. Near a control point of free-form deformation, grabs and moves that point instead.
 class DragTool : public Tool {
  public:
   DragTool(Document& document, ControlPoints& controlPoints) : document_(document), controlPoints_(controlPoints) {}
@@ -34,9 +34,9 @@ class DragTool : public Tool {
   Document& document_;
   ControlPoints& controlPoints_;
   std::optional<ElementId> grabbed_;
-  std::optional<ControlPoints::Handle> point_;
-  Point start_ = Point::Zero();  // where what is held was taken (mesh units)
-  QVector3D hand_;               // where the cursor was then, in the same plane
+  std::optional<ControlPoints::PointId> point_;
+  Point start_ = Point::Zero();  // position when it was grabbed (mesh units)
+  QVector3D grip_;               // position of the cursor then, in the same plane
 };
 
 }  // namespace chainmail

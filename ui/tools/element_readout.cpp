@@ -35,12 +35,12 @@ void ElementReadout::setHint(const QString& hint) {
 
 void ElementReadout::showWhatIs() {
   const auto& element = document_.highlight().element;
-  // At the end of what is measured the distance is the news.
+  // At an end of the measured distance, the distance is more useful.
   const bool measured = element && (element == measurement_.from() || element == measurement_.to());
   setText(element && !measured ? describe(*element) : measurement_.from() ? measurement_.sentence() : hint_);
 }
 
-/// The panel under the cursor first, the others beside it.
+/// Describes the element in all panels; the panel under the cursor comes first.
 QString ElementReadout::describe(ElementId element) const {
   const int first = hovered_();
   QString places;

@@ -8,13 +8,13 @@
 
 namespace chainmail {
 
-/// The status bar's line: what is known of the element under the cursor, else of what is measured, else what the
-/// mouse does. While the mouse and the object rest it does nothing.
+/// The text in the status bar: data of the element under the cursor, else the measured distance, else the hint of the
+/// tool. It does nothing while neither the mouse nor the object moves.
 class ElementReadout : public QLabel {
   Q_OBJECT
 
  public:
-  /// `hovered` says which panel the cursor is over.
+  /// `hovered` returns the panel under the cursor.
   ElementReadout(const Document& document, const Measurement& measurement, std::function<int()> hovered);
 
   void setHint(const QString& hint);
@@ -27,7 +27,7 @@ class ElementReadout : public QLabel {
   const Measurement& measurement_;
   std::function<int()> hovered_;
   QString hint_;
-  QTimer refresh_;  // figures change at a rate that can be read
+  QTimer refresh_;  // limits changes to a rate that can be read
 };
 
 }  // namespace chainmail

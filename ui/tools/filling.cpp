@@ -9,15 +9,15 @@
 namespace chainmail {
 namespace {
 
-// From a third of the surface's mean link to three of them, evenly in logarithms: what is much finer than its surface
-// takes minutes.
+// Range of the edge length, from 1/3 to 3 of the surface's mean link length, on a logarithmic slider. Much shorter
+// edges would take minutes.
 constexpr double widest = 3;
-constexpr int sliderSteps = 200;  // to either side
+constexpr int sliderSteps = 200;  // on either side of the middle
 
-// More take minutes and are too many for a hand.
+// More would take minutes, and are too many for dragging.
 constexpr double mostElements = 2e6;
 
-/// To two digits.
+/// Rounds to two digits.
 double roughly(double number) {
   const double unit = std::pow(10, std::floor(std::log10(number)) - 1);
   return unit * std::round(number / unit);
@@ -38,7 +38,7 @@ bool isSurfaceInSpace(const Mesh& mesh) { return mesh.object_dimension == 2 && m
 
 Filling::Filling(Document& document, Jobs& jobs)
     : AskBar(QStringLiteral("fill"), QStringLiteral("&Fill"),
-             QStringLiteral("Puts a volume of tetrahedra in the surface's place, as a step of undo")),
+             QStringLiteral("Replaces the surface with a volume of tetrahedra, as one step of undo")),
       document_(document),
       jobs_(jobs),
       size_(new QDoubleSpinBox),
@@ -54,13 +54,12 @@ Filling::Filling(Document& document, Jobs& jobs)
 
 void Filling::makeFields() {
   size_->setObjectName(QStringLiteral("fillSize"));
-  size_->setAccessibleName(QStringLiteral("Length of edges within, in mesh units"));
-  size_->setToolTip(
-      QStringLiteral("About how long the edges of tetrahedra become, in mesh units; the surface keeps "
-                     "its own"));
+  size_->setAccessibleName(QStringLiteral("Edge length inside (mesh units)"));
+  size_->setToolTip(QStringLiteral(
+      "Approximate edge length of the tetrahedra, in mesh units; the edges of the surface stay the same"));
   slider_->setObjectName(QStringLiteral("fillSlider"));
-  slider_->setAccessibleName(QStringLiteral("Length of edges within, on a slider"));
-  slider_->setToolTip(QStringLiteral("From a third of the surface's mean link to three of them"));
+  slider_->setAccessibleName(QStringLiteral("Edge length inside, slider"));
+  slider_->setToolTip(QStringLiteral("From 1/3 to 3 times the mean link length of the surface"));
   slider_->setRange(-sliderSteps, sliderSteps);
   slider_->setMinimumWidth(60);
   addField(QStringLiteral("&Edges of"), size_);
@@ -77,8 +76,9 @@ void Filling::adapt() {
   hide();
   const bool surface = isSurfaceInSpace(*document_.mesh());
   action_->setEnabled(surface);
-  action_->setStatusTip(surface ? QStringLiteral("Makes a volume of this surface, if it is closed; asks how fine")
-                                : QStringLiteral("This object is no surface in space: nothing can be filled"));
+  action_->setStatusTip(
+      surface ? QStringLiteral("Makes a volume of this surface, which must be closed; asks for the edge length")
+              : QStringLiteral("This object is not a surface in 3D: it cannot be filled"));
 }
 
 void Filling::askSize() {

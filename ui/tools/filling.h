@@ -10,8 +10,7 @@
 
 namespace chainmail {
 
-/// Fills the object, where it is a closed surface, with tetrahedra: asks how long their edges are to be, and works in
-/// the background.
+/// Fills a closed surface with tetrahedra: asks for their edge length, and works in the background.
 class Filling : public AskBar {
   Q_OBJECT
 
@@ -32,7 +31,7 @@ class Filling : public AskBar {
   QDoubleSpinBox* size_;
   QSlider* slider_;
   QAction* action_ = nullptr;
-  double volume_ = 0;  // enclosed, where it is closed (mesh units cubed)
+  double volume_ = 0;  // enclosed by the surface (mesh units cubed)
 };
 
 }  // namespace chainmail

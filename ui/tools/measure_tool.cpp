@@ -28,7 +28,7 @@ void MeasureTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modif
   }
 }
 
-/// What is measured stays while the elements are dragged with another tool.
+/// A measured distance stays while another tool drags the elements.
 void MeasureTool::cancel() {
   if (busy()) {
     measurement_.clear();

@@ -5,7 +5,7 @@
 
 namespace chainmail {
 
-/// Measures the distance from one element to another: a click each.
+/// Measures the distance between two elements, with a click on each.
 class MeasureTool : public Tool {
  public:
   MeasureTool(Document& document, Measurement& measurement) : document_(document), measurement_(measurement) {}

@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-/// 'rest 3, × 1.07': of a link of no length at rest there is no ratio.
+/// Returns 'rest 3, × 1.07'; without the ratio if the distance is 0 at rest.
 QString besideRest(const Measurement::Figures& figures) {
   const QString rest = QStringLiteral("rest %1").arg(figure(figures.rest));
   return figures.rest > 0 ? QStringLiteral("%1, × %2").arg(rest, QLocale().toString(figures.now / figures.rest, 'f', 3))

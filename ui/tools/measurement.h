@@ -5,7 +5,7 @@
 
 namespace chainmail {
 
-/// The distance between two elements, in every panel; it stays with the elements as they move.
+/// The distance between two elements in every panel; it follows the elements when they move.
 class Measurement : public QObject, public Overlay {
   Q_OBJECT
 
@@ -14,20 +14,21 @@ class Measurement : public QObject, public Overlay {
 
   const std::optional<ElementId>& from() const { return from_; }
   const std::optional<ElementId>& to() const { return to_; }
-  /// Whether both ends are chosen for good: before, `to` is what the cursor is at.
+  /// True when both ends are chosen; before, `to` is the element under the cursor.
   bool complete() const { return complete_; }
   void begin(ElementId from);
   void lead(std::optional<ElementId> to);
   void end(ElementId to);
   void clear();
 
-  /// In mesh units; both ends must be there.
+  /// In mesh units.
   struct Figures {
-    Point apart;  // from one to the other
+    Point apart;  // vector from the first element to the second
     double now, rest;
   };
+  /// Both ends must be chosen.
   Figures figures(int panel) const;
-  /// All panels' figures in a line; empty where nothing is measured.
+  /// Returns the figures of all panels in one line; empty if nothing is measured.
   QString sentence() const;
   void draw(const Canvas&) override {}
   std::vector<Annotation> annotations(const View& view) const override;

@@ -8,13 +8,13 @@ namespace chainmail {
 
 PinBar::PinBar(Document& document, PinLayers& layers)
     : AskBar(QStringLiteral("pins"), QStringLiteral("Pin &bottom layer"),
-             QStringLiteral("Pins the layer that the object stands on, where it is, as one step of undo")),
+             QStringLiteral("Pins the bottom layer at its present positions, as one step of undo")),
       document_(document),
       layers_(layers) {
   addChoices();
   connect(this, &AskBar::agreed, this, [this] { layers_.pin(layers_.foot()); });
   connect(&document, &Document::unpinned, this, &PinBar::await);
-  // A drag that ends is a step.
+  // The end of a drag is a step of undo.
   connect(&document.undoStack(), &QUndoStack::indexChanged, this, &PinBar::offer);
   connect(&document, &Document::pinsChanged, this, &PinBar::follow);
   connect(&document, &Document::meshChanged, this, &PinBar::follow);
@@ -30,10 +30,11 @@ void PinBar::addChoices() {
     addAnswer(button);
     return button;
   };
-  auto* boundary = add("pinsBoundary", QStringLiteral("Pin b&oundary"),
-                       QStringLiteral("Pins all elements on the boundary where they are, as one step of undo"));
+  auto* boundary =
+      add("pinsBoundary", QStringLiteral("Pin b&oundary"),
+          QStringLiteral("Pins all elements on the boundary at their present positions, as one step of undo"));
   auto* byHand = add("pinsByHand", QStringLiteral("Pin by &hand"),
-                     QStringLiteral("Takes up the pin tool: click the elements that are to hold the object"));
+                     QStringLiteral("Switches to the pin tool: click the elements to pin"));
   connect(boundary, &QPushButton::clicked, this, [this] { layers_.pinBoundary(); });
   connect(byHand, &QPushButton::clicked, this, [this] {
     hide();
@@ -42,7 +43,7 @@ void PinBar::addChoices() {
   byHand_ = byHand;
 }
 
-/// The panels stay where they are under the hand.
+/// Asks when the drag ends: the bar must not move the panels during a drag.
 void PinBar::await(int panel) {
   panel_ = panel;
   awaits_ = !asked_;

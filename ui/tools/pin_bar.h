@@ -2,12 +2,12 @@
 
 #include "common/ask_bar.h"
 #include "document/document.h"
-#include "document/pin_layers.h"
+#include "tools/pin_layers.h"
 
 namespace chainmail {
 
-/// Offers pins where a panel has no static answer, because nothing holds the object. It asks once the hand has let go,
-/// and not again until another algorithm runs, another object is there, or pins came and went.
+/// Offers to pin the object if a panel has no static answer because nothing is pinned. It asks when the drag has ended,
+/// and asks again only after a change of an algorithm, the object or the pins.
 class PinBar : public AskBar {
   Q_OBJECT
 
@@ -15,7 +15,7 @@ class PinBar : public AskBar {
   PinBar(Document& document, PinLayers& layers);
 
  signals:
-  /// The user wants to pin by hand.
+  /// The user wants to pin with the pin tool.
   void byHandChosen();
 
  private:
@@ -26,8 +26,8 @@ class PinBar : public AskBar {
 
   Document& document_;
   PinLayers& layers_;
-  int panel_ = 0;        // the one that was found without an answer
-  bool awaits_ = false;  // the hand to let go
+  int panel_ = 0;        // the panel without an answer
+  bool awaits_ = false;  // waits for the end of the drag
   bool asked_ = false;
   QWidget* byHand_ = nullptr;
 };

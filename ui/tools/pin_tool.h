@@ -5,7 +5,7 @@
 
 namespace chainmail {
 
-/// Pins the element under the cursor where it stands, or lets it go again.
+/// Pins the element under the cursor at its present position, or unpins it.
 class PinTool : public Tool {
  public:
   explicit PinTool(Document& document) : document_(document) {}

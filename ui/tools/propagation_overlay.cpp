@@ -1,29 +1,91 @@
 #include "tools/propagation_overlay.h"
 
 #include <QLocale>
+#include <QVector3D>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "drawing/colour_map.h"
-#include "tools/sponsor_arrows.h"
 
 namespace chainmail {
 namespace {
 
-// More hide each other, and cost time: of more, evenly some are drawn.
+// More steps hide each other and take time: then only every n-th step is drawn.
 constexpr std::size_t stepsDrawn = 10'000;
 constexpr std::size_t waitingDrawn = 2'000;
 constexpr float arrowWidth = 1.8F, currentWidth = 3.5F;  // pixels
 constexpr double shareOfLink = 0.42, smallestDisc = 3, largestDisc = 13;
-constexpr float currentRing = 11, grabbedSize = 13;  // pixels more than a disc; pixels
+constexpr float currentRing = 11, grabbedSize = 13;  // pixels: added to a disc; absolute
+constexpr float headPixels = 8;
+constexpr float headWidth = 0.45F;    // fraction of the head length, to either side
+constexpr float largestHead = 0.35F;  // fraction of the arrow length
+constexpr float smallestArrow = 2;    // pixels between the gaps; shorter arrows have no gaps
 
-/// Every how manieth step is drawn.
-std::size_t stride(const PassPlayer& player) { return 1 + player.step() / (stepsDrawn + 1); }
+/// Returns n, where every n-th step is drawn.
+std::size_t drawnEvery(const PassPlayer& player) { return 1 + player.step() / (stepsDrawn + 1); }
 
 float discSize(const Overlay::Canvas& canvas) {
   return float(
       std::clamp(shareOfLink * canvas.frame.mesh->mean_link_length / canvas.unitsPerPixel, smallestDisc, largestDisc));
 }
+
+/// Returns the position of an element of a frame (mesh units).
+QVector3D elementPosition(const Frame& frame, ElementId element) {
+  const int dimension = frame.mesh->space_dimension;
+  double carried[3]{};
+  std::copy_n(frame.positions.data() + std::size_t{element} * std::size_t(dimension), dimension, carried);
+  const Point point = frame.mesh->to_point(carried);
+  return {float(point.x()), float(point.y()), float(point.z())};
+}
+
+/// Arrows from sponsors to the elements that they have updated, as pairs of ends. An arrow to an element that did not
+/// move has no head.
+class SponsorArrows {
+ public:
+  /// `gap` (logical pixels across) stays free around the marked elements.
+  SponsorArrows(const Overlay::Canvas& canvas, float gap)
+      : frame_(canvas.frame),
+        toEye_(canvas.scene.toView.row(2).toVector3D().normalized()),
+        gap_(gap / 2 * float(canvas.unitsPerPixel)),
+        head_(headPixels * float(canvas.unitsPerPixel)) {}
+
+  /// Adds the arrow of a step, if it has a sponsor; its value is the step.
+  void add(const TraceRow& row, std::size_t step) {
+    if (row.sponsor == no_element) {
+      return;
+    }
+    QVector3D from = elementPosition(frame_, row.sponsor), to = elementPosition(frame_, row.element);
+    const float length = (to - from).length();
+    const QVector3D along = (to - from).normalized();
+    if (length > 2 * gap_ + smallestArrow * head_ / headPixels) {
+      from += along * gap_;
+      to -= along * gap_;
+    }
+    add(from, to, step);
+    if (row.moved) {
+      const float head = std::min(head_, largestHead * (to - from).length());
+      const QVector3D aside = QVector3D::crossProduct(along, toEye_).normalized() * (headWidth * head);
+      add(to - along * head + aside, to, step);
+      add(to - along * head - aside, to, step);
+    }
+  }
+
+  const std::vector<QVector3D>& ends() const { return ends_; }
+  const std::vector<float>& values() const { return values_; }
+
+ private:
+  void add(const QVector3D& from, const QVector3D& to, std::size_t step) {
+    ends_.insert(ends_.end(), {from, to});
+    values_.insert(values_.end(), 2, float(step));
+  }
+
+  const Frame& frame_;
+  QVector3D toEye_;
+  float gap_, head_;  // mesh units
+  std::vector<QVector3D> ends_;
+  std::vector<float> values_;
+};
 
 }  // namespace
 
@@ -64,7 +126,7 @@ QString PropagationOverlay::note(int panel) const {
     note += QStringLiteral(", step %1 of %2")
                 .arg(locale.toString(qulonglong(player->step())), locale.toString(qulonglong(player->stepCount())));
   }
-  if (const std::size_t every = stride(*player); every > 1) {
+  if (const std::size_t every = drawnEvery(*player); every > 1) {
     note += QStringLiteral(", 1 step in %1 drawn").arg(every);
   }
   return note;
@@ -84,30 +146,30 @@ void PropagationOverlay::draw(const Canvas& canvas) {
 
 void PropagationOverlay::drawArrows(const Canvas& canvas, const PassPlayer& player) const {
   SponsorArrows arrows(canvas, discSize(canvas));
-  for (std::size_t row = 0; row < player.step(); row += stride(player)) {
+  for (std::size_t row = 0; row < player.step(); row += drawnEvery(player)) {
     arrows.add(player.pass().trace[row], row + 1);
   }
-  canvas.painter.drawValued(canvas.scene, arrows.places(), arrows.values(), scale(), ObjectDrawing::Shape::segments,
+  canvas.painter.drawValued(canvas.scene, arrows.ends(), arrows.values(), scale(), ObjectDrawing::Shape::segments,
                             arrowWidth);
 }
 
-/// Those that moved as discs, those that stayed as rings.
+/// Draws elements that moved as discs, and the others as rings.
 void PropagationOverlay::drawElements(const Canvas& canvas, const PassPlayer& player) const {
   for (const bool moved : {false, true}) {
-    std::vector<QVector3D> places;
+    std::vector<QVector3D> positions;
     std::vector<float> values;
-    for (std::size_t row = 0; row < player.step(); row += stride(player)) {
+    for (std::size_t row = 0; row < player.step(); row += drawnEvery(player)) {
       if (player.pass().trace[row].moved == moved) {
-        places.push_back(placeOf(canvas.frame, player.pass().trace[row].element));
+        positions.push_back(elementPosition(canvas.frame, player.pass().trace[row].element));
         values.push_back(float(row + 1));
       }
     }
-    canvas.painter.drawValued(canvas.scene, places, values, scale(),
+    canvas.painter.drawValued(canvas.scene, positions, values, scale(),
                               moved ? ObjectDrawing::Shape::discs : ObjectDrawing::Shape::rings, discSize(canvas));
   }
 }
 
-/// The hand, what waits, and the candidate that was taken last.
+/// Draws the grabbed element, the waiting list, and the last candidate.
 void PropagationOverlay::drawFront(const Canvas& canvas, const PassPlayer& player) const {
   const auto mark = [&](std::span<const ElementId> elements, QColor colour, float size, ObjectDrawing::Mark shape) {
     canvas.painter.drawElements(canvas.scene, elements, colour, size, shape);
@@ -130,7 +192,7 @@ void PropagationOverlay::drawFront(const Canvas& canvas, const PassPlayer& playe
     mark(std::span(&current.element, 1), colours::marked, disc + currentRing, ObjectDrawing::Mark::ring);
     SponsorArrows arrow(canvas, disc);
     arrow.add(current, player.step());
-    canvas.painter.drawInSpace(canvas.scene, arrow.places(), ObjectDrawing::Shape::segments, colours::marked,
+    canvas.painter.drawInSpace(canvas.scene, arrow.ends(), ObjectDrawing::Shape::segments, colours::marked,
                                currentWidth);
   }
 }

@@ -5,8 +5,7 @@
 
 namespace chainmail {
 
-/// What a pass did, drawn over the objects: elements coloured by the order in which they were updated, and arrows to
-/// each from its sponsor.
+/// Draws a pass over the objects: elements coloured by the order of their updates, and arrows from their sponsors.
 class PropagationOverlay : public Overlay {
  public:
   explicit PropagationOverlay(const Propagation& propagation) : propagation_(propagation) {}
@@ -18,7 +17,7 @@ class PropagationOverlay : public Overlay {
   void draw(const Canvas& canvas) override;
   QString note(int panel) const override;
   std::optional<OverlayLegend> legend(int panel) const override;
-  /// One scale for all panels: from the first step to the last of the longest pass.
+  /// The colour scale, the same for all panels: from the first step to the last one of the longest pass.
   ColourScale scale() const;
 
  private:

@@ -9,7 +9,7 @@
 namespace chainmail {
 namespace {
 
-constexpr double smallestRectangle = 4;  // pixels: below, it was a click
+constexpr double smallestRectangle = 4;  // pixels: a smaller one is a click
 constexpr int circleCorners = 48;
 
 SelectionMode modeOf(Qt::KeyboardModifiers modifiers) {
@@ -23,7 +23,8 @@ SelectionMode modeOf(Qt::KeyboardModifiers modifiers) {
 }  // namespace
 
 QString SelectTool::hint() const {
-  return QStringLiteral("Left: select elements, those behind too  ·  Shift: add  ·  Ctrl or Alt: remove  ·  Esc: none");
+  return QStringLiteral(
+      "Left: select elements, also hidden ones  ·  Shift: add  ·  Ctrl or Alt: remove  ·  Esc: deselect all");
 }
 
 void SelectTool::setShape(Shape shape) {
@@ -33,7 +34,7 @@ void SelectTool::setShape(Shape shape) {
 
 void SelectTool::hover(View& view, QPointF place) {
   if (pressed_) {
-    cancel();  // no button is down: its release went to someone else
+    cancel();  // no button is down: the release went elsewhere
   }
   document_.setHighlight({});
   at_ = &view;
@@ -90,7 +91,7 @@ void SelectTool::release(View& view, QPointF place) {
   hover(view, place);
 }
 
-/// Lives on every step of the stroke, so that one sees what it takes.
+/// Selects during the stroke, so that the user sees the result.
 void SelectTool::brush(View& view, QLineF along) {
   const QRectF bounds = QRectF(along.p1(), along.p2()).normalized().adjusted(-radius_, -radius_, radius_, radius_);
   const auto reached =

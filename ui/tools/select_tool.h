@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// Selects elements: all in a rectangle, or all that a brush passes over, those behind others too.
+/// Selects all elements in a rectangle or under the strokes of a brush, including hidden ones.
 class SelectTool : public Tool {
  public:
   enum class Shape { rectangle, brush };
@@ -42,12 +42,12 @@ class SelectTool : public Tool {
   Document& document_;
   Shape shape_ = Shape::rectangle;
   int radius_ = standardRadius;
-  const View* at_ = nullptr;  // the view that the outline is drawn in
+  const View* at_ = nullptr;  // the view of the outline
   bool pressed_ = false;
   SelectionMode mode_ = SelectionMode::replace;
   QPointF start_, last_;
-  MeshPointer mesh_;               // what the stroke began on
-  std::vector<ElementId> before_;  // and what was selected then
+  MeshPointer mesh_;               // when the stroke started
+  std::vector<ElementId> before_;  // selected when the stroke started
   std::vector<ElementId> hit_;
   std::vector<QPointF> outline_;
 };

@@ -9,7 +9,7 @@
 namespace chainmail {
 namespace {
 
-// More boxes hide each other, and cost time.
+// More boxes hide each other and take time.
 constexpr std::size_t elementsShown = 8;
 constexpr std::size_t regionsOfEach = 200;
 constexpr double faceOpacity = 0.1;
@@ -24,8 +24,8 @@ ValidRegions::ValidRegions(const Document& document)
   shown_->setCheckable(true);
   shown_->setShortcut(Qt::Key_V);
   shown_->setStatusTip(
-      QStringLiteral("Debugging view: where the neighbours of the element under the cursor may lie; solid and ringed: "
-                     "it is inside; dashed and crossed: it is outside"));
+      QStringLiteral("Shows the valid regions of the neighbours of the element under the cursor; solid with a ring: "
+                     "the neighbour is inside; dashed with a cross: it is outside"));
   connect(shown_, &QAction::toggled, this, &ValidRegions::changed);
   const auto follow = [this] {
     if (shown_->isChecked()) {
@@ -38,7 +38,7 @@ ValidRegions::ValidRegions(const Document& document)
 }
 
 void ValidRegions::fill(QMenu& menu) {
-  shown_->setParent(&menu);  // found there, as all of the window's actions are
+  shown_->setParent(&menu);  // where all actions of the window are found
   menu.addAction(shown_);
 }
 
@@ -60,19 +60,19 @@ QString ValidRegions::note(int /*panel*/) const {
   const auto all = elements();
   if (all.empty()) {
     return document_.selection().elements.size() > elementsShown
-               ? QStringLiteral("valid regions: of up to %1 selected elements").arg(elementsShown)
+               ? QStringLiteral("valid regions: shown for up to %1 selected elements").arg(elementsShown)
                : QStringLiteral("valid regions: point at an element");
   }
   const bool tooMany = std::any_of(all.begin(), all.end(), [this](ElementId e) {
     return e < document_.mesh()->element_count() && document_.mesh()->neighbours_of(e).size() > regionsOfEach;
   });
-  return tooMany ? QStringLiteral("valid regions: of the first %1 neighbours").arg(regionsOfEach) : QString();
+  return tooMany ? QStringLiteral("valid regions: shown for the first %1 neighbours").arg(regionsOfEach) : QString();
 }
 
 void ValidRegions::draw(const Canvas& canvas) {
   for (const ElementId element : elements()) {
     if (element >= canvas.frame.mesh->element_count()) {
-      continue;  // of the mesh before
+      continue;  // it belongs to the previous mesh
     }
     for (const auto& region : neighbour_regions(*canvas.frame.mesh, *document_.wholeSoftness(), document_.cuts(),
                                                 canvas.frame.view(), element, regionsOfEach)) {
@@ -81,7 +81,8 @@ void ValidRegions::draw(const Canvas& canvas) {
   }
 }
 
-/// Told apart by line and mark, not by colour alone; what is outside is joined to where it would have to be.
+/// Draws a region. Lines and marks show whether the neighbour is inside, not only colours. A line joins a neighbour
+/// outside to the nearest point inside.
 void ValidRegions::draw(const Canvas& canvas, const NeighbourRegion& region) const {
   const QColor colour = region.inside ? colours::inside : colours::outside;
   const RegionShape shape(region, canvas.scene.toView, canvas.frame.mesh->space_dimension, canvas.unitsPerPixel);

@@ -13,24 +13,24 @@ class QMenu;
 namespace chainmail {
 
 /// The debugging view (Dean 2004, 5.3): draws the valid regions of the neighbours of the element under the cursor or in
-/// the hand, or else of the few that are selected, about where each stands.
+/// the handle, else of the selected elements if they are few.
 class ValidRegions : public QObject, public Overlay {
   Q_OBJECT
 
  public:
   explicit ValidRegions(const Document& document);
 
-  /// Adds the switch to a menu.
+  /// Adds its action to a menu.
   void fill(QMenu& menu);
   void draw(const Canvas& canvas) override;
   QString note(int panel) const override;
 
  signals:
-  /// There is something else to paint.
+  /// The picture has changed.
   void changed();
 
  private:
-  /// Whose neighbours' regions are drawn.
+  /// Returns the elements whose neighbours are shown.
   std::vector<ElementId> elements() const;
   void draw(const Canvas& canvas, const NeighbourRegion& region) const;
 

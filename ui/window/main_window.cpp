@@ -13,7 +13,6 @@
 #include <algorithm>
 
 #include "common/icons.h"
-#include "document/pin_layers.h"
 #include "io/file_actions.h"
 #include "io/recovery_bar.h"
 #include "io/sessions.h"
@@ -26,6 +25,7 @@
 #include "tools/element_readout.h"
 #include "tools/filling.h"
 #include "tools/pin_bar.h"
+#include "tools/pin_layers.h"
 #include "window/axis_views.h"
 #include "window/camera_actions.h"
 #include "window/help_menu.h"

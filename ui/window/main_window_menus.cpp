@@ -6,11 +6,11 @@
 #include <QMenuBar>
 #include <QToolBar>
 
-#include "document/pin_layers.h"
 #include "io/file_actions.h"
 #include "io/picture_actions.h"
 #include "panels/colour_selector.h"
 #include "tools/filling.h"
+#include "tools/pin_layers.h"
 #include "window/axis_views.h"
 #include "window/camera_actions.h"
 #include "window/help_menu.h"

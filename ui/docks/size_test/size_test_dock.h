@@ -10,7 +10,7 @@
 #include <functional>
 #include <memory>
 
-#include "common/window_rest.h"
+#include "docks/size_test/window_rest.h"
 #include "docks/size_test/size_test_choices.h"
 #include "docks/size_test/size_test_stage.h"
 #include "docks/size_test/size_test_table.h"

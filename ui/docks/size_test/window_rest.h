@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// As long as it lives, nothing of a window acts but one dock and the actions named: what it disabled it enables again.
+/// Disables a window except one dock and some actions, as long as this object lives; then enables it again.
 class WindowRest {
  public:
   WindowRest(QMainWindow& window, const QWidget& dock, const QStringList& actions);

@@ -1,4 +1,4 @@
-#include "document/background_truth.h"
+#include "document/background_reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int restMilliseconds = 300;
 constexpr int progressMilliseconds = 200;
-// Of the mean rest length: a pin that a frame shows this near to rest stands there, but for rounding.
+// Fraction of the mean link length: a pin nearer to its rest position is at rest, apart from rounding.
 constexpr double atRest = 1e-5;
 
 bool alike(const ElasticProblem& one, const ElasticProblem& other) {
@@ -21,10 +21,10 @@ bool alike(const ElasticProblem& one, const ElasticProblem& other) {
 
 }  // namespace
 
-/// Keeps what was prepared for a problem. Belongs to one thread at a time.
-class BackgroundTruth::Worker {
+/// Keeps the prepared solver of a problem. Used by one thread at a time.
+class BackgroundReference::Worker {
  public:
-  Answer answer(const ElasticProblem& problem, const Hand& hand, const Progress& progress) {
+  Answer answer(const ElasticProblem& problem, const Handle& handle, const Progress& progress) {
     if (!solver_ || !alike(*problem_, problem)) {
       solver_.reset();
       problem_ = problem;
@@ -32,9 +32,9 @@ class BackgroundTruth::Worker {
     }
     Answer answer;
     answer.mesh = problem.mesh;
-    answer.truth = solver_->at(hand.element, hand.target, progress.part(0.3, 1));
-    answer.rms = rms_displacement(*answer.mesh, answer.truth);
-    answer.nothing = error_of_nothing_moving(*answer.mesh, answer.truth).relative;
+    answer.solution = solver_->at(handle.element, handle.target, progress.part(0.3, 1));
+    answer.rms = rms_displacement(*answer.mesh, answer.solution);
+    answer.nothing = error_of_nothing_moving(*answer.mesh, answer.solution).relative;
     return answer;
   }
 
@@ -43,22 +43,22 @@ class BackgroundTruth::Worker {
   std::unique_ptr<ReferenceSolver> solver_;
 };
 
-BackgroundTruth::BackgroundTruth(const Document& document) : document_(document) {
+BackgroundReference::BackgroundReference(const Document& document) : document_(document) {
   delay_.setSingleShot(true);
   delay_.setInterval(restMilliseconds);
   progress_.setInterval(progressMilliseconds);
-  connect(&delay_, &QTimer::timeout, this, &BackgroundTruth::ask);
-  connect(&progress_, &QTimer::timeout, this, &BackgroundTruth::changed);
+  connect(&delay_, &QTimer::timeout, this, &BackgroundReference::compute);
+  connect(&progress_, &QTimer::timeout, this, &BackgroundReference::changed);
   connect(&jobs_, &Jobs::changed, this, [this] { jobs_.running() ? progress_.start() : progress_.stop(); });
-  connect(&jobs_, &Jobs::failed, this, [this](const QString& sentence) { say(sentence.toStdString()); });
-  connect(&document, &Document::tapeChanged, this, &BackgroundTruth::followHand);
+  connect(&jobs_, &Jobs::failed, this, [this](const QString& sentence) { setState(sentence.toStdString()); });
+  connect(&document, &Document::tapeChanged, this, &BackgroundReference::followHandle);
   for (const auto& signal : {&Document::pinsChanged, &Document::meshChanged, &Document::elasticChanged}) {
-    connect(&document, signal, this, &BackgroundTruth::outdate);
+    connect(&document, signal, this, &BackgroundReference::outdate);
   }
-  connect(&document, &Document::cutsChanged, this, &BackgroundTruth::outdate);
+  connect(&document, &Document::cutsChanged, this, &BackgroundReference::outdate);
 }
 
-void BackgroundTruth::setWanted(bool wanted) {
+void BackgroundReference::setWanted(bool wanted) {
   wanted_ = wanted;
   if (wanted) {
     outdate();
@@ -70,8 +70,8 @@ void BackgroundTruth::setWanted(bool wanted) {
   worker_.reset();
 }
 
-/// What was done last to an element, unless all went back to rest since.
-std::optional<BackgroundTruth::Hand> BackgroundTruth::lastHand() const {
+/// Returns the last target of a drag, unless the object was reset after it.
+std::optional<BackgroundReference::Handle> BackgroundReference::lastHandle() const {
   const Tape& tape = document_.tape();
   std::optional<Point> target;
   for (std::size_t i = tape.position(); i > 0; --i) {
@@ -79,7 +79,7 @@ std::optional<BackgroundTruth::Hand> BackgroundTruth::lastHand() const {
     if (const auto* drag = std::get_if<commands::Drag>(&command); drag != nullptr && !target) {
       target = drag->target;
     } else if (const auto* grab = std::get_if<commands::Grab>(&command); grab != nullptr && target) {
-      return Hand{grab->element, *target};
+      return Handle{grab->element, *target};
     } else if (std::holds_alternative<commands::Reset>(command) && !target) {
       return std::nullopt;
     }
@@ -87,51 +87,51 @@ std::optional<BackgroundTruth::Hand> BackgroundTruth::lastHand() const {
   return std::nullopt;
 }
 
-void BackgroundTruth::followHand() {
-  if (wanted_ && lastHand() != hand_) {
+void BackgroundReference::followHandle() {
+  if (wanted_ && lastHandle() != handle_) {
     outdate();
   }
 }
 
-void BackgroundTruth::outdate() {
+void BackgroundReference::outdate() {
   if (!wanted_) {
     return;
   }
-  hand_ = lastHand();
+  handle_ = lastHandle();
   answer_.reset();
-  why_ = QStringLiteral("it waits for the hand to rest");
+  why_ = QStringLiteral("waiting for the drag to pause");
   jobs_.cancel();
   delay_.start();
   emit changed();
 }
 
-QString BackgroundTruth::state() const {
+QString BackgroundReference::state() const {
   return jobs_.running()
              ? QStringLiteral("computing the reference solution… %1 %").arg(std::lround(100 * jobs_.share()))
              : why_;
 }
 
-void BackgroundTruth::ask() {
+void BackgroundReference::compute() {
   if (const std::string why = whyNot(); !why.empty()) {
-    say(why);
+    setState(why);
   } else if (auto asked = problem(); asked && document_.idle()) {
-    compute(std::move(*asked));
+    start(std::move(*asked));
   } else {
-    delay_.start();  // the solvers are still at it
+    delay_.start();  // the solvers are still busy
   }
 }
 
-std::string BackgroundTruth::whyNot() const {
+std::string BackgroundReference::whyNot() const {
   if (document_.pins().empty()) {
     return "nothing pins the object";
   }
-  if (!hand_) {
+  if (!handle_) {
     return "drag an element first";
   }
-  if (document_.isPinned(hand_->element)) {
+  if (document_.isPinned(handle_->element)) {
     return "the element that was dragged last is pinned";
   }
-  if (hand_->target == document_.mesh()->rest_position(hand_->element)) {
+  if (handle_->target == document_.mesh()->rest_position(handle_->element)) {
     return "the element that was dragged last is back at rest";
   }
   try {
@@ -142,8 +142,9 @@ std::string BackgroundTruth::whyNot() const {
   return {};
 }
 
-/// The pins as the first panel shows them; they stand alike in all, unless they were pinned away from rest.
-std::optional<ElasticProblem> BackgroundTruth::problem() const {
+/// Takes the positions of the pins from the first panel. All panels show the same ones, unless elements were pinned
+/// away from rest.
+std::optional<ElasticProblem> BackgroundReference::problem() const {
   const Frame* frame = document_.frame(0);
   if (frame == nullptr) {
     return std::nullopt;
@@ -160,34 +161,34 @@ std::optional<ElasticProblem> BackgroundTruth::problem() const {
   return problem;
 }
 
-void BackgroundTruth::compute(ElasticProblem problem) {
+void BackgroundReference::start(ElasticProblem problem) {
   if (!worker_) {
     worker_ = std::make_shared<Worker>();
   }
-  jobs_.start(
-      Jobs::Kind::load, QStringLiteral("Truth"),
-      [this, worker = worker_, hand = *hand_, problem = std::move(problem)](const Progress& progress) -> Jobs::Finish {
-        Answer answer;
-        try {
-          answer = worker->answer(problem, hand, progress);
-        } catch (const Error& error) {
-          answer.fault = error.problem();
-        }
-        return [this, answer = std::make_shared<const Answer>(std::move(answer))] { take(answer); };
-      });
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Reference solution"),
+              [this, worker = worker_, handle = *handle_,
+               problem = std::move(problem)](const Progress& progress) -> Jobs::Finish {
+                Answer answer;
+                try {
+                  answer = worker->answer(problem, handle, progress);
+                } catch (const Error& error) {
+                  answer.fault = error.problem();
+                }
+                return [this, answer = std::make_shared<const Answer>(std::move(answer))] { take(answer); };
+              });
   emit changed();
 }
 
-void BackgroundTruth::take(std::shared_ptr<const Answer> answer) {
+void BackgroundReference::take(std::shared_ptr<const Answer> answer) {
   if (!answer->fault.empty()) {
-    say(answer->fault);
+    setState(answer->fault);
     return;
   }
   answer_ = std::move(answer);
   emit changed();
 }
 
-void BackgroundTruth::say(const std::string& why) {
+void BackgroundReference::setState(const std::string& why) {
   why_ = QString::fromStdString(why);
   emit changed();
 }

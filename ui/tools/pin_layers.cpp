@@ -1,4 +1,4 @@
-#include "document/pin_layers.h"
+#include "tools/pin_layers.h"
 
 #include <algorithm>
 #include <iterator>
@@ -9,7 +9,7 @@
 namespace chainmail {
 namespace {
 
-// To count the boundary of more takes longer than a menu may to open.
+// In larger meshes, counting the boundary would delay the menu.
 constexpr ElementId mostCounted = 100'000;
 
 bool carries(const Mesh& mesh, const ObjectSide& side) {
@@ -53,7 +53,7 @@ const ObjectSide& PinLayers::foot() const {
 void PinLayers::pin(const ObjectSide& side) { pin(elements(&side)); }
 void PinLayers::pinBoundary() { pin(elements(nullptr)); }
 
-/// Those that are not pinned yet.
+/// Returns the elements that are not pinned yet.
 std::vector<ElementId> PinLayers::elements(const ObjectSide* side) const {
   const auto all = side == nullptr ? boundary(*document_.mesh()) : layer(*document_.mesh(), *side);
   std::vector<ElementId> free;
@@ -63,7 +63,7 @@ std::vector<ElementId> PinLayers::elements(const ObjectSide* side) const {
 
 void PinLayers::pin(const std::vector<ElementId>& elements) { document_.setPinned(elements, true); }
 
-/// Sides of axes that the scene does not carry are no sides.
+/// Hides the sides along axes that the scene does not have.
 void PinLayers::adapt() {
   for (const Choice& one : choices_) {
     one.action->setVisible(one.side == nullptr || carries(*document_.mesh(), *one.side));
@@ -87,7 +87,7 @@ void PinLayers::show(const Choice& choice, std::optional<std::size_t> count) con
   words[0] = words[0].toUpper();
   words.insert(0, QLatin1Char('&'));
   if (choice.side != nullptr && choice.side->name == "back") {
-    words = QStringLiteral("Bac&k layer");  // the bottom and the boundary have the b
+    words = QStringLiteral("Bac&k layer");  // the bottom layer has the b
   } else if (choice.side == nullptr) {
     words = QStringLiteral("Bound&ary");
   }
@@ -98,8 +98,9 @@ void PinLayers::show(const Choice& choice, std::optional<std::size_t> count) con
   choice.action->setText(words);
   choice.action->setEnabled(some);
   choice.action->setStatusTip(
-      some ? QStringLiteral("Pins the elements of the %1 where they stand, as one step of undo").arg(choice.name)
-           : QStringLiteral("The %1 has no elements that are not pinned already").arg(choice.name));
+      some ? QStringLiteral("Pins the elements of the %1 at their present positions, as one step of undo")
+                 .arg(choice.name)
+           : QStringLiteral("All elements of the %1 are pinned already").arg(choice.name));
   choice.action->setToolTip(choice.action->statusTip());
 }
 

@@ -1,4 +1,4 @@
-#include "common/window_rest.h"
+#include "docks/size_test/window_rest.h"
 
 #include <QDockWidget>
 #include <QMenu>
@@ -10,14 +10,14 @@ WindowRest::WindowRest(QMainWindow& window, const QWidget& dock, const QStringLi
   window.setAcceptDrops(false);
   for (QDockWidget* one : window.findChildren<QDockWidget*>()) {
     if (one != &dock) {
-      rest(one->widget());  // it can still be moved and closed
+      rest(one->widget());  // the dock itself can still be moved and closed
     }
   }
   for (QToolBar* bar : window.findChildren<QToolBar*>()) {
     rest(bar);
   }
   for (QAction* action : window.findChildren<QAction*>()) {
-    const bool ofMenu = action->menu() != nullptr;  // a menu opens, so that what is in it can be read
+    const bool ofMenu = action->menu() != nullptr;  // menus still open, so that the user can read their items
     const bool showsDock = qobject_cast<QDockWidget*>(action->parent()) != nullptr;
     if (action->isEnabled() && !ofMenu && !showsDock && !actions.contains(action->objectName()) &&
         !dock.isAncestorOf(qobject_cast<QWidget*>(action->parent()))) {

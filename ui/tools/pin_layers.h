@@ -10,24 +10,24 @@
 
 namespace chainmail {
 
-/// Pins a whole layer of the object where it stands: one at each side that the scene carries, or the boundary.
+/// Pins a whole layer of the object at its present positions: the layer at one side of the object, or the boundary.
 class PinLayers : public QObject {
   Q_OBJECT
 
  public:
   PinLayers(Document& document, QWidget* parent);
 
-  /// The choices, with how many elements each pins; for menus of the window.
+  /// The menu of all layers, with the number of elements that each pins.
   QMenu& menu() { return *menu_; }
-  /// The layer that an object stands on: the bottom, or where there is none the left.
+  /// Returns the bottom side; the left one for a scene without y.
   const ObjectSide& foot() const;
   void pin(const ObjectSide& side);
   void pinBoundary();
 
  private:
   struct Choice {
-    const ObjectSide* side;  // none: the boundary
-    QString name;            // 'bottom layer'
+    const ObjectSide* side;  // null: the boundary
+    QString name;            // for example 'bottom layer'
     QAction* action;
   };
 

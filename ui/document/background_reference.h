@@ -1,0 +1,71 @@
+#pragma once
+
+#include <QTimer>
+#include <memory>
+#include <optional>
+
+#include "common/jobs.h"
+#include "document/document.h"
+#include "measure/reference_solution.h"
+
+namespace chainmail {
+
+/// Computes the reference solution of the document's object: the shape in which a neo-Hookean solid with the document's
+/// pins, cuts and material comes to rest while the handle holds the element that was moved last.
+///
+/// The computation runs in the background once the handle rests. It is cancelled when the handle moves, or when pins,
+/// cuts or material change. Nothing is computed unless it is wanted.
+class BackgroundReference : public QObject {
+  Q_OBJECT
+
+ public:
+  struct Answer {
+    MeshPointer mesh;
+    ReferenceSolution solution;
+    double rms = 0;      // of the displacements of the solution (mesh units)
+    double nothing = 0;  // relative error of an object in which only the handle and the pins move
+    std::string fault;   // why there is no solution; empty if there is one
+  };
+
+  explicit BackgroundReference(const Document& document);
+
+  void setWanted(bool wanted);
+  /// The answer for the present object; null while there is none.
+  const std::shared_ptr<const Answer>& answer() const { return answer_; }
+  /// Says in a few words why there is no answer.
+  QString state() const;
+
+ signals:
+  /// The answer or the state has changed.
+  void changed();
+
+ private:
+  struct Handle {
+    ElementId element = 0;
+    Point target = Point::Zero();  // mesh units
+    bool operator==(const Handle&) const = default;
+  };
+  class Worker;
+
+  std::optional<Handle> lastHandle() const;
+  void followHandle();
+  void outdate();
+  void compute();
+  std::string whyNot() const;
+  std::optional<ElasticProblem> problem() const;
+  void start(ElasticProblem problem);
+  void take(std::shared_ptr<const Answer> answer);
+  void setState(const std::string& why);
+
+  const Document& document_;
+  bool wanted_ = false;
+  std::optional<Handle> handle_;
+  std::shared_ptr<const Answer> answer_;
+  QString why_;
+  QTimer delay_;                    // until the handle counts as resting
+  QTimer progress_;                 // refreshes the progress of the computation
+  std::shared_ptr<Worker> worker_;  // used by one job at a time
+  Jobs jobs_;                       // last: its thread ends first
+};
+
+}  // namespace chainmail
