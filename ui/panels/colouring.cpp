@@ -21,7 +21,7 @@ constexpr std::size_t valuesPerClockCheck = 4096;
 // The same as in the figures below the panels: smaller violations are rounding.
 constexpr float violationThreshold = 1e-4F;
 
-constexpr std::array infos{
+constexpr std::array modeInfos{
     ColourModeInfo{ColourMode::plain, "plain", "Plain", "", ""},
     ColourModeInfo{ColourMode::compression, "compression", "Compression of links", "Compression", "of rest length"},
     ColourModeInfo{ColourMode::stretch, "stretch", "Stretch of links", "Stretch", "of rest length"},
@@ -44,10 +44,10 @@ bool isOfSoftness(ColourMode mode) {
 
 // Modes
 
-std::span<const ColourModeInfo> colourModes() { return infos; }
+std::span<const ColourModeInfo> colourModes() { return modeInfos; }
 
 const ColourModeInfo& info(ColourMode mode) {
-  return *std::find_if(infos.begin(), infos.end(), [mode](auto& one) { return one.mode == mode; });
+  return *std::find_if(modeInfos.begin(), modeInfos.end(), [mode](auto& one) { return one.mode == mode; });
 }
 
 bool comparesPanels(ColourMode mode) { return mode == ColourMode::distance || mode == ColourMode::violationDifference; }
