@@ -29,6 +29,14 @@ constexpr float markEdge = 4;           // pixels of background around a mark, b
 constexpr double largestSelected = 12;  // diameter of a selected element's mark, pixels
 constexpr double smallestSelected = 2;
 
+Error tooLarge(QSize picture, int most) {
+  const auto what = QStringLiteral("%1 × %2 pixels are too many: the graphics card draws at most %3 on a side")
+                        .arg(picture.width())
+                        .arg(picture.height())
+                        .arg(most);
+  return {"picture", what.toStdString(), "choose a smaller scale"};
+}
+
 }  // namespace
 
 View::View(Document& document, Colouring& colouring, PanelLinks& links, int panel, std::shared_ptr<Camera> camera,
@@ -588,13 +596,7 @@ QImage View::picture(double pixelRatio, bool transparent) {
   context()->functions()->glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
   if (std::max(pixels.width(), pixels.height()) > most) {
     doneCurrent();
-    throw Error("picture",
-                QStringLiteral("%1 × %2 pixels are too many: the graphics card draws at most %3 on a side")
-                    .arg(pixels.width())
-                    .arg(pixels.height())
-                    .arg(most)
-                    .toStdString(),
-                "choose a smaller scale");
+    throw tooLarge(pixels, most);
   }
   QImage image;
   {

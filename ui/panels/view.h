@@ -176,7 +176,7 @@ class View : public QOpenGLWidget {
   bool painterReady_ = false;
   bool focusFramed_ = false;       // the focus came by the keyboard
   bool selectionOutdated_ = true;  // on the graphics card
-  bool selectedHere_ = true;       // in this view, or in none
+  bool selectedHere_ = true;       // the selection was made in this view, or in none
 };
 
 }  // namespace chainmail
