@@ -90,7 +90,7 @@ class WindowAlgorithm : public QObject {
     // Four links of length 1, none longer than 1.2.
     QVERIFY(std::abs(bench.position(1, 4).x() - 4.8) < 1e-5);
     QVERIFY(bench.position(0, 4).x() > 6);
-    QTRY_VERIFY(state->toolTip().contains(QStringLiteral("taut: pins hold the hand")));
+    QTRY_VERIFY(state->toolTip().contains(QStringLiteral("taut: pins stop the handle")));
     QVERIFY(!bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("taut")));
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
     bench.settle();

@@ -78,7 +78,7 @@ void computesTheReference(Workbench& bench) {
   pull(bench.document());
   bench.document().release();
   bench.settle();
-  bench.window.colouring().setMode(ColourMode::truth);
+  bench.window.colouring().setMode(ColourMode::physicsError);
   QTRY_VERIFY_WITH_TIMEOUT(bench.window.panel(0).legend().title().contains(QStringLiteral("computing")), 20'000);
 }
 

@@ -105,7 +105,7 @@ class WindowCompare : public QObject {
     Workbench bench;
     bench.document().setPinned({40}, true);
     bench.trigger("colourBy-violationDifference");
-    QTRY_VERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("A less that of B")));
+    QTRY_VERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("A minus B")));
     bench.dragFar();
     double furthest = 0;
     LinkId worst = 0;

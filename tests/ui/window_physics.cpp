@@ -105,7 +105,7 @@ class WindowPhysics : public QObject {
     QTRY_VERIFY(bar->isVisible());
     QVERIFY(bench.find<QLabel>("pinsAbout")->text().contains(QStringLiteral("so Linear FEM has no static answer")));
     QVERIFY(!bench.window.messages().isVisible());
-    QTRY_VERIFY(bench.find<QLabel>("state1")->toolTip().contains(QStringLiteral("nothing pinned: no answer")));
+    QTRY_VERIFY(bench.find<QLabel>("state1")->toolTip().contains(QStringLiteral("nothing pinned: no solution")));
     // The other panel went on.
     QVERIFY(bench.position(0, 31) != bench.document().mesh()->rest_position(31));
     bench.find<QPushButton>("pinsCancel")->click();

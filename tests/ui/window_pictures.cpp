@@ -223,7 +223,7 @@ class WindowPictures : public QObject {
     QFile file(svg);
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QString text = QString::fromUtf8(file.readAll());
-    for (const char* word : {"Generalized ChainMail", "Natural Queue ChainMail", "violation of", "links looked at"}) {
+    for (const char* word : {"Generalized ChainMail", "Natural Queue ChainMail", "violation of", "links checked"}) {
       QVERIFY2(text.contains(QLatin1String(word)), word);
     }
     QVERIFY(!text.contains(QStringLiteral("<image")));  // lines, no pixels

@@ -1,21 +1,26 @@
 #pragma once
 
+#include <QColor>
 #include <QFontMetricsF>
 #include <QLineF>
 #include <QSizeF>
 #include <QString>
 
+class QPainter;
+
 namespace chainmail {
 
-/// A line over the object of a view, and the words at its middle (logical pixels).
+/// A line over the object of a view, with a text at its middle (logical pixels).
 struct Annotation {
   QLineF line;
   QString words;
 };
 
-/// The ground of its words: beside the line, inside the view.
+/// Returns the box behind the text: next to the line and inside the view.
 QRectF annotationBox(const Annotation& annotation, const QFontMetricsF& font, QSizeF view);
-inline constexpr double annotationPadding = 4;      // pixels between the words and the edge of their ground
-inline constexpr double annotationEndDiameter = 9;  // pixels, of the rings at the line's ends
+/// Draws the ends of the line and the text, but not the line itself.
+void drawAnnotation(QPainter& painter, const Annotation& annotation, QColor ground, QSizeF view);
+inline constexpr double annotationPadding = 4;      // pixels between the text and the edge of its box
+inline constexpr double annotationEndDiameter = 9;  // pixels, of the rings at the ends of the line
 
 }  // namespace chainmail

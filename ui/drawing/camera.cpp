@@ -7,9 +7,9 @@ namespace chainmail {
 namespace {
 
 constexpr double fieldOfView = 35;  // degrees, vertical
-constexpr double margin = 1.25;     // of the view around an object that fits
+constexpr double fitMargin = 1.25;  // height of the view per height of an object that fits
 constexpr double degreesPerPixel = 0.4;
-constexpr double nearest = 1e-5, farthest = 1e3;  // heights of what a view shows, of the object's radius
+constexpr double smallestHeight = 1e-5, largestHeight = 1e3;  // of the view, in radii of the object
 
 double eyeDistance(double height) { return height / 2 / std::tan(fieldOfView / 2 * M_PI / 180); }
 
@@ -18,7 +18,7 @@ double eyeDistance(double height) { return height / 2 / std::tan(fieldOfView / 2
 void Camera::fit(const std::array<Point, 2>& box, std::span<const int> axes, QSizeF view) {
   const auto carries = [axes](int k) { return std::find(axes.begin(), axes.end(), k) != axes.end(); };
   spatial_ = axes.size() == 3;
-  // A plane of x and z is seen from above, one of y and z from the side.
+  // The camera looks at an xz plane from above and at a yz plane from the side.
   const bool fromAbove = !spatial_ && carries(2) && carries(0), fromSide = !spatial_ && carries(2) && !carries(0);
   yaw_ = spatial_ ? -30 : fromSide ? -90 : 0;
   pitch_ = spatial_ ? 25 : fromAbove ? 90 : 0;
@@ -35,7 +35,7 @@ void Camera::frame(const std::array<Point, 2>& box, QSizeF view) {
   const double across = fromSide ? extent.z() : extent.x(), up = fromAbove ? extent.z() : extent.y();
   const double flat = std::max(up, across / aspect);
   const double round = 2 * radius_ / std::min(aspect, 1.0) * 0.85;
-  height_ = margin * (spatial_ ? round : flat > 0 ? flat : 2 * radius_);
+  height_ = fitMargin * (spatial_ ? round : flat > 0 ? flat : 2 * radius_);
   framed_ = true;
 }
 
@@ -43,7 +43,7 @@ void Camera::setPose(const Pose& pose) {
   centre_ = pose.centre;
   parallel_ = pose.parallel;
   framed_ = pose.framed;
-  height_ = std::clamp(pose.height, radius_ * nearest, radius_ * farthest);
+  height_ = std::clamp(pose.height, radius_ * smallestHeight, radius_ * largestHeight);
   if (spatial_) {
     yaw_ = pose.yaw;
     pitch_ = std::clamp(pose.pitch, -90.0, 90.0);
@@ -78,7 +78,7 @@ void Camera::pan(QPointF pixels, QSizeF view) {
 
 void Camera::zoom(double factor, QPointF cursor, QSizeF view) {
   const QVector3D before = pointAt(cursor, centre_, view);
-  height_ = std::clamp(height_ / factor, radius_ * nearest, radius_ * farthest);
+  height_ = std::clamp(height_ / factor, radius_ * smallestHeight, radius_ * largestHeight);
   centre_ += before - pointAt(cursor, centre_, view);
   framed_ = false;
 }
@@ -95,7 +95,7 @@ QMatrix4x4 Camera::toView() const {
 QMatrix4x4 Camera::toClip(QSizeF view) const {
   const double aspect = view.width() / std::max(view.height(), 1.0);
   const double distance = eyeDistance(height_);
-  const double reach = 8 * radius_;  // a dragged object may leave its box by a good way
+  const double reach = 8 * radius_;  // a dragged object may be far outside its box
   QMatrix4x4 matrix;
   if (spatial_ && !parallel_) {
     matrix.perspective(float(fieldOfView), float(aspect), float(std::max(distance - reach, distance * 0.02)),
@@ -114,11 +114,12 @@ std::array<double, 2> Camera::depthRange() const {
   return {distance - radius_, distance + radius_};
 }
 
-QVector3D Camera::pointAt(QPointF place, const QVector3D& through, QSizeF view) const {
+QVector3D Camera::pointAt(QPointF position, const QVector3D& through, QSizeF view) const {
   const QMatrix4x4 matrix = toClip(view) * toView();
-  // The depth of the plane, then the place at that depth back into the scene.
+  // Projects `through` to find the depth of the plane, then maps the position at that depth back.
   const float depth = matrix.map(through).z();
-  const QVector3D device(float(2 * place.x() / view.width() - 1), float(1 - 2 * place.y() / view.height()), depth);
+  const QVector3D device(float(2 * position.x() / view.width() - 1), float(1 - 2 * position.y() / view.height()),
+                         depth);
   return matrix.inverted().map(device);
 }
 

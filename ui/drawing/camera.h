@@ -12,34 +12,32 @@ namespace chainmail {
 
 inline QVector3D asVector(const Point& point) { return {float(point.x()), float(point.y()), float(point.z())}; }
 
-/// Where an object is looked at from: straight down on the plane in 1D and 2D, in perspective or
-/// by parallel rays about a centre in 3D. Lengths are in mesh units, places in the view in logical pixels from its top
-/// left.
+/// The camera of a view: it looks straight at the plane in 1D and 2D, and orbits a centre in 3D, in perspective or with
+/// parallel projection. Lengths are in mesh units, positions in the view in logical pixels from its top left.
 class Camera {
  public:
-  /// Shows the whole box: straight down on the plane of the axes that the scene carries, or obliquely
-  /// from above where it carries all three.
+  /// Shows the whole box: straight at the plane of the given axes, or obliquely from above if there are three of them.
   void fit(const std::array<Point, 2>& box, std::span<const int> axes, QSizeF view);
-  /// The same from the side it looks from now.
+  /// Shows the whole box from the current side.
   void frame(const std::array<Point, 2>& box, QSizeF view);
-  /// Whether nobody has shifted it or changed what it shows since then: a view that changes its size may frame again.
+  /// True if the camera was neither panned nor zoomed since then: a view that is resized may frame the box again.
   bool framed() const { return framed_; }
   void orbit(QPointF pixels);
   void pan(QPointF pixels, QSizeF view);
-  /// Brings the object nearer (factor > 1) about the place under the cursor.
+  /// Enlarges the object (factor > 1) about the position under the cursor.
   void zoom(double factor, QPointF cursor, QSizeF view);
 
-  /// Turns about the centre, to a side given by angles (degrees): 0, 0 is from +z, yaw -90 from +x, pitch 90 from +y.
+  /// Looks at the centre from the side given by angles (degrees): 0, 0 is from +z, yaw -90 from +x, pitch 90 from +y.
   void lookFrom(double yaw, double pitch);
   const QVector3D& centre() const { return centre_; }
-  /// What is turned about comes into the middle of the view.
+  /// Moves this point to the middle of the view and makes it the centre of rotation.
   void centreOn(const QVector3D& centre);
-  /// Parallel rays where a scene has depth, instead of perspective.
+  /// Switches between parallel projection and perspective in 3D.
   void setParallel(bool parallel) { parallel_ = parallel; }
   bool parallel() const { return parallel_; }
 
-  /// The way it looks, apart from the object: the centre of the view and the height that it shows (mesh units), and
-  /// the angles (degrees), which count where it is spatial.
+  /// The state of the camera without the size of the object: centre and visible height (mesh units), and angles
+  /// (degrees), which only count in 3D.
   struct Pose {
     QVector3D centre;
     double height = 2, yaw = 0, pitch = 0;
@@ -51,17 +49,17 @@ class Camera {
   bool spatial() const { return spatial_; }
   QMatrix4x4 toView() const;
   QMatrix4x4 toClip(QSizeF view) const;
-  /// Mesh units that a pixel spans, in the plane through the centre.
+  /// Returns the mesh units per pixel in the plane through the centre.
   double unitsPerPixel(QSizeF view) const;
-  /// Distances from the eye between which the object lies, for fading with depth.
+  /// Returns the nearest and the furthest distance of the object from the eye, for fading with depth.
   std::array<double, 2> depthRange() const;
-  /// The point under a place of the view, in the plane parallel to the view through `through`.
-  QVector3D pointAt(QPointF place, const QVector3D& through, QSizeF view) const;
+  /// Returns the point under a position in the view, in the plane parallel to the view through `through`.
+  QVector3D pointAt(QPointF position, const QVector3D& through, QSizeF view) const;
 
  private:
   QVector3D centre_;
   double radius_ = 1;  // of the object (mesh units)
-  double height_ = 2;  // of what the view shows in the plane through the centre (mesh units)
+  double height_ = 2;  // visible height in the plane through the centre (mesh units)
   double yaw_ = 0;     // degrees
   double pitch_ = 0;
   bool spatial_ = false;

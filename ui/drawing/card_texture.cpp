@@ -8,8 +8,8 @@
 namespace chainmail {
 namespace {
 
-/// Every so manyeth texel along each axis: as many as the card holds at most.
-Texture thinned(const Texture& texture, std::uint32_t most) {
+/// Keeps every n-th texel along each axis, so that the size is at most `most`.
+Texture reduced(const Texture& texture, std::uint32_t most) {
   const std::uint32_t step = (*std::max_element(texture.size.begin(), texture.size.end()) + most - 1) / most;
   Texture result = texture;
   result.texels.clear();
@@ -30,47 +30,47 @@ Texture thinned(const Texture& texture, std::uint32_t most) {
   return result;
 }
 
-QOpenGLExtraFunctions& gl() { return *QOpenGLContext::currentContext()->extraFunctions(); }
+QOpenGLExtraFunctions& currentGl() { return *QOpenGLContext::currentContext()->extraFunctions(); }
 
-void send(GLenum target, const Texture& texture) {
+void sendTexture(GLenum target, const Texture& texture) {
   const auto [width, height, depth] = texture.size;
   const GLint inside = texture.channels == 1 ? GL_R8 : GL_RGBA8;
   const GLenum format = texture.channels == 1 ? GL_RED : GL_RGBA;
-  gl().glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  currentGl().glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   if (target == GL_TEXTURE_2D) {
-    gl().glTexImage2D(target, 0, inside, GLsizei(width), GLsizei(height), 0, format, GL_UNSIGNED_BYTE,
-                      texture.texels.data());
+    currentGl().glTexImage2D(target, 0, inside, GLsizei(width), GLsizei(height), 0, format, GL_UNSIGNED_BYTE,
+                             texture.texels.data());
   } else {
-    gl().glTexImage3D(target, 0, inside, GLsizei(width), GLsizei(height), GLsizei(depth), 0, format, GL_UNSIGNED_BYTE,
-                      texture.texels.data());
+    currentGl().glTexImage3D(target, 0, inside, GLsizei(width), GLsizei(height), GLsizei(depth), 0, format,
+                             GL_UNSIGNED_BYTE, texture.texels.data());
   }
-  gl().glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  currentGl().glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 
 }  // namespace
 
 CardTexture::CardTexture(const Texture& texture) : target_(texture.size[2] == 1 ? GL_TEXTURE_2D : GL_TEXTURE_3D) {
   GLint most = 0;
-  gl().glGetIntegerv(target_ == GL_TEXTURE_2D ? GL_MAX_TEXTURE_SIZE : GL_MAX_3D_TEXTURE_SIZE, &most);
-  gl().glGenTextures(1, &number_);
-  gl().glBindTexture(target_, number_);
+  currentGl().glGetIntegerv(target_ == GL_TEXTURE_2D ? GL_MAX_TEXTURE_SIZE : GL_MAX_3D_TEXTURE_SIZE, &most);
+  currentGl().glGenTextures(1, &number_);
+  currentGl().glBindTexture(target_, number_);
   const bool fits = *std::max_element(texture.size.begin(), texture.size.end()) <= std::uint32_t(most);
-  fits ? send(target_, texture) : send(target_, thinned(texture, std::uint32_t(most)));
-  gl().glGenerateMipmap(target_);  // a picture that is shown small has no grain
-  gl().glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  gl().glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  fits ? sendTexture(target_, texture) : sendTexture(target_, reduced(texture, std::uint32_t(most)));
+  currentGl().glGenerateMipmap(target_);  // no grain if the picture is shown small
+  currentGl().glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  currentGl().glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (const GLenum along : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
-    gl().glTexParameteri(target_, along, GL_CLAMP_TO_EDGE);
+    currentGl().glTexParameteri(target_, along, GL_CLAMP_TO_EDGE);
   }
   if (texture.channels == 1) {
-    gl().glTexParameteri(target_, GL_TEXTURE_SWIZZLE_G, GL_RED);
-    gl().glTexParameteri(target_, GL_TEXTURE_SWIZZLE_B, GL_RED);
+    currentGl().glTexParameteri(target_, GL_TEXTURE_SWIZZLE_G, GL_RED);
+    currentGl().glTexParameteri(target_, GL_TEXTURE_SWIZZLE_B, GL_RED);
   }
 }
 
-CardTexture::~CardTexture() { gl().glDeleteTextures(1, &number_); }
+CardTexture::~CardTexture() { currentGl().glDeleteTextures(1, &number_); }
 
-void CardTexture::bind() const { gl().glBindTexture(target_, number_); }
+void CardTexture::bind() const { currentGl().glBindTexture(target_, number_); }
 
 std::shared_ptr<CardTexture> CardTextures::of(const std::shared_ptr<const Texture>& texture) {
   const auto* group = QOpenGLContext::currentContext()->shareGroup();

@@ -9,7 +9,7 @@ class QOpenGLContextGroup;
 
 namespace chainmail {
 
-/// A texture on the graphics card. It is made and goes while a context of the group that shares it is current.
+/// A texture on the graphics card. Constructor and destructor require a context of the same share group to be current.
 class CardTexture {
  public:
   explicit CardTexture(const Texture& texture);
@@ -17,7 +17,7 @@ class CardTexture {
   CardTexture(const CardTexture&) = delete;
   CardTexture& operator=(const CardTexture&) = delete;
 
-  /// For the next that draws: a sampler2D of a picture, a sampler3D of a volume.
+  /// Binds the texture for the next draw call: a sampler2D for a picture, a sampler3D for a volume.
   void bind() const;
 
  private:
@@ -25,10 +25,10 @@ class CardTexture {
   GLuint number_ = 0;
 };
 
-/// Sends a mesh's texture to the graphics card once for all that draw it there; it goes with the last of them.
+/// Sends the texture of a mesh to the graphics card once for all painters. The last of them frees it.
 class CardTextures {
  public:
-  /// Needs the context current.
+  /// Requires the context to be current.
   std::shared_ptr<CardTexture> of(const std::shared_ptr<const Texture>& texture);
 
  private:

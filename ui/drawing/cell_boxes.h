@@ -8,15 +8,15 @@
 
 namespace chainmail {
 
-/// Bounds of what a level's cells hold in the newest frame, kept up to date for what changed alone.
+/// Bounding boxes of a level's cells in the newest frame. An update costs only the cells that changed.
 class CellBoxes {
  public:
-  /// Lowest and highest of the coordinates that the scene carries.
+  /// Lowest and highest coordinates, for the axes that the mesh has.
   struct Box {
     std::array<float, 3> lowest{}, highest{};
   };
 
-  /// Takes a frame of the level's mesh over.
+  /// Updates the boxes to a frame of the level's mesh.
   void follow(const MeshLevelPointer& level, const Frame& frame);
 
   const MeshLevel& level() const { return *level_; }
@@ -26,7 +26,7 @@ class CellBoxes {
   bool isOutdated(std::size_t cell, const Frame& frame) const;
 
   MeshLevelPointer level_;
-  std::uint64_t seen_ = 0;  // the number of the frame that the boxes are of
+  std::uint64_t seen_ = 0;  // number of the frame of the boxes
   std::uint64_t series_ = 0;
   std::vector<Box> boxes_;
 };

@@ -5,7 +5,7 @@
 namespace chainmail {
 namespace {
 
-/// 0, step, 2 step, …, and the last.
+/// Returns 0, step, 2 step, …, and the last row.
 std::vector<ElementId> everyStepth(ElementId size, unsigned step) {
   std::vector<ElementId> rows;
   for (ElementId i = 0; i + 1 < size; i += step) {
@@ -15,7 +15,7 @@ std::vector<ElementId> everyStepth(ElementId size, unsigned step) {
   return rows;
 }
 
-/// Adds a coarse link if it has a path all the way.
+/// Adds a coarse link if links connect it all the way.
 void addRow(MeshLevel& level, ElementId from, ElementId stride, ElementId steps) {
   const auto before = level.paths.items.size();
   for (ElementId i = 0; i < steps; ++i) {
@@ -30,11 +30,11 @@ void addRow(MeshLevel& level, ElementId from, ElementId stride, ElementId steps)
   level.coarseLinks.push_back({from, from + steps * stride});
 }
 
-/// The faces between elements that stand for different corners; the links must be in order of their first elements.
-template <class StandIn>
-void addFaces(MeshLevel& level, std::span<const MeshLevel::Face> finer, StandIn standIn) {
+/// Adds the faces whose corners have three different representatives. Coarse links must be sorted by first element.
+template <class Representative>
+void addFaces(MeshLevel& level, std::span<const MeshLevel::Face> finer, Representative representative) {
   for (const auto& [a, b, c] : finer) {
-    MeshLevel::Face face{standIn(a), standIn(b), standIn(c)};
+    MeshLevel::Face face{representative(a), representative(b), representative(c)};
     std::sort(face.begin(), face.end());
     if (face[0] != face[1] && face[1] != face[2]) {
       level.coarseFaces.push_back(face);
@@ -63,15 +63,15 @@ MeshLevelPointer finished(std::shared_ptr<MeshLevel> level) {
   return level;
 }
 
-/// Who stands for each element of a level, and by which of its links.
-struct StandIns {
+/// The representative of each element of a level, and the link to it.
+struct Representatives {
   std::vector<ElementId> of;
-  std::vector<std::uint32_t> by;  // none for those who stand for themselves
+  std::vector<std::uint32_t> by;  // none for elements that represent themselves
 };
 
-/// A link of a level seen from an element: number, other end.
-struct Rows {
-  explicit Rows(const MeshLevel& level) : links(level.links) {
+/// The links of a level by element: number and other end of each.
+struct LinksByElement {
+  explicit LinksByElement(const MeshLevel& level) : links(level.links) {
     const std::size_t count = level.links.size();
     entries = grouped(level.mesh->element_count(), 2 * count, [&](std::uint32_t i) { return links[i / 2][i % 2]; });
   }
@@ -85,14 +85,14 @@ struct Rows {
   Groups entries;
 };
 
-StandIns chooseStandIns(const MeshLevel& finer, const Rows& rows) {
-  StandIns result;
+Representatives chooseRepresentatives(const MeshLevel& finer, const LinksByElement& linksOf) {
+  Representatives result;
   result.of.assign(finer.mesh->element_count(), MeshLevel::none);
   result.by.assign(finer.mesh->element_count(), MeshLevel::none);
   for (const ElementId e : finer.elements) {
     if (result.of[e] == MeshLevel::none) {
       result.of[e] = e;
-      rows.visit(e, [&](std::uint32_t link, ElementId other) {
+      linksOf.visit(e, [&](std::uint32_t link, ElementId other) {
         if (result.of[other] == MeshLevel::none) {
           result.of[other] = e;
           result.by[other] = link;
@@ -103,50 +103,52 @@ StandIns chooseStandIns(const MeshLevel& finer, const Rows& rows) {
   return result;
 }
 
-/// From an element that stays to one of greater id that stays: over a link between those they stand for.
-struct Way {
+/// A path from a representative to another one with a greater id, over a link between elements that they represent.
+struct Path {
   ElementId to;
-  std::uint32_t link, length;  // in links of the level
+  std::uint32_t link;    // of the finer level
+  std::uint32_t length;  // in links of the finer level
 };
 
-/// Those that begin at one element; of two with the same end that of fewest links is kept. `wayTo` says where in
-/// `ways` each end is.
-void findWays(ElementId member, const Rows& rows, const StandIns& standIn, std::vector<Way>& ways,
-              std::vector<std::uint32_t>& wayTo) {
-  const ElementId from = standIn.of[member];
-  rows.visit(member, [&](std::uint32_t link, ElementId other) {
-    const ElementId to = standIn.of[other];
+/// Finds the paths over the links of one element, and keeps the shortest one to each end. `pathTo` holds the index in
+/// `paths` for each end.
+void findPaths(ElementId member, const LinksByElement& linksOf, const Representatives& representative,
+               std::vector<Path>& paths, std::vector<std::uint32_t>& pathTo) {
+  const ElementId from = representative.of[member];
+  linksOf.visit(member, [&](std::uint32_t link, ElementId other) {
+    const ElementId to = representative.of[other];
     if (to <= from) {
       return;
     }
     const std::uint32_t length = 1U + (member != from ? 1U : 0U) + (other != to ? 1U : 0U);
-    if (wayTo[to] == MeshLevel::none) {
-      wayTo[to] = std::uint32_t(ways.size());
-      ways.push_back({to, link, length});
-    } else if (length < ways[wayTo[to]].length) {
-      ways[wayTo[to]] = {to, link, length};
+    if (pathTo[to] == MeshLevel::none) {
+      pathTo[to] = std::uint32_t(paths.size());
+      paths.push_back({to, link, length});
+    } else if (length < paths[pathTo[to]].length) {
+      paths[pathTo[to]] = {to, link, length};
     }
   });
 }
 
-/// A coarse link, and all links of the mesh that it stands for.
-void addWay(MeshLevel& level, const MeshLevel& finer, const StandIns& standIn, ElementId from, const Way& way) {
-  auto& path = level.paths.items;
+/// Adds a coarse link and all links of the mesh that it replaces.
+void addPath(MeshLevel& level, const MeshLevel& finer, const Representatives& representative, ElementId from,
+             const Path& path) {
+  auto& replaced = level.paths.items;
   const auto add = [&](std::uint32_t link) {
     if (finer.step == 1) {
-      path.push_back(link);
+      replaced.push_back(link);
     } else {
-      path.insert(path.end(), finer.paths[link].begin(), finer.paths[link].end());
+      replaced.insert(replaced.end(), finer.paths[link].begin(), finer.paths[link].end());
     }
   };
-  add(way.link);
-  for (const ElementId end : finer.links[way.link]) {
-    if (standIn.by[end] != MeshLevel::none) {
-      add(standIn.by[end]);
+  add(path.link);
+  for (const ElementId end : finer.links[path.link]) {
+    if (representative.by[end] != MeshLevel::none) {
+      add(representative.by[end]);
     }
   }
   level.paths.close();
-  level.coarseLinks.push_back({from, way.to});
+  level.coarseLinks.push_back({from, path.to});
 }
 
 }  // namespace
@@ -183,27 +185,27 @@ MeshLevelPointer coarser(const MeshLevel& finer) {
   auto level = std::make_shared<MeshLevel>();
   level->mesh = finer.mesh;
   level->step = 2 * finer.step;
-  const Rows rows(finer);
-  const StandIns standIn = chooseStandIns(finer, rows);
+  const LinksByElement linksOf(finer);
+  const Representatives representative = chooseRepresentatives(finer, linksOf);
   const Groups members = grouped(finer.mesh->element_count(), finer.elements.size(),
-                                 [&](std::uint32_t i) { return standIn.of[finer.elements[i]]; });
-  std::vector<Way> ways;
-  std::vector<std::uint32_t> wayTo(finer.mesh->element_count(), MeshLevel::none);
+                                 [&](std::uint32_t i) { return representative.of[finer.elements[i]]; });
+  std::vector<Path> paths;
+  std::vector<std::uint32_t> pathTo(finer.mesh->element_count(), MeshLevel::none);
   for (ElementId e = 0; e < finer.mesh->element_count(); ++e) {
-    if (standIn.of[e] != e) {
+    if (representative.of[e] != e) {
       continue;
     }
     level->elements.push_back(e);
-    ways.clear();
+    paths.clear();
     for (const std::uint32_t member : members[e]) {
-      findWays(finer.elements[member], rows, standIn, ways, wayTo);
+      findPaths(finer.elements[member], linksOf, representative, paths, pathTo);
     }
-    for (const Way& way : ways) {
-      wayTo[way.to] = MeshLevel::none;
-      addWay(*level, finer, standIn, e, way);
+    for (const Path& path : paths) {
+      pathTo[path.to] = MeshLevel::none;
+      addPath(*level, finer, representative, e, path);
     }
   }
-  addFaces(*level, finer.faces, [&](ElementId e) { return standIn.of[e]; });
+  addFaces(*level, finer.faces, [&](ElementId e) { return representative.of[e]; });
   return finished(level);
 }
 

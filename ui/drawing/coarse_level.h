@@ -4,11 +4,11 @@
 
 namespace chainmail {
 
-/// Of a mesh on a lattice: every step-th row and the last, along each axis.
+/// Returns a level of a mesh on a lattice: every step-th row and the last one, along each axis.
 MeshLevelPointer coarseLattice(const MeshPointer& mesh, unsigned step);
 
-/// Of any mesh, from a level of it: elements of that level no two of which are linked, each standing for those about
-/// it. Its step is twice the other's, as its links are two of the other's long and a little more.
+/// Returns the next coarser level of any mesh: elements of `finer`, no two of them linked, each of which represents its
+/// neighbours. Its step is twice that of `finer`, because its links are slightly more than two links of `finer` long.
 MeshLevelPointer coarser(const MeshLevel& finer);
 
 }  // namespace chainmail

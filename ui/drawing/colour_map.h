@@ -6,26 +6,26 @@
 #include "common/colours.h"
 #include "drawing/colour_values.h"
 
-/// Numbers to colours: a map for either ground, read alike with every kind of colour vision and in grey, because its
-/// lightness only moves away from the ground's. Between the control points it is linear in sRGB; they follow viridis
-/// (Smith and van der Walt 2015): on a dark ground from somewhat further up, on a light one from the middle down, so
-/// that a thin line stands out everywhere.
+/// Maps numbers to colours, with one map per ground (dark, light). All kinds of colour vision, and grey prints, show
+/// the same order, because the lightness only moves away from that of the ground. The control points follow viridis
+/// (Smith and van der Walt 2015), without its dark end on a dark ground and from its middle down on a light one, so
+/// that thin lines are visible everywhere. Between them, the map is linear in sRGB.
 namespace chainmail::colour_map {
 
 using Stops = std::array<std::array<int, 3>, 6>;
 const Stops& stops(colours::Ground ground = colours::ground());
-/// For differences: blue below 0, orange above, which are told apart with every kind of colour vision; both leave the
-/// ground's lightness alike.
+/// Returns the map for differences: blue below 0, orange above. All kinds of colour vision can distinguish the two, and
+/// both move away from the lightness of the ground equally.
 const Stops& differenceStops(colours::Ground ground = colours::ground());
 
-/// What lies at or below a threshold has no place on the map, and steps back behind all that has.
+/// The colour of values at or below the threshold: it is less visible than any colour of the map.
 inline constexpr colours::Colour neutral(0xff505660, 0xffa6acb5);
 
-/// The colour of a share of the way from the lowest value to the highest.
+/// Returns the colour of a share of the range from lowest (0) to highest (1).
 QColor at(double share, colours::Ground ground = colours::ground());
 QColor at(double share, const Stops& stops);
 const Stops& stopsOf(const ColourScale& scale);
-/// The colour of a value.
+/// Returns the colour of a value.
 QColor of(float value, const ColourScale& scale);
 
 }  // namespace chainmail::colour_map

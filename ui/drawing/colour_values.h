@@ -7,24 +7,24 @@
 
 namespace chainmail {
 
-/// What an object is coloured by: a number for each of its links or of its elements.
+/// The values that colour an object: one per link or per element.
 struct ColourValues {
   MeshPointer mesh;
   bool ofLinks = true;
   std::vector<float> values;
-  /// Of those that count; lowest above highest where none does.
+  /// Range of the values that count (cut links do not); lowest is above highest if none counts.
   float lowest = 0, highest = 0;
-  /// Others have another number; never 0.
+  /// Differs between any two sets of values; 0 before there are any.
   std::uint64_t number = 0;
 };
 
-/// The values at the two ends of the colour map. What is no larger than the threshold, whatever its sign, is neutral.
+/// The values at the two ends of the colour map. Values whose magnitude is at most the threshold are neutral.
 struct ColourScale {
   float lowest = 0, highest = -1;
-  float threshold = -1;    // no magnitude is below 0: none is
-  bool diverging = false;  // a difference: 0 lies in the middle
+  float threshold = -1;    // -1: no value is neutral
+  bool diverging = false;  // for a difference: 0 is in the middle
 
-  /// Whether there are values; they are worked out when a panel is painted.
+  /// True if there are values: painting a panel starts their computation.
   bool known() const { return lowest <= highest; }
   bool operator==(const ColourScale&) const = default;
 };

@@ -6,7 +6,7 @@
 namespace chainmail {
 namespace {
 
-/// A multiplicative hash (Knuth 1973): neighbouring ids go far apart.
+/// A multiplicative hash (Knuth 1973) that separates neighbouring ids.
 ElementId scatter(ElementId e) { return e * 2654435761U >> 16; }
 
 }  // namespace

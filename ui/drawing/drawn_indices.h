@@ -7,27 +7,28 @@
 
 namespace chainmail {
 
-/// What to draw of a mesh, as elements' ids for the graphics card.
+// The links and faces that are drawn, as ids of elements for the graphics card.
 
-/// The links of a level that are drawn: their numbers, and the two ends of each.
+/// Links of a level that are drawn: their numbers, and the two ends of each.
 struct DrawnLinks {
   std::vector<std::uint32_t> numbers;
   std::vector<ElementId> ends;
 };
 
-/// Those of some cells that are not cut.
+/// Returns the links of some cells that are not cut.
 DrawnLinks drawnLinks(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& cells);
 
-/// The three corners of every face of some cells none of whose sides is cut.
+/// Returns three corners per face of some cells, without faces that have a cut side.
 std::vector<ElementId> drawnFaces(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& cells);
 
-/// Those of a volume that can be seen: on its surface, or in no cell.
+/// Returns the visible links of a volume: those on its surface, and those that are part of no cell.
 DrawnLinks surfaceLinks(const Surface& surface, const Cuts& cuts);
 
-/// The corners of the surface's triangles, and of the mesh's own that lie on no cell, where no side is cut.
+/// Returns the corners of the triangles of the surface, and of the mesh's own triangles that are on no cell and have no
+/// cut side.
 std::vector<ElementId> surfaceFaces(const Surface& surface, const Cuts& cuts);
 
-/// All of the elements, or about `atMost` of them, spread evenly.
+/// Returns all elements, or about `atMost` of them, evenly distributed.
 std::vector<ElementId> thinned(const std::vector<ElementId>& elements, std::size_t atMost);
 
 }  // namespace chainmail

@@ -10,13 +10,13 @@
 namespace chainmail {
 namespace {
 
-// Above this many links and faces an object is drawn more coarsely where its links fall below this many pixels or too
-// many are in the view, and cell by cell.
-constexpr std::size_t shapesDrawn = 60'000;
-constexpr double pixelsPerLink = 3;
-constexpr unsigned coarsest = 64;
+// An object with more links and faces than this is drawn more coarsely if its links are shorter than `fewestPixels` or
+// if too many of them are in the view. It is drawn cell by cell.
+constexpr std::size_t mostShapes = 60'000;
+constexpr double fewestPixels = 3;  // per link
+constexpr unsigned coarsestStep = 64;
 
-/// About how many elements every step-th row has, or a level that is as coarse as that.
+/// Returns the approximate number of elements of a level.
 double elementsAt(const Mesh& mesh, unsigned step) {
   if (!mesh.lattice) {
     return mesh.element_count() / std::pow(step, mesh.object_dimension);
@@ -28,7 +28,7 @@ double elementsAt(const Mesh& mesh, unsigned step) {
   return count;
 }
 
-/// About how many links and faces there are at a step for each element.
+/// Returns the approximate number of links and faces per element of a level.
 double shapesPerElement(const Mesh& mesh, unsigned step) {
   const double faces = double(mesh.triangles.size()) / mesh.element_count();
   if (step == 1 || !mesh.lattice) {
@@ -40,44 +40,6 @@ double shapesPerElement(const Mesh& mesh, unsigned step) {
 
 }  // namespace
 
-/// Which share of the elements may be seen.
-double DrawnParts::shareInView(const ObjectDrawing::Scene& scene) {
-  const auto whole = levels_->at(mesh_, 1);
-  const auto seen = visibleCells(scene, whole, wholeBoxes_);
-  return double(seen.size()) / double(whole->cellCount());
-}
-
-/// As finely as its links can be told apart; more coarsely where too many would be seen at once, as in a volume.
-void DrawnParts::chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit) {
-  step_ = 1;
-  const double pixels = mesh_->mean_link_length * pixelsPerUnit;
-  if (mesh_->links.size() + mesh_->triangles.size() <= shapesDrawn || !(pixels > 0)) {
-    return;
-  }
-  while (step_ < coarsest && pixels * step_ < pixelsPerLink) {
-    step_ = MeshLevels::after(step_, *mesh_);
-  }
-  const auto shapes = [&] { return elementsAt(*mesh_, step_) * shapesPerElement(*mesh_, step_); };
-  if (shapes() <= shapesDrawn) {
-    return;
-  }
-  const double share = shareInView(scene);
-  while (step_ < coarsest && share * shapes() > shapesDrawn) {
-    step_ = MeshLevels::after(step_, *mesh_);
-  }
-}
-
-std::vector<std::uint32_t> DrawnParts::visibleCells(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
-                                                    CellBoxes& boxes) const {
-  if (level->links.size() + level->faces.size() <= shapesDrawn) {
-    std::vector<std::uint32_t> all(level->cellCount());
-    std::iota(all.begin(), all.end(), 0U);
-    return all;
-  }
-  boxes.follow(level, *frame_);
-  return cellsSeen(boxes, Projection(*mesh_, scene.toView, scene.toClip, scene.size));
-}
-
 void DrawnParts::setFrame(const Frame& frame, const Cuts& cuts) {
   frame_ = &frame;
   cuts_ = &cuts;
@@ -86,45 +48,6 @@ void DrawnParts::setFrame(const Frame& frame, const Cuts& cuts) {
     level_.reset();
     outdated_ = sectionOutdated_ = true;
   }
-}
-
-DrawnParts::Parts DrawnParts::partsOf(const ObjectDrawing::Paint& paint, double pixelsPerUnit) const {
-  const Look& look = paint.look;
-  const bool hasCells = !mesh_->tetrahedra.empty() || !mesh_->hexahedra.empty();
-  // Links alone are shown while the surface of a large mesh is being made.
-  const bool ofSurface = look.faces && mesh_->space_dimension == 3 && hasCells && levels_->hasSurface(mesh_);
-  const bool valued = paint.values != nullptr && paint.values->ofLinks;
-  const bool tooFine = ofSurface && look.links && !valued && hidesSurface(surface().links().size(), pixelsPerUnit);
-  return {look.faces, look.links && !tooFine, ofSurface, tooFine};
-}
-
-/// Whether links are too many, and the closer to each other the more they are: they would hide what they lie on.
-bool DrawnParts::hidesSurface(std::size_t links, double pixelsPerUnit) const {
-  return links > shapesDrawn &&
-         mesh_->mean_link_length * pixelsPerUnit < pixelsPerLink * double(links) / double(shapesDrawn);
-}
-
-void DrawnParts::chooseParts(const ObjectDrawing::Paint& paint, double pixelsPerUnit) {
-  const Parts parts = partsOf(paint, pixelsPerUnit);
-  outdated_ = outdated_ || parts != parts_;
-  parts_ = parts;
-  const auto plane = parts_.ofSurface ? paint.look.section : std::nullopt;
-  sectionOutdated_ = sectionOutdated_ || plane != plane_;
-  plane_ = plane;
-}
-
-const Section* DrawnParts::section() const { return plane_ ? &levels_->section(mesh_, *cuts_, *plane_) : nullptr; }
-
-std::vector<QVector3D> placesOf(const Section& section, const Frame& frame) {
-  std::vector<QVector3D> places;
-  places.reserve(section.points().size());
-  for (const SectionPoint& point : section.points()) {
-    const float* from = frame.positions.data() + std::size_t{3} * point.from;
-    const float* to = frame.positions.data() + std::size_t{3} * point.to;
-    const auto at = [&](int k) { return from[k] + point.share * (to[k] - from[k]); };
-    places.emplace_back(at(0), at(1), at(2));
-  }
-  return places;
 }
 
 bool DrawnParts::choose(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint, double pixelsPerUnit) {
@@ -147,6 +70,69 @@ bool DrawnParts::choose(const ObjectDrawing::Scene& scene, const ObjectDrawing::
   return true;
 }
 
+void DrawnParts::chooseParts(const ObjectDrawing::Paint& paint, double pixelsPerUnit) {
+  const Parts parts = partsOf(paint, pixelsPerUnit);
+  outdated_ = outdated_ || parts != parts_;
+  parts_ = parts;
+  const auto plane = parts_.ofSurface ? paint.look.section : std::nullopt;
+  sectionOutdated_ = sectionOutdated_ || plane != plane_;
+  plane_ = plane;
+}
+
+DrawnParts::Parts DrawnParts::partsOf(const ObjectDrawing::Paint& paint, double pixelsPerUnit) const {
+  const Look& look = paint.look;
+  const bool hasCells = !mesh_->tetrahedra.empty() || !mesh_->hexahedra.empty();
+  // Only links are shown while the surface of a large mesh is being computed.
+  const bool ofSurface = look.faces && mesh_->space_dimension == 3 && hasCells && levels_->hasSurface(mesh_);
+  const bool valued = paint.values != nullptr && paint.values->ofLinks;
+  const bool tooFine = ofSurface && look.links && !valued && hidesSurface(surface().links().size(), pixelsPerUnit);
+  return {look.faces, look.links && !tooFine, ofSurface, tooFine};
+}
+
+/// True if the links would hide the surface: there are many of them, and they are short in the view.
+bool DrawnParts::hidesSurface(std::size_t links, double pixelsPerUnit) const {
+  return links > mostShapes &&
+         mesh_->mean_link_length * pixelsPerUnit < fewestPixels * double(links) / double(mostShapes);
+}
+
+/// Chooses the finest step at which links are distinguishable and not too many are in the view, as in a volume.
+void DrawnParts::chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit) {
+  step_ = 1;
+  const double pixels = mesh_->mean_link_length * pixelsPerUnit;
+  if (mesh_->links.size() + mesh_->triangles.size() <= mostShapes || !(pixels > 0)) {
+    return;
+  }
+  while (step_ < coarsestStep && pixels * step_ < fewestPixels) {
+    step_ = MeshLevels::after(step_, *mesh_);
+  }
+  const auto shapes = [&] { return elementsAt(*mesh_, step_) * shapesPerElement(*mesh_, step_); };
+  if (shapes() <= mostShapes) {
+    return;
+  }
+  const double share = shareInView(scene);
+  while (step_ < coarsestStep && share * shapes() > mostShapes) {
+    step_ = MeshLevels::after(step_, *mesh_);
+  }
+}
+
+/// Returns the share of the cells that may be visible.
+double DrawnParts::shareInView(const ObjectDrawing::Scene& scene) {
+  const auto whole = levels_->at(mesh_, 1);
+  const auto seen = visibleCells(scene, whole, wholeBoxes_);
+  return double(seen.size()) / double(whole->cellCount());
+}
+
+std::vector<std::uint32_t> DrawnParts::visibleCells(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
+                                                    CellBoxes& boxes) const {
+  if (level->links.size() + level->faces.size() <= mostShapes) {
+    std::vector<std::uint32_t> all(level->cellCount());
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+  }
+  boxes.follow(level, *frame_);
+  return cellsSeen(boxes, Projection(*mesh_, scene.toView, scene.toClip, scene.size));
+}
+
 DrawnLinks DrawnParts::links() const {
   return !parts_.links      ? DrawnLinks()
          : parts_.ofSurface ? surfaceLinks(surface(), *cuts_)
@@ -158,6 +144,8 @@ std::vector<ElementId> DrawnParts::faces() const {
          : parts_.ofSurface ? surfaceFaces(surface(), *cuts_)
                             : drawnFaces(*level_, *cuts_, cells_);
 }
+
+const Section* DrawnParts::section() const { return plane_ ? &levels_->section(mesh_, *cuts_, *plane_) : nullptr; }
 
 std::vector<float> DrawnParts::valuesOf(const std::vector<std::uint32_t>& links, const ColourValues& values) const {
   std::vector<float> drawn;
@@ -174,6 +162,18 @@ std::vector<float> DrawnParts::valuesOf(const std::vector<std::uint32_t>& links,
     drawn.push_back(largest);
   }
   return drawn;
+}
+
+std::vector<QVector3D> positionsOf(const Section& section, const Frame& frame) {
+  std::vector<QVector3D> positions;
+  positions.reserve(section.points().size());
+  for (const SectionPoint& point : section.points()) {
+    const float* from = frame.positions.data() + std::size_t{3} * point.from;
+    const float* to = frame.positions.data() + std::size_t{3} * point.to;
+    const auto at = [&](int k) { return from[k] + point.share * (to[k] - from[k]); };
+    positions.emplace_back(at(0), at(1), at(2));
+  }
+  return positions;
 }
 
 }  // namespace chainmail

@@ -7,13 +7,13 @@
 
 namespace chainmail {
 
-/// How finely an object is drawn, and which parts of it: what its view can show of a frame.
+/// Chooses how finely an object is drawn, and which of its links and faces: those that the view can show.
 class DrawnParts {
  public:
   /// `levels` of the mesh may be shared.
   explicit DrawnParts(std::shared_ptr<MeshLevels> levels) : levels_(std::move(levels)) {}
 
-  /// Both must stay as they are until the next one, the cuts but for cutsChanged.
+  /// Frame and cuts must stay valid until the next call; cutsChanged must follow a change of the cuts.
   void setFrame(const Frame& frame, const Cuts& cuts);
   void cutsChanged() { outdated_ = sectionOutdated_ = true; }
   void forget() {
@@ -21,28 +21,29 @@ class DrawnParts {
     outdated_ = sectionOutdated_ = true;
   }
 
-  /// True where other links or faces are to be drawn than the last time. Costs what is drawn, not what there is.
+  /// Returns true if links() or faces() changed since the last call. The cost depends on what is drawn, not on the size
+  /// of the mesh.
   bool choose(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint, double pixelsPerUnit);
 
-  /// 1 where every link is drawn; k where about k links in a row are drawn as one.
+  /// Returns 1 if every link is drawn, k if about k links in a row are drawn as one.
   unsigned step() const { return step_; }
-  /// Whether links on a surface are left out, as they would hide it.
+  /// True if the links on a surface are left out because they would hide it.
   bool leavesLinksOut() const { return parts_.tooFine; }
   DrawnLinks links() const;
-  /// Three corners each.
+  /// Returns three corners per face.
   std::vector<ElementId> faces() const;
-  /// The section, where one closes a volume.
+  /// Returns the section that closes a volume, or null.
   const Section* section() const;
-  /// Whether it has another face than the last time this was asked.
+  /// Returns true if the face of the section changed since the last call.
   bool takeSectionChange() { return std::exchange(sectionOutdated_, false); }
   const Surface& surface() const { return levels_->surface(mesh_, *cuts_); }
   MeshLevels& levels() { return *levels_; }
-  /// A value for each of the links with these numbers: the largest of those that it stands for.
+  /// Returns a value per link; for a coarse link, the value of largest magnitude of the links that it replaces.
   std::vector<float> valuesOf(const std::vector<std::uint32_t>& links, const ColourValues& values) const;
 
  private:
-  /// Which of the object's parts are drawn, and whether they are those of a volume's surface: it is drawn in full, as
-  /// it is far less than the volume.
+  /// Which parts of the object are drawn, and whether they are those of a volume's surface. A surface is always drawn
+  /// in full, because it is far smaller than the volume.
   struct Parts {
     bool faces = true, links = true, ofSurface = false, tooFine = false;
     bool operator==(const Parts&) const = default;
@@ -53,7 +54,7 @@ class DrawnParts {
   bool hidesSurface(std::size_t links, double pixelsPerUnit) const;
   void chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit);
   double shareInView(const ObjectDrawing::Scene& scene);
-  /// The cells of a level that may be seen.
+  /// Returns the cells of a level that may be visible.
   std::vector<std::uint32_t> visibleCells(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
                                           CellBoxes& boxes) const;
 
@@ -64,14 +65,14 @@ class DrawnParts {
   Parts parts_;
   unsigned step_ = 1;
   MeshLevelPointer level_;
-  CellBoxes boxes_;       // of that level
-  CellBoxes wholeBoxes_;  // of every element
+  CellBoxes boxes_;       // of level_
+  CellBoxes wholeBoxes_;  // of the level with every element
   std::vector<std::uint32_t> cells_;
-  std::optional<SectionPlane> plane_;  // of the section that closes a volume
+  std::optional<SectionPlane> plane_;  // of the section
   bool outdated_ = true, sectionOutdated_ = true;
 };
 
-/// Where the points of a section are in a frame.
-std::vector<QVector3D> placesOf(const Section& section, const Frame& frame);
+/// Returns the positions of the points of a section in a frame.
+std::vector<QVector3D> positionsOf(const Section& section, const Frame& frame);
 
 }  // namespace chainmail

@@ -5,8 +5,8 @@
 
 namespace chainmail {
 
-/// Counts the frames that a view truly painted and that reached the screen. Qt announces a swap to every
-/// view for any repaint of the window, so a swap counts only after this view's own paint.
+/// Counts the frames that a view painted and that reached the screen. Qt reports a swap to every view when any part of
+/// the window is repainted, so a swap only counts after the view's own paint.
 class FrameMeter {
  public:
   FrameMeter() { clock_.start(); }
@@ -18,7 +18,7 @@ class FrameMeter {
       times_.push_back(clock_.elapsed());
     }
   }
-  /// Frames painted in the last second.
+  /// Returns the number of frames painted in the last second.
   int framesPerSecond() {
     while (!times_.empty() && times_.front() < clock_.elapsed() - 1000) {
       times_.pop_front();

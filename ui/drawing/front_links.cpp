@@ -7,30 +7,30 @@
 namespace chainmail {
 namespace {
 
-// What lies on a face is not behind it: rounding, in the projection's depth from -1 to 1.
-constexpr double rounding = 1e-6;
-// In mean links' lengths: an object without faces is as near as its elements so far about, and what is so far behind is
-// the next layer. A grid has an element within 0.71 of every place.
-constexpr double layer = 0.75;
+// Rounding error of depths, which are between -1 and 1: what is on a face is not behind it.
+constexpr double depthRounding = 1e-6;
+// Mean link lengths. In an object without faces, the nearest element within this distance is the front layer, and links
+// this far behind it are the next layer. A grid has an element within 0.71 of every position.
+constexpr double layerThickness = 0.75;
 
-/// A place in the view with a depth that is even along straight lines there, growing away from the eye.
+/// A position in the view with a depth that is linear along straight lines there and grows away from the eye.
 struct Spot {
   QPointF at;
   double depth = 0;
 };
 
-Projection::Place placeOf(const Frame& frame, const Projection& projection, ElementId element) {
+Projection::Place project(const Frame& frame, const Projection& projection, ElementId element) {
   return projection(frame.positions.data() + std::size_t{element} * frame.mesh->space_dimension);
 }
 
 Spot spotOf(const Projection::Place& place) { return {{place.x, place.y}, double(place.z) / double(place.distance)}; }
 
-double cross(QPointF a, QPointF b) { return a.x() * b.y() - a.y() * b.x(); }
+double crossProduct(QPointF a, QPointF b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Where between a link's ends, from 0 to 1, the stroke crosses it.
+/// Returns the share of the way between a link's ends (0 to 1) at which the stroke crosses it.
 double shareAt(QLineF stroke, QPointF a, QPointF b) {
   const QPointF along = stroke.p2() - stroke.p1();
-  const double before = cross(along, a - stroke.p1()), after = cross(along, b - stroke.p1());
+  const double before = crossProduct(along, a - stroke.p1()), after = crossProduct(along, b - stroke.p1());
   return before == after ? 0.5 : std::clamp(before / (before - after), 0.0, 1.0);
 }
 
@@ -49,26 +49,27 @@ QRectF boundsOf(std::span<const Spot> spots) {
   return bounds;
 }
 
-/// Unlike Qt's own, for rectangles without area too.
+/// Same as QRectF::intersects, but also for rectangles without area.
 bool meet(const QRectF& a, const QRectF& b) {
   return a.left() <= b.right() && b.left() <= a.right() && a.top() <= b.bottom() && b.top() <= a.bottom();
 }
 
-/// A face as it appears.
+/// A face in the view.
 struct SeenFace {
   Face corners;
   std::array<Spot, 3> spots;
 
   bool has(ElementId element) const { return std::ranges::find(corners, element) != corners.end(); }
-  /// Whether it appears there, and nearer.
+  /// True if the face covers this spot and is nearer.
   bool hides(const Spot& spot) const {
     const auto& [a, b, c] = spots;
-    const double all = cross(b.at - a.at, c.at - a.at);
-    const double ofB = cross(spot.at - a.at, c.at - a.at) / all, ofC = cross(b.at - a.at, spot.at - a.at) / all;
+    const double all = crossProduct(b.at - a.at, c.at - a.at);
+    const double ofB = crossProduct(spot.at - a.at, c.at - a.at) / all,
+                 ofC = crossProduct(b.at - a.at, spot.at - a.at) / all;
     if (!(ofB >= 0 && ofC >= 0 && ofB + ofC <= 1)) {
-      return false;  // nor a face that is seen edge-on
+      return false;  // also false (NaN) for a face that is seen edge-on
     }
-    return a.depth + ofB * (b.depth - a.depth) + ofC * (c.depth - a.depth) < spot.depth - rounding;
+    return a.depth + ofB * (b.depth - a.depth) + ofC * (c.depth - a.depth) < spot.depth - depthRounding;
   }
 };
 
@@ -79,7 +80,7 @@ std::vector<SeenFace> facesAt(const Frame& frame, const Projection& projection, 
     SeenFace one{face, {}};
     bool visible = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto place = placeOf(frame, projection, face[k]);
+      const auto place = project(frame, projection, face[k]);
       visible = visible && place.visible();
       one.spots[k] = spotOf(place);
     }
@@ -90,7 +91,7 @@ std::vector<SeenFace> facesAt(const Frame& frame, const Projection& projection, 
   return seen;
 }
 
-/// Where the faces of each cell may appear: they lead to the cells that it reaches.
+/// Returns where the faces of each cell may appear. They extend to the cells that it reaches.
 std::vector<ViewBounds> faceBounds(const CellBoxes& boxes, const Projection& projection) {
   const MeshLevel& level = boxes.level();
   std::vector<ViewBounds> own(level.cellCount());
@@ -101,7 +102,7 @@ std::vector<ViewBounds> faceBounds(const CellBoxes& boxes, const Projection& pro
   for (std::size_t cell = 0; cell < own.size(); ++cell) {
     for (const std::uint32_t other : level.reached[cell]) {
       if (own[cell].empty() != own[other].empty()) {
-        bounds[cell] = ViewBounds::everywhere();  // from before the eye to behind it
+        bounds[cell] = ViewBounds::everywhere();  // the faces extend from in front of the eye to behind it
       }
       bounds[cell].unite(own[other]);
     }
@@ -109,32 +110,32 @@ std::vector<ViewBounds> faceBounds(const CellBoxes& boxes, const Projection& pro
   return bounds;
 }
 
-/// Where a link crosses a stroke, and how deep (pixels both).
+/// Where a link crosses a stroke, and at which depth (pixels).
 struct Crossing {
   QPointF at;
   double depth = 0;
-  double radius = 0;  // of what is about there
+  double radius = 0;  // of the neighbourhood that is searched
 };
 
 Crossing crossingOf(const Frame& frame, const Projection& projection, QLineF stroke, LinkId link) {
-  const auto a = placeOf(frame, projection, frame.mesh->links[link][0]);
-  const auto b = placeOf(frame, projection, frame.mesh->links[link][1]);
+  const auto a = project(frame, projection, frame.mesh->links[link][0]);
+  const auto b = project(frame, projection, frame.mesh->links[link][1]);
   const QPointF first(a.x, a.y), second(b.x, b.y);
   const double share = shareAt(stroke, first, second);
   const double perUnit = std::max(projection.pixelsPerUnit(a), projection.pixelsPerUnit(b));
   return {first + share * (second - first),
           projection.depth(a) + share * double(projection.depth(b) - projection.depth(a)),
-          layer * frame.mesh->mean_link_length * perUnit};
+          layerThickness * frame.mesh->mean_link_length * perUnit};
 }
 
-/// The elements that appear no further than `about` from a stroke, each with its depth in pixels.
+/// Returns the elements within `about` pixels of the bounds of a stroke, with their depths in pixels.
 std::vector<Spot> elementsAbout(const Frame& frame, const CellBoxes& boxes, const Projection& projection, QLineF stroke,
                                 double about) {
   const QRectF bounds = QRectF(stroke.p1(), stroke.p2()).normalized().adjusted(-about, -about, about, about);
   std::vector<Spot> spots;
   for (const ElementId element :
        elementsWhere(frame, boxes, projection, bounds, [&](QPointF at) { return bounds.contains(at); })) {
-    const auto place = placeOf(frame, projection, element);
+    const auto place = project(frame, projection, element);
     spots.push_back({{place.x, place.y}, projection.depth(place)});
   }
   return spots;
@@ -175,7 +176,7 @@ std::vector<LinkId> unhiddenLinks(const Frame& frame, const Projection& projecti
   std::vector<LinkId> unhidden;
   for (const LinkId link : crossed) {
     const auto [a, b] = frame.mesh->links[link];
-    const Spot first = spotOf(placeOf(frame, projection, a)), second = spotOf(placeOf(frame, projection, b));
+    const Spot first = spotOf(project(frame, projection, a)), second = spotOf(project(frame, projection, b));
     const Spot spot = between(first, second, shareAt(stroke, first.at, second.at));
     if (std::ranges::none_of(seen, [&](const SeenFace& f) { return !(f.has(a) && f.has(b)) && f.hides(spot); })) {
       unhidden.push_back(link);

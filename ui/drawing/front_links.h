@@ -9,23 +9,23 @@
 
 namespace chainmail {
 
-/// What a stroke crosses in the front layer of an object alone: what one sees, and not what is behind it.
+// Finds the links of the front layer that a stroke crosses: those that are visible, and not those behind them.
 
 using Face = std::array<ElementId, 3>;
 
-/// The mesh's triangles, none of whose sides is cut, that may appear in a part of the view (logical pixels).
+/// Returns the triangles of the mesh without a cut side that may appear in a part of the view (logical pixels).
 std::vector<Face> wholeFaces(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts, const Projection& projection,
                              QRectF part);
 
-/// Adds those of a volume's surface that are in sight.
+/// Appends the faces of a volume's surface.
 void appendFaces(const Surface& surface, std::vector<Face>& faces);
 
-/// Of links that cross a stroke those that no face hides where they cross it. A face hides none of its own sides.
+/// Returns the crossed links that no face hides where they cross the stroke. A face does not hide its own sides.
 std::vector<LinkId> unhiddenLinks(const Frame& frame, const Projection& projection, QLineF stroke,
                                   std::span<const LinkId> crossed, std::span<const Face> faces);
 
-/// The same of an object without faces: those that are, where they cross the stroke, less than a mean link's length
-/// behind the nearest element about there.
+/// Returns the same for an object without faces: the links that are, where they cross the stroke, less than a mean link
+/// length behind the nearest element around there.
 std::vector<LinkId> nearestLinks(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
                                  QLineF stroke, std::span<const LinkId> crossed);
 

@@ -6,11 +6,11 @@
 
 namespace chainmail {
 
-/// Which parts of an object are drawn. Of a volume the faces are its outer surface, and with them the links that lie on
-/// it alone.
+/// Which parts of an object are drawn. The faces of a volume are its outer surface; if they are drawn, only the links
+/// on that surface are.
 struct Look {
   bool faces = true, links = true;
-  /// What lies in front of it at rest is not drawn; a volume is closed there by the section's face.
+  /// Everything that is in front of this plane at rest is hidden. The face of the section closes a volume there.
   std::optional<SectionPlane> section = {};
 
   bool operator==(const Look&) const = default;

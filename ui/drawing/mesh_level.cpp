@@ -10,10 +10,10 @@
 namespace chainmail {
 namespace {
 
-constexpr std::size_t cellElements = 256;  // about
-constexpr unsigned keyBits = 10;           // of each axis
+constexpr std::size_t cellElements = 256;  // approximately
+constexpr unsigned keyBits = 10;           // per axis
 
-/// Spreads ten bits so that two fit between each and the next.
+/// Spreads ten bits with two free bits between neighbours.
 std::uint32_t spread(std::uint32_t bits) {
   bits = (bits | bits << 16) & 0x030000ff;
   bits = (bits | bits << 8) & 0x0300f00f;
@@ -21,7 +21,7 @@ std::uint32_t spread(std::uint32_t bits) {
   return (bits | bits << 2) & 0x09249249;
 }
 
-/// Places along a curve that stays near where it is (Morton 1966), of the elements' rest positions.
+/// Returns the positions of the elements along a Z-order curve (Morton 1966) through their rest positions.
 std::vector<std::uint32_t> curveKeys(const Mesh& mesh, const std::vector<ElementId>& elements) {
   const auto box = bounds(mesh);
   const double extent = std::max((box[1] - box[0]).maxCoeff(), std::numeric_limits<double>::min());
@@ -36,7 +36,7 @@ std::vector<std::uint32_t> curveKeys(const Mesh& mesh, const std::vector<Element
   return keys;
 }
 
-/// In the order of their keys, ten bits at a time from the lowest.
+/// Sorts the elements by their keys: a radix sort, ten bits per pass from the lowest.
 std::vector<ElementId> sortedAlongCurve(const Mesh& mesh, std::vector<ElementId> elements) {
   auto keys = curveKeys(mesh, elements);
   for (unsigned shift = 0; shift < 3 * keyBits; shift += keyBits) {
@@ -54,7 +54,7 @@ std::vector<ElementId> sortedAlongCurve(const Mesh& mesh, std::vector<ElementId>
   return elements;
 }
 
-/// Bricks of a lattice: about as many rows along each axis as fill a cell.
+/// The cells of a lattice are bricks, with as many rows along each axis as fill a cell approximately.
 struct Bricks {
   Bricks(const Mesh& mesh, unsigned step) : size(mesh.lattice->size) {
     const auto axes = std::count_if(size.begin(), size.end(), [](auto one) { return one > 1; });
@@ -88,7 +88,7 @@ Groups cellsOf(const MeshLevel& level) {
   return cells;
 }
 
-/// Which cells each cell reaches, and its links in the order of those.
+/// Finds the cells that each cell reaches, and sorts its links by them.
 void findReached(MeshLevel& level, const std::vector<std::uint32_t>& cellOf) {
   std::vector<std::uint32_t> slotOf(level.cellCount()), seenBy(level.cellCount(), MeshLevel::none), ends, sorted;
   for (std::uint32_t cell = 0; cell < level.cellCount(); ++cell) {
@@ -124,7 +124,7 @@ void findReached(MeshLevel& level, const std::vector<std::uint32_t>& cellOf) {
   level.reachedLinks.push_back(std::uint32_t(level.links.size()));
 }
 
-/// The blocks that each cell's elements lie in.
+/// Returns the blocks that contain each cell's elements.
 Groups blocksOf(const MeshLevel& level) {
   Groups result;
   std::vector<std::uint32_t> seenBy(level.mesh->element_count() / Frame::block_elements + 1, MeshLevel::none);

@@ -1,62 +1,94 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "drawing/groups.h"
 #include "mesh/cuts.h"
 
 namespace chainmail {
 
-/// A mesh as it is drawn and searched at one level of detail: all of it, or some of its elements, joined by coarse
-/// links that each stand for a path of links. Its elements lie in cells, groups that are close together at rest
-/// whatever the order of the ids, so that what is out of the way is passed over by the cell.
+/// Numbers in consecutive groups.
+struct Groups {
+  std::vector<std::uint32_t> first{0};  // index of the first item of each group, and the end
+  std::vector<std::uint32_t> items;
+
+  std::size_t count() const { return first.size() - 1; }
+  std::span<const std::uint32_t> operator[](std::size_t group) const {
+    return std::span(items).subspan(first[group], first[group + 1] - first[group]);
+  }
+  /// Ends the current group after its items were appended.
+  void close() { first.push_back(std::uint32_t(items.size())); }
+};
+
+/// Returns the numbers 0 … size − 1 in the groups that groupOf returns, ascending within each.
+template <class GroupOf>
+Groups grouped(std::size_t groups, std::size_t size, GroupOf groupOf) {
+  Groups result;
+  result.first.assign(groups + 1, 0);
+  result.items.resize(size);
+  for (std::uint32_t i = 0; i < size; ++i) {
+    ++result.first[groupOf(i) + 1];
+  }
+  for (std::size_t group = 0; group < groups; ++group) {
+    result.first[group + 1] += result.first[group];
+  }
+  std::vector<std::uint32_t> next(result.first.begin(), result.first.end() - 1);
+  for (std::uint32_t i = 0; i < size; ++i) {
+    result.items[next[groupOf(i)]++] = i;
+  }
+  return result;
+}
+
+/// One level of detail of a mesh, for drawing and searching: the whole mesh, or some of its elements joined by coarse
+/// links, each of which replaces a path of links. Groups of elements that are close together at rest form cells, so
+/// that a search can skip them together. (These cells are not tetrahedra or hexahedra.)
 struct MeshLevel {
   using Link = std::array<ElementId, 2>;
   using Face = std::array<ElementId, 3>;
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   MeshPointer mesh;
-  unsigned step = 1;            // how many links in a row become one
+  unsigned step = 1;            // number of links in a row that become one
   std::span<const Link> links;  // the mesh's own at step 1
   std::span<const Face> faces;
   std::vector<ElementId> elements;
   Groups cells;      // of elements
-  Groups cellLinks;  // in the cells of their first elements
+  Groups cellLinks;  // each link is in the cell of its first element
   Groups cellFaces;
-  Groups reached;                           // the cells that a cell's links and faces lead to, itself maybe among them
-  std::vector<std::uint32_t> reachedLinks;  // where in cellLinks those to each of them begin, and the end
-  Groups cellBlocks;  // the blocks of ids that a cell's elements lie in, as Frame::changed has them
+  Groups reached;                           // the cells that a cell's links and faces lead to; may include the cell
+  std::vector<std::uint32_t> reachedLinks;  // index in cellLinks of the first link to each reached cell, and the end
+  Groups cellBlocks;                        // the blocks of Frame::changed that contain a cell's elements
 
-  // Beyond step 1.
+  // Only for steps above 1.
   std::vector<Link> coarseLinks;
   std::vector<Face> coarseFaces;
-  Groups paths;                                         // the mesh's links that a coarse one stands for
-  std::vector<std::array<std::uint32_t, 3>> faceSides;  // the coarse links about a face, or none
+  Groups paths;                                         // the links of the mesh that a coarse link replaces
+  std::vector<std::array<std::uint32_t, 3>> faceSides;  // the coarse links around a face, or none
 
   MeshLevel() = default;
-  MeshLevel(const MeshLevel&) = delete;  // the spans are of its own vectors
+  MeshLevel(const MeshLevel&) = delete;  // the spans refer to the level's own vectors
   MeshLevel& operator=(const MeshLevel&) = delete;
 
   std::size_t cellCount() const { return cells.count(); }
-  /// Whether none of the links that this one stands for is cut.
+  /// True if none of the links that this link replaces is cut.
   bool isUncut(std::uint32_t link, const Cuts& cuts) const;
-  /// Whether no side of a face is cut.
+  /// True if no side of a face is cut.
   bool isWhole(std::uint32_t face, const Cuts& cuts) const;
 };
 
-/// Whether no side of a triangle is cut.
+/// True if no side of a triangle is cut.
 bool isWholeFace(const Mesh& mesh, const Cuts& cuts, const MeshLevel::Face& face);
 
 using MeshLevelPointer = std::shared_ptr<const MeshLevel>;
 
-/// Every element, link and face.
+/// Returns the level with every element, link and face.
 MeshLevelPointer wholeLevel(const MeshPointer& mesh);
 
-/// Fills in the cells from the elements, in any order, the links and the faces.
+/// Computes the cells from the elements (in any order), the links and the faces.
 void makeCells(MeshLevel& level);
 
 }  // namespace chainmail

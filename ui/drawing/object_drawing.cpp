@@ -6,16 +6,16 @@
 namespace chainmail {
 namespace {
 
-constexpr ElementId elementsMarked = 20'000;
+constexpr ElementId mostElementsMarked = 20'000;
 constexpr double pixelsBetweenMarks = 9;
-constexpr float planeFace = 0.08F;  // opacity
-// On a light ground shadows must not drown the links.
+constexpr float planeFaceOpacity = 0.08F;
+// Shadows on a light ground must not hide the links.
 constexpr float darkest = 0.55F, darkestUnderLinks = 0.82F;
 
 }  // namespace
 
 bool ObjectDrawing::marksElements(const Mesh& mesh, double pixelsPerUnit) {
-  return mesh.element_count() <= elementsMarked && mesh.mean_link_length * pixelsPerUnit >= pixelsBetweenMarks;
+  return mesh.element_count() <= mostElementsMarked && mesh.mean_link_length * pixelsPerUnit >= pixelsBetweenMarks;
 }
 
 QColor ObjectDrawing::faceColour(const Mesh& mesh, const Paint& paint) {
@@ -26,7 +26,7 @@ QColor ObjectDrawing::faceColour(const Mesh& mesh, const Paint& paint) {
   if (mesh.space_dimension == 3) {
     return colours::faint(face);
   }
-  face.setAlphaF(planeFace);
+  face.setAlphaF(planeFaceOpacity);
   return face;
 }
 

@@ -19,26 +19,26 @@ class QPainter;
 
 namespace chainmail {
 
-/// Draws frames of an object as a scene shows them, and marks over it: on the screen, or in lines for print.
+/// Draws frames of an object, and marks over it. ObjectPainter draws on the screen, VectorPainter for print.
 class ObjectDrawing {
  public:
   struct Scene {
     QMatrix4x4 toView, toClip;
     QSizeF size;    // of the view, in device pixels
-    QVector2D fog;  // distances at which fading with depth begins and ends; equal: none
+    QVector2D fog;  // distances at which fading with depth begins and ends; equal: no fading
     QColor background;
     float pixelRatio = 1;
 
     QSizeF logicalSize() const { return size / double(pixelRatio); }
   };
-  /// What the object is drawn with: one colour or, where there are values of its mesh, the colour map.
+  /// How the object is coloured: in one colour, or by the colour map if there are values for its mesh.
   struct Paint {
     QColor colour;
     const ColourValues* values = nullptr;
     ColourScale scale;
     Look look = {};
   };
-  /// Marks are told apart by shape, not by colour alone.
+  /// Marks differ in shape, not only in colour. The numbers are the shader's SHADING.
   enum class Mark { disc = 2, diamond = 3, ring = 4 };
   enum class Shape { segments, triangles, discs, rings };
 
@@ -47,49 +47,50 @@ class ObjectDrawing {
   ObjectDrawing& operator=(const ObjectDrawing&) = delete;
   virtual ~ObjectDrawing() = default;
 
-  /// Takes the frame over; both must stay as they are until the next one, but for cuts that it is told of.
+  /// Takes the frame over, once per paint. Frame and cuts must stay valid until the next call; cuts may change if the
+  /// drawing is notified.
   virtual void setFrame(const Frame& frame, const Cuts& cuts) = 0;
 
-  /// The object itself. `pixelsPerUnit` (logical pixels) decides how finely it is drawn.
+  /// Draws the object. `pixelsPerUnit` (logical pixels per mesh unit) decides how finely.
   virtual void drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) = 0;
-  /// What `draw` draws, as a whole over what is there: at opacity 0 it is not asked at all.
+  /// Blends everything that `draw` draws, as a whole, over the picture. At opacity 0, `draw` is not called.
   virtual void drawSeeThrough(const Scene& scene, double opacity, const std::function<void()>& draw) = 0;
-  /// Sizes of marks are in logical pixels.
+  /// Draws marks at elements; `diameter` is in logical pixels.
   virtual void drawElements(const Scene& scene, std::span<const ElementId> elements, QColor colour, float diameter,
                             Mark mark = Mark::disc) = 0;
-  /// Elements to be marked by drawSelection, with rings of up to this diameter.
+  /// Sets the elements that drawSelection marks with rings of at most `diameter` logical pixels.
   virtual void setSelection(const std::vector<ElementId>& elements) = 0;
   virtual void drawSelection(const Scene& scene, QColor colour, float diameter) = 0;
   virtual void drawLinks(const Scene& scene, std::span<const LinkId> links, QColor colour) = 0;
-  /// A line through places of the view (logical pixels).
-  virtual void drawStroke(const Scene& scene, std::span<const QPointF> places, QColor colour) = 0;
-  /// Pairs of ends or triples of corners, in mesh units on all three axes, over everything else; lines in logical
-  /// pixels.
-  virtual void drawInSpace(const Scene& scene, std::span<const QVector3D> places, Shape shape, QColor colour,
+  /// Draws a line through positions in the view (logical pixels).
+  virtual void drawStroke(const Scene& scene, std::span<const QPointF> positions, QColor colour) = 0;
+  /// Draws segments (pairs of ends) or triangles over everything else. Positions are in mesh units on all three axes,
+  /// `width` of lines in logical pixels.
+  virtual void drawInSpace(const Scene& scene, std::span<const QVector3D> positions, Shape shape, QColor colour,
                            float width = 1) = 0;
-  /// The same, coloured by a value for each place; in space what lies behind faces is hidden. Discs and rings are as
-  /// wide as lines would be.
-  virtual void drawValued(const Scene& scene, std::span<const QVector3D> places, std::span<const float> values,
+  /// Draws segments, discs or rings, coloured by one value per position. In 3D, faces hide what is behind them. `width`
+  /// is also the diameter of discs and rings.
+  virtual void drawValued(const Scene& scene, std::span<const QVector3D> positions, std::span<const float> values,
                           const ColourScale& scale, Shape shape, float width) = 0;
-  /// Over all that was drawn before, in logical pixels.
+  /// Lets `draw` paint text over everything else, in logical pixels.
   virtual void drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) = 0;
 
-  // What is alike however it is drawn (logical pixels).
-  static constexpr float valuedWidth = 2;  // a thinner line is blended all over, and no colour of the map any more
+  // Common to all drawings (logical pixels).
+  static constexpr float valuedWidth = 2;  // antialiasing changes the colours of thinner lines
   static constexpr float litWidth = 3;
   static constexpr float elementSize = 4.5F;
-  static constexpr float smallestRing = 6;  // below, a ring has no hole to be seen
+  static constexpr float smallestRing = 6;  // the hole of a smaller ring is not visible
 
-  /// Whether every element is marked: where there are few and they stand apart.
+  /// Returns true if every element gets a mark: there are few, and they are far enough apart.
   static bool marksElements(const Mesh& mesh, double pixelsPerUnit);
-  /// What faces are filled with, where they are not lit. In a plane they are only hinted at; in space they hide what
-  /// lies behind them. Beside the colour map they stay grey.
+  /// Returns the colour of fully lit faces. It is only a hint in a plane; in 3D, faces hide what is behind them. Next
+  /// to the colour map, faces are grey.
   static QColor faceColour(const Mesh& mesh, const Paint& paint);
-  /// What a section's face is filled with, where it is not lit: one sees that it is none of the object's own.
+  /// Returns the colour of the fully lit face of a section, which differs from the object's faces.
   static QColor sectionColour(const Mesh& mesh, const Paint& paint);
-  /// Of a face seen from the side, as a share of its colour.
+  /// Returns the brightness of a face that is seen from the side, as a share of its colour.
   static float darkestFace(const Look& look);
-  /// Whether faces show a picture, or sections the slices of a volume.
+  /// True if faces show a picture, or sections the slices of a volume.
   static bool showsPicture(const Mesh& mesh) { return mesh.texture != nullptr && mesh.texture->size[2] == 1; }
   static bool showsSlices(const Mesh& mesh) { return mesh.texture != nullptr && mesh.texture->size[2] > 1; }
 
@@ -98,7 +99,7 @@ class ObjectDrawing {
     return paint.values != nullptr && paint.values->mesh.get() == mesh;
   }
   static QColor ownColour(const Mesh& mesh, const Paint& paint);
-  /// Whether faces take the colours of their elements' values, as no link does.
+  /// True if the values of the elements colour the faces. Links must be hidden for that.
   static bool facesByValues(const Mesh* mesh, const Paint& paint) {
     return valuesFit(mesh, paint) && !paint.values->ofLinks && !paint.look.links && !showsPicture(*mesh);
   }

@@ -1,23 +1,45 @@
+// In this order: set-up, frames, shader state, the object, marks and shapes over it.
+
 #include "drawing/object_painter.h"
 
 #include <QFile>
+#include <QOpenGLPaintDevice>
+#include <QPainter>
+#include <QVector4D>
 #include <algorithm>
 
 #include "common/colours.h"
 #include "drawing/colour_map.h"
+#include "drawing/drawn_indices.h"
 #include "drawing/projection.h"
-#include "drawing/upload.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
 
-// Smooth lines cost about twice as much; beyond this many links nobody sees the difference.
-constexpr GLsizei indicesSmoothed = 30'000;
+// Smooth lines cost about twice as much. With more indices than this, nobody sees the difference.
+constexpr GLsizei mostIndicesSmoothed = 30'000;
+// More rings hide each other and cost time.
+constexpr std::size_t mostRingsPainted = 50'000;
+// Valued shapes are drawn nearer by this share of the object's depth, so that faces next to them do not cut them.
+constexpr float valuedLift = 0.04F;
 
-QVector4D asVector(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
+/// Sends data to the graphics card; returns the number of items.
+template <class Datum>
+int upload(QOpenGLBuffer& buffer, const std::vector<Datum>& data) {
+  buffer.bind();
+  buffer.allocate(data.data(), int(data.size() * sizeof(Datum)));
+  return int(data.size());
+}
 
-void build(QOpenGLShaderProgram& program, const std::array<int, 2>& variant) {
+/// Sends the items from `first` to `end` into a buffer that already holds all of them.
+template <class Datum>
+void uploadPart(QOpenGLBuffer& buffer, const std::vector<Datum>& data, std::size_t first, std::size_t end) {
+  buffer.bind();
+  buffer.write(int(first * sizeof(Datum)), data.data() + first, int((end - first) * sizeof(Datum)));
+}
+
+void buildProgram(QOpenGLShaderProgram& program, const std::array<int, 2>& variant) {
   const QByteArray head = "#version 330 core\n#define SHADING " + QByteArray::number(variant[0]) +
                           "\n#define COLOURED_BY " + QByteArray::number(variant[1]) + "\n";
   const auto source = [&head](const char* name) {
@@ -30,12 +52,57 @@ void build(QOpenGLShaderProgram& program, const std::array<int, 2>& variant) {
   }
 }
 
+QVector4D rgbaOf(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
+
+/// Unit of scaled rest positions: the longest side of the mesh's box (mesh units).
+double restUnit(const Mesh& mesh) {
+  const double longest = (mesh.box[1] - mesh.box[0]).maxCoeff();
+  return longest > 0 ? longest : 1;
+}
+
+/// Scales a rest position to at most 1, from the lowest corner of the box: floats are exact enough for any origin.
+QVector3D scaledRest(const Mesh& mesh, const Point& rest) {
+  const Point scaled = (rest - mesh.box[0]) / restUnit(mesh);
+  return {float(scaled.x()), float(scaled.y()), float(scaled.z())};
+}
+
+std::vector<QVector3D> allScaledRests(const Mesh& mesh) {
+  std::vector<QVector3D> positions(mesh.element_count());
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    positions[e] = scaledRest(mesh, mesh.rest_position(e));
+  }
+  return positions;
+}
+
+/// Returns a plane whose product with (scaled rest position, 1) is negative in front of the section.
+QVector4D sectionVector(const Mesh& mesh, const SectionPlane& plane) {
+  const auto sign = plane.flipped ? 1.0F : -1.0F;
+  QVector4D vector;
+  vector[plane.axis] = sign;
+  vector[3] = -sign * float((plane.at - mesh.box[0][plane.axis]) / restUnit(mesh));
+  return vector;
+}
+
+/// Returns the projection to the same positions in the view, a little nearer to the eye.
+QMatrix4x4 liftedClip(const ObjectDrawing::Scene& scene) {
+  if (scene.fog.y() <= scene.fog.x()) {
+    return scene.toClip;
+  }
+  const float middle = (scene.fog.x() + scene.fog.y()) / 2;
+  const float nearer = middle - valuedLift * (scene.fog.y() - scene.fog.x());
+  QMatrix4x4 shift;
+  shift(2, 3) = scene.toClip.map(QVector3D(0, 0, -nearer)).z() - scene.toClip.map(QVector3D(0, 0, -middle)).z();
+  return shift * scene.toClip;
+}
+
 }  // namespace
+
+// Set-up
 
 void ObjectPainter::initialize() {
   initializeOpenGLFunctions();
   for (std::size_t i = 0; i < variants.size(); ++i) {
-    build(programs_[i], variants[i]);
+    buildProgram(programs_[i], variants[i]);
   }
   vertexArray_.create();
   for (QOpenGLBuffer* buffer : buffers()) {
@@ -64,6 +131,8 @@ void ObjectPainter::destroy() {
   selectedIndices_ = 0;
 }
 
+// Frames
+
 void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
   frame_ = &frame;
   parts_.setFrame(frame, cuts);
@@ -85,7 +154,7 @@ void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
   }
 }
 
-/// Runs of blocks that changed since the last time; all at once where all are new.
+/// Sends the runs of blocks that changed since the last frame, or all blocks of a new object.
 void ObjectPainter::uploadPositions(const Frame& frame) {
   if (frameNumber_ == 0) {
     upload(positions_, frame.positions);
@@ -104,28 +173,110 @@ void ObjectPainter::uploadPositions(const Frame& frame) {
   }
 }
 
+// Shader state
+
+/// Makes the bound buffer the positions of the next draw call.
 void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dimension, int colouredBy) {
   glEnable(GL_PROGRAM_POINT_SIZE);
   glEnable(GL_BLEND);
-  // The picture stays opaque, whatever is blended into it.
+  // The picture stays opaque: blending does not lower its alpha.
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   const std::array variant{shading, colouredBy};
   program_ = &programs_[std::size_t(std::find(variants.begin(), variants.end(), variant) - variants.begin())];
   program_->bind();
   program_->setUniformValue("to_view", scene.toView * placement(*mesh_));
   program_->setUniformValue("to_clip", scene.toClip);
-  program_->setUniformValue("colour", asVector(colour));
-  program_->setUniformValue("background", asVector(scene.background));
+  program_->setUniformValue("colour", rgbaOf(colour));
+  program_->setUniformValue("background", rgbaOf(scene.background));
   program_->setUniformValue("fog", scene.fog);
   program_->setUniformValue("darkest", darkestFace(look_));
-  program_->setUniformValue("section",
-                            QVector4D(0, 0, 0, 1));  // takes nothing away, whatever the driver has switched on
+  program_->setUniformValue("section", QVector4D(0, 0, 0, 1));  // clips nothing, even if the driver clips always
   vertexArray_.bind();
   program_->enableAttributeArray(0);
   program_->setAttributeBuffer(0, GL_FLOAT, 0, dimension);
   program_->disableAttributeArray(1);
   program_->disableAttributeArray(2);
 }
+
+/// Same as use(), for the object coloured by its values: elements read them as an attribute, links from a texture.
+void ObjectPainter::useValues(const Scene& scene, const Paint& paint, int shading) {
+  const bool ofLinks = paint.values->ofLinks;
+  positions_.bind();
+  use(scene, paint.colour, shading, mesh_->space_dimension, ofLinks ? 2 : 1);
+  if (paint.values->number != valuesNumber_) {
+    uploadValues(*paint.values);
+  }
+  useMap(paint.scale);
+  if (ofLinks) {
+    glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
+  } else {
+    values_.bind();
+    program_->enableAttributeArray(1);
+    program_->setAttributeBuffer(1, GL_FLOAT, 0, 1);
+  }
+}
+
+/// Sends one value per link that is drawn, or per element.
+void ObjectPainter::uploadValues(const ColourValues& values) {
+  valuesNumber_ = values.number;
+  if (!values.ofLinks) {
+    upload(values_, values.values);
+    return;
+  }
+  upload(values_, parts_.valuesOf(drawnLinks_, values));
+  glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
+  glTexBuffer(GL_TEXTURE_BUFFER, GL_R32F, values_.bufferId());
+}
+
+/// Sets the colour map of a program that colours by values.
+void ObjectPainter::useMap(const ColourScale& scale) {
+  const auto& map = colour_map::stopsOf(scale);
+  std::array<QVector3D, std::tuple_size_v<colour_map::Stops>> stops;
+  std::transform(map.begin(), map.end(), stops.begin(),
+                 [](const auto& stop) { return QVector3D(float(stop[0]), float(stop[1]), float(stop[2])) / 255; });
+  program_->setUniformValueArray("stops", stops.data(), int(stops.size()));
+  program_->setUniformValue("range", QVector2D(scale.lowest, scale.highest));
+  program_->setUniformValue("threshold", scale.threshold);
+  program_->setUniformValue("neutral", QColor(colour_map::neutral));
+}
+
+/// Adds rest positions to the program in use if a section or a picture needs them, and switches the section on.
+void ObjectPainter::useRest(const Look& look) {
+  const bool pictured = showsPicture(*mesh_);
+  if (!look.section && !pictured) {
+    return;
+  }
+  if (restMesh_ != mesh_) {
+    upload(rest_, allScaledRests(*mesh_));
+    restMesh_ = mesh_;
+  }
+  rest_.bind();
+  program_->enableAttributeArray(2);
+  program_->setAttributeBuffer(2, GL_FLOAT, 0, 3);
+  if (look.section) {
+    program_->setUniformValue("section", sectionVector(*mesh_, *look.section));
+    glEnable(GL_CLIP_DISTANCE0);
+  }
+}
+
+/// Binds the mesh's texture for the program in use; the first use sends it.
+void ObjectPainter::useTexture() {
+  const Texture& texture = *mesh_->texture;
+  if (texture_ == nullptr) {
+    texture_ = parts_.levels().textures().of(mesh_->texture);
+  }
+  texture_->bind();
+  QVector3D scale, offset;
+  for (int k = 0; k < 3; ++k) {
+    const double size = texture.box[1][k] - texture.box[0][k];
+    scale[k] = size > 0 ? float(restUnit(*mesh_) / size) : 0;
+    offset[k] = size > 0 ? float((mesh_->box[0][k] - texture.box[0][k]) / size) : 0.5F;
+  }
+  program_->setUniformValue("texture_scale", scale);
+  program_->setUniformValue("texture_offset", offset);
+}
+
+// The object: faces, section, links, elements
 
 void ObjectPainter::drawObject(const Scene& scene, const Paint& wanted, double pixelsPerUnit) {
   if (parts_.choose(scene, wanted, pixelsPerUnit)) {
@@ -149,19 +300,6 @@ void ObjectPainter::sendParts() {
   upload(links_, drawn.ends);
   faceIndices_ = upload(faces_, parts_.faces());
   valuesNumber_ = 0;
-}
-
-void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
-  const bool byValues = valuesFit(paint);
-  positions_.bind();
-  if (byValues && !paint.values->ofLinks) {
-    useValues(scene, paint, 2);
-  } else {
-    use(scene, byValues ? QColor(colour_map::neutral) : colours::stronger(paint.colour), 2, mesh_->space_dimension);
-  }
-  useRest(paint.look);
-  program_->setUniformValue("point_size", elementSize * scene.pixelRatio);
-  glDrawArrays(GL_POINTS, 0, GLsizei(mesh_->element_count()));
 }
 
 void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
@@ -193,6 +331,38 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
+/// Draws the face of the section. A new frame costs only the points of this face.
+void ObjectPainter::drawCap(const Scene& scene, const Paint& paint) {
+  const Section* section = parts_.section();
+  if (section == nullptr) {
+    return;
+  }
+  if (parts_.takeSectionChange()) {
+    capIndices_ = upload(cap_, section->triangles(parts_.surface()));
+    std::vector<QVector3D> rest(section->points().size());
+    std::ranges::transform(section->points(), rest.begin(), [this](const SectionPoint& point) {
+      const Point from = mesh_->rest_position(point.from);
+      return scaledRest(*mesh_, from + double(point.share) * (mesh_->rest_position(point.to) - from));
+    });
+    upload(capRest_, rest);
+    capMoved_ = true;
+  }
+  if (std::exchange(capMoved_, false)) {
+    upload(capPositions_, positionsOf(*section, *frame_));
+  }
+  const bool sliced = showsSlices(*mesh_);
+  capPositions_.bind();
+  use(scene, sectionColour(*mesh_, paint), sliced ? 0 : 1, 3, sliced ? 4 : 0);
+  if (sliced) {
+    useTexture();
+    capRest_.bind();
+    program_->enableAttributeArray(2);
+    program_->setAttributeBuffer(2, GL_FLOAT, 0, 3);
+  }
+  cap_.bind();
+  glDrawElements(GL_TRIANGLES, capIndices_, GL_UNSIGNED_INT, nullptr);
+}
+
 void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
   const auto count = GLsizei(2 * drawnLinks_.size());
   if (count == 0) {
@@ -206,13 +376,171 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
   }
   useRest(paint.look);
   links_.bind();
-  if (count <= indicesSmoothed) {
-    glLineWidth((valuesFit(paint) ? valuedWidth : 1) * scene.pixelRatio);  // as wide on every screen
+  if (count <= mostIndicesSmoothed) {
+    glLineWidth((valuesFit(paint) ? valuedWidth : 1) * scene.pixelRatio);
     glEnable(GL_LINE_SMOOTH);
   }
   glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_LINE_SMOOTH);
   glLineWidth(1);
+}
+
+void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
+  const bool byValues = valuesFit(paint);
+  positions_.bind();
+  if (byValues && !paint.values->ofLinks) {
+    useValues(scene, paint, 2);
+  } else {
+    use(scene, byValues ? QColor(colour_map::neutral) : colours::stronger(paint.colour), 2, mesh_->space_dimension);
+  }
+  useRest(paint.look);
+  program_->setUniformValue("point_size", elementSize * scene.pixelRatio);
+  glDrawArrays(GL_POINTS, 0, GLsizei(mesh_->element_count()));
+}
+
+// Marks over the object: elements, links, strokes, text
+
+void ObjectPainter::drawElements(const Scene& scene, std::span<const ElementId> elements, QColor colour, float diameter,
+                                 Mark mark) {
+  std::vector<float> positions;
+  for (const ElementId e : elements) {
+    const float* at = frame_->positions.data() + std::size_t{e} * mesh_->space_dimension;
+    positions.insert(positions.end(), at, at + mesh_->space_dimension);
+  }
+  drawOwn(scene, positions, GL_POINTS, colour, int(mark), diameter);
+}
+
+void ObjectPainter::setSelection(const std::vector<ElementId>& elements) {
+  selectedIndices_ = upload(selected_, thinned(elements, mostRingsPainted));
+}
+
+void ObjectPainter::drawSelection(const Scene& scene, QColor colour, float diameter) {
+  if (selectedIndices_ == 0) {
+    return;
+  }
+  glDisable(GL_DEPTH_TEST);
+  positions_.bind();
+  Scene over = scene;
+  over.fog = {};
+  const bool small = diameter < smallestRing;
+  use(over, colour, int(small ? Mark::disc : Mark::ring), mesh_->space_dimension);
+  program_->setUniformValue("point_size", diameter * scene.pixelRatio);
+  selected_.bind();
+  glDrawElements(GL_POINTS, selectedIndices_, GL_UNSIGNED_INT, nullptr);
+  vertexArray_.release();
+}
+
+void ObjectPainter::drawLinks(const Scene& scene, std::span<const LinkId> links, QColor colour) {
+  std::vector<float> positions;
+  for (const LinkId link : links) {
+    for (const ElementId e : mesh_->links[link]) {
+      const float* at = frame_->positions.data() + std::size_t{e} * mesh_->space_dimension;
+      positions.insert(positions.end(), at, at + mesh_->space_dimension);
+    }
+  }
+  glLineWidth(litWidth * scene.pixelRatio);
+  drawOwn(scene, positions, GL_LINES, colour, 0, 1);
+  glLineWidth(1);
+}
+
+/// Draws positions that are not in the object's buffer over everything else.
+void ObjectPainter::drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour,
+                            int shading, float diameter) {
+  if (positions.empty()) {
+    return;
+  }
+  glDisable(GL_DEPTH_TEST);
+  scratch_.bind();
+  scratch_.allocate(positions.data(), int(positions.size_bytes()));
+  Scene over = scene;
+  over.fog = {};
+  use(over, colour, shading, mesh_->space_dimension);
+  program_->setUniformValue("point_size", diameter * scene.pixelRatio);
+  glDrawArrays(mode, 0, GLsizei(positions.size() / mesh_->space_dimension));
+  vertexArray_.release();
+}
+
+void ObjectPainter::drawStroke(const Scene& scene, std::span<const QPointF> positions, QColor colour) {
+  if (positions.size() < 2) {
+    return;
+  }
+  std::vector<float> device;
+  for (const QPointF& at : positions) {
+    device.push_back(float(2 * at.x() * scene.pixelRatio / scene.size.width() - 1));
+    device.push_back(float(1 - 2 * at.y() * scene.pixelRatio / scene.size.height()));
+  }
+  glDisable(GL_DEPTH_TEST);
+  scratch_.bind();
+  scratch_.allocate(device.data(), int(device.size() * sizeof(float)));
+  use(scene, colour, 0, 2);
+  program_->setUniformValue("to_view", QMatrix4x4());
+  program_->setUniformValue("to_clip", QMatrix4x4());
+  glLineWidth(scene.pixelRatio);
+  glDrawArrays(GL_LINE_STRIP, 0, GLsizei(positions.size()));
+  glLineWidth(1);
+  vertexArray_.release();
+}
+
+void ObjectPainter::drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) {
+  QOpenGLPaintDevice device(scene.size.toSize());
+  device.setDevicePixelRatio(double(scene.pixelRatio));
+  QPainter painter(&device);
+  draw(painter);
+}
+
+// Shapes of overlays, given by positions in space
+
+void ObjectPainter::drawInSpace(const Scene& scene, std::span<const QVector3D> positions, Shape shape, QColor colour,
+                                float width) {
+  if (positions.empty()) {
+    return;
+  }
+  glDisable(GL_DEPTH_TEST);
+  scratch_.bind();
+  scratch_.allocate(positions.data(), int(positions.size_bytes()));
+  Scene over = scene;
+  over.fog = {};
+  use(over, colour, 0, 3);
+  program_->setUniformValue("to_view", scene.toView);
+  const bool lines = shape == Shape::segments;
+  if (lines) {
+    glLineWidth(width * scene.pixelRatio);
+    glEnable(GL_LINE_SMOOTH);
+  }
+  glDrawArrays(lines ? GL_LINES : GL_TRIANGLES, 0, GLsizei(positions.size()));
+  glDisable(GL_LINE_SMOOTH);
+  glLineWidth(1);
+  vertexArray_.release();
+}
+
+void ObjectPainter::drawValued(const Scene& scene, std::span<const QVector3D> positions, std::span<const float> values,
+                               const ColourScale& scale, Shape shape, float width) {
+  if (positions.empty()) {
+    return;
+  }
+  const bool lines = shape == Shape::segments;
+  if (mesh_->space_dimension == 3) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+  }
+  scratch_.bind();
+  scratch_.allocate(int(positions.size_bytes() + values.size_bytes()));
+  scratch_.write(0, positions.data(), int(positions.size_bytes()));
+  scratch_.write(int(positions.size_bytes()), values.data(), int(values.size_bytes()));
+  Scene over = scene;
+  over.fog = {};  // fading would change the colour, which is a value
+  use(over, {}, lines ? 0 : int(shape == Shape::discs ? Mark::disc : Mark::ring), 3, 1);
+  program_->setUniformValue("to_view", scene.toView);
+  program_->setUniformValue("to_clip", liftedClip(scene));
+  useMap(scale);
+  program_->enableAttributeArray(1);
+  program_->setAttributeBuffer(1, GL_FLOAT, int(positions.size_bytes()), 1);
+  program_->setUniformValue("point_size", width * scene.pixelRatio);
+  glLineWidth(lines ? width * scene.pixelRatio : 1);
+  glDrawArrays(lines ? GL_LINES : GL_POINTS, 0, GLsizei(positions.size()));
+  glLineWidth(1);
+  glDisable(GL_DEPTH_TEST);
+  vertexArray_.release();
 }
 
 }  // namespace chainmail

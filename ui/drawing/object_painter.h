@@ -11,19 +11,21 @@
 
 namespace chainmail {
 
-/// Draws with OpenGL. It holds what the graphics card holds and sends only what changed: of positions the blocks that
-/// did, of links and faces those that the camera sees, as finely as it can show them. All calls but cutsChanged need
-/// the context current.
+/// Draws with OpenGL. It owns the buffers on the graphics card and sends only changes: the blocks of positions that
+/// moved, and the links and faces that the camera sees, as finely as it can show them. All calls but cutsChanged
+/// require the context to be current.
 class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
  public:
   /// `levels` of the mesh may be shared with other painters.
   explicit ObjectPainter(std::shared_ptr<MeshLevels> levels) : parts_(std::move(levels)) {}
 
-  /// Compiles the shaders; throws Error with the driver's words where they do not compile.
+  /// Compiles the shaders; throws Error with the driver's log if they do not compile.
   void initialize();
   void destroy();
+  /// Frees the memory that drawSeeThrough uses until its next call.
+  void freeSeeThrough() { seeThrough_.destroy(); }
 
-  /// Links were cut or uncut.
+  /// To be called after links were cut or joined again.
   void cutsChanged() { parts_.cutsChanged(); }
 
   void setFrame(const Frame& frame, const Cuts& cuts) override;
@@ -36,31 +38,32 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   void setSelection(const std::vector<ElementId>& elements) override;
   void drawSelection(const Scene& scene, QColor colour, float diameter) override;
   void drawLinks(const Scene& scene, std::span<const LinkId> links, QColor colour) override;
-  void drawStroke(const Scene& scene, std::span<const QPointF> places, QColor colour) override;
-  void drawInSpace(const Scene& scene, std::span<const QVector3D> places, Shape shape, QColor colour,
+  void drawStroke(const Scene& scene, std::span<const QPointF> positions, QColor colour) override;
+  void drawInSpace(const Scene& scene, std::span<const QVector3D> positions, Shape shape, QColor colour,
                    float width = 1) override;
-  void drawValued(const Scene& scene, std::span<const QVector3D> places, std::span<const float> values,
+  void drawValued(const Scene& scene, std::span<const QVector3D> positions, std::span<const float> values,
                   const ColourScale& scale, Shape shape, float width) override;
   void drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) override;
 
-  /// As DrawnParts::step.
+  /// See DrawnParts.
   unsigned step() const { return parts_.step(); }
   bool leavesLinksOut() const { return parts_.leavesLinksOut(); }
 
  private:
   std::array<QOpenGLBuffer*, 10> buffers() {
-    return {&positions_, &scratch_, &links_, &faces_, &selected_, &values_, &rest_, &cap_, &capPlaces_, &capRest_};
+    return {&positions_, &scratch_, &links_, &faces_, &selected_, &values_, &rest_, &cap_, &capPositions_, &capRest_};
   }
   void uploadPositions(const Frame& frame);
-  void sendParts();
+
   void use(const Scene& scene, QColor colour, int shading, int dimension, int colouredBy = 0);
-  /// Where the object has values: as use(), and what is drawn next takes its colours from them.
   void useValues(const Scene& scene, const Paint& paint, int shading);
-  void useMap(const ColourScale& scale);
   void uploadValues(const ColourValues& values);
-  bool valuesFit(const Paint& paint) const { return ObjectDrawing::valuesFit(mesh_.get(), paint); }
+  void useMap(const ColourScale& scale);
   void useRest(const Look& look);
   void useTexture();
+  bool valuesFit(const Paint& paint) const { return ObjectDrawing::valuesFit(mesh_.get(), paint); }
+
+  void sendParts();
   void drawFaces(const Scene& scene, const Paint& paint);
   void drawCap(const Scene& scene, const Paint& paint);
   void drawWires(const Scene& scene, const Paint& paint);
@@ -68,7 +71,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour, int shading,
                float diameter);
 
-  // The shaders, compiled for each pair of their SHADING and COLOURED_BY that is drawn with.
+  // The shaders, compiled for every pair of their SHADING and COLOURED_BY that is used.
   static constexpr std::array<std::array<int, 2>, 11> variants{
       {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 0}, {2, 0}, {2, 1}, {3, 0}, {4, 0}, {4, 1}}};
   std::array<QOpenGLShaderProgram, variants.size()> programs_;
@@ -80,10 +83,10 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   QOpenGLBuffer faces_{QOpenGLBuffer::IndexBuffer};
   QOpenGLBuffer selected_{QOpenGLBuffer::IndexBuffer};
   QOpenGLBuffer values_{QOpenGLBuffer::VertexBuffer};
-  QOpenGLBuffer rest_{QOpenGLBuffer::VertexBuffer};  // of the elements of restMesh_, where something goes by it
+  QOpenGLBuffer rest_{QOpenGLBuffer::VertexBuffer};  // rest positions of restMesh_, for sections and pictures
   MeshPointer restMesh_;
-  QOpenGLBuffer cap_{QOpenGLBuffer::IndexBuffer};  // a section's face, of points of its own
-  QOpenGLBuffer capPlaces_{QOpenGLBuffer::VertexBuffer}, capRest_{QOpenGLBuffer::VertexBuffer};
+  QOpenGLBuffer cap_{QOpenGLBuffer::IndexBuffer};  // the face of a section, which has points of its own
+  QOpenGLBuffer capPositions_{QOpenGLBuffer::VertexBuffer}, capRest_{QOpenGLBuffer::VertexBuffer};
   std::shared_ptr<CardTexture> texture_;
   GLuint valuesTexture_ = 0;  // values_ as the fragment shader reads it
   SeeThrough seeThrough_;
@@ -91,10 +94,10 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   MeshPointer mesh_;
   const Frame* frame_ = nullptr;
   std::uint64_t frameNumber_ = 0, frameSeries_ = 0;
-  std::vector<std::uint32_t> drawnLinks_;  // what links_ was filled with
+  std::vector<std::uint32_t> drawnLinks_;  // the numbers of the links in links_
   GLsizei faceIndices_ = 0, selectedIndices_ = 0, capIndices_ = 0;
-  bool capMoved_ = true;  // its points are elsewhere in the newest frame
-  Look look_;             // of the object as it is drawn now
+  bool capMoved_ = true;  // capPositions_ is older than the newest frame
+  Look look_;             // of the object that is being drawn
   std::uint64_t valuesNumber_ = 0;
 };
 

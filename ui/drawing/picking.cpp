@@ -10,14 +10,14 @@ namespace {
 // A pixel of depth weighs this much against a pixel of distance from the cursor.
 constexpr float depthWeight = 0.15F;
 
-/// Which side of the line a point lies on: twice the area of the triangle they span.
+/// Returns twice the signed area of the triangle of line and point: the sign tells the side of the line.
 double side(QLineF line, QPointF point) {
   return line.dx() * (point.y() - line.y1()) - line.dy() * (point.x() - line.x1());
 }
 
-/// Whether two segments have a point in common. Most do not come near each other: that is seen first, and
-/// it is what tells apart two segments on one line.
-bool cross(QLineF a, QLineF b) {
+/// True if two segments have a point in common. The bounds are compared first: most segments are far apart, and two
+/// segments on one line differ only in their bounds.
+bool segmentsCross(QLineF a, QLineF b) {
   const auto apart = [](double p, double q, double r, double s) {
     return std::max(p, q) < std::min(r, s) || std::max(r, s) < std::min(p, q);
   };
@@ -27,7 +27,7 @@ bool cross(QLineF a, QLineF b) {
   return side(a, b.p1()) * side(a, b.p2()) <= 0 && side(b, a.p1()) * side(b, a.p2()) <= 0 && !a.isNull() && !b.isNull();
 }
 
-/// Where links between two cells may appear: one from before the eye to behind it leaves the view at any side.
+/// Returns where links between two cells may appear: anywhere if they extend from in front of the eye to behind it.
 ViewBounds united(ViewBounds a, const ViewBounds& b) {
   if (a.empty() != b.empty()) {
     return ViewBounds::everywhere();
@@ -47,9 +47,9 @@ std::vector<ViewBounds> cellBounds(const CellBoxes& boxes, const Projection& pro
 }  // namespace
 
 std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
-                                        QPointF place, double reach, const std::function<bool(ElementId)>& shown) {
+                                        QPointF position, double reach, const std::function<bool(ElementId)>& shown) {
   const int dimension = frame.mesh->space_dimension;
-  const QRectF within(place - QPointF(reach, reach), place + QPointF(reach, reach));
+  const QRectF within(position - QPointF(reach, reach), position + QPointF(reach, reach));
   std::optional<ElementId> best;
   float bestScore = 0;
   for (std::size_t cell = 0; cell < boxes.level().cellCount(); ++cell) {
@@ -58,12 +58,12 @@ std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& box
     }
     for (const ElementId e : boxes.level().cells[cell]) {
       const auto at = projection(frame.positions.data() + std::size_t{e} * dimension);
-      const float dx = at.x - float(place.x()), dy = at.y - float(place.y());
+      const float dx = at.x - float(position.x()), dy = at.y - float(position.y());
       if (!(dx * dx + dy * dy <= float(reach * reach)) || !at.visible() || (shown && !shown(e))) {
         continue;
       }
       const float score = std::hypot(dx, dy) + depthWeight * projection.depth(at);
-      // Of two alike the first by id, in whatever order they come.
+      // Of two equal ones the lower id wins, whatever the order of the cells.
       if (!best || score < bestScore || (score == bestScore && e < *best)) {
         best = e;
         bestScore = score;
@@ -92,11 +92,11 @@ std::vector<ElementId> elementsWhere(const Frame& frame, const CellBoxes& boxes,
   return found;
 }
 
-double distanceFrom(QLineF segment, QPointF place) {
-  const QPointF along = segment.p2() - segment.p1(), from = place - segment.p1();
+double distanceFrom(QLineF segment, QPointF position) {
+  const QPointF along = segment.p2() - segment.p1(), from = position - segment.p1();
   const double squared = QPointF::dotProduct(along, along);
   const double share = squared > 0 ? std::clamp(QPointF::dotProduct(from, along) / squared, 0.0, 1.0) : 0;
-  return QLineF(segment.p1() + share * along, place).length();
+  return QLineF(segment.p1() + share * along, position).length();
 }
 
 std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& projection) {
@@ -118,10 +118,10 @@ std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& p
 std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts,
                                  const Projection& projection, QLineF stroke) {
   const MeshLevel& level = boxes.level();
-  // Room for all elements, of which only those near the stroke are looked at.
+  // Memory for all elements, of which only those in cells near the stroke are filled in.
   const auto places = std::make_unique_for_overwrite<Projection::Place[]>(level.mesh->element_count());
   std::vector<bool> placed(level.cellCount());
-  const auto place = [&](std::size_t cell) {
+  const auto projectCell = [&](std::size_t cell) {
     if (!placed[cell]) {
       for (const ElementId e : level.cells[cell]) {
         places[e] = projection(frame.positions.data() + std::size_t{e} * level.mesh->space_dimension);
@@ -137,12 +137,12 @@ std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, con
       if (!united(bounds[cell], bounds[other]).meets(stroke)) {
         continue;
       }
-      place(cell);
-      place(other);
+      projectCell(cell);
+      projectCell(other);
       for (std::uint32_t at = level.reachedLinks[i]; at < level.reachedLinks[i + 1]; ++at) {
         const LinkId link = level.cellLinks.items[at];
         const auto &a = places[level.links[link][0]], &b = places[level.links[link][1]];
-        if (a.visible() && b.visible() && cross(stroke, QLineF(a.x, a.y, b.x, b.y)) && !cuts.is_cut(link)) {
+        if (a.visible() && b.visible() && segmentsCross(stroke, QLineF(a.x, a.y, b.x, b.y)) && !cuts.is_cut(link)) {
           crossed.push_back(link);
         }
       }

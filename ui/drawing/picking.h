@@ -12,28 +12,29 @@
 
 namespace chainmail {
 
-/// What is where in a view, of the elements that are shown: all, where nothing is said. The boxes are those of the
-/// frame, at the level of every element; cells that are out of the way cost nothing.
+// Searches in a view. `shown` filters the elements; without it, all count. The boxes belong to the same frame, at the
+// level with every element, so that cells elsewhere in the view are skipped.
 
-/// The element nearest to a place of the view within `reach` pixels, where one in front is preferred to
-/// one behind.
+/// Returns the element nearest to a position in the view, at most `reach` pixels away. An element in front wins over
+/// one behind it.
 std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
-                                        QPointF place, double reach, const std::function<bool(ElementId)>& shown = {});
+                                        QPointF position, double reach,
+                                        const std::function<bool(ElementId)>& shown = {});
 
-/// The elements, ascending, that appear at places for which `inside` holds, those behind others too. It is asked
-/// of places in `bounds`.
+/// Returns the elements, ascending, at whose positions in the view `inside` is true, including hidden ones. It is
+/// called for positions in `bounds`.
 std::vector<ElementId> elementsWhere(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
                                      QRectF bounds, const std::function<bool(QPointF)>& inside,
                                      const std::function<bool(ElementId)>& shown = {});
 
-/// The distance of a place from a segment, which may be a point (pixels).
-double distanceFrom(QLineF segment, QPointF place);
+/// Returns the distance of a position from a segment, which may be a point (pixels).
+double distanceFrom(QLineF segment, QPointF position);
 
-/// The links, ascending and not yet cut, that a stroke crosses in the view.
+/// Returns the uncut links, ascending, that a stroke crosses in the view.
 std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts,
                                  const Projection& projection, QLineF stroke);
 
-/// The cells of any level some of whose elements, links or faces may be seen.
+/// Returns the cells of a level with elements, links or faces that may be visible.
 std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& projection);
 
 }  // namespace chainmail

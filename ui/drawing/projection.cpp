@@ -6,10 +6,10 @@
 namespace chainmail {
 namespace {
 
-// Of a sum of four products in single precision, of the sum of their sizes; a little more than rounding can take.
-constexpr double rounding = 8 * std::numeric_limits<float>::epsilon();
+// Bound on the rounding error of a sum of four products in single precision, as a share of the sum of magnitudes.
+constexpr double projectionRounding = 8 * std::numeric_limits<float>::epsilon();
 
-// A view goes from -1 to 1; what is drawn has some width, and is rounded.
+// The view extends from -1 to 1; the rest allows for the width of lines and marks, and for rounding.
 constexpr double viewEdge = 1.05;
 
 }  // namespace
@@ -40,7 +40,7 @@ bool ViewBounds::meets(const QRectF& rectangle) const {
                        top > rectangle.bottom());
 }
 
-/// Not if all corners lie on one side of the line, or the bounds of the segment elsewhere.
+/// False if all corners are on one side of the line, or if the bounds of the segment are elsewhere.
 bool ViewBounds::meets(const QLineF& segment) const {
   if (!meets(QRectF(segment.p1(), segment.p2()).normalized())) {
     return false;
@@ -55,7 +55,7 @@ bool ViewBounds::meets(const QLineF& segment) const {
 
 Projection::Projection(const Mesh& mesh, const QMatrix4x4& toView, const QMatrix4x4& toClip, QSizeF view)
     : matrix_(toClip * toView * placement(mesh)), dimension_(mesh.space_dimension), view_(view) {
-  // One unit along the view's vertical spans this many pixels at the depth of the origin of the view.
+  // Pixels per mesh unit along the vertical of the view, at distance 1 in perspective.
   pixelsPerDepth_ = float(toClip(1, 1) * view.height() / 2);
   const bool parallel = toClip(3, 3) != 0;
   pixelsPerZ_ = parallel ? -pixelsPerDepth_ / toClip(2, 2) : 0;
@@ -74,7 +74,7 @@ Projection::Place Projection::operator()(const float* carried) const {
 }
 
 float Projection::depth(const Place& place) const {
-  // At a distance w from the eye a unit of depth spans pixelsPerDepth_ / w pixels.
+  // At a distance w from the eye, a unit of depth is pixelsPerDepth_ / w pixels long.
   return pixelsPerZ_ != 0 ? pixelsPerZ_ * place.z : pixelsPerDepth_ * std::log(place.distance);
 }
 
@@ -101,10 +101,10 @@ unsigned Projection::beyond(const CellBoxes::Box& box) const {
   return sides;
 }
 
-/// What is convex and before the eye appears between its corners.
+/// The projection of a convex body in front of the eye is within the bounds of its projected corners.
 ViewBounds Projection::bounds(const CellBoxes::Box& box) const {
   const float* m = matrix_.constData();
-  std::array<double, 4> size{};  // of the terms of each row
+  std::array<double, 4> size{};  // sum of the magnitudes of the terms of each row
   for (int row = 0; row < 4; ++row) {
     size[row] = std::abs(m[12 + row]);
     for (int k = 0; k < dimension_; ++k) {
@@ -120,18 +120,18 @@ ViewBounds Projection::bounds(const CellBoxes::Box& box) const {
     const double x = (clip[0] / clip[3] + 1) / 2 * view_.width(), y = (1 - clip[1] / clip[3]) / 2 * view_.height();
     result.unite({x, y, x, y});
   }
-  const double ofDistance = rounding * size[3];
+  const double ofDistance = projectionRounding * size[3];
   if (furthest < -ofDistance) {
     return {};
   }
   if (!(nearest > 4 * ofDistance)) {
     return ViewBounds::everywhere();
   }
-  // A place is x / w: it is off by what x is off, and by what w is off where x is large.
+  // A position is x / w. Its error is that of x, and that of w times the position.
   const double spanX = 1 + std::max(std::abs(result.left), std::abs(result.right)) / view_.width();
   const double spanY = 1 + std::max(std::abs(result.top), std::abs(result.bottom)) / view_.height();
-  const double offX = 2 * (rounding * size[0] + ofDistance * 2 * spanX) / nearest * view_.width();
-  const double offY = 2 * (rounding * size[1] + ofDistance * 2 * spanY) / nearest * view_.height();
+  const double offX = 2 * (projectionRounding * size[0] + ofDistance * 2 * spanX) / nearest * view_.width();
+  const double offY = 2 * (projectionRounding * size[1] + ofDistance * 2 * spanY) / nearest * view_.height();
   return {result.left - offX, result.top - offY, result.right + offX, result.bottom + offY};
 }
 

@@ -9,17 +9,17 @@
 
 namespace chainmail {
 
-/// Carried coordinates to the three of space: the axes in their places, the others constant.
+/// Returns the matrix from the coordinates that the mesh has (1 to 3) to all three of space; the others are constant.
 QMatrix4x4 placement(const Mesh& mesh);
 
-/// A part of a view outside which something does not appear (logical pixels).
+/// Bounds of something in a view (logical pixels).
 struct ViewBounds {
   double left = std::numeric_limits<double>::max(), top = left;
   double right = std::numeric_limits<double>::lowest(), bottom = right;
 
   bool empty() const { return right < left; }
   static ViewBounds everywhere() {
-    constexpr double far = 1e300;  // products with it stay finite
+    constexpr double far = 1e300;  // its products stay finite
     return {-far, -far, far, far};
   }
   void unite(const ViewBounds& other);
@@ -27,29 +27,30 @@ struct ViewBounds {
   bool meets(const QLineF& segment) const;
 };
 
-/// Where elements appear in a view (logical pixels), and how deep.
+/// Projects elements to positions in a view (logical pixels) with depth.
 class Projection {
  public:
   Projection(const Mesh& mesh, const QMatrix4x4& toView, const QMatrix4x4& toClip, QSizeF view);
 
   struct Place {
     float x, y;
-    float distance;  // from the eye in perspective, 1 by parallel rays, 0 or less behind the eye
-    float z;         // as the projection has it
+    float distance;  // from the eye in perspective; 1 in parallel projection; at most 0 behind the eye
+    float z;         // of the clip space
     bool visible() const { return distance > 0; }
   };
-  /// `carried` points to the coordinates that the scene carries.
+  /// `carried` points to the coordinates that the mesh has.
   Place operator()(const float* carried) const;
-  /// Depth in pixels, growing away from the eye.
+  /// Returns the depth in pixels, which grows away from the eye.
   float depth(const Place& place) const;
-  /// How many pixels a mesh unit spans there, across the view and in depth.
+  /// Returns the number of pixels per mesh unit there, across the view and in depth.
   float pixelsPerUnit(const Place& place) const {
     return pixelsPerZ_ != 0 ? pixelsPerDepth_ : pixelsPerDepth_ / place.distance;
   }
-  /// Sides of the view, as bits, beyond which all of a box lies. What lies between two boxes is beyond those that they
-  /// have in common, where one of them is behind the eye too.
+  /// Returns the sides of the view, as bits, beyond which the whole box is. Anything between two boxes is beyond the
+  /// sides that they have in common, even if one of them is behind the eye.
   unsigned beyond(const CellBoxes::Box& box) const;
-  /// Where all that lies in a box appears, rounding included: nowhere if it is behind the eye, everywhere if a part is.
+  /// Returns where the contents of a box appear, rounding included: nowhere if the box is behind the eye, everywhere if
+  /// a part of it is.
   ViewBounds bounds(const CellBoxes::Box& box) const;
 
  private:
@@ -59,7 +60,7 @@ class Projection {
   int dimension_;
   QSizeF view_;
   float pixelsPerDepth_;
-  float pixelsPerZ_;  // by parallel rays, else 0
+  float pixelsPerZ_;  // in parallel projection, else 0
 };
 
 }  // namespace chainmail

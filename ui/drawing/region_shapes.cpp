@@ -2,20 +2,20 @@
 
 #include <cmath>
 
+#include "drawing/camera.h"
+
 namespace chainmail {
 namespace {
 
-constexpr float barPixels = 9;  // on either side of a line
+constexpr float barPixels = 9;  // on each side of the line
 constexpr float dashPixels = 4;
-constexpr int dashesOfAnEdge = 400;  // more cannot be told apart
-
-QVector3D vector(const Point& point) { return {float(point.x()), float(point.y()), float(point.z())}; }
+constexpr int mostDashes = 400;  // per edge: more are indistinguishable
 
 }  // namespace
 
 RegionShape::RegionShape(const NeighbourRegion& region, const QMatrix4x4& toView, int spaceDimension,
                          double unitsPerPixel)
-    : at_(vector(region.at)), nearest_(vector(region.nearest)) {
+    : at_(asVector(region.at)), nearest_(asVector(region.nearest)) {
   right_ = toView.row(0).toVector3D().normalized() * float(unitsPerPixel);
   up_ = toView.row(1).toVector3D().normalized() * float(unitsPerPixel);
   for (int i = 0; i < 8; ++i) {
@@ -24,11 +24,11 @@ RegionShape::RegionShape(const NeighbourRegion& region, const QMatrix4x4& toView
     }
   }
   if (spaceDimension == 1) {
-    // The axis that is carried tells the two sides of a bar apart.
-    const QVector3D along = (vector(region.high) - vector(region.low)).normalized();
+    // The bar is horizontal or vertical, across the axis of the mesh.
+    const QVector3D along = (asVector(region.high) - asVector(region.low)).normalized();
     const bool upright = std::abs(QVector3D::dotProduct(along, up_)) > std::abs(QVector3D::dotProduct(along, right_));
     const QVector3D across = (upright ? right_ : up_) * barPixels;
-    const QVector3D low = vector(region.low), high = vector(region.high);
+    const QVector3D low = asVector(region.low), high = asVector(region.high);
     corners_ = {low - across, high - across, low + across, high + across,
                 low - across, high - across, low + across, high + across};
   }
@@ -66,7 +66,7 @@ std::vector<QVector3D> RegionShape::dashedEdges() const {
   for (std::size_t i = 0; i < whole.size(); i += 2) {
     const QVector3D along = whole[i + 1] - whole[i];
     const double dashes = along.length() / (dashPixels * up_.length());
-    const int count = int(std::min<double>(dashesOfAnEdge, std::ceil(dashes))) | 1;  // odd: both ends are drawn
+    const int count = int(std::min<double>(mostDashes, std::ceil(dashes))) | 1;  // odd, so that both ends are drawn
     for (int dash = 0; dash < count; dash += 2) {
       ends.push_back(whole[i] + along * (float(dash) / float(count)));
       ends.push_back(whole[i] + along * (float(dash + 1) / float(count)));

@@ -9,26 +9,26 @@
 
 namespace chainmail {
 
-/// A valid region as it is drawn: in space a box, in the plane a rectangle, and on a line a bar a few pixels thick,
-/// that its ends can be seen beside the links. Corners in mesh units; lines as pairs of ends, faces as triangles.
+/// The shape of a valid region: a box in 3D, a rectangle in 2D, and in 1D a bar that is a few pixels thick, so that its
+/// ends are visible next to the links. Positions are in mesh units; lines are pairs of ends, faces are triangles.
 class RegionShape {
  public:
-  /// Pixels are logical ones, in the plane through the view's centre.
+  /// `unitsPerPixel` is in mesh units per logical pixel, in the plane through the centre of the view.
   RegionShape(const NeighbourRegion& region, const QMatrix4x4& toView, int spaceDimension, double unitsPerPixel);
 
   std::vector<QVector3D> faces() const;
   std::vector<QVector3D> edges() const;
   std::vector<QVector3D> dashedEdges() const;
-  /// From where the neighbour is to the nearest place of its region.
+  /// Returns the line from the neighbour to the nearest point of its region.
   std::vector<QVector3D> wayIn() const { return {at_, nearest_}; }
-  /// A cross, upright in the view, over where the neighbour is.
+  /// Returns a cross at the neighbour, parallel to the view.
   std::vector<QVector3D> cross(double pixels) const;
 
  private:
-  // Corner i lies at the high end of axis k where bit k of i is set.
+  // Corner i is at the high end of axis k if bit k of i is set.
   std::array<QVector3D, 8> corners_;
   QVector3D at_, nearest_;
-  QVector3D right_, up_;  // of the view, a pixel long
+  QVector3D right_, up_;  // directions of the view, one pixel long
 };
 
 }  // namespace chainmail

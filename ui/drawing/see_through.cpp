@@ -33,7 +33,7 @@ void SeeThrough::draw(QSize size, double opacity, const std::function<void()>& d
   layOver(opacity);
 }
 
-/// The picture's colours carry their own opacity already: it begins empty, and what is drawn on it is blended.
+/// The colours of the picture are already multiplied by their opacity, because they were blended into an empty picture.
 void SeeThrough::layOver(double opacity) {
   auto* gl = QOpenGLContext::currentContext()->functions();
   if (blitter_ == nullptr) {
@@ -45,7 +45,7 @@ void SeeThrough::layOver(double opacity) {
   gl->glBlendColor(0, 0, 0, float(opacity));
   gl->glBlendFuncSeparate(GL_CONSTANT_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   blitter_->bind();
-  blitter_->setOpacity(float(opacity));  // of the alpha that hides what lies below
+  blitter_->setOpacity(float(opacity));  // scales the alpha that hides the picture below
   blitter_->blit(picture_->texture(), QMatrix4x4(), QOpenGLTextureBlitter::OriginBottomLeft);
   blitter_->release();
 }

@@ -9,15 +9,15 @@ class QOpenGLFramebufferObject;
 
 namespace chainmail {
 
-/// Draws on an empty picture and lays that over what is there, as a whole: a solid object stays solid in itself and
-/// lets through what lies behind it. All calls need the context current.
+/// Draws into an empty picture and blends it as a whole over the current one: the object hides its own back, and shows
+/// what is behind it. All calls require the context to be current.
 class SeeThrough {
  public:
   SeeThrough();
   ~SeeThrough();
 
-  /// `size` is that of what is drawn on now (device pixels). Opaque, `drawObject` draws there at once; at opacity 0 it
-  /// is not asked at all.
+  /// `size` is the size of the bound framebuffer (device pixels). At opacity 1, `drawObject` draws there directly; at
+  /// opacity 0 it is not called.
   void draw(QSize size, double opacity, const std::function<void()>& drawObject);
   void destroy();
 
@@ -25,7 +25,8 @@ class SeeThrough {
   void layOver(double opacity);
 
   std::unique_ptr<QOpenGLFramebufferObject> picture_;
-  std::unique_ptr<QOpenGLTextureBlitter> blitter_;  // Qt's cannot be created again once it was destroyed
+  std::unique_ptr<QOpenGLTextureBlitter>
+      blitter_;  // a new object each time, because Qt cannot create it again after destroy()
 };
 
 }  // namespace chainmail

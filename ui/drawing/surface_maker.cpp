@@ -3,9 +3,9 @@
 namespace chainmail {
 namespace {
 
-constexpr std::size_t cellsAtOnce = 100'000;  // some 30 ms
+constexpr std::size_t mostCellsAtOnce = 100'000;  // about 30 ms
 
-std::unique_ptr<Surface> make(const MeshPointer& mesh, const Progress& progress = {}) {
+std::unique_ptr<Surface> makeSurface(const MeshPointer& mesh, const Progress& progress = {}) {
   return std::make_unique<Surface>(std::make_shared<CellTable>(mesh, progress));
 }
 
@@ -33,8 +33,8 @@ void SurfaceMaker::begin(const MeshPointer& mesh) {
   giveUp();
   mesh_ = mesh;
   surface_.reset();
-  if (mesh->tetrahedra.size() + mesh->hexahedra.size() <= cellsAtOnce) {
-    surface_ = make(mesh);
+  if (mesh->tetrahedra.size() + mesh->hexahedra.size() <= mostCellsAtOnce) {
+    surface_ = makeSurface(mesh);
     table_ = surface_->table_pointer();
     return;
   }
@@ -43,9 +43,9 @@ void SurfaceMaker::begin(const MeshPointer& mesh) {
   result_ = promise.get_future();
   thread_ = std::thread([this, mesh, promise = std::move(promise)]() mutable {
     try {
-      promise.set_value(make(mesh, Progress(*job_)));
+      promise.set_value(makeSurface(mesh, Progress(*job_)));
       emit made();
-    } catch (...) {  // cancelled, or out of memory: who takes it hears of it
+    } catch (...) {  // cancelled, or out of memory: take() throws it
       promise.set_exception(std::current_exception());
     }
   });

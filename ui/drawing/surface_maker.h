@@ -9,8 +9,8 @@
 
 namespace chainmail {
 
-/// Makes the surfaces of meshes as they are uncut: of small ones at once, of large ones on a thread of its own, while
-/// the window goes on.
+/// Computes the surfaces of uncut meshes: those of small meshes at once, those of large ones on a thread of its own, so
+/// that the window stays responsive.
 class SurfaceMaker : public QObject {
   Q_OBJECT
 
@@ -18,13 +18,13 @@ class SurfaceMaker : public QObject {
   SurfaceMaker() = default;
   ~SurfaceMaker() override { giveUp(); }
 
-  /// Whether the mesh's surface can be had without a wait; it is being made from now on.
+  /// Returns true if take() would not wait. Starts the computation for a new mesh.
   bool has(const MeshPointer& mesh);
-  /// Waits where it must.
+  /// Returns the surface; waits if it is still being computed.
   std::unique_ptr<Surface> take(const MeshPointer& mesh);
 
  signals:
-  /// What was not there when it was asked for is there now. Comes from the thread that has made it.
+  /// A surface for which has() returned false is ready. Emitted on the thread that computed it.
   void made();
 
  private:
@@ -32,8 +32,8 @@ class SurfaceMaker : public QObject {
   void giveUp();
 
   MeshPointer mesh_;
-  std::unique_ptr<Surface> surface_;  // until it is taken
-  CellTablePointer table_;            // what another one of the same mesh is made of
+  std::unique_ptr<Surface> surface_;  // until take()
+  CellTablePointer table_;            // for another surface of the same mesh
   std::unique_ptr<JobState> job_;
   std::future<std::unique_ptr<Surface>> result_;
   std::thread thread_;

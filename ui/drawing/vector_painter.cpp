@@ -1,3 +1,5 @@
+// In this order: frames, pieces, the object, marks and shapes over it, output.
+
 #include "drawing/vector_painter.h"
 
 #include <algorithm>
@@ -5,20 +7,50 @@
 
 #include "common/colours.h"
 #include "drawing/colour_map.h"
+#include "drawing/drawn_indices.h"
 #include "drawing/projection.h"
 
 namespace chainmail {
 namespace {
 
-// As the screen's: what fades with depth never fades whole.
-constexpr float mostFaded = 0.75F;
-// Of a link's length: lines and marks of a surface lie before its faces.
-constexpr float liftOfLines = 0.5F;
-constexpr float ringHole = 0.64F;  // of its diameter
-constexpr double soft = 0.5;       // pixels: the screen's marks fade inside their edges
-constexpr int shadesOfALink = 8;   // at most, where its ends differ in value
+constexpr float mostFaded = 0.75F;               // the same as on the screen: fading with depth is never complete
+constexpr float liftOfLines = 0.5F;              // mean link lengths: links and marks of a surface lie before its faces
+constexpr float ringHole = 0.64F;                // of its diameter
+constexpr double softEdge = 0.5;                 // pixels: on the screen, marks fade inside their edges
+constexpr int shadesOfALink = 8;                 // at most, if the values at its ends differ
+constexpr float seamWidth = 0.4F;                // pixels: closes the gaps between faces
+constexpr std::size_t mostRingsPrinted = 5'000;  // more hide each other
+
+/// Returns the mean of a few texels in a triangle, given by its rest positions.
+QColor texelsOf(const Texture& texture, const std::array<Point, 3>& corners) {
+  std::array<int, 4> sum{};
+  int count = 0;
+  for (const auto& [a, b, c] : {std::array{2, 2, 2}, std::array{4, 1, 1}, std::array{1, 4, 1}, std::array{1, 1, 4}}) {
+    const Point at = (a * corners[0] + b * corners[1] + c * corners[2]) / 6;
+    std::size_t texel = 0;
+    for (int k = 2; k >= 0; --k) {
+      const double length = texture.box[1][k] - texture.box[0][k];
+      const double share = length > 0 ? (at[k] - texture.box[0][k]) / length : 0;
+      const double last = texture.size[k] - 1.0;
+      texel = texel * texture.size[k] + std::size_t(std::clamp(std::floor(share * texture.size[k]), 0.0, last));
+    }
+    for (int channel = 0; channel < 4; ++channel) {
+      const bool grey = texture.channels == 1;
+      sum[channel] += grey && channel == 3 ? 255 : texture.texels[texel * texture.channels + (grey ? 0 : channel)];
+    }
+    ++count;
+  }
+  return {sum[0] / count, sum[1] / count, sum[2] / count, sum[3] / count};
+}
+
+ObjectDrawing::Scene withoutFog(ObjectDrawing::Scene scene) {
+  scene.fog = {};
+  return scene;
+}
 
 }  // namespace
+
+// Frames
 
 VectorPainter::VectorPainter(QPainter& painter, std::shared_ptr<MeshLevels> levels)
     : painter_(painter), parts_(std::move(levels)) {
@@ -40,8 +72,10 @@ QVector3D VectorPainter::inSpace(ElementId element) const {
   return placement_.map(QVector3D(carried[0], carried[1], carried[2]));
 }
 
-VectorPainter::Seen VectorPainter::seen(const Scene& scene, const QVector3D& place) {
-  const QVector4D inView = scene.toView * QVector4D(place, 1), clip = scene.toClip * inView;
+// Pieces: projected, faded and clipped marks, lines and faces
+
+VectorPainter::Seen VectorPainter::seen(const Scene& scene, const QVector3D& position) {
+  const QVector4D inView = scene.toView * QVector4D(position, 1), clip = scene.toClip * inView;
   const QSizeF size = scene.logicalSize();
   return {{(1 + double(clip.x() / clip.w())) / 2 * size.width(), (1 - double(clip.y() / clip.w())) / 2 * size.height()},
           -inView.z(),
@@ -59,21 +93,21 @@ QColor VectorPainter::faded(const Scene& scene, const QColor& colour, float dist
                           mixed(colour.blueF(), ground.blueF()), colour.alphaF());
 }
 
-/// Nothing of what is behind the eye or out of the view: not all that hold drawings can clip.
-void VectorPainter::add(const Scene& scene, std::span<const QVector3D> places, const QColor& colour, float width,
+/// Adds a piece, but nothing behind the eye or outside the view: some programs that show drawings cannot clip.
+void VectorPainter::add(const Scene& scene, std::span<const QVector3D> positions, const QColor& colour, float width,
                         Mark mark, float lift) {
-  Piece piece{{}, int(places.size()), -lift, colour, width, mark};
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Seen corner = seen(scene, places[i]);
+  Piece piece{{}, int(positions.size()), -lift, colour, width, mark};
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Seen corner = seen(scene, positions[i]);
     if (!corner.before) {
       return;
     }
     piece.corners[i] = corner.at;
-    piece.distance += corner.distance / float(places.size());
+    piece.distance += corner.distance / float(positions.size());
   }
   piece.colour = faded(scene, colour, piece.distance + lift);
   const QRectF view(QPointF(), scene.logicalSize());
-  const auto corners = std::span(piece.corners).first(places.size());
+  const auto corners = std::span(piece.corners).first(positions.size());
   if (std::ranges::all_of(corners, [&](const QPointF& corner) { return view.contains(corner); })) {
     pieces_.push_back(piece);
   } else if (piece.count == 2) {
@@ -85,8 +119,8 @@ void VectorPainter::add(const Scene& scene, std::span<const QVector3D> places, c
 
 void VectorPainter::addClipped(Piece piece, const QRectF& view) {
   const QPointF from = piece.corners[0], way = piece.corners[1] - from;
-  double first = 0, last = 1;                         // the share of the line that is in the view
-  const auto keep = [&](double along, double room) {  // along * share <= room
+  double first = 0, last = 1;                         // the visible part of the line, as shares of it
+  const auto keep = [&](double along, double room) {  // clips to along * share <= room
     if (along > 0) {
       last = std::min(last, room / along);
     } else if (along < 0) {
@@ -114,6 +148,8 @@ void VectorPainter::addFaceClipped(Piece piece, const QRectF& view) {
   }
 }
 
+// The object: faces, section, links, elements
+
 void VectorPainter::drawObject(const Scene& scene, const Paint& wanted, double pixelsPerUnit) {
   parts_.choose(scene, wanted, pixelsPerUnit);
   Paint paint = wanted;
@@ -123,6 +159,86 @@ void VectorPainter::drawObject(const Scene& scene, const Paint& wanted, double p
   addLinks(scene, paint);
   if (paint.look.links && parts_.step() == 1 && marksElements(*frame_->mesh, pixelsPerUnit)) {
     addElements(scene, paint);
+  }
+}
+
+double VectorPainter::beforeSection(ElementId element, const Look& look) const {
+  return look.section ? look.section->before(frame_->mesh->rest_position(element)) : 0;
+}
+
+std::array<float, 2> VectorPainter::shown(ElementId from, ElementId to, const Look& look) const {
+  const double first = beforeSection(from, look), last = beforeSection(to, look);
+  const float meets = float(first / (first - last));
+  return {first > 0 ? (last > 0 ? 1 : meets) : 0, last > 0 ? (first > 0 ? 0 : meets) : 1};
+}
+
+std::vector<QVector3D> VectorPainter::shown(std::span<const ElementId> corners, const Look& look) const {
+  std::vector<QVector3D> positions;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const ElementId a = corners[i], b = corners[(i + 1) % corners.size()];
+    const double before = beforeSection(a, look), next = beforeSection(b, look);
+    if (!(before > 0)) {
+      positions.push_back(inSpace(a));
+    }
+    if ((before > 0) != (next > 0)) {
+      positions.push_back(inSpace(a) + float(before / (before - next)) * (inSpace(b) - inSpace(a)));
+    }
+  }
+  return positions;
+}
+
+QColor VectorPainter::lit(const Scene& scene, std::span<const QVector3D> positions, const QColor& colour,
+                          const Look& look) {
+  const QVector3D normal = QVector3D::normal(positions[0], positions[1], positions[2]);
+  const float share = std::lerp(darkestFace(look), 1.0F, std::abs(scene.toView.mapVector(normal).z()));
+  return QColor::fromRgbF(share * colour.redF(), share * colour.greenF(), share * colour.blueF(), colour.alphaF());
+}
+
+void VectorPainter::addFaces(const Scene& scene, const Paint& paint) {
+  const Mesh& mesh = *frame_->mesh;
+  const QColor colour = faceColour(mesh, paint);
+  const bool pictured = showsPicture(mesh), valued = facesByValues(&mesh, paint);
+  const bool spatial = mesh.space_dimension == 3;
+  const auto corners = parts_.faces();
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    const auto elements = std::span(corners).subspan(i, 3);
+    const auto positions = shown(elements, paint.look);
+    for (std::size_t j = 2; j < positions.size(); ++j) {
+      const std::array part{positions[0], positions[j - 1], positions[j]};
+      QColor face = colour;
+      if (pictured) {
+        face = texelsOf(*mesh.texture, {mesh.rest_position(elements[0]), mesh.rest_position(elements[1]),
+                                        mesh.rest_position(elements[2])});
+      } else if (valued) {
+        const auto& values = paint.values->values;
+        face = colour_map::of((values[elements[0]] + values[elements[1]] + values[elements[2]]) / 3, paint.scale);
+      } else if (spatial) {
+        face = lit(scene, part, colour, paint.look);
+      }
+      add(scene, part, face, spatial || pictured || valued ? seamWidth : 0);
+    }
+  }
+}
+
+void VectorPainter::addCap(const Scene& scene, const Paint& paint) {
+  const Section* section = parts_.section();
+  if (section == nullptr) {
+    return;
+  }
+  const Mesh& mesh = *frame_->mesh;
+  const auto positions = positionsOf(*section, *frame_);
+  const auto corners = section->triangles(parts_.surface());
+  const auto rest = [&](std::uint32_t corner) -> Point {
+    const SectionPoint& point = section->points()[corner];
+    const Point from = mesh.rest_position(point.from);
+    return from + double(point.share) * (mesh.rest_position(point.to) - from);
+  };
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    const std::array part{positions[corners[i]], positions[corners[i + 1]], positions[corners[i + 2]]};
+    const QColor face = showsSlices(mesh)
+                            ? texelsOf(*mesh.texture, {rest(corners[i]), rest(corners[i + 1]), rest(corners[i + 2])})
+                            : lit(scene, part, sectionColour(mesh, paint), paint.look);
+    add(scene, part, face, seamWidth);
   }
 }
 
@@ -151,7 +267,7 @@ void VectorPainter::addLinks(const Scene& scene, const Paint& paint) {
   }
 }
 
-/// In as many pieces as its ends differ in colour.
+/// Adds a link in pieces of one colour each. Their number grows with the difference in value of the ends.
 void VectorPainter::addLink(const Scene& scene, const std::array<QVector3D, 2>& ends,
                             const std::array<float, 2>& values, const ColourScale& scale, float width) {
   const float range = scale.highest - scale.lowest;
@@ -174,11 +290,85 @@ void VectorPainter::addElements(const Scene& scene, const Paint& paint) {
     if (beforeSection(element, paint.look) > 0) {
       continue;
     }
-    const QVector3D place = inSpace(element);
-    add(scene, std::span(&place, 1), ofElements ? colour_map::of(paint.values->values[element], paint.scale) : colour,
-        elementSize, Mark::disc, 2 * liftOfLines * float(mesh.mean_link_length));
+    const QVector3D position = inSpace(element);
+    add(scene, std::span(&position, 1),
+        ofElements ? colour_map::of(paint.values->values[element], paint.scale) : colour, elementSize, Mark::disc,
+        2 * liftOfLines * float(mesh.mean_link_length));
   }
 }
+
+// Marks and shapes over the object
+
+void VectorPainter::drawElements(const Scene& scene, std::span<const ElementId> elements, QColor colour, float diameter,
+                                 Mark mark) {
+  flush();
+  for (const ElementId element : elements) {
+    const QVector3D position = inSpace(element);
+    add(withoutFog(scene), std::span(&position, 1), colour, diameter, mark);
+  }
+  flush();
+}
+
+void VectorPainter::drawSelection(const Scene& scene, QColor colour, float diameter) {
+  drawElements(scene, thinned(selected_, mostRingsPrinted), colour, diameter,
+               diameter < smallestRing ? Mark::disc : Mark::ring);
+}
+
+void VectorPainter::drawLinks(const Scene& scene, std::span<const LinkId> links, QColor colour) {
+  std::vector<QVector3D> positions;
+  for (const LinkId link : links) {
+    for (const ElementId e : frame_->mesh->links[link]) {
+      positions.push_back(inSpace(e));
+    }
+  }
+  drawInSpace(scene, positions, Shape::segments, colour, litWidth);
+}
+
+void VectorPainter::drawStroke(const Scene& /*scene*/, std::span<const QPointF> positions, QColor colour) {
+  flush();
+  painter_.setPen(QPen(colour, 1));
+  painter_.setBrush(Qt::NoBrush);
+  painter_.drawPolyline(positions.data(), int(positions.size()));
+}
+
+void VectorPainter::drawInSpace(const Scene& scene, std::span<const QVector3D> positions, Shape shape, QColor colour,
+                                float width) {
+  flush();
+  const std::size_t corners = shape == Shape::segments ? 2 : 3;
+  for (std::size_t i = 0; i + corners <= positions.size(); i += corners) {
+    add(withoutFog(scene), positions.subspan(i, corners), colour, corners == 2 ? width : 0);
+  }
+  flush();
+}
+
+void VectorPainter::drawValued(const Scene& scene, std::span<const QVector3D> positions, std::span<const float> values,
+                               const ColourScale& scale, Shape shape, float width) {
+  const auto in = withoutFog(scene);
+  const float lift = 2 * float(frame_->mesh->mean_link_length);
+  const bool lines = shape == Shape::segments;
+  for (std::size_t i = 0, step = lines ? 2 : 1; i + step <= positions.size(); i += step) {
+    const float value = lines ? (values[i] + values[i + 1]) / 2 : values[i];
+    add(in, positions.subspan(i, step), colour_map::of(value, scale), width,
+        shape == Shape::rings ? Mark::ring : Mark::disc, lift);
+  }
+}
+
+void VectorPainter::drawWords(const Scene& /*scene*/, const std::function<void(QPainter&)>& draw) {
+  flush();
+  draw(painter_);
+}
+
+void VectorPainter::drawSeeThrough(const Scene& /*scene*/, double opacity, const std::function<void()>& draw) {
+  if (opacity > 0) {
+    flush();
+    painter_.setOpacity(std::min(opacity, 1.0));
+    draw();
+    flush();
+    painter_.setOpacity(1);
+  }
+}
+
+// Output
 
 void VectorPainter::flush() {
   std::ranges::stable_sort(pieces_, std::greater(), &Piece::distance);
@@ -199,7 +389,7 @@ void VectorPainter::draw(const Piece& piece) {
       painter_.setPen(QPen(piece.colour, piece.width, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin));
     }
     painter_.drawConvexPolygon(piece.corners.data(), piece.count);
-  } else if (const double radius = double(piece.width) / 2 - soft; piece.mark == Mark::diamond) {
+  } else if (const double radius = double(piece.width) / 2 - softEdge; piece.mark == Mark::diamond) {
     const std::array<QPointF, 4> round{QPointF(0, -radius), {radius, 0}, {0, radius}, {-radius, 0}};
     painter_.drawConvexPolygon(QPolygonF(QList<QPointF>(round.begin(), round.end())).translated(piece.corners[0]));
   } else if (piece.mark == Mark::ring) {

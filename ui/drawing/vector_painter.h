@@ -7,7 +7,8 @@
 
 namespace chainmail {
 
-/// Draws in lines and areas, for print. What the screen hides by depth, is here drawn from the back to the front.
+/// Draws vector graphics, for print. Without a depth buffer, it sorts marks, lines and faces from the back to the
+/// front.
 class VectorPainter : public ObjectDrawing {
  public:
   /// `levels` of the mesh may be shared.
@@ -22,21 +23,21 @@ class VectorPainter : public ObjectDrawing {
   void setSelection(const std::vector<ElementId>& elements) override { selected_ = elements; }
   void drawSelection(const Scene& scene, QColor colour, float diameter) override;
   void drawLinks(const Scene& scene, std::span<const LinkId> links, QColor colour) override;
-  void drawStroke(const Scene& scene, std::span<const QPointF> places, QColor colour) override;
-  void drawInSpace(const Scene& scene, std::span<const QVector3D> places, Shape shape, QColor colour,
+  void drawStroke(const Scene& scene, std::span<const QPointF> positions, QColor colour) override;
+  void drawInSpace(const Scene& scene, std::span<const QVector3D> positions, Shape shape, QColor colour,
                    float width = 1) override;
-  void drawValued(const Scene& scene, std::span<const QVector3D> places, std::span<const float> values,
+  void drawValued(const Scene& scene, std::span<const QVector3D> positions, std::span<const float> values,
                   const ColourScale& scale, Shape shape, float width) override;
   void drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) override;
 
  private:
-  /// A place of space in the view: where it appears, and its distance from the eye.
+  /// Where a point in space appears in the view, and its distance from the eye.
   struct Seen {
     QPointF at;
     float distance = 0;
-    bool before = false;  // the eye
+    bool before = false;  // true if it is in front of the eye
   };
-  /// A mark, a line or a face, by how many of its corners count.
+  /// A mark, a line or a face: 1, 2 or 3 corners.
   struct Piece {
     std::array<QPointF, 3> corners;
     int count = 1;
@@ -47,25 +48,25 @@ class VectorPainter : public ObjectDrawing {
   };
 
   QVector3D inSpace(ElementId element) const;
-  static Seen seen(const Scene& scene, const QVector3D& place);
+  static Seen seen(const Scene& scene, const QVector3D& position);
   static QColor faded(const Scene& scene, const QColor& colour, float distance);
-  void add(const Scene& scene, std::span<const QVector3D> places, const QColor& colour, float width,
+  void add(const Scene& scene, std::span<const QVector3D> positions, const QColor& colour, float width,
            Mark mark = Mark::disc, float lift = 0);
   void addClipped(Piece piece, const QRectF& view);
   void addFaceClipped(Piece piece, const QRectF& view);
-  /// How far in front of the section an element lies at rest (mesh units); 0 without one.
+  /// Returns how far an element is in front of the section at rest (mesh units); 0 without a section.
   double beforeSection(ElementId element, const Look& look) const;
-  /// What a section leaves: of a line, from which share of the way to which; of a face, its corners.
+  /// Returns the part of a line that the section leaves, as two shares of it, or the corners of the part of a face.
   std::array<float, 2> shown(ElementId from, ElementId to, const Look& look) const;
   std::vector<QVector3D> shown(std::span<const ElementId> corners, const Look& look) const;
-  static QColor lit(const Scene& scene, std::span<const QVector3D> places, const QColor& colour, const Look& look);
+  static QColor lit(const Scene& scene, std::span<const QVector3D> positions, const QColor& colour, const Look& look);
   void addFaces(const Scene& scene, const Paint& paint);
   void addCap(const Scene& scene, const Paint& paint);
   void addLinks(const Scene& scene, const Paint& paint);
   void addLink(const Scene& scene, const std::array<QVector3D, 2>& ends, const std::array<float, 2>& values,
                const ColourScale& scale, float width);
   void addElements(const Scene& scene, const Paint& paint);
-  /// Draws what has gathered, from the back to the front.
+  /// Draws all pieces that were added, from the back to the front.
   void flush();
   void draw(const Piece& piece);
 

@@ -7,15 +7,15 @@ namespace chainmail {
 ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), actions_(new QActionGroup(this)) {
   setObjectName(QStringLiteral("colourBy"));
   setAccessibleName(QStringLiteral("Colour by"));
-  setToolTip(QStringLiteral("What the colours of all panels show"));
+  setToolTip(QStringLiteral("The quantity that the colours of all panels show"));
   for (const ColourModeInfo& info : colourModes()) {
     addItem(text(info.label), int(info.mode));
     auto* action = actions_->addAction(text(info.label));
     action->setObjectName(QStringLiteral("colourBy-") + text(info.name));
     action->setCheckable(true);
-    action->setStatusTip(info.title.empty()
-                             ? QStringLiteral("Each panel's object in the panel's own colour")
-                             : QStringLiteral("Colours show: %1 (%2)").arg(text(info.title), text(info.unit)));
+    action->setStatusTip(
+        info.title.empty() ? QStringLiteral("Draws each object in the colour of its panel")
+                           : QStringLiteral("Colours the objects by: %1 (%2)").arg(text(info.title), text(info.unit)));
     connect(action, &QAction::triggered, this, [this, mode = info.mode] { colouring_.setMode(mode); });
   }
   connect(this, &QComboBox::activated, this, [this] {

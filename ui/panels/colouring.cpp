@@ -1,20 +1,27 @@
+// In this order: modes, changes that make values outdated, computing in slices, single values, scales, titles.
+
 #include "panels/colouring.h"
 
+#include <QElapsedTimer>
 #include <QLocale>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "measure/violation.h"
 
 namespace chainmail {
 namespace {
 
-constexpr int intervalMilliseconds = 16;
-// As in the figures below the panels: smaller violations are rounding.
+constexpr int sliceIntervalMilliseconds = 16;
+constexpr int sliceMilliseconds = 4;  // per panel and interval: drawing and dragging need the rest of the time
+constexpr std::size_t valuesPerClockCheck = 4096;
+// The same as in the figures below the panels: smaller violations are rounding.
 constexpr float violationThreshold = 1e-4F;
 
-constexpr std::array infos{
+constexpr std::array modeInfos{
     ColourModeInfo{ColourMode::plain, "plain", "Plain", "", ""},
     ColourModeInfo{ColourMode::compression, "compression", "Compression of links", "Compression", "of rest length"},
     ColourModeInfo{ColourMode::stretch, "stretch", "Stretch of links", "Stretch", "of rest length"},
@@ -23,23 +30,31 @@ constexpr std::array infos{
     ColourModeInfo{ColourMode::distance, "distance", "Distance between panels", "Distance", "mean rest lengths"},
     ColourModeInfo{ColourMode::violationDifference, "violationDifference", "Violation, difference of panels",
                    "Violation", "rest lengths"},
-    ColourModeInfo{ColourMode::truth, "truth", "Error against physics", "Error against physics",
+    ColourModeInfo{ColourMode::physicsError, "truth", "Error against physics", "Error against physics",
                    "of the handle's displacement"},
 };
 
+bool isOfElements(ColourMode mode) { return mode == ColourMode::distance || mode == ColourMode::physicsError; }
+
+bool isOfSoftness(ColourMode mode) {
+  return mode == ColourMode::compression || mode == ColourMode::stretch || mode == ColourMode::shear;
+}
+
 }  // namespace
 
-std::span<const ColourModeInfo> colourModes() { return infos; }
+// Modes
+
+std::span<const ColourModeInfo> colourModes() { return modeInfos; }
 
 const ColourModeInfo& info(ColourMode mode) {
-  return *std::find_if(infos.begin(), infos.end(), [mode](auto& one) { return one.mode == mode; });
+  return *std::find_if(modeInfos.begin(), modeInfos.end(), [mode](auto& one) { return one.mode == mode; });
 }
 
 bool comparesPanels(ColourMode mode) { return mode == ColourMode::distance || mode == ColourMode::violationDifference; }
 
-Colouring::Colouring(const Document& document) : document_(document), truth_(document), timer_(this) {
-  timer_.setInterval(intervalMilliseconds);
-  connect(&timer_, &QTimer::timeout, this, &Colouring::goOn);
+Colouring::Colouring(const Document& document) : document_(document), solution_(document), timer_(this) {
+  timer_.setInterval(sliceIntervalMilliseconds);
+  connect(&timer_, &QTimer::timeout, this, &Colouring::advanceAll);
   connect(&document, &Document::frameReady, this, &Colouring::receiveFrame);
   const auto outdate = [this] {
     for (Work& work : works_) {
@@ -53,32 +68,13 @@ Colouring::Colouring(const Document& document) : document_(document), truth_(doc
   connect(&document, &Document::cutsChanged, this, outdate);
   connect(&document, &Document::meshChanged, this, &Colouring::startOver);
   connect(&document, &Document::panelsChanged, this, &Colouring::followPanels);
-  connect(&truth_, &BackgroundReference::changed, this, &Colouring::followTruth);
-}
-
-void Colouring::receiveFrame(int panel) {
-  if (mode_ == ColourMode::violation || mode_ == ColourMode::truth) {
-    works_[panel].outdated = true;
-  } else if (comparesPanels(mode_)) {
-    for (Work& work : works_) {
-      work.outdated = true;
-    }
-    emit changed();  // the other panels' colours follow from this frame too
-  }
-}
-
-/// What was told of another truth is not shown any more.
-void Colouring::followTruth() {
-  if (mode_ == ColourMode::truth) {
-    startOver();
-    emit changed();
-  }
+  connect(&solution_, &BackgroundReference::changed, this, &Colouring::followSolution);
 }
 
 void Colouring::setMode(ColourMode mode) {
   if (mode != mode_) {
     mode_ = mode;
-    truth_.setWanted(mode == ColourMode::truth);
+    solution_.setWanted(mode == ColourMode::physicsError);
     startOver();
     emit modeChanged();
     emit changed();
@@ -98,7 +94,28 @@ void Colouring::setSharesScale(bool shares) {
   if (shares != sharesScale_) {
     sharesScale_ = shares;
     updateScales();
-    emit modeChanged();  // the legends say so
+    emit modeChanged();  // for the legends
+  }
+}
+
+// Changes
+
+void Colouring::receiveFrame(int panel) {
+  if (mode_ == ColourMode::violation || mode_ == ColourMode::physicsError) {
+    works_[panel].outdated = true;
+  } else if (comparesPanels(mode_)) {
+    for (Work& work : works_) {
+      work.outdated = true;
+    }
+    emit changed();  // the colours of the other panels depend on this frame too
+  }
+}
+
+/// Values against an older reference solution are not shown any longer.
+void Colouring::followSolution() {
+  if (mode_ == ColourMode::physicsError) {
+    startOver();
+    emit changed();
   }
 }
 
@@ -116,41 +133,13 @@ void Colouring::forget(int panel) {
   updateScales();
 }
 
-QString Colouring::title(int panel) const {
-  const auto& mode = info(mode_);
-  QString what = text(mode.title);
-  if (mode_ == ColourMode::truth && !truth_.answer()) {
-    return QStringLiteral("%1: %2").arg(what, truth_.state());
-  }
-  if (mode_ == ColourMode::truth && works_[panel].shown.number != 0) {
-    what += errorInWords(works_[panel]);
-  }
-  if (comparesPanels(mode_)) {
-    const auto others = comparedWith(panel);
-    const bool distance = mode_ == ColourMode::distance;
-    const QString other = others.size() == 1 ? panelName(others.front())
-                          : distance         ? QStringLiteral("the furthest of the others")
-                                             : QStringLiteral("the one that differs most");
-    what = distance ? QStringLiteral("%1 from %2").arg(what, other)
-                    : QStringLiteral("%1, %2 less that of %3").arg(what, panelName(panel), other);
-  }
-  return QStringLiteral("%1 (%2)").arg(what, text(mode.unit));
-}
-
-/// The error of a panel, first over what the reference itself moves: an object that does not move has about 1 of that.
-QString Colouring::errorInWords(const Work& work) const {
-  const BackgroundReference::Answer& answer = *truth_.answer();
-  const QLocale locale;
-  return QStringLiteral(" on the same cells: relative %1, nothing moves %2; RMS %3")
-      .arg(locale.toString(work.rms * answer.solution.handle_displacement / answer.rms, 'g', 3),
-           locale.toString(answer.nothing, 'g', 3), locale.toString(work.rms, 'g', 3));
-}
-
 void Colouring::startOver() {
   timer_.stop();
   works_ = {};
   scales_ = {};
 }
+
+// Computing in slices
 
 const ColourValues* Colouring::follow(int panel) {
   if (mode_ == ColourMode::plain) {
@@ -166,6 +155,37 @@ const ColourValues* Colouring::follow(int panel) {
   return work.shown.number != 0 ? &work.shown : nullptr;
 }
 
+/// Copies everything that the values depend on. Returns false while a panel has no frame of the object yet, or while
+/// there is no reference solution.
+bool Colouring::start(int panel) {
+  Work& work = works_[panel];
+  work.others = comparedWith(panel);
+  std::vector<int> all = work.others;
+  all.push_back(panel);
+  if (std::any_of(all.begin(), all.end(), [this](int one) { return document_.frame(one) == nullptr; }) ||
+      (mode_ == ColourMode::physicsError && !solution_.answer())) {
+    return false;
+  }
+  const Mesh& mesh = *document_.mesh();
+  work.outdated = false;
+  work.running = true;
+  work.next = 0;
+  work.squares = 0;
+  work.building.mesh = document_.mesh();
+  work.building.ofLinks = !isOfElements(mode_);
+  work.building.values.resize(work.building.ofLinks ? mesh.link_count() : mesh.element_count());
+  work.building.lowest = std::numeric_limits<float>::max();
+  work.building.highest = 0;
+  work.softness = document_.wholeSoftness();
+  work.solution = solution_.answer();
+  for (const int one : all) {
+    if (!isOfSoftness(mode_)) {
+      work.copies[one].follow(*document_.frame(one));
+    }
+  }
+  return true;
+}
+
 std::vector<int> Colouring::comparedWith(int panel) const {
   std::vector<int> others;
   for (int other = 0; comparesPanels(mode_) && other < document_.panels(); ++other) {
@@ -176,7 +196,24 @@ std::vector<int> Colouring::comparedWith(int panel) const {
   return others;
 }
 
-void Colouring::goOn() {
+void Colouring::Copy::follow(const Frame& frame) {
+  if (number == 0 || series != frame.series) {
+    positions = frame.positions;
+    number = frame.number;
+    series = frame.series;
+    return;
+  }
+  const std::size_t perBlock = std::size_t{Frame::block_elements} * frame.mesh->space_dimension;
+  for (std::size_t block = 0; block < frame.changed.size(); ++block) {
+    if (frame.changed[block] > number) {
+      const std::size_t first = block * perBlock, count = std::min(perBlock, positions.size() - first);
+      std::copy_n(frame.positions.data() + first, count, positions.data() + first);
+    }
+  }
+  number = frame.number;
+}
+
+void Colouring::advanceAll() {
   bool running = false, finished = false;
   for (int panel = 0; panel < document_.panels(); ++panel) {
     if (works_[panel].running) {
@@ -192,6 +229,98 @@ void Colouring::goOn() {
     emit changed();
   }
 }
+
+void Colouring::advance(int panel) {
+  QElapsedTimer clock;
+  clock.start();
+  Work& work = works_[panel];
+  ColourValues& building = work.building;
+  while (work.next < building.values.size() && clock.elapsed() < sliceMilliseconds) {
+    const std::size_t end = std::min(work.next + valuesPerClockCheck, building.values.size());
+    for (; work.next < end; ++work.next) {
+      const bool counts = !building.ofLinks || !document_.cuts().is_cut(LinkId(work.next));
+      const float one = counts ? value(panel, work.next) : 0;
+      building.values[work.next] = one;
+      if (counts) {
+        work.squares += double(one) * double(one);
+        building.lowest = std::min(building.lowest, one);
+        building.highest = std::max(building.highest, one);
+      }
+    }
+  }
+  if (work.next == building.values.size()) {
+    finish(work);
+  }
+}
+
+void Colouring::finish(Work& work) {
+  work.running = false;
+  work.rms = std::sqrt(work.squares / double(std::max<std::size_t>(1, work.building.values.size())));
+  work.building.number = ++number_;
+  std::swap(work.building, work.shown);
+  updateScales();
+}
+
+// Single values
+
+float Colouring::value(int panel, std::size_t i) const {
+  const Work& work = works_[panel];
+  switch (mode_) {
+    case ColourMode::compression:
+      return float(work.softness->of(LinkId(i)).compression);
+    case ColourMode::stretch:
+      return float(work.softness->of(LinkId(i)).stretch);
+    case ColourMode::shear:
+      return float(work.softness->of(LinkId(i)).shear);
+    case ColourMode::violation:
+      return violation(work, panel, LinkId(i));
+    case ColourMode::physicsError:
+      return physicsError(work, panel, ElementId(i));
+    default:
+      break;
+  }
+  float furthest = 0;
+  for (const int other : work.others) {
+    const float one = mode_ == ColourMode::distance
+                          ? distance(work, panel, other, ElementId(i))
+                          : violation(work, panel, LinkId(i)) - violation(work, other, LinkId(i));
+    furthest = std::abs(one) > std::abs(furthest) ? one : furthest;
+  }
+  return furthest;
+}
+
+float Colouring::violation(const Work& work, int panel, LinkId link) const {
+  const Mesh& mesh = *work.building.mesh;
+  const PositionView positions(work.copies[panel].positions.data(), mesh.space_dimension * sizeof(float),
+                               Precision::single_precision);
+  return float(link_violation(mesh, *work.softness, positions, link));
+}
+
+float Colouring::distance(const Work& work, int panel, int other, ElementId element) const {
+  const Mesh& mesh = *work.building.mesh;
+  double squared = 0;
+  for (int k = 0; k < mesh.space_dimension; ++k) {
+    const std::size_t at = std::size_t{element} * std::size_t(mesh.space_dimension) + std::size_t(k);
+    const double apart = double(work.copies[panel].positions[at]) - double(work.copies[other].positions[at]);
+    squared += apart * apart;
+  }
+  return mesh.mean_link_length > 0 ? float(std::sqrt(squared) / mesh.mean_link_length) : 0;
+}
+
+/// Distance of an element from its position in the reference solution, as a share of the displacement of the handle.
+float Colouring::physicsError(const Work& work, int panel, ElementId element) const {
+  const Mesh& mesh = *work.building.mesh;
+  double squared = 0;
+  for (int k = 0; k < mesh.space_dimension; ++k) {
+    const std::size_t at = std::size_t{element} * std::size_t(mesh.space_dimension) + std::size_t(k);
+    const double apart =
+        double(work.copies[panel].positions[at]) - mesh.rest[at] - work.solution->solution.displacements[at];
+    squared += apart * apart;
+  }
+  return float(std::sqrt(squared) / work.solution->solution.handle_displacement);
+}
+
+// Scales and titles
 
 void Colouring::updateScales() {
   std::array<ColourScale, Document::mostPanels> scales;
@@ -210,16 +339,16 @@ void Colouring::updateScales() {
   }
   if (scales != scales_) {
     scales_ = scales;
-    emit changed();  // the other panels are painted by it too
+    emit changed();  // the other panels use the shared scale too
   }
 }
 
-/// The values' own range, as the mode widens it.
+/// Widens the range of the values as the mode requires.
 ColourScale Colouring::finished(ColourScale scale) const {
   if (mode_ == ColourMode::violation) {
     scale.lowest = scale.threshold = violationThreshold;
     scale.highest = std::max(scale.highest, violationThreshold);
-  } else if (mode_ == ColourMode::distance || (mode_ == ColourMode::truth && scale.known())) {
+  } else if (mode_ == ColourMode::distance || (mode_ == ColourMode::physicsError && scale.known())) {
     scale.lowest = 0;
   } else if (mode_ == ColourMode::violationDifference && scale.known()) {
     scale.diverging = true;
@@ -228,6 +357,37 @@ ColourScale Colouring::finished(ColourScale scale) const {
     scale.lowest = -scale.highest;
   }
   return scale;
+}
+
+QString Colouring::title(int panel) const {
+  const auto& mode = info(mode_);
+  QString what = text(mode.title);
+  if (mode_ == ColourMode::physicsError && !solution_.answer()) {
+    return QStringLiteral("%1: %2").arg(what, solution_.state());
+  }
+  if (mode_ == ColourMode::physicsError && works_[panel].shown.number != 0) {
+    what += errorText(works_[panel]);
+  }
+  if (comparesPanels(mode_)) {
+    const auto others = comparedWith(panel);
+    const bool distance = mode_ == ColourMode::distance;
+    const QString other = others.size() == 1 ? panelName(others.front())
+                          : distance         ? QStringLiteral("the furthest other panel")
+                                             : QStringLiteral("the panel that differs most");
+    what = distance ? QStringLiteral("%1 from %2").arg(what, other)
+                    : QStringLiteral("%1, %2 minus %3").arg(what, panelName(panel), other);
+  }
+  return QStringLiteral("%1 (%2)").arg(what, text(mode.unit));
+}
+
+/// The relative error divides by the RMS displacement of the reference solution, so it is about 1 for an object that
+/// does not move.
+QString Colouring::errorText(const Work& work) const {
+  const BackgroundReference::Answer& answer = *solution_.answer();
+  const QLocale locale;
+  return QStringLiteral(" on the same cells: relative %1, nothing moves %2; RMS %3")
+      .arg(locale.toString(work.rms * answer.solution.handle_displacement / answer.rms, 'g', 3), locale.toString(answer.nothing, 'g', 3),
+           locale.toString(work.rms, 'g', 3));
 }
 
 }  // namespace chainmail

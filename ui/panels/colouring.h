@@ -14,20 +14,20 @@
 
 namespace chainmail {
 
-enum class ColourMode { plain, compression, stretch, shear, violation, distance, violationDifference, truth };
+enum class ColourMode { plain, compression, stretch, shear, violation, distance, violationDifference, physicsError };
 
-/// How a mode is called: `name` in settings and tests, `label` in the menu, `title` and `unit` in the legend.
+/// The names of a mode: `name` in settings and tests, `label` in the menu, `title` and `unit` in the legend.
 struct ColourModeInfo {
   ColourMode mode;
   std::string_view name, label, title, unit;
 };
 std::span<const ColourModeInfo> colourModes();
 const ColourModeInfo& info(ColourMode mode);
-/// Whether a panel's values follow from another panel's object too.
+/// True if the values of a panel also depend on another panel's object.
 bool comparesPanels(ColourMode mode);
 
-/// Works out what the objects of the panels are coloured by. It does so for panels that are painted alone, only when
-/// something has changed, and in slices, so that a large mesh lags behind instead of the window.
+/// Computes the values that colour the objects of the panels: only for panels that are painted, only after a change,
+/// and in slices, so that the colours of a large mesh lag behind and the window does not.
 class Colouring : public QObject {
   Q_OBJECT
 
@@ -36,69 +36,72 @@ class Colouring : public QObject {
 
   ColourMode mode() const { return mode_; }
   void setMode(ColourMode mode);
-  /// The panel that all others are compared with, by modes that compare; itself it is compared with the one of them
-  /// that is furthest off.
+  /// The panel that modes which compare panels use as reference. It is itself compared with the panel that differs
+  /// most.
   int reference() const { return reference_; }
   void setReference(int panel);
-  /// Whether a colour means the same in all panels, or each has a scale of its own.
+  /// True if all panels share one scale, so that a colour means the same value in each.
   bool sharesScale() const { return sharesScale_; }
   void setSharesScale(bool shares);
 
-  /// To be called when a panel is painted. The values for its newest frame, or for one a little older while those are
-  /// being worked out; none in plain mode and as long as there are none.
+  /// To be called when a panel is painted. Returns the values of its newest frame, or those of a slightly older frame
+  /// while the new ones are computed. Returns null in plain mode and before there are any values.
   const ColourValues* follow(int panel);
-  /// A panel that is not painted any more has no part in the scale.
+  /// Drops the values of a panel that is no longer painted. They no longer count for the shared scale.
   void forget(int panel);
   ColourScale scale(int panel) const { return scales_[panel]; }
-  /// What the values of a panel are, for its legend.
+  /// The title of a panel's legend.
   QString title(int panel) const;
 
  signals:
   void modeChanged();
-  /// There is something else to paint.
+  /// The panels need a repaint.
   void changed();
 
  private:
-  /// Positions of a panel as they were in a frame.
-  struct Kept {
+  /// A copy of the positions in a panel's frame.
+  struct Copy {
     std::vector<float> positions;
     std::uint64_t number = 0, series = 0;  // of the frame
 
-    /// Copies what has changed since.
+    /// Copies the blocks that changed since the last frame.
     void follow(const Frame& frame);
   };
-  /// The values of a panel, and those that will take their place.
+  /// The values of a panel that are shown, and those that are being computed.
   struct Work {
     bool outdated = true, running = false;
     std::size_t next = 0;
     ColourValues building, shown;
     std::vector<int> others;  // the panels that it is compared with
-    // As they were when the work began, by the panel: frames and softness may change meanwhile.
-    std::array<Kept, Document::mostPanels> kept;
+    // Copied when the work begins, because frames, softness and the reference solution may change meanwhile.
+    std::array<Copy, Document::mostPanels> copies;
     std::shared_ptr<const Softness> softness;
-    std::shared_ptr<const BackgroundReference::Answer> truth;
-    double squares = 0, rms = 0;  // of what is being built, and of what is shown
+    std::shared_ptr<const BackgroundReference::Answer> solution;
+    double squares = 0, rms = 0;  // of the values being computed, and of those shown
   };
 
   void receiveFrame(int panel);
-  void startOver();
-  void followTruth();
+  void followSolution();
   void followPanels();
+  void startOver();
+
   bool start(int panel);
   std::vector<int> comparedWith(int panel) const;
+  void advanceAll();
   void advance(int panel);
   void finish(Work& work);
+
   float value(int panel, std::size_t i) const;
   float violation(const Work& work, int panel, LinkId link) const;
   float distance(const Work& work, int panel, int other, ElementId element) const;
-  float error(const Work& work, int panel, ElementId element) const;
-  QString errorInWords(const Work& work) const;
-  void goOn();
+  float physicsError(const Work& work, int panel, ElementId element) const;
+
   void updateScales();
   ColourScale finished(ColourScale scale) const;
+  QString errorText(const Work& work) const;
 
   const Document& document_;
-  BackgroundReference truth_;
+  BackgroundReference solution_;  // the reference solution
   ColourMode mode_ = ColourMode::plain;
   std::array<Work, Document::mostPanels> works_;
   std::array<ColourScale, Document::mostPanels> scales_;

@@ -24,7 +24,7 @@ GhostButton::GhostButton(Document& document, View& view, int panel)
     : document_(document), view_(view), panel_(panel), menu_(new QMenu(this)) {
   setObjectName(QStringLiteral("ghostButton%1").arg(panel));
   setAccessibleName(QStringLiteral("Ghost in panel %1").arg(panelName(panel)));
-  setToolTip(QStringLiteral("Lays another panel's object over this one's, see-through and in that panel's colour"));
+  setToolTip(QStringLiteral("Shows another panel's object over this one, see-through and in that panel's colour"));
   setIcon(chainmail::icon("overlay"));
   setAutoRaise(true);
   setCheckable(true);
@@ -36,7 +36,7 @@ GhostButton::GhostButton(Document& document, View& view, int panel)
   connect(&view, &View::ghostChanged, this, [this] { setChecked(view_.ghost().of.has_value()); });
 }
 
-/// Anew whenever it opens: panels come and go, and so do their algorithms.
+/// Fills the menu each time it opens, because panels and their algorithms change.
 void GhostButton::fill() {
   menu_->clear();
   addChoice(QStringLiteral("No ghost"), std::nullopt);
@@ -67,13 +67,13 @@ void GhostButton::addBlend() {
   slider->setValue(int(std::lround(view_.ghost().blend * blendSteps)));
   slider->setMinimumWidth(sliderWidth);
   slider->setEnabled(view_.ghost().of.has_value());
-  slider->setToolTip(slider->isEnabled() ? QStringLiteral("Left: this panel's object alone; right: the ghost's alone")
-                                         : QStringLiteral("There is no ghost to blend with: choose a panel above"));
+  slider->setToolTip(slider->isEnabled() ? QStringLiteral("Left: only this panel's object. Right: only the ghost")
+                                         : QStringLiteral("There is no ghost yet: choose a panel above"));
   connect(slider, &QSlider::valueChanged, this, [this](int value) {
     view_.setGhost({view_.ghost().of, double(value) / blendSteps});
   });
-  grid->addWidget(new QLabel(QStringLiteral("only mine")), 0, 0, Qt::AlignLeft);
-  grid->addWidget(new QLabel(QStringLiteral("only theirs")), 0, 1, Qt::AlignRight);
+  grid->addWidget(new QLabel(QStringLiteral("This panel")), 0, 0, Qt::AlignLeft);
+  grid->addWidget(new QLabel(QStringLiteral("Ghost")), 0, 1, Qt::AlignRight);
   grid->addWidget(slider, 1, 0, 1, 2);
   auto* action = new QWidgetAction(menu_);
   action->setDefaultWidget(content);

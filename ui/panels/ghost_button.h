@@ -9,7 +9,7 @@ namespace chainmail {
 
 class View;
 
-/// Chooses whose object is laid over a panel's own as a ghost, and how far it is blended over.
+/// Chooses the panel whose object is drawn as a ghost over a panel's own object, and how the two are blended.
 class GhostButton : public QToolButton {
   Q_OBJECT
 

@@ -10,20 +10,20 @@
 namespace chainmail {
 namespace {
 
-constexpr int margin = 8;  // pixels, as of the panel's other lines
-constexpr int gap = 6;     // between the bar and its numbers
+constexpr int legendMargin = 8;  // pixels, the same as of the other lines of a panel
+constexpr int gap = 6;           // pixels between the bar and its numbers
 constexpr int barHeight = 10;
 constexpr int widestBar = 280;
 
-QString number(float value) { return QLocale().toString(double(value), 'g', 3); }
+QString legendNumber(float value) { return QLocale().toString(double(value), 'g', 3); }
 
-/// Draws a text at the left of a line and takes its place away.
-void place(QPainter& painter, QRect& line, const QString& text) {
+/// Draws a text at the left of a line and removes its width from the line.
+void drawText(QPainter& painter, QRect& line, const QString& text) {
   painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, text);
   line.setLeft(line.left() + painter.fontMetrics().horizontalAdvance(text) + gap);
 }
 
-QRect bar(QRect line, int width) { return {line.left(), line.center().y() - barHeight / 2, width, barHeight}; }
+QRect barIn(QRect line, int width) { return {line.left(), line.center().y() - barHeight / 2, width, barHeight}; }
 
 }  // namespace
 
@@ -34,10 +34,18 @@ Legend::Legend() {
 
 void Legend::follow(const Colouring& colouring, int panel) {
   setVisible(colouring.mode() != ColourMode::plain);
-  setToolTip(colouring.sharesScale() ? QStringLiteral("One scale for all panels: a colour means the same in each")
-                                     : QStringLiteral("This panel's own scale: other panels have others"));
-  const QString title = colouring.title(panel);
-  const ColourScale scale = colouring.scale(panel);
+  setToolTip(colouring.sharesScale() ? QStringLiteral("One scale for all panels: a colour means the same value in each")
+                                     : QStringLiteral("The scale of this panel only: other panels have their own"));
+  set(colouring.title(panel), colouring.scale(panel));
+}
+
+void Legend::show(const OverlayLegend& legend) {
+  setVisible(true);
+  setToolTip(legend.toolTip);
+  set(legend.title, legend.scale);
+}
+
+void Legend::set(const QString& title, const ColourScale& scale) {
   if (title != title_ || scale != scale_) {
     title_ = title;
     scale_ = scale;
@@ -46,19 +54,8 @@ void Legend::follow(const Colouring& colouring, int panel) {
   }
 }
 
-void Legend::show(const OverlayLegend& legend) {
-  setVisible(true);
-  setToolTip(legend.toolTip);
-  if (legend.title != title_ || legend.scale != scale_) {
-    title_ = legend.title;
-    scale_ = legend.scale;
-    setAccessibleName(QStringLiteral("%1, from %2 to %3").arg(title_, lowest(), highest()));
-    update();
-  }
-}
-
-QString Legend::lowest() const { return scale_.known() ? number(scale_.lowest) : QString(); }
-QString Legend::highest() const { return scale_.known() ? number(scale_.highest) : QString(); }
+QString Legend::lowest() const { return scale_.known() ? legendNumber(scale_.lowest) : QString(); }
+QString Legend::highest() const { return scale_.known() ? legendNumber(scale_.highest) : QString(); }
 
 void Legend::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
@@ -67,7 +64,7 @@ void Legend::paintEvent(QPaintEvent* /*event*/) {
 }
 
 void Legend::draw(QPainter& painter) const {
-  QRect line(margin, 0, width() - 2 * margin, fontMetrics().height());
+  QRect line(legendMargin, 0, width() - 2 * legendMargin, fontMetrics().height());
   painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
                    fontMetrics().elidedText(title(), Qt::ElideRight, line.width()));
   line.translate(0, fontMetrics().height() + 2);
@@ -80,31 +77,31 @@ void Legend::draw(QPainter& painter) const {
   if (!showsOne()) {
     drawMap(painter, line);
   } else if (scale_.threshold < 0) {
-    painter.fillRect(bar(line, barHeight), colour_map::at(0));
+    painter.fillRect(barIn(line, barHeight), colour_map::at(0));
     line.setLeft(line.left() + barHeight + gap);
-    place(painter, line, QStringLiteral("%1 everywhere").arg(lowest()));
+    drawText(painter, line, QStringLiteral("%1 everywhere").arg(lowest()));
   }
 }
 
-/// The colour of what is too small to count.
+/// Draws the colour of values that are too small to count.
 void Legend::drawNeutral(QPainter& painter, QRect& line) const {
-  painter.fillRect(bar(line, barHeight), colour_map::neutral);
+  painter.fillRect(barIn(line, barHeight), colour_map::neutral);
   line.setLeft(line.left() + barHeight + gap);
-  const QString bound =
-      (scale_.diverging ? QStringLiteral("within ±%1") : QStringLiteral("up to %1")).arg(number(scale_.threshold));
-  place(painter, line, showsOne() ? bound + QStringLiteral(", everywhere") : bound);
+  const QString bound = (scale_.diverging ? QStringLiteral("within ±%1") : QStringLiteral("up to %1"))
+                            .arg(legendNumber(scale_.threshold));
+  drawText(painter, line, showsOne() ? bound + QStringLiteral(", everywhere") : bound);
   line.setLeft(line.left() + gap);
 }
 
 void Legend::drawMap(QPainter& painter, QRect line) const {
   if (scale_.threshold < 0 || scale_.diverging) {
-    place(painter, line, lowest());
+    drawText(painter, line, lowest());
   }
   const int width = std::min(widestBar, line.width() - gap - painter.fontMetrics().horizontalAdvance(highest()));
   if (width <= 0) {
     return;
   }
-  const QRect map = bar(line, width);
+  const QRect map = barIn(line, width);
   QLinearGradient gradient(map.topLeft(), map.topRight());
   const auto& stops = colour_map::stopsOf(scale_);
   constexpr int steps = int(std::tuple_size_v<colour_map::Stops>) - 1;
@@ -114,7 +111,7 @@ void Legend::drawMap(QPainter& painter, QRect line) const {
   }
   painter.fillRect(map, gradient);
   line.setLeft(map.right() + gap);
-  place(painter, line, highest());
+  drawText(painter, line, highest());
 }
 
 }  // namespace chainmail

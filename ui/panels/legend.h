@@ -7,20 +7,20 @@
 
 namespace chainmail {
 
-/// Says what the colours of a panel mean: title, unit, the colour map, and the values at its ends. It stands above
-/// the view and not on it, so that it never hides the object.
+/// Explains the colours of a panel: title, unit, the colour map, and the values at its ends. It is above the view and
+/// not on it, so that it never hides the object.
 class Legend : public QWidget {
   Q_OBJECT
 
  public:
   Legend();
-  /// Shows what the colours of a panel mean now.
+  /// Shows the current colours of a panel.
   void follow(const Colouring& colouring, int panel);
-  /// Shows what the colours of something over the object mean.
+  /// Shows the colours of an overlay instead.
   void show(const OverlayLegend& legend);
-  /// Draws it with the painter's pen and font, as wide as it is.
+  /// Draws the legend with the painter's pen and font, in its own width.
   void draw(QPainter& painter) const;
-  /// What it says; the numbers are empty as long as there are none.
+  /// The texts of the legend; the numbers are empty while there are no values.
   QString title() const { return title_; }
   QString lowest() const;
   QString highest() const;
@@ -29,6 +29,7 @@ class Legend : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  void set(const QString& title, const ColourScale& scale);
   bool showsOne() const { return scale_.highest <= (scale_.diverging ? scale_.threshold : scale_.lowest); }
   void drawNeutral(QPainter& painter, QRect& line) const;
   void drawMap(QPainter& painter, QRect line) const;

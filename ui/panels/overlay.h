@@ -11,24 +11,24 @@ namespace chainmail {
 
 class View;
 
-/// What the colours of an overlay mean.
+/// The legend for the colours of an overlay.
 struct OverlayLegend {
   QString title;
   ColourScale scale;
   QString toolTip;
 };
 
-/// Something that is drawn over the objects of the views, and may say how the objects themselves are painted meanwhile.
-/// Whoever adds one to a view lets it live as long as the view.
+/// Draws over the objects of the views, and may colour the objects. An overlay must outlive the views that it was added
+/// to.
 class Overlay {
  public:
-  /// One view as it is drawn.
+  /// The view that is being painted.
   struct Canvas {
     ObjectDrawing& painter;
     const ObjectDrawing::Scene& scene;
-    const Frame& frame;  // what the painter shows
+    const Frame& frame;  // the frame that the painter draws
     int panel;
-    double unitsPerPixel;  // mesh units that a logical pixel spans, in the plane through the view's centre
+    double unitsPerPixel;  // mesh units per logical pixel, in the plane through the centre of the view
   };
 
   Overlay() = default;
@@ -36,14 +36,14 @@ class Overlay {
   Overlay& operator=(const Overlay&) = delete;
   virtual ~Overlay() = default;
 
-  /// How a panel's object is painted under it; none: as without it.
+  /// Returns how the object of a panel is coloured; without a value, the overlay does not change it.
   virtual std::optional<ObjectDrawing::Paint> paint(int /*panel*/) const { return std::nullopt; }
   virtual void draw(const Canvas& canvas) = 0;
-  /// Lines with words, over all that is drawn.
+  /// Returns lines with texts, drawn over everything else.
   virtual std::vector<Annotation> annotations(const View& /*view*/) const { return {}; }
-  /// What a panel says of it beside its algorithm; empty: nothing.
+  /// Returns a note for the head of a panel; may be empty.
   virtual QString note(int /*panel*/) const { return {}; }
-  /// What a panel's legend says instead of the object's own, where the overlay colours it.
+  /// Returns the legend of a panel whose object the overlay colours.
   virtual std::optional<OverlayLegend> legend(int /*panel*/) const { return std::nullopt; }
 };
 

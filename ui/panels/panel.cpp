@@ -1,15 +1,33 @@
+// In this order: construction, figures, state line, drawing for print.
+
 #include "panels/panel.h"
 
 #include <QHBoxLayout>
+#include <QPainter>
+#include <QTextDocument>
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "common/colours.h"
 #include "common/panel_names.h"
+#include "common/text.h"
 
 namespace chainmail {
 namespace {
 
 constexpr int refreshMilliseconds = 100;
+constexpr int printMargin = 8;  // pixels, the same as on the screen
+const colours::Colour& ink = colours::marked;
+
+/// Draws a part of the panel, in coordinates of that part.
+void drawAt(QPainter& painter, const QRect& part, const std::function<void()>& draw) {
+  painter.save();
+  painter.translate(part.topLeft());
+  painter.setClipRect(QRect(QPoint(), part.size()));
+  painter.setPen(QColor(ink));
+  draw();
+  painter.restore();
+}
 
 }  // namespace
 
@@ -31,6 +49,19 @@ Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int pa
   arrange();
   listen();
   showStatistics();
+}
+
+void Panel::arrange() {
+  auto* foot = new QHBoxLayout;
+  foot->setContentsMargins(8, 4, 8, 6);
+  foot->addWidget(statistics_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(head_);
+  column->addWidget(legend_);
+  column->addWidget(view_, 1);
+  column->addLayout(foot);
 }
 
 void Panel::listen() {
@@ -55,21 +86,39 @@ void Panel::listen() {
   });
 }
 
-/// The figures below the view.
-void Panel::arrange() {
-  auto* foot = new QHBoxLayout;
-  foot->setContentsMargins(8, 4, 8, 6);
-  foot->addWidget(statistics_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(head_);
-  column->addWidget(legend_);
-  column->addWidget(view_, 1);
-  column->addLayout(foot);
+void Panel::refresh() {
+  view_->update();
+  if (!refresh_.isActive()) {
+    refresh_.start();
+  }
 }
 
-/// Where the pass did not end where it should have, why is more than how far the links are off.
+void Panel::showStatistics() {
+  if (const auto legend = view_->overlayLegend()) {
+    legend_->show(*legend);
+  } else {
+    legend_->follow(colouring_, panel_);
+  }
+  if (const Frame* frame = document_.frame(panel_)) {
+    showFigures(frame->statistics);
+    head_->showState(states(frame->statistics).join(QStringLiteral(" · ")));
+  }
+}
+
+/// Uses a shorter text if the panel is narrow.
+void Panel::showFigures(const Statistics& statistics) {
+  const QString help = QStringLiteral(
+      "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is "
+      "the share of links above 1e-4 rest lengths.\nDuring a drag it covers the links that the pass touched, at "
+      "rest all links.");
+  statistics_->setToolTip(statistics.remark.empty() ? help : QString::fromStdString(statistics.remark));
+  statistics_->setText(describe(statistics, false));
+  if (statistics_->sizeHint().width() > statistics_->width()) {
+    statistics_->setText(describe(statistics, true));
+  }
+}
+
+/// If the solver reports a problem, the remark replaces the violation.
 QString Panel::describe(const Statistics& statistics, bool briefly) const {
   return describePass(statistics, briefly) + QStringLiteral("<br>") +
          (statistics.remark.empty() ? describeViolation(statistics, briefly) : describeRemark(statistics));
@@ -78,11 +127,11 @@ QString Panel::describe(const Statistics& statistics, bool briefly) const {
 QString Panel::describePass(const Statistics& statistics, bool briefly) {
   const QLocale locale;
   const bool solved = elastic_method(statistics.algorithm).has_value();
-  const QString looked = solved    ? QStringLiteral("solved for <b>%2</b>")
-                         : briefly ? QStringLiteral("looked at <b>%2</b>")
-                                   : QStringLiteral("links looked at <b>%2</b>");
-  return (QStringLiteral("moved <b>%1</b> · ") + looked + QStringLiteral(" · <b>%3</b> ms") +
-          (briefly ? QString() : QStringLiteral(" a pass")))
+  const QString checked = solved    ? QStringLiteral("solved for <b>%2</b>")
+                          : briefly ? QStringLiteral("<b>%2</b> checked")
+                                    : QStringLiteral("<b>%2</b> links checked");
+  return (QStringLiteral("<b>%1</b> moved · ") + checked + QStringLiteral(" · <b>%3</b> ms") +
+          (briefly ? QString() : QStringLiteral(" per pass")))
       .arg(locale.toString(qulonglong(statistics.last_pass.moved)),
            locale.toString(qulonglong(statistics.last_pass.checked)), locale.toString(statistics.last_pass_ms, 'f', 3));
 }
@@ -103,26 +152,13 @@ QString Panel::describeRemark(const Statistics& statistics) const {
   return statistics_->fontMetrics().elidedText(remark, Qt::ElideRight, statistics_->width()).toHtmlEscaped();
 }
 
-/// In fewer words where the panel is narrow.
-void Panel::showFigures(const Statistics& statistics) {
-  const QString help = QStringLiteral(
-      "Violation: how far links lie outside their valid regions, in rest lengths; the last figure is "
-      "the share of links above 1e-4.\nDuring a drag it covers the links that the pass touched, at rest "
-      "all links.");
-  statistics_->setToolTip(statistics.remark.empty() ? help : QString::fromStdString(statistics.remark));
-  statistics_->setText(describe(statistics, false));
-  if (statistics_->sizeHint().width() > statistics_->width()) {
-    statistics_->setText(describe(statistics, true));
-  }
-}
-
 QStringList Panel::states(const Statistics& statistics) const {
   QStringList states;
   if (document_.lacksPins(panel_)) {
-    states << QStringLiteral("nothing pinned: no answer");
+    states << QStringLiteral("nothing pinned: no solution");
   }
   if (statistics.last_pass.stopped) {
-    states << QStringLiteral("taut: pins hold the hand");
+    states << QStringLiteral("taut: pins stop the handle");
   }
   if (document_.parts() > 1) {
     states << QStringLiteral("%L1 parts").arg(document_.parts());
@@ -140,28 +176,44 @@ QStringList Panel::states(const Statistics& statistics) const {
     states << QStringLiteral("drawn coarsely, 1 in %1").arg(view_->drawnStep());
   }
   if (view_->leavesLinksOut()) {
-    states << QStringLiteral("links show when nearer");
+    states << QStringLiteral("zoom in to see links");
   }
   return states + view_->notes();
 }
 
-void Panel::refresh() {
-  view_->update();
-  if (!refresh_.isActive()) {
-    refresh_.start();
+void Panel::drawIn(QPainter& painter, const QColor& ground) {
+  painter.fillRect(rect(), ground);
+  painter.setFont(font());
+  drawAt(painter, head_->geometry(), [&] { drawHead(painter); });
+  if (legend_->isVisibleTo(this)) {
+    drawAt(painter, legend_->geometry(), [&] { legend_->draw(painter); });
   }
+  drawAt(painter, view_->geometry(), [&] { view_->drawIn(painter, ground); });
+  drawAt(painter, statistics_->geometry(), [&] { drawStatistics(painter); });
 }
 
-void Panel::showStatistics() {
-  if (const auto legend = view_->overlayLegend()) {
-    legend_->show(*legend);
-  } else {
-    legend_->follow(colouring_, panel_);
-  }
-  if (const Frame* frame = document_.frame(panel_)) {
-    showFigures(frame->statistics);
-    head_->showState(states(frame->statistics).join(QStringLiteral(" · ")));
-  }
+/// Draws the letter of the panel and the name of its algorithm.
+void Panel::drawHead(QPainter& painter) const {
+  const QRect line = QRect(QPoint(), head_->size()).adjusted(printMargin, 0, -printMargin, 0);
+  QFont bold = font();
+  bold.setBold(true);
+  painter.setFont(bold);
+  painter.setPen(colours::ofPanel(panel_));
+  QRect letter;
+  painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, panelName(panel_), &letter);
+  painter.setFont(font());
+  painter.setPen(QColor(ink));
+  painter.drawText(line.adjusted(letter.width() + printMargin, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                   text(info(document_.algorithm(panel_)).label));
+}
+
+void Panel::drawStatistics(QPainter& painter) const {
+  QTextDocument figures;
+  figures.setDefaultFont(font());
+  figures.setDocumentMargin(0);
+  figures.setDefaultStyleSheet(QStringLiteral("p { color: %1 }").arg(QColor(ink).name()));
+  figures.setHtml(QStringLiteral("<p>%1</p>").arg(statistics_->text()));
+  figures.drawContents(&painter);
 }
 
 }  // namespace chainmail

@@ -10,7 +10,7 @@
 
 namespace chainmail {
 
-/// One side of the comparison: the algorithm's selector, the view, and what the last pass did.
+/// One side of the comparison: the head with the algorithm, the legend, the view, and the figures of the last pass.
 class Panel : public QFrame {
   Q_OBJECT
 
@@ -22,22 +22,22 @@ class Panel : public QFrame {
   PanelHead& head() { return *head_; }
   QComboBox& selector() { return head_->selector(); }
   Legend& legend() { return *legend_; }
-  /// Draws it over the panel's object, and says what it notes.
+  /// Draws an overlay over the object and shows its notes in the head.
   void addOverlay(Overlay& overlay) { view_->addOverlay(overlay); }
-  /// In lines and words on paper, in logical pixels: without what is to be clicked at.
+  /// Draws the panel as vector graphics, in logical pixels and without its buttons.
   void drawIn(QPainter& painter, const QColor& ground);
-  /// Paints and says anew what an overlay has changed.
+  /// Repaints after an overlay has changed, and updates figures and legend.
   void refresh();
 
  private:
   void arrange();
   void listen();
   void showStatistics();
+  void showFigures(const Statistics& statistics);
   QString describe(const Statistics& statistics, bool briefly) const;
   static QString describePass(const Statistics& statistics, bool briefly);
   static QString describeViolation(const Statistics& statistics, bool briefly);
   QString describeRemark(const Statistics& statistics) const;
-  void showFigures(const Statistics& statistics);
   QStringList states(const Statistics& statistics) const;
   void drawHead(QPainter& painter) const;
   void drawStatistics(QPainter& painter) const;
@@ -49,7 +49,7 @@ class Panel : public QFrame {
   View* view_;
   PanelHead* head_;
   Legend* legend_;
-  QTimer refresh_;  // figures change at a rate that can be read, and only when there is something new
+  QTimer refresh_;  // limits the figures to a rate that can be read
 };
 
 }  // namespace chainmail

@@ -9,9 +9,9 @@
 namespace chainmail {
 namespace {
 
-constexpr int inARow = 2;
+constexpr int panelsPerRow = 2;
 constexpr int handleWidth = 3;
-constexpr int equal = 10'000;  // sizes that a splitter scales to the room there is
+constexpr int equalSize = 10'000;  // the splitter scales it to the available space
 
 QSplitter* makeSplitter(Qt::Orientation orientation) {
   auto* splitter = new QSplitter(orientation);
@@ -20,7 +20,7 @@ QSplitter* makeSplitter(Qt::Orientation orientation) {
   return splitter;
 }
 
-void shareEqually(QSplitter& splitter) { splitter.setSizes(QList<int>(splitter.count(), equal)); }
+void shareEqually(QSplitter& splitter) { splitter.setSizes(QList<int>(splitter.count(), equalSize)); }
 
 double aspect(const Panel& panel) { return double(panel.width()) / std::max(1, panel.height()); }
 
@@ -42,12 +42,12 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
     column_->addWidget(row);
   }
   refit_.setSingleShot(true);
-  refit_.setInterval(0);  // once all views have their sizes
+  refit_.setInterval(0);  // after all views have their sizes
   connect(&refit_, &QTimer::timeout, this, &PanelArea::fitAgain);
   for (const auto& [moved, other] : {std::pair(rows_[0], rows_[1]), std::pair(rows_[1], rows_[0])}) {
     connect(moved, &QSplitter::splitterMoved, this, [this, moved = moved, other = other] {
-      if (inSight().size() == rows_.size() * inARow) {
-        other->setSizes(moved->sizes());  // what stands one above the other is as wide
+      if (inSight().size() == rows_.size() * panelsPerRow) {
+        other->setSizes(moved->sizes());  // panels above each other are equally wide
       }
     });
   }
@@ -80,9 +80,9 @@ void PanelArea::addPanel() {
     panel->view().setCamera(links_.cameras() ? first : std::make_shared<Camera>(*first));
   }
   panels_.push_back(panel);
-  places_.push_back(number);
+  order_.push_back(number);
   shown_.push_back(true);
-  alone_.reset();  // a new one is to be seen
+  alone_.reset();  // the new panel must be visible
   for (Overlay* overlay : overlays_) {
     panel->addOverlay(*overlay);
   }
@@ -110,7 +110,7 @@ void PanelArea::listenTo(Panel& panel, int number) {
           [this, number] { setAlone(alone_ == number ? std::nullopt : std::optional(number)); });
 }
 
-/// The last one, before its frames go.
+/// Removes the last panel before its frames are destroyed.
 void PanelArea::removePanel() {
   const int number = int(panels_.size()) - 1;
   for (Panel* panel : panels_) {
@@ -120,7 +120,7 @@ void PanelArea::removePanel() {
   }
   delete panels_.back();
   panels_.pop_back();
-  std::erase(places_, number);
+  std::erase(order_, number);
   shown_.pop_back();
   if (std::find(shown_.begin(), shown_.end(), true) == shown_.end()) {
     shown_.front() = true;
@@ -158,7 +158,8 @@ void PanelArea::setSection(const std::optional<SectionPlane>& section) {
   setLook(look_);
 }
 
-/// Of linked views the one with the least room at its sides comes last: what it shows whole, all do.
+/// Returns the panels, hidden and wide ones first: linked views fit the narrowest one last, and what it shows whole,
+/// all do.
 std::vector<Panel*> PanelArea::byAspect() const {
   auto all = panels_;
   const auto hidden =
@@ -173,7 +174,7 @@ void PanelArea::fit() {
   }
 }
 
-/// Under the hand the object stays where it is.
+/// Does nothing while the user drags: the object must stay under the cursor.
 void PanelArea::fitAgain() {
   if (document_.highlight().grabbed) {
     return;
@@ -209,9 +210,9 @@ void PanelArea::linkCameras(bool linked) {
 }
 
 std::vector<int> PanelArea::inSight() const {
-  std::vector<int> seen = alone_ ? std::vector{*alone_} : places_;
-  std::erase_if(seen, [this](int panel) { return !alone_ && !isShown(panel); });
-  return seen;
+  std::vector<int> visible = alone_ ? std::vector{*alone_} : order_;
+  std::erase_if(visible, [this](int panel) { return !alone_ && !isShown(panel); });
+  return visible;
 }
 
 void PanelArea::setShown(int panel, bool shown) {
@@ -228,43 +229,43 @@ void PanelArea::setAlone(std::optional<int> panel) {
   arrange();
 }
 
-void PanelArea::moveOn() {
-  std::rotate(places_.begin(), places_.begin() + 1, places_.end());
+void PanelArea::rotatePanels() {
+  std::rotate(order_.begin(), order_.begin() + 1, order_.end());
   arrange();
 }
 
 void PanelArea::arrange() {
-  const auto seen = inSight();
-  place(seen);
+  const auto visible = inSight();
+  moveIntoRows(visible);
   for (int panel = 0; panel < int(panels_.size()); ++panel) {
     Panel& one = *panels_[std::size_t(panel)];
-    const bool visible = std::find(seen.begin(), seen.end(), panel) != seen.end();
-    one.setVisible(visible);
+    const bool shows = std::find(visible.begin(), visible.end(), panel) != visible.end();
+    one.setVisible(shows);
     one.head().showAlone(alone_ == panel);
     one.head().showActions(&one == panels_.back());
-    if (!visible) {
+    if (!shows) {
       colouring_.forget(panel);
     }
   }
-  rows_[1]->setVisible(seen.size() > inARow);
+  rows_[1]->setVisible(visible.size() > panelsPerRow);
   for (QSplitter* splitter : {rows_[0], rows_[1], column_}) {
     shareEqually(*splitter);
   }
   emit arranged();
 }
 
-/// Into their rows, in this order; the others wait in the first one.
-void PanelArea::place(const std::vector<int>& seen) {
+/// Moves the visible panels into their rows, in this order. Hidden panels stay in any row.
+void PanelArea::moveIntoRows(const std::vector<int>& visible) {
   for (Panel* panel : panels_) {
     if (panel->parentWidget() == nullptr || panel->parentWidget() == this) {
       rows_[0]->addWidget(panel);
     }
   }
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    QSplitter& row = *rows_[i / inARow];
-    Panel* panel = panels_[std::size_t(seen[i])];
-    if (row.indexOf(panel) != int(i % inARow)) {
-      row.insertWidget(int(i % inARow), panel);
+  for (std::size_t i = 0; i < visible.size(); ++i) {
+    QSplitter& row = *rows_[i / panelsPerRow];
+    Panel* panel = panels_[std::size_t(visible[i])];
+    if (row.indexOf(panel) != int(i % panelsPerRow)) {
+      row.insertWidget(int(i % panelsPerRow), panel);
     }
   }
 }

@@ -18,8 +18,8 @@ class Overlay;
 class Panel;
 class Tool;
 
-/// The panels, side by side: up to two in a row, up to two rows of the same height. They keep their numbers wherever
-/// they stand; hidden ones go on as all others do.
+/// The panels, side by side: up to two in a row, up to two rows of the same height. A panel keeps its number wherever
+/// it is. Hidden panels keep running.
 class PanelArea : public QWidget {
   Q_OBJECT
 
@@ -27,41 +27,42 @@ class PanelArea : public QWidget {
   PanelArea(Document& document, Colouring& colouring);
 
   PanelLinks& links() { return links_; }
-  /// By their numbers.
+  /// All panels, by number.
   const std::vector<Panel*>& panels() const { return panels_; }
   void setTool(Tool& tool);
-  /// Draws it over every panel's object, and says there what it notes.
+  /// Draws an overlay over the object of every panel and shows its notes there.
   void addOverlay(Overlay& overlay);
-  /// Offers actions above the newest panel, as long as they are enabled.
+  /// Shows buttons for actions in the head of the newest panel while the actions are enabled.
   void setHeadActions(const QList<QAction*>& actions);
-  /// Paints and says anew what an overlay has changed.
+  /// Repaints all panels after an overlay has changed.
   void refresh();
-  /// What every panel shows of its object, beside the section; and the section.
+  /// Sets which parts of the object all panels draw; the section is set apart.
   void setLook(const Look& look);
   void setSection(const std::optional<SectionPlane>& section);
   /// Shows the whole rest shape in every panel.
   void fit();
 
   bool isShown(int panel) const { return shown_[std::size_t(panel)]; }
-  /// The last one that is shown stays.
+  /// At least one panel stays visible.
   void setShown(int panel, bool shown);
-  /// The one panel that has all the room, if any; none brings back those that were shown.
+  /// The only visible panel, if a panel is shown alone. Without a value, setAlone shows all panels again that were not
+  /// hidden.
   std::optional<int> alone() const { return alone_; }
   void setAlone(std::optional<int> panel);
-  /// Each panel takes the next one's place: two exchange sides.
-  void moveOn();
-  /// The panels on the screen, in the order of their places.
+  /// Moves each panel to the position of the previous one: two panels swap sides.
+  void rotatePanels();
+  /// The visible panels, in the order of their positions.
   std::vector<int> inSight() const;
 
-  /// Lays the next panel's object over each panel's own, or takes all ghosts away.
+  /// Gives each panel the next panel's object as a ghost, or removes all ghosts.
   void setGhosts(bool on);
   bool hasGhosts() const;
 
  signals:
   void failed(const QString& sentence);
-  /// One more panel, after those that were there from the start.
+  /// A panel was added after the first ones.
   void added(Panel* panel);
-  /// Other panels are in sight, or elsewhere.
+  /// Panels were shown, hidden or moved.
   void arranged();
   void ghostsChanged();
 
@@ -70,7 +71,7 @@ class PanelArea : public QWidget {
   void removePanel();
   void followPanels();
   void listenTo(Panel& panel, int number);
-  void place(const std::vector<int>& seen);
+  void moveIntoRows(const std::vector<int>& visible);
   void arrange();
   void linkCameras(bool linked);
   std::vector<Panel*> byAspect() const;
@@ -79,7 +80,7 @@ class PanelArea : public QWidget {
   Document& document_;
   Colouring& colouring_;
   PanelLinks links_;
-  std::shared_ptr<Camera> camera_;  // of all panels whose cameras are linked
+  std::shared_ptr<Camera> camera_;  // shared by all panels whose cameras are linked
   std::shared_ptr<MeshLevels> levels_;
   Look look_;
   Tool* tool_ = nullptr;
@@ -88,7 +89,7 @@ class PanelArea : public QWidget {
   QSplitter* column_;
   std::array<QSplitter*, 2> rows_;
   std::vector<Panel*> panels_;
-  std::vector<int> places_;  // which panel stands where
+  std::vector<int> order_;  // the panels' numbers, by position
   std::vector<bool> shown_;
   std::optional<int> alone_;
   QTimer refit_;

@@ -14,7 +14,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int smallestSelector = 90;  // pixels: a narrow panel shortens its name
+constexpr int smallestSelector = 90;  // pixels: in a narrow panel, the name is shortened
 
 }  // namespace
 
@@ -27,7 +27,7 @@ PanelHead::PanelHead(Document& document, View& view, int panel)
       row_(new QHBoxLayout(this)) {
   state_->setObjectName(QStringLiteral("state%1").arg(panel));
   state_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  // What it says comes and goes during a drag: the view must not change its size with it.
+  // The text changes during a drag and must not resize the view.
   state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   fillSelector();
   arrange(view);
@@ -56,12 +56,12 @@ void PanelHead::fillSelector() {
   showAlgorithm();
 }
 
-/// What runs, and what does not work on this mesh, with the reason.
+/// Selects the current algorithm. Disables algorithms that do not work on this mesh; a tooltip gives the reason.
 void PanelHead::showAlgorithm() {
   const auto* items = qobject_cast<QStandardItemModel*>(selector_->model());
   for (int i = 0; i < selector_->count(); ++i) {
     if (!selector_->itemData(i).isValid()) {
-      continue;  // the line between
+      continue;  // a separator
     }
     const auto algorithm = Algorithm(selector_->itemData(i).toInt());
     QString help = text(info(algorithm).source);
@@ -80,8 +80,8 @@ void PanelHead::showAlgorithm() {
 QToolButton* PanelHead::makeAloneButton() {
   auto* button = new QToolButton;
   button->setObjectName(QStringLiteral("aloneButton%1").arg(panel_));
-  button->setAccessibleName(QStringLiteral("Show panel %1 alone").arg(panelName(panel_)));
-  button->setToolTip(QStringLiteral("Shows this panel alone, or all again (as a double-click here)"));
+  button->setAccessibleName(QStringLiteral("Show only panel %1").arg(panelName(panel_)));
+  button->setToolTip(QStringLiteral("Shows only this panel, or all panels again (also: double-click here)"));
   button->setIcon(icon("alone"));
   button->setCheckable(true);
   button->setAutoRaise(true);

@@ -13,8 +13,8 @@ namespace chainmail {
 
 class View;
 
-/// What stands above a panel's view: its colour and letter, the algorithm's selector, what state the object is in, and
-/// the buttons that arrange the panel. A double-click beside them shows the panel alone, or all again.
+/// The line above a panel's view: colour and letter, the selector of the algorithm, the state of the object, and the
+/// buttons that arrange the panel. A double-click next to them shows only this panel, or all panels again.
 class PanelHead : public QWidget {
   Q_OBJECT
 
@@ -23,9 +23,9 @@ class PanelHead : public QWidget {
 
   QComboBox& selector() { return *selector_; }
   void showState(const QString& state);
-  /// Whether its panel is shown alone.
+  /// Shows whether the panel is the only one.
   void showAlone(bool alone);
-  /// Buttons for actions; they are there as long as the actions are enabled, where they are shown here.
+  /// Adds buttons for actions. A button is visible if its action is enabled and showActions is on.
   void setActions(const QList<QAction*>& actions);
   void showActions(bool shown);
 

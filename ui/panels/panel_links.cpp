@@ -7,15 +7,15 @@ namespace chainmail {
 PanelLinks::PanelLinks(Colouring& colouring, QObject* parent)
     : QObject(parent),
       cameras_(makeSwitch("linkCameras", QStringLiteral("&Link cameras"), QStringLiteral("Cameras"), Qt::Key_L,
-                          QStringLiteral("All panels look at the object from the same side"))),
-      colours_(makeSwitch("linkColours", QStringLiteral("Link colour &range"), QStringLiteral("Colours"),
-                          Qt::SHIFT | Qt::Key_L,
-                          QStringLiteral("One scale for all panels, so that a colour means the same in each; or one "
-                                         "scale for each, so that each shows its own range"))),
-      marks_(makeSwitch("linkMarks", QStringLiteral("Link &highlight"), QStringLiteral("Highlight"),
-                        Qt::CTRL | Qt::Key_L,
-                        QStringLiteral("What the cursor is at, and what is selected, is marked in all panels, or in "
-                                       "the panel under the cursor alone"))) {
+                          QStringLiteral("Shows the object from the same side in all panels"))),
+      colours_(makeSwitch(
+          "linkColours", QStringLiteral("Link colour &range"), QStringLiteral("Colours"), Qt::SHIFT | Qt::Key_L,
+          QStringLiteral("Uses one colour scale for all panels, so that a colour means the same value in "
+                         "each; off: each panel shows its own range"))),
+      marks_(
+          makeSwitch("linkMarks", QStringLiteral("Link &highlight"), QStringLiteral("Highlight"), Qt::CTRL | Qt::Key_L,
+                     QStringLiteral("Marks the element under the cursor and the selection in all panels; off: only in "
+                                    "the panel under the cursor"))) {
   connect(cameras_, &QAction::toggled, this, &PanelLinks::camerasLinked);
   connect(colours_, &QAction::toggled, &colouring, &Colouring::setSharesScale);
   connect(marks_, &QAction::toggled, this, &PanelLinks::marksLinked);

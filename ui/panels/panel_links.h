@@ -7,21 +7,21 @@ namespace chainmail {
 
 class Colouring;
 
-/// What the panels share of how they are looked at: the camera, the range of the colours, and the marks of elements.
-/// Each is a switch, on at first.
+/// Switches for what the panels share: the camera, the range of the colours, and the marks of elements. All are on at
+/// first.
 class PanelLinks : public QObject {
   Q_OBJECT
 
  public:
   PanelLinks(Colouring& colouring, QObject* parent);
 
-  /// For a menu and the tool bar.
+  /// The switches, for a menu and the tool bar.
   QList<QAction*> actions() const { return {cameras_, colours_, marks_}; }
   bool cameras() const { return cameras_->isChecked(); }
-  /// Whether what the cursor is at, and what is selected, is marked in all panels.
+  /// True if all panels mark the element under the cursor and the selection.
   bool marks() const { return marks_->isChecked(); }
 
-  /// The panel that the mouse was in last: marks that are not mirrored are shown there.
+  /// The panel that the mouse was in last. It shows the marks if they are not linked.
   int pointed() const { return pointed_; }
   void point(int panel) { pointed_ = panel; }
 

@@ -1,17 +1,41 @@
+// In this order: construction, tools and overlays, camera, search, mouse, keyboard, painting, pictures.
+
 #include "panels/view.h"
 
+#include <QFocusEvent>
+#include <QImage>
+#include <QMouseEvent>
 #include <QOpenGLContext>
+#include <QOpenGLFramebufferObject>
+#include <QPainter>
+#include <QWheelEvent>
 #include <algorithm>
+#include <cmath>
 
 #include "drawing/front_links.h"
+#include "drawing/vector_painter.h"
 #include "mesh/error.h"
 #include "mesh/surface.h"
 
 namespace chainmail {
 namespace {
 
-constexpr double reach = 14;  // pixels from the cursor in which an element is found
+constexpr double elementReach = 14;  // pixels from the cursor within which an element is found
 constexpr int hoverMilliseconds = 16;
+constexpr double zoomPerNotch = 1.2;
+constexpr float pinSize = 13;           // pixels
+constexpr float cursorMarkSize = 13;    // pixels
+constexpr float markEdge = 4;           // pixels of background around a mark, both sides together
+constexpr double largestSelected = 12;  // diameter of a selected element's mark, pixels
+constexpr double smallestSelected = 2;
+
+Error tooLarge(QSize picture, int most) {
+  const auto what = QStringLiteral("%1 × %2 pixels are too many: the graphics card draws at most %3 on a side")
+                        .arg(picture.width())
+                        .arg(picture.height())
+                        .arg(most);
+  return {"picture", what.toStdString(), "choose a smaller scale"};
+}
 
 }  // namespace
 
@@ -27,7 +51,7 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
       painter_(levels_),
       hover_(this) {
   setMouseTracking(true);
-  setFocusPolicy(Qt::StrongFocus);  // a click here takes the keyboard from the field last typed in
+  setFocusPolicy(Qt::StrongFocus);  // a click takes the keyboard from an input field
   setMinimumSize(160, 90);
   hover_.setSingleShot(true);
   hover_.setInterval(hoverMilliseconds);
@@ -42,7 +66,7 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
 void View::listen() {
   connect(&document_, &Document::frameReady, this, [this](int ready) {
     if (ready == panel_ || ready == ghost_.of) {
-      update();
+      update();  // the paint takes the frame over
     }
   });
   connect(&document_, &Document::highlightChanged, this, qOverload<>(&View::update));
@@ -52,15 +76,6 @@ void View::listen() {
     selectedHere_ = links_.pointed() == panel_;
     update();
   });
-  // What an edit has put out is lit up again, without a move of the mouse.
-  const auto lightUp = [this] {
-    if (underMouse() && tool_ != nullptr && !tool_->busy()) {
-      tool_->hover(*this, cursor_);
-    }
-  };
-  connect(&document_.undoStack(), &QUndoStack::indexChanged, this, lightUp, Qt::QueuedConnection);
-  connect(&links_, &PanelLinks::marksLinked, this, qOverload<>(&View::update));
-  connect(&colouring_, &Colouring::changed, this, qOverload<>(&View::update));
   connect(&document_, &Document::cutsChanged, this, [this] {
     painter_.cutsChanged();
     if (ghostPainter_ != nullptr) {
@@ -68,28 +83,144 @@ void View::listen() {
     }
     update();
   });
+  connect(&document_.undoStack(), &QUndoStack::indexChanged, this, &View::updateHover, Qt::QueuedConnection);
+  connect(&links_, &PanelLinks::marksLinked, this, qOverload<>(&View::update));
+  connect(&colouring_, &Colouring::changed, this, qOverload<>(&View::update));
   connect(this, &QOpenGLWidget::frameSwapped, this, [this] { meter_.swapped(); });
+}
+
+/// Highlights the element under the cursor again after an edit has cleared the highlight.
+void View::updateHover() {
+  if (underMouse() && tool_ != nullptr && !tool_->busy()) {
+    tool_->hover(*this, cursor_);
+  }
 }
 
 View::~View() {
   if (context() != nullptr) {
-    disconnect(context(), nullptr, this, nullptr);  // its end must find nothing of this view
+    disconnect(context(), nullptr, this, nullptr);  // aboutToBeDestroyed must not reach a destroyed view
   }
   makeCurrent();
   painter_.destroy();
-  forgetGhost();
+  freeGhostPainter();
   doneCurrent();
 }
+
+// Tools and overlays
 
 void View::setTool(Tool* tool) {
   tool_ = tool;
   setCursor(tool->cursor());
 }
 
+QStringList View::notes() const {
+  QStringList notes;
+  for (const Overlay* overlay : overlays_) {
+    if (const QString note = overlay->note(panel_); !note.isEmpty()) {
+      notes << note;
+    }
+  }
+  return notes;
+}
+
+std::optional<OverlayLegend> View::overlayLegend() const {
+  for (const Overlay* overlay : overlays_) {
+    if (auto legend = overlay->legend(panel_)) {
+      return legend;
+    }
+  }
+  return std::nullopt;
+}
+
+void View::setLook(const Look& look) {
+  look_ = look;
+  update();
+}
+
+void View::setGhost(const Ghost& ghost) {
+  if (ghost == ghost_) {
+    return;
+  }
+  ghost_ = ghost;
+  if (!ghost_.of) {
+    makeCurrent();
+    freeGhostPainter();
+    doneCurrent();
+  }
+  emit ghostChanged();
+  update();
+}
+
+// Camera
+
+void View::setCamera(std::shared_ptr<Camera> camera) {
+  camera_ = std::move(camera);
+  fitPending_ = false;
+  update();
+}
+
+void View::fit() {
+  const Mesh& mesh = *document_.mesh();
+  camera_->fit(bounds(mesh), std::span(mesh.axes).first(std::size_t(mesh.space_dimension)), size());
+  fitPending_ = false;
+  announceCamera();
+}
+
+void View::fitAgain() {
+  if (camera_->framed()) {
+    camera_->frame(bounds(*document_.mesh()), size());
+    announceCamera();
+  }
+}
+
+void View::resizeEvent(QResizeEvent* event) {
+  QOpenGLWidget::resizeEvent(event);
+  if (fitPending_ && isVisible()) {
+    fit();
+  }
+  emit resized();
+}
+
+void View::announceCamera() {
+  emit cameraChanged();
+  update();
+}
+
+void View::lookFrom(double yaw, double pitch) {
+  camera_->lookFrom(yaw, pitch);
+  announceCamera();
+}
+
+void View::setParallel(bool parallel) {
+  camera_->setParallel(parallel);
+  announceCamera();
+}
+
+void View::orbit(QPointF pixels) {
+  camera_->orbit(pixels);
+  announceCamera();
+}
+
+void View::pan(QPointF pixels) {
+  camera_->pan(pixels, size());
+  announceCamera();
+}
+
+void View::zoom(double factor) { zoom(factor, QRectF(rect()).center()); }
+
+void View::zoom(double factor, QPointF about) {
+  camera_->zoom(factor, about, size());
+  announceCamera();
+}
+
+// Search: what is at a position in the view, and where things appear
+
 const CellBoxes& View::boxes(const Frame& frame) const {
   boxes_.follow(levels_->at(frame.mesh, 1), frame);
   return boxes_;
 }
+
+Projection View::projection() const { return {*document_.mesh(), camera_->toView(), camera_->toClip(size()), size()}; }
 
 std::function<bool(ElementId)> View::shown() const {
   if (!look_.section) {
@@ -100,9 +231,10 @@ std::function<bool(ElementId)> View::shown() const {
   };
 }
 
-std::optional<ElementId> View::elementAt(QPointF place) const {
+std::optional<ElementId> View::elementAt(QPointF position) const {
   const Frame* frame = document_.frame(panel_);
-  return frame == nullptr ? std::nullopt : nearestElement(*frame, boxes(*frame), projection(), place, reach, shown());
+  return frame == nullptr ? std::nullopt
+                          : nearestElement(*frame, boxes(*frame), projection(), position, elementReach, shown());
 }
 
 std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
@@ -126,17 +258,21 @@ std::vector<LinkId> View::frontLinksCrossing(QLineF stroke) const {
   if (crossed.empty() || !camera_->spatial()) {
     return crossed;
   }
-  const Surface& surface = levels_->surface(frame->mesh, document_.cuts());
-  if (frame->mesh->triangles.empty() && surface.table().empty()) {
+  if (frame->mesh->triangles.empty() && levels_->surface(frame->mesh, document_.cuts()).table().empty()) {
     return nearestLinks(*frame, boxes(*frame), projection(), stroke, crossed);
   }
-  auto faces =
-      wholeFaces(*frame, boxes(*frame), document_.cuts(), projection(), QRectF(stroke.p1(), stroke.p2()).normalized());
-  appendFaces(surface, faces);
+  const auto faces = frontFaces(*frame, QRectF(stroke.p1(), stroke.p2()).normalized());
+  return unhiddenLinks(*frame, projection(), stroke, crossed, faces);
+}
+
+/// Returns the faces that may hide links in a part of the view.
+std::vector<Face> View::frontFaces(const Frame& frame, QRectF part) const {
+  auto faces = wholeFaces(frame, boxes(frame), document_.cuts(), projection(), part);
+  appendFaces(levels_->surface(frame.mesh, document_.cuts()), faces);
   if (const auto isShown = shown()) {
     std::erase_if(faces, [&](const Face& face) { return std::ranges::none_of(face, isShown); });
   }
-  return unhiddenLinks(*frame, projection(), stroke, crossed, faces);
+  return faces;
 }
 
 std::vector<ElementId> View::elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const {
@@ -150,8 +286,8 @@ Point View::position(ElementId element) const {
   return frame == nullptr ? document_.mesh()->rest_position(element) : point_of(*frame->mesh, frame->view(), element);
 }
 
-QVector3D View::pointAt(QPointF place, const Point& through) const {
-  return camera_->pointAt(place, asVector(through), size());
+QVector3D View::pointAt(QPointF position, const Point& through) const {
+  return camera_->pointAt(position, asVector(through), size());
 }
 
 QPointF View::placeOf(ElementId element) const {
@@ -164,19 +300,169 @@ QPointF View::placeOf(ElementId element) const {
 }
 
 QPointF View::placeOf(const Point& point) const {
-  const QVector3D at = (camera_->toClip(size()) * camera_->toView())
-                           .map(QVector3D(float(point.x()), float(point.y()), float(point.z())));
+  const QVector3D at = (camera_->toClip(size()) * camera_->toView()).map(asVector(point));
   return {(1 + double(at.x())) / 2 * width(), (1 - double(at.y())) / 2 * height()};
 }
 
-Projection View::projection() const { return {*document_.mesh(), camera_->toView(), camera_->toClip(size()), size()}; }
+// Mouse: the left button belongs to the tool, the others move the camera
 
-ObjectDrawing::Scene View::scene(double pixelRatio) const {
+void View::mousePressEvent(QMouseEvent* event) {
+  links_.point(panel_);
+  cursor_ = event->position();
+  if (event->button() == Qt::LeftButton && tool_ != nullptr) {
+    hover_.stop();
+    tool_->press(*this, cursor_, event->modifiers());
+  }
+}
+
+void View::mouseMoveEvent(QMouseEvent* event) {
+  links_.point(panel_);
+  const QPointF travel = event->position() - cursor_;
+  cursor_ = event->position();
+  if (event->buttons() == Qt::NoButton) {
+    if (!hover_.isActive()) {
+      hover_.start();
+    }
+  } else if ((event->buttons() & Qt::LeftButton) != 0) {
+    if (tool_ != nullptr) {
+      tool_->move(*this, cursor_);
+    }
+  } else {
+    moveCamera(travel, event->buttons());
+  }
+}
+
+void View::moveCamera(QPointF travel, Qt::MouseButtons buttons) {
+  if ((buttons & Qt::RightButton) != 0 && camera_->spatial()) {
+    orbit(travel);
+  } else {
+    pan(travel);
+  }
+}
+
+/// The second press of a double click moves the point under the cursor to the centre of the view; it grabs nothing.
+void View::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || (tool_ != nullptr && tool_->clicks())) {
+    mousePressEvent(event);
+    return;
+  }
+  cursor_ = event->position();
+  const auto element = elementAt(cursor_);
+  camera_->centreOn(element ? asVector(position(*element)) : camera_->pointAt(cursor_, camera_->centre(), size()));
+  announceCamera();
+}
+
+void View::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && tool_ != nullptr) {
+    tool_->release(*this, event->position());
+  }
+}
+
+void View::leaveEvent(QEvent* event) {
+  QOpenGLWidget::leaveEvent(event);
+  hover_.stop();
+  if (tool_ != nullptr) {
+    tool_->leave(*this);
+  }
+  if (!document_.highlight().grabbed && document_.highlight().links.empty()) {
+    document_.setHighlight({});
+  }
+}
+
+void View::wheelEvent(QWheelEvent* event) {
+  zoom(std::pow(zoomPerNotch, event->angleDelta().y() / 120.0), event->position());
+}
+
+// Keyboard: a frame shows the focus, but not after a click
+
+void View::focusInEvent(QFocusEvent* event) {
+  QOpenGLWidget::focusInEvent(event);
+  focusFramed_ = event->reason() == Qt::TabFocusReason || event->reason() == Qt::BacktabFocusReason ||
+                 event->reason() == Qt::ShortcutFocusReason;
+  update();
+}
+
+void View::focusOutEvent(QFocusEvent* event) {
+  QOpenGLWidget::focusOutEvent(event);
+  focusFramed_ = false;
+  update();
+}
+
+// Painting: objects, overlays, marks, annotations, focus
+
+void View::initializeGL() {
+  // Docking a part of the window may give this view another context. Everything is created again then.
+  connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
+    makeCurrent();
+    painter_.destroy();
+    freeGhostPainter();
+    painterReady_ = false;
+    doneCurrent();
+  });
+  try {
+    painter_.initialize();
+    selectionOutdated_ = true;
+    painterReady_ = true;
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+}
+
+/// Requires the context to be current.
+void View::freeGhostPainter() {
+  painter_.freeSeeThrough();
+  if (ghostPainter_ != nullptr) {
+    ghostPainter_->destroy();
+    ghostPainter_.reset();
+  }
+}
+
+ObjectPainter& View::ghostPainter() {
+  if (ghostPainter_ == nullptr) {
+    ghostPainter_ = std::make_unique<ObjectPainter>(levels_);
+    ghostPainter_->initialize();
+  }
+  return *ghostPainter_;
+}
+
+void View::paintGL() {
+  if (fitPending_) {
+    fit();  // there was no resize since the view became visible
+  }
+  const auto before = std::pair(painter_.step(), painter_.leavesLinksOut());
+  meter_.painted();
+  paintOn(colours::background, devicePixelRatioF());
+  if (document_.frame(panel_) != nullptr) {
+    drawFocus();
+  }
+  if (std::pair(painter_.step(), painter_.leavesLinksOut()) != before) {
+    emit drawnStepChanged();
+  }
+}
+
+/// Paints with OpenGL into the bound framebuffer.
+void View::paintOn(const QColor& ground, double pixelRatio) {
+  auto* gl = context()->functions();
+  const float opacity = ground.alphaF();
+  gl->glClearColor(opacity * ground.redF(), opacity * ground.greenF(), opacity * ground.blueF(), opacity);
+  gl->glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl->glDisable(GL_DEPTH_TEST);
+  if (!painterReady_ || document_.frame(panel_) == nullptr) {
+    return;
+  }
+  if (selectionOutdated_) {
+    painter_.setSelection(document_.selection().elements);
+    selectionOutdated_ = false;
+  }
+  draw({painter_, ghostFrame() != nullptr ? &ghostPainter() : nullptr, scene(pixelRatio, ground)});
+}
+
+ObjectDrawing::Scene View::scene(double pixelRatio, const QColor& ground) const {
   ObjectDrawing::Scene scene;
   scene.toView = camera_->toView();
   scene.toClip = camera_->toClip(size());
   scene.size = QSizeF(size()) * pixelRatio;
-  scene.background = colours::background;
+  scene.background = ground;
   scene.pixelRatio = float(pixelRatio);
   if (camera_->spatial()) {
     const auto [near, far] = camera_->depthRange();
@@ -185,31 +471,158 @@ ObjectDrawing::Scene View::scene(double pixelRatio) const {
   return scene;
 }
 
-std::optional<OverlayLegend> View::overlayLegend() const {
-  for (const Overlay* overlay : overlays_) {
-    if (auto legend = overlay->legend(panel_)) {
-      return legend;
-    }
+/// Draws everything but the frame of the focus. The panel must have a frame.
+void View::draw(const Easel& on) {
+  takeFrames(on);
+  drawObjects(on);
+  const Frame& frame = *document_.frame(panel_);
+  for (Overlay* overlay : overlays_) {
+    overlay->draw({on.own, on.scene, frame, panel_, camera_->unitsPerPixel(size())});
   }
-  return std::nullopt;
+  drawMarks(on);
+  drawAnnotations(on);
 }
 
-QStringList View::notes() const {
-  QStringList notes;
-  for (const Overlay* overlay : overlays_) {
-    if (const QString note = overlay->note(panel_); !note.isEmpty()) {
-      notes << note;
-    }
+const Frame* View::ghostFrame() const { return ghost_.of ? document_.frame(*ghost_.of) : nullptr; }
+
+/// The painters take over the newest frames; a painter sends to the graphics card only what changed since the last one.
+void View::takeFrames(const Easel& on) {
+  on.own.setFrame(*document_.frame(panel_), document_.cuts());
+  if (on.ghost != nullptr) {
+    on.ghost->setFrame(*ghostFrame(), document_.cuts());
   }
-  return notes;
 }
 
-void View::resizeEvent(QResizeEvent* event) {
-  QOpenGLWidget::resizeEvent(event);
-  if (fitPending_ && isVisible()) {
-    fit();
+void View::drawObjects(const Easel& on) {
+  const double pixelsPerUnit = 1 / camera_->unitsPerPixel(size());
+  const ObjectDrawing::Paint ownPaint = objectPaint();
+  const auto drawOwn = [&] { on.own.drawObject(on.scene, ownPaint, pixelsPerUnit); };
+  if (on.ghost == nullptr) {
+    drawOwn();
+    return;
   }
-  emit resized();
+  const ObjectDrawing::Paint ghostPaint{colours::ofPanel(*ghost_.of), nullptr, {}, look_};
+  on.own.drawSeeThrough(on.scene, ghost_.ownOpacity(), drawOwn);
+  on.ghost->drawSeeThrough(on.scene, ghost_.opacity(),
+                           [&] { on.ghost->drawObject(on.scene, ghostPaint, pixelsPerUnit); });
+}
+
+/// Links that are coloured by a value are drawn even if links are hidden.
+ObjectDrawing::Paint View::objectPaint() {
+  auto paint = colouredPaint();
+  paint.look = look_;
+  paint.look.links = look_.links || (paint.values != nullptr && paint.values->ofLinks);
+  return paint;
+}
+
+/// An overlay colours the object, or its values do, or else its panel.
+ObjectDrawing::Paint View::colouredPaint() {
+  for (const Overlay* overlay : overlays_) {
+    if (const auto paint = overlay->paint(panel_)) {
+      return *paint;
+    }
+  }
+  const ColourValues* values = colouring_.follow(panel_);
+  return {colour_, values, colouring_.scale(panel_)};
+}
+
+/// Draws the selection, the highlight, the pins and the tool's stroke. Pins come late, so that the cursor's mark does
+/// not hide them.
+void View::drawMarks(const Easel& on) {
+  const auto& in = on.scene;
+  if (links_.marks() || selectedHere_) {
+    const double pixelsPerLink = document_.mesh()->mean_link_length / camera_->unitsPerPixel(size());
+    on.own.drawSelection(in, colours::selected,
+                         float(std::clamp(0.7 * pixelsPerLink, smallestSelected, largestSelected)));
+  }
+  drawHighlight(on);
+  on.own.drawElements(in, document_.pins(), in.background, pinSize + markEdge + 1, ObjectDrawing::Mark::diamond);
+  on.own.drawElements(in, document_.pins(), colours::pinned, pinSize, ObjectDrawing::Mark::diamond);
+  if (tool_ != nullptr) {
+    on.own.drawStroke(in, tool_->stroke(*this), colours::marked);
+  }
+}
+
+void View::drawHighlight(const Easel& on) {
+  const auto& in = on.scene;
+  const Highlight& highlight = document_.highlight();
+  // All panels show the handle, and the links that would be cut.
+  const bool inAllPanels = links_.marks() || highlight.grabbed || !highlight.links.empty();
+  if (!inAllPanels && links_.pointed() != panel_) {
+    return;
+  }
+  on.own.drawLinks(in, highlight.links, colours::lit);
+  if (highlight.element) {
+    const ElementId element = *highlight.element;
+    on.own.drawElements(in, std::span(&element, 1), in.background, cursorMarkSize + markEdge);
+    on.own.drawElements(in, std::span(&element, 1), highlight.grabbed ? colours::lit : colours::marked, cursorMarkSize);
+  }
+}
+
+void View::drawAnnotations(const Easel& on) {
+  std::vector<Annotation> annotations;
+  for (const Overlay* overlay : overlays_) {
+    const auto more = overlay->annotations(*this);
+    annotations.insert(annotations.end(), more.begin(), more.end());
+  }
+  if (annotations.empty()) {
+    return;
+  }
+  for (const Annotation& annotation : annotations) {
+    on.own.drawStroke(on.scene, std::array{annotation.line.p1(), annotation.line.p2()}, colours::marked);
+  }
+  on.own.drawWords(on.scene, [&](QPainter& painter) {
+    for (const Annotation& annotation : annotations) {
+      drawAnnotation(painter, annotation, on.scene.background, size());
+    }
+  });
+}
+
+void View::drawFocus() {
+  if (focusFramed_) {
+    const QRectF inner = QRectF(rect()).adjusted(1, 1, -1, -1);
+    const std::array corners{inner.topLeft(), inner.topRight(), inner.bottomRight(), inner.bottomLeft(),
+                             inner.topLeft()};
+    painter_.drawStroke(scene(devicePixelRatioF(), colours::background), corners, colours::focus);
+  }
+}
+
+// Pictures: in pixels, and as vector graphics
+
+QImage View::picture(double pixelRatio, bool transparent) {
+  const QSize pixels = (QSizeF(size()) * pixelRatio).toSize();
+  makeCurrent();
+  GLint most = 0;
+  context()->functions()->glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
+  if (std::max(pixels.width(), pixels.height()) > most) {
+    doneCurrent();
+    throw tooLarge(pixels, most);
+  }
+  QImage image;
+  {
+    QOpenGLFramebufferObject canvas(pixels, QOpenGLFramebufferObject::CombinedDepthStencil);
+    canvas.bind();
+    context()->functions()->glViewport(0, 0, pixels.width(), pixels.height());
+    paintOn(transparent ? QColor(0, 0, 0, 0) : QColor(colours::background), pixelRatio);
+    image = canvas.toImage();
+  }
+  doneCurrent();
+  image.setDevicePixelRatio(pixelRatio);
+  return image;
+}
+
+void View::drawIn(QPainter& painter, const QColor& ground) {
+  painter.fillRect(QRectF(rect()), ground);
+  if (document_.frame(panel_) == nullptr) {
+    return;
+  }
+  VectorPainter own(painter, levels_);
+  own.setSelection(document_.selection().elements);
+  std::optional<VectorPainter> ghost;
+  if (ghostFrame() != nullptr) {
+    ghost.emplace(painter, levels_);
+  }
+  draw({own, ghost ? &*ghost : nullptr, scene(1, ground)});
 }
 
 }  // namespace chainmail

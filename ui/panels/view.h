@@ -2,13 +2,14 @@
 
 #include <QOpenGLWidget>
 #include <QTimer>
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "common/colours.h"
 #include "document/document.h"
 #include "drawing/camera.h"
 #include "drawing/frame_meter.h"
-#include "drawing/ghost.h"
 #include "drawing/object_painter.h"
 #include "drawing/picking.h"
 #include "panels/colouring.h"
@@ -18,70 +19,84 @@
 
 namespace chainmail {
 
-/// Draws one panel's object and hands the mouse to the active tool. It knows no rule of the model.
+/// Another panel's object, drawn see-through over a panel's own object.
+struct Ghost {
+  std::optional<int> of;  // the other panel
+  double blend = 0.5;     // 0: only the own object, 1: only the ghost
+
+  double opacity() const { return blend; }
+  double ownOpacity() const { return of ? std::min(1.0, 2 - 2 * blend) : 1; }
+  bool operator==(const Ghost&) const = default;
+};
+
+/// Draws the object of one panel and passes the left mouse button to the active tool. It knows no rule of the model.
+///
+/// A new frame, another highlight or another camera only schedules a paint. The paint hands the newest frame to the
+/// painter, once. Everything else (the search under the cursor, readouts, figures) reads the document's frame.
 class View : public QOpenGLWidget {
   Q_OBJECT
 
  public:
-  /// The panels share the camera, unless they are unlinked, and the mesh's levels of detail.
+  /// The panels share the camera, unless they are unlinked, and the levels of detail of the mesh.
   View(Document& document, Colouring& colouring, PanelLinks& links, int panel, std::shared_ptr<Camera> camera,
        std::shared_ptr<MeshLevels> levels);
   ~View() override;
 
+  int panel() const { return panel_; }
   void setTool(Tool* tool);
-  /// Draws it over the object, after those added before. Whoever changes it updates the view.
+  /// Draws an overlay over the object, after the overlays that were added before. Changing it requires update().
   void addOverlay(Overlay& overlay) { overlays_.push_back(&overlay); }
-  /// What the overlays say of this panel.
+  /// The notes of the overlays on this panel.
   QStringList notes() const;
+  /// The legend of the first overlay that has one for this panel.
   std::optional<OverlayLegend> overlayLegend() const;
-  /// Looks through another camera, as it stands.
+  /// Sets which parts of the object are drawn.
+  void setLook(const Look& look);
+  void setGhost(const Ghost& ghost);
+  const Ghost& ghost() const { return ghost_; }
+
+  /// Looks through another camera and does not change that camera.
   void setCamera(std::shared_ptr<Camera> camera);
   const std::shared_ptr<Camera>& camera() const { return camera_; }
   /// Shows the whole rest shape.
   void fit();
-  /// The same after a change of its size, from where it looks, as long as nobody has moved the camera.
+  /// Shows the whole rest shape again from the current side, if the user has not panned or zoomed since.
   void fitAgain();
-  /// What it shows of its object and its ghost.
-  void setLook(const Look& look) {
-    look_ = look;
-    update();
-  }
-  void setGhost(const Ghost& ghost);
-  const Ghost& ghost() const { return ghost_; }
-  /// Moves the camera, as travels of the mouse in logical pixels do; a zoom is about the view's centre or a place in
-  /// it.
+  /// Moves the camera as if the mouse had moved by this many logical pixels.
   void orbit(QPointF pixels);
   void pan(QPointF pixels);
+  /// Zooms about the centre of the view, or about a position in it.
   void zoom(double factor);
   void zoom(double factor, QPointF about);
-  /// As Camera has them.
+  /// See Camera::lookFrom and Camera::setParallel.
   void lookFrom(double yaw, double pitch);
   void setParallel(bool parallel);
-  int panel() const { return panel_; }
 
-  /// For tools: what is under a place of this view, and where an element is.
-  std::optional<ElementId> elementAt(QPointF place) const;
+  // For tools and overlays. Positions in the view are in logical pixels from its top left.
+  /// Returns the element at a position in the view, if there is one.
+  std::optional<ElementId> elementAt(QPointF position) const;
   std::vector<LinkId> linksCrossing(QLineF stroke) const;
-  /// Of them those of the front layer, where the scene has depth.
+  /// Returns the crossed links of the front layer; in a plane, all crossed links.
   std::vector<LinkId> frontLinksCrossing(QLineF stroke) const;
-  /// `inside` is asked of places in `bounds`.
+  /// Returns the elements at whose positions in the view `inside` is true. It is called for positions in `bounds`.
   std::vector<ElementId> elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const;
+  /// Returns the position of an element in the newest frame (mesh units).
   Point position(ElementId element) const;
-  QVector3D pointAt(QPointF place, const Point& through) const;
-
-  /// A picture of it with `pixelRatio` device pixels to a logical one, drawn anew so that lines are sharp; transparent,
-  /// without its ground. The frame of the keyboard's focus is not in it. Throws Error where it is larger than the
-  /// graphics card can draw.
-  QImage picture(double pixelRatio, bool transparent);
-  /// The same in lines and areas, in logical pixels.
-  void drawIn(QPainter& painter, const QColor& ground);
-
-  /// Where an element appears (logical pixels).
+  /// Returns the point under a position in the view, in the plane parallel to the view through `through`.
+  QVector3D pointAt(QPointF position, const Point& through) const;
+  /// Returns where an element or a point (mesh units) appears in the view.
   QPointF placeOf(ElementId element) const;
   QPointF placeOf(const Point& point) const;
 
+  /// Returns a picture with `pixelRatio` device pixels per logical pixel, painted anew so that lines are sharp. A
+  /// transparent picture has no background. The frame of the keyboard focus is not part of it. Throws Error if the
+  /// picture is larger than the graphics card can draw.
+  QImage picture(double pixelRatio, bool transparent);
+  /// Draws the view as vector graphics, in logical pixels.
+  void drawIn(QPainter& painter, const QColor& ground);
+
   FrameMeter& meter() { return meter_; }
-  /// How coarsely the object is drawn, as ObjectPainter::step.
+  /// How coarsely the object is drawn, see ObjectPainter::step.
   unsigned drawnStep() const { return painter_.step(); }
   bool leavesLinksOut() const { return painter_.leavesLinksOut(); }
 
@@ -106,35 +121,39 @@ class View : public QOpenGLWidget {
   void focusOutEvent(QFocusEvent* event) override;
 
  private:
-  /// What the view is drawn with.
+  /// The painters of one paint, and the scene that they draw.
   struct Easel {
     ObjectDrawing& own;
-    std::function<ObjectDrawing&()> ghost;  // asked where there is one
+    ObjectDrawing* ghost;  // null without a ghost
     ObjectDrawing::Scene scene;
   };
 
-  void draw(const Easel& on, const Frame& frame);
-  void paint(double pixelRatio, const QColor& ground);
-  /// With `pixelRatio` device pixels to a logical one.
-  ObjectDrawing::Scene scene(double pixelRatio) const;
-  Projection projection() const;
-  /// Whether a section leaves an element; none where there is no section.
+  void listen();
+  void updateHover();
+  void announceCamera();
+
+  /// Returns a filter for the elements that the section leaves; empty without a section.
   std::function<bool(ElementId)> shown() const;
   const CellBoxes& boxes(const Frame& frame) const;
-  void listen();
-  double pixelsPerLink() const;
-  ObjectDrawing::Paint paint();
-  ObjectDrawing::Paint colouredPaint();
-  void drawObjects(const Easel& on, const Frame& frame);
+  Projection projection() const;
+  std::vector<MeshLevel::Face> frontFaces(const Frame& frame, QRectF part) const;
+
+  void moveCamera(QPointF travel, Qt::MouseButtons buttons);
+
+  const Frame* ghostFrame() const;
   ObjectPainter& ghostPainter();
-  void forgetGhost();
+  void freeGhostPainter();
+  ObjectDrawing::Scene scene(double pixelRatio, const QColor& ground) const;
+  void paintOn(const QColor& ground, double pixelRatio);
+  void draw(const Easel& on);
+  void takeFrames(const Easel& on);
+  void drawObjects(const Easel& on);
+  ObjectDrawing::Paint objectPaint();
+  ObjectDrawing::Paint colouredPaint();
   void drawMarks(const Easel& on);
   void drawHighlight(const Easel& on);
-  void drawFocus();
-  std::vector<Annotation> annotations() const;
   void drawAnnotations(const Easel& on);
-  void announceCamera();
-  void moveCamera(QPointF travel, Qt::MouseButtons buttons);
+  void drawFocus();
 
   Document& document_;
   Colouring& colouring_;
@@ -145,19 +164,19 @@ class View : public QOpenGLWidget {
   Tool* tool_ = nullptr;
   std::vector<Overlay*> overlays_;
   std::shared_ptr<MeshLevels> levels_;
-  mutable CellBoxes boxes_;  // for the search under the cursor, as of the last one
+  mutable CellBoxes boxes_;  // of the newest frame that was searched
   ObjectPainter painter_;
   Look look_;
   Ghost ghost_;
-  std::unique_ptr<ObjectPainter> ghostPainter_;  // as long as there is a ghost
+  std::unique_ptr<ObjectPainter> ghostPainter_;  // exists while there is a ghost
   FrameMeter meter_;
-  QTimer hover_;  // the search for the element under the cursor runs once a frame, not once an event
+  QTimer hover_;  // limits the search for the element under the cursor to once per frame
   QPointF cursor_;
   bool fitPending_ = true;
   bool painterReady_ = false;
-  bool framed_ = false;            // the keyboard came here by the keyboard
+  bool focusFramed_ = false;       // the focus came by the keyboard
   bool selectionOutdated_ = true;  // on the graphics card
-  bool selectedHere_ = true;       // in this view, or in no other
+  bool selectedHere_ = true;       // the selection was made in this view, or in none
 };
 
 }  // namespace chainmail

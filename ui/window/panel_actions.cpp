@@ -46,7 +46,7 @@ void PanelActions::listen() {
   connect(add_, &QAction::triggered, &document_, &Document::addPanel);
   // Later: the button that was pressed goes with its panel.
   connect(remove_, &QAction::triggered, &document_, &Document::removePanel, Qt::QueuedConnection);
-  connect(swap_, &QAction::triggered, &area_, &PanelArea::moveOn);
+  connect(swap_, &QAction::triggered, &area_, &PanelArea::rotatePanels);
   connect(ghosts_, &QAction::triggered, &area_, &PanelArea::setGhosts);
   connect(&area_, &PanelArea::arranged, this, &PanelActions::refresh);
   connect(&area_, &PanelArea::ghostsChanged, this, &PanelActions::refresh);

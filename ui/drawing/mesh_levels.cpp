@@ -1,0 +1,61 @@
+#include "drawing/mesh_levels.h"
+
+#include <bit>
+
+namespace chainmail {
+
+unsigned MeshLevels::after(unsigned step, const Mesh& mesh) {
+  const bool power = std::has_single_bit(step);
+  return mesh.lattice && step > 1 ? (power ? step * 3 / 2 : step * 4 / 3) : step * 2;
+}
+
+MeshLevelPointer MeshLevels::at(const MeshPointer& mesh, unsigned step) {
+  if (mesh != mesh_) {
+    levels_.clear();
+    mesh_ = mesh;
+    levels_[1] = next_ != nullptr && next_->mesh == mesh ? next_ : nullptr;
+  }
+  auto& level = levels_[step];
+  if (level == nullptr) {
+    level = step == 1 ? wholeLevel(mesh) : mesh->lattice ? coarseLattice(mesh, step) : coarser(*at(mesh, step / 2));
+  }
+  return level;
+}
+
+const Surface& MeshLevels::surface(const MeshPointer& mesh, const Cuts& cuts) {
+  if (surface_ == nullptr || surface_->table().mesh() != mesh) {
+    surface_ = maker_.take(mesh);
+    for (const LinkId link : cuts.links()) {
+      surface_->cut(link);
+    }
+  }
+  return *surface_;
+}
+
+bool MeshLevels::hasSurface(const MeshPointer& mesh) {
+  return (surface_ != nullptr && surface_->table().mesh() == mesh) || maker_.has(mesh);
+}
+
+void MeshLevels::showCuts(const std::vector<LinkId>& links, bool cut) {
+  if (surface_ == nullptr) {
+    return;
+  }
+  for (const LinkId link : links) {
+    cut ? surface_->cut(link) : surface_->uncut(link);
+  }
+}
+
+const Section& MeshLevels::section(const MeshPointer& mesh, const Cuts& cuts, const SectionPlane& plane) {
+  const auto& table = surface(mesh, cuts).table_pointer();
+  if (section_ == nullptr || &section_->table() != table.get() || section_->plane() != plane) {
+    section_ = std::make_unique<Section>(table, plane);
+  }
+  return *section_;
+}
+
+void MeshLevels::forgetSurface() {
+  surface_.reset();
+  section_.reset();
+}
+
+}  // namespace chainmail
