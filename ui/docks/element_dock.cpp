@@ -2,11 +2,11 @@
 
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QLineEdit>
 #include <QVBoxLayout>
 #include <limits>
 
 #include "common/dock_scroll.h"
-#include "common/icons.h"
 #include "common/parameter_row.h"
 #include "common/text.h"
 #include "document/element_facts.h"
@@ -31,10 +31,15 @@ void put(QTableWidget& table, int row, int column, const QString& words) {
 
 }  // namespace
 
+/// A spin box that gives access to its line edit.
+class ElementDock::IdBox : public QSpinBox {
+ public:
+  QLineEdit& field() const { return *lineEdit(); }
+};
+
 ElementDock::ElementDock(Document& document)
-    : QDockWidget(QStringLiteral("Element")),
-      document_(document),
-      id_(new QSpinBox),
+    : document_(document),
+      id_(new IdBox),
       state_(new QLabel),
       places_(table("elementPlaces", QStringLiteral("Positions of the element (mesh units)"), {})),
       neighbours_(table("elementNeighbours", QStringLiteral("Neighbours of the element, and its links to them"),
@@ -44,7 +49,6 @@ ElementDock::ElementDock(Document& document)
       cut_(new QPushButton(QStringLiteral("&Cut link"))),
       move_(new ElementMove(document)),
       refresh_(this) {
-  setObjectName(QStringLiteral("elementDock"));
   id_->setObjectName(QStringLiteral("elementId"));
   id_->setKeyboardTracking(false);
   id_->setToolTip(QStringLiteral("The element's id: its place in the file, from 0. It becomes the selection"));
@@ -60,21 +64,6 @@ ElementDock::ElementDock(Document& document)
   arrange();
   listen();
   adaptToMesh();
-}
-
-void ElementDock::fill(QMenu& menu) {
-  QAction* show = toggleViewAction();
-  show->setObjectName(QStringLiteral("showElement"));
-  show->setIcon(icon("element"));
-  show->setText(QStringLiteral("&Element by its id"));
-  show->setShortcut(Qt::CTRL | Qt::Key_E);
-  show->setStatusTip(QStringLiteral("Pick an element by its id, move it in numbers, pin it, cut its links"));
-  connect(show, &QAction::triggered, this, [this](bool shown) {
-    if (shown) {
-      id_->setFocus(Qt::ShortcutFocusReason);
-    }
-  });
-  menu.addAction(show);
 }
 
 QTableWidget* ElementDock::table(const char* name, const QString& accessible, const QStringList& columns) {
@@ -117,8 +106,12 @@ void ElementDock::arrange() {
 
 void ElementDock::listen() {
   connect(id_, &QSpinBox::valueChanged, this, &ElementDock::pick);
-  // The id that it shows already, too.
-  connect(id_->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this, &ElementDock::pick);
+  connect(&id_->field(), &QLineEdit::returnPressed, this, &ElementDock::pick);  // also if the id is unchanged
+  connect(toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
+    if (shown) {
+      id_->setFocus(Qt::ShortcutFocusReason);
+    }
+  });
   connect(pin_, &QPushButton::clicked, this,
           [this] { document_.setPinned({*element_}, !document_.isPinned(*element_)); });
   connect(cut_, &QPushButton::clicked, this, [this] { document_.cut({*chosenLink()}); });

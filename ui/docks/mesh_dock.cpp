@@ -40,15 +40,13 @@ QString recipeName(const MeshRecipe& recipe) {
 }
 
 MeshDock::MeshDock(Document& document, Jobs& jobs)
-    : QDockWidget(QStringLiteral("Mesh")),
-      document_(document),
+    : document_(document),
       jobs_(jobs),
       kind_(new QComboBox),
       spacing_(new ParameterRow(parameters::spacing)),
       space_(new QComboBox),
       build_(new QPushButton(QStringLiteral("Build"))),
       description_(new QLabel) {
-  setObjectName(QStringLiteral("meshDock"));
   kind_->setObjectName(QStringLiteral("meshKind"));
   for (const auto& info : mesh_kinds()) {
     kind_->addItem(capitalised(text(info.name)));

@@ -12,13 +12,11 @@
 
 namespace chainmail {
 PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
-    : QDockWidget(QStringLiteral("Physics")),
-      document_(document),
+    : document_(document),
       column_(new QVBoxLayout),
       young_(new ParameterRow(parameters::young)),
       poisson_(new ParameterRow(parameters::poisson)),
       pins_(new QLabel) {
-  setObjectName(QStringLiteral("physicsDock"));
   addRow(young_, &Material::young);
   addRow(poisson_, &Material::poisson);
   column_->addLayout(makeLattice());

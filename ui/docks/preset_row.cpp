@@ -14,7 +14,7 @@
 namespace chainmail {
 namespace {
 
-QString filter() { return QStringLiteral("Presets of softness (*.json)"); }
+QString filter() { return QStringLiteral("Softness presets (*.json)"); }
 
 }  // namespace
 
@@ -24,7 +24,7 @@ PresetRow::PresetRow(Document& document)
       field_(new QComboBox),
       name_(new QLineEdit),
       more_(new QToolButton),
-      menu_(new QMenu(QStringLiteral("&Presets of softness"), this)) {
+      menu_(new QMenu(QStringLiteral("Softness &presets"), this)) {
   menu_->setIcon(icon("preset"));
   arrange();
   addActions();
@@ -223,7 +223,7 @@ void PresetRow::remove() {
   store_.remove(name);
   endNaming();  // it may have been about to be renamed
   fill();
-  emit told(QStringLiteral("Deleted the preset '%1'").arg(QString::fromStdString(name)));
+  emit noted(QStringLiteral("Deleted the preset '%1'").arg(QString::fromStdString(name)));
 }
 
 void PresetRow::import() {
@@ -237,7 +237,7 @@ void PresetRow::importPath(const QString& path) {
   std::size_t added = 0;
   if (attempt([&] { added = store_.addFrom(path); })) {
     fill();
-    emit told(counted(QStringLiteral("Added"), added, QStringLiteral("preset")));
+    emit noted(counted(QStringLiteral("Added"), added, QStringLiteral("preset")));
   }
 }
 
@@ -251,7 +251,7 @@ void PresetRow::exportAll() {
 
 void PresetRow::exportPath(const QString& path) {
   if (attempt([&] { store_.writeTo(path); })) {
-    emit told(QStringLiteral("Saved %1").arg(path));
+    emit noted(QStringLiteral("Saved %1").arg(path));
   }
 }
 

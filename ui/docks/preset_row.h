@@ -24,6 +24,8 @@ class PresetRow : public QWidget {
 
   /// What can be done with presets, for a menu of the window's.
   QMenu& menu() { return *menu_; }
+  /// Asks for a name to save the present values under.
+  void save() { save_->trigger(); }
   void importPath(const QString& path);
   void exportPath(const QString& path);
 
@@ -31,7 +33,7 @@ class PresetRow : public QWidget {
   /// It could not be done: one sentence.
   void failed(const QString& sentence);
   /// What was done, where it does not show.
-  void told(const QString& sentence);
+  void noted(const QString& sentence);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -6,12 +6,10 @@
 namespace chainmail {
 
 RelaxationDock::RelaxationDock(Document& document)
-    : QDockWidget(QStringLiteral("Relaxation")),
-      document_(document),
+    : document_(document),
       on_(new QCheckBox(QStringLiteral("Relax in idle time"))),
       scheme_(new QComboBox),
       step_(new ParameterRow(parameters::relax_step)) {
-  setObjectName(QStringLiteral("relaxationDock"));
   on_->setObjectName(QStringLiteral("relaxationOn"));
   on_->setToolTip(
       QStringLiteral("While the hand rests, elements move toward their rest shape, "

@@ -25,15 +25,13 @@ int decimalsFor(double extent) {
 }  // namespace
 
 SectionDock::SectionDock(const Document& document)
-    : QDockWidget(QStringLiteral("Section")),
-      document_(document),
+    : document_(document),
       on_(new QAction(icon("section"), QStringLiteral("Section &plane"), this)),
       flip_(new QAction(QStringLiteral("&Other side of the section"), this)),
       axis_(new QComboBox),
       slider_(new QSlider(Qt::Horizontal)),
       spin_(new QDoubleSpinBox),
       flipBox_(new QCheckBox(QStringLiteral("Other s&ide"))) {
-  setObjectName(QStringLiteral("sectionDock"));
   makeActions();
   arrange();
   connect(&document, &Document::meshChanged, this, &SectionDock::adaptToMesh);

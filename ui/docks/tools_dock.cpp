@@ -28,9 +28,7 @@ QToolButton* wideButton() {
 
 }  // namespace
 
-ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select)
-    : QDockWidget(QStringLiteral("Tools")) {
-  setObjectName(QStringLiteral("toolsDock"));
+ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select) {
   auto* content = new QWidget;
   column_ = new QVBoxLayout(content);
   auto* grid = new QGridLayout;

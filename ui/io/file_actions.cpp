@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QSettings>
+#include <QToolBar>
 #include <filesystem>
 
 #include "common/as_path.h"
@@ -53,10 +54,10 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
 }
 
 void FileActions::fill(QMenu& menu) {
-  auto* openAction = menu.addAction(QStringLiteral("&Open…"), QKeySequence::Open, this, &FileActions::open);
-  openAction->setObjectName(QStringLiteral("openFile"));
-  openAction->setIconText(QStringLiteral("Open"));
-  openAction->setStatusTip(
+  open_ = menu.addAction(QStringLiteral("&Open…"), QKeySequence::Open, this, &FileActions::open);
+  open_->setObjectName(QStringLiteral("openFile"));
+  open_->setIconText(QStringLiteral("Open"));
+  open_->setStatusTip(
       QStringLiteral("A session (.chainmail), a mesh or volume (%1) or a picture (.png .jpg), in place of the "
                      "present object")
           .arg(endings(FormatUse::read)));
@@ -68,6 +69,8 @@ void FileActions::fill(QMenu& menu) {
   fillRecent();
 }
 
+void FileActions::fill(QToolBar& bar) const { bar.addActions({open_, save_}); }
+
 void FileActions::addSaveActions(QMenu& menu) {
   const auto add = [&menu, this](const char* name, const QString& text, const QKeySequence& key,
                                  void (FileActions::*act)(), const QString& help) {
@@ -77,9 +80,9 @@ void FileActions::addSaveActions(QMenu& menu) {
     return action;
   };
   const QString all = QStringLiteral("mesh, cuts, pins, stiffness, positions of every panel, cameras and layout");
-  add("saveSession", QStringLiteral("&Save session"), QKeySequence::Save, &FileActions::saveSession,
-      QStringLiteral("All there is in one file: ") + all)
-      ->setIconText(QStringLiteral("Save"));
+  save_ = add("saveSession", QStringLiteral("&Save session"), QKeySequence::Save, &FileActions::saveSession,
+      QStringLiteral("All there is in one file: ") + all);
+  save_->setIconText(QStringLiteral("Save"));
   add("saveSessionAs", QStringLiteral("Save session &as…"), Qt::CTRL | Qt::SHIFT | Qt::Key_S,
       &FileActions::saveSessionAs, QStringLiteral("The same into another file: ") + all);
   menu.addSeparator();
@@ -173,7 +176,7 @@ void FileActions::show(const OpenedMesh& opened, const QString& path, bool first
   }
   remember(path);
   if (!isSample(path)) {
-    emit told(openingReport(name, opened, document_.parts()));
+    emit noted(openingReport(name, opened, document_.parts()));
   }
 }
 

@@ -6,6 +6,8 @@
 #include "common/jobs.h"
 #include "document/document.h"
 
+class QToolBar;
+
 namespace chainmail {
 
 class Sessions;
@@ -22,6 +24,8 @@ class FileActions : public QObject {
   FileActions(QWidget& window, Document& document, Jobs& jobs, Sessions& sessions);
 
   void fill(QMenu& menu);
+  /// Adds Open and Save; call it after the menu is filled.
+  void fill(QToolBar& bar) const;
   Sheets& sheets() { return *sheets_; }
   Volumes& volumes() { return *volumes_; }
   void open();
@@ -42,7 +46,7 @@ class FileActions : public QObject {
  signals:
   void failed(const QString& sentence);
   /// What was opened, in a sentence.
-  void told(const QString& sentence);
+  void noted(const QString& sentence);
   void saved(const QString& path);
 
  private:
@@ -61,6 +65,8 @@ class FileActions : public QObject {
   Sessions& sessions_;
   Sheets* sheets_;
   Volumes* volumes_;
+  QAction* open_ = nullptr;
+  QAction* save_ = nullptr;
   QMenu* recent_ = nullptr;
 };
 

@@ -157,7 +157,7 @@ Drawing PictureActions::drawing() const {
 void PictureActions::copy() {
   try {
     QGuiApplication::clipboard()->setImage(picture());
-    emit told(QStringLiteral("The picture is in the clipboard"));
+    emit noted(QStringLiteral("The picture is in the clipboard"));
   } catch (const Error& error) {
     emit failed(QString::fromStdString(error.what()));
   }

@@ -28,7 +28,7 @@ class PictureActions : public QObject {
  signals:
   void failed(const QString& sentence);
   /// What was done, for a short while.
-  void told(const QString& sentence);
+  void noted(const QString& sentence);
   void saved(const QString& path);
 
  private:

@@ -18,6 +18,7 @@ class PanelLinks : public QObject {
   /// For a menu and the tool bar.
   QList<QAction*> actions() const { return {cameras_, colours_, marks_}; }
   bool cameras() const { return cameras_->isChecked(); }
+  void setCameras(bool linked) { cameras_->setChecked(linked); }
   /// Whether what the cursor is at, and what is selected, is marked in all panels.
   bool marks() const { return marks_->isChecked(); }
 

@@ -22,13 +22,11 @@ constexpr int columnsInARow = 2;
 }  // namespace
 
 PropagationDock::PropagationDock(Document& document, Propagation& propagation, PropagationOverlay& overlay)
-    : QDockWidget(QStringLiteral("Propagation")),
-      propagation_(propagation),
+    : propagation_(propagation),
       overlay_(overlay),
       speed_(new QComboBox),
       together_(new QCheckBox(QStringLiteral("Panels &together"))),
       arrows_(new QCheckBox(QStringLiteral("&Arrows"))) {
-  setObjectName(QStringLiteral("propagationDock"));
   makeActions();
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
@@ -146,13 +144,6 @@ QWidget* PropagationDock::makeChoices() {
 }
 
 void PropagationDock::fill(QMenu& menu) {
-  QAction* show = toggleViewAction();
-  show->setObjectName(QStringLiteral("showPropagation"));
-  show->setIcon(icon("propagation"));
-  show->setText(QStringLiteral("&Propagation, step by step"));
-  show->setShortcut(Qt::Key_O);
-  show->setStatusTip(QStringLiteral("Slow motion and single steps through a pass, its waiting list and its order"));
-  menu.addAction(show);
   auto* steps = menu.addMenu(QStringLiteral("Steps of the p&ass"));
   steps->addActions({first_, back_, play_, forward_, last_});
   steps->addSeparator();
