@@ -25,18 +25,18 @@ class ElementDock : public QDockWidget {
   void followSelection();
   void pick();
   void showElement();
-  void showPlaces();
+  void showPositions();
   void showNeighbours();
   void showNeighbour(int row, EntryId entry);
   void adaptButtons();
-  /// The link of the row chosen in the table of neighbours.
+  /// Returns the link of the selected row in the table of neighbours.
   std::optional<LinkId> chosenLink() const;
 
   Document& document_;
   std::optional<ElementId> element_;
   IdBox* id_;
   QLabel* state_;
-  QTableWidget* places_;
+  QTableWidget* positions_;
   QTableWidget* neighbours_;
   QPushButton* pin_;
   QPushButton* cut_;

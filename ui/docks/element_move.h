@@ -11,26 +11,26 @@
 
 namespace chainmail {
 
-/// A target in numbers, and the way there in steps: what the hand does, exactly.
+/// Moves an element to a target in numbers, in steps along a straight line: an exact drag.
 class ElementMove : public QWidget {
   Q_OBJECT
 
  public:
   explicit ElementMove(Document& document);
 
-  /// Which element moves, if any.
+  /// Sets the element to move, if any.
   void setElement(std::optional<ElementId> element);
 
  private:
   void arrange();
   void adapt();
   void go();
-  /// The three numbers; empty where one of them is none.
+  /// Returns the three numbers; empty if one of them is not a number.
   std::optional<Point> typed() const;
   bool relative() const { return how_->currentIndex() == 1; }
 
   Document& document_;
-  SteadyHand hand_;
+  SteadyHand drag_;
   std::optional<ElementId> element_;
   QComboBox* how_;
   std::array<QLabel*, 3> names_{};

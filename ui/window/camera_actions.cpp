@@ -126,7 +126,7 @@ void CameraActions::fillSides(QMenu& menu) {
 }
 
 void CameraActions::addProjection(QMenu& menu) {
-  auto* parallel = menu.addAction(QStringLiteral("&Parallel projection"));
+  auto* parallel = menu.addAction(QStringLiteral("Parallel pro&jection"));
   parallel->setObjectName(QStringLiteral("parallelRays"));
   parallel->setCheckable(true);
   parallel->setShortcut(Qt::SHIFT | Qt::Key_F);

@@ -11,7 +11,7 @@ class QMainWindow;
 
 namespace chainmail {
 
-/// What helps to find one's way: the first start's example and hints, and the list of shortcuts.
+/// The Help menu: the list of shortcuts, and the example and hints of the first start.
 class HelpMenu : public QObject {
   Q_OBJECT
 
@@ -19,10 +19,10 @@ class HelpMenu : public QObject {
   HelpMenu(QMainWindow& window, Document& document);
   void fill(QMenu& menu);
   Shortcuts& shortcuts() { return shortcuts_; }
-  /// To who sees the workbench for the first time, an example and hints.
+  /// Shows an example and hints on the first start.
   void welcome();
   void dismissHints() { hints_->hide(); }
-  /// To be placed in the window, which owns it then.
+  /// Returns the hints; the window places and owns them.
   QWidget& hints() { return *hints_; }
 
  private:
@@ -30,7 +30,7 @@ class HelpMenu : public QObject {
 
   QMainWindow& window_;
   Shortcuts shortcuts_;
-  ShortcutsDialog* dialog_ = nullptr;  // made when it is first asked for
+  ShortcutsDialog* dialog_ = nullptr;  // made on first use
   ExampleDrag example_;
   Hints* hints_;
 };
