@@ -308,6 +308,7 @@ void MainWindow::fillObjectMenu(QMenu& menu) {
 void MainWindow::fillViewMenu(QMenu& menu) {
   fitView_ = menu.addAction(QStringLiteral("Reset &view (fit)"), area_, &PanelArea::fit);
   fitView_->setObjectName(QStringLiteral("fitView"));
+  fitView_->setIconText(QStringLiteral("Fit view"));  // so that the tool bar fits in 1280 pixels
   fitView_->setShortcut(Qt::Key_F);
   fitView_->setStatusTip(QStringLiteral("Shows the whole object in every view, from the initial side"));
   cameraActions_->fillMoves(menu);
