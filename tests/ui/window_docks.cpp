@@ -5,12 +5,16 @@
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QMenuBar>
 #include <QPushButton>
 #include <QSlider>
 #include <QSpinBox>
 #include <QToolButton>
 
+#include "common/icons.h"
 #include "window.h"
+#include "window/docks.h"
+#include "window/shortcuts.h"
 
 using namespace chainmail;
 
@@ -19,6 +23,46 @@ class WindowDocks : public QObject {
 
  private slots:
   void init() { failOnWarnings(); }
+
+  void everyDockOfTheTableIsNamedAndDescribed() {
+    QSet<QString> names;
+    for (const DockEntry& entry : dockEntries()) {
+      const QList<const char*> texts{entry.id, entry.action, entry.title, entry.tooltip, entry.icon};
+      QVERIFY2(std::ranges::all_of(texts, [](const char* one) { return one != nullptr && *one != 0; }), entry.id);
+      QVERIFY2(iconNames().contains(QLatin1String(entry.icon)), entry.icon);
+      names << QLatin1String(entry.id) << QLatin1String(entry.action) << QLatin1String(entry.title);
+    }
+    QCOMPARE(names.size(), qsizetype(3 * dockEntries().size()));
+  }
+
+  void everyDockOfTheTableIsInTheWindow() {
+    Workbench bench;
+    QCOMPARE(bench.window.findChildren<QDockWidget*>().size(), qsizetype(dockEntries().size()));
+    for (const DockEntry& entry : dockEntries()) {
+      const auto* dock = bench.find<QDockWidget>(entry.id);
+      QCOMPARE(dock->windowTitle(), QLatin1String(entry.title));
+      QCOMPARE(dock->toolTip(), QLatin1String(entry.tooltip));
+      QCOMPARE(bench.window.dockWidgetArea(const_cast<QDockWidget*>(dock)), entry.area);
+      QCOMPARE(!dock->isHidden(), entry.visible);
+      const QAction* show = dock->toggleViewAction();
+      QCOMPARE(show->objectName(), QLatin1String(entry.action));
+      QCOMPARE(show->statusTip(), QLatin1String(entry.tooltip));
+      QVERIFY(!show->icon().isNull());
+      QCOMPARE(show->shortcut(), entry.key);
+    }
+  }
+
+  void menusAndShortcutsListEveryDockOnce() {
+    Workbench bench;
+    const auto entries = Shortcuts(bench.window).entries();
+    for (const DockEntry& entry : dockEntries()) {
+      QAction* show = bench.find<QDockWidget>(entry.id)->toggleViewAction();
+      QCOMPARE(menu(bench, "Docks").count(show), 1);
+      QCOMPARE(menu(bench, "View").count(show), entry.inViewMenu ? 1 : 0);
+      QCOMPARE(std::ranges::count(entries, show, &Shortcuts::Entry::action), 1);
+    }
+    QCOMPARE(menu(bench, "Docks").size(), qsizetype(dockEntries().size()));
+  }
 
   void anIdThatIsNoneGetsAnAnswer() {
     Workbench bench;
@@ -221,6 +265,14 @@ class WindowDocks : public QObject {
   }
 
  private:
+  static QList<QAction*> menu(Workbench& bench, const char* title) {
+    for (const QAction* top : bench.window.menuBar()->actions()) {
+      if (QString(top->text()).remove(QLatin1Char('&')) == QLatin1String(title)) {
+        return top->menu()->actions();
+      }
+    }
+    return {};
+  }
   static double of(Workbench& bench, const QByteArray& name) {
     const LinkSoftness& softness = bench.document().softness();
     return name == "compression" ? softness.compression : name == "stretch" ? softness.stretch : softness.shear;

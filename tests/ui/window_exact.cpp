@@ -131,7 +131,7 @@ class WindowExact : public QObject {
   void aPlaneObjectHasNoOtherSides() {
     Workbench bench;
     QVERIFY(!bench.find<QAction>("viewTop")->isEnabled());
-    QVERIFY(bench.find<QAction>("viewTop")->toolTip().contains(QStringLiteral("no depth")));
+    QVERIFY(bench.find<QAction>("viewTop")->toolTip().contains(QStringLiteral("in 2D")));
     bench.document().replaceMesh(block(), QStringLiteral("block"), QStringLiteral("build"));
     QVERIFY(bench.find<QAction>("viewTop")->isEnabled());
   }
@@ -297,7 +297,7 @@ class WindowExact : public QObject {
     pick(bench, middle);
     auto* cut = bench.find<QPushButton>("cutLink");
     QVERIFY(!cut->isEnabled());
-    QVERIFY(cut->toolTip().contains(QStringLiteral("Choose a neighbour")));
+    QVERIFY(cut->toolTip().contains(QStringLiteral("Select a neighbour")));
     auto* neighbours = bench.find<QTableWidget>("elementNeighbours");
     neighbours->selectRow(1);
     const ElementId to = bench.document().mesh()->neighbours_of(middle)[1];

@@ -83,7 +83,7 @@ class WindowKnife : public QObject {
     bench.trigger("toolCut");
     auto* button = bench.find<QToolButton>("cutFrontOnlyButton");
     QVERIFY(button->isVisible() && !button->isEnabled());
-    QVERIFY(button->toolTip().contains(QStringLiteral("In a plane nothing lies behind")));
+    QVERIFY(button->toolTip().contains(QStringLiteral("Not available in 2D")));
     bench.trigger("toolDrag");
     QVERIFY(!button->isVisible());
     bench.document().replaceMesh(test::sphere(8, 4), QStringLiteral("sphere"), QStringLiteral("sphere"));

@@ -121,7 +121,7 @@ class WindowPictures : public QObject {
       pictures(bench).savePath(path);
       bench.settle();
       QVERIFY(!QFile::exists(path));
-      QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("panel B is not in sight")));
+      QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("panel B is hidden")));
       bench.window.messages().clear();
     }
   }

@@ -87,7 +87,7 @@ class WindowPresets : public QObject {
     bench.set("stretchSpin", 2);
     QCOMPARE(bench.shown(), QStringLiteral("Rubber"));
     QVERIFY(!bench.enabled("savePreset") && !bench.enabled("renamePreset") && !bench.enabled("deletePreset"));
-    QVERIFY(bench.find<QAction>("deletePreset")->toolTip().contains(QStringLiteral("always there")));
+    QVERIFY(bench.find<QAction>("deletePreset")->toolTip().contains(QStringLiteral("built in")));
   }
 
   void oneOfTheUsersIsSavedRenamedDeletedAndKept() {

@@ -270,7 +270,7 @@ class WindowSection : public QObject {
     bench.document().replaceMesh(generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("flat"),
                                  QStringLiteral("build"));
     QVERIFY(!bench.find<QAction>("section")->isEnabled());
-    QVERIFY(slider->toolTip().contains(QStringLiteral("no depth")));
+    QVERIFY(slider->toolTip().contains(QStringLiteral("in 2D")));
     QVERIFY(!bench.find<SectionDock>("sectionDock")->plane());
     bench.document().undoStack().undo();
     QVERIFY(bench.find<SectionDock>("sectionDock")->plane().has_value());

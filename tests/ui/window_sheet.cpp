@@ -113,8 +113,9 @@ class WindowSheet : public QObject {
     QByteArray huge = all("a.png");
     // Its head says 65,536 × 65,536 pixels, and its sum is right.
     huge.replace(16, 17, QByteArray::fromHex("00010000000100000802000000") + QByteArray::fromHex("e3e6a7b4"));
-    QTest::newRow("nothing in it") << QByteArray() << QStringLiteral("none.png") << QStringLiteral("it is no picture");
-    QTest::newRow("text") << QByteArray("v 0 0 0\n") << QStringLiteral("text.jpg") << QStringLiteral("no picture");
+    QTest::newRow("nothing in it") << QByteArray() << QStringLiteral("none.png")
+                                   << QStringLiteral("it is not a picture");
+    QTest::newRow("text") << QByteArray("v 0 0 0\n") << QStringLiteral("text.jpg") << QStringLiteral("not a picture");
     QTest::newRow("half a JPEG") << all("c.jpg").chopped(900) << QStringLiteral("half.jpg")
                                  << QStringLiteral("it is damaged");
     QTest::newRow("half a PNG") << all("a.png").chopped(900) << QStringLiteral("half.png")

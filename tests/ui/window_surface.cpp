@@ -155,7 +155,7 @@ class WindowSurface : public QObject {
     QVERIFY(bench.find<QAction>("showLinks")->isChecked());
     for (const char* name : {"showSurface", "showSurfaceAndLinks"}) {
       QVERIFY(!bench.find<QAction>(name)->isEnabled());
-      QVERIFY(bench.find<QAction>(name)->toolTip().contains(QStringLiteral("links alone")));
+      QVERIFY(bench.find<QAction>(name)->toolTip().contains(QStringLiteral("no faces")));
     }
     bench.document().replaceMesh(tetraBlock(), QStringLiteral("tetra"), QStringLiteral("build"));
     QVERIFY(bench.find<QAction>("showSurface")->isEnabled());

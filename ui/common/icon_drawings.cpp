@@ -93,6 +93,7 @@ constexpr std::array drawings{
     IconDrawing{"tools", "R 2 2 4.6 4.6 R 9.4 2 4.6 4.6 R 2 9.4 4.6 4.6 R 9.4 9.4 4.6 4.6"},
     IconDrawing{"mesh", "M 2 13 L 8 2.5 L 14 13 Z M 5 7.7 L 11 7.7 L 8 13 Z"},
     IconDrawing{"stiffness", "M 1 8 L 3.2 8 L 5 3.5 L 7 12.5 L 9 3.5 L 11 12.5 L 12.8 8 L 15 8"},
+    IconDrawing{"physics", "M 8 1 L 8 2.6 L 11.5 4 L 4.5 6 L 11.5 8 L 8 9.2", "R 4.5 9.6 7 4.9"},
     IconDrawing{"relaxation",
                 "M 1.2 8 C 2.2 0 4.4 0 5.4 8 C 6.2 13.5 8 13.5 8.8 8 C 9.4 5 10.6 5 11.2 8 C 11.8 9.6 12.6 8 14.8 8"},
     IconDrawing{"frameRate", "A 8 10 6.2 200 -220 M 8 10 L 11 5.6", "E 8 10 1.4 1.4"},

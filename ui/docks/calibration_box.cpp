@@ -18,7 +18,7 @@ QString change(const char* name, double before, double after) {
 
 QString errors(const TestedDrags& tested) {
   const Residual &before = tested.before, &after = tested.after;
-  return QStringLiteral("%1 (nothing moves: %2), %3, %4 of the handle's displacement")
+  return QStringLiteral("%1 (without motion: %2), %3, %4 of the handle's displacement")
       .arg(change("relative error", before.relative, after.relative), rounded(tested.nothing.relative),
            change("RMS", before.rms, after.rms), change("max", before.max, after.max));
 }
@@ -47,15 +47,15 @@ CalibrationBox::CalibrationBox(Document& document, Jobs& jobs)
 void CalibrationBox::arrange() {
   start_->setObjectName(QStringLiteral("calibrate"));
   keep_->setObjectName(QStringLiteral("calibrationKeep"));
-  keep_->setToolTip(QStringLiteral("Keeps compression, stretch and shear as they are now under a name"));
+  keep_->setToolTip(QStringLiteral("Saves the present compression, stretch and shear under a name"));
   result_->setObjectName(QStringLiteral("calibrationResult"));
   result_->setWordWrap(true);
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   result_->setToolTip(QStringLiteral(
-      "How far elements stand from neo-Hookean FEM on the same cells after random drags, with the default "
-      "softness and with the one that was found. The relative error is the RMS over that of the "
-      "reference's displacements: an object that does not move has about 1. Unseen drags are drags that "
-      "the search did not use."));
+      "Distance of elements from neo-Hookean FEM on the same cells after random drags, with the default "
+      "softness and with the found one. The relative error is the RMS distance divided by the RMS displacement "
+      "of the FEM solution: an object that does not move has about 1. Unseen drags are drags that the search "
+      "did not use."));
   result_->hide();
   keep_->hide();
   auto* column = new QVBoxLayout(this);
@@ -65,23 +65,23 @@ void CalibrationBox::arrange() {
   column->addWidget(keep_);
 }
 
-/// What cannot be done says why.
+/// A disabled button explains why.
 void CalibrationBox::adapt() {
   const QString why = whyNot();
   start_->setEnabled(why.isEmpty());
-  start_->setToolTip(why.isEmpty()
-                         ? QStringLiteral("Looks for the softness and the relaxation with which %1 comes closest to "
-                                          "neo-Hookean FEM on this object, in the background; one step of undo")
-                               .arg(text(info(algorithm()).label))
-                         : why);
+  start_->setToolTip(
+      why.isEmpty() ? QStringLiteral("Searches in the background for the softness and relaxation with which %1 comes "
+                                     "closest to neo-Hookean FEM on this object, as one undo step")
+                          .arg(text(info(algorithm()).label))
+                    : why);
 }
 
 QString CalibrationBox::whyNot() const {
   if (jobs_.running()) {
-    return QStringLiteral("The window is at '%1': wait for its end, or cancel it").arg(jobs_.text());
+    return QStringLiteral("'%1' is running: wait for it, or cancel it").arg(jobs_.text());
   }
   if (document_.pins().empty()) {
-    return QStringLiteral("Nothing pins this object, so physics has no answer to come close to: pin a layer first");
+    return QStringLiteral("Nothing pins this object, so FEM has no solution: pin a layer first");
   }
   try {
     check(ElasticMethod::neo_hookean, *document_.mesh());
@@ -91,7 +91,7 @@ QString CalibrationBox::whyNot() const {
   return {};
 }
 
-/// The first panel's that is of the ChainMail family; Exact where none is.
+/// Returns the first algorithm of the ChainMail family in the panels; Exact if there is none.
 Algorithm CalibrationBox::algorithm() const {
   for (int panel = 0; panel < document_.panels(); ++panel) {
     if (!elastic_method(document_.algorithm(panel))) {
@@ -126,7 +126,7 @@ void CalibrationBox::take(const CalibrationResult& result, const CalibrationOpti
                                             : QStringLiteral("with %1 of relaxation after each move")
                                                   .arg(counted(std::size_t(result.sweeps), QStringLiteral("sweep")));
   const QLocale locale;
-  result_->setText(QStringLiteral("%1, %2: %3; %4 tries.<br>On %5 unseen drags: %6.")
+  result_->setText(QStringLiteral("%1, %2: %3; %4 evaluations.<br>On %5 unseen drags: %6.")
                        .arg(text(info(options.algorithm).label), sweeps, errors(result.fitted),
                             locale.toString(result.evaluations),
                             locale.toString(qulonglong(result.held_out.drags.size())), errors(result.held_out)));

@@ -10,8 +10,8 @@
 
 namespace chainmail {
 
-/// Looks in the background for the softness with which a ChainMail algorithm comes closest to physics on the object
-/// with its pins and material, gives it to the object as one step of undo, and says what error stays.
+/// Searches in the background for the softness with which a ChainMail algorithm comes closest to FEM on this object,
+/// with its pins and material. Sets the softness as one undo step and shows the remaining error.
 class CalibrationBox : public QWidget {
   Q_OBJECT
 
@@ -19,7 +19,7 @@ class CalibrationBox : public QWidget {
   CalibrationBox(Document& document, Jobs& jobs);
 
  signals:
-  /// The softness that the object has now is to be kept under a name.
+  /// The user wants to save the present softness as a preset.
   void presetRequested();
 
  private:

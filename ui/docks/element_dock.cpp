@@ -2,11 +2,11 @@
 
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QLineEdit>
 #include <QVBoxLayout>
 #include <limits>
 
 #include "common/dock_scroll.h"
-#include "common/icons.h"
 #include "common/parameter_row.h"
 #include "common/text.h"
 #include "document/element_facts.h"
@@ -15,7 +15,7 @@ namespace chainmail {
 namespace {
 
 constexpr int refreshMilliseconds = 100;
-// The hub of a star has as many neighbours as there are elements: nobody reads further.
+// The hub of a star may have as many neighbours as there are elements.
 constexpr int mostRows = 200;
 constexpr int shownRows = 6;
 
@@ -31,50 +31,39 @@ void put(QTableWidget& table, int row, int column, const QString& words) {
 
 }  // namespace
 
+/// A spin box that gives access to its line edit.
+class ElementDock::IdBox : public QSpinBox {
+ public:
+  QLineEdit& field() const { return *lineEdit(); }
+};
+
 ElementDock::ElementDock(Document& document)
-    : QDockWidget(QStringLiteral("Element")),
-      document_(document),
-      id_(new QSpinBox),
+    : document_(document),
+      id_(new IdBox),
       state_(new QLabel),
-      places_(table("elementPlaces", QStringLiteral("Positions of the element (mesh units)"), {})),
-      neighbours_(table("elementNeighbours", QStringLiteral("Neighbours of the element, and its links to them"),
+      positions_(table("elementPlaces", QStringLiteral("Positions of the element (mesh units)"), {})),
+      neighbours_(table("elementNeighbours", QStringLiteral("Neighbours and links of the element"),
                         {QStringLiteral("To"), QStringLiteral("Compr."), QStringLiteral("Stretch"),
                          QStringLiteral("Shear"), QStringLiteral("Violation")})),
       pin_(new QPushButton),
       cut_(new QPushButton(QStringLiteral("&Cut link"))),
       move_(new ElementMove(document)),
       refresh_(this) {
-  setObjectName(QStringLiteral("elementDock"));
   id_->setObjectName(QStringLiteral("elementId"));
   id_->setKeyboardTracking(false);
-  id_->setToolTip(QStringLiteral("The element's id: its place in the file, from 0. It becomes the selection"));
+  id_->setToolTip(QStringLiteral("Id of the element: its index in the file, from 0. Selects the element"));
   state_->setObjectName(QStringLiteral("elementState"));
   state_->setWordWrap(true);
   pin_->setObjectName(QStringLiteral("pinElement"));
   cut_->setObjectName(QStringLiteral("cutLink"));
   neighbours_->setToolTip(
-      QStringLiteral("Softness is relative to rest; violation in rest lengths, the largest of all panels.\n"
-                     "Double click or Enter: go to that neighbour"));
+      QStringLiteral("Softness relative to the rest vector; largest violation of all panels in rest lengths.\n"
+                     "Double-click or Enter: go to this neighbour"));
   refresh_.setSingleShot(true);
   refresh_.setInterval(refreshMilliseconds);
   arrange();
   listen();
   adaptToMesh();
-}
-
-void ElementDock::fill(QMenu& menu) {
-  QAction* show = toggleViewAction();
-  show->setObjectName(QStringLiteral("showElement"));
-  show->setIcon(icon("element"));
-  show->setText(QStringLiteral("&Element by its id"));
-  show->setShortcut(Qt::CTRL | Qt::Key_E);
-  show->setStatusTip(QStringLiteral("Pick an element by its id, move it in numbers, pin it, cut its links"));
-  connect(show, &QAction::triggered, this, [this](bool shown) {
-    if (shown) {
-      id_->setFocus(Qt::ShortcutFocusReason);
-    }
-  });
-  menu.addAction(show);
 }
 
 QTableWidget* ElementDock::table(const char* name, const QString& accessible, const QStringList& columns) {
@@ -105,7 +94,7 @@ void ElementDock::arrange() {
   column->setContentsMargins(9, 4, 9, 4);
   column->addLayout(head);
   column->addWidget(state_);
-  column->addWidget(places_);
+  column->addWidget(positions_);
   column->addWidget(move_);
   column->addWidget(neighbours_);
   column->addWidget(cut_);
@@ -117,8 +106,12 @@ void ElementDock::arrange() {
 
 void ElementDock::listen() {
   connect(id_, &QSpinBox::valueChanged, this, &ElementDock::pick);
-  // The id that it shows already, too.
-  connect(id_->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this, &ElementDock::pick);
+  connect(&id_->field(), &QLineEdit::returnPressed, this, &ElementDock::pick);  // also if the id is unchanged
+  connect(toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
+    if (shown) {
+      id_->setFocus(Qt::ShortcutFocusReason);
+    }
+  });
   connect(pin_, &QPushButton::clicked, this,
           [this] { document_.setPinned({*element_}, !document_.isPinned(*element_)); });
   connect(cut_, &QPushButton::clicked, this, [this] { document_.cut({*chosenLink()}); });
@@ -145,15 +138,15 @@ void ElementDock::adaptToMesh() {
   const Mesh& mesh = *document_.mesh();
   {
     const QSignalBlocker quiet(id_);
-    id_->setRange(0, std::numeric_limits<int>::max());  // what is typed beyond the last one gets an answer
+    id_->setRange(0, std::numeric_limits<int>::max());  // ids beyond the last one show a message
     id_->setSuffix(QStringLiteral(" (0 to %1)").arg(mesh.element_count() - 1));
   }
   QStringList columns{QString()};
   for (int k = 0; k < mesh.space_dimension; ++k) {
     columns << QString(QLatin1Char("xyz"[mesh.axes[std::size_t(k)]]));
   }
-  places_->setColumnCount(int(columns.size()));
-  places_->setHorizontalHeaderLabels(columns);
+  positions_->setColumnCount(int(columns.size()));
+  positions_->setHorizontalHeaderLabels(columns);
   followSelection();
 }
 
@@ -181,39 +174,39 @@ void ElementDock::pick() {
     const QSignalBlocker quiet(id_);
     id_->setValue(int(*element_));
   }
-  state_->setText(QStringLiteral("There is no element %1: ids go from 0 to %2.").arg(asked).arg(count - 1));
+  state_->setText(QStringLiteral("There is no element %1: ids are from 0 to %2.").arg(asked).arg(count - 1));
 }
 
 void ElementDock::showElement() {
   const std::size_t selected = document_.selection().elements.size();
-  state_->setText(element_
-                      ? QStringLiteral("%1%2").arg(
-                            counted(document_.mesh()->neighbours_of(*element_).size(), QStringLiteral("neighbour")),
-                            document_.isPinned(*element_) ? QStringLiteral(" · pinned") : QString())
-                  : selected == 0 ? QStringLiteral("Type an id and press Enter, or select one element in a view.")
-                                  : QStringLiteral("%L1 elements are selected: type an id to pick one.").arg(selected));
+  state_->setText(
+      element_ ? QStringLiteral("%1%2").arg(
+                     counted(document_.mesh()->neighbours_of(*element_).size(), QStringLiteral("neighbour")),
+                     document_.isPinned(*element_) ? QStringLiteral(" · pinned") : QString())
+      : selected == 0 ? QStringLiteral("Type an id and press Enter, or select one element in a view.")
+                      : QStringLiteral("%L1 elements are selected: type an id to select one.").arg(selected));
   move_->setElement(element_);
-  showPlaces();
+  showPositions();
   showNeighbours();
   adaptButtons();
 }
 
-void ElementDock::showPlaces() {
+void ElementDock::showPositions() {
   const Mesh& mesh = *document_.mesh();
   const auto show = [&](int row, const QString& name, const Point& at) {
-    put(*places_, row, 0, name);
+    put(*positions_, row, 0, name);
     for (int k = 0; k < mesh.space_dimension; ++k) {
-      put(*places_, row, k + 1, figure(at[mesh.axes[std::size_t(k)]]));
+      put(*positions_, row, k + 1, figure(at[mesh.axes[std::size_t(k)]]));
     }
   };
-  places_->setRowCount(element_ ? document_.panels() + 1 : 0);
+  positions_->setRowCount(element_ ? document_.panels() + 1 : 0);
   if (element_) {
     show(0, QStringLiteral("rest"), mesh.rest_position(*element_));
     for (int panel = 0; panel < document_.panels(); ++panel) {
       show(panel + 1, panelName(panel), positionIn(document_, panel, *element_));
     }
   }
-  places_->setFixedHeight((places_->rowCount() + 1) * places_->verticalHeader()->defaultSectionSize() + 10);
+  positions_->setFixedHeight((positions_->rowCount() + 1) * positions_->verticalHeader()->defaultSectionSize() + 10);
 }
 
 void ElementDock::showNeighbours() {
@@ -225,7 +218,7 @@ void ElementDock::showNeighbours() {
     showNeighbour(row, first + EntryId(row));
   }
   if (count > mostRows) {
-    state_->setText(QStringLiteral("%1, of which the first %2 are listed").arg(state_->text()).arg(mostRows));
+    state_->setText(QStringLiteral("%1, of which the list shows the first %2").arg(state_->text()).arg(mostRows));
   }
 }
 
@@ -258,15 +251,15 @@ void ElementDock::adaptButtons() {
   const bool pinned = element_ && document_.isPinned(*element_);
   pin_->setText(pinned ? QStringLiteral("Un&pin") : QStringLiteral("&Pin"));
   pin_->setEnabled(element_.has_value());
-  pin_->setToolTip(!element_ ? QStringLiteral("Choose an element first")
-                   : pinned  ? QStringLiteral("The element may move again")
-                             : QStringLiteral("The element stays where it stands"));
+  pin_->setToolTip(!element_ ? QStringLiteral("Select an element first")
+                   : pinned  ? QStringLiteral("Lets the element move again")
+                             : QStringLiteral("Keeps the element at its position"));
   const auto link = chosenLink();
   const bool isCut = link && document_.cuts().is_cut(*link);
   cut_->setEnabled(link && !isCut);
-  cut_->setToolTip(!link   ? QStringLiteral("Choose a neighbour in the table first")
-                   : isCut ? QStringLiteral("This link is cut; Undo brings it back")
-                           : QStringLiteral("Cut the link to the neighbour chosen in the table"));
+  cut_->setToolTip(!link   ? QStringLiteral("Select a neighbour in the table first")
+                   : isCut ? QStringLiteral("This link is cut; Undo restores it")
+                           : QStringLiteral("Cuts the link to the selected neighbour"));
 }
 
 }  // namespace chainmail

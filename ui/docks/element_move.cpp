@@ -22,13 +22,13 @@ ElementMove::ElementMove(Document& document)
       go_(new QPushButton(QStringLiteral("&Move"))) {
   how_->setObjectName(QStringLiteral("moveHow"));
   how_->addItems({QStringLiteral("to (absolute)"), QStringLiteral("by (relative)")});
-  how_->setAccessibleName(QStringLiteral("How the numbers are meant"));
-  how_->setToolTip(QStringLiteral("To a position, or by a distance from where the element stands in the first panel"));
+  how_->setAccessibleName(QStringLiteral("Meaning of the numbers"));
+  how_->setToolTip(QStringLiteral("Moves to a position, or by a distance from the position in panel A"));
   steps_->setObjectName(QStringLiteral("moveSteps"));
   steps_->setRange(1, mostSteps);
   steps_->setValue(standardSteps);
   steps_->setKeyboardTracking(false);
-  steps_->setToolTip(QStringLiteral("Along a straight line, in so many equal steps: each is a pass in every panel"));
+  steps_->setToolTip(QStringLiteral("Number of equal steps along a straight line; each is a pass in every panel"));
   go_->setObjectName(QStringLiteral("moveElement"));
   arrange();
   connect(go_, &QPushButton::clicked, this, [this] { drag_.running() ? drag_.stop() : go(); });
@@ -87,18 +87,18 @@ void ElementMove::adapt() {
     const bool carried = std::find(mesh.axes.begin(), end, int(k)) != end;
     names_[k]->setVisible(carried);
     numbers_[k]->setVisible(carried);
-    numbers_[k]->setToolTip(relative() ? QStringLiteral("How far it goes along this axis (mesh units)")
-                                       : QStringLiteral("Where it goes on this axis (mesh units)"));
+    numbers_[k]->setToolTip(relative() ? QStringLiteral("Distance along this axis (mesh units)")
+                                       : QStringLiteral("Target position on this axis (mesh units)"));
   }
   const bool pinned = element_ && document_.isPinned(*element_);
   go_->setText(drag_.running() ? QStringLiteral("&Stop at step %1 of %2").arg(drag_.stepsDone()).arg(drag_.steps())
                                : QStringLiteral("&Move"));
   go_->setEnabled(drag_.running() || (element_ && !pinned && typed()));
-  go_->setToolTip(!element_ ? QStringLiteral("Choose an element first")
-                  : pinned  ? QStringLiteral("This element is pinned and may not move: unpin it first")
-                  : !typed()
-                      ? QStringLiteral("Type a number on each axis")
-                      : QStringLiteral("Grab the element, drag it there in steps, and let go: one drag, as by hand"));
+  go_->setToolTip(
+      !element_  ? QStringLiteral("Select an element first")
+      : pinned   ? QStringLiteral("This element is pinned: unpin it first")
+      : !typed() ? QStringLiteral("Type a number on each axis")
+                 : QStringLiteral("Grabs the element, drags it to the target in steps and releases it, as one drag"));
 }
 
 std::optional<Point> ElementMove::typed() const {

@@ -11,21 +11,21 @@
 
 namespace chainmail {
 
-/// A target in numbers, and the way there in steps: what a drag does, exactly.
+/// Moves an element to a target in numbers, in steps along a straight line: an exact drag.
 class ElementMove : public QWidget {
   Q_OBJECT
 
  public:
   explicit ElementMove(Document& document);
 
-  /// Which element moves, if any.
+  /// Sets the element to move, if any.
   void setElement(std::optional<ElementId> element);
 
  private:
   void arrange();
   void adapt();
   void go();
-  /// The three numbers; empty where one of them is none.
+  /// Returns the three numbers; empty if one of them is not a number.
   std::optional<Point> typed() const;
   bool relative() const { return how_->currentIndex() == 1; }
 

@@ -14,10 +14,10 @@
 namespace chainmail {
 namespace {
 
-constexpr int columns = 3;
-constexpr QSize thumbnail{52, 39};  // logical pixels: all of them are seen on a screen of 900
-constexpr int pixelRatio = 2;       // of the pictures shipped
-constexpr int smallestHeight = 76;  // a row of them
+constexpr int galleryColumns = 3;
+constexpr QSize thumbnail{52, 39};  // logical pixels: all fit on a screen of 900 pixels
+constexpr int pixelRatio = 2;       // of the thumbnail files
+constexpr int smallestHeight = 76;  // one row
 
 QIcon iconOf(const Sample& sample) {
   QPixmap picture(QStringLiteral(":/") + thumbnailOf(sample));
@@ -33,7 +33,7 @@ Gallery::Gallery(const QString& folder) : folder_(folder), grid_(new QGridLayout
   setWidgetResizable(true);
   setFrameShape(QFrame::NoFrame);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  setFocusPolicy(Qt::NoFocus);  // its buttons take it
+  setFocusPolicy(Qt::NoFocus);  // the buttons take the focus
   setMinimumHeight(smallestHeight);
   auto* content = new QWidget;
   content->setLayout(grid_);
@@ -43,7 +43,7 @@ Gallery::Gallery(const QString& folder) : folder_(folder), grid_(new QGridLayout
   setWidget(content);
 }
 
-/// After the window's first picture, which need not wait for the thumbnails.
+/// Loads the thumbnails after the window is painted for the first time.
 void Gallery::showEvent(QShowEvent* event) {
   QScrollArea::showEvent(event);
   if (!std::exchange(filled_, true)) {
@@ -52,7 +52,7 @@ void Gallery::showEvent(QShowEvent* event) {
 }
 
 void Gallery::fill() {
-  int place = 0;
+  int index = 0;
   for (const Sample& sample : samples()) {
     const QString path = QDir(folder_).filePath(QString::fromUtf8(sample.file));
     if (folder_.isEmpty() || !QFileInfo::exists(path)) {
@@ -69,14 +69,14 @@ void Gallery::fill() {
     button->setAutoRaise(true);
     button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     button->setToolTip(
-        QStringLiteral("%1: %2 elements (%3)\nA click opens it in place of the present object")
+        QStringLiteral("%1: %2 elements (%3)\nClick: replaces the object by this sample")
             .arg(QString::fromUtf8(sample.what), QLocale().toString(sample.elements), QFileInfo(path).fileName()));
     connect(button, &QToolButton::clicked, this, [this, path] { emit chosen(path); });
-    grid_->addWidget(button, place / columns, place % columns);
-    ++place;
+    grid_->addWidget(button, index / galleryColumns, index % galleryColumns);
+    ++index;
   }
-  if (place == 0) {
-    auto* none = new QLabel(QStringLiteral("The samples are not beside the program."));
+  if (index == 0) {
+    auto* none = new QLabel(QStringLiteral("Sample files not found. Install the folder meshes with the program."));
     none->setObjectName(QStringLiteral("noSamples"));
     none->setWordWrap(true);
     grid_->addWidget(none, 0, 0);

@@ -7,12 +7,12 @@ class QLabel;
 
 namespace chainmail {
 
-/// The samples by their thumbnails; a click chooses one.
+/// Thumbnails of the samples; a click opens one.
 class Gallery : public QScrollArea {
   Q_OBJECT
 
  public:
-  /// Of those that lie in this folder, which may be none.
+  /// Shows the samples in this folder. An empty string: there is no folder.
   explicit Gallery(const QString& folder);
 
  signals:

@@ -15,7 +15,7 @@
 namespace chainmail {
 namespace {
 
-/// The largest size offered along an axis, by the number of sizes of a kind.
+/// The largest size along an axis, by the number of sizes of a kind.
 constexpr std::array largestSize{1'000'000, 1024, 100};
 constexpr std::array axisNames{"W", "H", "D"};
 
@@ -40,15 +40,13 @@ QString recipeName(const MeshRecipe& recipe) {
 }
 
 MeshDock::MeshDock(Document& document, Jobs& jobs)
-    : QDockWidget(QStringLiteral("Mesh")),
-      document_(document),
+    : document_(document),
       jobs_(jobs),
       kind_(new QComboBox),
       spacing_(new ParameterRow(parameters::spacing)),
       space_(new QComboBox),
       build_(new QPushButton(QStringLiteral("Build"))),
       description_(new QLabel) {
-  setObjectName(QStringLiteral("meshDock"));
   kind_->setObjectName(QStringLiteral("meshKind"));
   for (const auto& info : mesh_kinds()) {
     kind_->addItem(capitalised(text(info.name)));
@@ -56,10 +54,9 @@ MeshDock::MeshDock(Document& document, Jobs& jobs)
   }
   kind_->setCurrentText(capitalised(text(infoOf(sampleRecipe().kind).name)));
   space_->setObjectName(QStringLiteral("spaceDimension"));
-  space_->setToolTip(QStringLiteral("How many coordinates exist: a plane scene carries no third"));
-  kind_->setToolTip(QStringLiteral("What is built: a chain, a surface or a volume, with or without diagonal links"));
-  build_->setToolTip(
-      QStringLiteral("Builds this mesh in place of the present object, in the background, as a step of undo"));
+  space_->setToolTip(QStringLiteral("Number of coordinates: a 2D scene has no z"));
+  kind_->setToolTip(QStringLiteral("Kind of the mesh: chain, surface or volume, with or without diagonal links"));
+  build_->setToolTip(QStringLiteral("Replaces the object by this mesh, as one undo step"));
   build_->setObjectName(QStringLiteral("buildMesh"));
   description_->setObjectName(QStringLiteral("meshDescription"));
   description_->setWordWrap(true);
@@ -92,9 +89,9 @@ void MeshDock::arrange() {
   auto* open = new QPushButton(QStringLiteral("Open…"));
   auto* save = new QPushButton(QStringLiteral("Save…"));
   open->setIcon(icon("open"));
-  open->setToolTip(QStringLiteral("A mesh, a session or a picture from a file, in place of the present object"));
+  open->setToolTip(QStringLiteral("Opens a session, mesh, volume or picture and replaces the object"));
   save->setIcon(icon("save"));
-  save->setToolTip(QStringLiteral("The object at rest, without its cut links, into a file"));
+  save->setToolTip(QStringLiteral("Saves the object at rest, without cut links"));
   build_->setIcon(icon("mesh"));
   connect(open, &QPushButton::clicked, this, &MeshDock::openRequested);
   connect(save, &QPushButton::clicked, this, &MeshDock::saveRequested);
@@ -117,7 +114,7 @@ void MeshDock::arrange() {
   connect(gallery, &Gallery::chosen, this, &MeshDock::sampleRequested);
   column->addWidget(gallery, 1);
   adaptToKind();
-  setWidget(new DockScroll(content));  // a screen of 768 pixels has no room for all of it
+  setWidget(new DockScroll(content));  // does not fit on a screen of 768 pixels
 }
 
 void MeshDock::adaptToKind() {
@@ -164,7 +161,7 @@ void MeshDock::describe() {
   if (document_.parts() > 1) {
     what += QStringLiteral(", %1 parts").arg(locale.toString(document_.parts()));
   }
-  // A file that lists links alone, with no faces and no lattice, may hold anything.
+  // A mesh of links only, without faces and lattice, may be of any dimension.
   const bool linksAlone = mesh.object_dimension == 1 && !mesh.lattice;
   const QStringList kinds{linksAlone ? QStringLiteral("links") : QStringLiteral("a chain"), QStringLiteral("a surface"),
                           QStringLiteral("a volume")};

@@ -14,17 +14,17 @@
 
 namespace chainmail {
 
-/// The object that the workbench opens with, and that the dock offers first.
+/// Returns the recipe of the first object of the window, which is also the default in the dock.
 inline MeshRecipe sampleRecipe() {
   MeshRecipe recipe;
   recipe.kind = MeshKind::cloth;
   recipe.size = {24, 16, 1};
   return recipe;
 }
-/// How a generated object is called.
+/// Returns the name of a generated object.
 QString recipeName(const MeshRecipe& recipe);
 
-/// What object is there: build one by kind and size, open or save one, take a sample.
+/// Builds an object by kind and size, opens and saves objects, and shows the samples.
 class MeshDock : public QDockWidget {
   Q_OBJECT
 
@@ -34,7 +34,7 @@ class MeshDock : public QDockWidget {
  signals:
   void openRequested();
   void saveRequested();
-  /// One of the gallery's files.
+  /// The user has chosen a sample.
   void sampleRequested(const QString& path);
 
  private:

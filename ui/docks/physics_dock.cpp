@@ -12,13 +12,11 @@
 
 namespace chainmail {
 PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
-    : QDockWidget(QStringLiteral("Physics")),
-      document_(document),
+    : document_(document),
       column_(new QVBoxLayout),
       young_(new ParameterRow(parameters::young)),
       poisson_(new ParameterRow(parameters::poisson)),
       pins_(new QLabel) {
-  setObjectName(QStringLiteral("physicsDock"));
   addRow(young_, &Material::young);
   addRow(poisson_, &Material::poisson);
   column_->addLayout(makeLattice());
@@ -75,7 +73,7 @@ QLayout* PhysicsDock::makePins(PinLayers& layers) {
   pin->setText(QStringLiteral("Pin"));
   pin->setIcon(icon("pin"));
   pin->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  pin->setToolTip(QStringLiteral("Pins a layer of the object, or its boundary; single elements by the pin tool (P)"));
+  pin->setToolTip(QStringLiteral("Pins a layer of the object or its boundary. The Pin tool (P) pins single elements"));
   pin->setMenu(&layers.menu());
   pin->setPopupMode(QToolButton::InstantPopup);
   auto* row = new QHBoxLayout;
@@ -103,7 +101,7 @@ void PhysicsDock::showElastic() {
 }
 
 void PhysicsDock::showPins() {
-  pins_->setText(document_.pins().empty() ? QStringLiteral("Nothing is pinned: FEM and BEM have no answer.")
+  pins_->setText(document_.pins().empty() ? QStringLiteral("Nothing is pinned: FEM and BEM have no solution.")
                                           : QStringLiteral("<b>%L1</b> of %L2 elements pinned")
                                                 .arg(document_.pins().size())
                                                 .arg(document_.mesh()->element_count()));

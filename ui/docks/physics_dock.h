@@ -13,8 +13,7 @@
 
 namespace chainmail {
 
-/// What methods of elasticity and free-form deformation go by: the material, the lattice of control points, and what
-/// holds the object.
+/// Parameters of elastic methods and free-form deformation: material, lattice of control points, and pins.
 class PhysicsDock : public QDockWidget {
   Q_OBJECT
 
@@ -22,7 +21,7 @@ class PhysicsDock : public QDockWidget {
   PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs);
 
  signals:
-  /// As CalibrationBox has it.
+  /// See CalibrationBox::presetRequested.
   void presetRequested();
 
  private:

@@ -14,7 +14,7 @@
 namespace chainmail {
 namespace {
 
-QString filter() { return QStringLiteral("Presets of softness (*.json)"); }
+QString presetFilter() { return QStringLiteral("Softness presets (*.json)"); }
 
 }  // namespace
 
@@ -24,7 +24,7 @@ PresetRow::PresetRow(Document& document)
       field_(new QComboBox),
       name_(new QLineEdit),
       more_(new QToolButton),
-      menu_(new QMenu(QStringLiteral("&Presets of softness"), this)) {
+      menu_(new QMenu(QStringLiteral("Softness &presets"), this)) {
   menu_->setIcon(icon("preset"));
   arrange();
   addActions();
@@ -34,7 +34,7 @@ PresetRow::PresetRow(Document& document)
   try {
     store_.load();
   } catch (const Error& error) {
-    // Nobody listens yet.
+    // Queued, because nothing is connected yet.
     QMetaObject::invokeMethod(
         this, [this, what = QString::fromStdString(error.what())] { emit failed(what); }, Qt::QueuedConnection);
   }
@@ -43,14 +43,14 @@ PresetRow::PresetRow(Document& document)
 
 void PresetRow::arrange() {
   field_->setObjectName(QStringLiteral("preset"));
-  field_->setAccessibleName(QStringLiteral("Preset of softness"));
-  field_->setToolTip(QStringLiteral("Compression, stretch and shear of all links at once, in one step of undo"));
-  field_->setFocusPolicy(Qt::StrongFocus);  // the wheel scrolls the dock, and changes nothing on its way
+  field_->setAccessibleName(QStringLiteral("Softness preset"));
+  field_->setToolTip(QStringLiteral("Sets compression, stretch and shear of all links, as one undo step"));
+  field_->setFocusPolicy(Qt::StrongFocus);  // the wheel scrolls the dock, without changing the field
   field_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   field_->setMinimumContentsLength(8);
   name_->setObjectName(QStringLiteral("presetName"));
   name_->setAccessibleName(QStringLiteral("Name of the preset"));
-  name_->setToolTip(QStringLiteral("Enter keeps the name, Esc gives it up"));
+  name_->setToolTip(QStringLiteral("Enter saves the name, Esc cancels"));
   name_->setPlaceholderText(QStringLiteral("Name, then Enter"));
   name_->setMaxLength(int(longest_preset_name));
   more_->setObjectName(QStringLiteral("presetMore"));
@@ -87,25 +87,25 @@ QAction* PresetRow::add(const char* name, const QString& text, const QString& he
 
 void PresetRow::addActions() {
   save_ = add("savePreset", QStringLiteral("&Save as preset…"),
-              QStringLiteral("Keeps compression, stretch and shear of all links under a name"), &PresetRow::saveAs);
+              QStringLiteral("Saves compression, stretch and shear of all links under a name"), &PresetRow::saveAs);
   rename_ = add("renamePreset", QStringLiteral("&Rename preset…"),
-                QStringLiteral("Gives the chosen preset another name; its values stay"), &PresetRow::rename);
+                QStringLiteral("Renames the selected preset; its values stay"), &PresetRow::rename);
   remove_ = add("deletePreset", QStringLiteral("&Delete preset"),
-                QStringLiteral("Forgets the chosen preset; the object keeps its softness"), &PresetRow::remove);
+                QStringLiteral("Deletes the selected preset; the object keeps its softness"), &PresetRow::remove);
   menu_->addSeparator();
   add("importPresets", QStringLiteral("&Import presets…"),
-      QStringLiteral("Adds the presets of a JSON file to your own"), &PresetRow::import)
-      ->setToolTip(QStringLiteral("Adds the presets of a JSON file to your own"));
+      QStringLiteral("Adds the presets of a JSON file to your presets"), &PresetRow::import)
+      ->setToolTip(QStringLiteral("Adds the presets of a JSON file to your presets"));
   export_ = add("exportPresets", QStringLiteral("&Export presets…"),
-                QStringLiteral("Writes all of your own presets into a JSON file"), &PresetRow::exportAll);
+                QStringLiteral("Writes all your presets to a JSON file"), &PresetRow::exportAll);
 }
 
-/// Lists what there is: 'Custom', which cannot be chosen, those built in, the user's own.
+/// Lists 'Custom', which cannot be chosen, the built-in presets and the user's presets.
 void PresetRow::fill() {
   all_.clear();
   field_->clear();
   field_->addItem(QStringLiteral("Custom"), -1);
-  field_->setItemData(0, QStringLiteral("The values are those of no preset"), Qt::ToolTipRole);
+  field_->setItemData(0, QStringLiteral("The values match no preset"), Qt::ToolTipRole);
   qobject_cast<QStandardItemModel*>(field_->model())->item(0)->setEnabled(false);
   const auto list = [this](const SoftnessPreset& preset, const QString& help) {
     field_->addItem(QString::fromStdString(preset.name), int(all_.size()));
@@ -141,7 +141,7 @@ void PresetRow::showChosen() {
   adaptActions();
 }
 
-/// What cannot be done says why.
+/// Disabled actions explain why.
 void PresetRow::adaptActions() {
   const SoftnessPreset* one = chosen();
   const auto allow = [](QAction* action, bool allowed, const QString& why) {
@@ -151,12 +151,12 @@ void PresetRow::adaptActions() {
   allow(save_, one == nullptr,
         one == nullptr
             ? QString()
-            : QStringLiteral("These values are those of '%1' already").arg(QString::fromStdString(one->name)));
-  const QString notOwn = one == nullptr ? QStringLiteral("The values are those of no preset: choose one of your own")
-                                        : QStringLiteral("This preset is always there: choose one of your own");
+            : QStringLiteral("These values are already saved as '%1'").arg(QString::fromStdString(one->name)));
+  const QString notOwn = one == nullptr ? QStringLiteral("The values match no preset: select one of your presets")
+                                        : QStringLiteral("This preset is built in: select one of your presets");
   allow(rename_, chosenOwn() != nullptr, notOwn);
   allow(remove_, chosenOwn() != nullptr, notOwn);
-  allow(export_, !store_.own().empty(), QStringLiteral("There are no presets of your own: save one first"));
+  allow(export_, !store_.own().empty(), QStringLiteral("You have no presets: save one first"));
 }
 
 const SoftnessPreset* PresetRow::chosen() const {
@@ -176,7 +176,7 @@ void PresetRow::choose(int index) {
   showChosen();
 }
 
-/// The field for a name takes the place of the list until Enter or Esc.
+/// Replaces the list by a field for the name until Enter or Esc.
 void PresetRow::ask(Naming naming, const QString& name) {
   naming_ = naming;
   name_->setText(name);
@@ -184,7 +184,7 @@ void PresetRow::ask(Naming naming, const QString& name) {
   fields_->setCurrentWidget(name_);
   for (QWidget* above = parentWidget(); above != nullptr; above = above->parentWidget()) {
     if (above->isHidden()) {
-      above->show();  // asked for in the menu while the dock is closed
+      above->show();  // called from the menu while the dock is closed
     }
   }
   name_->setFocus();
@@ -221,13 +221,13 @@ void PresetRow::rename() {
 void PresetRow::remove() {
   const std::string name = chosen()->name;
   store_.remove(name);
-  endNaming();  // it may have been about to be renamed
+  endNaming();  // in case it was being renamed
   fill();
-  emit told(QStringLiteral("Deleted the preset '%1'").arg(QString::fromStdString(name)));
+  emit noted(QStringLiteral("Deleted preset '%1'").arg(QString::fromStdString(name)));
 }
 
 void PresetRow::import() {
-  const QString path = QFileDialog::getOpenFileName(this, QStringLiteral("Import presets"), {}, filter());
+  const QString path = QFileDialog::getOpenFileName(this, QStringLiteral("Import presets"), {}, presetFilter());
   if (!path.isEmpty()) {
     importPath(path);
   }
@@ -237,13 +237,13 @@ void PresetRow::importPath(const QString& path) {
   std::size_t added = 0;
   if (attempt([&] { added = store_.addFrom(path); })) {
     fill();
-    emit told(counted(QStringLiteral("Added"), added, QStringLiteral("preset")));
+    emit noted(counted(QStringLiteral("Added"), added, QStringLiteral("preset")));
   }
 }
 
 void PresetRow::exportAll() {
-  QString path =
-      QFileDialog::getSaveFileName(this, QStringLiteral("Export presets"), QStringLiteral("presets.json"), filter());
+  QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Export presets"), QStringLiteral("presets.json"),
+                                              presetFilter());
   if (!path.isEmpty()) {
     exportPath(path);
   }
@@ -251,7 +251,7 @@ void PresetRow::exportAll() {
 
 void PresetRow::exportPath(const QString& path) {
   if (attempt([&] { store_.writeTo(path); })) {
-    emit told(QStringLiteral("Saved %1").arg(path));
+    emit noted(QStringLiteral("Saved %1").arg(path));
   }
 }
 
@@ -272,7 +272,7 @@ bool PresetRow::eventFilter(QObject* watched, QEvent* event) {
   }
   if (watched == name_ && (event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress) &&
       dynamic_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
-    event->accept();  // here Esc gives up the name, and not what the window would
+    event->accept();  // Esc cancels the name and nothing else
     if (event->type() == QEvent::KeyPress) {
       endNaming();
       field_->setFocus();

@@ -14,24 +14,26 @@
 
 namespace chainmail {
 
-/// Which preset the softness of all links is, if it is one; and the choice of another, with the user's own kept,
-/// renamed, deleted, and exchanged as files.
+/// The preset of the softness of all links: shows and chooses it; saves, renames, deletes, imports and exports the
+/// user's presets.
 class PresetRow : public QWidget {
   Q_OBJECT
 
  public:
   explicit PresetRow(Document& document);
 
-  /// What can be done with presets, for a menu of the window's.
+  /// Returns the actions on presets, for a menu of the window.
   QMenu& menu() { return *menu_; }
+  /// Asks for a name to save the present values under.
+  void save() { save_->trigger(); }
   void importPath(const QString& path);
   void exportPath(const QString& path);
 
  signals:
-  /// It could not be done: one sentence.
+  /// Something failed; the sentence says why and what to do.
   void failed(const QString& sentence);
-  /// What was done, where it does not show.
-  void told(const QString& sentence);
+  /// Something was done that is not visible in the dock.
+  void noted(const QString& sentence);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -56,15 +58,15 @@ class PresetRow : public QWidget {
   void remove();
   void import();
   void exportAll();
-  /// Runs what may throw; says whether it did not.
+  /// Runs `act` and reports an Error. Returns true if it succeeded.
   bool attempt(const std::function<void()>& act);
 
   Document& document_;
   PresetStore store_;
-  std::vector<SoftnessPreset> all_;  // as the field lists them, first those built in
-  std::string last_;                 // the name of the one chosen last: of several that are equal, it is shown
+  std::vector<SoftnessPreset> all_;  // in the order of the field: the built-in ones first
+  std::string last_;                 // the name chosen last, which is shown if several presets have equal values
   Naming naming_ = Naming::none;
-  std::string renamed_;  // which one gets the name that is typed; another may be chosen meanwhile
+  std::string renamed_;  // the preset to rename; another one may be chosen meanwhile
   QStackedLayout* fields_;
   QComboBox* field_;
   QLineEdit* name_;

@@ -21,7 +21,7 @@ std::vector<SoftnessPreset>::iterator find(std::vector<SoftnessPreset>& presets,
   return std::ranges::find(presets, name, &SoftnessPreset::name);
 }
 
-/// A name that is not taken yet: 'felt', 'felt (2)', 'felt (3)'.
+/// Returns a name that is not in use: 'felt', 'felt (2)', 'felt (3)'.
 std::string freeName(std::vector<SoftnessPreset>& presets, const std::string& name) {
   std::string free = name;
   for (int i = 2; isBuiltIn(free) || find(presets, free) != presets.end(); ++i) {
@@ -48,10 +48,10 @@ void PresetStore::load() {
 void PresetStore::check(const std::string& name) const {
   const std::string where = "preset '" + name + "'";
   if (const std::string fault = fault_of_name(name); !fault.empty()) {
-    throw Error(where, "it cannot be called so", fault);
+    throw Error(where, "this name is not allowed", fault);
   }
   if (isBuiltIn(name)) {
-    throw Error(where, "a preset that is always there is called so", "choose another name");
+    throw Error(where, "a built-in preset has this name", "choose another name");
   }
 }
 
@@ -71,7 +71,7 @@ void PresetStore::rename(const std::string& name, const std::string& to) {
   }
   check(to);
   if (find(own_, to) != own_.end()) {
-    throw Error("preset '" + to + "'", "another one is called so", "choose another name");
+    throw Error("preset '" + to + "'", "another preset has this name", "choose another name");
   }
   find(own_, name)->name = to;
   keep();

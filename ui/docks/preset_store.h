@@ -7,21 +7,22 @@
 
 namespace chainmail {
 
-/// The user's own presets of softness, kept in the settings. Names are unique, those built in included; what cannot
-/// be done throws Error with a sentence.
+/// The user's softness presets, stored in the settings. Names are unique and differ from those of built-in presets.
+/// Functions throw Error if they fail.
 class PresetStore {
  public:
   const std::vector<SoftnessPreset>& own() const { return own_; }
 
-  /// Reads the settings; throws where they hold something else, and has no presets then.
+  /// Reads the settings. Throws if they are damaged; then there are no presets.
   void load();
-  /// Adds one, or gives one of the user's own of this name other values.
+  /// Adds a preset, or replaces the user's preset of this name.
   void save(const SoftnessPreset& preset);
   void rename(const std::string& name, const std::string& to);
   void remove(const std::string& name);
-  /// Adds all of a file that are not there yet, under another name where theirs is taken; says how many.
+  /// Adds the presets of a file that are new, under another name if theirs is taken. Returns the number of added
+  /// presets.
   std::size_t addFrom(const QString& path);
-  /// Writes the user's own into a file, whole or not at all.
+  /// Writes the user's presets to a file, completely or not at all.
   void writeTo(const QString& path) const;
 
  private:

@@ -6,16 +6,14 @@
 namespace chainmail {
 
 RelaxationDock::RelaxationDock(Document& document)
-    : QDockWidget(QStringLiteral("Relaxation")),
-      document_(document),
+    : document_(document),
       on_(new QCheckBox(QStringLiteral("Relax in idle time"))),
       scheme_(new QComboBox),
       step_(new ParameterRow(parameters::relax_step)) {
-  setObjectName(QStringLiteral("relaxationDock"));
   on_->setObjectName(QStringLiteral("relaxationOn"));
   on_->setToolTip(
-      QStringLiteral("While the hand rests, elements move toward their rest shape, "
-                     "never out of a valid region"));
+      QStringLiteral("Moves elements toward their rest shape while nothing is dragged, "
+                     "within their valid regions"));
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
   fillSchemes();
@@ -25,7 +23,7 @@ RelaxationDock::RelaxationDock(Document& document)
   row->addWidget(scheme_);
   column->addLayout(row);
   column->addWidget(step_);
-  content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);  // more room is of use to the others
+  content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);  // leaves the height to other docks
   setWidget(content);
   connect(on_, &QCheckBox::toggled, this, [this] { document_.setRelaxation(chosen()); });
   connect(scheme_, &QComboBox::currentIndexChanged, this, [this] { document_.setRelaxation(chosen()); });
@@ -36,18 +34,18 @@ RelaxationDock::RelaxationDock(Document& document)
 
 void RelaxationDock::fillSchemes() {
   scheme_->setObjectName(QStringLiteral("relaxationScheme"));
-  scheme_->setAccessibleName(QStringLiteral("Scheme of relaxation"));
+  scheme_->setAccessibleName(QStringLiteral("Relaxation scheme"));
   const auto add = [this](const QString& label, RelaxationScheme scheme, const QString& help) {
     scheme_->addItem(label, int(scheme));
     scheme_->setItemData(scheme_->count() - 1, help, Qt::ToolTipRole);
   };
   add(QStringLiteral("mean"), RelaxationScheme::mean,
-      QStringLiteral("One element after another toward the mean of where its neighbours want it"));
+      QStringLiteral("Moves element by element toward the mean of the positions that its neighbours suggest"));
   add(QStringLiteral("link"), RelaxationScheme::link,
-      QStringLiteral("One link after another; its two ends share what it is off by (Schill 2001)"));
+      QStringLiteral("Corrects link by link; both ends share the error (Schill 2001)"));
   scheme_->setToolTip(
-      QStringLiteral("mean: element by element, toward the mean of where its neighbours want it.\n"
-                     "link: link by link, its two ends share what it is off by (Schill 2001)."));
+      QStringLiteral("mean: element by element, toward the mean of the positions that its neighbours suggest.\n"
+                     "link: link by link, both ends share the error (Schill 2001)."));
 }
 
 commands::SetRelaxation RelaxationDock::chosen() const {

@@ -12,28 +12,26 @@
 namespace chainmail {
 namespace {
 
-constexpr int sliderSteps = 1000;
+constexpr int sectionSteps = 1000;
 constexpr int mostDecimals = 9;
 
-QString noDepth() { return QStringLiteral("This object has no depth: nothing of it lies inside"); }
+QString noDepth() { return QStringLiteral("Not available: this object is in 2D and has no inside"); }
 
-/// So many that a step of the slider shows.
+/// Returns the number of decimals that show one step of the slider.
 int decimalsFor(double extent) {
-  return extent > 0 ? std::clamp(int(std::ceil(std::log10(sliderSteps / extent))), 0, mostDecimals) : 2;
+  return extent > 0 ? std::clamp(int(std::ceil(std::log10(sectionSteps / extent))), 0, mostDecimals) : 2;
 }
 
 }  // namespace
 
 SectionDock::SectionDock(const Document& document)
-    : QDockWidget(QStringLiteral("Section")),
-      document_(document),
+    : document_(document),
       on_(new QAction(icon("section"), QStringLiteral("Section &plane"), this)),
-      flip_(new QAction(QStringLiteral("&Other side of the section"), this)),
+      flip_(new QAction(QStringLiteral("&Other side of section"), this)),
       axis_(new QComboBox),
       slider_(new QSlider(Qt::Horizontal)),
       spin_(new QDoubleSpinBox),
       flipBox_(new QCheckBox(QStringLiteral("Other s&ide"))) {
-  setObjectName(QStringLiteral("sectionDock"));
   makeActions();
   arrange();
   connect(&document, &Document::meshChanged, this, &SectionDock::adaptToMesh);
@@ -44,12 +42,11 @@ void SectionDock::makeActions() {
   on_->setObjectName(QStringLiteral("section"));
   on_->setCheckable(true);
   on_->setShortcut(Qt::SHIFT | Qt::Key_S);
-  on_->setStatusTip(
-      QStringLiteral("Takes away what lies in front of a plane through the object at rest, and shows its inside"));
+  on_->setStatusTip(QStringLiteral("Hides the part of the object in front of a plane and shows its inside"));
   connect(on_, &QAction::toggled, this, &SectionDock::setOn);
   flip_->setObjectName(QStringLiteral("flipSection"));
   flip_->setCheckable(true);
-  flip_->setStatusTip(QStringLiteral("Takes away what lies on the lower side of the plane, instead of the higher"));
+  flip_->setStatusTip(QStringLiteral("Hides the lower side of the plane instead of the upper"));
   connect(flip_, &QAction::toggled, flipBox_, &QCheckBox::setChecked);
   connect(flipBox_, &QCheckBox::toggled, flip_, &QAction::setChecked);
   connect(flip_, &QAction::toggled, this, &SectionDock::changed);
@@ -61,12 +58,12 @@ void SectionDock::arrange() {
   onButton->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   axis_->addItems({QStringLiteral("across x"), QStringLiteral("across y"), QStringLiteral("across z")});
   axis_->setObjectName(QStringLiteral("sectionAxis"));
-  axis_->setAccessibleName(QStringLiteral("Axis that the plane stands across"));
+  axis_->setAccessibleName(QStringLiteral("Axis perpendicular to the plane"));
   slider_->setObjectName(QStringLiteral("sectionSlider"));
-  slider_->setAccessibleName(QStringLiteral("Place of the plane along its axis"));
-  slider_->setRange(0, sliderSteps);
+  slider_->setAccessibleName(QStringLiteral("Position of the plane along its axis"));
+  slider_->setRange(0, sectionSteps);
   spin_->setObjectName(QStringLiteral("sectionPlace"));
-  spin_->setAccessibleName(QStringLiteral("Place of the plane in mesh units"));
+  spin_->setAccessibleName(QStringLiteral("Position of the plane (mesh units)"));
   spin_->setKeyboardTracking(false);
   flipBox_->setObjectName(QStringLiteral("sectionFlip"));
   auto* content = new QWidget;
@@ -80,14 +77,14 @@ void SectionDock::arrange() {
   setWidget(content);
   connect(axis_, &QComboBox::currentIndexChanged, this, &SectionDock::adaptToAxis);
   connect(slider_, &QSlider::valueChanged, this, [this](int step) {
-    share_ = double(step) / sliderSteps;
-    showPlace();
+    share_ = double(step) / sectionSteps;
+    showPosition();
   });
-  connect(spin_, &QDoubleSpinBox::valueChanged, this, [this](double place) {
+  connect(spin_, &QDoubleSpinBox::valueChanged, this, [this](double position) {
     const auto& box = document_.mesh()->box;
     const int k = axis_->currentIndex();
-    share_ = box[1][k] > box[0][k] ? (place - box[0][k]) / (box[1][k] - box[0][k]) : 0;
-    showPlace();
+    share_ = box[1][k] > box[0][k] ? (position - box[0][k]) / (box[1][k] - box[0][k]) : 0;
+    showPosition();
   });
   connect(spin_, &QDoubleSpinBox::editingFinished, spin_, &QWidget::clearFocus);  // shortcuts work again
 }
@@ -118,11 +115,13 @@ void SectionDock::adaptToMesh() {
   flip_->setEnabled(spatial && on_->isChecked());
   const auto adapt = [&](QWidget* field, const QString& tip) {
     field->setEnabled(flip_->isEnabled());
-    field->setToolTip(field->isEnabled() ? tip : spatial ? QStringLiteral("The section is off") : noDepth());
+    field->setToolTip(field->isEnabled() ? tip
+                      : spatial          ? QStringLiteral("Not available: the section is off")
+                                         : noDepth());
   };
   adapt(axis_, axis_->accessibleName());
-  adapt(slider_, QStringLiteral("Place of the plane, from one end of the object at rest to the other"));
-  adapt(spin_, QStringLiteral("Place of the plane in the object at rest, in mesh units"));
+  adapt(slider_, QStringLiteral("Position of the plane, from one end of the object at rest to the other"));
+  adapt(spin_, QStringLiteral("Position of the plane in the object at rest (mesh units)"));
   adapt(flipBox_, flip_->statusTip());
   flip_->setToolTip(flipBox_->toolTip());
   adaptToAxis();
@@ -135,12 +134,12 @@ void SectionDock::adaptToAxis() {
   spin_->setDecimals(decimalsFor(box[1][k] - box[0][k]));
   spin_->setRange(box[0][k], box[1][k]);
   spin_->setSingleStep((box[1][k] - box[0][k]) / 100);
-  showPlace();
+  showPosition();
 }
 
-void SectionDock::showPlace() {
+void SectionDock::showPosition() {
   const QSignalBlocker slider(slider_), spin(spin_);
-  slider_->setValue(int(std::lround(share_ * sliderSteps)));
+  slider_->setValue(int(std::lround(share_ * sectionSteps)));
   spin_->setValue(at());
   emit changed();
 }

@@ -14,8 +14,8 @@
 
 namespace chainmail {
 
-/// The section: across which axis, where, and which side is taken away. It is one of the material, for all panels: the
-/// plane stands in the object at rest, and goes with it. To close the dock is to switch it off.
+/// The section plane: its axis, position and hidden side. The plane is defined in the object at rest and moves with the
+/// material, in all panels. Closing the dock turns the section off.
 class SectionDock : public QDockWidget {
   Q_OBJECT
 
@@ -23,9 +23,9 @@ class SectionDock : public QDockWidget {
   explicit SectionDock(const Document& document);
   void fill(QMenu& menu);
 
-  /// None where it is off, or the object has no depth.
+  /// Returns the plane; none if the section is off or the object is in 2D.
   std::optional<SectionPlane> plane() const;
-  /// As the session keeps it.
+  /// Returns the settings for a session.
   QJsonObject toJson() const;
   void take(const QJsonObject& json);
 
@@ -41,7 +41,7 @@ class SectionDock : public QDockWidget {
   void adaptToMesh();
   void adaptToAxis();
   void setOn(bool on);
-  void showPlace();
+  void showPosition();
   double at() const;
 
   const Document& document_;
@@ -51,7 +51,7 @@ class SectionDock : public QDockWidget {
   QSlider* slider_;
   QDoubleSpinBox* spin_;
   QCheckBox* flipBox_;
-  double share_ = 0.5;  // of the way through the object's box
+  double share_ = 0.5;  // position in the bounding box, from 0 to 1
 };
 
 }  // namespace chainmail

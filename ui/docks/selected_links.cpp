@@ -6,7 +6,7 @@
 namespace chainmail {
 namespace {
 
-const QString rowPrefix = QStringLiteral("selected-");
+const QString selectedPrefix = QStringLiteral("selected-");
 
 }  // namespace
 
@@ -15,11 +15,11 @@ SelectedLinks::SelectedLinks(Document& document)
       document_(document),
       description_(new QLabel),
       rows_(new QWidget),
-      compression_(new ParameterRow(parameters::compression, rowPrefix)),
-      stretch_(new ParameterRow(parameters::stretch, rowPrefix)),
-      shear_(new ParameterRow(parameters::shear, rowPrefix)),
+      compression_(new ParameterRow(parameters::compression, selectedPrefix)),
+      stretch_(new ParameterRow(parameters::stretch, selectedPrefix)),
+      shear_(new ParameterRow(parameters::shear, selectedPrefix)),
       set_(new QPushButton(QStringLiteral("Set"))),
-      back_(new QPushButton(QStringLiteral("Back to global"))) {
+      back_(new QPushButton(QStringLiteral("Reset to global"))) {
   setObjectName(QStringLiteral("selectedLinks"));
   arrange();
   connect(set_, &QPushButton::clicked, this, [this] {
@@ -37,9 +37,9 @@ void SelectedLinks::arrange() {
   description_->setObjectName(QStringLiteral("selectedDescription"));
   description_->setWordWrap(true);
   set_->setObjectName(QStringLiteral("setSelected"));
-  set_->setToolTip(QStringLiteral("Gives the selected links this softness of their own, in one step of undo"));
+  set_->setToolTip(QStringLiteral("Gives the selected links this softness, as one undo step"));
   back_->setObjectName(QStringLiteral("selectedToGlobal"));
-  back_->setToolTip(QStringLiteral("The selected links take the softness of all links again"));
+  back_->setToolTip(QStringLiteral("Resets the selected links to the softness of all links"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 4, 8, 6);
   column->setSpacing(4);
@@ -55,7 +55,7 @@ void SelectedLinks::arrange() {
   buttons->addWidget(set_);
   buttons->addWidget(back_);
   rows->addLayout(buttons);
-  setMinimumWidth(minimumSizeHint().width());  // the dock must not change its width with what is shown
+  setMinimumWidth(minimumSizeHint().width());  // the width of the dock must not depend on the selection
 }
 
 void SelectedLinks::refresh() {
@@ -63,17 +63,17 @@ void SelectedLinks::refresh() {
   const LinkSoftness& global = document_.softness();
   const bool some = !document_.selection().links.empty();
   description_->setText(describe(all));
-  rows_->setVisible(some);  // else its room is the others'
+  rows_->setVisible(some);  // otherwise other widgets use the space
   rows_->setEnabled(some);
   set_->setEnabled(some);
   back_->setEnabled(all.own);
-  // Where they differ, the global value is a place to begin from.
+  // If the values differ, the global value is the start value.
   compression_->show(all.compression ? all.softness.compression : global.compression);
   stretch_->show(all.stretch ? all.softness.stretch : global.stretch);
   shear_->show(all.shear ? all.softness.shear : global.shear);
 }
 
-/// One walk along both, which are in order: a slider moves while many links are selected.
+/// Walks both sorted lists once: fast enough while a slider moves and many links are selected.
 SelectedLinks::Common SelectedLinks::common() const {
   const Softness& softness = *document_.wholeSoftness();
   const auto& links = document_.selection().links;
@@ -99,7 +99,7 @@ QString SelectedLinks::describe(const Common& all) const {
   if (selection.empty()) {
     return QStringLiteral("Nothing selected: use Select (S).");
   }
-  // Non-breaking spaces: where the line is too short it breaks between the two.
+  // Non-breaking spaces: a short line breaks between elements and links.
   const auto some = [](std::size_t count, const char* one) {
     return QStringLiteral("<b>%L1</b>\u00a0%2%3")
         .arg(count)
@@ -108,7 +108,7 @@ QString SelectedLinks::describe(const Common& all) const {
   QString description =
       some(selection.elements.size(), "element") + QStringLiteral(", ") + some(selection.links.size(), "link");
   if (selection.links.empty()) {
-    description += QStringLiteral("<br>A link counts with both its ends.");
+    description += QStringLiteral("<br>A link is selected with both its ends.");
   } else if (!(all.compression && all.stretch && all.shear)) {
     description += QStringLiteral("<br>Their softness differs.");
   }

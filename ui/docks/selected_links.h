@@ -9,7 +9,7 @@
 
 namespace chainmail {
 
-/// Compression, stretch and shear of the selected links alone: set in one step of undo, or taken away again.
+/// Compression, stretch and shear of the selected links only: sets or resets them as one undo step.
 class SelectedLinks : public QGroupBox {
   Q_OBJECT
 
@@ -17,11 +17,11 @@ class SelectedLinks : public QGroupBox {
   explicit SelectedLinks(Document& document);
 
  private:
-  /// What the selected links have in common.
+  /// The values that all selected links share.
   struct Common {
-    LinkSoftness softness;  // of the first
+    LinkSoftness softness;  // of the first link
     bool compression = true, stretch = true, shear = true;
-    bool own = false;  // some link has a softness of its own
+    bool own = false;  // true if a link has its own softness
   };
 
   void arrange();

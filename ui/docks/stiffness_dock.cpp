@@ -6,14 +6,12 @@
 namespace chainmail {
 
 StiffnessDock::StiffnessDock(Document& document)
-    : QDockWidget(QStringLiteral("Stiffness")),
-      document_(document),
+    : document_(document),
       column_(new QVBoxLayout),
       presets_(new PresetRow(document)),
       compression_(new ParameterRow(parameters::compression)),
       stretch_(new ParameterRow(parameters::stretch)),
       shear_(new ParameterRow(parameters::shear)) {
-  setObjectName(QStringLiteral("stiffnessDock"));
   presets_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   column_->addWidget(presets_);
   addRow(compression_, &LinkSoftness::compression);

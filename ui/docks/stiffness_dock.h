@@ -9,8 +9,8 @@
 
 namespace chainmail {
 
-/// Compression, stretch and shear of all links, live, undoable, each with its way back, and all three as presets;
-/// below, of the selected links.
+/// Softness of all links: compression, stretch and shear, each with a reset button, and presets; below, softness of the
+/// selected links.
 class StiffnessDock : public QDockWidget {
   Q_OBJECT
 

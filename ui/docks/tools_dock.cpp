@@ -16,7 +16,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int columns = 2;
+constexpr int toolColumns = 2;
 constexpr int toolHeight = 30;
 
 QToolButton* wideButton() {
@@ -28,9 +28,7 @@ QToolButton* wideButton() {
 
 }  // namespace
 
-ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select)
-    : QDockWidget(QStringLiteral("Tools")) {
-  setObjectName(QStringLiteral("toolsDock"));
+ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select) {
   auto* content = new QWidget;
   column_ = new QVBoxLayout(content);
   auto* grid = new QGridLayout;
@@ -39,11 +37,11 @@ ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut
     button->setDefaultAction(action);
     button->setMinimumHeight(toolHeight);
     const int i = int(tools.actions().indexOf(action));
-    grid->addWidget(button, i / columns, i % columns);
+    grid->addWidget(button, i / toolColumns, i % toolColumns);
   }
   column_->addLayout(grid);
   setWidget(content);
-  // The buttons need no more height, however tall the column of docks is.
+  // A tall column of docks gives its height to other docks.
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   for (QAction* action : tools.actions()) {
     if (action->text() == cut.name()) {
@@ -54,7 +52,7 @@ ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut
   }
 }
 
-/// As long as the tool is the one in use.
+/// Shows options while their tool is the current one.
 void ToolsDock::showFor(QAction& tool, QWidget* options) {
   column_->addWidget(options);
   const auto adapt = [this, options](bool on) {
@@ -65,10 +63,10 @@ void ToolsDock::showFor(QAction& tool, QWidget* options) {
   adapt(tool.isChecked());
 }
 
-/// After the tools, before what gives them up.
+/// Inserts the action between the tools and Cancel.
 void ToolsDock::fill(QMenu& menu) { menu.insertAction(menu.actions().constLast(), frontOnly_); }
 
-/// Through the whole object, or its front layer alone: where nothing lies behind, there is nothing to choose.
+/// Makes the switch between cutting the front layer and the whole object; disabled in 2D.
 QWidget* ToolsDock::makeCutOptions(Document& document, CutTool& cut) {
   frontOnly_ = new QAction(QStringLiteral("Cut the &front layer only"), this);
   frontOnly_->setObjectName(QStringLiteral("cutFrontOnly"));
@@ -80,8 +78,8 @@ QWidget* ToolsDock::makeCutOptions(Document& document, CutTool& cut) {
     const bool spatial = document.mesh()->space_dimension == 3;
     frontOnly_->setEnabled(spatial);
     frontOnly_->setStatusTip(
-        spatial ? QStringLiteral("On: a stroke cuts what one sees and nothing behind it. Off: through the whole object")
-                : QStringLiteral("In a plane nothing lies behind: a stroke cuts all that it crosses"));
+        spatial ? QStringLiteral("On: a stroke cuts only visible links. Off: a stroke cuts through the whole object")
+                : QStringLiteral("Not available in 2D: a stroke cuts all links that it crosses"));
     frontOnly_->setToolTip(frontOnly_->statusTip() + QStringLiteral(" (Shift+K)"));
   };
   connect(&document, &Document::meshChanged, this, adapt);
@@ -92,7 +90,7 @@ QWidget* ToolsDock::makeCutOptions(Document& document, CutTool& cut) {
   return button;
 }
 
-/// Rectangle or brush, and the brush's radius.
+/// Makes the choice of rectangle or brush, and the radius of the brush.
 QWidget* ToolsDock::makeSelectOptions(SelectTool& select) {
   auto* options = new QWidget;
   auto* grid = new QGridLayout(options);
@@ -117,13 +115,12 @@ QWidget* ToolsDock::makeSelectOptions(SelectTool& select) {
     });
   };
   add(QStringLiteral("Rectangle"), SelectTool::Shape::rectangle, 0,
-      QStringLiteral("Selects the elements in a rectangle that is drawn"));
-  add(QStringLiteral("Brush"), SelectTool::Shape::brush, 1,
-      QStringLiteral("Selects the elements that the brush goes over"));
+      QStringLiteral("Selects the elements in a rectangle"));
+  add(QStringLiteral("Brush"), SelectTool::Shape::brush, 1, QStringLiteral("Selects the elements under the brush"));
   radius->setObjectName(QStringLiteral("brushRadius"));
   radius->setRange(SelectTool::smallestRadius, SelectTool::largestRadius);
   radius->setValue(select.radius());
-  radius->setToolTip(QStringLiteral("How far from the cursor the brush reaches, in pixels"));
+  radius->setToolTip(QStringLiteral("Radius of the brush in pixels"));
   radius->setSuffix(QStringLiteral(" px"));
   radius->setKeyboardTracking(false);
   radius->setEnabled(select.shape() == SelectTool::Shape::brush);

@@ -13,14 +13,14 @@ class CutTool;
 class Document;
 class SelectTool;
 
-/// The tools, one of which is what the left mouse button does, and below them the options of the one in use.
+/// The tools of the left mouse button, and the options of the current tool.
 class ToolsDock : public QDockWidget {
   Q_OBJECT
 
  public:
   ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select);
 
-  /// What of the tools' options is an action too.
+  /// Adds the options that are actions to the Edit menu.
   void fill(QMenu& menu);
 
  private:

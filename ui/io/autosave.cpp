@@ -17,13 +17,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// From a change to the time when it is on the disk: the wait, and what writing takes, at worst twice.
+// Longest time from a change to its file: the wait, and at worst two writes.
 constexpr milliseconds mostBehind(4500), shortestWait(500), longestWait(4000);
 
 constexpr QLatin1String closedEnding(".closed.chainmail");
-constexpr int mostClosed = 5;  // what is never asked for does not pile up
+constexpr int mostClosed = 5;  // files of closed windows; older ones are removed
 
-/// The oldest of the work of closed windows makes room.
+/// Removes the oldest files of closed windows.
 void dropOldest() {
   const auto closed =
       QDir(Autosave::folder()).entryInfoList({QLatin1Char('*') + closedEnding}, QDir::Files, QDir::Time);
@@ -48,7 +48,7 @@ QString Autosave::folder() {
 
 struct Autosave::Writing {
   JobState job;
-  // Written by the thread before `done` is, and read by the window after.
+  // The thread writes it before `done`; the window reads it after.
   std::string error;
   std::atomic<bool> done = false;
 };
@@ -60,7 +60,7 @@ Autosave::Autosave(Document& document, LookAccess look, QObject* parent)
       path_(newPath()),
       lock_(lockOf(path_)),
       timer_(this) {
-  lock_.setStaleLockTime(0);  // as long as the program runs
+  lock_.setStaleLockTime(0);  // valid as long as the program runs
   lock_.tryLock();
   timer_.setObjectName(QStringLiteral("autosaveTimer"));
   timer_.setSingleShot(true);
@@ -96,7 +96,7 @@ void Autosave::keep() {
     try {
       save_session(asPath(path), draft.finished({}), {});
     } catch (const std::exception&) {
-      // Nobody is there to be told: what was on the disk before is kept instead.
+      // The window is gone, so nothing can be reported. The previous file stays.
     }
     if (QFile::exists(path)) {
       QFile::rename(path, path.chopped(qsizetype(session_ending.size())) + closedEnding);
@@ -115,7 +115,7 @@ void Autosave::listen() {
   look_.follow(*this, [this] { noticeChange(); });
 }
 
-/// Cheap: it is called for every frame.
+/// Called for every frame, so it must be cheap.
 void Autosave::noticeChange() {
   if (closed_) {
     return;
@@ -142,7 +142,7 @@ void Autosave::save() {
   }
   Mark now = mark();
   if (now == saved_) {
-    return;  // a frame that showed the same, or a look that changed and changed back
+    return;  // the frame or the look changed back
   }
   saved_ = std::move(now);
   changed_ = false;
@@ -167,7 +167,7 @@ void Autosave::receive() {
   const auto written = std::exchange(writing_, nullptr);
   if (!written->error.empty()) {
     broken_ = true;
-    emit failed(QStringLiteral("Work is not kept safe from now on: %1").arg(QString::fromStdString(written->error)));
+    emit failed(QStringLiteral("Automatic saving has stopped: %1").arg(QString::fromStdString(written->error)));
     return;
   }
   const auto took = std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - begun_);

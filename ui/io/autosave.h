@@ -4,51 +4,61 @@
 #include <QObject>
 #include <QTimer>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
 
 #include "document/document.h"
-#include "io/look_access.h"
 
 namespace chainmail {
 
-/// Keeps a window's unsaved work on the disk, at most some seconds behind: written in the background, whole or not at
-/// all, beside a lock that tells a program that runs from one that has crashed. While nothing changes it does nothing;
-/// what is saved is taken away. The window's look is written with the work; a look alone is not work.
+/// Reads and sets how the window shows its object: cameras, colours, docks. A session keeps it as JSON that only the
+/// window interprets.
+struct LookAccess {
+  std::function<std::string()> read;
+  /// Parts that the look lacks stay unchanged.
+  std::function<void(const std::string& look)> set;
+  /// Calls `changed` after a change of what `read` returns, as long as `context` lives.
+  std::function<void(QObject& context, const std::function<void()>& changed)> follow;
+};
+
+/// Saves unsaved work in the background, at most 4.5 s after a change. The file is written completely or not at all. A
+/// lock next to it shows whether the program still runs or has crashed. The file is removed once the work is saved. The
+/// window's look is part of the file, but a change of the look alone is not saved.
 class Autosave : public QObject {
   Q_OBJECT
 
  public:
-  /// Where all programs of a user keep theirs; made where it is missing.
+  /// Returns the folder for the files of all running programs of a user; makes it if it is missing.
   static QString folder();
-  /// The lock that belongs to a file there.
+  /// Returns the path of the lock of a file.
   static QString lockOf(const QString& path) { return path + QStringLiteral(".lock"); }
-  /// Whether a file is the unsaved work of a window that was closed, not of one that crashed.
+  /// True for a file from a window that was closed, false for one from a crash.
   static bool isClosed(const QString& path);
 
   Autosave(Document& document, LookAccess look, QObject* parent);
-  /// Nothing is left behind but what was kept.
+  /// Removes the file, unless keep() was called.
   ~Autosave() override;
 
-  /// To be called when the window is closed: nobody is asked, since what is unsaved is there at the next start. A large
-  /// object is written after the window has gone; the destructor waits for it. Later changes are not kept.
+  /// Keeps unsaved work for the next start. Call it when the window closes; later changes are not saved. Writing runs
+  /// in the background, and the destructor waits for it.
   void keep();
 
-  /// Takes a file over that another program left; it is this window's work now.
+  /// Takes over the file of another program as the work of this window.
   void adopt(const QString& path);
 
  signals:
-  /// Work is not kept safe: one sentence.
+  /// Saving failed; the sentence says why.
   void failed(const QString& sentence);
 
  private:
   struct Writing;
-  /// What tells one state of the work from another.
+  /// Identifies a state of the work.
   struct Mark {
-    std::uint64_t steps = 0;             // of undo, redo and doing
-    std::vector<std::uint64_t> changed;  // the newest frame of each panel in which a position changed
-    std::string look;                    // of the window: cameras, colours, docks
+    std::uint64_t steps = 0;             // number of edits, undos and redos
+    std::vector<std::uint64_t> changed;  // per panel: the last frame that changed a position
+    std::string look;                    // cameras, colours, docks
 
     bool operator==(const Mark&) const = default;
   };
@@ -68,11 +78,11 @@ class Autosave : public QObject {
   QTimer timer_;
   std::uint64_t steps_ = 0;
   Mark saved_;
-  bool changed_ = false;  // while it was being written
+  bool changed_ = false;  // during writing
   bool broken_ = false;
-  bool closed_ = false;  // the window has closed: what it still does is not kept
+  bool closed_ = false;  // the window is closed: later changes are not saved
   std::chrono::steady_clock::time_point begun_;
-  std::shared_ptr<Writing> writing_;  // while something is; shared with its thread
+  std::shared_ptr<Writing> writing_;  // null while nothing is written; shared with the thread
   std::jthread thread_;
 };
 

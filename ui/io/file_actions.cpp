@@ -3,16 +3,18 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QLocale>
 #include <QSettings>
+#include <QToolBar>
 #include <filesystem>
 
 #include "common/as_path.h"
 #include "common/ask_where.h"
 #include "common/panel_names.h"
+#include "common/text.h"
+#include "files/mesh/mesh_formats.h"
 #include "files/mesh/open_mesh.h"
 #include "files/session/session.h"
-#include "io/mesh_filters.h"
-#include "io/opening_report.h"
 #include "io/picture_file.h"
 #include "io/samples.h"
 #include "io/sessions.h"
@@ -29,6 +31,59 @@ constexpr int recentFiles = 8;
 QString endings(FormatUse use) { return QString::fromStdString(mesh_endings(use)); }
 
 QString recentKey() { return QStringLiteral("recentFiles"); }
+
+QString asText(std::string_view text) { return QString::fromUtf8(text.data(), qsizetype(text.size())); }
+
+QStringList endingsOf(const MeshFormat& format) { return asText(format.endings).split(QLatin1Char(' ')); }
+
+/// Returns one filter per format for a dialog that saves. Formats without positions need a lattice.
+QStringList saveFilters(FormatUse use, bool lattice = false) {
+  QStringList filters;
+  for (const MeshFormat& format : mesh_formats()) {
+    if (format.allows(use) && (format.holds_positions || lattice)) {
+      filters << QStringLiteral("%1 (*%2)").arg(asText(format.name), endingsOf(format).first());
+    }
+  }
+  return filters;
+}
+
+/// Returns one filter for all files that can be opened.
+QString openFilter() {
+  QString endings = QStringLiteral("*.chainmail");
+  for (const MeshFormat& format : mesh_formats()) {
+    if (format.reads()) {
+      endings += QStringLiteral(" *") + endingsOf(format).join(QStringLiteral(" *"));
+    }
+  }
+  return QStringLiteral("Sessions, meshes and pictures (%1 *.png *.jpg *.jpeg);;All files (*)").arg(endings);
+}
+
+/// Describes an opened object: its size, extents and flaws.
+QString openingReport(const QString& name, const OpenedMesh& opened, std::size_t parts) {
+  const Mesh& mesh = *opened.mesh;
+  QStringList counts{counted(mesh.element_count(), QStringLiteral("element")),
+                     counted(mesh.link_count(), QStringLiteral("link"))};
+  if (!mesh.triangles.empty()) {
+    counts << counted(mesh.triangles.size(), QStringLiteral("triangle"));
+  }
+  if (!mesh.tetrahedra.empty()) {
+    counts << QStringLiteral("%L1 tetrahedra").arg(mesh.tetrahedra.size());
+  }
+  if (!mesh.hexahedra.empty()) {
+    counts << QStringLiteral("%L1 hexahedra").arg(mesh.hexahedra.size());
+  }
+  counts << counted(parts, QStringLiteral("part"));
+  QStringList extents;
+  for (int k = 0; k < mesh.space_dimension; ++k) {
+    extents << QLocale().toString((mesh.box[1] - mesh.box[0])[mesh.axes[k]], 'g', 4);
+  }
+  QString report = QStringLiteral("%1: %2, %3 units")
+                       .arg(name, counts.join(QStringLiteral(", ")), extents.join(QStringLiteral(" × ")));
+  if (const std::string flaws = in_words(opened.flaws); !flaws.empty()) {
+    report += QStringLiteral(". ") + text(flaws);
+  }
+  return report;
+}
 
 }  // namespace
 
@@ -53,12 +108,12 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
 }
 
 void FileActions::fill(QMenu& menu) {
-  auto* openAction = menu.addAction(QStringLiteral("&Open…"), QKeySequence::Open, this, &FileActions::open);
-  openAction->setObjectName(QStringLiteral("openFile"));
-  openAction->setIconText(QStringLiteral("Open"));
-  openAction->setStatusTip(
-      QStringLiteral("A session (.chainmail), a mesh or volume (%1) or a picture (.png .jpg), in place of the "
-                     "present object")
+  open_ = menu.addAction(QStringLiteral("&Open…"), QKeySequence::Open, this, &FileActions::open);
+  open_->setObjectName(QStringLiteral("openFile"));
+  open_->setIconText(QStringLiteral("Open"));
+  open_->setStatusTip(
+      QStringLiteral("Replaces the object by a session (.chainmail), a mesh or volume (%1) or a picture "
+                     "(.png .jpg)")
           .arg(endings(FormatUse::read)));
   recent_ = menu.addMenu(QStringLiteral("Open &recent"));
   menu.addSeparator();
@@ -68,6 +123,8 @@ void FileActions::fill(QMenu& menu) {
   fillRecent();
 }
 
+void FileActions::fill(QToolBar& bar) const { bar.addActions({open_, save_}); }
+
 void FileActions::addSaveActions(QMenu& menu) {
   const auto add = [&menu, this](const char* name, const QString& text, const QKeySequence& key,
                                  void (FileActions::*act)(), const QString& help) {
@@ -76,15 +133,15 @@ void FileActions::addSaveActions(QMenu& menu) {
     action->setStatusTip(help);
     return action;
   };
-  const QString all = QStringLiteral("mesh, cuts, pins, stiffness, positions of every panel, cameras and layout");
-  add("saveSession", QStringLiteral("&Save session"), QKeySequence::Save, &FileActions::saveSession,
-      QStringLiteral("All there is in one file: ") + all)
-      ->setIconText(QStringLiteral("Save"));
+  const QString all = QStringLiteral("mesh, cuts, pins, softness, positions of all panels, cameras and layout");
+  save_ = add("saveSession", QStringLiteral("&Save session"), QKeySequence::Save, &FileActions::saveSession,
+              QStringLiteral("Saves everything in one file: ") + all);
+  save_->setIconText(QStringLiteral("Save"));
   add("saveSessionAs", QStringLiteral("Save session &as…"), Qt::CTRL | Qt::SHIFT | Qt::Key_S,
-      &FileActions::saveSessionAs, QStringLiteral("The same into another file: ") + all);
+      &FileActions::saveSessionAs, QStringLiteral("Saves everything in another file: ") + all);
   menu.addSeparator();
   add("saveFile", QStringLiteral("Save &mesh at rest…"), Qt::CTRL | Qt::Key_M, &FileActions::save,
-      QStringLiteral("The object at rest alone, without its cut links, as %1").arg(endings(FormatUse::write)));
+      QStringLiteral("Saves only the object at rest, without cut links, as %1").arg(endings(FormatUse::write)));
 }
 
 void FileActions::saveSession() {
@@ -115,7 +172,7 @@ void FileActions::addShapeActions(QMenu& menu) {
       }
     });
     action->setObjectName(QStringLiteral("saveShape%1").arg(panelName(panel)));
-    action->setStatusTip(QStringLiteral("Every element where this panel shows it, in mesh units, as %1")
+    action->setStatusTip(QStringLiteral("Saves the positions of this panel in mesh units as %1")
                              .arg(endings(FormatUse::write_positions)));
     const auto adapt = [this, action, panel] { action->setVisible(panel < document_.panels()); };
     connect(&document_, &Document::panelsChanged, action, adapt);
@@ -153,7 +210,7 @@ void FileActions::openSample(const QString& path) {
   }
 }
 
-/// A mesh or a volume, of which it may be asked how.
+/// Reads a mesh, or a volume; `ask`: asks for the options of a volume.
 void FileActions::read(const QString& path, bool first, bool ask) {
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
               [this, path, first, ask](const Progress& progress) -> Jobs::Finish {
@@ -173,7 +230,7 @@ void FileActions::show(const OpenedMesh& opened, const QString& path, bool first
   }
   remember(path);
   if (!isSample(path)) {
-    emit told(openingReport(name, opened, document_.parts()));
+    emit noted(openingReport(name, opened, document_.parts()));
   }
 }
 
@@ -199,7 +256,7 @@ void FileActions::saveShapePath(int panel, const QString& path) {
   }
 }
 
-/// Writes the object as it is now, whatever becomes of it meanwhile; without a shape, at rest.
+/// Writes the present object, even if it changes during writing; without a shape, at rest.
 void FileActions::write(const QString& path, const std::shared_ptr<const Frame>& shape) {
   jobs_.start(
       Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
@@ -223,7 +280,7 @@ void FileActions::fillRecent() {
   recent_->setEnabled(!recent_->isEmpty());
 }
 
-/// Samples have their gallery, and their folder is no place for others.
+/// Adds a file to the recent files. Samples are not added: the gallery lists them.
 void FileActions::remember(const QString& path) {
   if (isSample(path)) {
     return;

@@ -6,6 +6,8 @@
 #include "common/jobs.h"
 #include "document/document.h"
 
+class QToolBar;
+
 namespace chainmail {
 
 class Sessions;
@@ -13,8 +15,8 @@ class Sheets;
 class Volumes;
 struct OpenedMesh;
 
-/// The File menu: open, recent files, save. Sessions, meshes and pictures are read and written in the background.
-/// Nothing is lost when one of them fails.
+/// The File menu: open, recent files, save. Reads and writes sessions, meshes and pictures in the background. An error
+/// changes nothing.
 class FileActions : public QObject {
   Q_OBJECT
 
@@ -22,27 +24,29 @@ class FileActions : public QObject {
   FileActions(QWidget& window, Document& document, Jobs& jobs, Sessions& sessions);
 
   void fill(QMenu& menu);
+  /// Adds Open and Save; call it after the menu is filled.
+  void fill(QToolBar& bar) const;
   Sheets& sheets() { return *sheets_; }
   Volumes& volumes() { return *volumes_; }
   void open();
-  /// Saves the session where it is kept; one that is kept nowhere yet is asked for its place.
+  /// Saves the session to its file; asks for one if there is none yet.
   void saveSession();
   void saveSessionAs();
-  /// A session, by its ending, or a mesh, a volume or a picture, by what it holds. The first object of a window is no
-  /// step of undo: there is no way back to before the start.
+  /// Opens a session, by its ending, or a mesh, volume or picture, by content. The first object of a window is not an
+  /// undo step.
   void openPath(const QString& path, bool first = false);
-  /// One of the samples, of which nothing is asked.
+  /// Opens a sample with default options, without asking.
   void openSample(const QString& path);
   void save();
-  /// Saves the object at rest, without its cut links, in the format that the name ends in.
+  /// Saves the object at rest, without cut links, in the format of the ending.
   void savePath(const QString& path);
-  /// Saves the shape that a panel shows, in a format that holds positions.
+  /// Saves the positions that a panel shows, in a format with positions.
   void saveShapePath(int panel, const QString& path);
 
  signals:
   void failed(const QString& sentence);
-  /// What was opened, in a sentence.
-  void told(const QString& sentence);
+  /// Describes the opened object in a sentence.
+  void noted(const QString& sentence);
   void saved(const QString& path);
 
  private:
@@ -61,6 +65,8 @@ class FileActions : public QObject {
   Sessions& sessions_;
   Sheets* sheets_;
   Volumes* volumes_;
+  QAction* open_ = nullptr;
+  QAction* save_ = nullptr;
   QMenu* recent_ = nullptr;
 };
 

@@ -11,9 +11,9 @@
 namespace chainmail {
 namespace {
 
-constexpr int waitMilliseconds = 4;
-constexpr int mostWaiting = 4;                   // pictures that are not encoded yet
-constexpr qint64 mostUnsent = 64 * 1024 * 1024;  // bytes that ffmpeg has not taken yet
+constexpr int pollMilliseconds = 4;
+constexpr int mostWaiting = 4;                   // pictures not encoded yet
+constexpr qint64 mostUnsent = 64 * 1024 * 1024;  // bytes not taken by ffmpeg yet
 
 QString ffmpegPath() { return QStandardPaths::findExecutable(QStringLiteral("ffmpeg")); }
 
@@ -25,8 +25,8 @@ QString pictureName(std::size_t number) {
 
 Film::Film(Document& document, QWidget& scene) : document_(document), scene_(scene) {
   encoders_.setMaxThreadCount(1);
-  wait_.setInterval(waitMilliseconds);
-  connect(&wait_, &QTimer::timeout, this, &Film::goOn);
+  wait_.setInterval(pollMilliseconds);
+  connect(&wait_, &QTimer::timeout, this, &Film::takeNext);
   connect(&ffmpeg_, &QProcess::finished, this, [this] { endVideo(); });
   connect(&ffmpeg_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
     if (running_ && error == QProcess::FailedToStart) {
@@ -46,19 +46,19 @@ void Film::begin(const QString& path) {
   const Tape& tape = document_.tape();
   path_ = path;
   video_ = !QFileInfo(path).isDir();
-  places_ = {0};
+  positions_ = {0};
   for (std::size_t i = 0; i < tape.length(); ++i) {
     if (std::holds_alternative<commands::Drag>(tape.at(i))) {
-      places_.push_back(i + 1);
+      positions_.push_back(i + 1);
     }
   }
-  if (places_.back() != tape.length()) {
-    places_.push_back(tape.length());
+  if (positions_.back() != tape.length()) {
+    positions_.push_back(tape.length());
   }
   folder_ = std::make_unique<QTemporaryDir>((video_ ? QFileInfo(path).absolutePath() : path) +
                                             QStringLiteral("/.film-XXXXXX"));
   if (!folder_->isValid()) {
-    emit failed(QStringLiteral("%1: nothing can be written there; choose another folder").arg(path));
+    emit failed(QStringLiteral("%1: the folder is not writable; choose another folder").arg(path));
     return;
   }
   next_ = 0;
@@ -67,12 +67,12 @@ void Film::begin(const QString& path) {
   before_ = tape.position();
   running_ = true;
   emit changed();
-  document_.goTo(places_.front());
+  document_.goTo(positions_.front());
   wait_.start();
 }
 
-/// A picture once the panels show the move, and the next move.
-void Film::goOn() {
+/// Takes a picture once the panels show the move, then starts the next move.
+void Film::takeNext() {
   const bool behind = video_ ? ffmpeg_.bytesToWrite() > mostUnsent : waiting_ >= mostWaiting;
   if (!document_.settled() || behind) {
     return;
@@ -81,9 +81,9 @@ void Film::goOn() {
   if (!running_) {
     return;
   }
-  emit progressed(int(next_), int(places_.size()));
-  if (next_ < places_.size()) {
-    document_.goTo(places_[next_]);
+  emit progressed(int(next_), int(positions_.size()));
+  if (next_ < positions_.size()) {
+    document_.goTo(positions_[next_]);
   } else {
     wait_.stop();
     finish();
@@ -93,7 +93,7 @@ void Film::goOn() {
 void Film::take() {
   QImage picture = pictureOf(scene_);
   if (size_.isEmpty()) {
-    size_ = QSize(picture.width() & ~1, picture.height() & ~1);  // what most codecs ask for
+    size_ = QSize(picture.width() & ~1, picture.height() & ~1);  // most codecs need even sizes
     if (video_) {
       startVideo(size_);
     }
@@ -120,7 +120,7 @@ void Film::startVideo(QSize size) {
   ffmpeg_.start(ffmpegPath(), {QStringLiteral("-y"), QStringLiteral("-f"), QStringLiteral("rawvideo"),
                                QStringLiteral("-pixel_format"), QStringLiteral("bgr0"), QStringLiteral("-video_size"),
                                QStringLiteral("%1x%2").arg(size.width()).arg(size.height()),
-                               QStringLiteral("-framerate"), QString::number(picturesASecond), QStringLiteral("-i"),
+                               QStringLiteral("-framerate"), QString::number(picturesPerSecond), QStringLiteral("-i"),
                                QStringLiteral("-"), QStringLiteral("-pix_fmt"), QStringLiteral("yuv420p"), made});
 }
 
@@ -130,22 +130,22 @@ void Film::sendPicture(const QImage& picture) {
 
 void Film::finish() {
   if (video_) {
-    ffmpeg_.closeWriteChannel();  // it ends when it has taken all
+    ffmpeg_.closeWriteChannel();  // ffmpeg ends after the last picture
   } else {
     encoders_.waitForDone();
     finishPictures();
   }
 }
 
-/// All pictures are there: they take their places, those of an earlier film included.
+/// Moves all pictures into the folder, over those of an earlier film.
 void Film::finishPictures() {
-  for (std::size_t number = 1; number <= places_.size() && !unwritten_; ++number) {
-    const QString name = pictureName(number), place = QDir(path_).filePath(name);
-    QFile::remove(place);
-    unwritten_ = !QFile::rename(folder_->filePath(name), place);
+  for (std::size_t number = 1; number <= positions_.size() && !unwritten_; ++number) {
+    const QString name = pictureName(number), target = QDir(path_).filePath(name);
+    QFile::remove(target);
+    unwritten_ = !QFile::rename(folder_->filePath(name), target);
   }
   if (unwritten_) {
-    fail(QStringLiteral("%1: a picture could not be written; see how much room there is").arg(path_));
+    fail(QStringLiteral("%1: a picture could not be written; check the free disk space").arg(path_));
     return;
   }
   end();
@@ -157,7 +157,8 @@ void Film::endVideo() {
     return;
   }
   const QString made = folder_->filePath(QFileInfo(path_).fileName());
-  const bool whole = next_ == places_.size() && ffmpeg_.exitStatus() == QProcess::NormalExit && ffmpeg_.exitCode() == 0;
+  const bool whole =
+      next_ == positions_.size() && ffmpeg_.exitStatus() == QProcess::NormalExit && ffmpeg_.exitCode() == 0;
   if (whole && (!QFile::exists(path_) || QFile::remove(path_)) && QFile::rename(made, path_)) {
     end();
     emit saved(path_);
@@ -165,11 +166,11 @@ void Film::endVideo() {
   }
   QFile log(folder_->filePath(QStringLiteral("log")));
   const QString said = log.open(QIODevice::ReadOnly) ? QString::fromUtf8(log.readAll()).trimmed() : QString();
-  fail(QStringLiteral("%1: ffmpeg could not make it; name a file that ends in .mp4 (%2)")
+  fail(QStringLiteral("%1: ffmpeg could not write the video (%2); use a file name that ends in .mp4")
            .arg(path_, said.section(QLatin1Char('\n'), -1)));
 }
 
-/// Waits for the picture that is being encoded, and for no other.
+/// Stops ffmpeg and the encoders; waits only for the picture that is being encoded.
 void Film::stopWriters() {
   ffmpeg_.kill();
   ffmpeg_.waitForFinished();
@@ -189,7 +190,7 @@ void Film::fail(const QString& sentence) {
   emit failed(sentence);
 }
 
-/// The object goes back to where it stood.
+/// Ends the film and moves the object back to its position on the tape.
 void Film::end() {
   running_ = false;
   wait_.stop();

@@ -14,13 +14,13 @@
 
 namespace chainmail {
 
-/// Plays all moves on the tape and takes a picture of the panels after each: numbered PNG files in a folder, or, where
-/// ffmpeg is found, a video. The window stays at work; what is not complete does not stay.
+/// Plays all moves on the tape and takes a picture of the panels after each: numbered PNG files in a folder, or a video
+/// if ffmpeg is installed. The window stays usable; an incomplete film is deleted.
 class Film : public QObject {
   Q_OBJECT
 
  public:
-  static constexpr int picturesASecond = 60;
+  static constexpr int picturesPerSecond = 60;
 
   Film(Document& document, QWidget& scene);
   ~Film() override;
@@ -28,19 +28,19 @@ class Film : public QObject {
   static bool canMakeVideos();
 
   bool running() const { return running_; }
-  /// A path that is a folder receives pictures; any other becomes a video of the kind that its ending names.
+  /// Starts a film: pictures if the path is a folder, else a video in the format of its ending.
   void begin(const QString& path);
   void cancel();
 
  signals:
-  /// It has begun, or is over.
+  /// The film has started or ended.
   void changed();
   void progressed(int done, int pictures);
   void saved(const QString& path);
   void failed(const QString& sentence);
 
  private:
-  void goOn();
+  void takeNext();
   void take();
   void savePicture(const QImage& picture);
   void startVideo(QSize size);
@@ -58,13 +58,13 @@ class Film : public QObject {
   bool running_ = false;
   bool video_ = false;
   QString path_;
-  std::vector<std::size_t> places_;  // on the tape, of each picture
+  std::vector<std::size_t> positions_;  // on the tape, per picture
   std::size_t next_ = 0;
   QSize size_;
-  std::size_t before_ = 0;                 // where the object stood
-  std::unique_ptr<QTemporaryDir> folder_;  // where it is made
+  std::size_t before_ = 0;                 // position on the tape before the film
+  std::unique_ptr<QTemporaryDir> folder_;  // for the unfinished film
   QThreadPool encoders_;
-  std::atomic<int> waiting_ = 0;         // pictures that are not encoded yet
+  std::atomic<int> waiting_ = 0;         // pictures not encoded yet
   std::atomic<bool> unwritten_ = false;  // a picture could not be written
   QProcess ffmpeg_;
 };

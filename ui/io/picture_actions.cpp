@@ -20,7 +20,7 @@ constexpr std::array scales{1, 2, 4};
 QString subjectKey() { return QStringLiteral("picture/of"); }
 QString scaleKey() { return QStringLiteral("picture/scale"); }
 QString transparentKey() { return QStringLiteral("picture/transparent"); }
-QString folderKey() { return QStringLiteral("picture/folder"); }
+QString pictureFolderKey() { return QStringLiteral("picture/folder"); }
 
 }  // namespace
 
@@ -42,22 +42,25 @@ void PictureActions::fill(QMenu& menu) {
   auto* copy = pictures->addAction(QStringLiteral("&Copy picture"), Qt::CTRL | Qt::SHIFT | Qt::Key_C, this,
                                    &PictureActions::copy);
   copy->setObjectName(QStringLiteral("copyPicture"));
-  copy->setStatusTip(QStringLiteral("To the clipboard, as it is chosen here"));
+  copy->setStatusTip(QStringLiteral("Copies the picture to the clipboard with these settings"));
   auto* save = pictures->addAction(QStringLiteral("&Save picture…"), Qt::Key_F12, this, &PictureActions::save);
   save->setObjectName(QStringLiteral("savePicture"));
-  save->setStatusTip(QStringLiteral("As it is chosen here: PNG, or the panels in lines for print, as SVG or PDF"));
+  save->setStatusTip(
+      QStringLiteral("Saves the picture with these settings as PNG, or the panels as SVG or PDF for print"));
 }
 
 void PictureActions::fillSubjects(QMenu& menu) {
-  addSubject(menu, What::window, 0, QStringLiteral("Of the &window"), QStringLiteral("As it stands, docks and all"));
-  addSubject(menu, What::panels, 0, QStringLiteral("Of &all panels"), QStringLiteral("Those in sight, side by side"));
+  addSubject(menu, What::window, 0, QStringLiteral("Of the &window"),
+             QStringLiteral("The whole window with its docks"));
+  addSubject(menu, What::panels, 0, QStringLiteral("Of &all panels"),
+             QStringLiteral("All visible panels, side by side"));
   for (const What what : {What::panel, What::object}) {
     for (int panel = 0; panel < Document::mostPanels; ++panel) {
       const QString name = panelName(panel);
       what == What::panel ? addSubject(menu, what, panel, QStringLiteral("Of panel %1").arg(name),
-                                       QStringLiteral("Its view with algorithm, legend and figures"))
+                                       QStringLiteral("The view with algorithm, legend and figures"))
                           : addSubject(menu, what, panel, QStringLiteral("Of the object in %1").arg(name),
-                                       QStringLiteral("Its view alone"));
+                                       QStringLiteral("Only the view"));
     }
   }
   auto* group = new QActionGroup(this);
@@ -87,9 +90,9 @@ void PictureActions::fillScales(QMenu& menu) {
   for (const int times : scales) {
     QAction* action = scales_->addAction(QStringLiteral("&%1 ×").arg(times));
     action->setObjectName(QStringLiteral("pictureScale%1").arg(times));
-    action->setStatusTip(times == 1
-                             ? QStringLiteral("As many pixels as on the screen, and the same ones")
-                             : QStringLiteral("%1 times as many pixels a side, drawn anew and sharp").arg(times));
+    action->setStatusTip(
+        times == 1 ? QStringLiteral("As many pixels as on the screen")
+                   : QStringLiteral("%1 times as many pixels per side as on the screen, drawn sharp").arg(times));
     action->setCheckable(true);
     action->setData(times);
     action->setChecked(times == last || times == scales.front());
@@ -100,9 +103,9 @@ void PictureActions::fillScales(QMenu& menu) {
 }
 
 void PictureActions::fillTransparent(QMenu& menu) {
-  transparent_ = menu.addAction(QStringLiteral("&Transparent ground"));
+  transparent_ = menu.addAction(QStringLiteral("&Transparent background"));
   transparent_->setObjectName(QStringLiteral("pictureTransparent"));
-  transparent_->setStatusTip(QStringLiteral("Pictures without a ground, to be laid over another"));
+  transparent_->setStatusTip(QStringLiteral("Pictures without a background, for use over other pictures"));
   transparent_->setCheckable(true);
   transparent_->setChecked(QSettings().value(transparentKey()).toBool());
   connect(transparent_, &QAction::toggled, this, [](bool on) { QSettings().setValue(transparentKey(), on); });
@@ -121,13 +124,13 @@ const PictureActions::Subject& PictureActions::subject() const {
   return *std::ranges::find_if(subjects_, [](const Subject& one) { return one.action->isChecked(); });
 }
 
-/// Of a panel that is out of sight there is nothing to take a picture of.
+/// Returns the panel of the picture. Throws Error if it is hidden.
 Panel& PictureActions::shownPanel() const {
   const int number = subject().panel;
   Panel& panel = *area_.panels()[std::size_t(number)];
   if (!panel.isVisible()) {
-    throw Error("picture", "panel " + panelName(number).toStdString() + " is not in sight",
-                "show it, or choose another under File > Picture");
+    throw Error("picture", "panel " + panelName(number).toStdString() + " is hidden",
+                "show it, or choose another one in File > Picture");
   }
   return panel;
 }
@@ -141,7 +144,7 @@ QImage PictureActions::picture() const {
   return pictureOf(drawn, scales_->checkedAction()->data().toDouble(), transparent_->isChecked());
 }
 
-/// Of the window it holds the panels: docks are no drawing.
+/// Returns the drawing of the subject. A drawing of the window shows the panels only, as docks have no vector drawing.
 Drawing PictureActions::drawing() const {
   const bool transparent = transparent_->isChecked();
   switch (subject().what) {
@@ -157,7 +160,7 @@ Drawing PictureActions::drawing() const {
 void PictureActions::copy() {
   try {
     QGuiApplication::clipboard()->setImage(picture());
-    emit told(QStringLiteral("The picture is in the clipboard"));
+    emit noted(QStringLiteral("Copied the picture to the clipboard"));
   } catch (const Error& error) {
     emit failed(QString::fromStdString(error.what()));
   }
@@ -168,9 +171,9 @@ void PictureActions::save() {
   const QString path = askWhere(window_, QStringLiteral("Save picture"),
                                 {QStringLiteral("PNG picture (*.png)"), QStringLiteral("Panels as SVG drawing (*.svg)"),
                                  QStringLiteral("Panels as PDF drawing (*.pdf)")},
-                                settings.value(folderKey(), QDir::currentPath()).toString());
+                                settings.value(pictureFolderKey(), QDir::currentPath()).toString());
   if (!path.isEmpty()) {
-    settings.setValue(folderKey(), QFileInfo(path).absolutePath());
+    settings.setValue(pictureFolderKey(), QFileInfo(path).absolutePath());
     savePath(path);
   }
 }

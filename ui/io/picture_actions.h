@@ -12,8 +12,8 @@ class QActionGroup;
 
 namespace chainmail {
 
-/// The File menu's pictures: of what, at which scale, with or without its ground; copied, or saved as PNG, SVG or PDF.
-/// What is chosen is remembered.
+/// The File menu's Picture submenu: subject, scale and background of pictures; copies them, or saves them as PNG, SVG
+/// or PDF. The choices are stored.
 class PictureActions : public QObject {
   Q_OBJECT
 
@@ -21,14 +21,15 @@ class PictureActions : public QObject {
   PictureActions(QWidget& window, Document& document, PanelArea& area, Jobs& jobs);
 
   void fill(QMenu& menu);
-  /// PNG, SVG or PDF by the ending. The picture is of now, whatever becomes of the object until it is written.
+  /// Saves PNG, SVG or PDF by the ending. The picture shows the present state, even if the object changes before it is
+  /// written.
   void savePath(const QString& path);
   void copy();
 
  signals:
   void failed(const QString& sentence);
-  /// What was done, for a short while.
-  void told(const QString& sentence);
+  /// A note for the status bar.
+  void noted(const QString& sentence);
   void saved(const QString& path);
 
  private:
@@ -36,7 +37,7 @@ class PictureActions : public QObject {
   struct Subject {
     QAction* action;
     What what;
-    int panel;  // of the last two
+    int panel;  // for panel and object
   };
 
   void fillSubjects(QMenu& menu);

@@ -15,7 +15,7 @@
 namespace chainmail {
 namespace {
 
-constexpr qsizetype headBytes = 8;
+constexpr qsizetype headerBytes = 8;
 constexpr int jpegQuality = 95;
 constexpr int megabyte = 1 << 20;
 
@@ -24,23 +24,24 @@ bool endsAsPicture(const QString& path) {
   return ending == QLatin1String("png") || ending == QLatin1String("jpg") || ending == QLatin1String("jpeg");
 }
 
-[[noreturn]] void fail(const QString& path, const QString& problem, const char* remedy) {
+[[noreturn]] void failPicture(const QString& path, const QString& problem, const char* remedy) {
   throw Error(path.toStdString(), problem.toStdString(), remedy);
 }
 
-/// By what the file holds, whatever its name.
+/// Sets up a reader that decides the format by content, not by name.
 void setUp(QImageReader& reader, const QString& path) {
   require_file(asPath(path));
   QImageReader::setAllocationLimit(int(4 * picture_limit / megabyte) +
-                                   1);  // of all readers, in megabytes: ours is below
+                                   1);  // in MB, a limit for all readers; pictures here are smaller
   reader.setDecideFormatFromContent(true);
   reader.setAutoTransform(true);
   reader.setFileName(path);
   if (QFile file(path); !file.open(QIODevice::ReadOnly)) {
-    fail(path, QStringLiteral("it cannot be read (%1)").arg(file.errorString()), "check its name and permissions");
+    failPicture(path, QStringLiteral("it cannot be read (%1)").arg(file.errorString()),
+                "check its name and permissions");
   }
   if (!reader.canRead()) {
-    fail(path, QStringLiteral("it is no picture"), "give a PNG or a JPEG");
+    failPicture(path, QStringLiteral("it is not a picture"), "open a PNG or JPEG file");
   }
 }
 
@@ -49,8 +50,8 @@ QSize sizeOf(const QImageReader& reader) {
   return (reader.transformation() & QImageIOHandler::TransformationRotate90) != 0 ? size.transposed() : size;
 }
 
-/// A JPEG that ends early is decoded with a grey rest: the mark of its end is missing after its last scan. Neither mark
-/// appears within a scan.
+/// True for a JPEG that ends early, which Qt decodes with a grey rest: the end marker is missing after the last scan.
+/// Neither marker appears within a scan.
 bool endsEarly(const QString& path) {
   QFile file(path);
   const qint64 size = file.open(QIODevice::ReadOnly) ? file.size() : 0;
@@ -72,7 +73,7 @@ QImage asImage(const Texture& picture) {
   return upward.mirrored();
 }
 
-/// On white, without transparency.
+/// Returns the image on a white background, without transparency.
 QImage opaque(const QImage& image) {
   QImage result(image.size(), QImage::Format_RGB888);
   result.fill(Qt::white);
@@ -86,10 +87,10 @@ bool isPicture(const QString& path) {
   if (endsAsPicture(path)) {
     return true;
   }
-  QFile file(path);  // to open a pipe could block the window
+  QFile file(path);  // opening a pipe could block the window
   const bool opened = QFileInfo(path).isFile() && file.open(QIODevice::ReadOnly);
-  const QByteArray head = opened ? file.read(headBytes) : QByteArray();
-  return head == QByteArray("\x89PNG\r\n\x1a\n", headBytes) || head.startsWith("\xff\xd8\xff");
+  const QByteArray header = opened ? file.read(headerBytes) : QByteArray();
+  return header == QByteArray("\x89PNG\r\n\x1a\n", headerBytes) || header.startsWith("\xff\xd8\xff");
 }
 
 QSize pictureSize(const QString& path) {
@@ -97,15 +98,15 @@ QSize pictureSize(const QString& path) {
   setUp(reader, path);
   const QSize size = sizeOf(reader);
   if (size.isEmpty()) {
-    fail(path, QStringLiteral("its head is damaged"), "give a whole PNG or JPEG");
+    failPicture(path, QStringLiteral("its header is damaged"), "open a complete PNG or JPEG file");
   }
   if (double(size.width()) * size.height() > picture_limit) {
-    fail(path,
-         QStringLiteral("it has %L1 × %L2 pixels, more than %L3 million")
-             .arg(size.width())
-             .arg(size.height())
-             .arg(qRound(picture_limit / 1e6)),
-         "make it smaller first");
+    failPicture(path,
+                QStringLiteral("it has %L1 × %L2 pixels, more than %L3 million")
+                    .arg(size.width())
+                    .arg(size.height())
+                    .arg(qRound(picture_limit / 1e6)),
+                "scale the picture down first");
   }
   return size;
 }
@@ -116,7 +117,7 @@ Texture readPictureFile(const QString& path, const Progress& progress) {
   setUp(reader, path);
   QImage image;
   if (endsEarly(path) || !reader.read(&image) || image.size() != size) {
-    fail(path, QStringLiteral("it is damaged"), "give a whole PNG or JPEG");
+    failPicture(path, QStringLiteral("it is damaged"), "open a complete PNG or JPEG file");
   }
   progress.report(0.5);
   image.convertTo(QImage::Format_RGBA8888);
@@ -136,7 +137,7 @@ Texture readPictureFile(const QString& path, const Progress& progress) {
 void writePictureFile(const QString& path, const Texture& picture, const Progress& progress) {
   const bool jpeg = !path.endsWith(QStringLiteral(".png"), Qt::CaseInsensitive);
   if (jpeg && !endsAsPicture(path)) {
-    fail(path, QStringLiteral("its ending is not known"), "use .png, or .jpg");
+    failPicture(path, QStringLiteral("its ending is unknown"), "use .png or .jpg");
   }
   const QImage image = asImage(picture);
   QSaveFile file(path);
@@ -147,11 +148,13 @@ void writePictureFile(const QString& path, const Texture& picture, const Progres
   progress.report(0.2);
   if (!file.open(QIODevice::WriteOnly) || !writer.write(jpeg ? opaque(image) : image)) {
     const QString why = file.error() != QFileDevice::NoError ? file.errorString() : writer.errorString();
-    fail(path, QStringLiteral("the picture could not be written (%1)").arg(why), "choose another place, or a PNG");
+    failPicture(path, QStringLiteral("the picture could not be written (%1)").arg(why),
+                "choose another folder, or PNG");
   }
   progress.report(1);
   if (!file.commit()) {
-    fail(path, QStringLiteral("the picture could not be written (%1)").arg(file.errorString()), "choose another place");
+    failPicture(path, QStringLiteral("the picture could not be written (%1)").arg(file.errorString()),
+                "choose another folder");
   }
 }
 

@@ -9,20 +9,20 @@
 
 namespace chainmail {
 
-/// Pictures in files, PNG or JPEG, read and written on any thread. Nothing of the window's is touched.
+/// Pictures in PNG and JPEG files. All functions can run on any thread.
 
-/// Whether a file is named like a picture, or is one by what it holds.
+/// True if the ending or the content of a file is that of a PNG or JPEG.
 bool isPicture(const QString& path);
 
-/// How many pixels a picture has, turned as its camera says; only the file's head is looked at. Throws Error where it
-/// is none, or has more than picture_limit.
+/// Returns the size of a picture in pixels, with the rotation that the camera stored; reads only the header. Throws
+/// Error if the file is not a picture or has more than picture_limit pixels.
 QSize pictureSize(const QString& path);
 
-/// The whole picture with four channels, its rows upward. Throws Error where it is damaged, and Cancelled.
+/// Reads a picture with four channels, the bottom row first. Throws Error if it is damaged, and Cancelled.
 Texture readPictureFile(const QString& path, const Progress& progress = {});
 
-/// Writes it, a PNG or a JPEG by the path's ending, whole or not at all. JPEG knows no transparency: white shines
-/// through. Throws Error, and Cancelled.
+/// Writes a PNG or JPEG, by the ending of the path, completely or not at all. JPEG has no transparency: the background
+/// becomes white. Throws Error, and Cancelled.
 void writePictureFile(const QString& path, const Texture& picture, const Progress& progress = {});
 
 }  // namespace chainmail

@@ -18,7 +18,8 @@ namespace {
 constexpr int dotsPerInch = 96;  // logical pixels
 constexpr double pointsPerPixel = 72.0 / dotsPerInch;
 
-/// What others cover of a widget inside `root`, in its coordinates: those that stand above it or its parents.
+/// Returns the region of a widget inside `root` that is covered by siblings above it or its parents, in the coordinates
+/// of the widget.
 QRegion coveredBy(const QWidget& widget, const QWidget& root) {
   QRegion covered;
   for (const QWidget* one = &widget; one != &root; one = one->parentWidget()) {
@@ -34,7 +35,7 @@ QRegion coveredBy(const QWidget& widget, const QWidget& root) {
   return covered;
 }
 
-/// What Qt renders of a view is what the screen shows, enlarged: the view itself takes its place.
+/// Draws a view with its own renderer. QWidget::render would only enlarge the screen's pixels.
 void drawView(QPainter& painter, View& view, QWidget& root, double pixelRatio, bool transparent) {
   const QPoint at = &view == &root ? QPoint() : view.mapTo(&root, QPoint());
   const QImage picture = view.picture(pixelRatio, transparent);
@@ -42,7 +43,7 @@ void drawView(QPainter& painter, View& view, QWidget& root, double pixelRatio, b
   painter.drawImage(at, picture);
 }
 
-/// On white paper, whatever the theme.
+/// Draws on white, in any theme.
 Drawing drawingOf(QSize size, bool transparent, const std::function<void(QPainter&, const QColor&)>& draw) {
   const colours::OnGround light(colours::Ground::light);
   Drawing drawing{QPicture(), size, QStringLiteral("ChainMail workbench")};
@@ -76,12 +77,12 @@ QByteArray asPdf(const Drawing& drawing) {
   return buffer.data();
 }
 
-void write(const QString& path, const QByteArray& bytes) {
+void writeBytes(const QString& path, const QByteArray& bytes) {
   QSaveFile file(path);
   if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !file.commit()) {
     throw Error(path.toStdString(),
                 QStringLiteral("the picture could not be written (%1)").arg(file.errorString()).toStdString(),
-                "choose another place");
+                "choose another folder");
   }
 }
 
@@ -91,14 +92,14 @@ QImage pictureOf(QWidget& widget, double scale, bool transparent) {
   const double pixelRatio = widget.devicePixelRatioF() * scale;
   QImage image((QSizeF(widget.size()) * pixelRatio).toSize(), QImage::Format_ARGB32_Premultiplied);
   if (image.isNull()) {
-    throw Error("picture", "there is no memory for so many pixels", "choose a smaller scale");
+    throw Error("picture", "there is not enough memory for so many pixels", "choose a smaller scale");
   }
   image.setDevicePixelRatio(pixelRatio);
   image.fill(Qt::transparent);
   widget.render(&image, {}, {},
                 transparent ? QWidget::DrawChildren : QWidget::DrawChildren | QWidget::DrawWindowBackground);
   if (scale == 1 && !transparent) {
-    return image;  // the views too are as on the screen
+    return image;  // the views are as on the screen
   }
   QPainter painter(&image);
   painter.setCompositionMode(QPainter::CompositionMode_Source);
@@ -145,12 +146,12 @@ void writePicture(const QString& path, const QImage& image) {
   QBuffer buffer;
   buffer.open(QIODevice::WriteOnly);
   image.save(&buffer, "PNG");
-  write(path, buffer.data());
+  writeBytes(path, buffer.data());
 }
 
 void writeDrawing(const QString& path, const Drawing& drawing) {
   const bool svg = path.endsWith(QStringLiteral(".svg"), Qt::CaseInsensitive);
-  write(path, svg ? asSvg(drawing) : asPdf(drawing));
+  writeBytes(path, svg ? asSvg(drawing) : asPdf(drawing));
 }
 
 }  // namespace chainmail

@@ -12,25 +12,26 @@ class Panel;
 class PanelArea;
 class View;
 
-/// A widget as the screen shows it, with `scale` times as many pixels to each side, drawn anew so that lines and words
-/// are sharp. Transparent, without its ground and those of the views. Throws Error where it is larger than the graphics
-/// card can draw.
+/// Returns a picture of a widget with `scale` times as many pixels per side as on the screen. Lines and text are drawn
+/// again, so they are sharp. A transparent picture has no background. Throws Error if the picture is too large for the
+/// memory or the graphics card.
 QImage pictureOf(QWidget& widget, double scale = 1, bool transparent = false);
 
-/// What is drawn in lines, areas and words, for paper: its size is that of the screen (logical pixels).
+/// A vector drawing for print. Its size is that on the screen, in logical pixels.
 struct Drawing {
   QPicture picture;
   QSize size;
   QString title;
 };
-/// Of all panels in sight, of one, or of its object alone; transparent, without a ground.
+/// Returns the drawing of all visible panels, of one panel, or of its object only; transparent: without a background.
 Drawing drawingOf(PanelArea& area, bool transparent);
 Drawing drawingOf(Panel& panel, bool transparent);
 Drawing drawingOf(View& view, bool transparent);
 
-/// Whether a path's ending is that of a drawing.
+/// True if a path ends in .svg or .pdf.
 bool isDrawing(const QString& path);
-/// Writes a whole file or none, on any thread; PNG, or for drawings SVG or PDF by the path's ending. Throws Error.
+/// Writes a PNG, or a drawing as SVG or PDF by the ending of the path, completely or not at all, on any thread. Throws
+/// Error.
 void writePicture(const QString& path, const QImage& image);
 void writeDrawing(const QString& path, const Drawing& drawing);
 

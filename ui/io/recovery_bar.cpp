@@ -19,8 +19,8 @@ QPushButton* makeButton(const QString& text, const char* name, const QString& he
   return button;
 }
 
-/// What was being written when a program crashed is no work yet. A program that runs writes it in seconds.
-void removeRests(const QDir& folder) {
+/// Removes unfinished files and locks that crashes have left. A running program finishes a file within seconds.
+void removeLeftovers(const QDir& folder) {
   const QDateTime old = QDateTime::currentDateTime().addSecs(-600);
   for (const QFileInfo& file : folder.entryInfoList({QStringLiteral("*.tmp")}, QDir::Files | QDir::Hidden)) {
     if (file.lastModified() < old) {
@@ -32,7 +32,7 @@ void removeRests(const QDir& folder) {
     QLockFile lock(file.filePath());
     lock.setStaleLockTime(0);
     if (!QFile::exists(file.filePath().chopped(ending.size()))) {
-      lock.tryLock();  // which takes it away again, unless a program that runs holds it
+      lock.tryLock();  // the destructor of the lock removes it, unless a running program holds it
     }
   }
 }
@@ -46,9 +46,9 @@ RecoveryBar::RecoveryBar() : text_(new QLabel) {
   text_->setObjectName(QStringLiteral("recovery"));
   text_->setWordWrap(true);
   auto* restore = makeButton(QStringLiteral("&Restore"), "restoreWork",
-                             QStringLiteral("Opens it as one step of undo: object, cuts, pins, stiffness, positions"));
+                             QStringLiteral("Restores object, cuts, pins, softness and positions as one undo step"));
   auto* discard = makeButton(QStringLiteral("Dis&card"), "discardWork",
-                             QStringLiteral("Deletes it for good; what is open here stays as it is"));
+                             QStringLiteral("Deletes the unsaved work permanently; the open object stays"));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(10, 4, 6, 4);
   row->addWidget(text_, 1);
@@ -66,11 +66,11 @@ RecoveryBar::RecoveryBar() : text_(new QLabel) {
 
 void RecoveryBar::offer() {
   const QDir folder(Autosave::folder());
-  removeRests(folder);
+  removeLeftovers(folder);
   for (const QFileInfo& file :
        folder.entryInfoList({QStringLiteral("*.chainmail")}, QDir::Files, QDir::Time | QDir::Reversed)) {
     auto lock = std::make_unique<QLockFile>(Autosave::lockOf(file.filePath()));
-    lock->setStaleLockTime(0);  // a program that runs holds its own however long
+    lock->setStaleLockTime(0);  // locks of running programs never become stale
     if (lock->tryLock()) {
       found_.push_back({file.filePath(), std::move(lock)});
     }
@@ -86,8 +86,8 @@ void RecoveryBar::show() {
   const QString time = QLocale().toString(QFileInfo(found_.back().path).lastModified(), QLocale::ShortFormat);
   const QString others = found_.size() > 1 ? QStringLiteral(" (1 of %1)").arg(found_.size()) : QString();
   const bool closed = Autosave::isClosed(found_.back().path);
-  text_->setText((closed ? QStringLiteral("Unsaved work of %1 is still there: the window was closed on it%2")
-                         : QStringLiteral("Unsaved work of %1 was found: the workbench ended before it was saved%2"))
+  text_->setText((closed ? QStringLiteral("Unsaved work from %1: the window was closed without saving%2")
+                         : QStringLiteral("Unsaved work from %1: the workbench ended without saving%2"))
                      .arg(time, others));
 }
 

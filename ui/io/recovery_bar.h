@@ -9,17 +9,17 @@
 
 namespace chainmail {
 
-/// Offers the unsaved work of programs that have crashed or were closed on it, one after the other, the newest first,
-/// without standing in the way. What is neither restored nor discarded is offered again at the next start.
+/// Offers unsaved work from crashes and closed windows, one file at a time, the newest first. Files that are neither
+/// restored nor discarded are offered again at the next start.
 class RecoveryBar : public QFrame {
   Q_OBJECT
 
  public:
   RecoveryBar();
 
-  /// Looks for work that no running program holds, and offers it.
+  /// Finds files that no running program has locked, and offers them.
   void offer();
-  /// What was asked for is there: its file is somebody else's now.
+  /// The offered file was restored and belongs to another owner now.
   void taken();
 
  signals:
@@ -28,13 +28,13 @@ class RecoveryBar : public QFrame {
  private:
   struct Found {
     QString path;
-    std::unique_ptr<QLockFile> lock;  // so that no other window offers it too
+    std::unique_ptr<QLockFile> lock;  // so that no other window offers the file
   };
 
   void show();
   void discard();
 
-  std::vector<Found> found_;  // the newest last
+  std::vector<Found> found_;  // newest last
   QLabel* text_;
 };
 

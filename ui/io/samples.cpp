@@ -10,18 +10,18 @@ namespace {
 
 constexpr std::array table{
     Sample{"line.dat", "Line", "A chain", 40},
-    Sample{"3x3.dat", "3 × 3", "The example of Dean's thesis of 2004, in its own format", 9},
+    Sample{"3x3.dat", "3 × 3", "The example of Dean's thesis (2004), in its format", 9},
     Sample{"grid.dat", "Grid", "A flat grid, links along the axes", 576},
     Sample{"cloth.obj", "Cloth", "A flat sheet of triangles", 384},
     Sample{"sphere.obj", "Sphere", "A closed surface of triangles", 266},
     Sample{"torus.obj", "Torus", "A closed surface of quadrangles", 384},
-    Sample{"organ.obj", "Organ", "A closed surface like a kidney's", 1212},
-    Sample{"organ.msh", "Full organ", "The same, filled with tetrahedra: cut it open", 2240},
-    Sample{"jittered.vtk", "Jittered", "A block of tetrahedra, no two links alike", 792},
+    Sample{"organ.obj", "Organ", "A closed surface, shaped like a kidney", 1212},
+    Sample{"organ.msh", "Full organ", "The organ filled with tetrahedra: cut it open", 2240},
+    Sample{"jittered.vtk", "Jittered", "A block of irregular tetrahedra", 792},
     Sample{"phantom.nrrd", "Volume", "A volume of densities: a soft body with a hard core", 8120},
-    Sample{"scan.mha", "Scan", "The same as a scanner has it, slices two units apart", 2624},
+    Sample{"scan.mha", "Scan", "The volume with slices two units apart, as from a scanner", 2624},
     Sample{"inclusion.chainmail", "Inclusion", "A session: a soft sheet with a rigid disc in it", 768},
-    Sample{"face.png", "Picture", "A picture on a sheet, to be warped", 768},
+    Sample{"face.png", "Picture", "A picture on a sheet that you can warp", 768},
 };
 
 }  // namespace

@@ -5,25 +5,25 @@
 
 namespace chainmail {
 
-/// A file of the folder meshes that the gallery offers. Its thumbnail is the resource samples/FILE.png, which the
-/// target `thumbnails` makes.
+/// A file in the folder meshes that the gallery shows. Its thumbnail is the resource samples/FILE.png, made by the
+/// target `thumbnails`.
 struct Sample {
   const char* file;
-  const char* title;  // a word or two: it stands below a thumbnail
+  const char* title;  // one or two words below the thumbnail
   const char* what;
-  unsigned elements;  // those of a picture as a sheet of the size offered first
+  unsigned elements;  // for a picture: of a sheet of the default size
 };
 
-/// Every one, in the order in which they are offered.
+/// Returns all samples, in the order of the gallery.
 std::span<const Sample> samples();
 
-/// Where they lie: installed beside the program, or in the source that it was built from; empty where they do not.
+/// Returns the folder of the samples: installed with the program, or in its source tree; empty if there is none.
 QString samplesFolder();
 
-/// Whether a file is in that folder: nobody's own, to be saved over.
+/// True if a file is in that folder. Such files are not overwritten and not listed as recent.
 bool isSample(const QString& path);
 
-/// The resource, or the name of the file, of a sample's thumbnail.
+/// Returns the name of a sample's thumbnail, as a resource and as a file.
 QString thumbnailOf(const Sample& sample);
 
 }  // namespace chainmail

@@ -7,20 +7,19 @@
 
 #include "common/as_path.h"
 #include "document/session_draft.h"
-#include "io/autosave.h"
 #include "io/recovery_bar.h"
 #include "io/samples.h"
 
 namespace chainmail {
 namespace {
 
-/// The file that an autosaved session was opened from or saved to, if any.
+/// Returns the file that an automatically saved session was opened from or saved to, if any.
 QString ownFile(const Session& session) {
   const auto look = QJsonDocument::fromJson(QByteArray::fromStdString(session.ui)).object();
   return look[QStringLiteral("file")].toString();
 }
 
-/// As many panels as the session has, or the window can.
+/// Shows as many panels as the session has, within the limits of the window.
 void showPanels(Document& document, const Session& session) {
   const int wanted = std::clamp(int(session.panels.size()), Document::fewestPanels, Document::mostPanels);
   while (document.panels() < wanted) {
@@ -68,7 +67,7 @@ void Sessions::savePath(const QString& path) {
                 save_session(asPath(path), draft.finished(progress), progress);
                 return [this, path, steps] {
                   document_.setSessionFile(QFileInfo(path).absoluteFilePath());
-                  // What was done meanwhile is not in the file.
+                  // Changes during saving are not in the file.
                   if (steps_ == steps) {
                     document_.undoStack().setClean();
                   }
@@ -91,9 +90,9 @@ void Sessions::keep() {
 
 void Sessions::close() { autosave_.reset(); }
 
-/// What a crash left becomes this window's, and stays on the disk until this window has no more need of it.
+/// Restores unsaved work. Its file becomes the automatic save of this window.
 void Sessions::restore(const QString& path) {
-  jobs_.start(Jobs::Kind::load, QStringLiteral("Restoring what was unsaved"),
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Restoring unsaved work"),
               [this, path](const Progress& progress) -> Jobs::Finish {
                 const auto session = std::make_shared<const Session>(read_session(asPath(path), progress));
                 return [this, session, path] {

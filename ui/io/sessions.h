@@ -5,15 +5,14 @@
 #include "common/jobs.h"
 #include "document/document.h"
 #include "files/session/session.h"
-#include "io/look_access.h"
+#include "io/autosave.h"
 
 namespace chainmail {
 
-class Autosave;
 class RecoveryBar;
 
-/// Sessions of a window: opened and saved in the background, kept safe while there is something to lose, and offered
-/// at the next start.
+/// Sessions of a window: opens and saves them in the background, saves unsaved work automatically, and offers it at the
+/// next start.
 class Sessions : public QObject {
   Q_OBJECT
 
@@ -21,17 +20,17 @@ class Sessions : public QObject {
   Sessions(Document& document, Jobs& jobs, LookAccess look, QObject* parent);
   ~Sessions() override;
 
-  /// Opens one in the background, as one step of undo or as the window's first object.
+  /// Opens a session in the background: as one undo step, or as the first object of the window.
   void openPath(const QString& path, bool first);
   void savePath(const QString& path);
 
-  /// Where what a crash left is offered.
+  /// Returns the bar that offers unsaved work from earlier windows.
   RecoveryBar& recoveryBar() { return *recovery_; }
-  /// Begins to keep the window's work safe, and offers what a crash has left. Tests do without.
+  /// Starts automatic saving, and offers unsaved work from earlier windows. Most tests do not call it.
   void protect();
-  /// The window is closed by the user: what is unsaved is offered at the next start.
+  /// Keeps unsaved work for the next start. Call it when the user closes the window.
   void keep();
-  /// Work is kept safe no longer.
+  /// Stops automatic saving.
   void close();
 
  signals:
@@ -46,7 +45,7 @@ class Sessions : public QObject {
   Document& document_;
   Jobs& jobs_;
   const LookAccess look_;
-  std::uint64_t steps_ = 0;  // of undo, redo and doing
+  std::uint64_t steps_ = 0;  // number of edits, undos and redos
   RecoveryBar* recovery_;
   std::unique_ptr<Autosave> autosave_;
 };

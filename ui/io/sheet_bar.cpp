@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int mostAcross = 2000;  // four million elements of a square picture
+constexpr int mostAcross = 2000;  // 4 million elements for a square picture
 
 std::array<std::uint32_t, 2> pixelsOf(QSize picture) {
   return {std::uint32_t(picture.width()), std::uint32_t(picture.height())};
@@ -18,11 +18,11 @@ std::array<std::uint32_t, 2> pixelsOf(QSize picture) {
 
 SheetBar::SheetBar()
     : AskBar(QStringLiteral("sheet"), QStringLiteral("Open s&heet"),
-             QStringLiteral("Opens the picture as a sheet in place of the present object, as a step of undo")),
+             QStringLiteral("Replaces the object by the picture as a sheet, as one undo step")),
       across_(new QSpinBox) {
   across_->setObjectName(QStringLiteral("sheetAcross"));
   across_->setAccessibleName(QStringLiteral("Elements across the picture"));
-  across_->setToolTip(QStringLiteral("How many elements the sheet has along its width; its height follows"));
+  across_->setToolTip(QStringLiteral("Number of elements along the width of the sheet; the height follows"));
   connect(across_, &QSpinBox::valueChanged, this, &SheetBar::describe);
   addField(QStringLiteral("Elements &across"), across_);
 }

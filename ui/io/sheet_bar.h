@@ -7,7 +7,7 @@
 
 namespace chainmail {
 
-/// Asks how many elements across a picture's sheet has.
+/// Asks how many elements a picture's sheet has along its width.
 class SheetBar : public AskBar {
   Q_OBJECT
 
@@ -16,7 +16,7 @@ class SheetBar : public AskBar {
 
   SheetBar();
 
-  /// About a picture of so many pixels.
+  /// Asks about a picture of this size in pixels.
   void ask(const QString& name, QSize picture);
   int across() const { return across_->value(); }
 

@@ -15,7 +15,7 @@
 namespace chainmail {
 namespace {
 
-QString folderKey() { return QStringLiteral("picture/folder"); }
+QString warpFolderKey() { return QStringLiteral("picture/folder"); }
 
 }  // namespace
 
@@ -31,16 +31,16 @@ void Sheets::fill(QMenu& menu) {
     auto* action = menu_->addAction(QStringLiteral("Panel &%1…").arg(panelName(panel)));
     action->setObjectName(QStringLiteral("saveWarped%1").arg(panelName(panel)));
     action->setStatusTip(
-        QStringLiteral("The picture as this panel's sheet has warped it, a pixel a mesh unit, as PNG or JPEG"));
+        QStringLiteral("Saves the picture as warped in this panel, one pixel per mesh unit, as PNG or JPEG"));
     connect(action, &QAction::triggered, this, [this, panel] { save(panel); });
     const auto adaptToPanels = [this, action, panel] { action->setVisible(panel < document_.panels()); };
     connect(&document_, &Document::panelsChanged, action, adaptToPanels);
     adaptToPanels();
   }
   menu_->addSeparator();
-  ownFrame_ = menu_->addAction(QStringLiteral("Within the picture's own &frame"));
+  ownFrame_ = menu_->addAction(QStringLiteral("Crop to the picture's &frame"));
   ownFrame_->setObjectName(QStringLiteral("warpOwnFrame"));
-  ownFrame_->setStatusTip(QStringLiteral("As many pixels as the picture has; otherwise all of the sheet is saved"));
+  ownFrame_->setStatusTip(QStringLiteral("On: saves as many pixels as the picture has. Off: saves the whole sheet"));
   ownFrame_->setCheckable(true);
   connect(&document_, &Document::meshChanged, this, &Sheets::adapt);
   adapt();
@@ -49,8 +49,9 @@ void Sheets::fill(QMenu& menu) {
 void Sheets::adapt() {
   const bool sheet = is_sheet(*document_.mesh());
   menu_->setEnabled(sheet);
-  menu_->menuAction()->setStatusTip(sheet ? QStringLiteral("The picture as a panel's sheet has warped it")
-                                          : QStringLiteral("This object shows no picture: open a PNG or a JPEG first"));
+  menu_->menuAction()->setStatusTip(
+      sheet ? QStringLiteral("Saves the picture as warped in a panel")
+            : QStringLiteral("Not available: this object has no picture. Open a PNG or JPEG first"));
   for (QAction* action : menu_->actions()) {
     action->setEnabled(sheet);
   }
@@ -88,18 +89,18 @@ void Sheets::save(int panel) {
   QSettings settings;
   const QString path = askWhere(window_, QStringLiteral("Save warped picture"),
                                 {QStringLiteral("PNG picture (*.png)"), QStringLiteral("JPEG picture (*.jpg)")},
-                                settings.value(folderKey(), QDir::currentPath()).toString());
+                                settings.value(warpFolderKey(), QDir::currentPath()).toString());
   if (!path.isEmpty()) {
-    settings.setValue(folderKey(), QFileInfo(path).absolutePath());
+    settings.setValue(warpFolderKey(), QFileInfo(path).absolutePath());
     saveWarpedPath(panel, path);
   }
 }
 
-/// The sheet as it stands now, whatever becomes of it until the picture is written.
+/// Saves the sheet in its present state, even if it changes before the picture is written.
 void Sheets::saveWarpedPath(int panel, const QString& path) {
   const Frame* frame = document_.frame(panel);
   if (frame == nullptr || !is_sheet(*frame->mesh)) {
-    emit failed(path + QStringLiteral(": the object shows no picture; open a PNG or a JPEG first"));
+    emit failed(path + QStringLiteral(": the object has no picture; open a PNG or JPEG first"));
     return;
   }
   jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),

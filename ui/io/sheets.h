@@ -10,20 +10,20 @@ namespace chainmail {
 
 class SheetBar;
 
-/// Pictures as sheets: opened, and saved as they are warped, in the background.
+/// Opens pictures as sheets, and saves warped pictures, in the background.
 class Sheets : public QObject {
   Q_OBJECT
 
  public:
   Sheets(QWidget& window, Document& document, Jobs& jobs);
 
-  /// Where it is asked how many elements a sheet has.
+  /// Returns the bar that asks for the number of elements.
   SheetBar& bar() { return *bar_; }
   void fill(QMenu& menu);
-  /// Asks how fine, and opens it then: as one step of undo, or as the window's first object.
+  /// Asks for the number of elements, then opens the picture: as one undo step, or as the first object of the window.
   void openPath(const QString& path, bool first = false);
   void open(const QString& path, int across, bool first = false);
-  /// Saves the picture as a panel's object has warped it, a PNG or a JPEG.
+  /// Saves the picture as warped in a panel, as PNG or JPEG.
   void saveWarpedPath(int panel, const QString& path);
 
  signals:
@@ -39,7 +39,7 @@ class Sheets : public QObject {
   Document& document_;
   Jobs& jobs_;
   SheetBar* bar_;
-  QString asked_;  // the picture that the bar asks about
+  QString asked_;  // path of the picture in the bar
   bool first_ = false;
   QMenu* menu_ = nullptr;
   QAction* ownFrame_ = nullptr;

@@ -7,7 +7,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int sliderSteps = 1000;
+constexpr int densitySteps = 1000;
 
 double highestOf(const OpenedVolume& one) {
   return one.volume.lowest + one.volume.step * double(one.atLeast.size() - 1);
@@ -33,50 +33,51 @@ std::uint64_t OpenedVolume::above(double density) const {
 
 VolumeBar::VolumeBar()
     : AskBar(QStringLiteral("volume"), QStringLiteral("Open &block"),
-             QStringLiteral("Opens what is dense enough in place of the present object, as a step of undo")),
+             QStringLiteral("Replaces the object by the dense voxels of the volume, as one undo step")),
       slider_(new QSlider(Qt::Horizontal)),
       threshold_(new QDoubleSpinBox),
       every_(new QSpinBox),
       stiff_(new QCheckBox(QStringLiteral("Sti&ff where dense"))) {
   makeFields();
-  connect(slider_, &QSlider::valueChanged, this, [this](int place) { threshold_->setValue(fromSlider(place)); });
+  connect(slider_, &QSlider::valueChanged, this, [this](int position) { threshold_->setValue(fromSlider(position)); });
   connect(threshold_, &QDoubleSpinBox::valueChanged, this, &VolumeBar::describe);
   connect(every_, &QSpinBox::valueChanged, this, &VolumeBar::describe);
 }
 
 void VolumeBar::makeFields() {
   slider_->setObjectName(QStringLiteral("volumeSlider"));
-  slider_->setAccessibleName(QStringLiteral("Lowest density, on a slider"));
-  slider_->setRange(0, sliderSteps);
+  slider_->setAccessibleName(QStringLiteral("Lowest density (slider)"));
+  slider_->setRange(0, densitySteps);
   slider_->setMinimumWidth(60);
   threshold_->setObjectName(QStringLiteral("volumeThreshold"));
   threshold_->setAccessibleName(QStringLiteral("Lowest density"));
   every_->setObjectName(QStringLiteral("volumeEvery"));
-  every_->setAccessibleName(QStringLiteral("Voxels along each axis to an element"));
+  every_->setAccessibleName(QStringLiteral("Voxels per element along each axis"));
   every_->setRange(0, 64);
   every_->setSpecialValueText(QStringLiteral("auto"));
   stiff_->setObjectName(QStringLiteral("volumeStiff"));
   stiff_->setChecked(true);
-  slider_->setToolTip(QStringLiteral("Voxels of this density and more become elements"));
-  threshold_->setToolTip(slider_->toolTip() + QStringLiteral("; at first where it parts the densities best"));
+  slider_->setToolTip(QStringLiteral("Voxels of this density or more become elements"));
+  threshold_->setToolTip(slider_->toolTip() +
+                         QStringLiteral(". The default separates the densities best (Otsu's method)"));
   every_->setToolTip(
-      QStringLiteral("How many voxels along each axis make one element; auto takes as many as leave %L1 elements")
+      QStringLiteral("Number of voxels along each axis that become one element; auto gives at most %L1 elements")
           .arg(voxel_elements));
-  stiff_->setToolTip(
-      QStringLiteral("Links from the standard stiffness, at the lowest density, to rigid, at the highest"));
+  stiff_->setToolTip(QStringLiteral(
+      "Sets the softness of links by density: from the default at the lowest density to rigid at the highest"));
   addField(QStringLiteral("&Density from"), threshold_);
   addField({}, slider_);
-  addField(QStringLiteral("&Voxels to an element"), every_);
+  addField(QStringLiteral("&Voxels per element"), every_);
   addField({}, stiff_);
 }
 
 int VolumeBar::toSlider(double density) const {
   const double range = highestOf(*volume_) - volume_->volume.lowest;
-  return range > 0 ? int(std::lround(sliderSteps * (density - volume_->volume.lowest) / range)) : 0;
+  return range > 0 ? int(std::lround(densitySteps * (density - volume_->volume.lowest) / range)) : 0;
 }
 
-double VolumeBar::fromSlider(int place) const {
-  return volume_->volume.lowest + (highestOf(*volume_) - volume_->volume.lowest) * place / sliderSteps;
+double VolumeBar::fromSlider(int position) const {
+  return volume_->volume.lowest + (highestOf(*volume_) - volume_->volume.lowest) * position / densitySteps;
 }
 
 void VolumeBar::ask(const QString& name, std::shared_ptr<const OpenedVolume> volume) {

@@ -12,19 +12,19 @@
 
 namespace chainmail {
 
-/// A volume that is about to become an object, and how many of its voxels each density leaves.
+/// A volume before it becomes an object, with the number of voxels above each density.
 struct OpenedVolume {
-  /// Counts; what takes a while for large volumes.
+  /// Counts the voxels, which is slow for large volumes.
   explicit OpenedVolume(Volume&& volume);
-  /// How many voxels are as dense as this or denser.
+  /// Returns the number of voxels of this density or more.
   std::uint64_t above(double density) const;
 
   Volume volume;
   double standardThreshold = 0;
-  std::vector<std::uint64_t> atLeast;  // how many voxels have each step of density or more
+  std::vector<std::uint64_t> atLeast;  // per step of density: number of voxels of it or more
 };
 
-/// Asks which voxels of a volume there are, and how many become one element.
+/// Asks for the lowest density of voxels in the object, and for the number of voxels per element.
 class VolumeBar : public AskBar {
   Q_OBJECT
 
@@ -37,9 +37,9 @@ class VolumeBar : public AskBar {
  private:
   void makeFields();
   void describe();
-  /// The slider's place for a density, and back.
+  /// Converts between densities and positions of the slider.
   int toSlider(double density) const;
-  double fromSlider(int place) const;
+  double fromSlider(int position) const;
 
   std::shared_ptr<const OpenedVolume> volume_;
   QSlider* slider_;

@@ -12,7 +12,7 @@ struct OpenedVolume;
 struct VoxelBlock;
 class VolumeBar;
 
-/// Volumes of voxels: read in the background, and made into objects as their bar is told.
+/// Reads volumes of voxels in the background and makes objects of them with the options of their bar.
 class Volumes : public QObject {
   Q_OBJECT
 
@@ -20,10 +20,10 @@ class Volumes : public QObject {
   Volumes(Document& document, Jobs& jobs);
 
   VolumeBar& bar() { return *bar_; }
-  /// What a job does that opens one: it reads it, on its own thread, and asks in the end. It becomes one step of undo,
-  /// or the window's first object.
+  /// Reads a volume; runs in the thread of a job. The result, run in the window, asks for the options. The object
+  /// becomes one undo step, or the first object of the window.
   Jobs::Finish read(const QString& path, bool first, const Progress& progress);
-  /// The same as it would be offered first, with nothing asked.
+  /// Reads a volume and makes the object with the default options, without asking.
   Jobs::Finish readAsOffered(const QString& path, const Progress& progress);
 
  signals:
@@ -38,7 +38,7 @@ class Volumes : public QObject {
   VolumeBar* bar_;
   QString path_;
   bool first_ = false;
-  std::shared_ptr<const OpenedVolume> volume_;  // as long as it is asked about
+  std::shared_ptr<const OpenedVolume> volume_;  // while the bar asks about it
 };
 
 }  // namespace chainmail

@@ -18,6 +18,7 @@ class PanelLinks : public QObject {
   /// The switches, for a menu and the tool bar.
   QList<QAction*> actions() const { return {cameras_, colours_, marks_}; }
   bool cameras() const { return cameras_->isChecked(); }
+  void setCameras(bool linked) { cameras_->setChecked(linked); }
   /// True if all panels mark the element under the cursor and the selection.
   bool marks() const { return marks_->isChecked(); }
 

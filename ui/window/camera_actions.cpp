@@ -1,14 +1,19 @@
 #include "window/camera_actions.h"
 
 #include <QApplication>
+#include <algorithm>
+#include <array>
 
 #include "common/icons.h"
+#include "document/document.h"
+#include "panels/panel.h"
+#include "panels/panel_area.h"
 
 namespace chainmail {
 namespace {
 
-constexpr double turn = 25, shift = 40;  // pixels of a mouse's travel
-constexpr double zoomStep = 1.2;         // as of a notch of the wheel
+constexpr double turnPixels = 25, panPixels = 40;  // mouse travel per key press
+constexpr double zoomStep = 1.2;                   // the factor of one notch of the wheel
 
 struct Direction {
   const char* name;
@@ -20,25 +25,53 @@ constexpr std::array directions{
     Direction{"Left", "left", Qt::Key_Left, {-1, 0}}, Direction{"Right", "right", Qt::Key_Right, {1, 0}},
     Direction{"Up", "up", Qt::Key_Up, {0, -1}}, Direction{"Down", "down", Qt::Key_Down, {0, 1}}};
 
+struct AxisView {
+  const char* name;
+  const char* text;
+  const char* from;
+  QKeyCombination key;
+  double yaw, pitch;  // degrees
+};
+// The key is the axis of the view; Shift looks from its negative end.
+constexpr std::array axisViews{
+    AxisView{"viewFront", "From the &front", "+z", Qt::Key_Z, 0, 0},
+    AxisView{"viewBack", "From the &back", "−z", Qt::SHIFT | Qt::Key_Z, 180, 0},
+    AxisView{"viewRight", "From the &right", "+x", Qt::Key_X, -90, 0},
+    AxisView{"viewLeft", "From the &left", "−x", Qt::SHIFT | Qt::Key_X, 90, 0},
+    AxisView{"viewTop", "From the &top", "+y", Qt::Key_Y, 0, 90},
+    AxisView{"viewBottom", "From b&elow", "−y", Qt::SHIFT | Qt::Key_Y, 0, -90},
+};
+
 }  // namespace
 
-CameraActions::CameraActions(QObject* parent) : QObject(parent) {
+CameraActions::CameraActions(QObject* parent, const Document& document, PanelArea& area)
+    : QObject(parent), document_(document), area_(area) {
+  makeMoves();
+  const auto attachTo = [this](Panel* panel) { attach(*panel); };
+  std::ranges::for_each(area.panels(), attachTo);
+  connect(&area, &PanelArea::added, this, attachTo);
+  connect(&document, &Document::meshChanged, this, &CameraActions::adapt);
+}
+
+void CameraActions::makeMoves() {
   for (const Direction& one : directions) {
     const QString way = QString::fromLatin1(one.name).toLower();
     add(("turn" + QByteArray(one.name)).constData(), QStringLiteral("Turn %1").arg(way), one.icon, {one.key},
-        QStringLiteral("Turns an object in space by 10° to the %1; shifts one in a plane").arg(way),
-        [way = one.way](View& view) { view.camera()->spatial() ? view.orbit(way * turn) : view.pan(way * shift); });
+        QStringLiteral("Turns a 3D object by 10°, or pans a 2D object by 40 pixels: %1").arg(way),
+        [way = one.way](View& view) {
+          view.camera()->spatial() ? view.orbit(way * turnPixels) : view.pan(way * panPixels);
+        });
   }
   for (const Direction& one : directions) {
     const QString way = QString::fromLatin1(one.name).toLower();
-    add(("shift" + QByteArray(one.name)).constData(), QStringLiteral("Shift %1").arg(way), one.icon,
-        {Qt::SHIFT | one.key}, QStringLiteral("Shifts the object in the view by 40 pixels to the %1").arg(way),
-        [way = one.way](View& view) { view.pan(way * shift); });
+    add(("shift" + QByteArray(one.name)).constData(), QStringLiteral("Pan %1").arg(way), one.icon,
+        {Qt::SHIFT | one.key}, QStringLiteral("Moves the object in the view by 40 pixels: %1").arg(way),
+        [way = one.way](View& view) { view.pan(way * panPixels); });
   }
   add("zoomIn", QStringLiteral("Zoom &in"), "zoomIn", {Qt::Key_Plus, Qt::Key_Equal},
-      QStringLiteral("Shows the object larger, by a fifth"), [](View& view) { view.zoom(zoomStep); });
+      QStringLiteral("Shows the object 1.2 times as large"), [](View& view) { view.zoom(zoomStep); });
   add("zoomOut", QStringLiteral("Zoom &out"), "zoomOut", {Qt::Key_Minus},
-      QStringLiteral("Shows the object smaller, by a fifth"), [](View& view) { view.zoom(1 / zoomStep); });
+      QStringLiteral("Shows the object 1.2 times as small"), [](View& view) { view.zoom(1 / zoomStep); });
 }
 
 void CameraActions::add(const char* name, const QString& text, const char* iconName, const QList<QKeySequence>& keys,
@@ -46,30 +79,73 @@ void CameraActions::add(const char* name, const QString& text, const char* iconN
   auto* action = new QAction(icon(iconName), text, this);
   action->setObjectName(QLatin1String(name));
   action->setShortcuts(keys);
-  action->setShortcutContext(Qt::WidgetShortcut);  // elsewhere these keys are those of lists and fields
+  action->setShortcutContext(Qt::WidgetShortcut);  // lists and fields use the same keys
   action->setStatusTip(tip);
   connect(action, &QAction::triggered, this, [this, act] {
-    if (View* at = view()) {
-      act(*at);
+    if (View* view = focusedView()) {
+      act(*view);
     }
   });
-  actions_.push_back(action);
+  moves_.push_back(action);
 }
 
-void CameraActions::fill(QMenu& menu) const {
-  auto* own = menu.addMenu(icon("fit"), QStringLiteral("&Move the camera"));
-  own->addActions({actions_.begin(), actions_.end()});
-}
-
-void CameraActions::attach(View& view) {
+void CameraActions::attach(Panel& panel) {
+  View& view = panel.view();
   views_.push_back(&view);
-  view.addActions({actions_.begin(), actions_.end()});
+  view.addActions({moves_.begin(), moves_.end()});
   connect(&view, &QObject::destroyed, this, [this, gone = &view] { std::erase(views_, gone); });
 }
 
-View* CameraActions::view() const {
+View* CameraActions::focusedView() const {
   auto* focused = qobject_cast<View*>(QApplication::focusWidget());
   return focused != nullptr || views_.empty() ? focused : views_.front();
+}
+
+void CameraActions::fillMoves(QMenu& menu) const {
+  auto* moves = menu.addMenu(icon("fit"), QStringLiteral("&Move camera"));
+  moves->addActions({moves_.begin(), moves_.end()});
+}
+
+void CameraActions::fillSides(QMenu& menu) {
+  auto* from = menu.addMenu(QStringLiteral("Look &from"));
+  from->setIcon(icon("axes"));
+  from->setToolTipsVisible(true);
+  for (const AxisView& side : axisViews) {
+    auto* action = from->addAction(QString::fromUtf8(side.text), this, [this, side] {
+      for (Panel* panel : area_.panels()) {
+        panel->view().lookFrom(side.yaw, side.pitch);
+      }
+    });
+    action->setObjectName(QLatin1String(side.name));
+    action->setShortcut(QKeySequence(side.key));
+    action->setStatusTip(QStringLiteral("All panels show the object from %1").arg(QString::fromUtf8(side.from)));
+    sides_.push_back(action);
+  }
+  addProjection(menu);
+  adapt();
+}
+
+void CameraActions::addProjection(QMenu& menu) {
+  auto* parallel = menu.addAction(QStringLiteral("Parallel pro&jection"));
+  parallel->setObjectName(QStringLiteral("parallelRays"));
+  parallel->setCheckable(true);
+  parallel->setShortcut(Qt::SHIFT | Qt::Key_F);
+  parallel->setStatusTip(QStringLiteral("Turns perspective off: equal lengths look equal at any distance"));
+  connect(parallel, &QAction::toggled, this, [this](bool on) {
+    for (Panel* panel : area_.panels()) {
+      panel->view().setParallel(on);
+    }
+  });
+  sides_.push_back(parallel);
+}
+
+void CameraActions::adapt() {
+  const bool spatial = document_.mesh()->space_dimension == 3;
+  for (QAction* action : sides_) {
+    action->setEnabled(spatial);
+    action->setToolTip(spatial ? action->statusTip()
+                               : QStringLiteral("Not available: this object is in 2D and has only one view"));
+  }
 }
 
 }  // namespace chainmail

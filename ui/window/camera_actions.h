@@ -2,28 +2,45 @@
 
 #include <QMenu>
 #include <QObject>
+#include <functional>
 #include <vector>
 
 #include "panels/view.h"
 
 namespace chainmail {
 
-/// The cameras by keyboard: turn, shift, zoom. The keys count in the view that has the keyboard, as those of a list
-/// count in the list; the menu's items in the view that had it last.
+class Document;
+class PanelArea;
+class Panel;
+
+/// The View menu's camera actions: turn, pan and zoom by keyboard; views along the axes; perspective or parallel
+/// projection.
+///
+/// The keys that turn, pan and zoom act on the view that has the keyboard focus, as they move the cursor in lists and
+/// fields elsewhere. Views along the axes and the projection act on all panels and need an object in 3D space.
 class CameraActions : public QObject {
   Q_OBJECT
 
  public:
-  explicit CameraActions(QObject* parent);
-  void fill(QMenu& menu) const;
-  void attach(View& view);
+  CameraActions(QObject* parent, const Document& document, PanelArea& area);
+  /// Adds the submenu that turns, pans and zooms.
+  void fillMoves(QMenu& menu) const;
+  /// Adds the submenu of views along the axes, and the projection.
+  void fillSides(QMenu& menu);
 
  private:
+  void makeMoves();
   void add(const char* name, const QString& text, const char* icon, const QList<QKeySequence>& keys, const QString& tip,
            const std::function<void(View&)>& act);
-  View* view() const;
+  void attach(Panel& panel);
+  View* focusedView() const;
+  void addProjection(QMenu& menu);
+  void adapt();
 
-  std::vector<QAction*> actions_;
+  const Document& document_;
+  PanelArea& area_;
+  std::vector<QAction*> moves_;
+  std::vector<QAction*> sides_;  // with the projection: these need a third dimension
   std::vector<View*> views_;
 };
 

@@ -8,14 +8,14 @@
 namespace chainmail {
 namespace {
 
-constexpr int milliseconds = 16;      // from move to move
-constexpr double longest = 40;        // seconds: nobody is there
-constexpr double swing = 5.2;         // seconds there and back, across
-constexpr double rise = 3.4;          // the same, up and down
-constexpr double beginning = 2;       // seconds until it swings in full
-constexpr double reachInLinks = 3.5;  // across; less up and down
-constexpr int patience = 200;         // milliseconds for the object to be seen at rest again
-constexpr double asGood = 1e-6;       // as at rest, in reaches: what is nearer the numbers do not tell apart
+constexpr int moveMilliseconds = 16;  // between two moves
+constexpr double longest = 40;        // seconds until it stops by itself
+constexpr double swing = 5.2;         // seconds per period, horizontal
+constexpr double rise = 3.4;          // seconds per period, vertical
+constexpr double beginning = 2;       // seconds until the full amplitude
+constexpr double reachInLinks = 3.5;  // horizontal amplitude in mean link lengths; the vertical one is 0.6 of it
+constexpr int restPatience = 200;     // milliseconds to wait for frames at rest
+constexpr double asGood = 1e-6;       // tolerance of a position at rest, relative to the amplitude
 
 bool isTouch(const QEvent& event) {
   switch (event.type()) {
@@ -36,7 +36,7 @@ bool isTouch(const QEvent& event) {
 
 ExampleDrag::ExampleDrag(Document& document, QObject* parent) : QObject(parent), document_(document) {
   clock_.setTimerType(Qt::PreciseTimer);
-  clock_.setInterval(milliseconds);
+  clock_.setInterval(moveMilliseconds);
   connect(&clock_, &QTimer::timeout, this, &ExampleDrag::move);
 }
 
@@ -47,7 +47,7 @@ void ExampleDrag::start() {
     return;
   }
   const Mesh& mesh = *document_.mesh();
-  element_ = mesh.element_count() * 4 / 5;  // off the middle: what is near and what is far moves differently
+  element_ = mesh.element_count() * 4 / 5;  // off the centre, so that near and far elements move differently
   from_ = mesh.rest_position(element_);
   reach_ = reachInLinks * mesh.mean_link_length;
   QCoreApplication::instance()->installEventFilter(this);
@@ -79,12 +79,12 @@ void ExampleDrag::stop() {
   document_.undoStack().clear();
   document_.forgetMoves();
   document_.setHighlight({});
-  // Who has just pressed a button takes hold of what is there after that.
+  // The press that ended the example acts on the object at rest.
   QElapsedTimer waited;
   waited.start();
-  while (!showsRest() && waited.elapsed() < patience) {
+  while (!showsRest() && waited.elapsed() < restPatience) {
     QThread::msleep(1);
-    QCoreApplication::sendPostedEvents(&document_, QEvent::MetaCall);  // frames, and nothing a user did
+    QCoreApplication::sendPostedEvents(&document_, QEvent::MetaCall);  // delivers frames, but no user input
   }
 }
 

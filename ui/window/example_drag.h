@@ -8,9 +8,8 @@
 
 namespace chainmail {
 
-/// A hand that moves the object gently for who sees the workbench for the first time. It ends at the first press of a
-/// button or a key in the window, before that is acted on, or after a while; then the object is at rest to the bit, and
-/// nothing is left of it: no step of undo, no last drag.
+/// An animated drag that shows the object in motion on the first start. It ends before the first press of a button or
+/// key takes effect, or after 40 s. Then the object is exactly at rest, without an undo step or a last drag.
 class ExampleDrag : public QObject {
   Q_OBJECT
 
@@ -18,7 +17,7 @@ class ExampleDrag : public QObject {
   ExampleDrag(Document& document, QObject* parent);
   ~ExampleDrag() override;
 
-  /// Only on an object that nothing was done to yet.
+  /// Starts the drag, unless the object has undo steps.
   void start();
   void stop();
   bool running() const { return clock_.isActive(); }

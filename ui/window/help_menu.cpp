@@ -17,10 +17,10 @@ void HelpMenu::fill(QMenu& menu) {
   auto* keys = menu.addAction(QStringLiteral("&Keyboard shortcuts…"), this, &HelpMenu::showShortcuts);
   keys->setObjectName(QStringLiteral("showShortcuts"));
   keys->setShortcut(QKeySequence::HelpContents);
-  keys->setStatusTip(QStringLiteral("All actions with their keys and effects; keys can be changed there"));
-  auto* again = menu.addAction(QStringLiteral("Show the &hints again"), hints_, &Hints::present);
+  keys->setStatusTip(QStringLiteral("Lists all actions with their keys and effects; keys can be changed"));
+  auto* again = menu.addAction(QStringLiteral("Show &hints"), hints_, &Hints::present);
   again->setObjectName(QStringLiteral("showHints"));
-  again->setStatusTip(QStringLiteral("The three hints of the first start, under the views"));
+  again->setStatusTip(QStringLiteral("Shows the three hints of the first start below the views"));
 }
 
 void HelpMenu::welcome() {

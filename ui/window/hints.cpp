@@ -20,15 +20,16 @@ struct Hint {
   const char* words;
 };
 constexpr std::array hints{
-    Hint{"drag", "<b>Drag</b> an element in any panel: all algorithms answer, side by side."},
-    Hint{"fit", "The <b>wheel</b> zooms, the middle button shifts, the right one turns; <b>F</b> shows all again."},
-    Hint{"keyboard", "<b>F1</b> lists every action and its keys; the tools on the left cut, pin and select."}};
+    Hint{"drag", "<b>Drag</b> an element in any panel: all algorithms respond, side by side."},
+    Hint{"fit",
+         "The <b>wheel</b> zooms, the middle button pans, the right button turns; <b>F</b> shows the whole object."},
+    Hint{"keyboard", "<b>F1</b> lists all actions and their keys; the tools on the left cut, pin and select."}};
 
 }  // namespace
 
 Hints::Hints() {
   setObjectName(QStringLiteral("hints"));
-  setAccessibleName(QStringLiteral("Hints for the start"));
+  setAccessibleName(QStringLiteral("Hints for the first start"));
   setFrameShape(QFrame::StyledPanel);
   setAutoFillBackground(true);
   auto* grid = new QGridLayout(this);
@@ -44,7 +45,7 @@ Hints::Hints() {
   }
   auto* done = new QPushButton(QStringLiteral("Got it"));
   done->setObjectName(QStringLiteral("hintsDone"));
-  done->setToolTip(QStringLiteral("Takes the hints away (Esc); Help > Show the hints again brings them back"));
+  done->setToolTip(QStringLiteral("Hides the hints (Esc). Help > Show hints shows them again"));
   grid->setColumnStretch(1, 1);
   grid->addWidget(done, 0, 2, int(hints.size()), 1, Qt::AlignVCenter);
   connect(done, &QPushButton::clicked, this, &QWidget::hide);

@@ -4,14 +4,14 @@
 
 namespace chainmail {
 
-/// Three short hints for the first start, in a row of their own under the views: they cover nothing.
+/// Three short hints for the first start, below the views, which they do not cover.
 class Hints : public QFrame {
   Q_OBJECT
 
  public:
   Hints();
 
-  /// Whether they were shown on this machine before.
+  /// True if the hints were shown before.
   static bool seen();
   void present();
 };

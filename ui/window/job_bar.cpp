@@ -7,8 +7,8 @@
 namespace chainmail {
 namespace {
 
-constexpr int patience = 200;                                     // milliseconds: what ends sooner shows nothing
-constexpr int milliseconds = 100;                                 // from one look at the progress to the next
+constexpr int showAfterMilliseconds = 200;  // shorter jobs show nothing
+constexpr int refreshMilliseconds = 100;
 constexpr int textWidth = 260, shareWidth = 160, barHeight = 14;  // pixels
 constexpr int percent = 100;
 
@@ -25,13 +25,13 @@ JobBar::JobBar(Jobs& jobs) : jobs_(jobs), text_(new QLabel), share_(new QProgres
   cancel_->setIcon(icon("close"));
   cancel_->setAutoRaise(true);
   cancel_->setAccessibleName(QStringLiteral("Cancel"));
-  cancel_->setToolTip(QStringLiteral("Cancel (Esc): the object stays as it is, and so does a file that was there"));
+  cancel_->setToolTip(QStringLiteral("Cancels the job (Esc). The object and existing files stay unchanged"));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->addWidget(text_);
   row->addWidget(share_);
   row->addWidget(cancel_);
-  // Its place is kept: the panels must not jump under the hand when it comes and goes.
+  // Keeps its space while hidden, so that the panels do not move.
   QSizePolicy keeps = sizePolicy();
   keeps.setRetainSizeWhenHidden(true);
   setSizePolicy(keeps);
@@ -43,7 +43,7 @@ JobBar::JobBar(Jobs& jobs) : jobs_(jobs), text_(new QLabel), share_(new QProgres
 
 void JobBar::follow() {
   if (jobs_.running()) {
-    clock_.start(patience);
+    clock_.start(showAfterMilliseconds);
   } else {
     clock_.stop();
     hide();
@@ -52,12 +52,12 @@ void JobBar::follow() {
 
 void JobBar::showShare() {
   text_->setText(text_->fontMetrics().elidedText(jobs_.text(), Qt::ElideMiddle, textWidth));
-  // A progress bar paints itself, and with it the whole window, before setValue returns: here it waits its turn.
+  // setValue would repaint the whole window at once; with updates off, the repaint waits for the event loop.
   share_->setUpdatesEnabled(false);
   share_->setValue(int(percent * jobs_.share()));
   share_->setUpdatesEnabled(true);
   show();
-  clock_.start(milliseconds);
+  clock_.start(refreshMilliseconds);
 }
 
 }  // namespace chainmail

@@ -10,7 +10,7 @@
 
 namespace chainmail {
 
-/// Shows in the status bar how far the window's job is, once it takes long enough to be noticed, and cancels it.
+/// Shows the progress of a background job in the status bar after 0.2 s, with a button that cancels it.
 class JobBar : public QWidget {
   Q_OBJECT
 

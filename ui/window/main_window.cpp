@@ -1,19 +1,23 @@
 #include "window/main_window.h"
 
 #include <QActionGroup>
+#include <QApplication>
 #include <QCloseEvent>
-#include <QDockWidget>
+#include <QComboBox>
 #include <QFileInfo>
+#include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
+#include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
 
 #include "common/icons.h"
 #include "io/file_actions.h"
+#include "io/picture_actions.h"
 #include "io/recovery_bar.h"
 #include "io/sessions.h"
 #include "io/sheet_bar.h"
@@ -26,24 +30,31 @@
 #include "tools/filling.h"
 #include "tools/pin_bar.h"
 #include "tools/pin_layers.h"
-#include "window/axis_views.h"
 #include "window/camera_actions.h"
+#include "window/docks.h"
 #include "window/help_menu.h"
 #include "window/job_bar.h"
 #include "window/menus.h"
 #include "window/message_bar.h"
-#include "window/undo_actions.h"
+#include "window/panel_actions.h"
+#include "window/show_menu.h"
+#include "window/theme_menu.h"
 #include "window/window_look.h"
 
 namespace chainmail {
 namespace {
 
-// To be raised when the docks change, so that an older layout is not restored over them.
-constexpr int layoutVersion = 5;
-constexpr int toldMilliseconds = 4000;
-constexpr std::chrono::milliseconds patience(500);  // for the last move of the hand when the window closes
-// Of the room that the two share: the values of selected links are seen whole where a screen has 900 pixels.
-const QList<int> stiffnessAndRate{400, 270};
+constexpr int layoutVersion = 5;  // raise it after changes to the docks: layouts of other versions are not restored
+constexpr int statusMilliseconds = 4000;
+constexpr std::chrono::milliseconds lastMovePatience(500);  // for the last move of the handle when the window closes
+
+/// Shows the step to be undone or redone in the menu and the tool tip. The button's text stays short, so the tool bar
+/// keeps its width.
+void showStep(QAction& action, const QString& verb, const QString& step) {
+  action.setText(step.isEmpty() ? QStringLiteral("&%1").arg(verb) : QStringLiteral("&%1 %2").arg(verb, step));
+  action.setIconText(verb);
+  action.setToolTip(step.isEmpty() ? verb : QStringLiteral("%1: %2").arg(verb, step));
+}
 
 }  // namespace
 
@@ -60,24 +71,51 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       measurement_(document_),
       measureTool_(document_, measurement_),
       selectTool_(document_),
-      undoActions_(new UndoActions(document_, *this)),
       sessions_(new Sessions(
           document_, jobs_,
           {[this] { return lookOf(*this); }, [this](const std::string& look) { takeLook(*this, look); },
            [this](QObject& context, const std::function<void()>& changed) { followLook(*this, context, changed); }},
           this)),
       files_(new FileActions(*this, document_, jobs_, *sessions_)),
-      cameraActions_(new CameraActions(this)),
       messages_(new MessageBar),
       area_(new PanelArea(document_, colouring_)),
+      cameraActions_(new CameraActions(this, document_, *area_)),
       pinLayers_(new PinLayers(document_, this)),
       pinBar_(new PinBar(document_, *pinLayers_)),
       filling_(new Filling(document_, jobs_)),
       help_(new HelpMenu(*this, document_)),
+      panelActions_(new PanelActions(*area_, document_, colouring_)),
+      showMenu_(new ShowMenu(document_, this)),
       toolActions_(new QActionGroup(this)),
       colourBy_(new ColourSelector(colouring_)),
-      axisViews_(new AxisViews(this, document_, *area_)),
       readout_(new ElementReadout(document_, measurement_, [this] { return area_->links().pointed(); })) {
+  arrange();
+  listen();
+  listenToFiles();
+  makeTools();
+  makeUndo();
+  makeMenus();
+  makeDocks();
+  help_->fill(*menuBar()->addMenu(QStringLiteral("&Help")));
+  completeMenus(*menuBar());
+  help_->shortcuts().adopt();
+  showTitle();
+  restoreLayout();
+  activate(dragTool_);
+  area_->panels().front()->view().setFocus();
+}
+
+MainWindow::~MainWindow() {
+  if (QWidget* field = focusWidget()) {
+    field->clearFocus();  // takes the last input while the document exists
+  }
+  sessions_->close();
+  hide();  // docks report that they hide while their receivers exist
+  // The panels use the document until they are deleted.
+  delete takeCentralWidget();
+}
+
+void MainWindow::arrange() {
   setAcceptDrops(true);
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
   auto* central = new QWidget;
@@ -95,18 +133,6 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   setCentralWidget(central);
   statusBar()->addWidget(readout_, 1);
   statusBar()->addPermanentWidget(new JobBar(jobs_));
-
-  listen();
-  makeTools();
-  makeMenus();
-  makeDocks();
-  help_->fill(*menuBar()->addMenu(QStringLiteral("&Help")));
-  completeMenus(*this);
-  help_->shortcuts().adopt();
-  showTitle();
-  restoreLayout();
-  activate(dragTool_);
-  area_->panels().front()->view().setFocus();
 }
 
 void MainWindow::listen() {
@@ -120,21 +146,12 @@ void MainWindow::listen() {
   connect(&measurement_, &Measurement::changed, area_, &PanelArea::refresh);
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
   connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
-  const auto attach = [this](Panel* panel) { cameraActions_->attach(panel->view()); };
-  std::ranges::for_each(area_->panels(), attach);
-  connect(area_, &PanelArea::added, this, attach);
-  connect(files_, &FileActions::failed, messages_, &MessageBar::say);
-  connect(files_, &FileActions::told, messages_, &MessageBar::note);
-  connect(&jobs_, &Jobs::failed, messages_, &MessageBar::say);
-  connect(files_, &FileActions::saved, this, [this](const QString& path) {
-    messages_->clear();
-    tell(QStringLiteral("Saved %1").arg(path));
-  });
+  connect(showMenu_, &ShowMenu::changed, area_, [this] { area_->setLook(showMenu_->look()); });
   connect(&document_, &Document::meshChanged, messages_, &MessageBar::clear);
   connect(&document_, &Document::meshChanged, this, &MainWindow::showTitle);
   connect(&document_, &Document::sessionFileChanged, this, &MainWindow::showTitle);
   connect(&document_.undoStack(), &QUndoStack::cleanChanged, this, [this](bool clean) { setWindowModified(!clean); });
-  // What a tool has begun may not fit the object after an edit, an undo or a redo.
+  // After an edit, undo or redo, an unfinished stroke of the tool may not fit the object.
   connect(&document_.undoStack(), &QUndoStack::indexChanged, this, [this] {
     if (tool_ != nullptr) {
       tool_->cancel();
@@ -142,33 +159,37 @@ void MainWindow::listen() {
   });
 }
 
-MainWindow::~MainWindow() {
-  if (QWidget* field = focusWidget()) {
-    field->clearFocus();  // what was typed last is taken while there is a document
-  }
-  sessions_->close();
-  hide();  // the docks tell of it while those who listen are there
-  // The panels look at the document until they are gone.
-  delete takeCentralWidget();
+void MainWindow::listenToFiles() {
+  connect(&jobs_, &Jobs::failed, messages_, &MessageBar::say);
+  connect(files_, &FileActions::failed, messages_, &MessageBar::say);
+  connect(files_, &FileActions::noted, messages_, &MessageBar::note);
+  connect(files_, &FileActions::saved, this, [this](const QString& path) {
+    messages_->clear();
+    showStatus(QStringLiteral("Saved %1").arg(path));
+  });
 }
 
+// Tools.
+
 void MainWindow::makeTools() {
-  const auto add = [this](Tool& tool, const QIcon& icon, const QKeySequence& key) {
-    auto* action = toolActions_->addAction(icon, tool.name());
-    action->setObjectName(QStringLiteral("tool") + tool.name());
-    action->setCheckable(true);
-    action->setShortcut(key);
-    action->setToolTip(QStringLiteral("%1 (%2)").arg(tool.name(), key.toString()));
-    action->setStatusTip(tool.hint());
-    connect(action, &QAction::triggered, this, [this, &tool] { activate(tool); });
-  };
-  add(dragTool_, icon("drag"), Qt::Key_D);
-  add(cutTool_, icon("cut"), Qt::Key_K);
-  add(pinTool_, icon("pin"), Qt::Key_P);
-  add(measureTool_, icon("measure"), Qt::Key_M);
-  add(selectTool_, icon("select"), Qt::Key_S);
+  addTool(dragTool_, "drag", Qt::Key_D);
+  addTool(cutTool_, "cut", Qt::Key_K);
+  const QAction* pin = addTool(pinTool_, "pin", Qt::Key_P);
+  addTool(measureTool_, "measure", Qt::Key_M);
+  addTool(selectTool_, "select", Qt::Key_S);
   toolActions_->actions().first()->setChecked(true);
-  connect(pinBar_, &PinBar::byHandChosen, findChild<QAction*>(QStringLiteral("toolPin")), &QAction::trigger);
+  connect(pinBar_, &PinBar::byHandChosen, pin, &QAction::trigger);
+}
+
+QAction* MainWindow::addTool(Tool& tool, const char* iconName, const QKeySequence& key) {
+  auto* action = toolActions_->addAction(icon(iconName), tool.name());
+  action->setObjectName(QStringLiteral("tool") + tool.name());
+  action->setCheckable(true);
+  action->setShortcut(key);
+  action->setToolTip(QStringLiteral("%1 (%2)").arg(tool.name(), key.toString()));
+  action->setStatusTip(tool.hint());
+  connect(action, &QAction::triggered, this, [this, &tool] { activate(tool); });
+  return action;
 }
 
 void MainWindow::activate(Tool& tool) {
@@ -180,21 +201,159 @@ void MainWindow::activate(Tool& tool) {
   readout_->setHint(tool.hint());
 }
 
-void MainWindow::openFile(const QString& path, bool first) { files_->openPath(path, first); }
+void MainWindow::cancelCurrent() {
+  // Esc that closes the list of a combo box arrives here too: it must not clear the selection.
+  if (auto* field = qobject_cast<QComboBox*>(QApplication::focusWidget())) {
+    field->clearFocus();
+    tool_->cancel();
+  } else if (jobs_.running() && !tool_->busy()) {
+    jobs_.cancel();
+  } else {
+    tool_->escape();
+    measurement_.clear();
+  }
+  messages_->dismiss();
+  help_->dismissHints();
+  area_->refresh();
+}
 
-void MainWindow::welcome() { help_->welcome(); }
+// Menus and the tool bar.
 
-void MainWindow::tell(const QString& sentence) { statusBar()->showMessage(sentence, toldMilliseconds); }
+/// Document::undo and Document::redo end an unfinished drag first.
+void MainWindow::makeUndo() {
+  const auto undoVerb = QStringLiteral("Undo"), redoVerb = QStringLiteral("Redo");
+  undo_ = addUndo(undoVerb, "undo", QKeySequence::Undo,
+                  QStringLiteral("Reverts the last step: elements, cuts, pins and parameters"));
+  redo_ = addUndo(redoVerb, "redo", QKeySequence::Redo, QStringLiteral("Repeats the step that was undone last"));
+  const QUndoStack& stack = document_.undoStack();
+  connect(&stack, &QUndoStack::canUndoChanged, undo_, &QAction::setEnabled);
+  connect(&stack, &QUndoStack::canRedoChanged, redo_, &QAction::setEnabled);
+  connect(&stack, &QUndoStack::undoTextChanged, undo_,
+          [this, undoVerb](const QString& step) { showStep(*undo_, undoVerb, step); });
+  connect(&stack, &QUndoStack::redoTextChanged, redo_,
+          [this, redoVerb](const QString& step) { showStep(*redo_, redoVerb, step); });
+  connect(undo_, &QAction::triggered, &document_, &Document::undo);
+  connect(redo_, &QAction::triggered, &document_, &Document::redo);
+}
 
-void MainWindow::showTitle() {
-  const QString file = QFileInfo(document_.sessionFile()).fileName();
-  setWindowTitle(QStringLiteral("%1[*] – ChainMail workbench").arg(file.isEmpty() ? document_.name() : file));
+QAction* MainWindow::addUndo(const QString& verb, const char* name, QKeySequence::StandardKey key, const QString& tip) {
+  auto* action = new QAction(this);
+  action->setObjectName(QLatin1String(name));
+  action->setIcon(icon(name));
+  action->setShortcut(key);
+  action->setStatusTip(tip);
+  action->setEnabled(false);
+  showStep(*action, verb, {});
+  return action;
+}
+
+void MainWindow::makeMenus() {
+  fillFileMenu(*menuBar()->addMenu(QStringLiteral("&File")));
+  editMenu_ = menuBar()->addMenu(QStringLiteral("&Edit"));
+  fillEditMenu(*editMenu_);
+  objectMenu_ = menuBar()->addMenu(QStringLiteral("&Object"));
+  fillObjectMenu(*objectMenu_);
+  viewMenu_ = menuBar()->addMenu(QStringLiteral("&View"));
+  fillViewMenu(*viewMenu_);
+  makeToolBar();
+}
+
+void MainWindow::fillFileMenu(QMenu& menu) {
+  files_->fill(menu);
+  menu.addSeparator();
+  auto* pictures = new PictureActions(*this, document_, *area_, jobs_);
+  pictures->fill(menu);
+  connect(pictures, &PictureActions::failed, messages_, &MessageBar::say);
+  connect(pictures, &PictureActions::noted, this, &MainWindow::showStatus);
+  connect(pictures, &PictureActions::saved, files_, &FileActions::saved);
+  menu.addSeparator();
+  auto* quit = menu.addAction(QStringLiteral("&Quit"), QKeySequence::Quit, this, &QWidget::close);
+  quit->setObjectName(QStringLiteral("quit"));
+  quit->setStatusTip(
+      QStringLiteral("Closes the window. Layout and unsaved work are kept and offered at the next start"));
+}
+
+void MainWindow::fillEditMenu(QMenu& menu) {
+  menu.addActions({undo_, redo_});
+  menu.addSeparator();
+  menu.addActions(toolActions_->actions());
+  auto* cancel = menu.addAction(QStringLiteral("&Cancel"), Qt::Key_Escape, this, &MainWindow::cancelCurrent);
+  cancel->setObjectName(QStringLiteral("giveUp"));
+  cancel->setStatusTip(
+      QStringLiteral("Cancels the current stroke, drag or job, or clears the selection; dismisses the message"));
+}
+
+void MainWindow::fillObjectMenu(QMenu& menu) {
+  resetObject_ = menu.addAction(QStringLiteral("Reset &object"), this, [this] { document_.resetObject(); });
+  resetObject_->setObjectName(QStringLiteral("resetObject"));
+  resetObject_->setShortcut(Qt::Key_R);
+  resetObject_->setStatusTip(
+      QStringLiteral("Moves all elements to their rest positions; cuts, pins and softness stay"));
+  auto* softness = menu.addAction(QStringLiteral("Reset &softness"), this, [this] { document_.resetSoftness(); });
+  softness->setObjectName(QStringLiteral("resetStiffness"));
+  softness->setStatusTip(QStringLiteral(
+      "Sets compression, stretch and shear of all links to their defaults, including links with values of their own"));
+  unpinAll_ =
+      menu.addAction(QStringLiteral("&Unpin all"), this, [this] { document_.setPinned(document_.pins(), false); });
+  unpinAll_->setObjectName(QStringLiteral("unpinAll"));
+  unpinAll_->setStatusTip(QStringLiteral("Lets all pinned elements move again"));
+  menu.addMenu(&pinLayers_->menu());
+  filling_->fill(menu);
+  const auto adapt = [this] { unpinAll_->setEnabled(!document_.pins().empty()); };
+  connect(&document_, &Document::pinsChanged, unpinAll_, adapt);
+  connect(&document_, &Document::meshChanged, unpinAll_, adapt);
+  adapt();
+}
+
+void MainWindow::fillViewMenu(QMenu& menu) {
+  fitView_ = menu.addAction(QStringLiteral("Reset &view (fit)"), area_, &PanelArea::fit);
+  fitView_->setObjectName(QStringLiteral("fitView"));
+  fitView_->setIconText(QStringLiteral("Fit view"));  // so that the tool bar fits in 1280 pixels
+  fitView_->setShortcut(Qt::Key_F);
+  fitView_->setStatusTip(QStringLiteral("Shows the whole object in every view, from the initial side"));
+  cameraActions_->fillMoves(menu);
+  panelActions_->fill(menu);
+  regions_.fill(menu);
+  cameraActions_->fillSides(menu);
+  showMenu_->fill(menu);
+  menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
+  menu.addSeparator();
+  (new ThemeMenu(this))->fill(menu);
+}
+
+void MainWindow::makeToolBar() {
+  auto* bar = addToolBar(QStringLiteral("Main"));
+  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  bar->setObjectName(QStringLiteral("mainToolBar"));
+  bar->setMovable(false);
+  files_->fill(*bar);
+  bar->addSeparator();
+  bar->addActions({undo_, redo_});
+  bar->addSeparator();
+  bar->addActions({resetObject_, unpinAll_, fitView_});
+  bar->addSeparator();
+  bar->addWidget(new QLabel(QStringLiteral(" Linked ")));
+  bar->addActions(area_->links().actions());
+  bar->addSeparator();
+  bar->addWidget(new QLabel(QStringLiteral(" Colour by ")));
+  bar->addWidget(colourBy_);
+  panelActions_->fill(*bar);
+}
+
+// Docks and the layout.
+
+void MainWindow::makeDocks() {
+  docks_ = std::make_unique<Docks>(DockParts{*this, document_, jobs_, *files_, *messages_, *area_, *pinLayers_,
+                                             propagation_, propagationOverlay_, *toolActions_, cutTool_, selectTool_,
+                                             *editMenu_, *objectMenu_, *viewMenu_, showMenu_->menu(),
+                                             [this](const QString& sentence) { showStatus(sentence); }});
+  docks_->fill(*menuBar()->addMenu(QStringLiteral("&Docks")));
 }
 
 QByteArray MainWindow::savedLayout() const { return saveState(layoutVersion); }
 
 void MainWindow::takeLayout(const QByteArray& layout) {
-  // Qt shows the tabs of docks one by one; a layout that answers at once takes some away meanwhile, and Qt crashes.
+  // restoreState shows tabbed docks one by one. A layout that reacts at once removes some meanwhile, and Qt crashes.
   this->layout()->setEnabled(false);
   restoreState(layout, layoutVersion);
   this->layout()->setEnabled(true);
@@ -203,18 +362,28 @@ void MainWindow::takeLayout(const QByteArray& layout) {
 
 void MainWindow::restoreLayout() {
   resize(QSize(1600, 900).boundedTo(screen()->availableSize()));
+  docks_->resize();
   const QSettings settings;
-  resizeDocks({findChild<QDockWidget*>(QStringLiteral("stiffnessDock")),
-               findChild<QDockWidget*>(QStringLiteral("frameRateDock"))},
-              stiffnessAndRate, Qt::Vertical);
-  resizeDocks({findChild<QDockWidget*>(QStringLiteral("meshDock"))}, {1}, Qt::Horizontal);  // as narrow as it can be
   restoreGeometry(settings.value(QStringLiteral("geometry")).toByteArray());
   takeLayout(settings.value(QStringLiteral("layout")).toByteArray());
 }
 
+// The window as a whole.
+
+void MainWindow::openFile(const QString& path, bool first) { files_->openPath(path, first); }
+
+void MainWindow::welcome() { help_->welcome(); }
+
+void MainWindow::showStatus(const QString& sentence) { statusBar()->showMessage(sentence, statusMilliseconds); }
+
+void MainWindow::showTitle() {
+  const QString file = QFileInfo(document_.sessionFile()).fileName();
+  setWindowTitle(QStringLiteral("%1[*] – ChainMail workbench").arg(file.isEmpty() ? document_.name() : file));
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
   jobs_.close();
-  document_.abandonMoves(patience);
+  document_.abandonMoves(lastMovePatience);
   sessions_->keep();
   QSettings settings;
   settings.setValue(QStringLiteral("geometry"), saveGeometry());
@@ -229,8 +398,9 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  for (const QUrl& url : event->mimeData()->urls().first(std::min<qsizetype>(1, event->mimeData()->urls().size()))) {
-    openFile(url.toLocalFile());
+  const QList<QUrl> urls = event->mimeData()->urls();
+  if (!urls.isEmpty()) {
+    openFile(urls.first().toLocalFile());
   }
 }
 

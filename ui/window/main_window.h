@@ -16,27 +16,26 @@
 #include "tools/valid_regions.h"
 
 class QActionGroup;
-class QLabel;
 class QMenu;
 
 namespace chainmail {
 
-class AxisViews;
 class CameraActions;
 class ColourSelector;
+class Docks;
 class ElementReadout;
 class FileActions;
 class Filling;
 class HelpMenu;
 class MessageBar;
+class Panel;
 class PanelActions;
 class PinBar;
 class PinLayers;
-class Panel;
 class Sessions;
-class UndoActions;
+class ShowMenu;
 
-/// The workbench's window: panels, docks, tools and named actions, wired to one document.
+/// The workbench's window: panels, docks, tools, menus and bars, connected to one document.
 class MainWindow : public QMainWindow {
   Q_OBJECT
 
@@ -45,18 +44,22 @@ class MainWindow : public QMainWindow {
   ~MainWindow() override;
 
   Document& document() { return document_; }
+  PanelArea& area() { return *area_; }
   Panel& panel(int which) { return *area_->panels()[std::size_t(which)]; }
   Colouring& colouring() { return colouring_; }
+  ShowMenu& showMenu() { return *showMenu_; }
+  const Docks& docks() const { return *docks_; }
   MessageBar& messages() { return *messages_; }
   Jobs& jobs() { return jobs_; }
   Sessions& sessions() { return *sessions_; }
-  /// The docks as they stand, and back again; of other docks than these it takes nothing.
+  /// Returns the positions, sizes and visibility of the docks.
   QByteArray savedLayout() const;
+  /// Restores a saved layout. Ignores layouts of another version.
   void takeLayout(const QByteArray& layout);
-  /// Opens a session or a mesh file in the background, as one step of undo or as the window's first object; a bad file
-  /// gets a sentence and changes nothing.
+  /// Opens a session, mesh, volume or picture in the background: as one undo step, or as the first object of the
+  /// window. A file with an error shows a message and changes nothing.
   void openFile(const QString& path, bool first = false);
-  /// To be called where the window begins with its sample: shows the first start's example and hints, once.
+  /// Shows an example and hints on the first start. Called if the window starts without a file.
   void welcome();
 
  protected:
@@ -65,28 +68,24 @@ class MainWindow : public QMainWindow {
   void dropEvent(QDropEvent* event) override;
 
  private:
+  void arrange();
   void listen();
+  void listenToFiles();
   void makeTools();
-  void makeDocks();
-  void shareRoom(QDockWidget& other, QDockWidget& dock);
-  void makeStiffnessDock();
-  void makePhysicsDock();
-  void makeFrameRateDock();
-  void makeReportDock();
-  void makeSizeTestDock();
-  void makePropagationDock();
-  void makeReplayDock();
-  void makeSectionDock();
+  QAction* addTool(Tool& tool, const char* icon, const QKeySequence& key);
+  void makeUndo();
+  QAction* addUndo(const QString& verb, const char* name, QKeySequence::StandardKey key, const QString& tip);
   void makeMenus();
-  void makePictures(QMenu& menu);
+  void fillFileMenu(QMenu& menu);
   void fillEditMenu(QMenu& menu);
   void fillObjectMenu(QMenu& menu);
   void fillViewMenu(QMenu& menu);
   void makeToolBar();
-  void giveUp();
+  void makeDocks();
+  void cancelCurrent();
   void activate(Tool& tool);
-  /// Says something in the status bar for a while.
-  void tell(const QString& sentence);
+  /// Shows a sentence in the status bar for 4 s.
+  void showStatus(const QString& sentence);
   void showTitle();
   void restoreLayout();
 
@@ -104,21 +103,24 @@ class MainWindow : public QMainWindow {
   SelectTool selectTool_;
   Tool* tool_ = nullptr;
   Jobs jobs_;
-  UndoActions* undoActions_;
   Sessions* sessions_;
   FileActions* files_;
-  CameraActions* cameraActions_;
   MessageBar* messages_;
   PanelArea* area_;
+  CameraActions* cameraActions_;
   PinLayers* pinLayers_;
   PinBar* pinBar_;
   Filling* filling_;
   HelpMenu* help_;
   PanelActions* panelActions_;
+  ShowMenu* showMenu_;
   QActionGroup* toolActions_;
+  QAction *undo_ = nullptr, *redo_ = nullptr;
+  QAction *resetObject_ = nullptr, *unpinAll_ = nullptr, *fitView_ = nullptr;
   ColourSelector* colourBy_;
-  AxisViews* axisViews_;
   ElementReadout* readout_;
+  QMenu *editMenu_ = nullptr, *objectMenu_ = nullptr, *viewMenu_ = nullptr;
+  std::unique_ptr<Docks> docks_;
 };
 
 }  // namespace chainmail

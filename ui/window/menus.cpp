@@ -1,10 +1,11 @@
 #include "window/menus.h"
 
-#include <QDockWidget>
-#include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QSet>
+#include <algorithm>
+#include <array>
+#include <span>
 
 #include "common/icons.h"
 
@@ -12,10 +13,11 @@ namespace chainmail {
 namespace {
 
 struct ActionIcon {
-  const char* action;
+  const char* name;
   const char* icon;
 };
 
+// By the object name of the action.
 constexpr std::array actionIcons{ActionIcon{"openFile", "open"},
                                  ActionIcon{"saveSession", "save"},
                                  ActionIcon{"saveSessionAs", "save"},
@@ -41,60 +43,45 @@ constexpr std::array actionIcons{ActionIcon{"openFile", "open"},
                                  ActionIcon{"linkCameras", "link"},
                                  ActionIcon{"linkColours", "colour"},
                                  ActionIcon{"linkMarks", "select"},
-                                 ActionIcon{"showHistoryDock", "history"},
-                                 ActionIcon{"showReport", "report"},
-                                 ActionIcon{"showToolsDock", "tools"},
-                                 ActionIcon{"showMeshDock", "mesh"},
-                                 ActionIcon{"showStiffnessDock", "stiffness"},
-                                 ActionIcon{"showRelaxationDock", "relaxation"},
-                                 ActionIcon{"showFrameRateDock", "frameRate"},
                                  ActionIcon{"showValidRegions", "region"},
                                  ActionIcon{"savePreset", "save"},
                                  ActionIcon{"renamePreset", "file"},
                                  ActionIcon{"deletePreset", "close"},
                                  ActionIcon{"importPresets", "open"},
                                  ActionIcon{"exportPresets", "copy"},
-                                 ActionIcon{"showSizeTest", "grow"},
-                                 ActionIcon{"showPropagation", "propagation"},
-                                 ActionIcon{"showReplay", "record"},
                                  ActionIcon{"showShortcuts", "keyboard"},
                                  ActionIcon{"showHints", "hints"}};
 
-/// Menus in menus, by what they are called.
-constexpr std::array menuIcons{ActionIcon{"Open recent", "history"},
-                               ActionIcon{"Save deformed mesh", "shape"},
-                               ActionIcon{"Save warped picture", "warped"},
-                               ActionIcon{"Picture", "screenshot"},
-                               ActionIcon{"Record and replay", "record"},
-                               ActionIcon{"Steps of the pass", "stepForward"},
-                               ActionIcon{"Panels", "panels"},
-                               ActionIcon{"Compare with", "difference"},
-                               ActionIcon{"Colour by", "colour"},
-                               ActionIcon{"Theme", "theme"},
-                               ActionIcon{"Rates over time", "frameRate"},
-                               ActionIcon{"Presets of softness", "preset"}};
+// By the text of the submenu.
+constexpr std::array submenuIcons{ActionIcon{"Open recent", "history"},
+                                  ActionIcon{"Save deformed mesh", "shape"},
+                                  ActionIcon{"Save warped picture", "warped"},
+                                  ActionIcon{"Picture", "screenshot"},
+                                  ActionIcon{"Record and replay", "record"},
+                                  ActionIcon{"Steps of the pass", "stepForward"},
+                                  ActionIcon{"Panels", "panels"},
+                                  ActionIcon{"Compare with", "difference"},
+                                  ActionIcon{"Colour by", "colour"},
+                                  ActionIcon{"Theme", "theme"},
+                                  ActionIcon{"Rates over time", "frameRate"},
+                                  ActionIcon{"Softness presets", "preset"}};
 
-void nameDocks(QMainWindow& window) {
-  for (const QDockWidget* dock : window.findChildren<QDockWidget*>()) {
-    QAction* toggle = dock->toggleViewAction();
-    QString name = dock->objectName();
-    if (toggle->objectName().isEmpty() && !name.isEmpty()) {
-      name[0] = name[0].toUpper();
-      toggle->setObjectName(QStringLiteral("show") + name);
-    }
-    if (toggle->statusTip().isEmpty()) {
-      toggle->setStatusTip(QStringLiteral("Shows or hides the dock '%1'").arg(dock->windowTitle()));
-    }
+void addIcon(QAction& action) {
+  const bool isMenu = action.menu() != nullptr;
+  const QString name = isMenu ? action.text().remove(QLatin1Char('&')) : action.objectName();
+  const std::span<const ActionIcon> icons = isMenu ? std::span<const ActionIcon>(submenuIcons) : actionIcons;
+  const auto found =
+      std::ranges::find_if(icons, [&name](const ActionIcon& one) { return name == QLatin1String(one.name); });
+  if (found != icons.end() && action.icon().isNull()) {
+    action.setIcon(icon(found->icon));
   }
 }
 
-void giveIcons(const QMenu& menu) {
+void addIcons(const QMenu& menu) {
   for (QAction* action : menu.actions()) {
-    const QString words = action->text().remove(QLatin1Char('&'));
-    for (const ActionIcon& one : menuIcons) {
-      if (action->menu() != nullptr && words == QLatin1String(one.action) && action->icon().isNull()) {
-        action->setIcon(icon(one.icon));
-      }
+    addIcon(*action);
+    if (action->menu() != nullptr) {
+      addIcons(*action->menu());
     }
   }
 }
@@ -104,7 +91,7 @@ QChar mnemonicOf(const QString& text) {
   return at < 0 || at + 1 >= text.size() ? QChar() : text[at + 1].toLower();
 }
 
-/// A letter that is free, rather the first of a word.
+/// Returns the index of a letter that no other item uses, the first letter of a word if possible; -1 without one.
 qsizetype freeLetter(const QString& text, const QSet<QChar>& taken) {
   for (const bool first : {true, false}) {
     for (qsizetype i = 0; i < text.size(); ++i) {
@@ -117,7 +104,7 @@ qsizetype freeLetter(const QString& text, const QSet<QChar>& taken) {
   return -1;
 }
 
-void giveMnemonics(const QList<QAction*>& actions) {
+void addMnemonics(const QList<QAction*>& actions) {
   QSet<QChar> taken;
   QList<QAction*> without;
   for (QAction* action : actions) {
@@ -137,25 +124,18 @@ void giveMnemonics(const QList<QAction*>& actions) {
   }
   for (const QAction* action : actions) {
     if (action->menu() != nullptr) {
-      giveMnemonics(action->menu()->actions());
+      addMnemonics(action->menu()->actions());
     }
   }
 }
 
 }  // namespace
 
-void completeMenus(QMainWindow& window) {
-  nameDocks(window);
-  for (const ActionIcon& one : actionIcons) {
-    auto* action = window.findChild<QAction*>(QLatin1String(one.action));
-    if (action != nullptr && action->icon().isNull()) {
-      action->setIcon(icon(one.icon));
-    }
+void completeMenus(const QMenuBar& bar) {
+  for (const QAction* top : bar.actions()) {
+    addIcons(*top->menu());
   }
-  for (const QAction* top : window.menuBar()->actions()) {
-    giveIcons(*top->menu());
-  }
-  giveMnemonics(window.menuBar()->actions());
+  addMnemonics(bar.actions());
 }
 
 }  // namespace chainmail

@@ -1,12 +1,11 @@
 #pragma once
 
-class QMainWindow;
+class QMenuBar;
 
 namespace chainmail {
 
-/// Gives the actions of a window what they need beside each other, once all are there: the docks' own a name and an
-/// effect, named ones their icons, and every item of a menu a letter of its own, so that all can be reached by Alt.
-/// What was given before stays.
-void completeMenus(QMainWindow& window);
+/// Completes menus once all actions are in them: adds icons, and a mnemonic for every item, unique in its menu, so that
+/// Alt and letters reach all items. Icons and mnemonics that are already set stay.
+void completeMenus(const QMenuBar& bar);
 
 }  // namespace chainmail

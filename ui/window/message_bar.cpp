@@ -11,19 +11,19 @@
 namespace chainmail {
 namespace {
 
-constexpr std::size_t most = 50;  // nobody reads more; the oldest go
-constexpr int signSize = 18;      // pixels
+constexpr std::size_t mostMessages = 50;  // older ones are removed
+constexpr int signSize = 18;              // pixels
 
-struct Look {
+struct SeverityLook {
   const char* icon;
   const char* name;
   colours::Colour ground, sign;
 };
 
-const Look& lookOf(Severity severity) {
-  static constexpr std::array looks{Look{"info", "Note", colours::infoGround, colours::infoSign},
-                                    Look{"warning", "Warning", colours::warningGround, colours::warningSign},
-                                    Look{"error", "Error", colours::errorGround, colours::errorSign}};
+const SeverityLook& lookOf(Severity severity) {
+  static constexpr std::array looks{SeverityLook{"info", "Note", colours::infoGround, colours::infoSign},
+                                    SeverityLook{"warning", "Warning", colours::warningGround, colours::warningSign},
+                                    SeverityLook{"error", "Error", colours::errorGround, colours::errorSign}};
   return looks[std::size_t(severity)];
 }
 
@@ -40,11 +40,11 @@ MessageBar::MessageBar()
   waiting_->setObjectName(QStringLiteral("messagesWaiting"));
   all_->setObjectName(QStringLiteral("dismissAll"));
   all_->setText(QStringLiteral("Dismiss all"));
-  all_->setToolTip(QStringLiteral("Takes all messages away, unread ones too"));
+  all_->setToolTip(QStringLiteral("Removes all messages, including unread ones"));
   close_->setObjectName(QStringLiteral("dismiss"));
   close_->setIcon(icon("close"));
-  close_->setToolTip(QStringLiteral("Takes this message away (Esc); the one before it is shown again"));
-  close_->setAccessibleName(QStringLiteral("Dismiss the message"));
+  close_->setToolTip(QStringLiteral("Removes this message (Esc) and shows the one before it"));
+  close_->setAccessibleName(QStringLiteral("Dismiss message"));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(10, 4, 6, 4);
   row->setSpacing(8);
@@ -63,9 +63,9 @@ MessageBar::MessageBar()
 
 void MessageBar::add(Severity severity, const QString& sentence) {
   const Message message{severity, sentence};
-  std::erase(messages_, message);  // said again it is the newest, not a second one
+  std::erase(messages_, message);  // a repeated message becomes the newest one
   messages_.push_back(message);
-  if (messages_.size() > most) {
+  if (messages_.size() > mostMessages) {
     messages_.erase(messages_.begin());
   }
   refresh();
@@ -88,7 +88,7 @@ void MessageBar::clear() {
 
 void MessageBar::hideEvent(QHideEvent* event) {
   QFrame::hideEvent(event);
-  if (isHidden()) {  // itself, and not with the window
+  if (isHidden()) {  // hidden itself, not with the window
     messages_.clear();
   }
 }
@@ -104,7 +104,7 @@ void MessageBar::refresh() {
 }
 
 void MessageBar::paintGround() {
-  const Look& look = lookOf(severity());
+  const SeverityLook& look = lookOf(severity());
   QPalette own;
   own.setColor(QPalette::Window, look.ground);
   setPalette(own);

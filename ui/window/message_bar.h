@@ -10,29 +10,29 @@ namespace chainmail {
 
 enum class Severity { info, warning, error };
 
-/// Says in one sentence what happened and what to do, without standing in the way. What is newest is shown; what it
-/// covers waits until that was dismissed, so that no sentence is lost.
+/// Shows in one sentence what happened and what to do. The bar shows the newest message; older ones wait until it is
+/// dismissed.
 class MessageBar : public QFrame {
   Q_OBJECT
 
  public:
   MessageBar();
 
-  /// Something could not be done.
+  /// Shows an error: something failed.
   void say(const QString& sentence) { add(Severity::error, sentence); }
-  /// Something was not done as asked, or may surprise.
+  /// Shows a warning: the result differs from the request.
   void warn(const QString& sentence) { add(Severity::warning, sentence); }
-  /// Something was done that is worth knowing.
+  /// Shows a note.
   void note(const QString& sentence) { add(Severity::info, sentence); }
-  /// Takes the sentence away that is shown; the one before it is shown again.
+  /// Removes the shown message; the bar shows the one before it.
   void dismiss();
-  /// Takes all away, as hiding the bar does.
+  /// Removes all messages, as hiding the bar does.
   void clear();
 
-  /// What is shown; empty where nothing is.
+  /// Returns the shown message; empty if there is none.
   QString sentence() const { return messages_.empty() ? QString() : messages_.back().sentence; }
   Severity severity() const { return messages_.empty() ? Severity::info : messages_.back().severity; }
-  /// How many sentences there are, with the one that is shown.
+  /// Number of messages, including the shown one.
   int count() const { return int(messages_.size()); }
 
  protected:

@@ -20,11 +20,11 @@ PanelActions::PanelActions(PanelArea& area, Document& document, Colouring& colou
       compared_(new QAction(this)),
       add_(add(QStringLiteral("addPanel"), QStringLiteral("&Add panel"), Qt::Key_N, {})),
       remove_(add(QStringLiteral("removePanel"), QStringLiteral("&Remove panel"), Qt::SHIFT | Qt::Key_N, {})),
-      swap_(add(QStringLiteral("swapPanels"), QStringLiteral("S&wap places"), Qt::Key_W,
-                QStringLiteral("Each panel takes the next one's place: two exchange sides, with all that is theirs"))),
+      swap_(add(QStringLiteral("swapPanels"), QStringLiteral("S&wap panels"), Qt::Key_W,
+                QStringLiteral("Moves each panel to the place of the next one; two panels exchange sides"))),
       ghosts_(add(QStringLiteral("ghosts"), QStringLiteral("&Ghosts"), Qt::Key_G,
-                  QStringLiteral("Lays the next panel's object over each panel's own, see-through and in that panel's "
-                                 "colour; the button above a panel chooses another"))) {
+                  QStringLiteral("Shows the next panel's object over each panel's own, transparent and in that panel's "
+                                 "colour. The button above a panel chooses another"))) {
   add_->setIcon(icon("plus"));
   remove_->setIcon(icon("close"));
   swap_->setIcon(icon("swap"));
@@ -44,7 +44,7 @@ PanelActions::PanelActions(PanelArea& area, Document& document, Colouring& colou
 
 void PanelActions::listen() {
   connect(add_, &QAction::triggered, &document_, &Document::addPanel);
-  // Later: the button that was pressed goes with its panel.
+  // Queued, because the panel deletes the button that was pressed.
   connect(remove_, &QAction::triggered, &document_, &Document::removePanel, Qt::QueuedConnection);
   connect(swap_, &QAction::triggered, &area_, &PanelArea::rotatePanels);
   connect(ghosts_, &QAction::triggered, &area_, &PanelArea::setGhosts);
@@ -64,20 +64,20 @@ QAction* PanelActions::add(const QString& name, const QString& text, const QKeyS
   return action;
 }
 
-/// Those that every panel has one of.
+/// Makes the actions that exist once per panel.
 void PanelActions::makeOnes(int panel) {
   const QString name = panelName(panel);
   const auto key = Qt::Key(Qt::Key_1 + panel);
   show_ << add(
       QStringLiteral("showPanel%1").arg(name), QStringLiteral("Show &%1").arg(name), Qt::CTRL | key,
-      QStringLiteral("Panel %1 is on the screen; out of sight it goes on as the others do. One stays").arg(name));
+      QStringLiteral("Shows panel %1. Hidden panels keep running. At least one panel stays visible").arg(name));
   connect(show_.last(), &QAction::triggered, this, [this, panel](bool shown) {
     area_.setShown(panel, shown);
     refresh();
   });
   reference_ << add(
       QStringLiteral("compareWith%1").arg(name), QStringLiteral("Panel &%1").arg(name), {},
-      QStringLiteral("Colours of distance and difference compare all other panels with panel %1").arg(name));
+      QStringLiteral("Compares all other panels with panel %1 in colours of distance and difference").arg(name));
   connect(reference_.last(), &QAction::triggered, this, [this, panel] {
     colouring_.setReference(panel);
     refresh();
@@ -93,7 +93,7 @@ void PanelActions::makeOneAlone(int panel) {
   const QString name = panelName(panel);
   alone_ << add(QStringLiteral("showAlone%1").arg(name), QStringLiteral("%1 alone").arg(name),
                 Qt::ALT | Qt::Key(Qt::Key_1 + panel),
-                QStringLiteral("Panel %1 has all the room, or all are back (as a double-click on its head)").arg(name));
+                QStringLiteral("Show only panel %1, or all panels (or double-click the head of the panel)").arg(name));
   connect(alone_.last(), &QAction::triggered, this,
           [this, panel](bool alone) { area_.setAlone(alone ? std::optional(panel) : std::nullopt); });
 }
@@ -114,7 +114,7 @@ void PanelActions::fill(QToolBar& bar) {
   qobject_cast<QToolButton*>(bar.widgetForAction(compared_))->setPopupMode(QToolButton::InstantPopup);
 }
 
-/// What there are too many or too few panels for says so.
+/// Disabled actions explain why.
 void PanelActions::refreshCount() {
   const auto say = [](QAction* action, bool enabled, const QString& help) {
     action->setEnabled(enabled);
@@ -125,11 +125,11 @@ void PanelActions::refreshCount() {
   const int count = document_.panels();
   const bool full = count == Document::mostPanels, least = count == Document::fewestPanels;
   say(add_, !full,
-      full ? QStringLiteral("There are as many panels as there can be")
-           : QStringLiteral("One more panel, with the object as it stands in A, by another algorithm"));
+      full ? QStringLiteral("Not available: the window shows at most four panels")
+           : QStringLiteral("Adds a panel with the object as in panel A and another algorithm"));
   say(remove_, !least,
-      least ? QStringLiteral("Two panels stay: hide one of them, or show the other alone")
-            : QStringLiteral("Panel %1 goes, and what its algorithm did with it").arg(panelName(count - 1)));
+      least ? QStringLiteral("Not available: the window keeps two panels. Hide one of them instead")
+            : QStringLiteral("Removes panel %1 and its results").arg(panelName(count - 1)));
 }
 
 void PanelActions::refresh() {
@@ -139,7 +139,7 @@ void PanelActions::refresh() {
   }
   ghosts_->setChecked(area_.hasGhosts());
   compared_->setText(QStringLiteral("with %1").arg(panelName(colouring_.reference())));
-  compared_->setToolTip(QStringLiteral("The panel that all others are compared with"));
+  compared_->setToolTip(QStringLiteral("Panel that all others are compared with"));
   compared_->setVisible(comparesPanels(colouring_.mode()) && document_.panels() > 2);
 }
 
@@ -152,13 +152,13 @@ void PanelActions::refreshOnes(int panel) {
     action->setVisible(exists);
   }
   show_[panel]->setChecked(isSeen);
-  show_[panel]->setEnabled(!isSeen || seen.size() > 1);  // one stays, as its tip says
+  show_[panel]->setEnabled(!isSeen || seen.size() > 1);  // the last visible panel stays
   alone_[panel]->setChecked(area_.alone() == panel);
   reference_[panel]->setChecked(colouring_.reference() == panel);
   reference_[panel]->setEnabled(compares);
   reference_[panel]->setToolTip(
       compares ? reference_[panel]->statusTip()
-               : QStringLiteral("Colours compare panels when they show a distance or a difference: see 'Colour by'"));
+               : QStringLiteral("Not available: choose a distance or a difference in 'Colour by' first"));
 }
 
 }  // namespace chainmail

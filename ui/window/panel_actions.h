@@ -12,8 +12,8 @@ class Colouring;
 class Document;
 class PanelArea;
 
-/// What can be done with the panels as such, as named actions: which are shown, where, with whose ghost, and which one
-/// the others are compared with.
+/// Actions on the panels: add, remove, show, hide and swap them, lay ghosts over them, and choose the panel that the
+/// others are compared with.
 class PanelActions : public QObject {
   Q_OBJECT
 
@@ -21,7 +21,8 @@ class PanelActions : public QObject {
   PanelActions(PanelArea& area, Document& document, Colouring& colouring);
 
   void fill(QMenu& menu);
-  /// Adds the choice of the panel to compare with, which is there when it makes a difference.
+  /// Adds the choice of the panel to compare with. It is visible if there are more than two panels and the colours
+  /// compare panels.
   void fill(QToolBar& bar);
 
  private:
@@ -37,12 +38,12 @@ class PanelActions : public QObject {
   Document& document_;
   Colouring& colouring_;
   QMenu* compare_;
-  QAction* compared_;  // says with whom, in the tool bar
+  QAction* compared_;  // in the tool bar: shows the chosen panel
   QAction* add_;
   QAction* remove_;
   QAction* swap_;
   QAction* ghosts_;
-  QList<QAction*> show_, alone_, reference_;  // by the panel
+  QList<QAction*> show_, alone_, reference_;  // by panel
 };
 
 }  // namespace chainmail

@@ -18,7 +18,7 @@ bool canHaveKeys(const QAction& action) {
          !action.isSeparator() && action.menu() == nullptr;
 }
 
-/// Visits the actions of a menu and of the menus in it, with their place.
+/// Visits the actions of a menu and its submenus, each with its path.
 void walk(const QList<QAction*>& actions, const QString& place,
           const std::function<void(QAction*, const QString&)>& visit) {
   for (QAction* action : actions) {
@@ -116,7 +116,7 @@ QString Shortcuts::assign(QAction& action, const QKeySequence& keys) {
   const QList<QKeySequence> wanted = back ? standards : keys.isEmpty() ? QList<QKeySequence>() : QList{keys};
   for (const QKeySequence& one : wanted) {
     if (const QAction* other = owner(one, action)) {
-      return QStringLiteral("%1 belongs to '%2': press other keys, or give that action others first.")
+      return QStringLiteral("%1 belongs to '%2'. Press other keys, or change the keys of that action first.")
           .arg(one.toString(QKeySequence::NativeText), place(*other));
     }
   }
@@ -144,7 +144,7 @@ void Shortcuts::set(QAction& action, const QList<QKeySequence>& keys) {
   showKeys(action);
 }
 
-/// In the tool bar an action's keys are told by its tool tip.
+/// Shows the keys in the tool tip, for buttons of the tool bar.
 void Shortcuts::showKeys(QAction& action) {
   if (tipsOurs_.contains(action.objectName())) {
     const QString keys = action.shortcut().toString(QKeySequence::NativeText);

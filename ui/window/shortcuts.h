@@ -9,29 +9,29 @@ class QMainWindow;
 
 namespace chainmail {
 
-/// The keys of all named actions of a window: what they are by default, and what the user made of them, which is
-/// remembered under the actions' names.
+/// The keyboard shortcuts of all named actions of a window: the defaults, and the user's, which are stored in the
+/// settings under the object names of the actions.
 class Shortcuts : public QObject {
   Q_OBJECT
 
  public:
   explicit Shortcuts(QMainWindow& window) : window_(window) {}
 
-  /// Takes in the actions that have come since the last time, with the user's keys for them. Where the user gave a key
-  /// to one action that is another's default, that other has none.
+  /// Adds the actions made since the last call and gives them the user's keys. An action loses a default key that the
+  /// user has given to another action.
   void adopt();
 
   struct Entry {
     QAction* action;
-    QString place;  // where it is found, as "Edit › Undo"
+    QString place;  // path in the menus: "Edit › Undo"
   };
-  /// All actions that can be given keys, in the order of the menus; those that stand in none come last.
+  /// Returns all actions that can have keys, in the order of the menus; actions outside menus come last.
   std::vector<Entry> entries() const;
   QString place(const QAction& action) const;
 
   QKeySequence standard(const QAction& action) const;
-  /// Gives an action other keys, or none. Where they belong to another action nothing is changed, and the answer is a
-  /// sentence that says so; else it is empty.
+  /// Gives an action other keys, or none. If the keys belong to another action, changes nothing and returns a sentence
+  /// that says so; else returns an empty string.
   QString assign(QAction& action, const QKeySequence& keys);
   QString reset(QAction& action) { return assign(action, standard(action)); }
   void resetAll();
@@ -46,11 +46,11 @@ class Shortcuts : public QObject {
   QAction* owner(const QKeySequence& keys, const QAction& but) const;
 
   QMainWindow& window_;
-  QMap<QString, QList<QKeySequence>> standard_;  // by the actions' names
-  QSet<QString> tipsOurs_;                       // whose tool tips nobody else wrote
+  QMap<QString, QList<QKeySequence>> standard_;  // by object name
+  QSet<QString> tipsOurs_;                       // actions whose tool tips are made here
 };
 
-/// The words of an action, without its mnemonic.
+/// Returns the text of an action without its mnemonic and ellipsis.
 QString plainText(const QAction& action);
 
 }  // namespace chainmail

@@ -53,13 +53,13 @@ ShortcutsDialog::ShortcutsDialog(Shortcuts& shortcuts, QWidget* parent)
 
 void ShortcutsDialog::makeList() {
   describe(*search_, "shortcutSearch", QStringLiteral("Search the actions"),
-           QStringLiteral("Shows the actions whose name, effect or keys contain these words"));
+           QStringLiteral("Shows only the actions whose name, effect or keys contain these words"));
   search_->setPlaceholderText(QStringLiteral("Search actions, effects or keys"));
   search_->setClearButtonEnabled(true);
   search_->addAction(icon("search"), QLineEdit::LeadingPosition);
   search_->installEventFilter(this);
   describe(*list_, "shortcutList", QStringLiteral("Actions and their keys"),
-           QStringLiteral("Choose an action to change its keys; Enter goes to the field for them"));
+           QStringLiteral("Select an action to change its keys. Enter moves to the field for keys"));
   list_->setHeaderLabels({QStringLiteral("Action"), QStringLiteral("Keys"), QStringLiteral("Effect")});
   list_->setRootIsDecorated(false);
   list_->setAlternatingRowColors(true);
@@ -72,11 +72,11 @@ void ShortcutsDialog::makeList() {
 
 QLayout* ShortcutsDialog::makeEditor() {
   describe(*keys_, "shortcutKeys", QStringLiteral("Keys of the action"),
-           QStringLiteral("Press the keys that are to trigger the action; they count at once"));
-  describe(*none_, "shortcutNone", QStringLiteral("No keys"), QStringLiteral("The action has no keys any more"));
+           QStringLiteral("Press the new keys of the action; they are set at once"));
+  describe(*none_, "shortcutNone", QStringLiteral("No keys"), QStringLiteral("Removes the keys of the action"));
   describe(*reset_, "shortcutReset", QStringLiteral("Reset the keys of the action"), QString());
   describe(*resetAll_, "shortcutResetAll", QStringLiteral("Reset the keys of all actions"),
-           QStringLiteral("All actions have the keys again that the workbench came with"));
+           QStringLiteral("Restores the default keys of all actions"));
   whose_->setBuddy(keys_);
   whose_->setMinimumWidth(200);
   answer_->setObjectName(QStringLiteral("shortcutAnswer"));
@@ -91,12 +91,12 @@ QLayout* ShortcutsDialog::makeEditor() {
   row->addWidget(reset_);
   row->addSpacing(16);
   row->addWidget(resetAll_);
-  keys_->installEventFilter(this);  // its own signal waits a second for more keys
-  connect(none_, &QPushButton::clicked, this, [this] { tell(shortcuts_.assign(*chosen(), {})); });
-  connect(reset_, &QPushButton::clicked, this, [this] { tell(shortcuts_.reset(*chosen())); });
+  keys_->installEventFilter(this);  // QKeySequenceEdit waits 1 s for more keys before its signal
+  connect(none_, &QPushButton::clicked, this, [this] { showAnswer(shortcuts_.assign(*chosen(), {})); });
+  connect(reset_, &QPushButton::clicked, this, [this] { showAnswer(shortcuts_.reset(*chosen())); });
   connect(resetAll_, &QPushButton::clicked, this, [this] {
     shortcuts_.resetAll();
-    tell({});
+    showAnswer({});
   });
   return row;
 }
@@ -110,7 +110,7 @@ void ShortcutsDialog::showEvent(QShowEvent* event) {
   QDialog::showEvent(event);
 }
 
-/// Arrows go from the words to the list; in the field for keys all keys are an answer but those that lead out of it.
+/// In the search field, arrow keys move to the list. The field for keys takes all keys except Tab and Esc.
 bool ShortcutsDialog::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() != QEvent::KeyPress) {
     return QDialog::eventFilter(watched, event);
@@ -182,14 +182,14 @@ void ShortcutsDialog::showChosen() {
   const QAction* action = chosen();
   const QSignalBlocker block(keys_);
   keys_->setKeySequence(action == nullptr ? QKeySequence() : action->shortcut());
-  whose_->setText(action == nullptr ? QStringLiteral("No action is chosen")
+  whose_->setText(action == nullptr ? QStringLiteral("No action selected")
                                     : QStringLiteral("&Keys of '%1'").arg(plainText(*action)));
   const QKeySequence standard = action == nullptr ? QKeySequence() : shortcuts_.standard(*action);
   keys_->setEnabled(action != nullptr);
   none_->setEnabled(action != nullptr && !action->shortcut().isEmpty());
   reset_->setEnabled(action != nullptr && action->shortcut() != standard);
-  reset_->setToolTip(standard.isEmpty() ? QStringLiteral("The action came without keys")
-                                        : QStringLiteral("Back to %1").arg(shown(standard)));
+  reset_->setToolTip(standard.isEmpty() ? QStringLiteral("The action has no default keys")
+                                        : QStringLiteral("Resets the keys to %1").arg(shown(standard)));
   answer_->clear();
 }
 
@@ -203,12 +203,12 @@ void ShortcutsDialog::take(const QKeyEvent& press) {
   auto modifiers = press.modifiers() & ~Qt::KeypadModifier;
   const QString text = press.text();
   if (text.size() == 1 && text[0].isPrint() && !text[0].isLetter() && !text[0].isSpace()) {
-    modifiers &= ~Qt::ShiftModifier;  // it was needed to write the sign
+    modifiers &= ~Qt::ShiftModifier;  // Shift was needed to type the character
   }
-  tell(shortcuts_.assign(*chosen(), QKeySequence(QKeyCombination(modifiers, Qt::Key(key)))));
+  showAnswer(shortcuts_.assign(*chosen(), QKeySequence(QKeyCombination(modifiers, Qt::Key(key)))));
 }
 
-void ShortcutsDialog::tell(const QString& sentence) {
+void ShortcutsDialog::showAnswer(const QString& sentence) {
   showChosen();
   answer_->setText(sentence);
 }

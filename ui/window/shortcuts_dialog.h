@@ -11,8 +11,8 @@
 
 namespace chainmail {
 
-/// The list of all actions with their keys, which can be searched, and in which keys are changed. It is not modal:
-/// what was changed can be tried at once.
+/// The list of all actions with their keys, with a search field and an editor for keys. It is not modal: changed keys
+/// can be tried at once.
 class ShortcutsDialog : public QDialog {
   Q_OBJECT
 
@@ -30,7 +30,7 @@ class ShortcutsDialog : public QDialog {
   void filter();
   void showChosen();
   void take(const QKeyEvent& press);
-  void tell(const QString& sentence);
+  void showAnswer(const QString& sentence);
   QAction* chosen() const;
 
   Shortcuts& shortcuts_;

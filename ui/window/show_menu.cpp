@@ -1,6 +1,8 @@
 #include "window/show_menu.h"
 
 #include <QActionGroup>
+#include <algorithm>
+#include <array>
 
 #include "common/icons.h"
 #include "drawing/object_drawing.h"
@@ -17,18 +19,18 @@ struct Choice {
   Look look;
 };
 constexpr std::array choices{
-    Choice{"links", "showLinks", "&Links", Qt::Key_1, "Every link of the object, and no faces", {false, true}},
+    Choice{"links", "showLinks", "&Links", Qt::Key_1, "All links of the object, without faces", {false, true}},
     Choice{"surface",
            "showSurface",
            "&Surface",
            Qt::Key_2,
-           "The faces alone, of a volume those of its outside; links only where they are coloured by a value",
+           "Only the faces (of a volume: its outside), and links that are coloured by a value",
            {true, false}},
     Choice{"both",
            "showSurfaceAndLinks",
            "Surface &and links",
            Qt::Key_3,
-           "The faces, of a volume those of its outside, and the links on them",
+           "The faces (of a volume: its outside) and the links on them",
            {true, true}}};
 
 bool hasFaces(const Mesh& mesh) {
@@ -46,9 +48,8 @@ ShowMenu::ShowMenu(const Document& document, QObject* parent) : QObject(parent),
 }
 
 void ShowMenu::fill(QMenu& menu) {
-  auto* show = menu.addMenu(icon("mesh"), QStringLiteral("Sho&w"));
-  show->setObjectName(QStringLiteral("showMenu"));
-  show->setToolTipsVisible(true);
+  menu_ = menu.addMenu(icon("mesh"), QStringLiteral("Sho&w"));
+  menu_->setToolTipsVisible(true);
   auto* group = new QActionGroup(this);
   for (const Choice& one : choices) {
     auto* action = group->addAction(QString::fromUtf8(one.text));
@@ -58,7 +59,7 @@ void ShowMenu::fill(QMenu& menu) {
     action->setStatusTip(QString::fromUtf8(one.tip));
     const QString name = QLatin1String(one.name);
     connect(action, &QAction::triggered, this, [this, name] { choose(name); });
-    show->addAction(action);
+    menu_->addAction(action);
     actions_[name] = action;
   }
   adapt();
@@ -91,7 +92,7 @@ void ShowMenu::adapt() {
   for (const auto& [name, action] : actions_) {
     const bool possible = faces || name == QLatin1String("links");
     action->setEnabled(possible);
-    action->setToolTip(possible ? action->statusTip() : QStringLiteral("This object has links alone, and no faces"));
+    action->setToolTip(possible ? action->statusTip() : QStringLiteral("Not available: this object has no faces"));
   }
   actions_.at(faces ? chosen() : QStringLiteral("links"))->setChecked(true);
   emit changed();

@@ -9,8 +9,8 @@
 
 namespace chainmail {
 
-/// The View menu's choice of what all panels show of the object: links, surface, or both. It is remembered, apart for
-/// sheets that carry a picture, which links would cover.
+/// The View menu's choice of what all panels show of the object: links, surface, or both. The choice is stored; sheets
+/// with a picture have a stored choice of their own, because links would cover the picture.
 class ShowMenu : public QObject {
   Q_OBJECT
 
@@ -19,8 +19,11 @@ class ShowMenu : public QObject {
   void fill(QMenu& menu);
 
   Look look() const;
-  /// What is chosen for this kind of object, as the session keeps it; what has another name is no choice.
+  /// The submenu; it exists after fill().
+  QMenu& menu() const { return *menu_; }
+  /// Returns the name of the choice for this kind of object, as sessions store it.
   QString chosen() const;
+  /// Ignores unknown names.
   void choose(const QString& name);
 
  signals:
@@ -30,6 +33,7 @@ class ShowMenu : public QObject {
   void adapt();
 
   const Document& document_;
+  QMenu* menu_ = nullptr;
   std::map<QString, QAction*> actions_;  // by name
 };
 

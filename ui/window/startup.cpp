@@ -9,19 +9,19 @@
 #include "common/theme.h"
 #include "common/workbench_style.h"
 
-// The shaders lie in a static library: they must be asked for, outside any namespace.
+// Resources of a static library must be initialised explicitly, outside any namespace.
 static void loadResources() { Q_INIT_RESOURCE(workbench); }
 
 namespace chainmail {
 
 void prepareApplication() {
   loadResources();
-  // Without sharing, a view that is docked anew loses all that the graphics card holds.
+  // Without shared contexts, a view loses its OpenGL objects when it is docked again.
   QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
   QSurfaceFormat format;
   format.setVersion(3, 3);
   format.setProfile(QSurfaceFormat::CoreProfile);
-  format.setOption(QSurfaceFormat::DeprecatedFunctions);  // lines wider than a pixel: marks, and colours with a meaning
+  format.setOption(QSurfaceFormat::DeprecatedFunctions);  // for lines wider than a pixel
   format.setDepthBufferSize(24);
   QSurfaceFormat::setDefaultFormat(format);
   QCoreApplication::setOrganizationName(QStringLiteral("ChainMail"));
@@ -38,7 +38,7 @@ void styleApplication() {
 
 QString whyNoWindow() {
   const QString platform = QGuiApplication::platformName();
-  // These crash at the first OpenGL widget.
+  // These crash with the first OpenGL widget.
   for (const char* without : {"offscreen", "minimal", "linuxfb", "vnc"}) {
     if (platform == QLatin1String(without)) {
       return QStringLiteral(

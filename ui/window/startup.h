@@ -4,13 +4,13 @@
 
 namespace chainmail {
 
-/// To be called before the application object is made: sharp scaling and views that survive docking.
+/// Sets attributes that must be set before the application object is made: OpenGL, shared contexts, settings.
 void prepareApplication();
 
-/// After the application object is made: names, style and palette.
+/// Sets icon, style and palette after the application object is made.
 void styleApplication();
 
-/// Says why the workbench cannot draw on this platform, or nothing where it can.
+/// Returns why the workbench cannot draw on this platform; empty if it can.
 QString whyNoWindow();
 
 }  // namespace chainmail

@@ -10,15 +10,15 @@
 namespace chainmail {
 namespace {
 
-// The desktops' common place for what all programs should look like (XDG desktop portal, Settings).
+// The XDG desktop portal with the settings of the desktop.
 constexpr QLatin1String service("org.freedesktop.portal.Desktop");
 constexpr QLatin1String path("/org/freedesktop/portal/desktop");
 constexpr QLatin1String interface("org.freedesktop.portal.Settings");
 constexpr QLatin1String space("org.freedesktop.appearance");
 constexpr QLatin1String key("color-scheme");
-constexpr unsigned schemeDark = 1, schemeLight = 2;  // 0: the user prefers neither
+constexpr unsigned schemeDark = 1, schemeLight = 2;  // 0: no preference
 
-QString unknownTip() { return QStringLiteral("This desktop does not say whether it is dark or light"); }
+QString unknownTip() { return QStringLiteral("Not available: this desktop does not report its theme"); }
 
 }  // namespace
 
@@ -36,11 +36,12 @@ void ThemeMenu::fill(QMenu& menu) {
     themes->addAction(action);
     return action;
   };
-  auto* dark = add("themeDark", QStringLiteral("&Dark"), Theme::dark, QStringLiteral("Light words on a dark ground"));
-  add("themeLight", QStringLiteral("&Light"), Theme::light, QStringLiteral("Dark words on a light ground"));
-  system_ = add("themeSystem", QStringLiteral("As the &system"), Theme::system,
-                QStringLiteral("Dark or light as the desktop is, also when it changes"));
-  system_->setEnabled(false);  // until the desktop has answered
+  auto* dark =
+      add("themeDark", QStringLiteral("&Dark"), Theme::dark, QStringLiteral("Light text on a dark background"));
+  add("themeLight", QStringLiteral("&Light"), Theme::light, QStringLiteral("Dark text on a light background"));
+  system_ = add("themeSystem", QStringLiteral("Follow &system"), Theme::system,
+                QStringLiteral("Follows the theme of the desktop"));
+  system_->setEnabled(false);  // until the desktop has replied
   system_->setToolTip(unknownTip());
   if (rememberedTheme() == Theme::system && rememberedGround() == colours::Ground::dark) {
     dark->setChecked(true);
@@ -55,7 +56,7 @@ void ThemeMenu::choose(Theme theme) {
 
 void ThemeMenu::askSystem() {
   if (qEnvironmentVariableIsEmpty("DBUS_SESSION_BUS_ADDRESS")) {
-    return;  // to ask would start a bus
+    return;  // a request would start a bus
   }
   auto bus = QDBusConnection::sessionBus();
   bus.connect(service, path, interface, QStringLiteral("SettingChanged"), this,
@@ -67,7 +68,7 @@ void ThemeMenu::askSystem() {
     const QDBusPendingReply<QDBusVariant> reply = *answer;
     answer->deleteLater();
     if (!reply.isError()) {
-      // 'Read' wraps its answer twice.
+      // 'Read' wraps its reply twice.
       const QVariant outer = reply.value().variant();
       const bool wrapped = outer.canConvert<QDBusVariant>();
       heardOfSystem((wrapped ? outer.value<QDBusVariant>().variant() : outer).toUInt());

@@ -10,8 +10,8 @@ class QDBusVariant;
 
 namespace chainmail {
 
-/// The View menu's choice of theme. It also hears from the desktop (its settings portal, where there is one) what
-/// the system looks like, and follows it where that was chosen.
+/// The View menu's choice of theme: dark, light, or the desktop's. It reads the desktop's theme from the XDG settings
+/// portal, if there is one, and follows its changes.
 class ThemeMenu : public QObject {
   Q_OBJECT
 

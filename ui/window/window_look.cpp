@@ -1,7 +1,5 @@
 #include "window/window_look.h"
 
-#include <QAction>
-#include <QDockWidget>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
@@ -12,13 +10,12 @@
 #include "docks/section_dock.h"
 #include "panels/panel.h"
 #include "panels/panel_area.h"
+#include "window/docks.h"
 #include "window/main_window.h"
 #include "window/show_menu.h"
 
 namespace chainmail {
 namespace {
-
-QAction& linkCameras(MainWindow& window) { return *window.findChild<QAction*>(QStringLiteral("linkCameras")); }
 
 QJsonObject toJson(const Camera::Pose& pose) {
   return {{QStringLiteral("centre"), QJsonArray{pose.centre.x(), pose.centre.y(), pose.centre.z()}},
@@ -29,7 +26,7 @@ QJsonObject toJson(const Camera::Pose& pose) {
           {QStringLiteral("framed"), pose.framed}};
 }
 
-/// JSON holds no numbers that are none, but some that no float holds.
+/// Keeps the present pose where the JSON lacks a value. JSON has no NaN, but numbers that are infinite as float.
 Camera::Pose poseOf(const QJsonObject& json, const Camera::Pose& present) {
   const auto number = [&](const char* key, double otherwise) { return json[QLatin1String(key)].toDouble(otherwise); };
   Camera::Pose pose{present.centre,
@@ -47,12 +44,13 @@ Camera::Pose poseOf(const QJsonObject& json, const Camera::Pose& present) {
 }
 
 void takeCameras(MainWindow& window, const QJsonObject& look) {
-  linkCameras(window).setChecked(look[QStringLiteral("linked")].toBool(linkCameras(window).isChecked()));
+  PanelLinks& links = window.area().links();
+  links.setCameras(look[QStringLiteral("linked")].toBool(links.cameras()));
   const QJsonArray cameras = look[QStringLiteral("cameras")].toArray();
   for (int panel = 0; panel < std::min(int(cameras.size()), window.document().panels()); ++panel) {
     View& view = window.panel(panel).view();
     view.camera()->setPose(poseOf(cameras[panel].toObject(), view.camera()->pose()));
-    view.fitAgain();  // this window may have another size
+    view.fitAgain();  // the saved window may have had another size
     emit view.cameraChanged();
     view.update();
   }
@@ -75,10 +73,10 @@ std::string lookOf(MainWindow& window) {
   }
   const QString layout = QString::fromLatin1(window.savedLayout().toBase64());
   const QJsonObject look{{QStringLiteral("cameras"), cameras},
-                         {QStringLiteral("linked"), linkCameras(window).isChecked()},
+                         {QStringLiteral("linked"), window.area().links().cameras()},
                          {QStringLiteral("colour"), text(info(window.colouring().mode()).name)},
-                         {QStringLiteral("show"), window.findChild<ShowMenu*>()->chosen()},
-                         {QStringLiteral("section"), window.findChild<SectionDock*>()->toJson()},
+                         {QStringLiteral("show"), window.showMenu().chosen()},
+                         {QStringLiteral("section"), window.docks().get<SectionDock>().toJson()},
                          {QStringLiteral("layout"), layout},
                          {QStringLiteral("file"), window.document().sessionFile()}};
   return QJsonDocument(look).toJson(QJsonDocument::Compact).toStdString();
@@ -89,8 +87,8 @@ void takeLook(MainWindow& window, const std::string& json) {
   if (const QString layout = look[QStringLiteral("layout")].toString(); !layout.isEmpty()) {
     window.takeLayout(QByteArray::fromBase64(layout.toLatin1()));
   }
-  window.findChild<ShowMenu*>()->choose(look[QStringLiteral("show")].toString());
-  window.findChild<SectionDock*>()->take(look[QStringLiteral("section")].toObject());
+  window.showMenu().choose(look[QStringLiteral("show")].toString());
+  window.docks().get<SectionDock>().take(look[QStringLiteral("section")].toObject());
   takeColours(window, look[QStringLiteral("colour")].toString());
   takeCameras(window, look);
 }
@@ -99,15 +97,15 @@ void followLook(MainWindow& window, QObject& context, const std::function<void()
   const auto followPanel = [&context, changed](Panel* panel) {
     QObject::connect(&panel->view(), &View::cameraChanged, &context, changed);
   };
-  auto* area = window.findChild<PanelArea*>();
-  std::ranges::for_each(area->panels(), followPanel);
-  QObject::connect(area, &PanelArea::added, &context, followPanel);
+  PanelArea& area = window.area();
+  std::ranges::for_each(area.panels(), followPanel);
+  QObject::connect(&area, &PanelArea::added, &context, followPanel);
   QObject::connect(&window.document(), &Document::panelsChanged, &context, changed);
   QObject::connect(&window.colouring(), &Colouring::modeChanged, &context, changed);
-  QObject::connect(&linkCameras(window), &QAction::toggled, &context, changed);
-  QObject::connect(window.findChild<ShowMenu*>(), &ShowMenu::changed, &context, changed);
-  QObject::connect(window.findChild<SectionDock*>(), &SectionDock::changed, &context, changed);
-  for (const QDockWidget* dock : window.findChildren<QDockWidget*>()) {
+  QObject::connect(&area.links(), &PanelLinks::camerasLinked, &context, changed);
+  QObject::connect(&window.showMenu(), &ShowMenu::changed, &context, changed);
+  QObject::connect(&window.docks().get<SectionDock>(), &SectionDock::changed, &context, changed);
+  for (const QDockWidget* dock : window.docks().all()) {
     QObject::connect(dock, &QDockWidget::visibilityChanged, &context, changed);
     QObject::connect(dock, &QDockWidget::topLevelChanged, &context, changed);
     QObject::connect(dock, &QDockWidget::dockLocationChanged, &context, changed);

@@ -9,13 +9,13 @@ namespace chainmail {
 
 class MainWindow;
 
-/// How a window looks at its object, as a session keeps it: cameras, colours, docks. JSON that core does not look into.
+/// Returns how the window shows its object, as JSON for a session: cameras, colours, section, docks.
 std::string lookOf(MainWindow& window);
 
-/// Takes a look up again; what is missing, or none, stays as it is.
+/// Restores a look. Parts that the JSON lacks stay unchanged.
 void takeLook(MainWindow& window, const std::string& look);
 
-/// Calls `changed` after something that lookOf returns has changed, as long as `context` lives.
+/// Calls `changed` after a change of what lookOf returns, as long as `context` lives.
 void followLook(MainWindow& window, QObject& context, const std::function<void()>& changed);
 
 }  // namespace chainmail

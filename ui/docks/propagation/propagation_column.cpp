@@ -11,8 +11,8 @@
 namespace chainmail {
 namespace {
 
-constexpr int smallestWidth = 198;  // pixels: what three columns take
-constexpr int smallestList = 84;    // pixels: some four candidates, below which it scrolls
+constexpr int smallestWidth = 198;  // pixels, for three columns
+constexpr int smallestList = 84;    // pixels, about four rows
 constexpr int swatchSize = 10;
 constexpr int cellMargin = 4;
 
@@ -30,19 +30,19 @@ PropagationColumn::PropagationColumn(Document& document, Propagation& propagatio
   title_->setObjectName(QStringLiteral("propagationPanel%1").arg(panel));
   choice_->setObjectName(QStringLiteral("propagationChoice%1").arg(panel));
   choice_->setAccessibleName(QStringLiteral("Step panel %1").arg(panelName(panel)));
-  choice_->setToolTip(QStringLiteral("The buttons and keys step this panel; its own slider always does"));
+  choice_->setToolTip(QStringLiteral("Buttons and keys step this panel. Its slider always does"));
   choice_->setAutoExclusive(false);
   slider_->setObjectName(QStringLiteral("propagationStep%1").arg(panel));
-  slider_->setAccessibleName(QStringLiteral("Step of the pass of panel %1").arg(panelName(panel)));
-  slider_->setToolTip(QStringLiteral("The step of the pass that the panel shows: how many candidates have been taken"));
+  slider_->setAccessibleName(QStringLiteral("Step of the pass in panel %1").arg(panelName(panel)));
+  slider_->setToolTip(QStringLiteral("Shown step of the pass: number of candidates taken"));
   state_->setObjectName(QStringLiteral("propagationState%1").arg(panel));
   state_->setWordWrap(true);
-  title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // the panels beside must not be pushed about
+  title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // must not widen the dock
   makeList();
   arrange();
   connect(choice_, &QRadioButton::clicked, this, [this] {
     propagation_.choose(panel_);
-    refresh();  // it stays checked
+    refresh();  // keeps the button checked
   });
   connect(slider_, &QSlider::valueChanged, this, [this](int step) { propagation_.setStep(panel_, std::size_t(step)); });
 }
@@ -92,11 +92,11 @@ QString PropagationColumn::describe(const PassPlayer& player) const {
     return text + QStringLiteral("<b>%1</b> waiting").arg(locale.toString(qulonglong(model_.waitingCount())));
   }
   if (player.pass().algorithm == Algorithm::exact) {
-    return text + QStringLiteral("no waiting list: steps to come, who goes furthest first");
+    return text + QStringLiteral("no waiting list: lists the steps to come, longest move first");
   }
   return text + (player.stepCount() > PassPlayer::listedSteps
-                     ? QStringLiteral("too long a pass for its waiting list: steps to come")
-                     : QStringLiteral("its waiting list is not known: steps to come"));
+                     ? QStringLiteral("pass too long for a waiting list: lists the steps to come")
+                     : QStringLiteral("waiting list not known: lists the steps to come"));
 }
 
 void PropagationColumn::refresh() {
@@ -113,7 +113,7 @@ void PropagationColumn::refresh() {
   slider_->setPageStep(std::max(1, slider_->maximum() / 10));
   slider_->setValue(player != nullptr ? int(player->step()) : 0);
   state_->setText(elastic_method(document_.algorithm(panel_))
-                      ? QStringLiteral("No candidates: it solves for all elements at once")
+                      ? QStringLiteral("No candidates: this method solves for all elements at once")
                   : player != nullptr ? describe(*player)
                                       : QStringLiteral("No pass yet: drag an element"));
 }

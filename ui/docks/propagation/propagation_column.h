@@ -10,14 +10,14 @@
 
 namespace chainmail {
 
-/// One panel's pass in the Propagation dock: where it is, and its waiting list.
+/// The pass of one panel in the Propagation dock: its current step and its waiting list.
 class PropagationColumn : public QWidget {
   Q_OBJECT
 
  public:
   PropagationColumn(Document& document, Propagation& propagation, int panel);
 
-  /// Shows the pass as it is looked at now.
+  /// Shows the current step of the pass.
   void refresh();
 
  private:

@@ -15,29 +15,27 @@
 namespace chainmail {
 namespace {
 
-constexpr std::array speeds{1, 2, 5, 10, 30, 100, 1000, 10'000};  // steps a second
+constexpr std::array speeds{1, 2, 5, 10, 30, 100, 1000, 10'000};  // steps per second
 constexpr int usualSpeed = 5;
-constexpr int columnsInARow = 2;
+constexpr int columnsPerRow = 2;
 
 }  // namespace
 
 PropagationDock::PropagationDock(Document& document, Propagation& propagation, PropagationOverlay& overlay)
-    : QDockWidget(QStringLiteral("Propagation")),
-      propagation_(propagation),
+    : propagation_(propagation),
       overlay_(overlay),
       speed_(new QComboBox),
       together_(new QCheckBox(QStringLiteral("Panels &together"))),
       arrows_(new QCheckBox(QStringLiteral("&Arrows"))) {
-  setObjectName(QStringLiteral("propagationDock"));
   makeActions();
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
   column->addWidget(makeButtons());
   column->addWidget(makeChoices());
-  auto* lists = new QGridLayout;  // two in a row, as the panels are
+  auto* lists = new QGridLayout;  // two per row, like the panels
   for (int panel = 0; panel < Document::mostPanels; ++panel) {
     columns_.push_back(new PropagationColumn(document, propagation, panel));
-    lists->addWidget(columns_.back(), panel / columnsInARow, panel % columnsInARow);
+    lists->addWidget(columns_.back(), panel / columnsPerRow, panel % columnsPerRow);
   }
   const auto adapt = [this, &document] {
     for (int panel = 0; panel < Document::mostPanels; ++panel) {
@@ -64,18 +62,20 @@ QAction* PropagationDock::add(const QString& name, const QString& text, const QK
 }
 
 void PropagationDock::makeActions() {
-  first_ = add(QStringLiteral("passFirst"), QStringLiteral("&First step"), Qt::CTRL | Qt::Key_Comma,
-               QStringLiteral("To where the pass begins: the hand is at its target, nothing has followed yet"));
+  first_ =
+      add(QStringLiteral("passFirst"), QStringLiteral("&First step"), Qt::CTRL | Qt::Key_Comma,
+          QStringLiteral(
+              "Goes to the start of the pass: the handle is at its target, all other elements have not moved yet"));
   back_ = add(QStringLiteral("passBack"), QStringLiteral("Step &back"), Qt::Key_Comma,
-              QStringLiteral("One candidate of the pass back"));
+              QStringLiteral("Goes back by one candidate of the pass"));
   play_ = add(QStringLiteral("passPlay"), QStringLiteral("&Slow motion"), Qt::CTRL | Qt::Key_Space,
-              QStringLiteral("Goes through the pass at the chosen steps a second, or stops there"));
+              QStringLiteral("Plays the pass at the selected speed, or pauses"));
   forward_ = add(QStringLiteral("passForward"), QStringLiteral("Step f&orward"), Qt::Key_Period,
-                 QStringLiteral("One candidate of the pass on"));
+                 QStringLiteral("Goes forward by one candidate of the pass"));
   last_ = add(QStringLiteral("passLast"), QStringLiteral("&Last step"), Qt::CTRL | Qt::Key_Period,
-              QStringLiteral("To where the pass ends"));
-  follow_ = add(QStringLiteral("passFollow"), QStringLiteral("Follow the &hand"), Qt::SHIFT | Qt::Key_O,
-                QStringLiteral("Shows the last pass as it comes; else one pass is held and looked at"));
+              QStringLiteral("Goes to the end of the pass"));
+  follow_ = add(QStringLiteral("passFollow"), QStringLiteral("Follow &drag"), Qt::SHIFT | Qt::Key_O,
+                QStringLiteral("On: always shows the last pass. Off: keeps the present pass"));
   play_->setCheckable(true);
   follow_->setCheckable(true);
   connect(first_, &QAction::triggered, this, [this] { propagation_.goTo(0); });
@@ -111,7 +111,7 @@ QWidget* PropagationDock::makeButtons() {
 void PropagationDock::makeSpeeds() {
   speed_->setObjectName(QStringLiteral("passSpeed"));
   speed_->setAccessibleName(QStringLiteral("Speed of slow motion"));
-  speed_->setToolTip(QStringLiteral("Speed of slow motion: steps a second"));
+  speed_->setToolTip(QStringLiteral("Speed of slow motion (steps per second)"));
   for (const int speed : speeds) {
     speed_->addItem(QStringLiteral("%L1 steps/s").arg(speed), speed);
   }
@@ -130,10 +130,10 @@ QWidget* PropagationDock::makeChoices() {
   layout->addWidget(follow);
   together_->setObjectName(QStringLiteral("passTogether"));
   together_->setChecked(true);
-  together_->setToolTip(QStringLiteral("All panels go to the same step, or the chosen one alone"));
+  together_->setToolTip(QStringLiteral("On: all panels go to the same step. Off: only the selected panel steps"));
   arrows_->setObjectName(QStringLiteral("passArrows"));
   arrows_->setChecked(true);
-  arrows_->setToolTip(QStringLiteral("Arrows from each sponsor to the element that it has updated"));
+  arrows_->setToolTip(QStringLiteral("Shows arrows from each sponsor to the element that it has updated"));
   layout->addWidget(together_);
   layout->addWidget(arrows_);
   layout->addStretch();
@@ -146,13 +146,6 @@ QWidget* PropagationDock::makeChoices() {
 }
 
 void PropagationDock::fill(QMenu& menu) {
-  QAction* show = toggleViewAction();
-  show->setObjectName(QStringLiteral("showPropagation"));
-  show->setIcon(icon("propagation"));
-  show->setText(QStringLiteral("&Propagation, step by step"));
-  show->setShortcut(Qt::Key_O);
-  show->setStatusTip(QStringLiteral("Slow motion and single steps through a pass, its waiting list and its order"));
-  menu.addAction(show);
   auto* steps = menu.addMenu(QStringLiteral("Steps of the p&ass"));
   steps->addActions({first_, back_, play_, forward_, last_});
   steps->addSeparator();
@@ -167,7 +160,7 @@ void PropagationDock::refresh() {
   emit changed();
 }
 
-/// What has nothing to act on says why.
+/// Disabled actions explain why.
 void PropagationDock::refreshActions() {
   const bool ready = propagation_.isOpen() && propagation_.hasPass();
   const QString why = propagation_.isOpen() ? QStringLiteral("no pass yet: drag an element")

@@ -12,18 +12,18 @@ class QMenu;
 
 namespace chainmail {
 
-/// Slow motion and single steps through a pass, forward and back, with the waiting lists of all panels.
+/// Shows a pass in slow motion and in single steps, forward and back, with the waiting lists of all panels.
 class PropagationDock : public QDockWidget {
   Q_OBJECT
 
  public:
   PropagationDock(Document& document, Propagation& propagation, PropagationOverlay& overlay);
 
-  /// Adds its switch and its steps to a menu.
+  /// Adds the steps to a menu.
   void fill(QMenu& menu);
 
  signals:
-  /// The panels have something else to draw.
+  /// The panels must be redrawn.
   void changed();
 
  private:

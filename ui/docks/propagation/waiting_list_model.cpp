@@ -31,7 +31,7 @@ int WaitingListModel::rowCount(const QModelIndex& parent) const {
   return player_ == nullptr || parent.isValid() ? 0 : int(1 + waiting_.size() + player_->step());
 }
 
-/// The hand, then each step of the trace, count as taken.
+/// The handle and each step of the trace count as taken.
 WaitingListModel::Row WaitingListModel::row(int row) const {
   const auto i = std::size_t(row);
   if (i >= 1 && i <= waiting_.size()) {
@@ -39,7 +39,7 @@ WaitingListModel::Row WaitingListModel::row(int row) const {
   }
   const std::size_t back = i == 0 ? 0 : i - waiting_.size();
   if (back == player_->step()) {
-    return {player_->pass().grabbed, no_element, Kind::hand, true};
+    return {player_->pass().grabbed, no_element, Kind::handle, true};
   }
   const TraceRow& taken = player_->pass().trace[player_->step() - 1 - back];
   return {taken.element, taken.sponsor, back == 0 ? Kind::current : Kind::done, taken.moved};
@@ -67,8 +67,8 @@ QString WaitingListModel::text(const Row& row, int column) const {
     return row.sponsor == no_element ? QStringLiteral("–") : QString::number(row.sponsor);
   }
   switch (row.kind) {
-    case Kind::hand:
-      return QStringLiteral("in the hand");
+    case Kind::handle:
+      return QStringLiteral("handle");
     case Kind::current:
       return row.moved ? QStringLiteral("moved") : QStringLiteral("stayed");
     case Kind::next:
@@ -76,7 +76,7 @@ QString WaitingListModel::text(const Row& row, int column) const {
     case Kind::waits:
       return QStringLiteral("waits");
     case Kind::drops:
-      return QStringLiteral("drops out");
+      return QStringLiteral("dropped");
     case Kind::toCome:
       return QStringLiteral("to come");
     case Kind::done:
@@ -85,7 +85,7 @@ QString WaitingListModel::text(const Row& row, int column) const {
   return row.moved ? QStringLiteral("moved") : QStringLiteral("stayed");
 }
 
-/// That of the element in the view, where it has one already.
+/// Returns the colour of the element in the view; invalid if it is not updated yet.
 QColor WaitingListModel::colour(const Row& row) const {
   const std::uint32_t at = player_->updatedAt(row.element);
   if (at == 0 || at > player_->step()) {
@@ -112,9 +112,8 @@ QVariant WaitingListModel::data(const QModelIndex& index, int role) const {
     }
     case Qt::ToolTipRole:
       return row.kind == Kind::drops
-                 ? QStringLiteral("Element %1 has been updated already: this candidate will be dropped")
-                       .arg(row.element)
-                 : QStringLiteral("Click to light element %1 up in the panels").arg(row.element);
+                 ? QStringLiteral("Element %1 is already updated: this candidate will be dropped").arg(row.element)
+                 : QStringLiteral("Click to highlight element %1 in the panels").arg(row.element);
     default:
       return {};
   }

@@ -6,20 +6,19 @@
 
 namespace chainmail {
 
-/// A pass at one step as a list: the candidate taken last on top, below it those that wait, the next one first, then
-/// those that were taken before, the latest first. Where no waiting list is known, the steps to come stand in its
-/// place.
+/// A table of a pass at one step: first the candidate taken last, then the waiting candidates, the next one first, then
+/// the candidates taken before, the latest first. If the waiting list is not known, the steps to come replace it.
 class WaitingListModel : public QAbstractTableModel {
   Q_OBJECT
 
  public:
   enum Column { element, sponsor, what, columns };
 
-  /// `highest` of the colours' scale, as in the views.
+  /// `highest` is the highest step of the colour scale, as in the views.
   void show(const PassPlayer* player, std::size_t highest);
-  /// The element of a row.
+  /// Returns the element of a row.
   std::optional<ElementId> elementAt(int row) const;
-  /// How many wait.
+  /// Number of waiting candidates.
   std::size_t waitingCount() const { return waiting_.size(); }
 
   int rowCount(const QModelIndex& parent = {}) const override;
@@ -28,10 +27,10 @@ class WaitingListModel : public QAbstractTableModel {
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
  private:
-  enum class Kind { hand, current, next, waits, drops, toCome, done };
+  enum class Kind { handle, current, next, waits, drops, toCome, done };
   struct Row {
     ElementId element = 0, sponsor = no_element;
-    Kind kind = Kind::hand;
+    Kind kind = Kind::handle;
     bool moved = true;
   };
 
@@ -41,8 +40,8 @@ class WaitingListModel : public QAbstractTableModel {
   QColor colour(const Row& row) const;
 
   const PassPlayer* player_ = nullptr;
-  std::vector<std::uint32_t> waiting_;  // candidates, or rows of the trace where no list is known
-  std::size_t next_ = 0;                // the first of them that will not be dropped
+  std::vector<std::uint32_t> waiting_;  // candidates, or rows of the trace if the list is not known
+  std::size_t next_ = 0;                // index of the first candidate that will not be dropped
   std::size_t highest_ = 1;
 };
 

@@ -1,6 +1,8 @@
 #include "docks/replay/replay_dock.h"
 
 #include <QAction>
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QProgressBar>
 #include <QStyle>
@@ -8,30 +10,34 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "common/as_path.h"
 #include "common/icons.h"
+#include "files/session/moves.h"
+#include "files/text/outputs.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 namespace {
 
 constexpr int refreshMilliseconds = 50;
-constexpr int standardSpeed = 60;  // moves a second, as a hand's are sampled
+constexpr int standardSpeed = 60;  // moves per second, the rate at which drags are sampled
+
+QString movesFilter() { return QStringLiteral("Recorded moves (*.json)"); }
 
 bool isMove(const Command& command) { return std::holds_alternative<commands::Drag>(command); }
 
 }  // namespace
 
 ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
-    : QDockWidget(QStringLiteral("Record and replay")),
-      document_(document),
+    : document_(document),
       jobs_(jobs),
       film_(document, scene),
       menu_(new QMenu(QStringLiteral("&Record and replay"), this)),
       slider_(new QSlider(Qt::Horizontal)),
-      place_(new QLabel),
+      position_(new QLabel),
       speed_(new QComboBox),
       filmBar_(makeFilmBar()),
       refresh_(this) {
-  setObjectName(QStringLiteral("replayDock"));
   makeActions();
   arrange();
   playing_.setTimerType(Qt::PreciseTimer);
@@ -45,6 +51,63 @@ ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
   showTape();
 }
 
+// Actions.
+
+QAction* ReplayDock::add(const char* name, const QString& text, const char* drawing, const QKeySequence& key,
+                         const QString& help, std::function<void()> act) {
+  QAction* action = menu_->addAction(text);
+  action->setObjectName(QLatin1String(name));
+  action->setIcon(icon(drawing));
+  action->setShortcut(key);
+  action->setStatusTip(help);
+  action->setToolTip(key.isEmpty() ? help : QStringLiteral("%1 (%2)").arg(help, key.toString()));
+  connect(action, &QAction::triggered, this, [this, act = std::move(act)] {
+    if (!film_.running()) {
+      act();
+    }
+  });
+  return action;
+}
+
+void ReplayDock::makeActions() {
+  const auto stopAndGo = [this](std::size_t position) {
+    setPlaying(false);
+    goTo(position);
+  };
+  first_ =
+      add("replayFirst", QStringLiteral("Go to &beginning"), "toStart", QKeySequence(QStringLiteral("Ctrl+Alt+Home")),
+          QStringLiteral("Shows the object before the first move"), [=] { stopAndGo(0); });
+  back_ = add("replayBack", QStringLiteral("Move b&ack"), "stepBack", QKeySequence(QStringLiteral("Ctrl+Alt+Left")),
+              QStringLiteral("Goes back by one pass"), [=, this] { stopAndGo(previousMove()); });
+  play_ = add("replayPlay", QStringLiteral("&Play"), "play", QKeySequence(QStringLiteral("Ctrl+Alt+Space")),
+              QStringLiteral("Plays the moves by the algorithms of the panels"),
+              [this] { setPlaying(!playing_.isActive()); });
+  forward_ = add("replayForward", QStringLiteral("Move &forward"), "stepForward",
+                 QKeySequence(QStringLiteral("Ctrl+Alt+Right")), QStringLiteral("Goes forward by one pass"),
+                 [=, this] { stopAndGo(nextMove()); });
+  last_ =
+      add("replayLast", QStringLiteral("Go to &end"), "toEnd", QKeySequence(QStringLiteral("Ctrl+Alt+End")),
+          QStringLiteral("Shows the object after the last move"), [=, this] { stopAndGo(document_.tape().length()); });
+  menu_->addSeparator();
+  add("openMoves", QStringLiteral("Open &moves…"), "open", {},
+      QStringLiteral("Opens recorded moves of this mesh; the object returns to rest, ready to play them"),
+      [this] { askForMoves(); });
+  save_ = add("saveMoves", QStringLiteral("&Save moves…"), "save", {},
+              QStringLiteral("Saves the moves as JSON for chainmail deform --script and chainmail compare --moves"),
+              [this] { askWhereMoves(); });
+  menu_->addSeparator();
+  pictures_ = add("savePictures", QStringLiteral("Save as p&ictures…"), "picture", {},
+                  QStringLiteral("Saves a numbered picture of the panels after every move into a folder"),
+                  [this] { askWhereFilm(false); });
+  video_ = add("saveVideo", QStringLiteral("Save as &video…"), "movie", {},
+               Film::canMakeVideos()
+                   ? QStringLiteral("Saves a video of the panels: one picture per move, 60 pictures per second")
+                   : QStringLiteral("Not available: install ffmpeg to save videos"),
+               [this] { askWhereFilm(true); });
+}
+
+// The slider and the state.
+
 void ReplayDock::scheduleShow() {
   if (!refresh_.isActive()) {
     refresh_.start();
@@ -54,7 +117,7 @@ void ReplayDock::scheduleShow() {
 QString ReplayDock::describe() const {
   const Tape& tape = document_.tape();
   if (tape.length() == 0) {
-    return QStringLiteral("Nothing was done to this object yet: all that is done will stand here");
+    return QStringLiteral("No moves yet: everything you do to the object is recorded here");
   }
   return QStringLiteral("move %L1 of %L2").arg(tape.passes(tape.position())).arg(tape.passes(tape.length()));
 }
@@ -67,7 +130,7 @@ void ReplayDock::showTape() {
   const QSignalBlocker block(slider_);
   slider_->setRange(0, int(tape.length()));
   slider_->setValue(int(wanted_.value_or(tape.position())));
-  place_->setText(describe());
+  position_->setText(describe());
   const bool some = tape.length() > 0, filming = film_.running();
   const bool behind = tape.position() > 0, ahead = tape.position() < tape.length();
   for (QAction* action : {first_, back_}) {
@@ -104,7 +167,7 @@ std::size_t ReplayDock::previousMove() const {
   return 0;
 }
 
-/// What the solvers have no time for yet waits, and the last wish counts.
+/// Goes to a position of the tape, or stores it as the next one while the solvers are busy.
 void ReplayDock::goTo(std::size_t position) {
   if (document_.idle()) {
     wanted_.reset();
@@ -139,6 +202,8 @@ void ReplayDock::playOn() {
   }
 }
 
+// Widgets.
+
 QWidget* ReplayDock::makeTransport() {
   auto* row = new QWidget;
   auto* line = new QHBoxLayout(row);
@@ -150,9 +215,9 @@ QWidget* ReplayDock::makeTransport() {
     line->addWidget(button);
   }
   slider_->setObjectName(QStringLiteral("replaySlider"));
-  slider_->setAccessibleName(QStringLiteral("Place in what was done"));
+  slider_->setAccessibleName(QStringLiteral("Position in the recorded moves"));
   slider_->setToolTip(
-      QStringLiteral("How many of the commands have been carried out; going there is one step of undo"));
+      QStringLiteral("Number of recorded commands that are applied. Moving the slider is one undo step"));
   connect(slider_, &QSlider::valueChanged, this, [this](int value) {
     setPlaying(false);
     goTo(std::size_t(value));
@@ -163,8 +228,8 @@ QWidget* ReplayDock::makeTransport() {
 
 void ReplayDock::arrange() {
   speed_->setObjectName(QStringLiteral("replaySpeed"));
-  speed_->setAccessibleName(QStringLiteral("Moves a second"));
-  speed_->setToolTip(QStringLiteral("How many moves are played a second; the hand makes 60 at most"));
+  speed_->setAccessibleName(QStringLiteral("Moves per second"));
+  speed_->setToolTip(QStringLiteral("Moves played per second; a drag by mouse records at most 60"));
   for (const int moves : {5, 15, 30, 60, 120}) {
     speed_->addItem(QStringLiteral("%1 moves/s").arg(moves), moves);
   }
@@ -174,20 +239,20 @@ void ReplayDock::arrange() {
       playing_.start(1000 / speed_->currentData().toInt());
     }
   });
-  place_->setObjectName(QStringLiteral("replayPlace"));
-  place_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  position_->setObjectName(QStringLiteral("replayPlace"));
+  position_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(9, 4, 9, 6);
   column->setSpacing(4);
   column->addWidget(makeTransport());
   auto* line = new QHBoxLayout;
-  line->addWidget(place_, 1);
+  line->addWidget(position_, 1);
   line->addWidget(speed_);
   auto* more = new QToolButton;
   more->setObjectName(QStringLiteral("replayMore"));
   more->setText(QStringLiteral("Moves and films"));
-  more->setToolTip(QStringLiteral("Save and open moves, save them as pictures or video"));
+  more->setToolTip(QStringLiteral("Opens and saves moves, saves them as pictures or video"));
   more->setMenu(menu_);
   more->setPopupMode(QToolButton::InstantPopup);
   line->addWidget(more);
@@ -207,7 +272,7 @@ QWidget* ReplayDock::makeFilmBar() {
   auto* cancel = new QToolButton;
   cancel->setObjectName(QStringLiteral("cancelFilm"));
   cancel->setText(QStringLiteral("Cancel"));
-  cancel->setToolTip(QStringLiteral("Ends the film; nothing of it is kept"));
+  cancel->setToolTip(QStringLiteral("Cancels the film and deletes its unfinished files"));
   connect(cancel, &QToolButton::clicked, this, [this] { film_.cancel(); });
   line->addWidget(filmed_, 1);
   line->addWidget(cancel);
@@ -222,6 +287,68 @@ void ReplayDock::listenToFilm() {
   connect(&film_, &Film::failed, this, &ReplayDock::failed);
   connect(&film_, &Film::saved, this, &ReplayDock::saved);
   connect(&film_, &Film::changed, this, &ReplayDock::showTape);
+}
+
+// Files.
+
+void ReplayDock::askForMoves() {
+  const QString path = QFileDialog::getOpenFileName(window(), QStringLiteral("Open moves"), {}, movesFilter());
+  if (!path.isEmpty()) {
+    openMoves(path);
+  }
+}
+
+void ReplayDock::askWhereMoves() {
+  const QString path =
+      QFileDialog::getSaveFileName(window(), QStringLiteral("Save moves"), QStringLiteral("moves.json"), movesFilter());
+  if (!path.isEmpty()) {
+    saveMoves(path);
+  }
+}
+
+void ReplayDock::askWhereFilm(bool video) {
+  const QString path =
+      video ? QFileDialog::getSaveFileName(window(), QStringLiteral("Save as video"), QStringLiteral("moves.mp4"),
+                                           QStringLiteral("Video (*.mp4 *.webm)"))
+            : QFileDialog::getExistingDirectory(window(), QStringLiteral("Save pictures into a folder"));
+  if (!path.isEmpty()) {
+    saveFilm(path);
+  }
+}
+
+void ReplayDock::openMoves(const QString& path) {
+  setPlaying(false);
+  const QString name = QFileInfo(path).fileName();
+  jobs_.start(
+      Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
+      [this, path, name, mesh = document_.mesh()](const Progress& progress) -> Jobs::Finish {
+        const auto moves = std::make_shared<const std::vector<Command>>(read_moves(asPath(path), *mesh, progress));
+        return [this, moves, name, mesh] {
+          setPlaying(false);
+          film_.cancel();
+          if (mesh == document_.mesh()) {
+            document_.loadMoves(moves, QStringLiteral("open %1").arg(name));
+          } else {
+            emit failed(QStringLiteral("%1: the object was replaced while the moves were read. Open the moves again")
+                            .arg(name));
+          }
+        };
+      });
+}
+
+void ReplayDock::saveMoves(const QString& path) {
+  document_.noteRelaxation();
+  jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
+              [this, path, mesh = document_.mesh(),
+               moves = document_.tape().commands()](const Progress& progress) -> Jobs::Finish {
+                write_file(asPath(path), [&](std::ostream& out) { write_moves(out, moves, *mesh, progress); });
+                return [this, path] { emit saved(path); };
+              });
+}
+
+void ReplayDock::saveFilm(const QString& path) {
+  setPlaying(false);
+  film_.begin(path);
 }
 
 }  // namespace chainmail

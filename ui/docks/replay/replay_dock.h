@@ -17,22 +17,22 @@ class QToolButton;
 
 namespace chainmail {
 
-/// What was done to the object, on a slider: gone back and forth in, played move by move, saved as a script or as a
-/// film.
+/// All commands since the object was opened, on a slider: steps back and forth, plays them move by move, and saves them
+/// as JSON, pictures or video.
 class ReplayDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  /// `scene` is what films show; `jobs` reads and writes moves.
+  /// Films show `scene`; `jobs` reads and writes moves.
   ReplayDock(Document& document, QWidget& scene, Jobs& jobs);
 
   /// The actions of the dock, for the menu bar.
   QMenu& menu() { return *menu_; }
 
-  /// Both in the background.
+  /// Both run in the background.
   void openMoves(const QString& path);
   void saveMoves(const QString& path);
-  /// Films all moves: into a folder, as pictures, or into a file, as video.
+  /// Films all moves: as pictures if the path is a folder, else as a video.
   void saveFilm(const QString& path);
 
  signals:
@@ -50,7 +50,7 @@ class ReplayDock : public QDockWidget {
   void scheduleShow();
   void showTape();
   QString describe() const;
-  /// The place a move further, or a move back; a move ends with its pass.
+  /// Returns the position on the tape after the next move, or before the last one. A move ends with its pass.
   std::size_t nextMove() const;
   std::size_t previousMove() const;
   void goTo(std::size_t position);
@@ -66,13 +66,13 @@ class ReplayDock : public QDockWidget {
   QMenu* menu_;
   QAction *first_, *back_, *play_, *forward_, *last_, *save_, *pictures_, *video_;
   QSlider* slider_;
-  QLabel* place_;
+  QLabel* position_;
   QComboBox* speed_;
   QWidget* filmBar_;
   QProgressBar* filmed_;
   QTimer playing_;
-  QTimer refresh_;                     // the tape grows by the move: it is shown at a rate that can be read
-  std::optional<std::size_t> wanted_;  // where the slider is to bring the object, once the solvers have time
+  QTimer refresh_;                     // limits the rate of updates while the tape grows
+  std::optional<std::size_t> wanted_;  // position to go to once the solvers are idle
 };
 
 }  // namespace chainmail

@@ -1,0 +1,328 @@
+#include "window/docks.h"
+
+#include <QAction>
+#include <QMainWindow>
+#include <QMenu>
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "common/colours.h"
+#include "common/icons.h"
+#include "docks/element_dock.h"
+#include "docks/frame_rate/frame_rate_dock.h"
+#include "docks/history_dock.h"
+#include "docks/mesh_dock.h"
+#include "docks/physics_dock.h"
+#include "docks/propagation/propagation_dock.h"
+#include "docks/relaxation_dock.h"
+#include "docks/replay/replay_dock.h"
+#include "docks/report/report_dock.h"
+#include "docks/section_dock.h"
+#include "docks/size_test/size_test_dock.h"
+#include "docks/stiffness_dock.h"
+#include "docks/tools_dock.h"
+#include "io/file_actions.h"
+#include "panels/panel.h"
+#include "panels/panel_area.h"
+#include "window/message_bar.h"
+
+namespace chainmail {
+namespace {
+
+// Heights in pixels: the table of selected links fits on a screen with 900 pixels.
+const QList<int> stiffnessAndRateHeights{400, 270};
+
+/// Reports what a dock could not do, and the files that it saved.
+template <typename Dock>
+Dock* connectFiles(Dock* dock, const DockParts& parts) {
+  QObject::connect(dock, &Dock::failed, &parts.messages, &MessageBar::say);
+  QObject::connect(dock, &Dock::saved, &parts.files, &FileActions::saved);
+  return dock;
+}
+
+QDockWidget* makeTools(const DockParts& parts, const Docks& /*made*/) {
+  auto* dock = new ToolsDock(parts.tools, parts.document, parts.cut, parts.select);
+  dock->fill(parts.editMenu);
+  return dock;
+}
+
+QDockWidget* makeMesh(const DockParts& parts, const Docks& /*made*/) {
+  auto* dock = new MeshDock(parts.document, parts.jobs);
+  QObject::connect(dock, &MeshDock::openRequested, &parts.files, &FileActions::open);
+  QObject::connect(dock, &MeshDock::saveRequested, &parts.files, &FileActions::save);
+  QObject::connect(dock, &MeshDock::sampleRequested, &parts.files, &FileActions::openSample);
+  return dock;
+}
+
+QDockWidget* makeStiffness(const DockParts& parts, const Docks& /*made*/) {
+  auto* dock = new StiffnessDock(parts.document);
+  parts.objectMenu.addMenu(&dock->presets().menu());
+  QObject::connect(&dock->presets(), &PresetRow::failed, &parts.messages, &MessageBar::say);
+  QObject::connect(&dock->presets(), &PresetRow::noted, &parts.window, parts.showStatus);
+  return dock;
+}
+
+QDockWidget* makePhysics(const DockParts& parts, const Docks& made) {
+  auto* dock = new PhysicsDock(parts.document, parts.pinLayers, parts.jobs);
+  auto& stiffness = made.get<StiffnessDock>();
+  QObject::connect(dock, &PhysicsDock::presetRequested, &stiffness, [&stiffness] {
+    stiffness.show();
+    stiffness.raise();
+    stiffness.presets().save();
+  });
+  return dock;
+}
+
+QDockWidget* makeRelaxation(const DockParts& parts, const Docks& /*made*/) {
+  return new RelaxationDock(parts.document);
+}
+
+QDockWidget* makeFrameRate(const DockParts& parts, const Docks& /*made*/) {
+  auto* dock = connectFiles(new FrameRateDock(parts.document, parts.area.panels()), parts);
+  parts.viewMenu.addMenu(&dock->menu());
+  return dock;
+}
+
+QDockWidget* makeReport(const DockParts& parts, const Docks& /*made*/) {
+  return connectFiles(new ReportDock(parts.document), parts);
+}
+
+QDockWidget* makeSizeTest(const DockParts& parts, const Docks& /*made*/) {
+  const auto contestants = [&document = parts.document, &area = parts.area] {
+    std::vector<SizeTestContestant> inSight;
+    for (const int panel : area.inSight()) {
+      if (!elastic_method(document.algorithm(panel))) {  // elastic methods are not real-time methods
+        inSight.push_back({panel, document.algorithm(panel), colours::ofPanel(panel)});
+      }
+    }
+    return inSight;
+  };
+  return connectFiles(new SizeTestDock(parts.window, parts.document, parts.area, contestants), parts);
+}
+
+QDockWidget* makePropagation(const DockParts& parts, const Docks& /*made*/) {
+  auto* dock = new PropagationDock(parts.document, parts.propagation, parts.propagationOverlay);
+  QObject::connect(dock, &PropagationDock::changed, &parts.area, &PanelArea::refresh);
+  dock->fill(parts.viewMenu);
+  return dock;
+}
+
+QDockWidget* makeReplay(const DockParts& parts, const Docks& /*made*/) {
+  auto* dock = connectFiles(new ReplayDock(parts.document, parts.area, parts.jobs), parts);
+  parts.objectMenu.addMenu(&dock->menu());
+  return dock;
+}
+
+QDockWidget* makeSection(const DockParts& parts, const Docks& /*made*/) {
+  auto* dock = new SectionDock(parts.document);
+  dock->fill(parts.showMenu);
+  QObject::connect(dock, &SectionDock::changed, &parts.area,
+                   [&area = parts.area, dock] { area.setSection(dock->plane()); });
+  return dock;
+}
+
+QDockWidget* makeElement(const DockParts& parts, const Docks& /*made*/) { return new ElementDock(parts.document); }
+
+QDockWidget* makeHistory(const DockParts& parts, const Docks& /*made*/) { return new HistoryDock(parts.document); }
+
+const std::array entries{
+    DockEntry{.id = "toolsDock",
+              .action = "showToolsDock",
+              .title = "Tools",
+              .tooltip = "Tools of the left mouse button, and their options",
+              .icon = "tools",
+              .area = Qt::LeftDockWidgetArea,
+              .make = makeTools},
+    DockEntry{.id = "meshDock",
+              .action = "showMeshDock",
+              .title = "Mesh",
+              .tooltip = "Builds, opens and saves the object; shows samples",
+              .icon = "mesh",
+              .area = Qt::LeftDockWidgetArea,
+              .make = makeMesh},
+    DockEntry{.id = "stiffnessDock",
+              .action = "showStiffnessDock",
+              .title = "Stiffness",
+              .tooltip = "Stiffness parameters: how far links may shorten, stretch and lean",
+              .icon = "stiffness",
+              .area = Qt::RightDockWidgetArea,
+              .make = makeStiffness},
+    DockEntry{.id = "physicsDock",
+              .action = "showPhysics",
+              .title = "Physics",
+              .tooltip = "Material, pins and control points of the methods that ChainMail is compared with",
+              .icon = "physics",
+              .key = Qt::Key_J,
+              .area = Qt::RightDockWidgetArea,
+              .tabbedWith = "stiffnessDock",
+              .visible = false,
+              .make = makePhysics},
+    DockEntry{.id = "relaxationDock",
+              .action = "showRelaxationDock",
+              .title = "Relaxation",
+              .tooltip = "How elements move toward their rest shape in idle time",
+              .icon = "relaxation",
+              .area = Qt::RightDockWidgetArea,
+              .make = makeRelaxation},
+    DockEntry{.id = "frameRateDock",
+              .action = "showFrameRateDock",
+              .title = "Frame rate",
+              .tooltip = "Painted frames per second, passes per second and pass times (ms) of each panel",
+              .icon = "frameRate",
+              .area = Qt::RightDockWidgetArea,
+              .make = makeFrameRate},
+    DockEntry{.id = "reportDock",
+              .action = "showReport",
+              .title = "Report",
+              .menuText = "&Report: speed against error",
+              .tooltip = "Measures time per move and errors of the algorithms on this object",
+              .icon = "report",
+              .key = Qt::Key_E,
+              .inViewMenu = true,
+              .area = Qt::BottomDockWidgetArea,
+              .visible = false,
+              .make = makeReport},
+    DockEntry{.id = "sizeTestDock",
+              .action = "showSizeTest",
+              .title = "Size test",
+              .menuText = "&Size test: largest mesh in real time",
+              .tooltip = "Drags growing grids by a script until no panel keeps up with real time",
+              .icon = "grow",
+              .key = Qt::SHIFT | Qt::Key_E,
+              .inViewMenu = true,
+              .area = Qt::BottomDockWidgetArea,
+              .tabbedWith = "reportDock",
+              .visible = false,
+              .make = makeSizeTest},
+    DockEntry{.id = "propagationDock",
+              .action = "showPropagation",
+              .title = "Propagation",
+              .menuText = "&Propagation, step by step",
+              .tooltip = "Slow motion and single steps through a pass, with its waiting lists",
+              .icon = "propagation",
+              .key = Qt::Key_O,
+              .inViewMenu = true,
+              .area = Qt::LeftDockWidgetArea,
+              .tabbedWith = "meshDock",
+              .visible = false,
+              .make = makePropagation},
+    DockEntry{.id = "replayDock",
+              .action = "showReplay",
+              .title = "Record and replay",
+              .tooltip = "Steps through all moves since the object was opened; plays, saves and films them",
+              .icon = "record",
+              .key = Qt::CTRL | Qt::Key_R,
+              .area = Qt::BottomDockWidgetArea,
+              .visible = false,
+              .make = makeReplay},
+    DockEntry{.id = "sectionDock",
+              .action = "showSectionDock",
+              .title = "Section",
+              .tooltip = "Cuts the view of the object along a plane to show its inside",
+              .icon = "section",
+              .area = Qt::BottomDockWidgetArea,
+              .visible = false,
+              .make = makeSection},
+    DockEntry{.id = "elementDock",
+              .action = "showElement",
+              .title = "Element",
+              .menuText = "&Element by its id",
+              .tooltip = "Selects an element by its id, moves it by numbers, pins it, cuts its links",
+              .icon = "element",
+              .key = Qt::CTRL | Qt::Key_E,
+              .inViewMenu = true,
+              .area = Qt::LeftDockWidgetArea,
+              .tabbedWith = "meshDock",
+              .visible = false,
+              .make = makeElement},
+    DockEntry{.id = "historyDock",
+              .action = "showHistoryDock",
+              .title = "Undo list",
+              .tooltip = "Lists every step that can be undone; a click goes back to it",
+              .icon = "history",
+              .area = Qt::LeftDockWidgetArea,
+              .tabbedWith = "meshDock",
+              .visible = false,
+              .make = makeHistory},
+};
+
+void describe(const DockEntry& entry, QDockWidget& dock) {
+  dock.setObjectName(QLatin1String(entry.id));
+  dock.setWindowTitle(QLatin1String(entry.title));
+  dock.setToolTip(QLatin1String(entry.tooltip));
+  QAction* show = dock.toggleViewAction();
+  show->setObjectName(QLatin1String(entry.action));
+  show->setText(QLatin1String(entry.menuText != nullptr ? entry.menuText : entry.title));
+  show->setStatusTip(QLatin1String(entry.tooltip));
+  show->setIcon(icon(entry.icon));
+  show->setShortcut(entry.key);
+}
+
+/// Brings a dock to the front of its tabs when it is shown. If it is behind another tab, its action does not hide it
+/// but brings it to the front, too.
+void raiseWhenShown(QDockWidget& dock) {
+  const auto behind = std::make_shared<bool>(false);
+  QObject::connect(&dock, &QDockWidget::visibilityChanged, &dock,
+                   [&dock, behind](bool seen) { *behind = !seen && (*behind || !dock.isHidden()); });
+  QObject::connect(dock.toggleViewAction(), &QAction::triggered, &dock, [&dock, behind](bool shown) {
+    if (shown || *behind) {
+      dock.show();
+      dock.raise();
+    }
+  });
+}
+
+}  // namespace
+
+std::span<const DockEntry> dockEntries() { return entries; }
+
+Docks::Docks(const DockParts& parts) : window_(parts.window) {
+  window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);  // the right column needs the height
+  for (const DockEntry& entry : entries) {
+    add(entry, parts);
+  }
+}
+
+void Docks::add(const DockEntry& entry, const DockParts& parts) {
+  const qsizetype end = parts.viewMenu.actions().size();
+  QDockWidget* dock = entry.make(parts, *this);
+  describe(entry, *dock);
+  if (entry.inViewMenu) {
+    parts.viewMenu.insertAction(parts.viewMenu.actions().value(end),
+                                dock->toggleViewAction());  // before the dock's own
+  }
+  place(entry, *dock);
+  docks_.push_back(dock);
+}
+
+void Docks::place(const DockEntry& entry, QDockWidget& dock) {
+  window_.addDockWidget(entry.area, &dock);
+  if (entry.tabbedWith != nullptr) {
+    window_.tabifyDockWidget(byId(entry.tabbedWith), &dock);
+  }
+  if (!entry.visible) {
+    dock.hide();
+  }
+  if (entry.tabbedWith != nullptr) {
+    raiseWhenShown(dock);
+  }
+}
+
+QDockWidget* Docks::byId(const char* id) const {
+  return *std::ranges::find_if(docks_,
+                               [id](const QDockWidget* dock) { return dock->objectName() == QLatin1String(id); });
+}
+
+void Docks::fill(QMenu& menu) const {
+  for (QDockWidget* dock : docks_) {
+    menu.addAction(dock->toggleViewAction());
+  }
+}
+
+void Docks::resize() const {
+  window_.resizeDocks({&get<StiffnessDock>(), &get<FrameRateDock>()}, stiffnessAndRateHeights, Qt::Vertical);
+  window_.resizeDocks({&get<MeshDock>()}, {1}, Qt::Horizontal);  // as narrow as possible
+}
+
+}  // namespace chainmail

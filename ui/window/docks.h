@@ -1,0 +1,100 @@
+#pragma once
+
+#include <QDockWidget>
+#include <QKeySequence>
+#include <functional>
+#include <span>
+#include <vector>
+
+class QActionGroup;
+class QMainWindow;
+class QMenu;
+
+namespace chainmail {
+
+class CutTool;
+class Docks;
+class Document;
+class FileActions;
+class Jobs;
+class MessageBar;
+class PanelArea;
+class PinLayers;
+class Propagation;
+class PropagationOverlay;
+class SelectTool;
+
+/// The parts of the window that docks use.
+struct DockParts {
+  QMainWindow& window;
+  Document& document;
+  Jobs& jobs;
+  FileActions& files;
+  MessageBar& messages;
+  PanelArea& area;
+  PinLayers& pinLayers;
+  Propagation& propagation;
+  PropagationOverlay& propagationOverlay;
+  const QActionGroup& tools;
+  CutTool& cut;
+  SelectTool& select;
+  QMenu& editMenu;
+  QMenu& objectMenu;
+  QMenu& viewMenu;
+  QMenu& showMenu;  // within the View menu
+  std::function<void(const QString&)> showStatus;
+};
+
+/// A dock as the window needs it. The table of all docks is in docks.cpp.
+struct DockEntry {
+  const char* id;      // object name: names the dock in stored layouts, so it must not change
+  const char* action;  // object name of the action that shows the dock: names it in stored shortcuts
+  const char* title;
+  const char* menuText = nullptr;  // null: the title
+  const char* tooltip;             // what the dock shows or does
+  const char* icon;
+  QKeySequence key = {};
+  bool inViewMenu = false;  // the action is also an entry of the View menu, not only of the Docks menu
+  Qt::DockWidgetArea area;
+  const char* tabbedWith = nullptr;  // id of an earlier entry, whose place the dock shares
+  bool visible = true;               // at the first start
+  /// Makes the dock, connects it and adds its own actions to the menus. `made` holds the docks of earlier entries.
+  QDockWidget* (*make)(const DockParts& parts, const Docks& made);
+};
+
+/// All docks, in the order in which they are made and listed.
+std::span<const DockEntry> dockEntries();
+
+/// The docks of a window.
+class Docks {
+ public:
+  /// Makes a dock per entry of the table and adds it to the window.
+  explicit Docks(const DockParts& parts);
+
+  const std::vector<QDockWidget*>& all() const { return docks_; }
+  /// Returns the dock of this class.
+  template <typename Dock>
+  Dock& get() const {
+    for (QDockWidget* one : docks_) {
+      if (auto* dock = qobject_cast<Dock*>(one)) {
+        return *dock;
+      }
+    }
+    qFatal("docks: no entry makes %s", Dock::staticMetaObject.className());
+    std::abort();
+  }
+  /// Adds the actions that show the docks.
+  void fill(QMenu& menu) const;
+  /// Sets the sizes for the first start.
+  void resize() const;
+
+ private:
+  void add(const DockEntry& entry, const DockParts& parts);
+  void place(const DockEntry& entry, QDockWidget& dock);
+  QDockWidget* byId(const char* id) const;
+
+  QMainWindow& window_;
+  std::vector<QDockWidget*> docks_;  // owned by the window
+};
+
+}  // namespace chainmail
