@@ -8,7 +8,7 @@ build_packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev nlohmann-json3-dev libcli11-dev libtinyobjloader-dev
   libcgal-dev libgmsh-dev libteem-dev zlib1g-dev libnlopt-dev libseccomp-dev
-  qt6-base-dev libqt6opengl6-dev qt6-charts-dev qt6-svg-dev
+  qt6-base-dev libqt6opengl6-dev qt6-svg-dev
 )
 # What a bare machine lacks to show a window: a driver that draws in software, and letters.
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)

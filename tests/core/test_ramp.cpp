@@ -5,7 +5,7 @@
 #include "core/families.h"
 #include "report/page/ramp_table.h"
 #include "report/run/growth.h"
-#include "report/run/hand.h"
+#include "report/run/scripted_drags.h"
 #include "report/run/ramp.h"
 #include "report/run/ramp_rule.h"
 
@@ -73,7 +73,7 @@ std::vector<std::uint32_t> widths_of(const Ramp& ramp) {
   return widths;
 }
 
-bool same(const HandDrag& a, const HandDrag& b) { return a.element == b.element && a.targets == b.targets; }
+bool same(const ScriptedDrag& a, const ScriptedDrag& b) { return a.element == b.element && a.targets == b.targets; }
 
 }  // namespace
 
@@ -118,8 +118,8 @@ void RampTest::growth_needs_three_sizes() {
 
 void RampTest::drags_repeat_with_their_seed() {
   const auto mesh = make_mesh(MeshKind::grid, {20, 20, 1});
-  const auto once = hand_drags(*mesh, 5, 4, 30), again = hand_drags(*mesh, 5, 4, 30),
-             other = hand_drags(*mesh, 6, 4, 30);
+  const auto once = scripted_drags(*mesh, 5, 4, 30), again = scripted_drags(*mesh, 5, 4, 30),
+             other = scripted_drags(*mesh, 6, 4, 30);
   QCOMPARE(once.size(), std::size_t{4});
   for (std::size_t i = 0; i < 4; ++i) {
     QVERIFY(same(once[i], again[i]));
@@ -131,7 +131,7 @@ void RampTest::drags_repeat_with_their_seed() {
 void RampTest::drags_are_a_hands() {
   const auto mesh = make_mesh(MeshKind::grid, {26, 26, 1}, {}, 2);
   const double width = 50;
-  for (const HandDrag& drag : hand_drags(*mesh, 1, 200, 30)) {
+  for (const ScriptedDrag& drag : scripted_drags(*mesh, 1, 200, 30)) {
     QVERIFY(drag.element < mesh->element_count());
     QCOMPARE(drag.targets.size(), std::size_t{30});
     Point last = mesh->rest_position(drag.element), last_step = Point::Zero();
@@ -157,12 +157,12 @@ void RampTest::drags_keep_to_the_scenes_axes() {
   const auto upright =
       build_mesh(placed(*make_mesh(MeshKind::grid, {5, 5, 1}), [](const Point& p) { return Point(p[0], 2.5, p[1]); }));
   double moved = 0;
-  for (const HandDrag& drag : hand_drags(*line, 1, 5, 10)) {
+  for (const ScriptedDrag& drag : scripted_drags(*line, 1, 5, 10)) {
     for (const Point& target : drag.targets) {
       QVERIFY(target.y() == 0 && target.z() == 0);
     }
   }
-  for (const HandDrag& drag : hand_drags(*upright, 1, 5, 10)) {
+  for (const ScriptedDrag& drag : scripted_drags(*upright, 1, 5, 10)) {
     for (const Point& target : drag.targets) {
       QCOMPARE(target.y(), 2.5);
       moved = std::max(moved, std::abs(target.z() - upright->rest_position(drag.element).z()));

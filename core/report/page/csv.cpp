@@ -1,5 +1,6 @@
+#include "report/page/csv.h"
+
 #include "report/page/format.h"
-#include "report/page/table.h"
 
 namespace chainmail::report {
 namespace {

@@ -78,8 +78,6 @@ std::string all_digits(double number) {
 
 std::string all_digits(const std::optional<double>& number) { return number ? all_digits(*number) : ""; }
 
-std::string place(double number) { return written(number, std::chars_format::fixed, 2); }
-
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) {
     return text;

@@ -15,8 +15,6 @@ std::string percent(double share);
 /// A number for programs: the fewest digits that read back as the same number.
 std::string all_digits(double number);
 std::string all_digits(const std::optional<double>& number);  // none: empty
-/// A place in a drawing: hundredths.
-std::string place(double number);
 
 /// Text as a field of CSV, in quotes where it must be.
 std::string csv_field(const std::string& text);

@@ -1,6 +1,7 @@
 #include "report/page/page.h"
 
 #include "report/page/format.h"
+#include "report/page/svg.h"
 
 namespace chainmail::report {
 namespace {

@@ -1,5 +1,6 @@
+#include "report/page/physics_csv.h"
+
 #include "report/page/format.h"
-#include "report/page/physics_report.h"
 
 namespace chainmail::report {
 namespace {

@@ -1,6 +1,9 @@
+#include "report/page/physics_html.h"
+
 #include "report/page/format.h"
 #include "report/page/page.h"
-#include "report/page/physics_report.h"
+#include "report/page/physics_plot.h"
+#include "report/page/physics_table.h"
 
 namespace chainmail::report {
 namespace {

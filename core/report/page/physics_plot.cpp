@@ -1,8 +1,9 @@
+#include "report/page/physics_plot.h"
+
 #include <algorithm>
 
 #include "report/page/format.h"
 #include "report/page/physics_means.h"
-#include "report/page/physics_report.h"
 
 namespace chainmail::report {
 namespace {
@@ -77,8 +78,8 @@ Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& w
                  std::optional<double> (*value_of)(const GrowthPoint&)) {
   Plot plot;
   plot.title = "Elements against " + what;
-  plot.x_label = "elements";
-  plot.y_label = what;
+  plot.x.title = "elements";
+  plot.y.title = what;
   plot.legend_notes = {"filled: without relaxation", "hollow: 10 sweeps per move"};
   for (const PhysicsGrowth& growth : growths) {
     PlotPanel& panel = plot.panels.emplace_back();
@@ -106,9 +107,9 @@ Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& w
 Plot empty_plot(const std::string& title, const PhysicsObject& object) {
   Plot plot;
   plot.title = title;
-  plot.x_label = "ms per move";
-  plot.y_label = "relative error";
-  plot.smallest_y = as_good_as_true;
+  plot.x.title = "ms per move";
+  plot.y.title = "relative error";
+  plot.y.smallest = as_good_as_true;
   plot.legend_notes = {"filled: without relaxation"};
   if (const std::string sweeps = sweeps_in_words(object); !sweeps.empty()) {
     plot.legend_notes.push_back("line: " + sweeps + " sweeps per move");
@@ -152,7 +153,7 @@ Plot growth_error_plot(const std::vector<PhysicsGrowth>& growths) {
   Plot plot = growth_plot(growths, "relative error", [](const GrowthPoint& point) {
     return point.error ? std::optional(point.error->relative) : std::nullopt;
   });
-  plot.smallest_y = as_good_as_true;
+  plot.y.smallest = as_good_as_true;
   return plot;
 }
 

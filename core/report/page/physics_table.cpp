@@ -1,8 +1,9 @@
+#include "report/page/physics_table.h"
+
 #include <algorithm>
 
 #include "report/page/format.h"
 #include "report/page/physics_means.h"
-#include "report/page/physics_report.h"
 
 namespace chainmail::report {
 namespace {
@@ -10,10 +11,10 @@ namespace {
 using CellOf = std::string (*)(const PhysicsMeasurement&);
 
 // What Newton's method and single precision leave of the reference itself.
-constexpr double found_again = 1e-5;
+constexpr double reference_found_again = 1e-5;
 
 std::string relative_cell(const PhysicsMeasurement& m) {
-  return m.error.relative < found_again ? "<1e-5" : figure(m.error.relative);
+  return m.error.relative < reference_found_again ? "<1e-5" : figure(m.error.relative);
 }
 std::string rms_cell(const PhysicsMeasurement& m) { return percent(m.error.rms); }
 std::string max_cell(const PhysicsMeasurement& m) { return percent(m.error.max); }

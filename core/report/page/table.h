@@ -33,8 +33,4 @@ std::vector<MainTable> main_tables(const Comparison& comparison);
 /// The main table as aligned text.
 void write_text(std::ostream& out, const Comparison& comparison);
 
-/// Everything, a row a contestant, drag and object, under a header; numbers with all their digits, nothing
-/// where there is no figure.
-void write_csv(std::ostream& out, const Comparison& comparison);
-
 }  // namespace chainmail::report

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "mesh/generate.h"
+#include "report/run/drags.h"
 #include "report/run/random.h"
 
 namespace chainmail::report {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <numeric>
 #include <set>
 
 #include "mesh/error.h"
 #include "report/run/errors.h"
-#include "report/run/move_times.h"
 #include "report/run/runner.h"
 
 namespace chainmail::report {
@@ -18,6 +18,41 @@ constexpr int most_repetitions = 51;
 constexpr double warm_up_share = 0.25;  // of the progress: the references and both precisions take about that
 
 using Clock = std::chrono::steady_clock;
+
+/// The times of a drag's moves over its repetitions (ms).
+class MoveTimes {
+ public:
+  /// Adds the times of one repetition, move by move. All repetitions have the same number of moves.
+  void add(std::vector<double> ms) { runs_.push_back(std::move(ms)); }
+
+  /// Returns the mean time of a move over the repetitions.
+  TimeSpread spread() const;
+  /// Returns the largest median of a move over the repetitions.
+  double worst() const;
+
+ private:
+  std::vector<std::vector<double>> runs_;
+};
+
+TimeSpread MoveTimes::spread() const {
+  std::vector<double> means;
+  for (const auto& run : runs_) {
+    means.push_back(std::accumulate(run.begin(), run.end(), 0.0) / double(run.size()));
+  }
+  return spread_of(std::move(means));
+}
+
+double MoveTimes::worst() const {
+  double worst = 0;
+  for (std::size_t move = 0; !runs_.empty() && move < runs_.front().size(); ++move) {
+    std::vector<double> of_move;
+    for (const auto& run : runs_) {
+      of_move.push_back(run[move]);
+    }
+    worst = std::max(worst, spread_of(std::move(of_move)).median);
+  }
+  return worst;
+}
 
 /// An algorithm's runner serves all its contestants; where there is none, the refusal says why.
 struct Participant {

@@ -1,7 +1,8 @@
+#include "report/run/drags.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "report/run/cases.h"
 #include "simulate/simulation.h"
 
 namespace chainmail::report {

@@ -32,19 +32,12 @@ PhysicsOptions checked(PhysicsOptions options) {
 
 /// The solver of the reference solution, without which nothing can be measured.
 TruthSolver reference_of(const Case& object, const std::vector<LinkId>& cut) {
-  std::vector<ElementId> pins = object.pins;
-  std::ranges::sort(pins);
-  const std::vector<double> at_rest(pins.size() * static_cast<std::size_t>(object.mesh->space_dimension), 0.0);
-  if (pins.empty()) {
+  if (object.pins.empty()) {
     throw Error(object.name, "nothing pins it, so physics has no static answer",
                 "pin a side, the boundary, or elements");
   }
-  Cuts cuts(object.mesh);
-  for (const LinkId link : cut) {
-    cuts.cut(link);
-  }
   try {
-    return TruthSolver({object.mesh, cuts, pins, at_rest, object.elastic});
+    return TruthSolver(elastic_problem(object, cut));
   } catch (const Error& error) {
     throw error.at(object.name);
   }

@@ -10,6 +10,7 @@
 #include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
+#include "report/run/preparing.h"
 
 namespace chainmail::report {
 namespace {
@@ -24,16 +25,6 @@ Case made(const char* name, const std::string& description, const MeshPointer& m
   Case object{name, description, mesh, {}, layer(*mesh, *find_side(side)), softness, {}, elastic};
   object.drags = physics_drags(object, with_cut);
   return object;
-}
-
-/// Elements that a handle can be: of a solid those on its surface.
-std::vector<ElementId> reachable(const Mesh& mesh) {
-  if (!mesh.tetrahedra.empty() || !mesh.hexahedra.empty()) {
-    return boundary(mesh);
-  }
-  std::vector<ElementId> all(mesh.element_count());
-  std::iota(all.begin(), all.end(), ElementId{0});
-  return all;
 }
 
 /// Lowers the distances of some elements to those from one more place.
@@ -105,14 +96,8 @@ std::vector<LinkId> links_through(const Case& object, ElementId handle, const Cu
 
 /// True where linear elasticity has one answer with these links cut: nothing hangs loose, or as on a hinge.
 bool stays_held(const Case& object, const std::vector<LinkId>& links) {
-  ElasticProblem problem{object.mesh, Cuts(object.mesh), object.pins, {}, object.elastic};
-  std::ranges::sort(problem.pins);
-  problem.pinned.resize(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension));
-  for (const LinkId link : links) {
-    problem.cuts.cut(link);
-  }
   try {
-    make_elastic(ElasticMethod::linear_fem, problem);
+    make_elastic(ElasticMethod::linear_fem, elastic_problem(object, links));
     return true;
   } catch (const Error&) {
     return false;
@@ -173,9 +158,18 @@ std::vector<Case> physics_cases(const Softness& softness, const ElasticOptions& 
   return {pinned_bar(usual_elements, softness, elastic), pinned_sheet(usual_elements, softness, elastic)};
 }
 
+std::vector<ElementId> possible_handles(const Mesh& mesh) {
+  std::vector<ElementId> elements = mesh.space_dimension == 3 ? boundary(mesh) : std::vector<ElementId>();
+  if (elements.empty()) {
+    elements.resize(mesh.element_count());
+    std::iota(elements.begin(), elements.end(), ElementId{0});
+  }
+  return elements;
+}
+
 std::vector<ElementId> physics_handles(const Case& object) {
   const Mesh& mesh = *object.mesh;
-  const std::vector<ElementId> elements = reachable(mesh);
+  const std::vector<ElementId> elements = possible_handles(mesh);
   std::vector<double> distances(elements.size(), std::numeric_limits<double>::infinity());
   for (const ElementId pin : object.pins) {
     come_near(distances, mesh, elements, mesh.rest_position(pin));

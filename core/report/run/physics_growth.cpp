@@ -4,6 +4,7 @@
 
 #include "mesh/error.h"
 #include "report/run/contest.h"
+#include "report/run/preparing.h"
 
 namespace chainmail::report {
 namespace {
@@ -54,8 +55,7 @@ std::optional<Truth> truth_at(const Case& object, Budget& budget) {
   }
   const double start = now();
   try {
-    const std::vector<double> at_rest(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension), 0.0);
-    TruthSolver solver({object.mesh, Cuts(object.mesh), object.pins, at_rest, object.elastic});
+    TruthSolver solver(elastic_problem(object));
     const auto& commands = object.drags.front().commands;
     Truth truth =
         solver.at(std::get<commands::Grab>(commands.front()).element, std::get<commands::Drag>(commands.back()).target);

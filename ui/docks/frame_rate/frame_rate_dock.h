@@ -8,8 +8,8 @@
 #include <QTimer>
 #include <vector>
 
+#include "common/plot_widget.h"
 #include "docks/frame_rate/rate_figures.h"
-#include "docks/frame_rate/rate_plot.h"
 #include "document/document.h"
 
 namespace chainmail {
@@ -49,7 +49,7 @@ class FrameRateDock : public QDockWidget {
   void refresh();
   void showPlot();
   void choose();
-  RatePicture picture() const;
+  report::Plot plotOn(colours::Ground ground) const;
   void saveTable();
   void savePicture();
   void attempt(const QString& path, const std::function<void()>& write);
@@ -59,7 +59,7 @@ class FrameRateDock : public QDockWidget {
   std::vector<RateHistory> histories_;
   std::vector<std::uint64_t> passesSeen_;
   RateFigures* figures_;
-  RatePlot* plot_;
+  PlotWidget* plot_;
   QComboBox* quantity_;
   QComboBox* span_;
   QMenu* menu_;

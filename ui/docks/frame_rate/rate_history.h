@@ -1,5 +1,7 @@
 #pragma once
 
+#include <QPointF>
+#include <QPolygonF>
 #include <limits>
 #include <ostream>
 #include <span>
@@ -48,6 +50,14 @@ class RateHistory {
  private:
   std::vector<RateSample> samples_;
 };
+
+/// Returns the lines of a quantity over time (s, unit of the quantity), one for each period in which something
+/// happened.
+///
+/// Where there are more samples than `points` (at least 2), only the lowest and the highest of each piece of time stay,
+/// so that no spike is lost. The pieces are the same from call to call while `from` to `to` is as long.
+std::vector<QPolygonF> curveOf(std::span<const RateSample> samples, const RateQuantity& quantity, double from,
+                               double to, std::size_t points);
 
 /// The samples of all panels by time, with all digits; empty where there is no figure.
 void writeCsv(std::ostream& out, std::span<const RateHistory> panels);

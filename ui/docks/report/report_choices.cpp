@@ -5,8 +5,8 @@
 #include <QVBoxLayout>
 
 #include "common/colours.h"
+#include "common/plot_painting.h"
 #include "common/text.h"
-#include "docks/report/report_looks.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int generatedDrags = 0, lastDrag = 1;  // in the list of drags
 constexpr int sweepsAMove = 10;
-constexpr int markSize = 13;  // pixels
+constexpr int listMarkSize = 13;  // logical pixels
 
 void name(QWidget* widget, const char* object, const QString& accessible, const QString& help) {
   widget->setObjectName(QLatin1String(object));
@@ -66,7 +66,7 @@ void ReportChoices::fillDrags() {
 void ReportChoices::fillAlgorithms() {
   name(algorithms_, "reportAlgorithms", QStringLiteral("Algorithms that take part"),
        QStringLiteral("Who takes part; the marks are those of the plot"));
-  algorithms_->setIconSize({markSize, markSize});
+  algorithms_->setIconSize({listMarkSize, listMarkSize});
   algorithms_->setUniformItemSizes(true);
   algorithms_->setMinimumHeight(48);
   for (const AlgorithmInfo& one : algorithms()) {
@@ -78,7 +78,7 @@ void ReportChoices::fillAlgorithms() {
     const QSignalBlocker block(algorithms_);  // nothing was chosen
     for (int row = 0; row < algorithms_->count(); ++row) {
       const auto algorithm = Algorithm(algorithms_->item(row)->data(Qt::UserRole).toInt());
-      algorithms_->item(row)->setIcon(QIcon(reportMark({algorithm, 0}, markSize, devicePixelRatioF())));
+      algorithms_->item(row)->setIcon(QIcon(plotMark(algorithm, false, listMarkSize, devicePixelRatioF(), palette())));
     }
   });
 }

@@ -1,6 +1,7 @@
 #include "docks/report/report_results.h"
 
 #include <QClipboard>
+#include <QDateTime>
 #include <QDir>
 #include <QFileDialog>
 #include <QGuiApplication>
@@ -10,19 +11,34 @@
 #include <QVBoxLayout>
 
 #include "common/colours.h"
+#include "common/plot_widget.h"
 #include "common/table_text.h"
 #include "common/text.h"
-#include "docks/report/report_files.h"
-#include "docks/report/report_plot.h"
 #include "docks/report/report_table.h"
+#include "files/results/report_json.h"
+#include "files/text/outputs.h"
 #include "mesh/error.h"
+#include "report/page/csv.h"
+#include "report/page/html.h"
 
 namespace chainmail {
 namespace {
 
 QString folderKey() { return QStringLiteral("reportFolder"); }
 
-/// Each sentence once, with all whom it concerns.
+/// Writes the three files, or none of them.
+void saveReport(const std::filesystem::path& folder, const report::Comparison& comparison) {
+  const QString date = QDateTime::currentDateTimeUtc().toString(QStringLiteral("yyyy-MM-dd HH:mm 'UTC'"));
+  const report::Origin origin{report::this_machine(), "the workbench's Report dock, while its window was open",
+                              date.toStdString(), "chainmail " + QCoreApplication::applicationVersion().toStdString()};
+  Outputs outputs;
+  outputs.add(folder / "report.html", [&](std::ostream& out) { write_html(out, comparison, origin); });
+  outputs.add(folder / "report.json", [&](std::ostream& out) { write_json(out, comparison, origin); });
+  outputs.add(folder / "report.csv", [&](std::ostream& out) { write_csv(out, comparison); });
+  outputs.commit();
+}
+
+/// Returns each reason for a refusal once, with the names of the algorithms.
 QString refusalsOf(const report::DragResult& drag) {
   QStringList sentences;
   QMap<QString, QStringList> who;
@@ -57,13 +73,14 @@ ReportResults::ReportResults()
       error_(new QComboBox),
       copy_(new QPushButton(QStringLiteral("Copy table"))),
       save_(new QPushButton(QStringLiteral("Save…"))),
-      plot_(new ReportPlot),
+      plot_(new PlotWidget(QStringLiteral("No values for this drag"))),
+      legend_(new PlotLegend),
       table_(new ReportTable),
       refusals_(new QLabel) {
   auto* split = new QSplitter;
   split->setObjectName(QStringLiteral("reportSplitter"));
   split->setChildrenCollapsible(false);
-  split->addWidget(plot_);
+  split->addWidget(makePlot());
   split->addWidget(table_);
   split->setStretchFactor(0, 2);
   split->setStretchFactor(1, 3);
@@ -83,6 +100,23 @@ ReportResults::ReportResults()
   followTheme(*this, [this] { showDrag(); });  // marks are drawn for one ground
 }
 
+QWidget* ReportResults::makePlot() {
+  plot_->setObjectName(QStringLiteral("reportPlot"));
+  plot_->setAccessibleName(QStringLiteral("Plot of time against error"));
+  plot_->setToolTip(
+      QStringLiteral("Time per move against the error: left is faster, down is better. Point at a mark "
+                     "to see its values"));
+  legend_->setObjectName(QStringLiteral("reportLegend"));
+  legend_->setAccessibleName(QStringLiteral("Legend of the plot"));
+  legend_->setToolTip(QStringLiteral("Colour and shape show the algorithm; bars are the quartiles of the time"));
+  auto* both = new QWidget;
+  auto* row = new QHBoxLayout(both);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(plot_, 1);
+  row->addWidget(legend_, 0, Qt::AlignVCenter);
+  return both;
+}
+
 QLayout* ReportResults::makeBar() {
   const auto name = [](QWidget* widget, const char* object, const QString& accessible, const QString& help) {
     widget->setObjectName(QLatin1String(object));
@@ -98,8 +132,10 @@ QLayout* ReportResults::makeBar() {
        QStringLiteral("Puts the table on the clipboard, columns parted by tabs, in the order shown"));
   name(save_, "reportSave", QStringLiteral("Save the report"),
        QStringLiteral("Writes report.html, report.json and report.csv, with all drags, into a folder"));
-  for (const ReportError& error : reportErrors()) {
-    error_->addItem(QLatin1String(error.label));
+  for (const report::PlottedError& error : report::plotted_errors()) {
+    QString sentence = text(error.name);
+    sentence[0] = sentence[0].toUpper();
+    error_->addItem(sentence);
   }
   auto* bar = new QHBoxLayout;
   bar->addWidget(drag_);
@@ -140,11 +176,28 @@ void ReportResults::showDrag() {
       QStringLiteral("%1, %2 elements; %3 moves")
           .arg(text(object.name), locale.toString(qulonglong(object.elements)), locale.toString(drag.moves)));
   heading_->setToolTip(text(drag.description));
-  plot_->show(drag, reportErrors()[std::size_t(error_->currentIndex())]);
+  showPlot(drag);
   table_->show(drag);
   const QString refusals = refusalsOf(drag);
   refusals_->setText(refusals);
   refusals_->setVisible(!refusals.isEmpty());
+}
+
+void ReportResults::showPlot(const report::DragResult& drag) {
+  report::Plot plot = report::error_plot(drag, report::plotted_errors()[std::size_t(error_->currentIndex())]);
+  for (report::PlotSeries& series : plot.series) {
+    series.label = shortName(series.label).toStdString();
+  }
+  const std::vector<int>& sweeps = result_->options.sweeps;
+  plot.legend_notes.clear();
+  if (std::ranges::count(sweeps, 0) > 0) {
+    plot.legend_notes.emplace_back("filled: no sweeps");
+  }
+  if (const int most = std::ranges::max(sweeps); most > 0) {
+    plot.legend_notes.push_back("hollow: " + std::to_string(most) + " sweeps");
+  }
+  legend_->show(plot);
+  plot_->show(std::move(plot));
 }
 
 void ReportResults::save() {

@@ -3,15 +3,15 @@
 #include <QHeaderView>
 #include <limits>
 
+#include "common/plot_painting.h"
 #include "common/table_text.h"
 #include "common/text.h"
-#include "docks/report/report_looks.h"
 #include "report/page/format.h"
 
 namespace chainmail {
 namespace {
 
-constexpr int markSize = 13;  // pixels
+constexpr int tableMarkSize = 13;  // logical pixels
 
 /// Sorted by its number and not by its text; what has none comes last.
 class FigureItem : public QTableWidgetItem {
@@ -79,6 +79,11 @@ constexpr std::array columns{
 
 }  // namespace
 
+QString shortName(std::string_view label) {
+  QString name = text(label);
+  return name.startsWith(QStringLiteral("3D ")) ? name : name.remove(QStringLiteral(" ChainMail"));
+}
+
 ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   setObjectName(QStringLiteral("reportTable"));
   setAccessibleName(QStringLiteral("Table of the contestants' figures"));
@@ -86,7 +91,7 @@ ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   setSelectionBehavior(SelectRows);
   setAlternatingRowColors(true);
   setShowGrid(false);
-  setIconSize({markSize, markSize});
+  setIconSize({tableMarkSize, tableMarkSize});
   verticalHeader()->hide();
   verticalHeader()->setDefaultSectionSize(21);
   verticalHeader()->setMinimumSectionSize(21);
@@ -112,8 +117,9 @@ void ReportTable::show(const report::DragResult& drag) {
     }
     const int row = rowCount();
     insertRow(row);
-    auto* name = new QTableWidgetItem(QIcon(reportMark(entry.contestant, markSize, devicePixelRatioF())),
-                                      reportName(entry.contestant));
+    auto* name = new QTableWidgetItem(QIcon(plotMark(entry.contestant.algorithm, entry.contestant.sweeps > 0,
+                                                     tableMarkSize, devicePixelRatioF(), palette())),
+                                      shortName(report::label(entry.contestant)));
     name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
     setItem(row, 0, name);
     for (std::size_t i = 0; i < columns.size(); ++i) {

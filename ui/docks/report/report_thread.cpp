@@ -2,6 +2,8 @@
 
 #include <exception>
 
+#include "report/run/drags.h"
+
 namespace chainmail {
 
 ReportThread::~ReportThread() {

@@ -53,7 +53,7 @@ void SizeTestPanel::arrange() {
   column->addWidget(view_, 1);
 }
 
-void SizeTestPanel::begin(const MeshPointer& mesh, std::vector<report::HandDrag> drags) {
+void SizeTestPanel::begin(const MeshPointer& mesh, std::vector<report::ScriptedDrag> drags) {
   drags_ = std::move(drags);
   drag_ = move_ = 0;
   moving_ = false;
@@ -114,7 +114,7 @@ void SizeTestPanel::next() {
       return;
     }
   }
-  const report::HandDrag& drag = drags_[drag_];
+  const report::ScriptedDrag& drag = drags_[drag_];
   if (move_ == 0) {
     solver_.post(commands::Reset{});
     solver_.post(commands::Grab{drag.element});

@@ -7,8 +7,8 @@
 
 #include "docks/size_test/size_test.h"
 #include "docks/size_test/size_test_view.h"
-#include "report/run/hand.h"
 #include "report/run/ramp_rule.h"
+#include "report/run/scripted_drags.h"
 #include "simulate/solver_thread.h"
 
 namespace chainmail {
@@ -25,7 +25,7 @@ class SizeTestPanel : public QFrame {
                 std::shared_ptr<MeshLevels> levels);
 
   /// Makes these drags, from rest each; the first one warms up and is not measured.
-  void begin(const MeshPointer& mesh, std::vector<report::HandDrag> drags);
+  void begin(const MeshPointer& mesh, std::vector<report::ScriptedDrag> drags);
   /// The hand lets go: nothing more is asked of the solver.
   void halt() { running_ = false; }
   bool running() const { return running_; }
@@ -55,7 +55,7 @@ class SizeTestPanel : public QFrame {
 
   SizeTestContestant contestant_;
   MeshPointer mesh_;
-  std::vector<report::HandDrag> drags_;
+  std::vector<report::ScriptedDrag> drags_;
   std::size_t drag_ = 0, move_ = 0;  // the one to come
   bool running_ = false;
   bool moving_ = false;  // a pass was asked for

@@ -20,8 +20,6 @@ constexpr std::array helps{"Median time of a pass, of the solver alone (ms)",
                            "Frames of this panel that reached the screen in the last second of the drags",
                            "Whether the slowest hundredth fits the budget; 'no' is said after a second attempt"};
 
-QString sizeOf(std::uint32_t width) { return QStringLiteral("%1×%1").arg(width); }
-
 }  // namespace
 
 SizeTestTable::SizeTestTable() : verdicts_(new QLabel), table_(new QTableWidget) {
@@ -78,7 +76,7 @@ void SizeTestTable::add(const SizeTestRow& row) {
   if (rows_.empty() || rows_.back().figures.width != figures.width) {
     const int last = table_->rowCount();
     table_->insertRow(last);
-    put(last, 0, sizeOf(figures.width));
+    put(last, 0, sizeText(figures.width));
     put(last, 1, QLocale().toString(qulonglong(figures.elements)));
   }
   rows_.push_back(row);
@@ -123,7 +121,7 @@ QString SizeTestTable::verdictText(const SizeTestContestant& contestant) const {
   }
   const std::uint32_t width = *verdict.largest_width;
   const QString upTo =
-      QStringLiteral("real time up to %1, %L2 elements").arg(sizeOf(width)).arg(qulonglong(width) * width);
+      QStringLiteral("real time up to %1, %L2 elements").arg(sizeText(width)).arg(qulonglong(width) * width);
   return verdict.lost ? upTo : upTo + (growing_ ? QStringLiteral(" so far") : QStringLiteral(" or more"));
 }
 
