@@ -11,23 +11,22 @@
 namespace chainmail::report {
 namespace {
 
-constexpr const char* how_to_read = R"(<h2>How to read it</h2>
-<p>Every contestant carries out the same recorded moves, in turns within one process and one thread, each repetition from
-rest after one that does not count. <b>ms a move</b> is the time of a pass and of the sweeps of relaxation that follow it,
-averaged over the moves of a drag: the median over the repetitions. What other programs took meanwhile does not
-count. The <b>violation</b> is how far a link lies outside its
-valid region, in its rest lengths; a link counts as violated above 10⁻⁴. The <b>distance to Exact</b> is measured from the
-positions in which Exact ChainMail ends, run in double precision on the same moves and without relaxation, in mean rest
-lengths: Exact moves every element as little as a valid object allows. Relaxation moves elements on purpose, toward the
-equilibrium and so away from Exact: there the violation says how good a contestant is, and the distance how far it has
-gone. Errors are measured in double precision at the end of a drag, while the hand still holds; figures near 10⁻⁶ are the
-rounding of single precision. In the plots, down is better and left is faster: a contestant with no other one below
-and left of it is a good choice. Below, <b>float to double</b> is the distance of a contestant from itself in the other
-precision, and <b>farthest / hand</b> the largest displacement over the hand’s: above 1, something went further than it
-was pulled.</p>
+constexpr const char* how_to_read_comparison = R"(<h2>How to read it</h2>
+<p>Every contestant carries out the same recorded moves, in turns within one process and one thread. Each repetition starts
+from rest; the first one does not count. <b>ms per move</b> is the time of a pass and of the sweeps of relaxation that
+follow it, as a mean over the moves of a drag: the median over the repetitions. Time of other programs does not count. The
+<b>violation</b> is the distance of a link from its valid region, in its rest lengths; a link is violated above 10⁻⁴. The
+<b>distance to Exact</b> is the distance to the final positions of Exact ChainMail in double precision, on the same moves
+and without relaxation, in mean rest lengths: Exact moves every element as little as a valid object allows. Relaxation
+moves elements toward the equilibrium and so away from Exact: for a contestant with relaxation, the violation shows the
+quality and the distance shows how far it moved. Errors are measured in double precision at the end of a drag, while the
+handle is still held; figures near 10⁻⁶ are the rounding of single precision. In the plots, lower is better and further
+left is faster: a contestant with no other one below and left of it is a good choice. In the tables, <b>float to
+double</b> is the distance between a contestant in both precisions, and <b>farthest / handle</b> is the largest
+displacement over that of the handle: above 1, an element moved further than the handle.</p>
 )";
 
-/// A column and what stands in it, over a group of columns.
+/// A column of a detail table, with its group.
 struct DetailColumn {
   std::string group;
   std::string name;
@@ -55,19 +54,26 @@ std::string exact_rms(const Measurement& m, const DragResult&) { return part(m.e
 std::string energy_cell(const Measurement& m, const DragResult&) { return figure(m.errors.energy_over_exact); }
 std::string float_max(const Measurement& m, const DragResult&) { return figure(m.errors.float_to_double.max); }
 std::string float_rms(const Measurement& m, const DragResult&) { return figure(m.errors.float_to_double.rms); }
-std::string hand_cell(const Measurement& m, const DragResult&) { return figure(m.errors.largest_over_hand); }
+std::string handle_cell(const Measurement& m, const DragResult&) { return figure(m.errors.largest_over_hand); }
 std::string rest_max(const Measurement& m, const DragResult&) { return part(m.errors.to_equilibrium, &Distance::max); }
 std::string rest_rms(const Measurement& m, const DragResult&) { return part(m.errors.to_equilibrium, &Distance::rms); }
 
 std::vector<DetailColumn> columns_for(const DragResult& drag) {
   std::vector<DetailColumn> columns{
-      {"ms a move", "median", time_cell},       {"ms a move", "quartiles", quartiles_cell},
-      {"ms a move", "worst move", worst_cell},  {"elements a move", "checked", checked_cell},
-      {"elements a move", "moved", moved_cell}, {"violation", "max", max_cell},
-      {"violation", "RMS", rms_cell},           {"violation", "links", links_cell},
-      {"distance to Exact", "max", exact_max},  {"distance to Exact", "RMS", exact_rms},
-      {"energy", "/ Exact’s", energy_cell},     {"float to double", "max", float_max},
-      {"float to double", "RMS", float_rms},    {"farthest", "/ hand", hand_cell},
+      {"ms per move", "median", time_cell},
+      {"ms per move", "quartiles", quartiles_cell},
+      {"ms per move", "worst move", worst_cell},
+      {"elements per move", "checked", checked_cell},
+      {"elements per move", "moved", moved_cell},
+      {"violation", "max", max_cell},
+      {"violation", "RMS", rms_cell},
+      {"violation", "links", links_cell},
+      {"distance to Exact", "max", exact_max},
+      {"distance to Exact", "RMS", exact_rms},
+      {"energy", "/ Exact’s", energy_cell},
+      {"float to double", "max", float_max},
+      {"float to double", "RMS", float_rms},
+      {"farthest", "/ handle", handle_cell},
   };
   const bool has_equilibrium = std::ranges::any_of(
       drag.entries, [](const Entry& entry) { return entry.measurement && entry.measurement->errors.to_equilibrium; });
@@ -118,7 +124,7 @@ void write_details(std::ostream& out, const CaseResult& object) {
 FigureTable table_of(const MainTable& main) {
   FigureTable table{main.object, main.about, "main", "contestant", {}, {}};
   for (const std::string& drag : main.drags) {
-    table.columns.push_back({"ms a move", drag});
+    table.columns.push_back({"ms per move", drag});
   }
   for (const char* name : {"max", "RMS", "links"}) {
     table.columns.push_back({"violation, worst of the drags", name});
@@ -135,7 +141,7 @@ FigureTable table_of(const MainTable& main) {
 
 void write_html(std::ostream& out, const Comparison& comparison, const Origin& origin) {
   begin_page(out, "ChainMail: speed against error", origin);
-  out << how_to_read
+  out << how_to_read_comparison
       << "<h2>Main table</h2>\n<p class=\"faint\">Lengths in rest lengths; times in milliseconds, medians.</p>\n";
   for (const MainTable& table : main_tables(comparison)) {
     write_html(out, table_of(table));

@@ -78,15 +78,15 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
 
 void FrameRateDock::fillChoices() {
   quantity_->setObjectName(QStringLiteral("rateQuantity"));
-  quantity_->setAccessibleName(QStringLiteral("What is plotted"));
+  quantity_->setAccessibleName(QStringLiteral("Plotted quantity"));
   for (const RateQuantity& one : rateQuantities()) {
     quantity_->addItem(QStringLiteral("%1 (%2)").arg(text(one.label), text(one.unit)), text(one.name));
     quantity_->setItemData(quantity_->count() - 1, text(one.help), Qt::ToolTipRole);
   }
   quantity_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   span_->setObjectName(QStringLiteral("rateSpan"));
-  span_->setAccessibleName(QStringLiteral("Stretch of time that is plotted"));
-  span_->setToolTip(QStringLiteral("How far back the plot reaches; the last 10 minutes are kept"));
+  span_->setAccessibleName(QStringLiteral("Plotted period"));
+  span_->setToolTip(QStringLiteral("Length of the plotted period; the last 10 minutes are kept"));
   for (const int seconds : {10, 30, 60, 300, 600}) {
     span_->addItem(seconds < 60 ? QStringLiteral("%1 s").arg(seconds) : QStringLiteral("%1 min").arg(seconds / 60),
                    seconds);
@@ -102,7 +102,7 @@ QWidget* FrameRateDock::makeControls() {
   fillChoices();
   auto* pause = new QToolButton;
   pause->setDefaultAction(pause_);
-  auto* save = new QToolButton;  // its list is the menu's, but for the first
+  auto* save = new QToolButton;  // with the actions of the menu, except the first
   save->setObjectName(QStringLiteral("rateSave"));
   save->setIcon(icon("save"));
   save->setAccessibleName(QStringLiteral("Save the rates as a table or a picture"));
@@ -129,17 +129,16 @@ void FrameRateDock::addActions() {
   pause_->setIconText(QStringLiteral("Pause"));
   pause_->setCheckable(true);
   pause_->setShortcut(Qt::Key_Pause);
-  pause_->setStatusTip(
-      QStringLiteral("The plot of the frame rate stands still, and nothing is added to it, until it "
-                     "goes on"));
+  pause_->setStatusTip(QStringLiteral("Stops the plot of the frame rate; nothing is recorded until you continue"));
   auto* table = menu_->addAction(QStringLiteral("Save rates as &table…"), this, &FrameRateDock::saveTable);
   table->setIcon(icon("save"));
   table->setObjectName(QStringLiteral("saveRateTable"));
-  table->setStatusTip(QStringLiteral("All quantities of the last 10 minutes with all digits, time in seconds, as CSV"));
+  table->setStatusTip(
+      QStringLiteral("Saves all quantities of the last 10 minutes as CSV, with all digits and time in seconds"));
   auto* picture = menu_->addAction(QStringLiteral("Save rates as p&icture…"), this, &FrameRateDock::savePicture);
   picture->setIcon(icon("picture"));
   picture->setObjectName(QStringLiteral("saveRatePicture"));
-  picture->setStatusTip(QStringLiteral("The plot as it stands, with its legend, as PNG or, for print, as PDF"));
+  picture->setStatusTip(QStringLiteral("Saves the present plot with its legend as PNG, or as PDF for print"));
 }
 
 void FrameRateDock::receive(int panel) {
@@ -159,7 +158,7 @@ void FrameRateDock::receive(int panel) {
   }
 }
 
-/// What there is to say of a panel now.
+/// Returns the present figures of a panel.
 RateSample FrameRateDock::read(int panel) {
   RateSample sample;
   sample.time = now();
@@ -179,7 +178,7 @@ RateSample FrameRateDock::read(int panel) {
   return sample;
 }
 
-/// What is painted may go on, or end, without a frame of the solver's.
+/// Painting may continue or end without a new frame of the solver, so the figures are also read on a timer.
 void FrameRateDock::refresh() {
   bool busy = false;
   for (int panel = 0; panel < int(panels_.size()); ++panel) {

@@ -12,17 +12,18 @@ namespace chainmail {
 namespace {
 
 constexpr std::array quantities{
-    RateQuantity{"passes", "Passes a second", "1/s", "1 over the median time of the last second's passes",
+    RateQuantity{"passes", "Passes per second", "1/s", "1 over the median time of the passes of the last second",
                  [](const RateSample& one) { return one.passesPerSecond(); }},
-    RateQuantity{"ms", "Time of a pass", "ms", "How long each pass took the solver, drawing left out",
+    RateQuantity{"ms", "Time of a pass", "ms", "Time of each pass in the solver, without drawing",
                  [](const RateSample& one) { return one.ms; }},
-    RateQuantity{"painted", "Painted frames a second", "1/s", "Frames that reached the screen in the last second",
+    RateQuantity{"painted", "Painted frames per second", "1/s", "Frames that reached the screen in the last second",
                  [](const RateSample& one) { return one.painted; }},
-    RateQuantity{"violation-max", "Violation, max", "rest lengths",
-                 "How far the worst link lies outside its valid region; in a drag, of the links that a pass touched",
-                 [](const RateSample& one) { return one.violationMax; }},
+    RateQuantity{
+        "violation-max", "Violation, max", "rest lengths",
+        "Distance of the worst link from its valid region; while dragging, of the links that the last pass touched",
+        [](const RateSample& one) { return one.violationMax; }},
     RateQuantity{"violation-rms", "Violation, RMS", "rest lengths",
-                 "Root of the mean square over the links; in a drag, over those that a pass touched",
+                 "Root mean square over the links; while dragging, over those that the last pass touched",
                  [](const RateSample& one) { return one.violationRms; }}};
 
 // A gap of more than this (s), besides the time of the next pass, ends a line.
@@ -121,7 +122,7 @@ std::span<const RateQuantity> rateQuantities() { return quantities; }
 
 void RateHistory::add(const RateSample& sample) {
   const auto old = [&](const RateSample& one) { return one.time < sample.time - kept; };
-  // In large pieces, so that each sample is moved at most once or so.
+  // In large pieces, so that each sample is moved about once.
   if (samples_.size() > 1 && old(samples_[samples_.size() / 2])) {
     samples_.erase(samples_.begin(), std::ranges::partition_point(samples_, old));
   }

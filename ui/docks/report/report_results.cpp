@@ -29,7 +29,7 @@ QString folderKey() { return QStringLiteral("reportFolder"); }
 /// Writes the three files, or none of them.
 void saveReport(const std::filesystem::path& folder, const report::Comparison& comparison) {
   const QString date = QDateTime::currentDateTimeUtc().toString(QStringLiteral("yyyy-MM-dd HH:mm 'UTC'"));
-  const report::Origin origin{report::this_machine(), "the workbench's Report dock, while its window was open",
+  const report::Origin origin{report::this_machine(), "the Report dock of the workbench, while its window was open",
                               date.toStdString(), "chainmail " + QCoreApplication::applicationVersion().toStdString()};
   Outputs outputs;
   outputs.add(folder / "report.html", [&](std::ostream& out) { write_html(out, comparison, origin); });
@@ -86,7 +86,7 @@ ReportResults::ReportResults()
   split->setStretchFactor(1, 3);
   split->setSizes({330, 440});
   refusals_->setObjectName(QStringLiteral("reportRefusals"));
-  refusals_->setAccessibleName(QStringLiteral("Who was refused, and why"));
+  refusals_->setAccessibleName(QStringLiteral("Refused algorithms, with the reason"));
   refusals_->setToolTip(refusals_->accessibleName());
   refusals_->setTextFormat(Qt::PlainText);
   refusals_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -97,7 +97,7 @@ ReportResults::ReportResults()
   column->addLayout(makeBar());
   column->addWidget(split, 1);
   column->addWidget(refusals_);
-  followTheme(*this, [this] { showDrag(); });  // marks are drawn for one ground
+  followTheme(*this, [this] { showDrag(); });  // the marks depend on the theme
 }
 
 QWidget* ReportResults::makePlot() {
@@ -123,15 +123,15 @@ QLayout* ReportResults::makeBar() {
     widget->setAccessibleName(accessible);
     widget->setToolTip(help);
   };
-  name(heading_, "reportHeading", QStringLiteral("What was compared"), QStringLiteral("The object of the last run"));
+  name(heading_, "reportHeading", QStringLiteral("Compared object"), QStringLiteral("The object of the last run"));
   heading_->setTextFormat(Qt::PlainText);
-  heading_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // a long name pushes nothing away
-  name(drag_, "reportDrag", QStringLiteral("Drag shown"), QStringLiteral("Which of the drags plot and table show"));
-  name(error_, "reportError", QStringLiteral("Error shown"), QStringLiteral("Which error the plot shows against time"));
+  heading_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // a long name does not widen the dock
+  name(drag_, "reportDrag", QStringLiteral("Drag shown"), QStringLiteral("Drag that the plot and the table show"));
+  name(error_, "reportError", QStringLiteral("Error shown"), QStringLiteral("Error that the plot shows against time"));
   name(copy_, "reportCopy", QStringLiteral("Copy the table"),
-       QStringLiteral("Puts the table on the clipboard, columns parted by tabs, in the order shown"));
+       QStringLiteral("Copies the table in the order shown, with tabs between columns"));
   name(save_, "reportSave", QStringLiteral("Save the report"),
-       QStringLiteral("Writes report.html, report.json and report.csv, with all drags, into a folder"));
+       QStringLiteral("Writes report.html, report.json and report.csv with all drags into a folder"));
   for (const report::PlottedError& error : report::plotted_errors()) {
     QString sentence = text(error.name);
     sentence[0] = sentence[0].toUpper();

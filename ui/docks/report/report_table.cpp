@@ -13,7 +13,7 @@ namespace {
 
 constexpr int tableMarkSize = 13;  // logical pixels
 
-/// Sorted by its number and not by its text; what has none comes last.
+/// A cell that is sorted by its number, not by its text. Cells without a number come last.
 class FigureItem : public QTableWidgetItem {
  public:
   FigureItem(const QString& words, std::optional<double> number)
@@ -36,7 +36,7 @@ struct Column {
   const char* head;
   const char* help;
   std::optional<double> (*number)(const Measurement& one);
-  /// As it is shown, where that is not the number alone.
+  /// Text of the cell, if it is not the number alone.
   std::string (*words)(const Measurement& one) = nullptr;
 };
 
@@ -46,18 +46,18 @@ std::optional<double> of(const std::optional<Distance>& distance) {
 }
 
 constexpr std::array columns{
-    Column{"ms\na move", "Median over the repetitions: a pass and its sweeps",
+    Column{"ms\nper move", "Median over the repetitions: a pass and its sweeps",
            [](auto& one) { return std::optional(one.ms_per_move.median); }},
-    Column{"quartiles", "Half of the repetitions took a time between these two (ms a move)",
+    Column{"quartiles", "Half of the repetitions took a time between these two (ms per move)",
            [](auto& one) { return std::optional(one.ms_per_move.lower_quartile); },
            [](auto& one) {
              return report::figure(one.ms_per_move.lower_quartile) + " – " +
                     report::figure(one.ms_per_move.upper_quartile);
            }},
-    Column{"moved", "Elements moved, in all moves together, without the one in the hand",
+    Column{"moved", "Elements moved, in all moves together, without the handle",
            [](auto& one) { return std::optional(double(one.moved)); },
            [](auto& one) { return QLocale().toString(qulonglong(one.moved)).toStdString(); }},
-    Column{"violation\nmax", "The largest violation of a link, in its rest lengths",
+    Column{"violation\nmax", "Largest violation of a link, in its rest lengths",
            [](auto& one) { return std::optional(one.errors.violation.max); }},
     Column{"violation\nRMS", "Root mean square of the violation over all links, in rest lengths",
            [](auto& one) { return std::optional(one.errors.violation.rms); }},
@@ -65,15 +65,13 @@ constexpr std::array columns{
            [](auto& one) { return std::optional(one.errors.violation.fraction); },
            [](auto& one) { return report::percent(one.errors.violation.fraction); }},
     Column{"to Exact\nmax",
-           "The largest distance of an element to where Exact ChainMail in double puts it, in mean "
-           "rest lengths",
+           "Largest distance of an element to its position by Exact ChainMail in double, in mean rest lengths",
            [](auto& one) { return of<&Distance::max>(one.errors.to_exact); }},
     Column{"to Exact\nRMS", "Root mean square of the distance to Exact ChainMail in double, in mean rest lengths",
            [](auto& one) { return of<&Distance::rms>(one.errors.to_exact); }},
-    Column{"energy\nratio", "Elastic energy over that of Exact ChainMail; n/a where that holds none",
+    Column{"energy\nratio", "Elastic energy over that of Exact ChainMail; n/a if that is 0",
            [](auto& one) { return one.errors.energy_over_exact; }},
-    Column{"float to\ndouble",
-           "The largest distance between the contestant in float and in double, in mean rest lengths",
+    Column{"float to\ndouble", "Largest distance between the contestant in float and in double, in mean rest lengths",
            [](auto& one) { return std::optional(one.errors.float_to_double.max); }},
 };
 
@@ -86,8 +84,8 @@ QString shortName(std::string_view label) {
 
 ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   setObjectName(QStringLiteral("reportTable"));
-  setAccessibleName(QStringLiteral("Table of the contestants' figures"));
-  setToolTip(QStringLiteral("A click on a column's head sorts by it; hover it for what it says"));
+  setAccessibleName(QStringLiteral("Table of times and errors"));
+  setToolTip(QStringLiteral("Click a column head to sort by it; point at it for an explanation"));
   setSelectionBehavior(SelectRows);
   setAlternatingRowColors(true);
   setShowGrid(false);
@@ -96,7 +94,7 @@ ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   verticalHeader()->setDefaultSectionSize(21);
   verticalHeader()->setMinimumSectionSize(21);
   auto* contestant = new QTableWidgetItem(QStringLiteral("contestant"));
-  contestant->setToolTip(QStringLiteral("The algorithm, and the sweeps of relaxation after each of its moves"));
+  contestant->setToolTip(QStringLiteral("Algorithm, and sweeps of relaxation after each move"));
   setHorizontalHeaderItem(0, contestant);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     auto* head = new QTableWidgetItem(QLatin1String(columns[i].head));

@@ -13,22 +13,23 @@
 namespace chainmail {
 namespace {
 
-constexpr int leading = 2;  // columns before the panels'
+constexpr int leading = 2;  // columns before those of the panels
 constexpr std::array heads{"median\nms", "slowest\nhundredth ms", "painted\nframes/s", "real\ntime"};
-constexpr std::array helps{"Median time of a pass, of the solver alone (ms)",
-                           "99 % of the passes took no longer (ms); real time is where that fits the budget",
-                           "Frames of this panel that reached the screen in the last second of the drags",
-                           "Whether the slowest hundredth fits the budget; 'no' is said after a second attempt"};
+constexpr std::array helps{
+    "Median time of a pass in the solver (ms)",
+    "99 % of the passes are at most this long (ms); real time means that this is within the limit",
+    "Frames of this panel that reached the screen in the last second of the drags",
+    "'yes' if the slowest hundredth is within the limit; 'no' after a second attempt"};
 
 }  // namespace
 
 SizeTestTable::SizeTestTable() : verdicts_(new QLabel), table_(new QTableWidget) {
   verdicts_->setObjectName(QStringLiteral("sizeTestVerdicts"));
-  verdicts_->setAccessibleName(QStringLiteral("Up to which size each panel is in real time"));
+  verdicts_->setAccessibleName(QStringLiteral("Largest size in real time, for each panel"));
   verdicts_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   table_->setObjectName(QStringLiteral("sizeTestTable"));
   table_->setAccessibleName(QStringLiteral("Times at each size"));
-  table_->setToolTip(QStringLiteral("A row a size; Ctrl+C copies the table"));
+  table_->setToolTip(QStringLiteral("One row per size; Ctrl+C copies the table"));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setAlternatingRowColors(true);
@@ -86,7 +87,8 @@ void SizeTestTable::add(const SizeTestRow& row) {
     if (one.panel == row.panel) {
       put(at, column, text(report::figure(figures.median_ms)));
       put(at, column + 1, text(report::figure(figures.p99_ms)),
-          figures.repeated ? QStringLiteral("Of fresh drags: the first ones missed the budget") : QString());
+          figures.repeated ? QStringLiteral("Second attempt with other drags: the first attempt missed the limit")
+                           : QString());
       put(at, column + 2, QString::number(row.painted));
       put(at, column + 3, figures.in_real_time ? QStringLiteral("yes") : QStringLiteral("no"));
     }
