@@ -5,9 +5,9 @@
 #include "core/families.h"
 #include "report/page/ramp_table.h"
 #include "report/run/growth.h"
-#include "report/run/scripted_drags.h"
 #include "report/run/ramp.h"
 #include "report/run/ramp_rule.h"
+#include "report/run/scripted_drags.h"
 
 using namespace chainmail;
 using namespace chainmail::report;
@@ -24,6 +24,7 @@ class RampTest : public QObject {
   void drags_repeat_with_their_seed();
   void drags_are_a_hands();
   void drags_keep_to_the_scenes_axes();
+  void a_race_gives_second_attempts();
   void widths_grow();
   void every_size_and_algorithm_has_a_row();
   void all_make_the_same_moves();
@@ -169,6 +170,28 @@ void RampTest::drags_keep_to_the_scenes_axes() {
     }
   }
   QVERIFY(moved > 0);
+}
+
+void RampTest::a_race_gives_second_attempts() {
+  const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
+  // Two contestants may have one algorithm, as two panels may.
+  RampRace race({4, 5}, {Algorithm::spiral, Algorithm::spiral}, 0.001);
+  const RampPasses fast{{0.5, 0.5}, 4}, slow{{2, 2}, 4};  // ms
+  QVERIFY(race.finish_attempt(*mesh, std::vector{slow, fast}).empty());
+  QCOMPARE(race.width(), 4U);
+  QCOMPARE(race.attempt(), 1);
+  QCOMPARE(race.attempting(), std::vector<std::size_t>{0});
+  auto results = race.finish_attempt(*mesh, std::vector{fast});
+  QCOMPARE(results.size(), std::size_t{2});
+  QVERIFY(results[0].contestant == 0 && results[0].row.repeated && results[0].row.in_real_time);
+  QVERIFY(results[1].contestant == 1 && !results[1].row.repeated);
+  QCOMPARE(race.width(), 5U);
+  QCOMPARE(race.attempting().size(), std::size_t{2});
+  race.finish_attempt(*mesh, std::vector{fast, slow});
+  results = race.finish_attempt(*mesh, std::vector{slow});
+  QVERIFY(!results[1].row.in_real_time);
+  QCOMPARE(race.in_race(), std::vector<std::size_t>{0});
+  QVERIFY(race.is_over());  // no size is left
 }
 
 void RampTest::widths_grow() {

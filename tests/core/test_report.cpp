@@ -25,6 +25,7 @@ class ReportTest : public QObject {
   void zero_has_a_place_of_its_own();
   void ticks_do_not_crowd();
   void an_axis_of_nothing_stands();
+  void a_linear_axis_ends_at_a_round_number();
   void a_plot_has_every_contestant_on_it();
   void a_plot_is_well_formed();
   void marks_stand_where_their_values_are();
@@ -164,6 +165,18 @@ void ReportTest::an_axis_of_nothing_stands() {
     }
     QVERIFY(axis.ticks().size() >= 2);
   }
+}
+
+void ReportTest::a_linear_axis_ends_at_a_round_number() {
+  const Axis axis = Axis::from_zero_to(0.037);
+  QCOMPARE(axis.position(0), 0.0);
+  QCOMPARE(axis.position(0.05), 1.0);
+  QCOMPARE(axis.position(0.075), 1.5);  // values beyond the axis are outside
+  QCOMPARE(axis.ticks().size(), std::size_t{3});
+  QCOMPARE(axis.ticks()[1].label, std::string("0.025"));
+  QVERIFY(!axis.has_zero());
+  QCOMPARE(Axis::from_zero_to(20).position(20), 1.0);
+  QCOMPARE(Axis::from_zero_to(0).position(1), 1.0);
 }
 
 void ReportTest::a_plot_has_every_contestant_on_it() {

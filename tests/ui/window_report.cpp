@@ -81,6 +81,23 @@ class WindowReport : public QObject {
     QCOMPARE(bench.marks().size(), std::size_t{6});
   }
 
+  void pointingAtAMarkReadsIt() {
+    ReportBench bench;
+    bench.choose("reportSweeps", 0);
+    QVERIFY(bench.plot().readingAt({10, 10}).isEmpty());  // there is no plot yet
+    bench.run();
+    for (const report::PlotMark& one : bench.marks()) {
+      const QPointF there = bench.plot().positionOf(one.x, one.y);
+      QVERIFY(bench.plot().rect().contains(there.toPoint()));
+      const QString reading = bench.plot().readingAt(there);
+      // Another mark may have the same position.
+      QVERIFY2(std::ranges::any_of(bench.marks(),
+                                   [&](const auto& mark) { return QString::fromStdString(mark.title) == reading; }),
+               qPrintable(reading));
+    }
+    QVERIFY(bench.plot().readingAt({0, 0}).isEmpty());
+  }
+
   void theTableSortsByNumbers() {
     ReportBench bench;
     bench.run();

@@ -41,7 +41,7 @@ void saveReport(const std::filesystem::path& folder, const report::Comparison& c
 /// Returns each reason for a refusal once, with the names of the algorithms.
 QString refusalsOf(const report::DragResult& drag) {
   QStringList sentences;
-  QMap<QString, QStringList> who;
+  QMap<QString, QStringList> refused;
   for (const report::Entry& entry : drag.entries) {
     if (entry.measurement) {
       continue;
@@ -51,13 +51,13 @@ QString refusalsOf(const report::DragResult& drag) {
     if (!sentences.contains(sentence)) {
       sentences << sentence;
     }
-    if (!who[sentence].contains(name)) {
-      who[sentence] << name;
+    if (!refused[sentence].contains(name)) {
+      refused[sentence] << name;
     }
   }
   QStringList lines;
   for (const QString& sentence : sentences) {
-    lines << QStringLiteral("%1: refused. %2").arg(who[sentence].join(QStringLiteral(", ")), sentence);
+    lines << QStringLiteral("%1: refused. %2").arg(refused[sentence].join(QStringLiteral(", ")), sentence);
   }
   if (!drag.no_exact.empty()) {
     lines << QStringLiteral("No distances to Exact ChainMail: %1").arg(text(drag.no_exact));

@@ -46,32 +46,33 @@ std::optional<double> of(const std::optional<Distance>& distance) {
 }
 
 constexpr std::array columns{
-    Column{"ms\nper move", "Median over the repetitions: a pass and its sweeps",
+    Column{"Time\n(ms per move)", "Median over the repetitions: a pass and its sweeps",
            [](auto& one) { return std::optional(one.ms_per_move.median); }},
-    Column{"quartiles", "Half of the repetitions took a time between these two (ms per move)",
+    Column{"Quartiles\n(ms per move)", "Half of the repetitions took a time between these two (ms per move)",
            [](auto& one) { return std::optional(one.ms_per_move.lower_quartile); },
            [](auto& one) {
              return report::figure(one.ms_per_move.lower_quartile) + " – " +
                     report::figure(one.ms_per_move.upper_quartile);
            }},
-    Column{"moved", "Elements moved, in all moves together, without the handle",
+    Column{"Moved\n(elements)", "Elements moved, in all moves together, without the handle",
            [](auto& one) { return std::optional(double(one.moved)); },
            [](auto& one) { return QLocale().toString(qulonglong(one.moved)).toStdString(); }},
-    Column{"violation\nmax", "Largest violation of a link, in its rest lengths",
+    Column{"Max\nviolation", "Largest violation of a link, in its rest lengths",
            [](auto& one) { return std::optional(one.errors.violation.max); }},
-    Column{"violation\nRMS", "Root mean square of the violation over all links, in rest lengths",
+    Column{"RMS\nviolation", "Root mean square of the violation over all links, in rest lengths",
            [](auto& one) { return std::optional(one.errors.violation.rms); }},
-    Column{"violated\nlinks", "Share of the links with a violation above 1e-4",
+    Column{"Violated\nlinks", "Share of the links with a violation above 1e-4",
            [](auto& one) { return std::optional(one.errors.violation.fraction); },
            [](auto& one) { return report::percent(one.errors.violation.fraction); }},
-    Column{"to Exact\nmax",
+    Column{"Max distance\nto Exact",
            "Largest distance of an element to its position by Exact ChainMail in double, in mean rest lengths",
            [](auto& one) { return of<&Distance::max>(one.errors.to_exact); }},
-    Column{"to Exact\nRMS", "Root mean square of the distance to Exact ChainMail in double, in mean rest lengths",
+    Column{"RMS distance\nto Exact",
+           "Root mean square of the distance to Exact ChainMail in double, in mean rest lengths",
            [](auto& one) { return of<&Distance::rms>(one.errors.to_exact); }},
-    Column{"energy\nratio", "Elastic energy over that of Exact ChainMail; n/a if that is 0",
+    Column{"Energy\nratio", "Elastic energy over that of Exact ChainMail; n/a if that is 0",
            [](auto& one) { return one.errors.energy_over_exact; }},
-    Column{"float to\ndouble", "Largest distance between the contestant in float and in double, in mean rest lengths",
+    Column{"Float to\ndouble", "Largest distance between the contestant in float and in double, in mean rest lengths",
            [](auto& one) { return std::optional(one.errors.float_to_double.max); }},
 };
 
@@ -93,7 +94,7 @@ ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   verticalHeader()->hide();
   verticalHeader()->setDefaultSectionSize(21);
   verticalHeader()->setMinimumSectionSize(21);
-  auto* contestant = new QTableWidgetItem(QStringLiteral("contestant"));
+  auto* contestant = new QTableWidgetItem(QStringLiteral("Contestant"));
   contestant->setToolTip(QStringLiteral("Algorithm, and sweeps of relaxation after each move"));
   setHorizontalHeaderItem(0, contestant);
   for (std::size_t i = 0; i < columns.size(); ++i) {

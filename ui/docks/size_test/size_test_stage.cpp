@@ -29,10 +29,10 @@ SizeTestStage::SizeTestStage(const SizeTestOptions& options, const std::vector<S
   const MeshPointer none = generate(gridOf(2));
   for (const SizeTestContestant& contestant : contestants) {
     auto* panel = new SizeTestPanel(contestant, options.softness, none, levels_);
-    const int place = int(panels_.size());
+    const int index = int(panels_.size());
     panels_.push_back(panel);
-    grid->addWidget(panel, place / 2, place % 2);
-    grid->setColumnStretch(place % 2, 1);
+    grid->addWidget(panel, index / 2, index % 2);
+    grid->setColumnStretch(index % 2, 1);
     connect(panel, &SizeTestPanel::moved, this, &SizeTestStage::showProgress);
     connect(panel, &SizeTestPanel::ended, this, &SizeTestStage::receiveEnd);
     connect(panel, &SizeTestPanel::failed, this, &SizeTestStage::stopFor);

@@ -14,7 +14,7 @@ namespace chainmail {
 namespace {
 
 constexpr int leading = 2;  // columns before those of the panels
-constexpr std::array heads{"median\nms", "slowest\nhundredth ms", "painted\nframes/s", "real\ntime"};
+constexpr std::array heads{"median\n(ms)", "slowest 1 %\n(ms)", "painted\n(frames/s)", "real\ntime"};
 constexpr std::array helps{
     "Median time of a pass in the solver (ms)",
     "99 % of the passes are at most this long (ms); real time means that this is within the limit",
@@ -49,8 +49,8 @@ void SizeTestTable::begin(const std::vector<SizeTestContestant>& contestants) {
   table_->clear();
   table_->setRowCount(0);
   table_->setColumnCount(leading + int(contestants.size() * heads.size()));
-  table_->setHorizontalHeaderItem(0, new QTableWidgetItem(QStringLiteral("\nsize")));
-  table_->setHorizontalHeaderItem(1, new QTableWidgetItem(QStringLiteral("\nelements")));
+  table_->setHorizontalHeaderItem(0, new QTableWidgetItem(QStringLiteral("\nSize")));
+  table_->setHorizontalHeaderItem(1, new QTableWidgetItem(QStringLiteral("\nElements")));
   int column = leading;
   for (const SizeTestContestant& one : contestants) {
     for (std::size_t i = 0; i < heads.size(); ++i) {
