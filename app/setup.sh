@@ -8,7 +8,7 @@ build_packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev nlohmann-json3-dev libcli11-dev
   libcgal-dev libgmsh-dev libteem-dev zlib1g-dev libnlopt-dev libseccomp-dev
-  qt6-base-dev libqt6opengl6-dev qt6-charts-dev qt6-svg-dev
+  qt6-base-dev libqt6opengl6-dev qt6-svg-dev
 )
 # Needed to show a window on a minimal machine: a software driver for OpenGL, and fonts.
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)

@@ -7,8 +7,10 @@
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
+#include "report/page/csv.h"
 #include "report/page/html.h"
 #include "report/page/table.h"
+#include "report/run/drags.h"
 #include "report/run/runner.h"
 
 namespace chainmail::command_line {

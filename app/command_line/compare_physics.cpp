@@ -6,7 +6,11 @@
 #include "command_line/report_origin.h"
 #include "files/results/report_json.h"
 #include "files/text/outputs.h"
-#include "report/page/physics_report.h"
+#include "report/page/physics_csv.h"
+#include "report/page/physics_html.h"
+#include "report/page/physics_plot.h"
+#include "report/page/physics_table.h"
+#include "report/page/svg.h"
 #include "report/run/physics_cases.h"
 
 namespace chainmail::command_line {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "mesh/error.h"
-#include "mesh/layers.h"
+#include "report/run/physics_cases.h"
 #include "report/run/random.h"
 
 namespace chainmail {
@@ -26,15 +26,7 @@ double squared_to_nearest(const Mesh& mesh, const std::vector<ElementId>& pins, 
 
 /// Returns the elements that a handle can be: on the surface of a solid, and not close to the pins.
 std::vector<ElementId> handles(const Mesh& mesh, const std::vector<ElementId>& pins) {
-  std::vector<ElementId> elements;
-  if (mesh.space_dimension == 3) {
-    elements = boundary(mesh);
-  }
-  if (elements.empty()) {
-    for (ElementId e = 0; e < mesh.element_count(); ++e) {
-      elements.push_back(e);
-    }
-  }
+  const std::vector<ElementId> elements = report::possible_handles(mesh);
   std::vector<double> distances(elements.size());
   std::ranges::transform(elements, distances.begin(), [&](ElementId e) { return squared_to_nearest(mesh, pins, e); });
   const double enough = kept_from_pins * kept_from_pins * *std::ranges::max_element(distances);

@@ -11,7 +11,7 @@
 #include "bench/layout.h"
 #include "bench/textbook.h"
 #include "reference/chainmail.h"
-#include "report/run/hand.h"
+#include "report/run/scripted_drags.h"
 
 namespace chainmail::bench {
 namespace {
@@ -161,7 +161,7 @@ HandLike hand_like_drags(const Scene& scene, const std::string& algorithm) {
   std::vector<double> ms;
   double sum = 0;
   std::uint64_t moved = 0;
-  for (const report::HandDrag& drag : report::hand_drags(*scene.mesh, 2004, 6, 60)) {
+  for (const report::ScriptedDrag& drag : report::scripted_drags(*scene.mesh, 2004, 6, 60)) {
     solver->reset();
     for (const Point& target : drag.targets) {
       const auto begin = Clock::now();

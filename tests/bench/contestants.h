@@ -44,7 +44,7 @@ Contestant dragged_by_textbook(const Scene& scene);
 /// would hold after a pass.
 Contestant streamed(const Scene& scene, const std::string& algorithm);
 
-/// What the passes of some hand-like drags took (report/run/hand.h), all with the default softness.
+/// What the passes of some hand-like drags took (report/run/scripted_drags.h), all with the default softness.
 struct HandLike {
   double ns_per_moved = 0;  // over all passes
   double median_ms = 0;     // of a pass

@@ -3,6 +3,7 @@
 
 #include "core/comparisons.h"
 #include "mesh/error.h"
+#include "report/run/drags.h"
 #include "simulate/simulation.h"
 
 using namespace chainmail;

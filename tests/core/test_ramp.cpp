@@ -5,9 +5,9 @@
 #include "core/families.h"
 #include "report/page/ramp_table.h"
 #include "report/run/growth.h"
-#include "report/run/hand.h"
 #include "report/run/ramp.h"
 #include "report/run/ramp_rule.h"
+#include "report/run/scripted_drags.h"
 
 using namespace chainmail;
 using namespace chainmail::report;
@@ -24,6 +24,7 @@ class RampTest : public QObject {
   void drags_repeat_with_their_seed();
   void drags_are_a_hands();
   void drags_keep_to_the_scenes_axes();
+  void a_race_gives_second_attempts();
   void widths_grow();
   void every_size_and_algorithm_has_a_row();
   void all_make_the_same_moves();
@@ -73,7 +74,7 @@ std::vector<std::uint32_t> widths_of(const Ramp& ramp) {
   return widths;
 }
 
-bool same(const HandDrag& a, const HandDrag& b) { return a.element == b.element && a.targets == b.targets; }
+bool same(const ScriptedDrag& a, const ScriptedDrag& b) { return a.element == b.element && a.targets == b.targets; }
 
 }  // namespace
 
@@ -118,8 +119,8 @@ void RampTest::growth_needs_three_sizes() {
 
 void RampTest::drags_repeat_with_their_seed() {
   const auto mesh = make_mesh(MeshKind::grid, {20, 20, 1});
-  const auto once = hand_drags(*mesh, 5, 4, 30), again = hand_drags(*mesh, 5, 4, 30),
-             other = hand_drags(*mesh, 6, 4, 30);
+  const auto once = scripted_drags(*mesh, 5, 4, 30), again = scripted_drags(*mesh, 5, 4, 30),
+             other = scripted_drags(*mesh, 6, 4, 30);
   QCOMPARE(once.size(), std::size_t{4});
   for (std::size_t i = 0; i < 4; ++i) {
     QVERIFY(same(once[i], again[i]));
@@ -131,7 +132,7 @@ void RampTest::drags_repeat_with_their_seed() {
 void RampTest::drags_are_a_hands() {
   const auto mesh = make_mesh(MeshKind::grid, {26, 26, 1}, {}, 2);
   const double width = 50;
-  for (const HandDrag& drag : hand_drags(*mesh, 1, 200, 30)) {
+  for (const ScriptedDrag& drag : scripted_drags(*mesh, 1, 200, 30)) {
     QVERIFY(drag.element < mesh->element_count());
     QCOMPARE(drag.targets.size(), std::size_t{30});
     Point last = mesh->rest_position(drag.element), last_step = Point::Zero();
@@ -157,18 +158,40 @@ void RampTest::drags_keep_to_the_scenes_axes() {
   const auto upright =
       build_mesh(placed(*make_mesh(MeshKind::grid, {5, 5, 1}), [](const Point& p) { return Point(p[0], 2.5, p[1]); }));
   double moved = 0;
-  for (const HandDrag& drag : hand_drags(*line, 1, 5, 10)) {
+  for (const ScriptedDrag& drag : scripted_drags(*line, 1, 5, 10)) {
     for (const Point& target : drag.targets) {
       QVERIFY(target.y() == 0 && target.z() == 0);
     }
   }
-  for (const HandDrag& drag : hand_drags(*upright, 1, 5, 10)) {
+  for (const ScriptedDrag& drag : scripted_drags(*upright, 1, 5, 10)) {
     for (const Point& target : drag.targets) {
       QCOMPARE(target.y(), 2.5);
       moved = std::max(moved, std::abs(target.z() - upright->rest_position(drag.element).z()));
     }
   }
   QVERIFY(moved > 0);
+}
+
+void RampTest::a_race_gives_second_attempts() {
+  const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
+  // Two contestants may have one algorithm, as two panels may.
+  RampRace race({4, 5}, {Algorithm::spiral, Algorithm::spiral}, 0.001);
+  const RampPasses fast{{0.5, 0.5}, 4}, slow{{2, 2}, 4};  // ms
+  QVERIFY(race.finish_attempt(*mesh, std::vector{slow, fast}).empty());
+  QCOMPARE(race.width(), 4U);
+  QCOMPARE(race.attempt(), 1);
+  QCOMPARE(race.attempting(), std::vector<std::size_t>{0});
+  auto results = race.finish_attempt(*mesh, std::vector{fast});
+  QCOMPARE(results.size(), std::size_t{2});
+  QVERIFY(results[0].contestant == 0 && results[0].row.repeated && results[0].row.in_real_time);
+  QVERIFY(results[1].contestant == 1 && !results[1].row.repeated);
+  QCOMPARE(race.width(), 5U);
+  QCOMPARE(race.attempting().size(), std::size_t{2});
+  race.finish_attempt(*mesh, std::vector{fast, slow});
+  results = race.finish_attempt(*mesh, std::vector{slow});
+  QVERIFY(!results[1].row.in_real_time);
+  QCOMPARE(race.in_race(), std::vector<std::size_t>{0});
+  QVERIFY(race.is_over());  // no size is left
 }
 
 void RampTest::widths_grow() {

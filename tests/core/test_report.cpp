@@ -4,9 +4,11 @@
 
 #include "core/support.h"
 #include "report/page/axis.h"
+#include "report/page/csv.h"
 #include "report/page/format.h"
 #include "report/page/html.h"
 #include "report/page/plot.h"
+#include "report/page/svg.h"
 #include "report/page/table.h"
 
 using namespace chainmail;
@@ -23,6 +25,7 @@ class ReportTest : public QObject {
   void zero_has_a_place_of_its_own();
   void ticks_do_not_crowd();
   void an_axis_of_nothing_stands();
+  void a_linear_axis_ends_at_a_round_number();
   void a_plot_has_every_contestant_on_it();
   void a_plot_is_well_formed();
   void marks_stand_where_their_values_are();
@@ -118,50 +121,62 @@ void ReportTest::text_is_escaped() {
 }
 
 void ReportTest::an_axis_spans_whole_decades() {
-  const LogAxis axis({0.02, 7}, 1e-9);
+  const Axis axis = Axis::logarithmic({0.02, 7}, 1e-9);
   QVERIFY(!axis.has_zero());
   // From 0.01 to 10.
-  QCOMPARE(axis.place(0.01), 0.0);
-  QCOMPARE(axis.place(10), 1.0);
-  QVERIFY(std::abs(axis.place(0.1) - 1.0 / 3) < 1e-12);
-  QVERIFY(std::abs(axis.place(std::sqrt(10.0)) - 2.5 / 3) < 1e-12);
-  QCOMPARE(axis.place(1000), 1.0);
-  QCOMPARE(axis.place(0.0001), 0.0);
+  QCOMPARE(axis.position(0.01), 0.0);
+  QCOMPARE(axis.position(10), 1.0);
+  QVERIFY(std::abs(axis.position(0.1) - 1.0 / 3) < 1e-12);
+  QVERIFY(std::abs(axis.position(std::sqrt(10.0)) - 2.5 / 3) < 1e-12);
+  QCOMPARE(axis.position(1000), 1.0);
+  QCOMPARE(axis.position(0.0001), 0.0);
   QCOMPARE(axis.ticks().size(), std::size_t{4});
   QCOMPARE(axis.ticks().front().label, std::string("0.01"));
   QCOMPARE(axis.ticks().back().label, std::string("10"));
 }
 
 void ReportTest::zero_has_a_place_of_its_own() {
-  const LogAxis axis({0, 1e-20, 0.02, 7}, 1e-12);
+  const Axis axis = Axis::logarithmic({0, 1e-20, 0.02, 7}, 1e-12);
   QVERIFY(axis.has_zero());
-  QVERIFY(0 < axis.place(0) && axis.place(0) < axis.first_decade());
-  QCOMPARE(axis.place(1e-20), axis.place(0));
-  QCOMPARE(axis.place(0.01), axis.first_decade());
-  QCOMPARE(axis.place(10), 1.0);
+  QVERIFY(0 < axis.position(0) && axis.position(0) < axis.first_decade());
+  QCOMPARE(axis.position(1e-20), axis.position(0));
+  QCOMPARE(axis.position(0.01), axis.first_decade());
+  QCOMPARE(axis.position(10), 1.0);
   QCOMPARE(axis.ticks().front().label, std::string("0"));
-  QCOMPARE(axis.ticks().front().place, axis.place(0));
+  QCOMPARE(axis.ticks().front().position, axis.position(0));
 }
 
 void ReportTest::ticks_do_not_crowd() {
-  const LogAxis axis({1e-8, 50}, 1e-12);
+  const Axis axis = Axis::logarithmic({1e-8, 50}, 1e-12);
   const auto ticks = axis.ticks();
   QVERIFY(ticks.size() >= 4 && ticks.size() <= 7);
   QCOMPARE(ticks.front().label, std::string("10⁻⁸"));
-  QCOMPARE(ticks.back().place, 1.0);
+  QCOMPARE(ticks.back().position, 1.0);
   for (std::size_t i = 1; i < ticks.size(); ++i) {
-    QVERIFY(ticks[i].place - ticks[i - 1].place > 0.1);
+    QVERIFY(ticks[i].position - ticks[i - 1].position > 0.1);
   }
 }
 
 void ReportTest::an_axis_of_nothing_stands() {
   for (const auto& values : {std::vector<double>{}, {0.0}, {1.0}, {std::nan(""), HUGE_VAL}}) {
-    const LogAxis axis(values, 1e-12);
+    const Axis axis = Axis::logarithmic(values, 1e-12);
     for (const double value : {0.0, 1.0, 1e9, HUGE_VAL, std::nan("")}) {
-      QVERIFY(axis.place(value) >= 0 && axis.place(value) <= 1);
+      QVERIFY(axis.position(value) >= 0 && axis.position(value) <= 1);
     }
     QVERIFY(axis.ticks().size() >= 2);
   }
+}
+
+void ReportTest::a_linear_axis_ends_at_a_round_number() {
+  const Axis axis = Axis::from_zero_to(0.037);
+  QCOMPARE(axis.position(0), 0.0);
+  QCOMPARE(axis.position(0.05), 1.0);
+  QCOMPARE(axis.position(0.075), 1.5);  // values beyond the axis are outside
+  QCOMPARE(axis.ticks().size(), std::size_t{3});
+  QCOMPARE(axis.ticks()[1].label, std::string("0.025"));
+  QVERIFY(!axis.has_zero());
+  QCOMPARE(Axis::from_zero_to(20).position(20), 1.0);
+  QCOMPARE(Axis::from_zero_to(0).position(1), 1.0);
 }
 
 void ReportTest::a_plot_has_every_contestant_on_it() {

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <QChart>
-#include <QChartView>
-#include <QLineSeries>
-#include <QScatterSeries>
-
+#include "common/plot_widget.h"
 #include "docks/report/report_dock.h"
 #include "docks/report/report_table.h"
 #include "window.h"
@@ -48,16 +44,8 @@ struct ReportBench : Workbench {
     QVERIFY(thread().atWork());
   }
 
-  template <class Series>
-  QList<Series*> marks() {
-    QList<Series*> found;
-    for (QAbstractSeries* one : find<QChartView>("reportPlot")->chart()->series()) {
-      if (auto* series = qobject_cast<Series*>(one)) {
-        found << series;
-      }
-    }
-    return found;
-  }
+  PlotWidget& plot() { return *find<PlotWidget>("reportPlot"); }
+  const std::vector<report::PlotMark>& marks() { return plot().plot().panels.front().marks; }
   QString cell(const QString& contestant, int column) {
     for (int row = 0; row < table().rowCount(); ++row) {
       if (table().item(row, 0)->text() == contestant) {

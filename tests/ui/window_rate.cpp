@@ -20,7 +20,8 @@ struct RateBench : Workbench {
   RateBench() : Workbench(generate({MeshKind::grid, {9, 7, 1}, 1, {}})) {}
 
   FrameRateDock& dock() { return *window.findChild<FrameRateDock*>(); }
-  const RatePicture& plot() { return find<RatePlot>("ratePlot")->picture(); }
+  const report::Plot& plot() { return find<PlotWidget>("ratePlot")->plot(); }
+  double end() { return plot().x.ends->back(); }
   void shake() {
     const QPoint from = place(0, 31);
     QList<QPoint> there{from};
@@ -37,8 +38,10 @@ struct RateBench : Workbench {
   /// The points of a panel's lines.
   QPolygonF points(std::size_t panel) {
     QPolygonF all;
-    for (const QPolygonF& line : plot().curves[panel].lines) {
-      all += line;
+    for (const report::PlotCurve& curve : plot().panels.front().curves) {
+      for (const auto& [x, y] : curve.points) {
+        curve.series == panel ? all << QPointF(x, y) : all;
+      }
     }
     return all;
   }
@@ -150,7 +153,7 @@ class WindowRate : public QObject {
     bench.shake();
     bench.rest();
     QVERIFY(bench.points(2).size() > 3);
-    const double before = bench.plot().to;
+    const double before = bench.end();
     bench.trigger("removePanel");
     bench.settle();
     bench.trigger("addPanel");
@@ -166,8 +169,8 @@ class WindowRate : public QObject {
     bench.rest();
     for (const RateQuantity& one : rateQuantities()) {
       bench.set("rateQuantity", QString::fromUtf8(one.name.data(), qsizetype(one.name.size())));
-      QCOMPARE(bench.plot().quantity->name, one.name);
-      QCOMPARE(bench.plot().curves.size(), bench.document().panels());
+      QVERIFY(bench.plot().title.starts_with(one.label));
+      QCOMPARE(bench.plot().series.size(), bench.document().panels());
       for (std::size_t panel = 0; panel < 2; ++panel) {
         const QPolygonF points = bench.points(panel);
         QVERIFY2(points.size() > 3, one.name.data());
@@ -175,11 +178,11 @@ class WindowRate : public QObject {
                 one.name.starts_with("violation"));
       }
     }
-    QVERIFY(QColor(bench.plot().curves[0].colour) != QColor(bench.plot().curves[1].colour));
-    QCOMPARE(bench.plot().curves[0].name, QStringLiteral("A Generalized ChainMail"));
+    QVERIFY(bench.plot().series[0].colour != bench.plot().series[1].colour);
+    QCOMPARE(bench.plot().series[0].label, std::string("A Generalized ChainMail"));
     QVERIFY(bench.find<QLabel>("rateName1")->text().contains(QStringLiteral("Natural Queue")));
     bench.set("rateSpan", 60);
-    QCOMPARE(bench.plot().to - bench.plot().from, 60.0);
+    QCOMPARE(bench.end() - bench.plot().x.ends->front(), 60.0);
     bench.choose(0, "Spiral");
     QVERIFY(bench.find<QLabel>("rateName0")->text().contains(QStringLiteral("Spiral")));
   }
@@ -195,19 +198,19 @@ class WindowRate : public QObject {
     bench.settleFigures();
     QTRY_VERIFY(!isRead());  // nor does a last frame begin it anew
     const auto before = bench.points(0);
-    const double to = bench.plot().to;
+    const double to = bench.end();
     bench.settle();
     QVERIFY(!isRead());
-    QCOMPARE(bench.plot().to, to);
+    QCOMPARE(bench.end(), to);
     bench.trigger("pauseRates");
     bench.shake();
     bench.rest();
     QCOMPARE(bench.points(0), before);
-    QCOMPARE(bench.plot().to, to);
+    QCOMPARE(bench.end(), to);
     bench.trigger("pauseRates");
     bench.shake();
     bench.rest();
-    QVERIFY(bench.plot().to > to);
+    QVERIFY(bench.end() > to);
     QVERIFY(bench.points(0) != before);
   }
 
@@ -248,11 +251,11 @@ class WindowRate : public QObject {
     bench.dock().savePicturePath(folder.filePath(QStringLiteral("rates.png")));
     const QImage picture(folder.filePath(QStringLiteral("rates.png")));
     QVERIFY(picture.width() > 1500);
-    for (const RatePicture::Curve& curve : bench.plot().curves) {
+    for (int panel = 0; panel < 2; ++panel) {
       int pixels = 0;
       for (int y = 0; y < picture.height(); ++y) {
         for (int x = 0; x < picture.width(); ++x) {
-          pixels += picture.pixelColor(x, y) == curve.colour.on(colours::Ground::light) ? 1 : 0;
+          pixels += picture.pixelColor(x, y) == colours::ofPanel(panel).on(colours::Ground::light) ? 1 : 0;
         }
       }
       QVERIFY(pixels > 100);  // the line of the legend alone is longer
@@ -267,15 +270,13 @@ class WindowRate : public QObject {
 
  private:
   static void checkThatTheCursorReads(RateBench& bench, double ms) {
-    auto& plot = *bench.find<RatePlot>("ratePlot");
+    auto& plot = *bench.find<PlotWidget>("ratePlot");
     QStringList readings;
     for (int x = 0; x < plot.width(); ++x) {
       readings << plot.readingAt(QPointF(x, plot.height() / 2)).split(QLatin1Char('\n'));
     }
-    QVERIFY2(
-        readings.contains(
-            QStringLiteral("%1: %2 ms").arg(plot.picture().curves[0].name, QString::fromStdString(report::figure(ms)))),
-        qPrintable(readings.join(QLatin1Char('|'))));
+    QVERIFY2(readings.contains(QString::fromStdString(plot.plot().series[0].label + ": " + report::figure(ms) + " ms")),
+             qPrintable(readings.join(QLatin1Char('|'))));
     QVERIFY(plot.readingAt(QPointF(0, 0)).isEmpty());  // beside the axes
   }
 };

@@ -45,7 +45,7 @@ class WindowReport : public QObject {
     for (int drag = 0; drag < 3; ++drag) {
       bench.choose("reportDrag", drag);
       QCOMPARE(bench.table().rowCount(), 12);  // six algorithms, with and without sweeps
-      QCOMPARE(bench.marks<QScatterSeries>().size(), 12);
+      QCOMPARE(bench.marks().size(), std::size_t{12});
       for (int row = 0; row < bench.table().rowCount(); ++row) {
         QVERIFY(bench.table().item(row, msColumn)->text().toDouble() > 0);
       }
@@ -65,22 +65,37 @@ class WindowReport : public QObject {
     bench.choose("reportError", 2);
     bench.run();
     QCOMPARE(bench.cell(QStringLiteral("Exact"), exactColumn), QStringLiteral("0"));
-    QLineSeries* zero = nullptr;
-    for (QLineSeries* one : bench.marks<QLineSeries>()) {
-      zero = one->name() == QStringLiteral("zero") ? one : zero;
-    }
-    QVERIFY(zero != nullptr);
+    const report::PlotAxes axes(bench.plot().plot());
+    QVERIFY(axes.y.has_zero());
+    const double zero = bench.plot().positionOf(1, 0).y();
     int above = 0;
-    for (QScatterSeries* one : bench.marks<QScatterSeries>()) {
+    for (const report::PlotMark& one : bench.marks()) {
       // What rounding leaves counts as 0, as in the report's files.
-      const QString name = QString(one->name()).remove(QStringLiteral(" ChainMail"));
+      const QString name = QString::fromStdString(bench.plot().plot().series[one.series].label);
       const bool isZero = bench.cell(name, exactColumn).toDouble() < 1e-12;
-      QCOMPARE(one->at(0).y() == zero->at(0).y(), isZero);
+      QCOMPARE(bench.plot().positionOf(one.x, one.y).y() == zero, isZero);
       above += isZero ? 0 : 1;
     }
     QVERIFY(above > 0);  // Generalized goes elsewhere
     bench.choose("reportError", 0);
-    QCOMPARE(bench.marks<QScatterSeries>().size(), 6);
+    QCOMPARE(bench.marks().size(), std::size_t{6});
+  }
+
+  void pointingAtAMarkReadsIt() {
+    ReportBench bench;
+    bench.choose("reportSweeps", 0);
+    QVERIFY(bench.plot().readingAt({10, 10}).isEmpty());  // there is no plot yet
+    bench.run();
+    for (const report::PlotMark& one : bench.marks()) {
+      const QPointF there = bench.plot().positionOf(one.x, one.y);
+      QVERIFY(bench.plot().rect().contains(there.toPoint()));
+      const QString reading = bench.plot().readingAt(there);
+      // Another mark may have the same position.
+      QVERIFY2(std::ranges::any_of(bench.marks(),
+                                   [&](const auto& mark) { return QString::fromStdString(mark.title) == reading; }),
+               qPrintable(reading));
+    }
+    QVERIFY(bench.plot().readingAt({0, 0}).isEmpty());
   }
 
   void theTableSortsByNumbers() {

@@ -24,43 +24,77 @@ std::string label_of(int decade) {
   return decade < -3 || decade > 2 ? "10" + superscript(decade) : figure(std::pow(10, decade));
 }
 
+/// Returns 1, 2 or 5 times a power of ten.
+double round_number_above(double highest) {
+  if (!(highest > 0)) {
+    return 1;
+  }
+  const double power = std::pow(10, std::floor(std::log10(highest)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (highest <= digit * power) {
+      return digit * power;
+    }
+  }
+  return 10 * power;
+}
+
 }  // namespace
 
-LogAxis::LogAxis(const std::vector<double>& values, double smallest) : smallest_(smallest) {
+Axis Axis::logarithmic(const std::vector<double>& values, double smallest) {
+  Axis axis;
+  axis.is_logarithmic_ = true;
+  axis.smallest_ = smallest;
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const double value : values) {
     if (value < smallest) {
-      has_zero_ = true;
+      axis.has_zero_ = true;
     } else if (std::isfinite(value)) {
       least = std::min(least, value);
       most = std::max(most, value);
     }
   }
+  int low = 0, high = 1, step = 1;
   if (most > 0) {
-    low_ = static_cast<int>(std::floor(std::log10(least)));
-    high_ = std::max(low_ + 1, static_cast<int>(std::ceil(std::log10(most))));
-    step_ = (high_ - low_) / most_ticks + 1;
-    high_ += (step_ - (high_ - low_) % step_) % step_;  // so that the last decade has its tick
+    low = static_cast<int>(std::floor(std::log10(least)));
+    high = std::max(low + 1, static_cast<int>(std::ceil(std::log10(most))));
+    step = (high - low) / most_ticks + 1;
+    high += (step - (high - low) % step) % step;  // so that the last decade has a tick
   }
+  axis.low_ = low;
+  axis.high_ = high;
+  if (axis.has_zero_) {
+    axis.ticks_.push_back({of_zero, "0", true});
+  }
+  for (int decade = low; decade <= high; decade += step) {
+    axis.ticks_.push_back({axis.position(std::pow(10, decade)), label_of(decade)});
+  }
+  return axis;
 }
 
-double LogAxis::place(double value) const {
+Axis Axis::linear(double low, double high, const std::vector<LabelledValue>& ticks) {
+  Axis axis;
+  axis.low_ = low;
+  axis.high_ = high;
+  for (const auto& [value, label] : ticks) {
+    axis.ticks_.push_back({axis.position(value), label});
+  }
+  return axis;
+}
+
+Axis Axis::from_zero_to(double highest) {
+  const double end = round_number_above(highest);
+  return linear(0, end, {{0, figure(0)}, {end / 2, figure(end / 2)}, {end, figure(end)}});
+}
+
+double Axis::position(double value) const {
+  if (!is_logarithmic_) {
+    return (value - low_) / (high_ - low_);
+  }
   if (!(value >= smallest_)) {
     return has_zero_ ? of_zero : 0;
   }
   const double share = (std::log10(value) - low_) / (high_ - low_);
   return first_decade() + (1 - first_decade()) * std::clamp(share, 0.0, 1.0);
-}
-
-std::vector<LogAxis::Tick> LogAxis::ticks() const {
-  std::vector<Tick> ticks;
-  if (has_zero_) {
-    ticks.push_back({of_zero, "0"});
-  }
-  for (int decade = low_; decade <= high_; decade += step_) {
-    ticks.push_back({place(std::pow(10, decade)), label_of(decade)});
-  }
-  return ticks;
 }
 
 }  // namespace chainmail::report

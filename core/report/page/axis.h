@@ -5,33 +5,45 @@
 
 namespace chainmail::report {
 
-/// A logarithmic axis over whole decades, with a place of its own for 0 where there is one.
-///
-/// Places run from 0, the axis' beginning, to 1, its end. Values below `smallest` count as 0, which stands
-/// between the beginning and the first decade.
-class LogAxis {
+/// A labelled position on an axis.
+struct Tick {
+  double position = 0;
+  std::string label;
+  bool is_zero = false;  // the position of 0 on a logarithmic axis
+};
+
+/// A value with its label, for the ticks of a linear axis.
+struct LabelledValue {
+  double value = 0;
+  std::string label;
+};
+
+/// Maps values to positions along an axis. Positions run from 0, where the axis begins, to 1, where it ends.
+class Axis {
  public:
-  LogAxis(const std::vector<double>& values, double smallest);
+  /// Returns a logarithmic axis over the decades of `values`. Values below `smallest` count as 0. Where there are such
+  /// values, 0 has a position of its own between the beginning and the first decade. Values beyond the axis are at its
+  /// ends.
+  static Axis logarithmic(const std::vector<double>& values, double smallest);
+  /// Returns a linear axis. Values beyond it have positions below 0 or above 1.
+  static Axis linear(double low, double high, const std::vector<LabelledValue>& ticks);
+  /// Returns a linear axis from 0 to 1, 2 or 5 times a power of ten, with ticks at both ends and in the middle.
+  static Axis from_zero_to(double highest);
 
-  /// Where a value stands; values beyond the axis stand at its ends.
-  double place(double value) const;
+  double position(double value) const;
+  /// Returns few enough ticks that their labels do not crowd.
+  const std::vector<Tick>& ticks() const { return ticks_; }
   bool has_zero() const { return has_zero_; }
-  /// Where the first decade begins: behind the place of 0.
+  /// Returns the position of the first decade, which is behind that of 0.
   double first_decade() const { return has_zero_ ? behind_zero : 0; }
-
-  struct Tick {
-    double place;
-    std::string label;
-  };
-  /// The decades, so many that they do not crowd, and 0.
-  std::vector<Tick> ticks() const;
 
  private:
   static constexpr double of_zero = 0.05, behind_zero = 0.13;
 
-  double smallest_;
-  bool has_zero_ = false;
-  int low_ = 0, high_ = 1, step_ = 1;  // decades
+  bool is_logarithmic_ = false, has_zero_ = false;
+  double smallest_ = 0;
+  double low_ = 0, high_ = 1;  // values; decades where the axis is logarithmic
+  std::vector<Tick> ticks_;
 };
 
 }  // namespace chainmail::report

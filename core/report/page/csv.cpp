@@ -1,5 +1,6 @@
+#include "report/page/csv.h"
+
 #include "report/page/format.h"
-#include "report/page/table.h"
 
 namespace chainmail::report {
 namespace {
@@ -28,7 +29,7 @@ void write_measurement(std::ostream& out, const Measurement& measurement) {
   write_errors(out, measurement.errors);
 }
 
-constexpr int figures = 20;  // columns of a measurement
+constexpr int comparison_figures = 20;  // columns of a measurement
 
 }  // namespace
 
@@ -46,7 +47,7 @@ void write_csv(std::ostream& out, const Comparison& comparison) {
         if (entry.measurement) {
           write_measurement(out, *entry.measurement);
         } else {
-          out << std::string(figures, ',');
+          out << std::string(comparison_figures, ',');
         }
         out << '\n';
       }

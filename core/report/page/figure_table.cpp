@@ -25,7 +25,7 @@ void write_head(std::ostream& out, const FigureTable& table) {
   out << "</tr></thead>\n";
 }
 
-/// Characters, not bytes.
+/// Counts characters, not bytes.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
@@ -55,7 +55,7 @@ void write_columns(std::ostream& out, const std::vector<std::vector<std::string>
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
     for (std::size_t i = 0; i < row.size(); ++i) {
-      // A row of two is a name and a sentence, which no column needs to hold.
+      // In a row of two, the second cell is a sentence that may be wider than the columns.
       widths[i] = std::max(widths[i], row.size() == 2 && i == 1 ? 0 : width_of(row[i]));
     }
   }

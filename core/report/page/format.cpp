@@ -13,7 +13,7 @@ std::string written(double number, std::chars_format format, int precision) {
   return {digits.data(), end};
 }
 
-/// How many bytes the UTF-8 character at the front has; 0 where it is none.
+/// Returns the number of bytes of the first UTF-8 character; 0 if it is invalid.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::size_t length = byte(0) < 0x80                      ? 1
@@ -29,7 +29,7 @@ std::size_t character_length(std::string_view text) {
       return 0;
     }
   }
-  // Overlong forms, surrogates, and what lies beyond the last character.
+  // Overlong forms, surrogates, and codes above the last character.
   const bool wrong = (byte(0) == 0xE0 && byte(1) < 0xA0) || (byte(0) == 0xED && byte(1) >= 0xA0) ||
                      (byte(0) == 0xF0 && byte(1) < 0x90) || (byte(0) == 0xF4 && byte(1) >= 0x90);
   return wrong ? 0 : length;
@@ -54,12 +54,12 @@ std::string_view entity_of(char character) {
 
 }  // namespace
 
-std::string figure(double number) {
-  std::string text = written(number, std::chars_format::general, 3);
+std::string figure(double number, int digits) {
+  std::string text = written(number, std::chars_format::general, digits);
   // 1e-07 reads better as 1e-7.
   if (const auto exponent = text.find('e'); exponent != std::string::npos) {
-    const auto digits = exponent + 2;
-    text.erase(digits, text.find_first_not_of('0', digits) - digits);
+    const auto first = exponent + 2;
+    text.erase(first, text.find_first_not_of('0', first) - first);
     if (text[exponent + 1] == '+') {
       text.erase(exponent + 1, 1);
     }
@@ -77,8 +77,6 @@ std::string all_digits(double number) {
 }
 
 std::string all_digits(const std::optional<double>& number) { return number ? all_digits(*number) : ""; }
-
-std::string place(double number) { return written(number, std::chars_format::fixed, 2); }
 
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) {

@@ -7,21 +7,18 @@
 
 namespace chainmail::report {
 
-/// A number for people: three digits, `n/a` where there is none. The same whatever the locale.
-std::string figure(double number);
+/// Formats a number for people, with three significant digits in every locale; `n/a` if there is none.
+std::string figure(double number, int digits = 3);
 std::string figure(const std::optional<double>& number);
-/// A share for people, in percent.
+/// Formats a share for people, in percent.
 std::string percent(double share);
-/// A number for programs: the fewest digits that read back as the same number.
+/// Formats a number for programs, with the fewest digits that read back as the same number; empty if there is none.
 std::string all_digits(double number);
-std::string all_digits(const std::optional<double>& number);  // none: empty
-/// A place in a drawing: hundredths.
-std::string place(double number);
+std::string all_digits(const std::optional<double>& number);
 
-/// Text as a field of CSV, in quotes where it must be.
+/// Returns text as a field of CSV, in quotes where needed.
 std::string csv_field(const std::string& text);
-/// Text as it may stand in XML and HTML, in attributes too. Control characters, which neither can hold, and
-/// what is not UTF-8 become question marks.
+/// Returns text for XML and HTML, attributes included. Control characters and invalid UTF-8 become question marks.
 std::string escaped(std::string_view text);
 
 }  // namespace chainmail::report

@@ -1,34 +1,130 @@
 #include "report/page/html.h"
 
-#include "report/page/detail.h"
+#include <algorithm>
+
 #include "report/page/figure_table.h"
 #include "report/page/format.h"
 #include "report/page/page.h"
+#include "report/page/plot.h"
 #include "report/page/table.h"
 
 namespace chainmail::report {
 namespace {
 
-constexpr const char* how_to_read = R"(<h2>How to read it</h2>
-<p>Every contestant carries out the same recorded moves, in turns within one process and one thread, each repetition from
-rest after one that does not count. <b>ms a move</b> is the time of a pass and of the sweeps of relaxation that follow it,
-averaged over the moves of a drag: the median over the repetitions. What other programs took meanwhile does not
-count. The <b>violation</b> is how far a link lies outside its
-valid region, in its rest lengths; a link counts as violated above 10⁻⁴. The <b>distance to Exact</b> is measured from the
-positions in which Exact ChainMail ends, run in double precision on the same moves and without relaxation, in mean rest
-lengths: Exact moves every element as little as a valid object allows. Relaxation moves elements on purpose, toward the
-equilibrium and so away from Exact: there the violation says how good a contestant is, and the distance how far it has
-gone. Errors are measured in double precision at the end of a drag, while the hand still holds; figures near 10⁻⁶ are the
-rounding of single precision. In the plots, down is better and left is faster: a contestant with no other one below
-and left of it is a good choice. Below, <b>float to double</b> is the distance of a contestant from itself in the other
-precision, and <b>farthest / hand</b> the largest displacement over the hand’s: above 1, something went further than it
-was pulled.</p>
+constexpr const char* how_to_read_comparison = R"(<h2>How to read it</h2>
+<p>Every contestant carries out the same recorded moves, in turns within one process and one thread. Each repetition starts
+from rest; the first one does not count. <b>ms per move</b> is the time of a pass and of the sweeps of relaxation that
+follow it, as a mean over the moves of a drag: the median over the repetitions. Time of other programs does not count. The
+<b>violation</b> is the distance of a link from its valid region, in its rest lengths; a link is violated above 10⁻⁴. The
+<b>distance to Exact</b> is the distance to the final positions of Exact ChainMail in double precision, on the same moves
+and without relaxation, in mean rest lengths: Exact moves every element as little as a valid object allows. Relaxation
+moves elements toward the equilibrium and so away from Exact: for a contestant with relaxation, the violation shows the
+quality and the distance shows how far it moved. Errors are measured in double precision at the end of a drag, while the
+handle is still held; figures near 10⁻⁶ are the rounding of single precision. In the plots, lower is better and further
+left is faster: a contestant with no other one below and left of it is a good choice. In the tables, <b>float to
+double</b> is the distance between a contestant in both precisions, and <b>farthest / handle</b> is the largest
+displacement over that of the handle: above 1, an element moved further than the handle.</p>
 )";
+
+/// A column of a detail table, with its group.
+struct DetailColumn {
+  std::string group;
+  std::string name;
+  std::string (*cell)(const Measurement&, const DragResult&);
+};
+
+std::string per_move(std::uint64_t count, const DragResult& drag) { return figure(double(count) / drag.moves); }
+
+std::string part(const std::optional<Distance>& distance, double Distance::*member) {
+  return distance ? figure(*distance.*member) : "n/a";
+}
+
+std::string time_cell(const Measurement& m, const DragResult&) { return figure(m.ms_per_move.median); }
+std::string quartiles_cell(const Measurement& m, const DragResult&) {
+  return figure(m.ms_per_move.lower_quartile) + "–" + figure(m.ms_per_move.upper_quartile);
+}
+std::string worst_cell(const Measurement& m, const DragResult&) { return figure(m.worst_move_ms); }
+std::string checked_cell(const Measurement& m, const DragResult& drag) { return per_move(m.checked, drag); }
+std::string moved_cell(const Measurement& m, const DragResult& drag) { return per_move(m.moved, drag); }
+std::string max_cell(const Measurement& m, const DragResult&) { return figure(m.errors.violation.max); }
+std::string rms_cell(const Measurement& m, const DragResult&) { return figure(m.errors.violation.rms); }
+std::string links_cell(const Measurement& m, const DragResult&) { return percent(m.errors.violation.fraction); }
+std::string exact_max(const Measurement& m, const DragResult&) { return part(m.errors.to_exact, &Distance::max); }
+std::string exact_rms(const Measurement& m, const DragResult&) { return part(m.errors.to_exact, &Distance::rms); }
+std::string energy_cell(const Measurement& m, const DragResult&) { return figure(m.errors.energy_over_exact); }
+std::string float_max(const Measurement& m, const DragResult&) { return figure(m.errors.float_to_double.max); }
+std::string float_rms(const Measurement& m, const DragResult&) { return figure(m.errors.float_to_double.rms); }
+std::string handle_cell(const Measurement& m, const DragResult&) { return figure(m.errors.largest_over_hand); }
+std::string rest_max(const Measurement& m, const DragResult&) { return part(m.errors.to_equilibrium, &Distance::max); }
+std::string rest_rms(const Measurement& m, const DragResult&) { return part(m.errors.to_equilibrium, &Distance::rms); }
+
+std::vector<DetailColumn> columns_for(const DragResult& drag) {
+  std::vector<DetailColumn> columns{
+      {"ms per move", "median", time_cell},
+      {"ms per move", "quartiles", quartiles_cell},
+      {"ms per move", "worst move", worst_cell},
+      {"elements per move", "checked", checked_cell},
+      {"elements per move", "moved", moved_cell},
+      {"violation", "max", max_cell},
+      {"violation", "RMS", rms_cell},
+      {"violation", "links", links_cell},
+      {"distance to Exact", "max", exact_max},
+      {"distance to Exact", "RMS", exact_rms},
+      {"energy", "/ Exact’s", energy_cell},
+      {"float to double", "max", float_max},
+      {"float to double", "RMS", float_rms},
+      {"farthest", "/ handle", handle_cell},
+  };
+  const bool has_equilibrium = std::ranges::any_of(
+      drag.entries, [](const Entry& entry) { return entry.measurement && entry.measurement->errors.to_equilibrium; });
+  if (has_equilibrium) {
+    columns.push_back({"to equilibrium", "max", rest_max});
+    columns.push_back({"to equilibrium", "RMS", rest_rms});
+  }
+  return columns;
+}
+
+int repetitions_of(const DragResult& drag) {
+  int most = 0;
+  for (const Entry& entry : drag.entries) {
+    most = std::max(most, entry.measurement ? entry.measurement->ms_per_move.count : 0);
+  }
+  return most;
+}
+
+std::string about(const DragResult& drag) {
+  return drag.description + "; " + std::to_string(drag.moves) + " moves, " + std::to_string(repetitions_of(drag)) +
+         " repetitions" + (drag.no_exact.empty() ? "" : "; no distance to Exact: " + drag.no_exact);
+}
+
+FigureTable table_of(const CaseResult& object, const DragResult& drag) {
+  FigureTable table{object.name + ", " + drag.name, about(drag), "detail", "contestant", {}, {}};
+  const std::vector<DetailColumn> columns = columns_for(drag);
+  for (const DetailColumn& column : columns) {
+    table.columns.push_back({column.group, column.name});
+  }
+  for (const Entry& entry : drag.entries) {
+    auto& row = table.rows.emplace_back();
+    row.label = label(entry.contestant);
+    row.refusal = entry.measurement ? "" : entry.refusal;
+    for (std::size_t i = 0; entry.measurement && i < columns.size(); ++i) {
+      row.cells.push_back(columns[i].cell(*entry.measurement, drag));
+    }
+  }
+  return table;
+}
+
+/// Writes every figure of an object, one table for each drag.
+void write_details(std::ostream& out, const CaseResult& object) {
+  for (const DragResult& drag : object.drags) {
+    write_html(out, table_of(object, drag));
+  }
+}
 
 FigureTable table_of(const MainTable& main) {
   FigureTable table{main.object, main.about, "main", "contestant", {}, {}};
   for (const std::string& drag : main.drags) {
-    table.columns.push_back({"ms a move", drag});
+    table.columns.push_back({"ms per move", drag});
   }
   for (const char* name : {"max", "RMS", "links"}) {
     table.columns.push_back({"violation, worst of the drags", name});
@@ -45,7 +141,7 @@ FigureTable table_of(const MainTable& main) {
 
 void write_html(std::ostream& out, const Comparison& comparison, const Origin& origin) {
   begin_page(out, "ChainMail: speed against error", origin);
-  out << how_to_read
+  out << how_to_read_comparison
       << "<h2>Main table</h2>\n<p class=\"faint\">Lengths in rest lengths; times in milliseconds, medians.</p>\n";
   for (const MainTable& table : main_tables(comparison)) {
     write_html(out, table_of(table));

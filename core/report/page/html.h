@@ -7,7 +7,7 @@
 
 namespace chainmail::report {
 
-/// A comparison as one page that needs nothing else: tables, plots, how to read them, where they come from.
+/// Writes a comparison as one page that needs no other file: explanations, tables, plots, and their origin.
 void write_html(std::ostream& out, const Comparison& comparison, const Origin& origin);
 
 }  // namespace chainmail::report

@@ -1,6 +1,7 @@
 #include "report/page/page.h"
 
 #include "report/page/format.h"
+#include "report/page/svg.h"
 
 namespace chainmail::report {
 namespace {
@@ -60,12 +61,11 @@ void end_page(std::ostream& out, const Origin& origin, const CompareOptions& opt
     out << "<dt>" << term << "</dt><dd>" << what << "</dd>\n";
   };
   const Machine& machine = origin.machine;
-  out << "<h2>Where the figures come from</h2>\n<dl>\n";
+  out << "<h2>Origin of the figures</h2>\n<dl>\n";
   item("command", "<code>" + escaped(origin.command_line) + "</code>");
   item("version", escaped(origin.version));
   item("date", escaped(origin.date));
-  item("processor",
-       escaped(machine.processor) + ", " + std::to_string(machine.cores) + " cores, of which one was used");
+  item("processor", escaped(machine.processor) + ", " + std::to_string(machine.cores) + " cores, one of them used");
   item("compiler", escaped(machine.compiler));
   item("build", escaped(machine.build));
   item("precision", options.precision == Precision::single_precision ? "float" : "double");

@@ -11,9 +11,9 @@
 
 namespace chainmail::report {
 
-/// The frame of a page that needs nothing else; it prints well.
+/// Writes the beginning of a page that needs no other file and can be printed.
 void begin_page(std::ostream& out, const std::string& title, const Origin& origin);
-/// Closes it with where its figures come from; `more` are terms and what they are.
+/// Writes the end of the page with the origin of its figures; `more` are terms with their descriptions.
 void end_page(std::ostream& out, const Origin& origin, const CompareOptions& options,
               const std::vector<std::pair<std::string, std::string>>& more = {});
 

@@ -1,12 +1,13 @@
+#include "report/page/physics_csv.h"
+
 #include "report/page/format.h"
-#include "report/page/physics_report.h"
 
 namespace chainmail::report {
 namespace {
 
-constexpr int figures = 29;  // columns of a measurement
+constexpr int physics_figures = 29;  // columns of a measurement
 
-/// Median, quartiles and repetitions; nothing where nothing was timed.
+/// Writes median, quartiles and repetitions; empty fields if nothing was timed.
 void write_spread(std::ostream& out, const TimeSpread& ms) {
   if (ms.count == 0) {
     out << ",,,,";
@@ -63,7 +64,7 @@ void write_csv(std::ostream& out, const PhysicsReport& report) {
         if (entry.measurement) {
           write_measurement(out, *entry.measurement);
         } else {
-          out << std::string(figures, ',');
+          out << std::string(physics_figures, ',');
         }
         out << ',' << drag.handle << ',' << (entry.contestant.calibrated ? 1 : 0) << '\n';
       }

@@ -1,17 +1,18 @@
+#include "report/page/physics_plot.h"
+
 #include <algorithm>
 
 #include "report/page/format.h"
 #include "report/page/physics_means.h"
-#include "report/page/physics_report.h"
 
 namespace chainmail::report {
 namespace {
 
-// Below this the reference is found again: what Newton's method and single precision leave.
-constexpr double as_good_as_true = 1e-5;
-constexpr double smallest_time = 1e-9;  // ms; a clock that saw nothing
+// Errors below this are those of Newton's method and of single precision.
+constexpr double smallest_relative_error = 1e-5;
+constexpr double smallest_time = 1e-9;  // ms; for a clock that measured 0
 
-/// The time that a drag is about: a later move, or the move after its cut.
+/// Returns the time to plot: that of a later move, or of the move after the cut.
 const TimeSpread& time_of(const PhysicsDrag& drag, const PhysicsMeasurement& measured) {
   return drag.has_cut ? measured.move_after_cut : measured.ms_per_move;
 }
@@ -23,14 +24,14 @@ std::string in_words(const PhysicsDrag& drag, const PhysicsEntry& entry) {
          " of the handle's displacement, max " + percent(measured.error.max);
 }
 
-/// The series of a contestant, under the name that says which cells it works on.
+/// Returns the series of a contestant, labelled with the cells that it works on.
 std::size_t series_of(Plot& plot, const PhysicsContestant& contestant) {
   const std::size_t series = series_of(plot, *contestant.algorithm);
   plot.series[series].label = label(PhysicsContestant{contestant.algorithm, 0});
   return series;
 }
 
-/// Marks, and for each algorithm with sweeps a line through them; calibrated ones stand alone.
+/// Returns marks, and a line through them for each algorithm with sweeps. Calibrated contestants are not on a line.
 PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag, const std::string& title) {
   PlotPanel panel{drag.no_truth.empty() ? title : title + ": no reference", {}, {}};
   for (const PhysicsEntry& entry : drag.entries) {
@@ -72,13 +73,13 @@ std::string sweeps_in_words(const PhysicsObject& object) {
   return text;
 }
 
-/// A panel for each kind of object, a curve for each contestant; hollow marks are those with sweeps.
+/// Returns one panel for each kind of object, one curve for each contestant. Hollow marks have sweeps.
 Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& what,
                  std::optional<double> (*value_of)(const GrowthPoint&)) {
   Plot plot;
   plot.title = "Elements against " + what;
-  plot.x_label = "elements";
-  plot.y_label = what;
+  plot.x.title = "elements";
+  plot.y.title = what;
   plot.legend_notes = {"filled: without relaxation", "hollow: 10 sweeps per move"};
   for (const PhysicsGrowth& growth : growths) {
     PlotPanel& panel = plot.panels.emplace_back();
@@ -106,9 +107,9 @@ Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& w
 Plot empty_plot(const std::string& title, const PhysicsObject& object) {
   Plot plot;
   plot.title = title;
-  plot.x_label = "ms per move";
-  plot.y_label = "relative error";
-  plot.smallest_y = as_good_as_true;
+  plot.x.title = "ms per move";
+  plot.y.title = "relative error";
+  plot.y.smallest = smallest_relative_error;
   plot.legend_notes = {"filled: without relaxation"};
   if (const std::string sweeps = sweeps_in_words(object); !sweeps.empty()) {
     plot.legend_notes.push_back("line: " + sweeps + " sweeps per move");
@@ -152,7 +153,7 @@ Plot growth_error_plot(const std::vector<PhysicsGrowth>& growths) {
   Plot plot = growth_plot(growths, "relative error", [](const GrowthPoint& point) {
     return point.error ? std::optional(point.error->relative) : std::nullopt;
   });
-  plot.smallest_y = as_good_as_true;
+  plot.y.smallest = smallest_relative_error;
   return plot;
 }
 

@@ -1,8 +1,9 @@
+#include "report/page/physics_table.h"
+
 #include <algorithm>
 
 #include "report/page/format.h"
 #include "report/page/physics_means.h"
-#include "report/page/physics_report.h"
 
 namespace chainmail::report {
 namespace {
@@ -10,29 +11,29 @@ namespace {
 using CellOf = std::string (*)(const PhysicsMeasurement&);
 
 // What Newton's method and single precision leave of the reference itself.
-constexpr double found_again = 1e-5;
+constexpr double reference_found_again = 1e-5;
 
 std::string relative_cell(const PhysicsMeasurement& m) {
-  return m.error.relative < found_again ? "<1e-5" : figure(m.error.relative);
+  return m.error.relative < reference_found_again ? "<1e-5" : figure(m.error.relative);
 }
 std::string rms_cell(const PhysicsMeasurement& m) { return percent(m.error.rms); }
 std::string max_cell(const PhysicsMeasurement& m) { return percent(m.error.max); }
 std::string moving_rms_cell(const PhysicsMeasurement& m) { return percent(m.error.moving_rms); }
 std::string moving_max_cell(const PhysicsMeasurement& m) { return percent(m.error.moving_max); }
 
-/// Columns of errors, one a drag.
-struct Group {
+/// Columns of errors, one per drag.
+struct ErrorColumns {
   const char* name;
   CellOf cell;
-  bool in_text = false;  // on a terminal there is no room for all
+  bool in_text = false;  // a terminal has no room for all
 };
-constexpr Group groups[]{{"relative error", relative_cell, true},
-                         {"RMS error", rms_cell},
-                         {"largest error", max_cell},
-                         {"RMS, what moves", moving_rms_cell},
-                         {"largest, what moves", moving_max_cell}};
+constexpr ErrorColumns groups[]{{"relative error", relative_cell, true},
+                                {"RMS error", rms_cell},
+                                {"largest error", max_cell},
+                                {"RMS, what moves", moving_rms_cell},
+                                {"largest, what moves", moving_max_cell}};
 
-/// A time that was not taken is none: nothing is prepared, or nothing is cut.
+/// Formats a time; empty if it was not measured because nothing is prepared or cut.
 std::string time_cell(const TimeSpread& ms, bool for_text) {
   if (ms.count == 0) {
     return for_text ? "-" : "";
@@ -42,17 +43,17 @@ std::string time_cell(const TimeSpread& ms, bool for_text) {
                         std::to_string(ms.count) + ")";
 }
 
-/// True where a row says what the one before has said: an algorithm that cannot take part has one row for all sweeps.
+/// True if a row repeats the refusal of the row before: an algorithm that cannot take part has one row for all sweeps.
 template <class One>
 bool repeats(const One& one, const One& before, const std::string& refusal, const std::string& refusal_before) {
   return !refusal.empty() && refusal == refusal_before && one.contestant.algorithm == before.contestant.algorithm;
 }
 
-/// The means of an object's drags, all that its table shows.
+/// The means of the drags of an object, which its table shows.
 struct Means {
-  std::vector<PhysicsDrag> by_name;  // those that have a reference solution
+  std::vector<PhysicsDrag> by_name;  // drags that have a reference solution
   PhysicsDrag all;                   // without the cut
-  const PhysicsDrag* cut = nullptr;  // among the first; none where nothing is cut
+  const PhysicsDrag* cut = nullptr;  // one of by_name; none if nothing is cut
 
   explicit Means(const PhysicsObject& object) : by_name(means_by_name(object)), all(mean_of_drags(object)) {
     std::erase_if(by_name, [](const PhysicsDrag& drag) { return !drag.no_truth.empty(); });
@@ -71,7 +72,7 @@ void add_times(FigureTable::Row& row, const Means& means, std::size_t entry, boo
   }
 }
 
-void add_errors(FigureTable::Row& row, const Means& means, std::size_t entry, const Group& group) {
+void add_errors(FigureTable::Row& row, const Means& means, std::size_t entry, const ErrorColumns& group) {
   for (const PhysicsDrag& drag : means.by_name) {
     if (!drag.has_cut || group.in_text) {
       const auto& measured = drag.entries[entry].measurement;
@@ -90,7 +91,7 @@ FigureTable::Row row_of(const Means& means, std::size_t entry, bool for_text) {
   }
   add_errors(row, means, entry, groups[0]);
   add_times(row, means, entry, for_text);
-  for (const Group& group : groups) {
+  for (const ErrorColumns& group : groups) {
     if (!group.in_text && !for_text) {
       add_errors(row, means, entry, group);
     }
@@ -100,7 +101,7 @@ FigureTable::Row row_of(const Means& means, std::size_t entry, bool for_text) {
 
 std::vector<FigureTable::Column> columns_of(const Means& means, bool for_text) {
   std::vector<FigureTable::Column> columns;
-  const auto add_group = [&](const Group& group) {
+  const auto add_group = [&](const ErrorColumns& group) {
     for (const PhysicsDrag& drag : means.by_name) {
       if (!drag.has_cut || group.in_text) {
         columns.push_back({group.name, drag.has_cut ? "cut" : drag.name});
@@ -112,7 +113,7 @@ std::vector<FigureTable::Column> columns_of(const Means& means, bool for_text) {
   const char* prepare = for_text ? "prepare (ms)" : "prepare: median (quartiles, repetitions), ms";
   columns.insert(columns.end(),
                  {{time, "first"}, {time, "later"}, {time, "after cut"}, {prepare, "factorize"}, {prepare, "grab"}});
-  for (const Group& group : groups) {
+  for (const ErrorColumns& group : groups) {
     if (!group.in_text && !for_text) {
       add_group(group);
     }
@@ -120,7 +121,7 @@ std::vector<FigureTable::Column> columns_of(const Means& means, bool for_text) {
   return columns;
 }
 
-/// The cells of some columns as they stand under others; an object may lack a drag that another one has.
+/// Returns the cells of some columns in the order of others. An object may lack a drag that another object has.
 std::vector<std::string> cells_under(const std::vector<FigureTable::Column>& columns,
                                      const std::vector<FigureTable::Column>& own,
                                      const std::vector<std::string>& cells) {
@@ -143,7 +144,7 @@ std::string about(const Calibration& calibration) {
                    std::to_string(calibration.sweeps) + " sweeps";
 }
 
-/// A drag without its handle: what comes after the element in its description.
+/// Returns the description of a drag without its handle.
 std::string what_happens(const PhysicsDrag& drag) {
   const std::string handle = "element " + std::to_string(drag.handle) + ", ";
   return drag.description.starts_with(handle) ? drag.description.substr(handle.size()) : drag.description;
@@ -179,11 +180,11 @@ std::string about(const PhysicsObject& object) {
 
 constexpr const char* how_to_read_text =
     "Relative error: RMS of the error over RMS of the reference's displacements, over all elements; means over the\n"
-    "handles of an object. An object that does not move has about 1: what is above it is no better than nothing.\n"
+    "handles of an object. An object that does not move has about 1: a larger error is no better than no method.\n"
     "The reference is neo-Hookean FEM, converged on the same cells as linear FEM, not under refinement of the mesh;\n"
     "BEM works on its own surface mesh. Times are medians in ms, means over the drags: the first move of a drag, a\n"
-    "later one, and the move after a cut with all that it prepares anew. Prepare: to factorize is done once for an\n"
-    "object, its pins and its cuts; to grab, once for each handle.\n";
+    "later move, and the move after a cut with all repeated preparation. Preparation: factorizing is done once for an\n"
+    "object, its pins and its cuts; grabbing is done once for each handle.\n";
 
 void write_table(std::ostream& out, const FigureTable& table) {
   std::vector<std::vector<std::string>> rows{{""}, {table.corner}};
@@ -243,7 +244,8 @@ FigureTable physics_table(const PhysicsObject& object, bool for_text) {
 }
 
 FigureTable physics_summary(const PhysicsReport& report) {
-  FigureTable table{"In short", "those without sweeps and those calibrated", "detail", "object, contestant", {}, {}};
+  FigureTable table{"Summary", "contestants without sweeps, and calibrated ones", "detail", "object, contestant", {},
+                    {}};
   for (const PhysicsObject& object : report.objects) {
     if (auto columns = columns_of(Means(object), true); columns.size() > table.columns.size()) {
       table.columns = std::move(columns);
@@ -268,13 +270,13 @@ FigureTable growth_table(const PhysicsGrowth& growth) {
                     growth.description,
                     "detail",
                     "contestant",
-                    {{"the largest that it reached", "elements"},
-                     {"the largest that it reached", "ms a move"},
-                     {"the largest that it reached", "prepare ms"},
+                    {{"the largest object", "elements"},
+                     {"the largest object", "ms per move"},
+                     {"the largest object", "prepare ms"},
                      {"growth of time", "exponent"},
                      {"relative error", "first size"},
                      {"relative error", "last known"},
-                     {"why no further", ""}},
+                     {"why not larger", ""}},
                     {}};
   for (std::size_t i = 0; i < growth.series.size(); ++i) {
     const GrowthSeries& series = growth.series[i];

@@ -9,18 +9,23 @@
 namespace chainmail::report {
 namespace {
 
-/// The error that a plot shows; none where it is not defined.
-using ErrorOf = std::optional<double> (*)(const Errors&);
-
-std::optional<double> largest_violation(const Errors& errors) { return errors.violation.max; }
-
-std::optional<double> distance_to_exact(const Errors& errors) {
-  return errors.to_exact ? std::optional(errors.to_exact->rms) : std::nullopt;
+template <double Distance::*member>
+std::optional<double> to_exact(const Errors& errors) {
+  return errors.to_exact ? std::optional((*errors.to_exact).*member) : std::nullopt;
 }
 
-std::set<int> sweeps_of(const CaseResult& result) {
+constexpr std::array errors_to_plot{
+    PlottedError{"largest violation", "rest lengths",
+                 [](const Errors& errors) { return std::optional(errors.violation.max); }, 1e-4},
+    PlottedError{"RMS violation", "rest lengths",
+                 [](const Errors& errors) { return std::optional(errors.violation.rms); }},
+    PlottedError{"largest distance to Exact", "mean rest lengths", to_exact<&Distance::max>},
+    PlottedError{"RMS distance to Exact", "mean rest lengths", to_exact<&Distance::rms>}};
+
+/// The numbers of sweeps that take part.
+std::set<int> sweeps_of(std::span<const DragResult> drags) {
   std::set<int> sweeps;
-  for (const DragResult& drag : result.drags) {
+  for (const DragResult& drag : drags) {
     for (const Entry& entry : drag.entries) {
       sweeps.insert(entry.contestant.sweeps);
     }
@@ -28,10 +33,11 @@ std::set<int> sweeps_of(const CaseResult& result) {
   return sweeps;
 }
 
-std::string in_words(const Entry& entry, double error, const std::string& what) {
+std::string in_words(const Entry& entry, const PlottedError& error, double value) {
   const TimeSpread& ms = entry.measurement->ms_per_move;
-  return label(entry.contestant) + ": " + figure(ms.median) + " ms a move (quartiles " + figure(ms.lower_quartile) +
-         " and " + figure(ms.upper_quartile) + "), " + what + " " + figure(error);
+  return label(entry.contestant) + ": " + figure(ms.median) + " ms per move (quartiles " + figure(ms.lower_quartile) +
+         " and " + figure(ms.upper_quartile) + "), " + std::string(error.name) + " " + figure(value) + " " +
+         std::string(error.unit);
 }
 
 void add_legend_notes(Plot& plot, const std::set<int>& sweeps) {
@@ -40,39 +46,95 @@ void add_legend_notes(Plot& plot, const std::set<int>& sweeps) {
   }
   if (sweeps.size() > sweeps.count(0)) {
     const bool one = sweeps.size() - sweeps.count(0) == 1;
-    plot.legend_notes.push_back(one ? "hollow: " + std::to_string(*sweeps.rbegin()) + " sweeps a move"
-                                    : std::string("hollow: so many sweeps a move"));
+    plot.legend_notes.push_back(one ? "hollow: " + std::to_string(*sweeps.rbegin()) + " sweeps per move"
+                                    : std::string("hollow: with that many sweeps per move"));
   }
   plot.legend_notes.emplace_back("bars: quartiles of the time");
 }
 
-Plot plot_of(const CaseResult& result, ErrorOf error_of, const std::string& what, const std::string& unit) {
-  Plot plot;
-  plot.title = "Time against " + what + " on " + result.name;
-  plot.x_label = "ms a move";
-  plot.y_label = what + " (" + unit + ")";
-  const std::set<int> sweeps = sweeps_of(result);
-  const bool many = sweeps.size() - sweeps.count(0) > 1;
-  for (const DragResult& drag : result.drags) {
-    PlotPanel& panel = plot.panels.emplace_back();
-    panel.title = drag.name;
-    for (const Entry& entry : drag.entries) {
-      const auto error = entry.measurement ? error_of(entry.measurement->errors) : std::nullopt;
-      if (!error) {
-        continue;
-      }
-      const TimeSpread& ms = entry.measurement->ms_per_move;
-      const int count = entry.contestant.sweeps;
-      panel.marks.push_back({ms.median, ms.lower_quartile, ms.upper_quartile, *error,
-                             series_of(plot, entry.contestant.algorithm), count > 0,
-                             many && count > 0 ? std::to_string(count) : "", in_words(entry, *error, what)});
+/// Adds the marks of a drag's contestants. Where several numbers of sweeps take part, a note says how many.
+void add_panel(Plot& plot, const DragResult& drag, const PlottedError& error, bool with_notes) {
+  PlotPanel& panel = plot.panels.emplace_back();
+  panel.title = drag.name;
+  for (const Entry& entry : drag.entries) {
+    const auto value = entry.measurement ? error.of(entry.measurement->errors) : std::nullopt;
+    if (!value) {
+      continue;
     }
+    const TimeSpread& ms = entry.measurement->ms_per_move;
+    const int sweeps = entry.contestant.sweeps;
+    panel.marks.push_back({ms.median, ms.lower_quartile, ms.upper_quartile, *value,
+                           series_of(plot, entry.contestant.algorithm), sweeps > 0,
+                           with_notes && sweeps > 0 ? std::to_string(sweeps) : "", in_words(entry, error, *value)});
+  }
+}
+
+Plot plot_of(std::span<const DragResult> drags, const std::string& name, const PlottedError& error) {
+  Plot plot;
+  const std::string what(error.name), unit(error.unit);
+  plot.title = "Time against " + what + " on " + name;
+  plot.x.title = "ms per move";
+  plot.x.unit = "ms per move";
+  plot.y.title = what + " (" + unit + ")";
+  plot.y.unit = unit;
+  const std::set<int> sweeps = sweeps_of(drags);
+  for (const DragResult& drag : drags) {
+    add_panel(plot, drag, error, sweeps.size() - sweeps.count(0) > 1);
   }
   add_legend_notes(plot, sweeps);
+  plot.good_below = error.good_below;
+  plot.good_label = "counts as valid";
   return plot;
 }
 
+std::vector<double> values_of_x(const Plot& plot) {
+  std::vector<double> values;
+  for (const PlotPanel& panel : plot.panels) {
+    for (const PlotMark& mark : panel.marks) {
+      values.insert(values.end(), {mark.x_low, mark.x_high});
+    }
+    for (const PlotCurve& curve : panel.curves) {
+      std::ranges::transform(curve.points, std::back_inserter(values), [](const auto& point) { return point[0]; });
+    }
+  }
+  return values;
+}
+
+std::vector<double> values_of_y(const Plot& plot) {
+  std::vector<double> values;
+  for (const PlotPanel& panel : plot.panels) {
+    std::ranges::transform(panel.marks, std::back_inserter(values), &PlotMark::y);
+    for (const PlotCurve& curve : panel.curves) {
+      std::ranges::transform(curve.points, std::back_inserter(values), [](const auto& point) { return point[1]; });
+    }
+    if (panel.level) {
+      values.push_back(panel.level->y);
+    }
+  }
+  return values;
+}
+
+template <class Values>
+Axis axis_of(const PlotAxis& axis, const Values& values) {
+  if (!axis.linear) {
+    return Axis::logarithmic(values(), axis.smallest);
+  }
+  if (axis.ends) {
+    return Axis::linear(axis.ends->front(), axis.ends->back(), axis.ticks);
+  }
+  const std::vector<double> all = values();
+  return Axis::from_zero_to(all.empty() ? 0 : *std::ranges::max_element(all));
+}
+
 }  // namespace
+
+PlotAxes::PlotAxes(const Plot& plot)
+    : x(axis_of(plot.x, [&] { return values_of_x(plot); })), y(axis_of(plot.y, [&] { return values_of_y(plot); })) {}
+
+bool is_empty(const Plot& plot) {
+  return std::ranges::all_of(plot.panels,
+                             [](const PlotPanel& panel) { return panel.marks.empty() && panel.curves.empty(); });
+}
 
 std::size_t series_of(Plot& plot, Algorithm algorithm) {
   const std::size_t look = look_of(algorithm);
@@ -84,15 +146,16 @@ std::size_t series_of(Plot& plot, Algorithm algorithm) {
   return plot.series.size() - 1;
 }
 
-Plot violation_plot(const CaseResult& result) {
-  Plot plot = plot_of(result, largest_violation, "largest violation", "rest lengths");
-  plot.good_below = 1e-4;
-  plot.good_label = "counts as valid";
-  return plot;
+std::span<const PlottedError> plotted_errors() { return errors_to_plot; }
+
+Plot error_plot(const DragResult& drag, const PlottedError& error) { return plot_of({&drag, 1}, drag.name, error); }
+
+Plot error_plot(const CaseResult& object, const PlottedError& error) {
+  return plot_of(object.drags, object.name, error);
 }
 
-Plot distance_plot(const CaseResult& result) {
-  return plot_of(result, distance_to_exact, "RMS distance to Exact", "mean rest lengths");
-}
+Plot violation_plot(const CaseResult& object) { return error_plot(object, errors_to_plot[0]); }
+
+Plot distance_plot(const CaseResult& object) { return error_plot(object, errors_to_plot[3]); }
 
 }  // namespace chainmail::report

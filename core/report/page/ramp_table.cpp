@@ -1,35 +1,21 @@
 #include "report/page/ramp_table.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <iomanip>
-#include <sstream>
 #include <string>
+
+#include "report/page/format.h"
 
 namespace chainmail::report {
 namespace {
 
-std::string figure(double number, int digits = 3) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::setprecision(digits) << number;
-  return text.str();
-}
-
-std::string all_digits(double number) {
-  std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
-}
-
 std::string size_of(std::uint32_t width) { return std::to_string(width) + "x" + std::to_string(width); }
 
-std::string left(std::string text, std::size_t width) {
+std::string left_aligned(std::string text, std::size_t width) {
   text.resize(std::max(text.size(), width), ' ');
   return text;
 }
 
-std::string right(const std::string& text, std::size_t width) {
+std::string right_aligned(const std::string& text, std::size_t width) {
   return std::string(width - std::min(width, text.size()), ' ') + text;
 }
 
@@ -49,27 +35,28 @@ void write_conditions(std::ostream& out, const Ramp& ramp, const Machine& machin
       << machine.processor << ", " << machine.cores << " cores; " << machine.compiler << ", " << machine.build << "; "
       << figure(ramp.seconds) << " s\n";
   if (ramp.stopped) {
-    out << "It was stopped before its end.\n";
+    out << "The ramp was stopped before its end.\n";
   }
 }
 
 void write_verdict(std::ostream& out, const Ramp& ramp, const RampVerdict& verdict) {
-  out << left(std::string(info(verdict.algorithm).label), 24);
+  out << left_aligned(std::string(info(verdict.algorithm).label), 24);
   if (verdict.largest_width) {
     const RampRow& row = *find_row(ramp, *verdict.largest_width, verdict.algorithm);
-    out << right(size_of(row.width) + (verdict.lost ? "" : " or more"), 18) << right(std::to_string(row.elements), 10)
-        << right(figure(row.median_ms), 11) << right(figure(row.p99_ms), 9);
+    out << right_aligned(size_of(row.width) + (verdict.lost ? "" : " or more"), 18)
+        << right_aligned(std::to_string(row.elements), 10) << right_aligned(figure(row.median_ms), 11)
+        << right_aligned(figure(row.p99_ms), 9);
   } else {
-    out << right(verdict.lost ? "never" : "not measured", 18) << right("", 30);
+    out << right_aligned(verdict.lost ? "never" : "not measured", 18) << right_aligned("", 30);
   }
   if (const auto& growth = verdict.growth) {
-    out << right(figure(growth->exponent), 10) << "  " << std::to_string(std::uint64_t(growth->from)) << " to "
+    out << right_aligned(figure(growth->exponent), 10) << "  " << std::to_string(std::uint64_t(growth->from)) << " to "
         << std::to_string(std::uint64_t(growth->to));
   }
   out << '\n';
 }
 
-/// `median/p99` in ms, with a mark where the budget is missed; empty where an algorithm was out.
+/// Returns `median/p99` in ms, with a mark if the budget is missed; empty if the algorithm was no longer in the race.
 std::string cell(const RampRow* row) {
   if (row == nullptr) {
     return "";
@@ -78,9 +65,9 @@ std::string cell(const RampRow* row) {
 }
 
 void write_sizes(std::ostream& out, const Ramp& ramp) {
-  out << "\nmedian/99th percentile in ms; ! beyond the budget, twice\n" << left("", 10);
+  out << "\nmedian/99th percentile in ms; ! over the budget in two attempts\n" << left_aligned("", 10);
   for (const Algorithm algorithm : ramp.options.algorithms) {
-    out << right(std::string(info(algorithm).name) + " ", 16);
+    out << right_aligned(std::string(info(algorithm).name) + " ", 16);
   }
   out << '\n';
   std::uint32_t last = 0;
@@ -89,9 +76,9 @@ void write_sizes(std::ostream& out, const Ramp& ramp) {
       continue;
     }
     last = row.width;
-    std::string line = left(size_of(row.width), 10);
+    std::string line = left_aligned(size_of(row.width), 10);
     for (const Algorithm algorithm : ramp.options.algorithms) {
-      line += right(cell(find_row(ramp, row.width, algorithm)), 16);
+      line += right_aligned(cell(find_row(ramp, row.width, algorithm)), 16);
     }
     out << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
   }
@@ -102,8 +89,9 @@ void write_sizes(std::ostream& out, const Ramp& ramp) {
 void write_text(std::ostream& out, const Ramp& ramp, const Machine& machine) {
   write_conditions(out, ramp, machine);
   out << '\n'
-      << left("", 24) << right("real time up to", 18) << right("elements", 10) << right("median ms", 11)
-      << right("99% ms", 9) << right("exponent", 10) << "  of the median, over elements\n";
+      << left_aligned("", 24) << right_aligned("real time up to", 18) << right_aligned("elements", 10)
+      << right_aligned("median ms", 11) << right_aligned("99% ms", 9) << right_aligned("exponent", 10)
+      << "  of the median, over elements\n";
   for (const RampVerdict& verdict : ramp.verdicts) {
     write_verdict(out, ramp, verdict);
   }

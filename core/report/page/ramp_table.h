@@ -7,10 +7,10 @@
 
 namespace chainmail::report {
 
-/// For people: what came out for each algorithm, then the times size by size.
+/// Writes the results of each algorithm, then the times size by size, as text.
 void write_text(std::ostream& out, const Ramp& ramp, const Machine& machine);
 
-/// A row an algorithm and size, under a header; numbers with all their digits.
+/// Writes one row for each algorithm and size under a header, with all digits.
 void write_csv(std::ostream& out, const Ramp& ramp);
 
 }  // namespace chainmail::report

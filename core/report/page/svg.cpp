@@ -1,63 +1,45 @@
+#include "report/page/svg.h"
+
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <string_view>
 
-#include "report/page/axis.h"
 #include "report/page/format.h"
 #include "report/page/looks.h"
-#include "report/page/plot.h"
 
 namespace chainmail::report {
 namespace {
 
-// In the drawing's own units: CSS pixels at its natural size.
+// Lengths in CSS pixels at the natural size of the drawing.
 constexpr double panel_width = 250, panel_height = 210;
 constexpr double left = 62, between = 34, top = 26, bottom = 46, right = 8;
 constexpr double legend_width = 235, legend_row = 19;
 constexpr double mark_size = 4.6;
-constexpr int panels_a_row = 3;
+constexpr int panels_per_row = 3;
 
-std::vector<double> all_of(const Plot& plot, double PlotMark::*member) {
-  std::vector<double> values;
-  for (const PlotPanel& panel : plot.panels) {
-    for (const PlotMark& mark : panel.marks) {
-      values.push_back(mark.*member);
-    }
-  }
-  return values;
+/// Formats a coordinate in hundredths.
+std::string coordinate(double number) {
+  std::array<char, 400> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed, 2).ptr;
+  return {digits.data(), end};
 }
 
-std::vector<double> all_x(const Plot& plot) {
-  std::vector<double> values = all_of(plot, &PlotMark::x_low);
-  const auto high = all_of(plot, &PlotMark::x_high);
-  values.insert(values.end(), high.begin(), high.end());
-  return values;
-}
-
-std::vector<double> all_y(const Plot& plot) {
-  std::vector<double> values = all_of(plot, &PlotMark::y);
-  for (const PlotPanel& panel : plot.panels) {
-    if (panel.level) {
-      values.push_back(panel.level->y);
-    }
-  }
-  return values;
-}
-
-class Drawing {
+class SvgDrawing {
  public:
-  Drawing(std::ostream& out, const Plot& plot, const std::string& ink)
-      : out_(out), plot_(plot), ink_(escaped(ink)), x_(all_x(plot), 1e-9), y_(all_y(plot), plot.smallest_y) {
+  SvgDrawing(std::ostream& out, const Plot& plot, const std::string& ink)
+      : out_(out), plot_(plot), ink_(escaped(ink)), axes_(plot) {
     const auto count = static_cast<int>(plot.panels.size());
-    columns_ = std::clamp(count, 1, panels_a_row);
-    rows_ = std::max(1, (count + panels_a_row - 1) / panels_a_row);
+    columns_ = std::clamp(count, 1, panels_per_row);
+    rows_ = std::max(1, (count + panels_per_row - 1) / panels_per_row);
   }
 
   void draw() {
     begin();
     for (std::size_t i = 0; i < plot_.panels.size(); ++i) {
-      const auto column = static_cast<int>(i) % panels_a_row, row = static_cast<int>(i) / panels_a_row;
-      out_ << "<g transform=\"translate(" << place(left + column * (panel_width + between)) << ' '
-           << place(top + row * (panel_height + top + bottom)) << ")\">\n";
+      const auto column = static_cast<int>(i) % panels_per_row, row = static_cast<int>(i) / panels_per_row;
+      out_ << "<g transform=\"translate(" << coordinate(left + column * (panel_width + between)) << ' '
+           << coordinate(top + row * (panel_height + top + bottom)) << ")\">\n";
       draw_panel(plot_.panels[i], column == 0);
       out_ << "</g>\n";
     }
@@ -68,31 +50,31 @@ class Drawing {
  private:
   double width() const { return left + columns_ * (panel_width + between) + legend_width + right; }
   double height() const { return rows_ * (top + panel_height + bottom); }
-  double at_x(double value) const { return x_.place(value) * panel_width; }
-  double at_y(double value) const { return (1 - y_.place(value)) * panel_height; }
+  double at_x(double value) const { return axes_.x.position(value) * panel_width; }
+  double at_y(double value) const { return (1 - axes_.y.position(value)) * panel_height; }
 
   void begin() {
-    out_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"" << place(width()) << "\" height=\""
-         << place(height()) << "\" viewBox=\"0 0 " << place(width()) << ' ' << place(height())
+    out_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"" << coordinate(width()) << "\" height=\""
+         << coordinate(height()) << "\" viewBox=\"0 0 " << coordinate(width()) << ' ' << coordinate(height())
          << "\" font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"11\">\n<title>" << escaped(plot_.title)
          << "</title>\n";
   }
 
   void text(double x, double y, std::string_view anchor, std::string_view words, std::string_view more = "") {
-    out_ << "<text x=\"" << place(x) << "\" y=\"" << place(y) << "\" text-anchor=\"" << anchor << "\" fill=\"" << ink_
-         << '"' << more << '>' << escaped(words) << "</text>\n";
+    out_ << "<text x=\"" << coordinate(x) << "\" y=\"" << coordinate(y) << "\" text-anchor=\"" << anchor << "\" fill=\""
+         << ink_ << '"' << more << '>' << escaped(words) << "</text>\n";
   }
 
   void line(double x1, double y1, double x2, double y2, std::string_view more) {
-    out_ << "<line x1=\"" << place(x1) << "\" y1=\"" << place(y1) << "\" x2=\"" << place(x2) << "\" y2=\"" << place(y2)
-         << "\" stroke=\"" << ink_ << '"' << more << "/>\n";
+    out_ << "<line x1=\"" << coordinate(x1) << "\" y1=\"" << coordinate(y1) << "\" x2=\"" << coordinate(x2)
+         << "\" y2=\"" << coordinate(y2) << "\" stroke=\"" << ink_ << '"' << more << "/>\n";
   }
 
   void draw_panel(const PlotPanel& panel, bool first) {
     if (plot_.good_below && at_y(*plot_.good_below) < panel_height) {
       const double y = at_y(*plot_.good_below);
-      out_ << "<rect x=\"0\" y=\"" << place(y) << "\" width=\"" << place(panel_width) << "\" height=\""
-           << place(panel_height - y) << "\" fill=\"" << ink_ << "\" fill-opacity=\"0.07\"/>\n";
+      out_ << "<rect x=\"0\" y=\"" << coordinate(y) << "\" width=\"" << coordinate(panel_width) << "\" height=\""
+           << coordinate(panel_height - y) << "\" fill=\"" << ink_ << "\" fill-opacity=\"0.07\"/>\n";
       text(6, std::min(y + 14, panel_height - 4), "start", plot_.good_label,
            " fill-opacity=\"0.65\" font-style=\"italic\"");
     }
@@ -118,32 +100,32 @@ class Drawing {
   }
 
   void draw_axes(bool first) {
-    for (const auto& [share, label] : y_.ticks()) {
+    for (const auto& [share, label, zero] : axes_.y.ticks()) {
       const double y = (1 - share) * panel_height;
-      const bool zero = label == "0";
       line(0, y, panel_width, y,
            zero ? " stroke-opacity=\"0.6\" stroke-dasharray=\"4 3\"" : " stroke-opacity=\"0.18\"");
       if (first) {
         text(-7, y + 4, "end", label, zero ? " font-weight=\"bold\"" : "");
       }
     }
-    for (const auto& [share, label] : x_.ticks()) {
+    for (const auto& [share, label, zero] : axes_.x.ticks()) {
       const double x = share * panel_width;
       line(x, 0, x, panel_height, " stroke-opacity=\"0.18\"");
       text(x, panel_height + 16, "middle", label);
     }
     line(0, 0, 0, panel_height, "");
     line(0, panel_height, panel_width, panel_height, "");
-    text(panel_width / 2, panel_height + 34, "middle", plot_.x_label);
+    text(panel_width / 2, panel_height + 34, "middle", plot_.x.title);
     if (first) {
-      text(0, 0, "middle", plot_.y_label, " transform=\"translate(-46 " + place(panel_height / 2) + ") rotate(-90)\"");
+      text(0, 0, "middle", plot_.y.title,
+           " transform=\"translate(-46 " + coordinate(panel_height / 2) + ") rotate(-90)\"");
     }
   }
 
   void draw_bar(const PlotMark& mark) {
     const double y = at_y(mark.y), low = at_x(mark.x_low), high = at_x(mark.x_high);
     if (high - low < 2.5 * mark_size) {
-      return;  // the mark would hide it
+      return;  // the mark hides it
     }
     line(low, y, high, y, " stroke-opacity=\"0.8\"");
     line(low, y - 3, low, y + 3, " stroke-opacity=\"0.8\"");
@@ -151,14 +133,15 @@ class Drawing {
   }
 
   std::string colour_of(std::size_t series) const {
-    const std::string_view colour = look_at(plot_.series[series].look).colour;
+    const PlotSeries& one = plot_.series[series];
+    const std::string_view colour = one.colour.empty() ? look_at(one.look).colour : std::string_view(one.colour);
     return colour.empty() ? ink_ : std::string(colour);
   }
 
   void draw_curve(const PlotCurve& curve) {
     out_ << "<polyline points=\"";
     for (const auto& [x, y] : curve.points) {
-      out_ << place(at_x(x)) << ',' << place(at_y(y)) << ' ';
+      out_ << coordinate(at_x(x)) << ',' << coordinate(at_y(y)) << ' ';
     }
     out_ << "\" fill=\"none\" stroke=\"" << colour_of(curve.series) << "\" stroke-opacity=\"0.7\"/>\n";
   }
@@ -166,20 +149,30 @@ class Drawing {
   void draw_mark(double x, double y, std::size_t series, bool hollow, std::string_view title) {
     const Look& look = look_at(plot_.series[series].look);
     const std::string colour = colour_of(series);
-    out_ << "<path transform=\"translate(" << place(x) << ' ' << place(y) << ") scale(" << place(mark_size)
-         << ")\" d=\"" << look.path << "\" stroke=\"" << colour << "\" stroke-width=\"0.33\" fill=\""
-         << (hollow ? "none" : colour) << "\" fill-opacity=\"0.75\">";
+    out_ << "<path transform=\"translate(" << coordinate(x) << ' ' << coordinate(y) << ") scale("
+         << coordinate(mark_size) << ")\" d=\"" << look.path << "\" stroke=\"" << colour
+         << "\" stroke-width=\"0.33\" fill=\"" << (hollow ? "none" : colour) << "\" fill-opacity=\"0.75\">";
     if (!title.empty()) {
       out_ << "<title>" << escaped(title) << "</title>";
     }
     out_ << "</path>\n";
   }
 
+  /// A mark, or a short line for a series of lines.
+  void draw_key(double x, double y, std::size_t series) {
+    if (plot_.series[series].colour.empty()) {
+      draw_mark(x, y, series, false, "");
+    } else {
+      out_ << "<path d=\"M" << coordinate(x - 8) << ' ' << coordinate(y) << "h16\" stroke=\"" << colour_of(series)
+           << "\"/>\n";
+    }
+  }
+
   void draw_legend() {
     const double x = left + columns_ * (panel_width + between) + 8;
     double y = top + 6;
     for (std::size_t i = 0; i < plot_.series.size(); ++i, y += legend_row) {
-      draw_mark(x, y, i, false, "");
+      draw_key(x, y, i);
       text(x + 13, y + 4, "start", plot_.series[i].label);
     }
     y += 6;
@@ -192,12 +185,12 @@ class Drawing {
   std::ostream& out_;
   const Plot& plot_;
   std::string ink_;
-  LogAxis x_, y_;
+  PlotAxes axes_;
   int columns_ = 1, rows_ = 1;
 };
 
 }  // namespace
 
-void write_svg(std::ostream& out, const Plot& plot, const std::string& ink) { Drawing(out, plot, ink).draw(); }
+void write_svg(std::ostream& out, const Plot& plot, const std::string& ink) { SvgDrawing(out, plot, ink).draw(); }
 
 }  // namespace chainmail::report

@@ -69,7 +69,7 @@ std::vector<MainTable> main_tables(const Comparison& comparison) {
 }
 
 void write_text(std::ostream& out, const Comparison& comparison) {
-  out << "ms a move, drag by drag; then the worst of the drags: violation of links (max and RMS in rest lengths,\n"
+  out << "ms per move, drag by drag; then the worst of the drags: violation of links (max and RMS in rest lengths,\n"
          "share of links) and distance to Exact ChainMail in double (max and RMS in mean rest lengths)\n";
   for (const MainTable& table : main_tables(comparison)) {
     std::vector<std::vector<std::string>> rows{{""}};

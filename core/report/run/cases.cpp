@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "mesh/generate.h"
+#include "report/run/drags.h"
 #include "report/run/random.h"
 
 namespace chainmail::report {
@@ -14,8 +15,8 @@ void add_triangle(MeshParts& parts, ElementId a, ElementId b, ElementId c) {
   parts.links.insert(parts.links.end(), {{a, b}, {b, c}, {c, a}});
 }
 
-/// Triangles in a plane without any two links alike: elements off their places by up to 0.3 on each axis, and
-/// each square split along either diagonal.
+/// Returns triangles in a plane, all links different: elements are displaced by up to 0.3 on each axis, and each square
+/// is split along a random diagonal.
 MeshPointer jittered_cloth(std::uint32_t width, std::uint32_t height) {
   std::mt19937_64 random(2004);
   MeshParts parts;
@@ -37,7 +38,7 @@ MeshPointer jittered_cloth(std::uint32_t width, std::uint32_t height) {
   return build_mesh(std::move(parts));
 }
 
-/// A closed surface: rings of triangles between two poles.
+/// Returns a closed surface: rings of triangles between two poles.
 MeshPointer sphere(std::uint32_t segments, std::uint32_t rings, double radius) {
   MeshParts parts;
   parts.rest.emplace_back(0, 0, radius);
@@ -61,7 +62,7 @@ MeshPointer sphere(std::uint32_t segments, std::uint32_t rings, double radius) {
   return build_mesh(std::move(parts));
 }
 
-/// Some links here and there, and a slit from the left edge to the middle.
+/// Returns the links of random holes, and of a slit from the left edge to the middle.
 std::vector<LinkId> slit_and_holes(const Mesh& grid) {
   std::mt19937_64 random(2004);
   const std::uint32_t width = grid.lattice->size[0], slit = grid.lattice->size[1] / 3;
@@ -76,7 +77,7 @@ std::vector<LinkId> slit_and_holes(const Mesh& grid) {
   return cuts;
 }
 
-/// Links within the middle third along each axis give a tenth of what the others do.
+/// Returns a softness in which links within the middle third of each axis give way by a tenth of the others.
 Softness with_stiff_middle(const Mesh& mesh, const LinkSoftness& soft) {
   const LinkSoftness stiff{1 - (1 - soft.compression) / 10, 1 + (soft.stretch - 1) / 10, soft.shear / 10};
   const auto [low, high] = bounds(mesh);
@@ -102,13 +103,13 @@ std::vector<Case> default_cases(const LinkSoftness& softness) {
   };
   std::vector<Case> cases{
       made("grid", "32 × 32 elements, links along x and y", grid),
-      made("cut grid", "the grid with a slit to its middle, and 8% of the other links cut at random", grid),
-      made("jittered cloth", "32 × 32 elements off their places by up to 0.3, triangles on either diagonal",
+      made("cut grid", "the grid with a slit to its middle, and 8 % of the other links cut at random", grid),
+      made("jittered cloth", "32 × 32 elements displaced by up to 0.3, triangles along random diagonals",
            jittered_cloth(32, 32)),
       made("sphere", "a closed surface of triangles: 20 rings of 32 elements and two poles", sphere(32, 20, 6)),
       made("tetra block", "10 × 10 × 10 elements, each cube split into six tetrahedra",
            generate({MeshKind::tetra, {10, 10, 10}})),
-      made("stiff inclusion", "the grid with links ten times as stiff in its middle", grid),
+      made("stiff inclusion", "the grid, with links ten times as stiff in its middle", grid),
   };
   cases[1].cuts = slit_and_holes(*grid);
   cases[5].softness = with_stiff_middle(*grid, softness);

@@ -4,18 +4,19 @@
 
 namespace chainmail::report {
 
-/// Two clocks, in seconds from some moment each. Of a piece of work, the wall's tells how long it took, and
-/// the thread's own how long it ran: what it waited for other programs is no cost of an algorithm's.
+/// Two clocks, each in seconds from some moment: elapsed time, and the time that the thread itself ran. Time that the
+/// thread waits for other programs is not a cost of an algorithm.
 struct Clocks {
   std::function<double()> wall;
   std::function<double()> own;
 };
 
-/// Those of the machine and of the calling thread; where threads have no clock, the wall's twice.
+/// Returns the clocks of the machine and of the calling thread. Where threads have no clock, both are that of the
+/// machine.
 Clocks machine_clocks();
 
-/// The seconds that `work` takes, less what other programs took from it: the shorter of the two times. The
-/// own clock is asked outside, because asking takes longer than a small pass.
+/// Returns the seconds that `work` takes without the time of other programs: the shorter of the two times. The clock of
+/// the thread is read outside, because reading it takes longer than a small pass.
 template <class Work>
 double seconds_of(const Clocks& clocks, Work work) {
   const double own = clocks.own(), wall = clocks.wall();

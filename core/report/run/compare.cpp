@@ -3,23 +3,58 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <numeric>
 #include <set>
 
 #include "mesh/error.h"
 #include "report/run/errors.h"
-#include "report/run/move_times.h"
 #include "report/run/runner.h"
 
 namespace chainmail::report {
 namespace {
 
-constexpr int fewest_repetitions = 5;
-constexpr int most_repetitions = 51;
-constexpr double warm_up_share = 0.25;  // of the progress: the references and both precisions take about that
+constexpr int fewest_repetitions_of_drag = 5;
+constexpr int most_repetitions_of_drag = 51;
+constexpr double warm_up_share = 0.25;  // of the progress: about the time of the references and both precisions
 
 using Clock = std::chrono::steady_clock;
 
-/// An algorithm's runner serves all its contestants; where there is none, the refusal says why.
+/// The times of a drag's moves over its repetitions (ms).
+class MoveTimes {
+ public:
+  /// Adds the times of one repetition, move by move. All repetitions have the same number of moves.
+  void add(std::vector<double> ms) { runs_.push_back(std::move(ms)); }
+
+  /// Returns the mean time of a move over the repetitions.
+  TimeSpread spread() const;
+  /// Returns the largest median of a move over the repetitions.
+  double worst() const;
+
+ private:
+  std::vector<std::vector<double>> runs_;
+};
+
+TimeSpread MoveTimes::spread() const {
+  std::vector<double> means;
+  for (const auto& run : runs_) {
+    means.push_back(std::accumulate(run.begin(), run.end(), 0.0) / double(run.size()));
+  }
+  return spread_of(std::move(means));
+}
+
+double MoveTimes::worst() const {
+  double worst = 0;
+  for (std::size_t move = 0; !runs_.empty() && move < runs_.front().size(); ++move) {
+    std::vector<double> of_move;
+    for (const auto& run : runs_) {
+      of_move.push_back(run[move]);
+    }
+    worst = std::max(worst, spread_of(std::move(of_move)).median);
+  }
+  return worst;
+}
+
+/// The runner of an algorithm, which serves all its contestants; or the reason why there is none.
 struct Participant {
   std::unique_ptr<Runner> runner;
   std::string refusal;
@@ -39,7 +74,7 @@ class Experiment {
     times_.resize(result_.entries.size());
   }
 
-  /// Calls `tell` with the share that is done. Nothing comes back where it was stopped.
+  /// Calls `tell` with the share that is done. Returns nothing if it was stopped.
   std::optional<DragResult> run(const std::function<void(double)>& tell) {
     make_runners();
     measure_errors(tell);
@@ -70,7 +105,7 @@ class Experiment {
     }
   }
 
-  /// The warm-up, which is not timed: errors are the same in every repetition.
+  /// Runs the warm-up, which is not timed, and measures the errors: they are the same in every repetition.
   void measure_errors(const std::function<void(double)>& tell) {
     References references(object_, moves_, options_, stop_);
     result_.no_exact = references.no_exact();
@@ -83,11 +118,11 @@ class Experiment {
         seconds += try_out(entry, *participant_of(i).runner, references);
       }
     }
-    repetitions_ = options_.repetitions.value_or(static_cast<int>(
-        std::clamp<double>(options_.seconds / std::max(seconds, 1e-6), fewest_repetitions, most_repetitions)));
+    repetitions_ = options_.repetitions.value_or(static_cast<int>(std::clamp<double>(
+        options_.seconds / std::max(seconds, 1e-6), fewest_repetitions_of_drag, most_repetitions_of_drag)));
   }
 
-  /// Returns the seconds that a run takes.
+  /// Returns the time of a run in seconds.
   double try_out(Entry& entry, Runner& runner, References& references) {
     const auto start = Clock::now();
     try {
@@ -103,7 +138,7 @@ class Experiment {
     }
   }
 
-  /// Everyone once, each time another one first: who comes after whom must not matter.
+  /// Runs each contestant once. Rotates the order so that order effects cancel.
   void repeat(std::size_t repetition) {
     const std::size_t count = result_.entries.size();
     for (std::size_t turn = 0; turn < count && !stop_.stop_requested(); ++turn) {
@@ -122,8 +157,8 @@ class Experiment {
   const CompareOptions& options_;
   const std::stop_token& stop_;
   DragResult result_;
-  std::vector<Participant> participants_;  // one an algorithm
-  std::vector<MoveTimes> times_;           // one a contestant
+  std::vector<Participant> participants_;  // one per algorithm
+  std::vector<MoveTimes> times_;           // one per contestant
   int repetitions_ = 0;
 };
 
@@ -144,13 +179,13 @@ CompareOptions checked(const std::vector<Case>& cases, CompareOptions options) {
 
 void check(const CompareOptions& options) {
   if (options.sweeps.empty() || *std::ranges::min_element(options.sweeps) < 0) {
-    throw Error("relax", "there is no number of sweeps, or one below 0", "give numbers from 0");
+    throw Error("relax", "there is no number of sweeps, or a number below 0", "use numbers from 0");
   }
   if (!(options.relax_step > 0 && options.relax_step <= 1)) {
-    throw Error("relax-step", "it must lie above 0 and up to 1", "1 goes all the way to the mean");
+    throw Error("relax-step", "it must be above 0 and at most 1", "use 1 to move all the way to the mean");
   }
   if (options.repetitions && *options.repetitions < 1) {
-    throw Error("repetitions", "there would be none", "use 1 or more");
+    throw Error("repetitions", "the number is below 1", "use 1 or more");
   }
 }
 

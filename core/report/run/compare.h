@@ -19,53 +19,53 @@ struct Contestant {
   Algorithm algorithm = Algorithm::natural_queue;
   int sweeps = 0;
 };
-/// How a contestant is called in a table: `Natural Queue ChainMail, 10 sweeps`.
+/// Returns the name of a contestant in a table: `Natural Queue ChainMail, 10 sweeps`.
 std::string label(const Contestant& contestant);
 
 struct CompareOptions {
-  /// Every algorithm by default, in the order in which they are offered.
+  /// None: the ChainMail family, in the order of algorithms().
   std::vector<Algorithm> algorithms;
   std::vector<int> sweeps{0, 10};
   RelaxationScheme scheme = RelaxationScheme::mean;
   double relax_step = 1;
-  /// That of the contestants; the references are in double always.
+  /// Precision of the contestants. The references are always in double.
   Precision precision = Precision::single_precision;
-  /// Of each drag, without the warm-up. By default as many as `seconds` hold, and 5 at least.
+  /// Repetitions of each drag, without the warm-up. None: as many as fit in `seconds`, at least 5.
   std::optional<int> repetitions;
-  double seconds = 4;  // to be spent on the repetitions of one drag, over all contestants
+  double seconds = 4;  // for the repetitions of one drag by all contestants together
 };
 
-/// Throws Error where a number is out of its range.
+/// Throws Error if a number is out of its range.
 void check(const CompareOptions& options);
 
-/// What the speed of a contestant costs, measured in double at the end of a drag.
+/// Errors of a contestant, measured in double at the end of a drag.
 struct Errors {
   Violation violation;
-  /// From Exact ChainMail without sweeps, run in double on the same commands from rest.
+  /// Distance to Exact ChainMail without sweeps, run in double on the same commands from rest.
   std::optional<Distance> to_exact;
   std::optional<double> energy_over_exact;
-  /// Of the contestant in float from the same one in double.
+  /// Distance between the contestant in float and in double.
   Distance float_to_double;
   std::optional<double> largest_over_hand;
-  /// From where full relaxation would end; none where that is not defined, or not computed.
+  /// Distance to the end of full relaxation; none if that is not defined or not computed.
   std::optional<Distance> to_equilibrium;
 
   bool operator==(const Errors&) const = default;
 };
 
-/// How a contestant did on one drag.
+/// Times and errors of a contestant on one drag.
 struct Measurement {
-  TimeSpread ms_per_move;     // over the repetitions: a pass and its sweeps, as the thread ran
-  double worst_move_ms = 0;   // of the moves, the one with the largest median over the repetitions
+  TimeSpread ms_per_move;     // a pass and its sweeps, over the repetitions; time of the thread
+  double worst_move_ms = 0;   // the largest median of a move over the repetitions
   std::uint64_t checked = 0;  // in all moves together
-  std::uint64_t moved = 0;    // in all moves together; the hand's element does not count
+  std::uint64_t moved = 0;    // in all moves together, without the handle
   Errors errors;
 };
 
 struct Entry {
   Contestant contestant;
   std::optional<Measurement> measurement;
-  /// Where there is no measurement: why the contestant cannot take part.
+  /// If there is no measurement: the reason why the contestant cannot take part.
   std::string refusal;
 };
 
@@ -73,9 +73,9 @@ struct DragResult {
   std::string name;
   std::string description;
   int moves = 0;
-  /// Every contestant, in one order for all drags.
+  /// All contestants, in the same order for all drags.
   std::vector<Entry> entries;
-  /// Where the distances to Exact ChainMail are missing: why.
+  /// If the distances to Exact ChainMail are missing: the reason.
   std::string no_exact;
 };
 
@@ -83,29 +83,28 @@ struct CaseResult {
   std::string name;
   std::string description;
   std::uint64_t elements = 0;
-  std::uint64_t links = 0;  // without those that are cut
+  std::uint64_t links = 0;  // without cut links
   std::vector<DragResult> drags;
 };
 
 struct Comparison {
   CompareOptions options;
   std::vector<CaseResult> cases;
-  /// Whether it was stopped; then what it holds are the drags that were finished.
+  /// True if it was stopped. Then only the finished drags are there.
   bool stopped = false;
 };
 
-/// Told from the thread that compares, between repetitions: how much is done (0 to 1), and what is next.
+/// Called by the comparing thread between repetitions, with the share that is done (0 to 1) and the next drag.
 using Progress = std::function<void(double fraction, const std::string& text)>;
 
-/// The experiment: all contestants carry the same recorded moves out, each repetition from rest, in turns, on
-/// the thread that calls. All figures but the times are the same on every machine.
+/// Runs the experiment on the calling thread: all contestants carry out the same recorded moves in turns, each
+/// repetition from rest. All figures except the times are the same on every machine.
 ///
-/// Of the commands, SetAlgorithm and SetRelaxation are passed over (they are the contestants' own), and so are
-/// KeepState and DropState. Throws Error where a drag holds no move, where it replaces the object
-/// (ReplaceMesh, RestoreState), and where a number in the options is out of its range. A contestant that cannot
-/// carry the moves out is listed with the reason.
+/// SetAlgorithm and SetRelaxation are ignored (each contestant has its own), and so are KeepState and DropState. Throws
+/// Error if a drag has no move, if it replaces the object (ReplaceMesh, RestoreState), or if a number in the options is
+/// out of its range. A contestant that cannot carry out the moves is listed with the reason.
 ///
-/// `stop` is looked at between passes and between sweeps.
+/// `stop` is checked between passes and between sweeps.
 Comparison compare(const std::vector<Case>& cases, const CompareOptions& options, const Progress& progress = {},
                    const std::stop_token& stop = {});
 

@@ -12,11 +12,11 @@ namespace chainmail::report {
 namespace {
 
 constexpr int fewest_repetitions = 3, most_repetitions = 51;
-constexpr double slow = 0.3;  // who takes longer for a drag (seconds) does not repeat it
+constexpr double longest_repeated_drag = 0.3;  // seconds; slower drags are not repeated
 
 }  // namespace
 
-/// One contestant with all that its runs need.
+/// One contestant with its solver and its times.
 class Contest::Participant {
  public:
   Participant(const Case& object, const PhysicsContestant& contestant, const CompareOptions& options)
@@ -34,7 +34,7 @@ class Contest::Participant {
     }
   }
 
-  /// The first run of a drag, which finds the errors.
+  /// Runs a drag for the first time and measures the errors.
   void try_out(const RecordedMoves& moves, const ReferenceSolution& truth, const std::stop_token& stop) {
     entry_ = {contestant_, std::nullopt, refusal_};
     times_ = {};
@@ -58,7 +58,7 @@ class Contest::Participant {
   }
 
   int repetitions(double seconds) const {
-    if (!entry_.measurement || !runner_ || seconds_ > slow) {
+    if (!entry_.measurement || !runner_ || seconds_ > longest_repeated_drag) {
       return 0;
     }
     return std::clamp(int(seconds / std::max(seconds_, 1e-6)), fewest_repetitions, most_repetitions);
@@ -66,7 +66,7 @@ class Contest::Participant {
 
   void repeat(const std::stop_token& stop) {
     if (!warm_) {
-      times_ = {};  // the first run was the warm-up
+      times_ = {};  // the first run was a warm-up
       warm_ = true;
     }
     run(stop);
@@ -82,7 +82,7 @@ class Contest::Participant {
   }
 
  private:
-  /// Once for the object and all its handles.
+  /// Prepares once for the object and all its handles.
   void prepare() {
     if (prepares(contestant_) && !preparing_) {
       preparing_.emplace(object_, *elastic_method(*contestant_.algorithm));
@@ -97,7 +97,7 @@ class Contest::Participant {
       return;
     }
     const DragTimes times = split(run.ms, prepares(contestant_), has_cut_);
-    // Without a cut, what was prepared is there when the drag is repeated.
+    // Without a cut, the repetitions of the drag do not prepare again.
     seconds_ = clocks_.wall() - start - (has_cut_ ? 0 : times.preparing / 1e3);
     times_.add(times);
   }
@@ -120,7 +120,7 @@ class Contest::Participant {
   std::string refusal_;
   std::optional<PreparingTimes> preparing_;
   Clocks clocks_ = machine_clocks();
-  // Of the present drag.
+  // Of the present drag:
   PhysicsEntry entry_;
   RecordedMoves moves_;
   bool has_cut_ = false;
@@ -145,7 +145,7 @@ std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const Referen
     tell(0.5 * double(i) / count);
     participants_[i]->try_out(moves, truth, stop);
   }
-  // In turns: what else the machine does meanwhile hits all alike. Who is slow takes fewer.
+  // In turns, so that other load on the machine affects all contestants alike. Slow contestants repeat less often.
   const auto wanted = [&](const Participant& one) {
     return options_.repetitions ? std::min(one.repetitions(1e9), *options_.repetitions)
                                 : one.repetitions(options_.seconds / count);

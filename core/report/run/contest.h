@@ -9,16 +9,16 @@
 
 namespace chainmail::report {
 
-/// All contestants on one object, drag by drag. What they have prepared for the object and a handle, they keep.
+/// All contestants on one object, drag by drag. They keep what they have prepared for the object and a handle.
 class Contest {
  public:
-  /// The object must outlive it. Who cannot take part is listed with the reason.
+  /// The object must outlive the contest. A contestant that cannot take part is listed with the reason.
   Contest(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options);
   ~Contest();
 
-  /// A drag by all of them, against the reference solution at its end.
-  std::vector<PhysicsEntry> run(const RecordedMoves& moves, const ReferenceSolution& truth,
-                                const std::function<void(double)>& tell, const std::stop_token& stop);
+  /// Runs a drag with all contestants, and compares them with the reference solution at its end.
+  std::vector<PhysicsEntry> run(const RecordedMoves& moves, const ReferenceSolution& truth, const std::function<void(double)>& tell,
+                                const std::stop_token& stop);
 
  private:
   class Participant;

@@ -1,14 +1,15 @@
+#include "report/run/drags.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "report/run/cases.h"
 #include "simulate/simulation.h"
 
 namespace chainmail::report {
 namespace {
 
 constexpr int moves_one_way = 24;
-// Distances are tried in this ratio, from a tenth of a rest length until they are this many times the object.
+// Distances are tried in this ratio, from a tenth of a rest length up to this many object sizes.
 constexpr double next_distance = 1.4;
 constexpr double farthest_in_sizes = 100;
 
@@ -17,7 +18,7 @@ double size_of(const Mesh& mesh) {
   return std::max((high - low).norm(), mesh.mean_link_length);
 }
 
-/// Oblique, so that no axis is spared, along the axes that the scene carries.
+/// Returns an oblique direction along all axes of the scene.
 Point direction_in(const Mesh& mesh) {
   const Point parts(2, 1, 0.5);
   Point direction = Point::Zero();
@@ -27,14 +28,14 @@ Point direction_in(const Mesh& mesh) {
   return direction.normalized();
 }
 
-/// The unpinned element with the smallest value of `measure`; the lowest id of several.
+/// Returns the unpinned element with the smallest `measure`, and of several the one with the lowest id.
 template <class Measure>
-ElementId smallest(const Case& object, Measure measure) {
+ElementId element_with_smallest(const Case& object, Measure measure) {
   ElementId best = no_element;
   double least = 0;
   for (ElementId e = 0; e < object.mesh->element_count(); ++e) {
     const double value = measure(object.mesh->rest_position(e));
-    // The pins last: few elements come that far.
+    // The pins come last, because few elements get here.
     if ((best == no_element || value < least) && std::ranges::find(object.pins, e) == object.pins.end()) {
       best = e;
       least = value;
@@ -43,7 +44,7 @@ ElementId smallest(const Case& object, Measure measure) {
   return best == no_element ? 0 : best;
 }
 
-/// Tries pulls on one element from rest, each by Exact ChainMail in one move.
+/// Tries pulls of one element from rest, each with Exact ChainMail in one move.
 class Trial {
  public:
   Trial(const Case& object, ElementId element, const std::stop_token& stop)
@@ -61,8 +62,8 @@ class Trial {
     return simulation_.statistics().last_pass.moved;
   }
 
-  /// The shortest of the distances at which this many elements follow; where pins or the object's end never
-  /// let them, the shortest at which as many as can do.
+  /// Returns the shortest tried distance at which this many elements follow. If pins or the end of the object prevent
+  /// that, returns the shortest at which as many as possible follow.
   double distance_for(std::uint64_t wanted) {
     const Mesh& mesh = simulation_.mesh();
     const double farthest = farthest_in_sizes * size_of(mesh);
@@ -87,7 +88,7 @@ class Trial {
   const std::stop_token& stop_;
 };
 
-/// Equal steps of the hand, from the share `from` of the way to the share `to`.
+/// Adds moves of equal length, from the share `from` of the way to the share `to`.
 void add_moves(RecordedMoves& drag, const Point& start, const Point& way, double from, double to) {
   for (int move = 1; move <= moves_one_way; ++move) {
     drag.commands.emplace_back(commands::Drag{start + std::lerp(from, to, double(move) / moves_one_way) * way});
@@ -101,7 +102,7 @@ RecordedMoves drag_out(const Mesh& mesh, ElementId element, double distance) {
   return drag;
 }
 
-std::string hand(ElementId element) { return "element " + std::to_string(element); }
+std::string named(ElementId element) { return "element " + std::to_string(element); }
 
 }  // namespace
 
@@ -109,22 +110,22 @@ std::vector<RecordedMoves> three_drags(const Case& object, const std::stop_token
   const Mesh& mesh = *object.mesh;
   const auto [low, high] = bounds(mesh);
   const Point centre = (low + high) / 2, outward = direction_in(mesh);
-  const ElementId middle = smallest(object, [&](const Point& at) { return (at - centre).squaredNorm(); });
-  const ElementId edge = smallest(object, [&](const Point& at) { return -at.dot(outward); });
+  const ElementId middle = element_with_smallest(object, [&](const Point& at) { return (at - centre).squaredNorm(); });
+  const ElementId edge = element_with_smallest(object, [&](const Point& at) { return -at.dot(outward); });
   Trial from_middle(object, middle, stop), from_edge(object, edge, stop);
   const std::uint64_t all = mesh.element_count() - 1;
 
   RecordedMoves local = drag_out(mesh, middle, from_middle.distance_for(std::clamp<std::uint64_t>(all / 8, 12, 300)));
   local.name = "local";
-  local.description = hand(middle) + ", nearest the middle, until about an eighth of the object follows";
+  local.description = named(middle) + ", nearest the middle, until about an eighth of the object follows";
   RecordedMoves whole = drag_out(mesh, edge, 2 * from_edge.distance_for(all));
   whole.name = "whole body";
-  whole.description = hand(edge) + ", at the edge, outward until all follow, and as far again";
+  whole.description = named(edge) + ", at the edge, outward until all elements follow, and as far again";
   const double reach = from_middle.distance_for(all);
   RecordedMoves back_and_forth = drag_out(mesh, middle, reach);
   add_moves(back_and_forth, mesh.rest_position(middle), reach * outward, 1, 0);
   back_and_forth.name = "back and forth";
-  back_and_forth.description = hand(middle) + ", nearest the middle, until all follow, and back to where it was";
+  back_and_forth.description = named(middle) + ", nearest the middle, until all elements follow, and back";
   return {std::move(local), std::move(whole), std::move(back_and_forth)};
 }
 

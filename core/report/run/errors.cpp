@@ -7,7 +7,7 @@
 namespace chainmail::report {
 namespace {
 
-// Beyond this the reference would take longer than all that is compared with it.
+// Above this size the reference takes longer than all contestants together.
 constexpr ElementId equilibrium_limit = 131'072;
 
 double energy_of(const Simulation& simulation) {
@@ -35,13 +35,13 @@ References::References(const Case& object, const RecordedMoves& moves, const Com
   }
 }
 
-/// Where full relaxation would end with the hand and the pins where Exact ChainMail has them.
+/// Finds the end of full relaxation, with the handle and the pins at the positions of Exact ChainMail.
 void References::find_equilibrium() {
   const Simulation& simulation = exact_->simulation();
   const auto pins = simulation.solver().pins();
   std::vector<ElementId> fixed(pins.begin(), pins.end());
-  if (exact_->hand()) {
-    fixed.push_back(*exact_->hand());
+  if (exact_->handle()) {
+    fixed.push_back(*exact_->handle());
   }
   if (simulation.mesh().element_count() > equilibrium_limit) {
     return;
@@ -52,7 +52,7 @@ void References::find_equilibrium() {
     equilibrium_ = equilibrium(simulation.mesh(), simulation.softness(), simulation.solver().cuts(), fixed,
                                simulation.solver().positions(), cholesky_limit, chainmail::Progress(job));
   } catch (const Cancelled&) {
-    return;  // nobody looks at it then
+    return;  // the result is not needed then
   }
   const bool is_reference =
       equilibrium_ && !equilibrium_->binds &&
@@ -75,8 +75,8 @@ Errors References::errors_of(const Runner& runner, const Contestant& contestant)
     errors.to_equilibrium = measure_distance(simulation.mesh(), positions, equilibrium_->positions(simulation.mesh()));
   }
   errors.float_to_double = float_to_double(runner, contestant);
-  if (runner.hand()) {
-    errors.largest_over_hand = largest_over_hand(simulation.mesh(), positions, *runner.hand());
+  if (runner.handle()) {
+    errors.largest_over_hand = largest_over_hand(simulation.mesh(), positions, *runner.handle());
   }
   return errors;
 }

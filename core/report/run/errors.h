@@ -8,17 +8,17 @@
 
 namespace chainmail::report {
 
-/// Measures what contestants did with a drag, against Exact ChainMail in double and against themselves in the
-/// other precision.
+/// Measures the errors of contestants on a drag, against Exact ChainMail in double and against the same contestant in
+/// the other precision.
 class References {
  public:
   References(const Case& object, const RecordedMoves& moves, const CompareOptions& options,
              const std::stop_token& stop);
 
-  /// Why there is no Exact ChainMail to compare with; empty where there is.
+  /// Reason why there is no Exact ChainMail to compare with; empty if there is.
   const std::string& no_exact() const { return no_exact_; }
 
-  /// The errors of a contestant whose run has just ended.
+  /// Returns the errors of a contestant whose run has just ended.
   Errors errors_of(const Runner& runner, const Contestant& contestant);
 
  private:
@@ -31,9 +31,9 @@ class References {
   const std::stop_token& stop_;
   std::unique_ptr<Runner> exact_;
   double energy_of_exact_ = 0;
-  std::optional<Equilibrium> equilibrium_;  // where it is a reference for all elements
+  std::optional<Equilibrium> equilibrium_;  // if it is a reference for all elements
   std::string no_exact_;
-  std::unique_ptr<Runner> other_;  // of the last contestant's algorithm, in the other precision
+  std::unique_ptr<Runner> other_;  // with the algorithm of the last contestant, in the other precision
 };
 
 }  // namespace chainmail::report

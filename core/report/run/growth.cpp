@@ -7,9 +7,9 @@ namespace chainmail::report {
 
 double percentile(std::vector<double> values, double share) {
   const double rank = std::ceil(share * double(values.size()));
-  const auto place = values.begin() + std::max(static_cast<std::ptrdiff_t>(rank) - 1, std::ptrdiff_t{0});
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
+  const auto position = values.begin() + std::max(static_cast<std::ptrdiff_t>(rank) - 1, std::ptrdiff_t{0});
+  std::nth_element(values.begin(), position, values.end());
+  return *position;
 }
 
 std::optional<Growth> growth_of(std::span<const SizedTime> times, double from) {

@@ -6,7 +6,7 @@
 namespace chainmail::report {
 namespace {
 
-/// As Linux tells it; elsewhere nothing is known.
+/// Returns the processor from /proc/cpuinfo; other systems than Linux have no such file.
 std::string processor() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);) {

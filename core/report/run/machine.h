@@ -4,16 +4,16 @@
 
 namespace chainmail::report {
 
-/// Where times were measured: without it they say nothing.
+/// The machine and the build with which times were measured.
 struct Machine {
   std::string processor;
-  unsigned cores = 0;  // 0: not known
+  unsigned cores = 0;  // 0: unknown
   std::string compiler;
   std::string build;  // Release, Debug …
 };
 Machine this_machine();
 
-/// What a report says of its own making; all of it comes from outside.
+/// The origin of a report. All of its text comes from outside.
 struct Origin {
   Machine machine;
   std::string command_line;

@@ -13,9 +13,9 @@
 namespace chainmail::report {
 namespace {
 
-// Calibration takes longer than a drag, and the others of the family differ little from these.
+// Calibration takes longer than a drag, and the other algorithms of the family differ little from these.
 constexpr std::array calibrated_algorithms{Algorithm::natural_queue, Algorithm::exact};
-constexpr double share_of_drags = 0.6;  // of the progress, where objects grow as well
+constexpr double share_of_drags = 0.6;  // of the progress, if objects grow too
 
 PhysicsOptions checked(PhysicsOptions options) {
   if (options.contest.algorithms.empty()) {
@@ -25,32 +25,25 @@ PhysicsOptions checked(PhysicsOptions options) {
   }
   check(options.contest);
   if (!(options.growth_seconds >= 0)) {
-    throw Error("grow", "time does not run backward", "use 0 or more seconds");
+    throw Error("grow", "the time is below 0", "use 0 or more seconds");
   }
   return options;
 }
 
-/// The solver of the reference solution, without which nothing can be measured.
+/// Returns the solver of the reference solution. Without it nothing can be measured.
 ReferenceSolver reference_of(const Case& object, const std::vector<LinkId>& cut) {
-  std::vector<ElementId> pins = object.pins;
-  std::ranges::sort(pins);
-  const std::vector<double> at_rest(pins.size() * static_cast<std::size_t>(object.mesh->space_dimension), 0.0);
-  if (pins.empty()) {
+  if (object.pins.empty()) {
     throw Error(object.name, "nothing pins it, so physics has no static answer",
                 "pin a side, the boundary, or elements");
   }
-  Cuts cuts(object.mesh);
-  for (const LinkId link : cut) {
-    cuts.cut(link);
-  }
   try {
-    return ReferenceSolver({object.mesh, cuts, pins, at_rest, object.elastic});
+    return ReferenceSolver(elastic_problem(object, cut));
   } catch (const Error& error) {
     throw error.at(object.name);
   }
 }
 
-/// The reference solution at the end of a drag.
+/// Returns the reference solution at the end of a drag.
 ReferenceSolution reference_at_end(ReferenceSolver& solver, const RecordedMoves& moves) {
   Point target = Point::Zero();
   for (const Command& command : moves.commands) {
@@ -79,7 +72,7 @@ PhysicsDrag drag_of(Contest& contest, const Case& object, const RecordedMoves& m
   return drag;
 }
 
-/// Calibrates those of the ChainMail family that take part and fit the object.
+/// Calibrates the algorithms of the ChainMail family that take part and fit the object.
 std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options,
                                          const std::function<void(double)>& tell, const std::stop_token& stop) {
   std::vector<Calibration> found;
@@ -101,7 +94,7 @@ std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOption
   return found;
 }
 
-/// What is told while the experiment goes on, of its whole.
+/// Reports the progress of the parts as progress of the whole.
 class Teller {
  public:
   Teller(const Progress& progress, std::size_t drags, bool grows) : progress_(progress), drags_(drags), grows_(grows) {}

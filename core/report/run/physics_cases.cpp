@@ -10,13 +10,14 @@
 #include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
+#include "report/run/preparing.h"
 
 namespace chainmail::report {
 namespace {
 
-constexpr int moves = 24, moves_before_cut = 12;
+constexpr int moves_of_drag = 24, moves_before_cut = 12;
 constexpr std::size_t most_handles = 3;
-constexpr double nudge = 0.05, far = 0.2;  // of the object's largest extent
+constexpr double nudge_share = 0.05, pull_share = 0.2;  // of the object's largest extent
 constexpr std::uint64_t usual_elements = 256;
 
 Case made(const char* name, const std::string& description, const MeshPointer& mesh, const char* side,
@@ -26,25 +27,15 @@ Case made(const char* name, const std::string& description, const MeshPointer& m
   return object;
 }
 
-/// Elements that a handle can be: of a solid those on its surface.
-std::vector<ElementId> reachable(const Mesh& mesh) {
-  if (!mesh.tetrahedra.empty() || !mesh.hexahedra.empty()) {
-    return boundary(mesh);
-  }
-  std::vector<ElementId> all(mesh.element_count());
-  std::iota(all.begin(), all.end(), ElementId{0});
-  return all;
-}
-
-/// Lowers the distances of some elements to those from one more place.
+/// Lowers the distances of elements to those from one more point.
 void come_near(std::vector<double>& distances, const Mesh& mesh, const std::vector<ElementId>& elements,
-               const Point& place) {
+               const Point& point) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    distances[i] = std::min(distances[i], (mesh.rest_position(elements[i]) - place).squaredNorm());
+    distances[i] = std::min(distances[i], (mesh.rest_position(elements[i]) - point).squaredNorm());
   }
 }
 
-/// Away from the pins' middle; along the first axis where the element stands there.
+/// Returns the direction from the middle of the pins to the element; the first axis if the element is there.
 Point outward_of(const Case& object, ElementId element) {
   const Mesh& mesh = *object.mesh;
   Point middle = Point::Zero();
@@ -55,7 +46,7 @@ Point outward_of(const Case& object, ElementId element) {
   return way.norm() > mesh.mean_link_length / 2 ? Point(way.normalized()) : Point(Point::Unit(mesh.axes[0]));
 }
 
-/// At a right angle to it, as near as may be to the last axis that the scene carries; on a line, back.
+/// Returns a direction at a right angle to `outward`, close to the last axis of the scene; on a line, the way back.
 Point across_of(const Mesh& mesh, const Point& outward) {
   for (int k = mesh.space_dimension - 1; k >= 0; --k) {
     const Point axis = Point::Unit(mesh.axes[k]);
@@ -67,16 +58,16 @@ Point across_of(const Mesh& mesh, const Point& outward) {
   return -outward;
 }
 
-/// A plane across the way from the handle to the nearest pin, and how far a cut goes along it.
+/// A plane across the way from the handle to the nearest pin, and the depth of a cut along it.
 struct CutPlace {
   double along = 0.5;  // share of the way from the handle
   double from = 0;     // the cut ends at this share of the object's extent there, counted from the way
 };
-// A cut through the middle as deep as the object stays held; less deep, or elsewhere, where it would not.
+// A cut through the middle, as deep as the object stays held; if it does not, less deep or elsewhere.
 constexpr CutPlace cut_places[]{{0.5, 0},    {0.5, 0.3}, {0.5, 0.6},  {0.35, 0},  {0.35, 0.3},
                                 {0.35, 0.6}, {0.65, 0},  {0.65, 0.3}, {0.65, 0.6}};
 
-/// The links that such a cut goes through.
+/// Returns the links that such a cut crosses.
 std::vector<LinkId> links_through(const Case& object, ElementId handle, const CutPlace& place) {
   const Mesh& mesh = *object.mesh;
   const Point from = mesh.rest_position(handle);
@@ -103,23 +94,17 @@ std::vector<LinkId> links_through(const Case& object, ElementId handle, const Cu
   return links;
 }
 
-/// True where linear elasticity has one answer with these links cut: nothing hangs loose, or as on a hinge.
+/// True if linear elasticity has one answer with these links cut: no part is loose or turns about a hinge.
 bool stays_held(const Case& object, const std::vector<LinkId>& links) {
-  ElasticProblem problem{object.mesh, Cuts(object.mesh), object.pins, {}, object.elastic};
-  std::ranges::sort(problem.pins);
-  problem.pinned.resize(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension));
-  for (const LinkId link : links) {
-    problem.cuts.cut(link);
-  }
   try {
-    make_elastic(ElasticMethod::linear_fem, problem);
+    make_elastic(ElasticMethod::linear_fem, elastic_problem(object, links));
     return true;
   } catch (const Error&) {
     return false;
   }
 }
 
-/// The links of the first of the cuts after which the object is held; none where there is no such cut.
+/// Returns the links of the first cut after which the object is held; none if there is no such cut.
 std::vector<LinkId> links_to_cut(const Case& object, ElementId handle) {
   for (const CutPlace& place : cut_places) {
     std::vector<LinkId> links = links_through(object, handle, place);
@@ -133,13 +118,13 @@ std::vector<LinkId> links_to_cut(const Case& object, ElementId handle) {
 RecordedMoves drag(const Mesh& mesh, ElementId element, const Point& way, const std::string& name,
                    const std::string& description) {
   RecordedMoves drag{name, "element " + std::to_string(element) + ", " + description, {commands::Grab{element}}};
-  for (int move = 1; move <= moves; ++move) {
-    drag.commands.emplace_back(commands::Drag{mesh.rest_position(element) + way * move / moves});
+  for (int move = 1; move <= moves_of_drag; ++move) {
+    drag.commands.emplace_back(commands::Drag{mesh.rest_position(element) + way * move / moves_of_drag});
   }
   return drag;
 }
 
-/// A pull up to its middle, a cut into the object, and one move more; no commands where nothing can be cut.
+/// Returns half of a pull, a cut into the object, and one more move; no commands if there is nothing to cut.
 RecordedMoves cut_then_move(const Case& object, const RecordedMoves& pull) {
   const ElementId handle = std::get<commands::Grab>(pull.commands.front()).element;
   std::vector<LinkId> links = links_to_cut(object, handle);
@@ -148,7 +133,7 @@ RecordedMoves cut_then_move(const Case& object, const RecordedMoves& pull) {
   }
   RecordedMoves cut{"cut, then move",
                     "element " + std::to_string(handle) + ", half of the pull, a cut through the object (" +
-                        std::to_string(links.size()) + " links), and one move more",
+                        std::to_string(links.size()) + " links), and one more move",
                     {pull.commands.begin(), pull.commands.begin() + 1 + moves_before_cut}};
   cut.commands.emplace_back(commands::Cut{std::move(links)});
   cut.commands.push_back(pull.commands[1 + moves_before_cut]);
@@ -173,9 +158,18 @@ std::vector<Case> physics_cases(const Softness& softness, const ElasticOptions& 
   return {pinned_bar(usual_elements, softness, elastic), pinned_sheet(usual_elements, softness, elastic)};
 }
 
+std::vector<ElementId> possible_handles(const Mesh& mesh) {
+  std::vector<ElementId> elements = mesh.space_dimension == 3 ? boundary(mesh) : std::vector<ElementId>();
+  if (elements.empty()) {
+    elements.resize(mesh.element_count());
+    std::iota(elements.begin(), elements.end(), ElementId{0});
+  }
+  return elements;
+}
+
 std::vector<ElementId> physics_handles(const Case& object) {
   const Mesh& mesh = *object.mesh;
-  const std::vector<ElementId> elements = reachable(mesh);
+  const std::vector<ElementId> elements = possible_handles(mesh);
   std::vector<double> distances(elements.size(), std::numeric_limits<double>::infinity());
   for (const ElementId pin : object.pins) {
     come_near(distances, mesh, elements, mesh.rest_position(pin));
@@ -184,14 +178,14 @@ std::vector<ElementId> physics_handles(const Case& object) {
   while (handles.size() < most_handles && !object.pins.empty() && !elements.empty()) {
     const auto farthest = std::ranges::max_element(distances) - distances.begin();
     if (distances[static_cast<std::size_t>(farthest)] == 0) {
-      break;  // pinned, or a handle already
+      break;  // pinned, or already a handle
     }
     handles.push_back(elements[static_cast<std::size_t>(farthest)]);
     come_near(distances, mesh, elements, mesh.rest_position(handles.back()));
   }
   if (handles.empty()) {
     throw Error(object.name, object.pins.empty() ? "nothing pins it" : "every element that could be a handle is pinned",
-                "pin a side of it");
+                "pin a side of the object");
   }
   return handles;
 }
@@ -204,9 +198,10 @@ std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut) {
   for (const ElementId handle : physics_handles(object)) {
     const Point outward = outward_of(object, handle), across = across_of(mesh, outward);
     drags.push_back(
-        drag(mesh, handle, nudge * size * (outward + across).normalized(), "nudge", "5 % of the object’s size"));
-    drags.push_back(drag(mesh, handle, far * size * outward, "pull", "20 % of the object’s size away from the pins"));
-    drags.push_back(drag(mesh, handle, far * size * across, "bend", "20 % of the object’s size across"));
+        drag(mesh, handle, nudge_share * size * (outward + across).normalized(), "nudge", "5 % of the object’s size"));
+    drags.push_back(
+        drag(mesh, handle, pull_share * size * outward, "pull", "20 % of the object’s size away from the pins"));
+    drags.push_back(drag(mesh, handle, pull_share * size * across, "bend", "20 % of the object’s size across"));
   }
   if (RecordedMoves cut = with_cut ? cut_then_move(object, drags[1]) : RecordedMoves(); !cut.commands.empty()) {
     drags.push_back(std::move(cut));

@@ -5,7 +5,7 @@
 namespace chainmail::report {
 namespace {
 
-/// The reference solution shares the cells of two methods: their errors leave out what the mesh does.
+/// The reference solution has the same cells as two of the methods, so their errors do not contain that of the mesh.
 const char* cells_of(Algorithm algorithm) {
   switch (algorithm) {
     case Algorithm::linear_fem:

@@ -4,20 +4,23 @@
 
 #include "mesh/error.h"
 #include "report/run/contest.h"
+#include "report/run/preparing.h"
 
 namespace chainmail::report {
 namespace {
 
-constexpr std::uint64_t smallest = 100, largest = 1'000'000;  // elements
+constexpr std::uint64_t smallest_object = 100, largest_object = 1'000'000;  // elements
 constexpr double next_size = 2;
-constexpr double asymptotic_from = 1000;  // elements: below, what is done once a pass counts too much
+constexpr double asymptotic_from = 1000;  // elements; below, the fixed cost of a pass counts too much
 const std::vector<int> sweeps_grown{0, 10};
 constexpr std::size_t moves_grown = 6;  // of the drag, in longer steps
 constexpr const char* drag_grown = "pull";
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double growth_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
-/// The pull alone, in few moves: each size is to cost little more than its passes.
+/// Keeps only the pull, in few moves, so that a size costs little more than its passes.
 void shorten(Case& object) {
   RecordedMoves pull = *std::ranges::find(object.drags, drag_grown, &RecordedMoves::name);
   std::vector<Command> commands{pull.commands.front()};
@@ -29,14 +32,14 @@ void shorten(Case& object) {
   object.drags = {std::move(pull)};
 }
 
-/// The time that somebody has, and what the next size will take of it.
+/// Remaining time of a contestant, with an estimate for the next size.
 class Budget {
  public:
   explicit Budget(double seconds) : left_(seconds) {}
 
   void spend(double seconds) {
     left_ -= seconds;
-    // It grows at least as the elements do, and no faster than the last time, or as a dense factorization.
+    // Time grows at least as fast as the elements, and at most as fast as the last time or a dense factorization.
     ratio_ = last_ > 0 ? std::clamp(seconds / last_, next_size, 8.0) : next_size;
     last_ = seconds;
   }
@@ -47,42 +50,41 @@ class Budget {
   double left_, last_ = 0, ratio_ = next_size;
 };
 
-/// The reference solution at a size, as long as its own time lasts.
+/// Returns the reference solution at a size, while its own budget lasts.
 std::optional<ReferenceSolution> truth_at(const Case& object, Budget& budget) {
   if (!budget.holds_next()) {
     return std::nullopt;
   }
-  const double start = now();
+  const double start = growth_clock();
   try {
-    const std::vector<double> at_rest(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension), 0.0);
-    ReferenceSolver solver({object.mesh, Cuts(object.mesh), object.pins, at_rest, object.elastic});
+    ReferenceSolver solver(elastic_problem(object));
     const auto& commands = object.drags.front().commands;
     ReferenceSolution truth =
         solver.at(std::get<commands::Grab>(commands.front()).element, std::get<commands::Drag>(commands.back()).target);
-    budget.spend(now() - start);
+    budget.spend(growth_clock() - start);
     return truth;
   } catch (const Error&) {
-    budget.use_up();  // too large for it
+    budget.use_up();  // the object is too large
     return std::nullopt;
   }
 }
 
-/// Without a reference only times count; rest is as good as anything to measure against.
+/// Stands in for a missing reference solution: only times count then.
 ReferenceSolution no_truth(const Case& object) { return {std::vector<double>(object.mesh->rest.size(), 0.0), 1, {}}; }
 
 void measure(GrowthSeries& series, Budget& budget, const Case& object, const std::optional<ReferenceSolution>& truth,
              CompareOptions options, const std::stop_token& stop) {
-  const double start = now();
+  const double start = growth_clock();
   options.seconds = 0;
   options.repetitions = 1;
   Contest contest(object, {series.contestant}, options);
   const auto entries = contest.run(
       object.drags.front(), truth ? *truth : no_truth(object), [](double) {}, stop);
-  budget.spend(now() - start);
+  budget.spend(growth_clock() - start);
   if (const auto& measurement = entries.front().measurement) {
     series.points.push_back({object.mesh->element_count(), measurement->ms_per_move.median, measurement->prepare.ms(),
                              truth ? std::optional(measurement->error) : std::nullopt});
-    series.end = budget.holds_next() ? "" : "its time was used up";
+    series.end = budget.holds_next() ? "" : "its time budget is used up";
   } else if (!stop.stop_requested()) {
     series.end = entries.front().refusal;
     budget.use_up();
@@ -112,9 +114,9 @@ PhysicsGrowth grow(const std::string& name, const std::string& description,
     budgets.emplace_back(options.growth_seconds);
   }
   Budget of_truth(options.growth_seconds);
-  const double sizes = std::log(double(largest) / smallest) / std::log(next_size);
-  double size = smallest;
-  for (int i = 0; size <= largest && std::ranges::any_of(budgets, &Budget::holds_next); ++i, size *= next_size) {
+  const double sizes = std::log(double(largest_object) / smallest_object) / std::log(next_size);
+  double size = smallest_object;
+  for (int i = 0; size <= largest_object && std::ranges::any_of(budgets, &Budget::holds_next); ++i, size *= next_size) {
     tell(i / (sizes + 1));
     Case object = made(static_cast<std::uint64_t>(size));
     shorten(object);
@@ -130,7 +132,7 @@ PhysicsGrowth grow(const std::string& name, const std::string& description,
   }
   for (GrowthSeries& series : growth.series) {
     find_growth(series);
-    series.end = series.end.empty() ? "no larger object was tried" : series.end;
+    series.end = series.end.empty() ? "this is the largest object" : series.end;
   }
   return growth;
 }

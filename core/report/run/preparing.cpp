@@ -9,25 +9,18 @@
 namespace chainmail::report {
 namespace {
 
-constexpr int most_repetitions = 15;
-constexpr double enough = 1;  // seconds
-
-ElasticProblem problem_of(const Case& object) {
-  ElasticProblem problem{object.mesh, Cuts(object.mesh), object.pins, {}, object.elastic};
-  std::ranges::sort(problem.pins);
-  problem.pinned.resize(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension));
-  return problem;
-}
+constexpr int most_preparations = 15;
+constexpr double enough_preparing = 1;  // seconds
 
 }  // namespace
 
 PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method) {
   const Clocks clocks = machine_clocks();
-  const ElasticProblem problem = problem_of(object);
+  const ElasticProblem problem = elastic_problem(object);
   const std::vector<ElementId> handles = handles_of(object);
   const double start = clocks.wall();
-  for (int repetition = 0; repetition == 0 || (repetition < most_repetitions && clocks.wall() - start < enough);
-       ++repetition) {
+  for (int repetition = 0;
+       repetition == 0 || (repetition < most_preparations && clocks.wall() - start < enough_preparing); ++repetition) {
     std::unique_ptr<ElasticSolver> solver;
     factorize_.push_back(1e3 * seconds_of(clocks, [&] { solver = make_elastic(method, problem); }));
     for (const ElementId handle : handles) {
@@ -35,7 +28,7 @@ PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method) {
         const double seconds = seconds_of(clocks, [&] { solver->hold(handle); });
         grab_[handle].push_back(1e3 * seconds);
       } catch (const Error&) {
-        grab_.erase(handle);  // the drag itself says why
+        grab_.erase(handle);  // the drag itself reports why
       }
     }
   }
@@ -44,6 +37,16 @@ PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method) {
 Preparation PreparingTimes::of(ElementId handle) const {
   const auto found = grab_.find(handle);
   return {spread_of(factorize_), found == grab_.end() ? TimeSpread() : spread_of(found->second)};
+}
+
+ElasticProblem elastic_problem(const Case& object, const std::vector<LinkId>& cut) {
+  ElasticProblem problem{object.mesh, Cuts(object.mesh), object.pins, {}, object.elastic};
+  std::ranges::sort(problem.pins);
+  problem.pinned.resize(object.pins.size() * static_cast<std::size_t>(object.mesh->space_dimension));
+  for (const LinkId link : cut) {
+    problem.cuts.cut(link);
+  }
+  return problem;
 }
 
 std::vector<ElementId> handles_of(const Case& object) {

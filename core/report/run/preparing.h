@@ -6,11 +6,11 @@
 
 namespace chainmail::report {
 
-/// What preparing takes for an object and each element that a drag of it grabs.
+/// Times to prepare a method of elasticity for an object, and for each element that a drag of it grabs.
 class PreparingTimes {
  public:
   PreparingTimes() = default;
-  /// Prepares several times, as long as a second lasts, and at least once. Throws Error where the method has no answer.
+  /// Prepares several times within a second, and at least once. Throws Error if the method has no answer.
   PreparingTimes(const Case& object, ElasticMethod method);
 
   Preparation of(ElementId handle) const;
@@ -20,11 +20,13 @@ class PreparingTimes {
   std::map<ElementId, std::vector<double>> grab_;  // those that cannot be grabbed are missing
 };
 
-/// The elements that the drags of an object grab, each once, in their order.
+/// Returns the elastic problem of an object with its pins at rest, with these links cut.
+ElasticProblem elastic_problem(const Case& object, const std::vector<LinkId>& cut = {});
+/// Returns the elements that the drags of an object grab, each once, in their order.
 std::vector<ElementId> handles_of(const Case& object);
-/// The element that a drag grabs; 0 where it grabs none.
+/// Returns the element that a drag grabs, or 0 if it grabs none.
 ElementId handle_of(const RecordedMoves& moves);
-/// The links that a drag cuts.
+/// Returns the links that a drag cuts.
 std::vector<LinkId> cuts_of(const RecordedMoves& moves);
 
 }  // namespace chainmail::report

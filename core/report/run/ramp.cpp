@@ -1,26 +1,26 @@
 #include "report/run/ramp.h"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 
 #include "mesh/generate.h"
-#include "report/run/hand.h"
 #include "report/run/ramp_rule.h"
+#include "report/run/scripted_drags.h"
 
 namespace chainmail::report {
 namespace {
 
 constexpr std::uint32_t first_width = 4;
 
-/// One size: its mesh, and solvers on it. The algorithms that work on lists share one, for memory's sake.
-class Size {
+/// The mesh of one size, and its solvers. The list-driven algorithms share one solver to save memory.
+class RampSize {
  public:
-  Size(std::uint32_t width, const RampOptions& options)
+  RampSize(std::uint32_t width, const RampOptions& options)
       : options_(options), mesh_(generate({MeshKind::grid, {width, width, 1}, 1, {}})) {}
 
   const MeshPointer& mesh() const { return mesh_; }
 
-  /// At rest, under this algorithm.
+  /// Returns the solver for an algorithm, with the mesh at rest.
   Solver& solver(Algorithm algorithm) {
     auto& solver = algorithm == Algorithm::exact ? exact_ : by_lists_;
     if (!solver) {
@@ -38,9 +38,10 @@ class Size {
   std::unique_ptr<Solver> by_lists_, exact_;
 };
 
-class Run {
+class RampRun {
  public:
-  Run(const RampOptions& options, const std::function<void(const RampProgress&)>& progress, const std::stop_token& stop)
+  RampRun(const RampOptions& options, const std::function<void(const RampProgress&)>& progress,
+          const std::stop_token& stop)
       : progress_(progress), stop_(stop) {
     result_.options = options;
     if (options.algorithms.empty()) {
@@ -48,18 +49,17 @@ class Run {
         result_.options.algorithms.push_back(one.algorithm);
       }
     }
-    in_race_ = result_.options.algorithms;
   }
 
   Ramp run() {
+    const RampOptions& options = result_.options;
     const double start = now();
-    for (std::uint32_t width = first_width;
-         !in_race_.empty() && std::uint64_t{width} * width <= result_.options.largest && !stop_.stop_requested();
-         width = next_width(width)) {
-      measure(width);
+    RampRace race(ramp_widths(first_width, options.largest), options.algorithms, options.budget);
+    while (!race.is_over() && !stop_.stop_requested()) {
+      measure(race);
     }
     result_.stopped = stop_.stop_requested();
-    for (const Algorithm algorithm : result_.options.algorithms) {
+    for (const Algorithm algorithm : options.algorithms) {
       result_.verdicts.push_back(ramp_verdict(algorithm, result_.rows));
     }
     result_.seconds = now() - start;
@@ -67,69 +67,59 @@ class Run {
   }
 
  private:
-  using Measured = std::map<Algorithm, RampPasses>;
-
   double now() const { return result_.options.clocks.wall(); }
 
-  void measure(std::uint32_t width) {
-    Size size(width, result_.options);
-    std::vector<RampRow> rows;
-    for (const auto& [algorithm, passes] : attempt(size, width, in_race_, 0)) {
-      rows.push_back(row(*size.mesh(), width, algorithm, passes));
-    }
-    std::vector<Algorithm> missed;
-    for (const RampRow& one : rows) {
-      if (!one.in_real_time) {
-        missed.push_back(one.algorithm);
+  /// Measures one size, with its second attempt.
+  void measure(RampRace& race) {
+    RampSize size(race.width(), result_.options);
+    std::vector<RampRace::Result> results;
+    while (results.empty()) {
+      const std::vector<RampPasses> passes = attempt(size, race);
+      if (stop_.stop_requested()) {
+        return;
       }
+      results = race.finish_attempt(*size.mesh(), passes);
     }
-    const Measured again = attempt(size, width, missed, 1);
-    if (stop_.stop_requested()) {
-      return;
-    }
-    for (RampRow& one : rows) {
-      if (const auto found = again.find(one.algorithm); found != again.end()) {
-        one = row(*size.mesh(), width, one.algorithm, found->second);
-        one.repeated = true;
-      }
-    }
-    take(rows);
-  }
-
-  void take(const std::vector<RampRow>& rows) {
-    result_.rows.insert(result_.rows.end(), rows.begin(), rows.end());
-    for (const RampRow& one : rows) {
-      if (!one.in_real_time) {
-        std::erase(in_race_, one.algorithm);
-      }
+    std::ranges::sort(results, {}, [](const RampRace::Result& one) { return one.row.algorithm; });
+    for (const RampRace::Result& one : results) {
+      result_.rows.push_back(one.row);
     }
   }
 
-  Measured attempt(Size& size, std::uint32_t width, const std::vector<Algorithm>& contestants, int number) {
+  /// One contestant after another: in turns, each would find its memory driven from the cache by the one before.
+  std::vector<RampPasses> attempt(RampSize& size, const RampRace& race) {
     const RampOptions& options = result_.options;
-    const auto drags =
-        hand_drags(*size.mesh(), ramp_seed(options.seed, width, number), options.drags + 1, options.moves);
-    Measured measured;
-    const auto all = static_cast<int>(drags.size() * contestants.size());
+    const auto drags = scripted_drags(*size.mesh(), ramp_seed(options.seed, race.width(), race.attempt()),
+                                      options.drags + 1, options.moves);
+    std::vector<RampPasses> measured(race.attempting().size());
+    const auto all = static_cast<int>(drags.size() * measured.size());
+    const std::vector<Algorithm> in_race = algorithms_of(race.in_race());
     int done = 0;
-    // One after another: in turns, each would find its memory driven from the cache by the one before.
-    for (const Algorithm algorithm : contestants) {
-      for (std::size_t i = 0; i < drags.size() && !stop_.stop_requested(); ++i, ++done) {
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      const Algorithm algorithm = options.algorithms[race.attempting()[i]];
+      for (std::size_t drag = 0; drag < drags.size() && !stop_.stop_requested(); ++drag, ++done) {
         if (progress_) {
-          progress_({width, done, all, number > 0, in_race_, result_.rows});
+          progress_({race.width(), done, all, race.attempt() > 0, in_race, result_.rows});
         }
-        const RampPasses passes = make(size.solver(algorithm), drags[i]);
-        // The first drag takes the memory that the others then find.
-        if (RampPasses& of_all = measured[algorithm]; i > 0) {
-          of_all.ms.insert(of_all.ms.end(), passes.ms.begin(), passes.ms.end());
-          of_all.moved += passes.moved;
+        const RampPasses passes = make(size.solver(algorithm), drags[drag]);
+        if (drag > 0) {  // the first drag allocates the memory of the others
+          measured[i].ms.insert(measured[i].ms.end(), passes.ms.begin(), passes.ms.end());
+          measured[i].moved += passes.moved;
         }
       }
     }
     return measured;
   }
 
-  RampPasses make(Solver& solver, const HandDrag& drag) const {
+  std::vector<Algorithm> algorithms_of(const std::vector<std::size_t>& contestants) const {
+    std::vector<Algorithm> found;
+    for (const std::size_t contestant : contestants) {
+      found.push_back(result_.options.algorithms[contestant]);
+    }
+    return found;
+  }
+
+  RampPasses make(Solver& solver, const ScriptedDrag& drag) const {
     RampPasses passes;
     for (const Point& target : drag.targets) {
       if (stop_.stop_requested()) {
@@ -141,23 +131,28 @@ class Run {
     return passes;
   }
 
-  RampRow row(const Mesh& mesh, std::uint32_t width, Algorithm algorithm, const RampPasses& passes) const {
-    return ramp_row(mesh, width, algorithm, passes, result_.options.budget);
-  }
-
   const std::function<void(const RampProgress&)>& progress_;
   const std::stop_token& stop_;
   Ramp result_;
-  std::vector<Algorithm> in_race_;
 };
 
 }  // namespace
 
 std::uint32_t next_width(std::uint32_t width) { return width + std::max(1U, (width + 5) / 10); }
 
+std::vector<std::uint32_t> ramp_widths(std::uint32_t first, std::uint64_t largest, double growth) {
+  std::vector<std::uint32_t> widths;
+  for (std::uint32_t width = first; std::uint64_t{width} * width <= largest;) {
+    widths.push_back(width);
+    width =
+        growth == 0 ? next_width(width) : std::max(width + 1, static_cast<std::uint32_t>(std::lround(width * growth)));
+  }
+  return widths;
+}
+
 Ramp ramp(const RampOptions& options, const std::function<void(const RampProgress&)>& progress,
           const std::stop_token& stop) {
-  return Run(options, progress, stop).run();
+  return RampRun(options, progress, stop).run();
 }
 
 }  // namespace chainmail::report

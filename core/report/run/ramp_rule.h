@@ -9,20 +9,60 @@
 
 namespace chainmail::report {
 
-/// The passes of one algorithm at one size.
+/// The passes of one contestant at one size.
 struct RampPasses {
   std::vector<double> ms;
-  std::uint64_t moved = 0;  // elements, in all of them together
+  std::uint64_t moved = 0;  // elements, in all passes together
 };
 
-/// The figures of a size, and whether it is in real time: whether the slowest hundredth of the passes (their 99th
-/// percentile) keeps within the budget (seconds). Nothing measured is in real time.
+/// Returns the figures of a size. It is in real time if the 99th percentile of the passes is within the budget
+/// (seconds), or if there are no passes.
 RampRow ramp_row(const Mesh& mesh, std::uint32_t width, Algorithm algorithm, const RampPasses& passes, double budget);
 
-/// What the rows of an algorithm, size by size, say of it; those of others are passed over.
+/// Returns what the rows of one algorithm say, size by size. Rows of other algorithms are ignored.
 RampVerdict ramp_verdict(Algorithm algorithm, std::span<const RampRow> rows);
 
-/// Of the drags at a size: others for each size, and for each of the two attempts there are.
+/// Returns the seed of the drags at a size. It differs for each size and for each of the two attempts.
 std::uint64_t ramp_seed(std::uint64_t seed, std::uint32_t width, int attempt);
+
+/// The order of events in a ramp: which size is next, and who measures it. The caller makes the passes.
+///
+/// At each size, all contestants that are still in the race make one attempt. A contestant that misses the budget makes
+/// a second attempt with other drags, and leaves the race if it misses the budget again.
+class RampRace {
+ public:
+  struct Result {
+    std::size_t contestant = 0;
+    RampRow row;
+  };
+
+  /// `widths` ascend. Contestants are known by their index; two of them may have the same algorithm.
+  RampRace(std::vector<std::uint32_t> widths, std::vector<Algorithm> contestants, double budget);
+
+  /// True when no size or no contestant is left.
+  bool is_over() const { return size_ == widths_.size() || in_race_.empty(); }
+  std::uint32_t width() const { return widths_[size_]; }
+  /// Share of the sizes that are done, from 0 to 1.
+  double share() const { return double(size_) / double(widths_.size()); }
+  std::size_t sizes() const { return widths_.size(); }
+  const std::vector<std::size_t>& in_race() const { return in_race_; }
+  /// 0, or 1 for the second attempt.
+  int attempt() const { return attempt_; }
+  /// The contestants that make the present attempt.
+  const std::vector<std::size_t>& attempting() const { return attempting_; }
+
+  /// Takes the passes of an attempt, in the order of attempting(). Returns the results of the size, in the order of the
+  /// contestants, and goes to the next size; returns none if a second attempt follows.
+  std::vector<Result> finish_attempt(const Mesh& mesh, std::span<const RampPasses> passes);
+
+ private:
+  std::vector<std::uint32_t> widths_;
+  std::vector<Algorithm> algorithms_;
+  double budget_;
+  std::size_t size_ = 0;  // index into widths_
+  int attempt_ = 0;
+  std::vector<std::size_t> in_race_, attempting_;
+  std::vector<Result> results_;  // of this size
+};
 
 }  // namespace chainmail::report

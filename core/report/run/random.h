@@ -4,7 +4,7 @@
 
 namespace chainmail::report {
 
-/// A uniform number: the same on every machine, which the standard's distributions do not promise.
+/// Returns a uniform number. It is the same on every machine; the distributions of the standard library are not.
 inline double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }

@@ -45,8 +45,8 @@ void Runner::go_to_rest() {
     simulation_.apply(commands::Unpin{{pinned.begin(), pinned.end()}});
     simulation_.apply(commands::Pin{pins_});
   }
-  simulation_.apply(commands::Reset{});  // what was changed has woken elements
-  hand_.reset();
+  simulation_.apply(commands::Reset{});  // the changes have woken elements
+  handle_.reset();
 }
 
 Runner::Run Runner::run(const RecordedMoves& moves, int sweeps, const std::stop_token& stop) {
@@ -80,7 +80,7 @@ void Runner::carry_out(const Command& command, int sweeps, Run& run) {
   }
   const double applying = 1e3 * seconds_of(clocks_, [&] { simulation_.apply(command); });
   if (const auto* grab = std::get_if<Grab>(&command)) {
-    hand_ = grab->element;
+    handle_ = grab->element;
   }
   if (!std::holds_alternative<Drag>(command)) {
     return;
@@ -97,11 +97,11 @@ void Runner::carry_out(const Command& command, int sweeps, Run& run) {
 void check(const RecordedMoves& moves) {
   for (const Command& command : moves.commands) {
     if (is_one_of<commands::ReplaceMesh, commands::SetPositions, commands::RestoreState>(command)) {
-      throw Error(moves.name, "these moves exchange the object, or undo", "record moves of one object, without undo");
+      throw Error(moves.name, "these moves replace the object, or undo", "record moves of one object, without undo");
     }
   }
   if (count_moves(moves) == 0) {
-    throw Error(moves.name, "there is no move in it", "record a drag");
+    throw Error(moves.name, "it contains no move", "record a drag");
   }
 }
 

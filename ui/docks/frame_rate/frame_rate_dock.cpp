@@ -5,6 +5,7 @@
 #include <QSettings>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "common/icons.h"
 #include "common/panel_names.h"
@@ -13,6 +14,7 @@
 #include "files/text/outputs.h"
 #include "mesh/error.h"
 #include "panels/panel.h"
+#include "report/page/format.h"
 
 namespace chainmail {
 namespace {
@@ -21,6 +23,17 @@ constexpr int refreshMilliseconds = 200;
 
 QString quantityKey() { return QStringLiteral("rateQuantity"); }
 QString spanKey() { return QStringLiteral("rateSeconds"); }
+
+/// Ticks every quarter of the period, labelled with the seconds before its end.
+std::vector<report::LabelledValue> timeTicks(double from, double to) {
+  constexpr int intervals = 4;
+  std::vector<report::LabelledValue> ticks;
+  for (int i = 0; i <= intervals; ++i) {
+    const double before = (to - from) * (intervals - i) / intervals;
+    ticks.push_back({to - before, (before > 0 ? "−" : "") + report::figure(std::round(10 * before) / 10) + " s"});
+  }
+  return ticks;
+}
 
 }  // namespace
 
@@ -31,7 +44,7 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
       histories_(Document::mostPanels),
       passesSeen_(Document::mostPanels, 0),
       figures_(new RateFigures(document)),
-      plot_(new RatePlot),
+      plot_(new PlotWidget(QStringLiteral("Drag the object to see its rates"))),
       quantity_(new QComboBox),
       span_(new QComboBox),
       menu_(new QMenu(QStringLiteral("&Rates over time"), this)),
@@ -40,7 +53,7 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
   plot_->setObjectName(QStringLiteral("ratePlot"));
   plot_->setAccessibleName(QStringLiteral("Rates of the panels over time"));
   plot_->setToolTip(QStringLiteral(
-      "A line a panel, in its colour; it breaks off where nothing happened. Beside a line its figures are shown"));
+      "One line for each panel, in its colour. A line ends where nothing happened. Point at a line to see its values"));
   addActions();
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
@@ -60,20 +73,20 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
     passesSeen_[std::size_t(panel)] = 0;
   });
   connect(&document, &Document::panelsChanged, this, &FrameRateDock::showPlot);
-  showPlot();
+  followTheme(*this, [this] { showPlot(); });
 }
 
 void FrameRateDock::fillChoices() {
   quantity_->setObjectName(QStringLiteral("rateQuantity"));
-  quantity_->setAccessibleName(QStringLiteral("What is plotted"));
+  quantity_->setAccessibleName(QStringLiteral("Plotted quantity"));
   for (const RateQuantity& one : rateQuantities()) {
     quantity_->addItem(QStringLiteral("%1 (%2)").arg(text(one.label), text(one.unit)), text(one.name));
     quantity_->setItemData(quantity_->count() - 1, text(one.help), Qt::ToolTipRole);
   }
   quantity_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   span_->setObjectName(QStringLiteral("rateSpan"));
-  span_->setAccessibleName(QStringLiteral("Stretch of time that is plotted"));
-  span_->setToolTip(QStringLiteral("How far back the plot reaches; the last 10 minutes are kept"));
+  span_->setAccessibleName(QStringLiteral("Plotted period"));
+  span_->setToolTip(QStringLiteral("Length of the plotted period; the last 10 minutes are kept"));
   for (const int seconds : {10, 30, 60, 300, 600}) {
     span_->addItem(seconds < 60 ? QStringLiteral("%1 s").arg(seconds) : QStringLiteral("%1 min").arg(seconds / 60),
                    seconds);
@@ -89,7 +102,7 @@ QWidget* FrameRateDock::makeControls() {
   fillChoices();
   auto* pause = new QToolButton;
   pause->setDefaultAction(pause_);
-  auto* save = new QToolButton;  // its list is the menu's, but for the first
+  auto* save = new QToolButton;  // with the actions of the menu, except the first
   save->setObjectName(QStringLiteral("rateSave"));
   save->setIcon(icon("save"));
   save->setAccessibleName(QStringLiteral("Save the rates as a table or a picture"));
@@ -116,17 +129,16 @@ void FrameRateDock::addActions() {
   pause_->setIconText(QStringLiteral("Pause"));
   pause_->setCheckable(true);
   pause_->setShortcut(Qt::Key_Pause);
-  pause_->setStatusTip(
-      QStringLiteral("The plot of the frame rate stands still, and nothing is added to it, until it "
-                     "goes on"));
+  pause_->setStatusTip(QStringLiteral("Stops the plot of the frame rate; nothing is recorded until you continue"));
   auto* table = menu_->addAction(QStringLiteral("Save rates as &table…"), this, &FrameRateDock::saveTable);
   table->setIcon(icon("save"));
   table->setObjectName(QStringLiteral("saveRateTable"));
-  table->setStatusTip(QStringLiteral("All quantities of the last 10 minutes with all digits, time in seconds, as CSV"));
+  table->setStatusTip(
+      QStringLiteral("Saves all quantities of the last 10 minutes as CSV, with all digits and time in seconds"));
   auto* picture = menu_->addAction(QStringLiteral("Save rates as p&icture…"), this, &FrameRateDock::savePicture);
   picture->setIcon(icon("picture"));
   picture->setObjectName(QStringLiteral("saveRatePicture"));
-  picture->setStatusTip(QStringLiteral("The plot as it stands, with its legend, as PNG or, for print, as PDF"));
+  picture->setStatusTip(QStringLiteral("Saves the present plot with its legend as PNG, or as PDF for print"));
 }
 
 void FrameRateDock::receive(int panel) {
@@ -146,7 +158,7 @@ void FrameRateDock::receive(int panel) {
   }
 }
 
-/// What there is to say of a panel now.
+/// Returns the present figures of a panel.
 RateSample FrameRateDock::read(int panel) {
   RateSample sample;
   sample.time = now();
@@ -166,7 +178,7 @@ RateSample FrameRateDock::read(int panel) {
   return sample;
 }
 
-/// What is painted may go on, or end, without a frame of the solver's.
+/// Painting may continue or end without a new frame of the solver, so the figures are also read on a timer.
 void FrameRateDock::refresh() {
   bool busy = false;
   for (int panel = 0; panel < int(panels_.size()); ++panel) {
@@ -199,22 +211,29 @@ void FrameRateDock::choose() {
 
 void FrameRateDock::showPlot() {
   quantity_->setToolTip(quantity_->currentData(Qt::ToolTipRole).toString());
-  plot_->show(picture());
+  plot_->show(plotOn(colours::ground()));
 }
 
-RatePicture FrameRateDock::picture() const {
-  RatePicture picture;
-  picture.quantity = &rateQuantities()[std::size_t(quantity_->currentIndex())];
-  picture.to = shownTo_;
-  picture.from = shownTo_ - span_->currentData().toDouble();
+report::Plot FrameRateDock::plotOn(colours::Ground ground) const {
+  const RateQuantity& quantity = rateQuantities()[std::size_t(quantity_->currentIndex())];
+  const double seconds = span_->currentData().toDouble(), from = shownTo_ - seconds;
+  report::Plot plot;
+  plot.title = std::string(quantity.label) + " (" + std::string(quantity.unit) + ")";
+  plot.x = {{}, "s", 0, true, {{from, shownTo_}}, timeTicks(from, shownTo_), shownTo_};
+  plot.y = {{}, std::string(quantity.unit), 0, true};
+  plot.panels.emplace_back();
   for (std::size_t panel = 0; panel < panels_.size(); ++panel) {
-    picture.curves.push_back(
-        {QStringLiteral("%1 %2").arg(panelName(int(panel)), text(info(document_.algorithm(int(panel))).label)),
-         colours::ofPanel(int(panel)),
-         curveOf(histories_[panel].since(picture.from), *picture.quantity, picture.from, picture.to,
-                 drawnPoints / panels_.size())});
+    const QString name = panelName(int(panel)) + QLatin1Char(' ') + text(info(document_.algorithm(int(panel))).label);
+    plot.series.push_back({name.toStdString(), 0, colours::ofPanel(int(panel)).on(ground).name().toStdString()});
+    for (const QPolygonF& line :
+         curveOf(histories_[panel].since(from), quantity, from, shownTo_, drawnPoints / panels_.size())) {
+      report::PlotCurve& curve = plot.panels.front().curves.emplace_back(report::PlotCurve{panel, {}});
+      for (const QPointF& point : line) {
+        curve.points.push_back({point.x(), point.y()});
+      }
+    }
   }
-  return picture;
+  return plot;
 }
 
 void FrameRateDock::saveTable() {
@@ -242,7 +261,7 @@ void FrameRateDock::savePicture() {
 }
 
 void FrameRateDock::savePicturePath(const QString& path) {
-  attempt(path, [&] { saveRates(picture(), path); });
+  attempt(path, [&] { savePlot(plotOn(colours::Ground::light), path); });
 }
 
 void FrameRateDock::attempt(const QString& path, const std::function<void()>& write) {

@@ -8,31 +8,31 @@
 #include <QTimer>
 #include <vector>
 
+#include "common/plot_widget.h"
 #include "docks/frame_rate/rate_figures.h"
-#include "docks/frame_rate/rate_plot.h"
 #include "document/document.h"
 
 namespace chainmail {
 
 class Panel;
 
-/// How fast each panel is: frames painted, and the time of a pass, told apart because the drawing and not the solver
-/// may set the painted rate; as figures, and over time. Reads and draws only while something happens.
+/// Shows the speed of each panel, as figures and over time: painted frames per second, and the time of a pass. They
+/// differ because drawing may limit the painted rate. Reads and draws only while something happens.
 class FrameRateDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  /// So many points are drawn at most, of all panels together.
+  /// Largest number of points to draw, for all panels together.
   static constexpr std::size_t drawnPoints = 2000;
 
-  /// `panels` are those of the document, as they come and go.
+  /// `panels` are the present panels of the document.
   FrameRateDock(Document& document, const std::vector<Panel*>& panels);
 
-  /// What can be done here, for a menu of the window's.
+  /// Actions of the dock, for a menu of the window.
   QMenu& menu() { return *menu_; }
-  /// Everything that was read, as CSV.
+  /// Writes all samples as CSV.
   void saveTablePath(const QString& path);
-  /// What the plot shows, as PNG or PDF.
+  /// Writes the plot as PNG or PDF.
   void savePicturePath(const QString& path);
 
  signals:
@@ -49,7 +49,7 @@ class FrameRateDock : public QDockWidget {
   void refresh();
   void showPlot();
   void choose();
-  RatePicture picture() const;
+  report::Plot plotOn(colours::Ground ground) const;
   void saveTable();
   void savePicture();
   void attempt(const QString& path, const std::function<void()>& write);
@@ -59,13 +59,13 @@ class FrameRateDock : public QDockWidget {
   std::vector<RateHistory> histories_;
   std::vector<std::uint64_t> passesSeen_;
   RateFigures* figures_;
-  RatePlot* plot_;
+  PlotWidget* plot_;
   QComboBox* quantity_;
   QComboBox* span_;
   QMenu* menu_;
   QAction* pause_ = nullptr;
   QElapsedTimer clock_;
-  double shownTo_ = 0;  // s on the clock: where the plot ends; it stands still while nothing happens
+  double shownTo_ = 0;  // s on the clock: the end of the plot, which stays while nothing happens
   QTimer timer_;
 };
 

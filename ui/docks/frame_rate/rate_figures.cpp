@@ -11,8 +11,8 @@
 namespace chainmail {
 namespace {
 
-constexpr int columns = 4;
-constexpr std::array widths{58, 62, 44, 44};  // pixels: of the heads, and of 1,000,000
+constexpr int rateColumns = 4;
+constexpr std::array rateWidths{58, 62, 44, 44};  // logical pixels, for the heads and for 1,000,000
 
 }  // namespace
 
@@ -35,18 +35,18 @@ void RateFigures::addHead(QGridLayout& grid) {
     auto* label = new QLabel(text);
     label->setAlignment(Qt::AlignRight);
     label->setToolTip(help);
-    label->setMinimumWidth(widths[std::size_t(column)]);
+    label->setMinimumWidth(rateWidths[std::size_t(column)]);
     grid.addWidget(label, 0, column);
     grid.setColumnStretch(column, 1);
   };
   add(0, QStringLiteral("painted/s"), QStringLiteral("Frames that reached the screen in the last second"));
   add(1, QStringLiteral("passes/s"),
-      QStringLiteral("1 over the median time of a pass: what the algorithm alone could do"));
+      QStringLiteral("1 over the median time of a pass: the rate of the algorithm without drawing"));
   add(2, QStringLiteral("ms"), QStringLiteral("Median time of a pass over the last second (ms)"));
   add(3, QStringLiteral("worst"), QStringLiteral("Longest pass of the last second (ms)"));
 }
 
-/// The panel's name in a line of its own: four figures take the width.
+/// The name of the panel is on a line of its own, because the four figures need the width.
 void RateFigures::addRow(QGridLayout& grid) {
   const int panel = int(rows_.size());
   const auto figure = [&](const char* name, const QString& meaning) {
@@ -58,14 +58,14 @@ void RateFigures::addRow(QGridLayout& grid) {
   };
   Row row{new QLabel, nullptr, nullptr, nullptr, nullptr};
   row.name->setObjectName(QStringLiteral("rateName%1").arg(panel));
-  row.painted = figure("painted", QStringLiteral("Painted frames a second"));
-  row.passes = figure("passes", QStringLiteral("Passes a second"));
+  row.painted = figure("painted", QStringLiteral("Painted frames per second"));
+  row.passes = figure("passes", QStringLiteral("Passes per second"));
   row.median = figure("median", QStringLiteral("Median time of a pass, ms"));
   row.worst = figure("worst", QStringLiteral("Longest pass, ms"));
   row.name->setTextFormat(Qt::RichText);
   row.name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   const int line = 2 * panel + 1;
-  grid.addWidget(row.name, line, 0, 1, columns);
+  grid.addWidget(row.name, line, 0, 1, rateColumns);
   int column = 0;
   for (QLabel* label : {row.painted, row.passes, row.median, row.worst}) {
     grid.addWidget(label, line + 1, column++);
@@ -74,7 +74,7 @@ void RateFigures::addRow(QGridLayout& grid) {
   followTheme(*row.name, [this, panel] { nameRow(panel); });
 }
 
-/// Rows of panels that are not there take no room.
+/// Hides the rows of missing panels.
 void RateFigures::followPanels() {
   for (int panel = 0; panel < int(rows_.size()); ++panel) {
     const Row& row = rows_[std::size_t(panel)];

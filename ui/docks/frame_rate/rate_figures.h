@@ -12,13 +12,13 @@ class QGridLayout;
 
 namespace chainmail {
 
-/// The newest figures of each panel under its colour and its algorithm: what is painted, and what the solver does.
+/// Shows the newest figures of each panel, with its colour and algorithm: painted frames, and times of the solver.
 class RateFigures : public QWidget {
   Q_OBJECT
 
  public:
   explicit RateFigures(const Document& document);
-  /// Shows what a sample holds; of passes, what was shown before stays where it holds none.
+  /// Shows a sample. The figures of passes stay if the sample has none.
   void show(int panel, const RateSample& sample);
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "common/panel_names.h"
 #include "report/page/format.h"
@@ -11,18 +12,96 @@ namespace chainmail {
 namespace {
 
 constexpr std::array quantities{
-    RateQuantity{"passes", "Passes a second", "1/s", "1 over the median time of the last second's passes",
+    RateQuantity{"passes", "Passes per second", "1/s", "1 over the median time of the passes of the last second",
                  [](const RateSample& one) { return one.passesPerSecond(); }},
-    RateQuantity{"ms", "Time of a pass", "ms", "How long each pass took the solver, drawing left out",
+    RateQuantity{"ms", "Time of a pass", "ms", "Time of each pass in the solver, without drawing",
                  [](const RateSample& one) { return one.ms; }},
-    RateQuantity{"painted", "Painted frames a second", "1/s", "Frames that reached the screen in the last second",
+    RateQuantity{"painted", "Painted frames per second", "1/s", "Frames that reached the screen in the last second",
                  [](const RateSample& one) { return one.painted; }},
-    RateQuantity{"violation-max", "Violation, max", "rest lengths",
-                 "How far the worst link lies outside its valid region; in a drag, of the links that a pass touched",
-                 [](const RateSample& one) { return one.violationMax; }},
+    RateQuantity{
+        "violation-max", "Violation, max", "rest lengths",
+        "Distance of the worst link from its valid region; while dragging, of the links that the last pass touched",
+        [](const RateSample& one) { return one.violationMax; }},
     RateQuantity{"violation-rms", "Violation, RMS", "rest lengths",
-                 "Root of the mean square over the links; in a drag, over those that a pass touched",
+                 "Root mean square over the links; while dragging, over those that the last pass touched",
                  [](const RateSample& one) { return one.violationRms; }}};
+
+// A gap of more than this (s), besides the time of the next pass, ends a line.
+constexpr double longestGap = 1;
+
+/// The lowest and the highest point of a piece of time.
+class RatePiece {
+ public:
+  bool holds(std::int64_t number) const { return number_ == number; }
+  void begin(std::int64_t number, QPointF point) {
+    number_ = number;
+    lowest_ = highest_ = point;
+  }
+  void add(QPointF point) {
+    lowest_ = point.y() < lowest_.y() ? point : lowest_;
+    highest_ = point.y() > highest_.y() ? point : highest_;
+  }
+  void appendTo(QPolygonF& line) const {
+    const bool rises = lowest_.x() <= highest_.x();
+    line << (rises ? lowest_ : highest_);
+    if (lowest_ != highest_) {
+      line << (rises ? highest_ : lowest_);
+    }
+  }
+
+ private:
+  std::int64_t number_ = 0;
+  QPointF lowest_, highest_;
+};
+
+/// Makes lines through all points, or through the extremes of pieces of time of some length (s; 0: all points).
+class RateLines {
+ public:
+  explicit RateLines(double length) : length_(length) {}
+
+  void add(QPointF point) {
+    if (length_ == 0) {
+      lines_.back() << point;
+      return;
+    }
+    const auto number = std::int64_t(std::floor(point.x() / length_));
+    if (open_ && piece_.holds(number)) {
+      piece_.add(point);
+      return;
+    }
+    close();
+    piece_.begin(number, point);
+    open_ = true;
+  }
+
+  void breakOff() {
+    close();
+    if (!lines_.back().empty()) {
+      lines_.emplace_back();
+    }
+  }
+
+  std::vector<QPolygonF> take() {
+    close();
+    if (lines_.back().empty()) {
+      lines_.pop_back();
+    }
+    return std::move(lines_);
+  }
+
+ private:
+  void close() {
+    if (open_) {
+      piece_.appendTo(lines_.back());
+      open_ = false;
+    }
+  }
+
+  double length_;
+  bool open_ = false;
+  RatePiece piece_;
+  std::vector<QPolygonF> lines_{1};
+};
 
 std::string digits(double number) { return std::isnan(number) ? std::string() : report::all_digits(number); }
 
@@ -43,7 +122,7 @@ std::span<const RateQuantity> rateQuantities() { return quantities; }
 
 void RateHistory::add(const RateSample& sample) {
   const auto old = [&](const RateSample& one) { return one.time < sample.time - kept; };
-  // In large pieces, so that each sample is moved at most once or so.
+  // In large pieces, so that each sample is moved about once.
   if (samples_.size() > 1 && old(samples_[samples_.size() / 2])) {
     samples_.erase(samples_.begin(), std::ranges::partition_point(samples_, old));
   }
@@ -56,6 +135,29 @@ std::span<const RateSample> RateHistory::since(double time) const {
     --from;
   }
   return {from, samples_.end()};
+}
+
+std::vector<QPolygonF> curveOf(std::span<const RateSample> samples, const RateQuantity& quantity, double from,
+                               double to, std::size_t points) {
+  // A piece gives two points at most, and one more piece begins before the first whole one.
+  const double pieces = std::max(1.0, double(points / 2) - 1);
+  const double length = samples.size() > points ? (to - from) / pieces : 0;
+  const double gap = std::max(longestGap, length);  // no piece is part of two lines
+  RateLines lines(length);
+  std::optional<double> last;
+  for (const RateSample& sample : samples) {
+    const double value = quantity.of(sample);
+    if (std::isnan(value) || sample.time > to) {
+      continue;
+    }
+    const double pass = std::isnan(sample.ms) ? 0 : sample.ms / 1000;
+    if (last && sample.time - *last > gap + pass) {
+      lines.breakOff();
+    }
+    last = sample.time;
+    lines.add({sample.time, value});
+  }
+  return lines.take();
 }
 
 void writeCsv(std::ostream& out, std::span<const RateHistory> panels) {

@@ -5,16 +5,16 @@
 #include <QVBoxLayout>
 
 #include "common/colours.h"
+#include "common/plot_painting.h"
 #include "common/text.h"
-#include "docks/report/report_looks.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
 
-constexpr int generatedDrags = 0, lastDrag = 1;  // in the list of drags
-constexpr int sweepsAMove = 10;
-constexpr int markSize = 13;  // pixels
+constexpr int generatedDrags = 0, lastDrag = 1;  // rows of the list of drags
+constexpr int sweepsPerMove = 10;
+constexpr int listMarkSize = 13;  // logical pixels
 
 void name(QWidget* widget, const char* object, const QString& accessible, const QString& help) {
   widget->setObjectName(QLatin1String(object));
@@ -46,27 +46,27 @@ ReportChoices::ReportChoices(Document& document)
   form->addRow(QStringLiteral("Drags"), drags_);
   form->addRow(QStringLiteral("Sweeps"), sweeps_);
   form->addRow(QStringLiteral("Precision"), precision_);
-  form->addRow(QStringLiteral("Effort"), seconds_);
+  form->addRow(QStringLiteral("Time"), seconds_);
   column->addWidget(algorithms_, 1);
   column->addLayout(form);
   connect(algorithms_, &QListWidget::itemChanged, this, &ReportChoices::changed);
   connect(&document, &Document::meshChanged, this, &ReportChoices::adaptToMesh);
-  connect(&document, &Document::lastDragChanged, this, &ReportChoices::adaptToHand);
+  connect(&document, &Document::lastDragChanged, this, &ReportChoices::adaptToLastDrag);
   adaptToMesh();
-  adaptToHand();
+  adaptToLastDrag();
 }
 
 void ReportChoices::fillDrags() {
   name(drags_, "reportDrags", QStringLiteral("Drags to compare on"),
        QStringLiteral("Three generated drags: local, of the whole body, back and forth.\n"
-                      "My last drag: what the hand did last in a panel, carried out anew from rest."));
+                      "My last drag: repeats your last drag in a panel, from rest."));
   drags_->addItems({QStringLiteral("three generated"), QStringLiteral("my last drag")});
 }
 
 void ReportChoices::fillAlgorithms() {
   name(algorithms_, "reportAlgorithms", QStringLiteral("Algorithms that take part"),
-       QStringLiteral("Who takes part; the marks are those of the plot"));
-  algorithms_->setIconSize({markSize, markSize});
+       QStringLiteral("Algorithms to compare, with their marks in the plot"));
+  algorithms_->setIconSize({listMarkSize, listMarkSize});
   algorithms_->setUniformItemSizes(true);
   algorithms_->setMinimumHeight(48);
   for (const AlgorithmInfo& one : algorithms()) {
@@ -75,10 +75,10 @@ void ReportChoices::fillAlgorithms() {
     item->setCheckState(Qt::Checked);
   }
   followTheme(*this, [this] {
-    const QSignalBlocker block(algorithms_);  // nothing was chosen
+    const QSignalBlocker block(algorithms_);  // the user has chosen nothing
     for (int row = 0; row < algorithms_->count(); ++row) {
       const auto algorithm = Algorithm(algorithms_->item(row)->data(Qt::UserRole).toInt());
-      algorithms_->item(row)->setIcon(QIcon(reportMark({algorithm, 0}, markSize, devicePixelRatioF())));
+      algorithms_->item(row)->setIcon(QIcon(plotMark(algorithm, false, listMarkSize, devicePixelRatioF(), palette())));
     }
   });
 }
@@ -87,24 +87,24 @@ void ReportChoices::fillRest() {
   name(sweeps_, "reportSweeps", QStringLiteral("Sweeps of relaxation"),
        QStringLiteral("Each algorithm without relaxation, with 10 sweeps after each move, or both.\n"
                       "Scheme and step are those of the Relaxation dock."));
-  sweeps_->addItems({QStringLiteral("off"), QStringLiteral("%1 a move").arg(sweepsAMove),
-                     QStringLiteral("off, and %1 a move").arg(sweepsAMove)});
+  sweeps_->addItems({QStringLiteral("off"), QStringLiteral("%1 per move").arg(sweepsPerMove),
+                     QStringLiteral("off, and %1 per move").arg(sweepsPerMove)});
   sweeps_->setCurrentIndex(2);
   name(precision_, "reportPrecision", QStringLiteral("Precision of the contestants"),
-       QStringLiteral("The numbers that the contestants compute in; what they are compared with is in double"));
+       QStringLiteral("Precision in which the contestants compute. The references are always in double"));
   precision_->addItems({QStringLiteral("float"), QStringLiteral("double")});
-  name(seconds_, "reportSeconds", QStringLiteral("Effort in seconds"),
-       QStringLiteral("Time for the repetitions of one drag by all; five repetitions are made at least.\n"
-                      "More makes the times steadier; the errors are the same."));
+  name(seconds_, "reportSeconds", QStringLiteral("Time in seconds"),
+       QStringLiteral("Time for the repetitions of one drag by all algorithms, at least five repetitions.\n"
+                      "More time gives steadier results; the errors stay the same."));
   seconds_->setRange(0.1, 60);
   seconds_->setDecimals(1);
   seconds_->setValue(2);
-  seconds_->setSuffix(QStringLiteral(" s a drag"));
+  seconds_->setSuffix(QStringLiteral(" s per drag"));
   seconds_->setKeyboardTracking(false);
   connect(seconds_, &QDoubleSpinBox::editingFinished, seconds_, &QWidget::clearFocus);  // shortcuts work again
 }
 
-/// An algorithm that does not work on the mesh cannot be chosen, and says why.
+/// Disables the algorithms that do not work on the mesh; their tool tips give the reason.
 void ReportChoices::adaptToMesh() {
   for (int row = 0; row < algorithms_->count(); ++row) {
     QListWidgetItem* item = algorithms_->item(row);
@@ -121,7 +121,7 @@ void ReportChoices::adaptToMesh() {
   }
 }
 
-void ReportChoices::adaptToHand() {
+void ReportChoices::adaptToLastDrag() {
   const bool there = !document_.lastDrag().empty();
   enable(drags_, lastDrag, there);
   if (!there) {
@@ -143,7 +143,7 @@ std::vector<Algorithm> ReportChoices::chosen() const {
 ReportThread::Order ReportChoices::order() const {
   ReportThread::Order order;
   order.object = {document_.name().toStdString(),
-                  "as it is in the window, from rest",
+                  "the object of the window, from rest",
                   document_.mesh(),
                   document_.cuts().links(),
                   document_.pins(),
@@ -151,12 +151,12 @@ ReportThread::Order ReportChoices::order() const {
                   {}};
   order.generateDrags = drags_->currentIndex() == generatedDrags;
   if (!order.generateDrags) {
-    order.object.drags.push_back({"my last drag", "what the hand did last in the window", document_.lastDrag()});
+    order.object.drags.push_back({"my last drag", "the last drag in the window", document_.lastDrag()});
   }
   order.options.algorithms = chosen();
   order.options.sweeps = sweeps_->currentIndex() == 0   ? std::vector{0}
-                         : sweeps_->currentIndex() == 1 ? std::vector{sweepsAMove}
-                                                        : std::vector{0, sweepsAMove};
+                         : sweeps_->currentIndex() == 1 ? std::vector{sweepsPerMove}
+                                                        : std::vector{0, sweepsPerMove};
   order.options.scheme = document_.relaxation().scheme;
   order.options.relax_step = document_.relaxation().step;
   order.options.precision = precision_->currentIndex() == 0 ? Precision::single_precision : Precision::double_precision;

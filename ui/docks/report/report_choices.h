@@ -9,16 +9,16 @@
 
 namespace chainmail {
 
-/// What to compare: which drags, who takes part, with how many sweeps, in which precision, how thoroughly.
+/// Choices for a comparison: drags, algorithms, sweeps, precision and time.
 class ReportChoices : public QWidget {
   Q_OBJECT
 
  public:
   explicit ReportChoices(Document& document);
 
-  /// A run on the object as the document has it now.
+  /// Returns a run on the present object of the document.
   ReportThread::Order order() const;
-  /// Whether there is anyone to compare.
+  /// True if an algorithm is chosen.
   bool complete() const { return !chosen().empty(); }
 
  signals:
@@ -29,7 +29,7 @@ class ReportChoices : public QWidget {
   void fillAlgorithms();
   void fillRest();
   void adaptToMesh();
-  void adaptToHand();
+  void adaptToLastDrag();
   std::vector<Algorithm> chosen() const;
 
   Document& document_;

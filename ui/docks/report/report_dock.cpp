@@ -6,15 +6,15 @@
 namespace chainmail {
 namespace {
 
-constexpr int controlsWidth = 230;
-constexpr int preferredHeight = 300;
-constexpr int progressSteps = 1000;
-constexpr int progressMilliseconds = 150;
+constexpr int reportControlsWidth = 230;
+constexpr int reportHeight = 300;
+constexpr int reportProgressSteps = 1000;
+constexpr int reportProgressMilliseconds = 150;
 
-/// A dock at the bottom is as tall as its content would like to be.
-class Content : public QWidget {
+/// Gives the dock its height: a dock at the bottom is as tall as the size hint of its content.
+class ReportContent : public QWidget {
  public:
-  QSize sizeHint() const override { return {QWidget::sizeHint().width(), preferredHeight}; }
+  QSize sizeHint() const override { return {QWidget::sizeHint().width(), reportHeight}; }
 };
 
 }  // namespace
@@ -32,15 +32,15 @@ ReportDock::ReportDock(Document& document)
   setAccessibleName(QStringLiteral("Report: speed against error"));
   pages_->addWidget(makeEmptyPage());
   pages_->addWidget(results_);
-  auto* shared = new QLabel(QStringLiteral("Times measured here share the machine with the window."));
+  auto* shared = new QLabel(QStringLiteral("The window runs on the same machine, so these times are not exact."));
   shared->setObjectName(QStringLiteral("reportTimesNote"));
-  shared->setToolTip(QStringLiteral("For times to quote, run 'chainmail compare' on a quiet machine"));
+  shared->setToolTip(QStringLiteral("For exact times, run 'chainmail compare' on an idle machine"));
   shared->setEnabled(false);
   auto* right = new QVBoxLayout;
   right->setSpacing(3);
   right->addWidget(pages_, 1);
   right->addWidget(shared);
-  auto* content = new Content;
+  auto* content = new ReportContent;
   auto* row = new QHBoxLayout(content);
   row->setContentsMargins(6, 4, 6, 2);
   row->addWidget(makeControls());
@@ -53,16 +53,16 @@ ReportDock::ReportDock(Document& document)
 QWidget* ReportDock::makeControls() {
   run_->setObjectName(QStringLiteral("reportRun"));
   run_->setAccessibleName(QStringLiteral("Run the comparison"));
-  run_->setToolTip(QStringLiteral("Lets the chosen algorithms carry the drags out on the object as it is, from rest"));
+  run_->setToolTip(QStringLiteral("Runs the drags on the present object with the chosen algorithms, from rest"));
   cancel_->setObjectName(QStringLiteral("reportCancel"));
   cancel_->setAccessibleName(QStringLiteral("Cancel the comparison"));
-  cancel_->setToolTip(QStringLiteral("Ends the run; what was found before stays"));
+  cancel_->setToolTip(QStringLiteral("Cancels the run; the last results stay"));
   progress_->setObjectName(QStringLiteral("reportProgress"));
   progress_->setAccessibleName(QStringLiteral("Progress of the comparison"));
-  progress_->setToolTip(QStringLiteral("How much of the run is done, and on which drag it is"));
-  progress_->setRange(0, progressSteps);
+  progress_->setToolTip(QStringLiteral("Share of the run that is done, and the present drag"));
+  progress_->setRange(0, reportProgressSteps);
   auto* controls = new QWidget;
-  controls->setFixedWidth(controlsWidth);
+  controls->setFixedWidth(reportControlsWidth);
   auto* column = new QVBoxLayout(controls);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);
@@ -76,8 +76,8 @@ QWidget* ReportDock::makeControls() {
 }
 
 QWidget* ReportDock::makeEmptyPage() {
-  auto* empty = new QLabel(
-      QStringLiteral("Press Run to see, for each algorithm, what a move of this object costs and how far off it is."));
+  auto* empty =
+      new QLabel(QStringLiteral("Press Run to compare the time and the error of each algorithm on this object."));
   empty->setObjectName(QStringLiteral("reportEmpty"));
   empty->setAlignment(Qt::AlignCenter);
   empty->setWordWrap(true);
@@ -105,7 +105,7 @@ void ReportDock::listen() {
 void ReportDock::start() {
   thread_->start(choices_->order());
   showState();
-  showProgress(0, QStringLiteral("beginning"));
+  showProgress(0, QStringLiteral("starting"));
 }
 
 void ReportDock::cancel() {
@@ -125,18 +125,18 @@ void ReportDock::showState() {
 }
 
 void ReportDock::showProgress(double fraction, const QString& text) {
-  // Each painting of the window is taken from the machine whose times are measured.
-  if (sinceShown_.isValid() && sinceShown_.elapsed() < progressMilliseconds && text == textShown_) {
+  // Painting the window disturbs the times that are measured.
+  if (sinceShown_.isValid() && sinceShown_.elapsed() < reportProgressMilliseconds && text == textShown_) {
     return;
   }
   sinceShown_.start();
   textShown_ = text;
-  fillBar(int(progressSteps * fraction),
+  fillBar(int(reportProgressSteps * fraction),
           QStringLiteral("%p% ") + QString(text).replace(QLatin1Char('%'), QLatin1String(" percent")));
 }
 
 void ReportDock::fillBar(int value, const QString& format) {
-  // A progress bar paints itself, and with it the whole window, before setValue returns: here it waits its turn.
+  // setValue() would repaint the bar at once, and the whole window with it.
   progress_->setUpdatesEnabled(false);
   progress_->setValue(value);
   progress_->setFormat(format);

@@ -12,7 +12,8 @@
 
 namespace chainmail {
 
-/// Speed against error on the object in the window: choices, a run that can be cancelled, its results.
+/// Compares speed and error of the algorithms on the object of the window: choices, a run that can be cancelled,
+/// results.
 class ReportDock : public QDockWidget {
   Q_OBJECT
 
@@ -40,7 +41,7 @@ class ReportDock : public QDockWidget {
   QPushButton* cancel_;
   QProgressBar* progress_;
   QStackedWidget* pages_;
-  QElapsedTimer sinceShown_;  // since the last progress
+  QElapsedTimer sinceShown_;  // since progress was last shown
   QString textShown_;
 };
 

@@ -1,6 +1,7 @@
 #include "docks/report/report_results.h"
 
 #include <QClipboard>
+#include <QDateTime>
 #include <QDir>
 #include <QFileDialog>
 #include <QGuiApplication>
@@ -10,22 +11,37 @@
 #include <QVBoxLayout>
 
 #include "common/colours.h"
+#include "common/plot_widget.h"
 #include "common/table_text.h"
 #include "common/text.h"
-#include "docks/report/report_files.h"
-#include "docks/report/report_plot.h"
 #include "docks/report/report_table.h"
+#include "files/results/report_json.h"
+#include "files/text/outputs.h"
 #include "mesh/error.h"
+#include "report/page/csv.h"
+#include "report/page/html.h"
 
 namespace chainmail {
 namespace {
 
 QString folderKey() { return QStringLiteral("reportFolder"); }
 
-/// Each sentence once, with all whom it concerns.
+/// Writes the three files, or none of them.
+void saveReport(const std::filesystem::path& folder, const report::Comparison& comparison) {
+  const QString date = QDateTime::currentDateTimeUtc().toString(QStringLiteral("yyyy-MM-dd HH:mm 'UTC'"));
+  const report::Origin origin{report::this_machine(), "the Report dock of the workbench, while its window was open",
+                              date.toStdString(), "chainmail " + QCoreApplication::applicationVersion().toStdString()};
+  Outputs outputs;
+  outputs.add(folder / "report.html", [&](std::ostream& out) { write_html(out, comparison, origin); });
+  outputs.add(folder / "report.json", [&](std::ostream& out) { write_json(out, comparison, origin); });
+  outputs.add(folder / "report.csv", [&](std::ostream& out) { write_csv(out, comparison); });
+  outputs.commit();
+}
+
+/// Returns each reason for a refusal once, with the names of the algorithms.
 QString refusalsOf(const report::DragResult& drag) {
   QStringList sentences;
-  QMap<QString, QStringList> who;
+  QMap<QString, QStringList> refused;
   for (const report::Entry& entry : drag.entries) {
     if (entry.measurement) {
       continue;
@@ -35,13 +51,13 @@ QString refusalsOf(const report::DragResult& drag) {
     if (!sentences.contains(sentence)) {
       sentences << sentence;
     }
-    if (!who[sentence].contains(name)) {
-      who[sentence] << name;
+    if (!refused[sentence].contains(name)) {
+      refused[sentence] << name;
     }
   }
   QStringList lines;
   for (const QString& sentence : sentences) {
-    lines << QStringLiteral("%1: refused. %2").arg(who[sentence].join(QStringLiteral(", ")), sentence);
+    lines << QStringLiteral("%1: refused. %2").arg(refused[sentence].join(QStringLiteral(", ")), sentence);
   }
   if (!drag.no_exact.empty()) {
     lines << QStringLiteral("No distances to Exact ChainMail: %1").arg(text(drag.no_exact));
@@ -57,19 +73,20 @@ ReportResults::ReportResults()
       error_(new QComboBox),
       copy_(new QPushButton(QStringLiteral("Copy table"))),
       save_(new QPushButton(QStringLiteral("Save…"))),
-      plot_(new ReportPlot),
+      plot_(new PlotWidget(QStringLiteral("No values for this drag"))),
+      legend_(new PlotLegend),
       table_(new ReportTable),
       refusals_(new QLabel) {
   auto* split = new QSplitter;
   split->setObjectName(QStringLiteral("reportSplitter"));
   split->setChildrenCollapsible(false);
-  split->addWidget(plot_);
+  split->addWidget(makePlot());
   split->addWidget(table_);
   split->setStretchFactor(0, 2);
   split->setStretchFactor(1, 3);
   split->setSizes({330, 440});
   refusals_->setObjectName(QStringLiteral("reportRefusals"));
-  refusals_->setAccessibleName(QStringLiteral("Who was refused, and why"));
+  refusals_->setAccessibleName(QStringLiteral("Refused algorithms, with the reason"));
   refusals_->setToolTip(refusals_->accessibleName());
   refusals_->setTextFormat(Qt::PlainText);
   refusals_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -80,7 +97,24 @@ ReportResults::ReportResults()
   column->addLayout(makeBar());
   column->addWidget(split, 1);
   column->addWidget(refusals_);
-  followTheme(*this, [this] { showDrag(); });  // marks are drawn for one ground
+  followTheme(*this, [this] { showDrag(); });  // the marks depend on the theme
+}
+
+QWidget* ReportResults::makePlot() {
+  plot_->setObjectName(QStringLiteral("reportPlot"));
+  plot_->setAccessibleName(QStringLiteral("Plot of time against error"));
+  plot_->setToolTip(
+      QStringLiteral("Time per move against the error: left is faster, down is better. Point at a mark "
+                     "to see its values"));
+  legend_->setObjectName(QStringLiteral("reportLegend"));
+  legend_->setAccessibleName(QStringLiteral("Legend of the plot"));
+  legend_->setToolTip(QStringLiteral("Colour and shape show the algorithm; bars are the quartiles of the time"));
+  auto* both = new QWidget;
+  auto* row = new QHBoxLayout(both);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(plot_, 1);
+  row->addWidget(legend_, 0, Qt::AlignVCenter);
+  return both;
 }
 
 QLayout* ReportResults::makeBar() {
@@ -89,17 +123,19 @@ QLayout* ReportResults::makeBar() {
     widget->setAccessibleName(accessible);
     widget->setToolTip(help);
   };
-  name(heading_, "reportHeading", QStringLiteral("What was compared"), QStringLiteral("The object of the last run"));
+  name(heading_, "reportHeading", QStringLiteral("Compared object"), QStringLiteral("The object of the last run"));
   heading_->setTextFormat(Qt::PlainText);
-  heading_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // a long name pushes nothing away
-  name(drag_, "reportDrag", QStringLiteral("Drag shown"), QStringLiteral("Which of the drags plot and table show"));
-  name(error_, "reportError", QStringLiteral("Error shown"), QStringLiteral("Which error the plot shows against time"));
+  heading_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // a long name does not widen the dock
+  name(drag_, "reportDrag", QStringLiteral("Drag shown"), QStringLiteral("Drag that the plot and the table show"));
+  name(error_, "reportError", QStringLiteral("Error shown"), QStringLiteral("Error that the plot shows against time"));
   name(copy_, "reportCopy", QStringLiteral("Copy the table"),
-       QStringLiteral("Puts the table on the clipboard, columns parted by tabs, in the order shown"));
+       QStringLiteral("Copies the table in the order shown, with tabs between columns"));
   name(save_, "reportSave", QStringLiteral("Save the report"),
-       QStringLiteral("Writes report.html, report.json and report.csv, with all drags, into a folder"));
-  for (const ReportError& error : reportErrors()) {
-    error_->addItem(QLatin1String(error.label));
+       QStringLiteral("Writes report.html, report.json and report.csv with all drags into a folder"));
+  for (const report::PlottedError& error : report::plotted_errors()) {
+    QString sentence = text(error.name);
+    sentence[0] = sentence[0].toUpper();
+    error_->addItem(sentence);
   }
   auto* bar = new QHBoxLayout;
   bar->addWidget(drag_);
@@ -140,11 +176,28 @@ void ReportResults::showDrag() {
       QStringLiteral("%1, %2 elements; %3 moves")
           .arg(text(object.name), locale.toString(qulonglong(object.elements)), locale.toString(drag.moves)));
   heading_->setToolTip(text(drag.description));
-  plot_->show(drag, reportErrors()[std::size_t(error_->currentIndex())]);
+  showPlot(drag);
   table_->show(drag);
   const QString refusals = refusalsOf(drag);
   refusals_->setText(refusals);
   refusals_->setVisible(!refusals.isEmpty());
+}
+
+void ReportResults::showPlot(const report::DragResult& drag) {
+  report::Plot plot = report::error_plot(drag, report::plotted_errors()[std::size_t(error_->currentIndex())]);
+  for (report::PlotSeries& series : plot.series) {
+    series.label = shortName(series.label).toStdString();
+  }
+  const std::vector<int>& sweeps = result_->options.sweeps;
+  plot.legend_notes.clear();
+  if (std::ranges::count(sweeps, 0) > 0) {
+    plot.legend_notes.emplace_back("filled: no sweeps");
+  }
+  if (const int most = std::ranges::max(sweeps); most > 0) {
+    plot.legend_notes.push_back("hollow: " + std::to_string(most) + " sweeps");
+  }
+  legend_->show(plot);
+  plot_->show(std::move(plot));
 }
 
 void ReportResults::save() {

@@ -8,17 +8,19 @@
 
 namespace chainmail {
 
-class ReportPlot;
+class PlotLegend;
+class PlotWidget;
 class ReportTable;
 
-/// What a run found: a drag of it as plot and table, who was refused and why; to be saved and copied.
+/// Shows the results of a run: one drag as a plot and a table, and the algorithms that were refused with the reason.
+/// Saves the report and copies the table.
 class ReportResults : public QWidget {
   Q_OBJECT
 
  public:
   ReportResults();
   void show(const ReportThread::Result& result);
-  /// Writes the report's three files into a folder.
+  /// Writes the three files of the report into a folder.
   void saveTo(const QString& folder);
 
  signals:
@@ -27,6 +29,8 @@ class ReportResults : public QWidget {
 
  private:
   QLayout* makeBar();
+  QWidget* makePlot();
+  void showPlot(const report::DragResult& drag);
   void showDrag();
   void save();
   void copy();
@@ -37,7 +41,8 @@ class ReportResults : public QWidget {
   QComboBox* error_;
   QPushButton* copy_;
   QPushButton* save_;
-  ReportPlot* plot_;
+  PlotWidget* plot_;
+  PlotLegend* legend_;
   ReportTable* table_;
   QLabel* refusals_;
 };

@@ -3,17 +3,17 @@
 #include <QHeaderView>
 #include <limits>
 
+#include "common/plot_painting.h"
 #include "common/table_text.h"
 #include "common/text.h"
-#include "docks/report/report_looks.h"
 #include "report/page/format.h"
 
 namespace chainmail {
 namespace {
 
-constexpr int markSize = 13;  // pixels
+constexpr int tableMarkSize = 13;  // logical pixels
 
-/// Sorted by its number and not by its text; what has none comes last.
+/// A cell that is sorted by its number, not by its text. Cells without a number come last.
 class FigureItem : public QTableWidgetItem {
  public:
   FigureItem(const QString& words, std::optional<double> number)
@@ -36,7 +36,7 @@ struct Column {
   const char* head;
   const char* help;
   std::optional<double> (*number)(const Measurement& one);
-  /// As it is shown, where that is not the number alone.
+  /// Text of the cell, if it is not the number alone.
   std::string (*words)(const Measurement& one) = nullptr;
 };
 
@@ -46,52 +46,56 @@ std::optional<double> of(const std::optional<Distance>& distance) {
 }
 
 constexpr std::array columns{
-    Column{"ms\na move", "Median over the repetitions: a pass and its sweeps",
+    Column{"Time\n(ms per move)", "Median over the repetitions: a pass and its sweeps",
            [](auto& one) { return std::optional(one.ms_per_move.median); }},
-    Column{"quartiles", "Half of the repetitions took a time between these two (ms a move)",
+    Column{"Quartiles\n(ms per move)", "Half of the repetitions took a time between these two (ms per move)",
            [](auto& one) { return std::optional(one.ms_per_move.lower_quartile); },
            [](auto& one) {
              return report::figure(one.ms_per_move.lower_quartile) + " – " +
                     report::figure(one.ms_per_move.upper_quartile);
            }},
-    Column{"moved", "Elements moved, in all moves together, without the one in the hand",
+    Column{"Moved\n(elements)", "Elements moved, in all moves together, without the handle",
            [](auto& one) { return std::optional(double(one.moved)); },
            [](auto& one) { return QLocale().toString(qulonglong(one.moved)).toStdString(); }},
-    Column{"violation\nmax", "The largest violation of a link, in its rest lengths",
+    Column{"Max\nviolation", "Largest violation of a link, in its rest lengths",
            [](auto& one) { return std::optional(one.errors.violation.max); }},
-    Column{"violation\nRMS", "Root mean square of the violation over all links, in rest lengths",
+    Column{"RMS\nviolation", "Root mean square of the violation over all links, in rest lengths",
            [](auto& one) { return std::optional(one.errors.violation.rms); }},
-    Column{"violated\nlinks", "Share of the links with a violation above 1e-4",
+    Column{"Violated\nlinks", "Share of the links with a violation above 1e-4",
            [](auto& one) { return std::optional(one.errors.violation.fraction); },
            [](auto& one) { return report::percent(one.errors.violation.fraction); }},
-    Column{"to Exact\nmax",
-           "The largest distance of an element to where Exact ChainMail in double puts it, in mean "
-           "rest lengths",
+    Column{"Max distance\nto Exact",
+           "Largest distance of an element to its position by Exact ChainMail in double, in mean rest lengths",
            [](auto& one) { return of<&Distance::max>(one.errors.to_exact); }},
-    Column{"to Exact\nRMS", "Root mean square of the distance to Exact ChainMail in double, in mean rest lengths",
+    Column{"RMS distance\nto Exact",
+           "Root mean square of the distance to Exact ChainMail in double, in mean rest lengths",
            [](auto& one) { return of<&Distance::rms>(one.errors.to_exact); }},
-    Column{"energy\nratio", "Elastic energy over that of Exact ChainMail; n/a where that holds none",
+    Column{"Energy\nratio", "Elastic energy over that of Exact ChainMail; n/a if that is 0",
            [](auto& one) { return one.errors.energy_over_exact; }},
-    Column{"float to\ndouble",
-           "The largest distance between the contestant in float and in double, in mean rest lengths",
+    Column{"Float to\ndouble", "Largest distance between the contestant in float and in double, in mean rest lengths",
            [](auto& one) { return std::optional(one.errors.float_to_double.max); }},
 };
 
 }  // namespace
 
+QString shortName(std::string_view label) {
+  QString name = text(label);
+  return name.startsWith(QStringLiteral("3D ")) ? name : name.remove(QStringLiteral(" ChainMail"));
+}
+
 ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   setObjectName(QStringLiteral("reportTable"));
-  setAccessibleName(QStringLiteral("Table of the contestants' figures"));
-  setToolTip(QStringLiteral("A click on a column's head sorts by it; hover it for what it says"));
+  setAccessibleName(QStringLiteral("Table of times and errors"));
+  setToolTip(QStringLiteral("Click a column head to sort by it; point at it for an explanation"));
   setSelectionBehavior(SelectRows);
   setAlternatingRowColors(true);
   setShowGrid(false);
-  setIconSize({markSize, markSize});
+  setIconSize({tableMarkSize, tableMarkSize});
   verticalHeader()->hide();
   verticalHeader()->setDefaultSectionSize(21);
   verticalHeader()->setMinimumSectionSize(21);
-  auto* contestant = new QTableWidgetItem(QStringLiteral("contestant"));
-  contestant->setToolTip(QStringLiteral("The algorithm, and the sweeps of relaxation after each of its moves"));
+  auto* contestant = new QTableWidgetItem(QStringLiteral("Contestant"));
+  contestant->setToolTip(QStringLiteral("Algorithm, and sweeps of relaxation after each move"));
   setHorizontalHeaderItem(0, contestant);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     auto* head = new QTableWidgetItem(QLatin1String(columns[i].head));
@@ -112,8 +116,9 @@ void ReportTable::show(const report::DragResult& drag) {
     }
     const int row = rowCount();
     insertRow(row);
-    auto* name = new QTableWidgetItem(QIcon(reportMark(entry.contestant, markSize, devicePixelRatioF())),
-                                      reportName(entry.contestant));
+    auto* name = new QTableWidgetItem(QIcon(plotMark(entry.contestant.algorithm, entry.contestant.sweeps > 0,
+                                                     tableMarkSize, devicePixelRatioF(), palette())),
+                                      shortName(report::label(entry.contestant)));
     name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
     setItem(row, 0, name);
     for (std::size_t i = 0; i < columns.size(); ++i) {

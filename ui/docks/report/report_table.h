@@ -6,7 +6,10 @@
 
 namespace chainmail {
 
-/// Every figure of a drag, a row a contestant; a click on a column's head sorts by it.
+/// Returns the name of a contestant without "ChainMail", which all names have; "3D ChainMail" stays.
+QString shortName(std::string_view label);
+
+/// All figures of a drag, with one row for each contestant. A click on the head of a column sorts by it.
 class ReportTable : public QTableWidget {
   Q_OBJECT
 

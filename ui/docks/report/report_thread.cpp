@@ -2,6 +2,8 @@
 
 #include <exception>
 
+#include "report/run/drags.h"
+
 namespace chainmail {
 
 ReportThread::~ReportThread() {
@@ -17,7 +19,7 @@ void ReportThread::start(Order order) {
   ++atWork_;
   thread_ =
       std::jthread([this, order = std::move(order), before = std::move(thread_)](const std::stop_token& stop) mutable {
-        // Two at once would spoil each other's times. The wait is here and not in the window.
+        // Two runs at once would disturb each other's times. The thread waits, not the window.
         if (before.joinable()) {
           before.join();
         }
@@ -30,28 +32,28 @@ void ReportThread::cancel() {
   thread_.request_stop();
   running_ = false;
   const std::scoped_lock lock(mutex_);
-  news_ = {};  // what was told before the request; from here on the thread tells nothing
+  news_ = {};  // messages from before the request; the thread posts no more
 }
 
 void ReportThread::run(Order& order, const std::stop_token& stop) {
   try {
     if (order.generateDrags) {
-      tell({0, "finding the drags", {}, {}}, stop);
+      post({0, "generating the drags", {}, {}}, stop);
       order.object.drags = report::three_drags(order.object, stop);
     }
-    const auto progress = [&](double fraction, const std::string& text) { tell({fraction, text, {}, {}}, stop); };
+    const auto progress = [&](double fraction, const std::string& text) { post({fraction, text, {}, {}}, stop); };
     auto comparison = report::compare({order.object}, order.options, progress, stop);
-    tell({1, {}, std::make_shared<report::Comparison>(std::move(comparison)), {}}, stop);
+    post({1, {}, std::make_shared<report::Comparison>(std::move(comparison)), {}}, stop);
   } catch (const std::bad_alloc&) {
-    tell({0, {}, {}, order.object.name + ": there is not enough memory; choose fewer algorithms"}, stop);
+    post({0, {}, {}, order.object.name + ": there is not enough memory; choose fewer algorithms"}, stop);
   } catch (const std::exception& error) {
-    tell({0, {}, {}, error.what()}, stop);
+    post({0, {}, {}, error.what()}, stop);
   }
 }
 
-void ReportThread::tell(News news, const std::stop_token& stop) {
+void ReportThread::post(News news, const std::stop_token& stop) {
   const std::scoped_lock lock(mutex_);
-  // Under the lock that cancel() takes after its request: news of a cancelled run cannot slip in behind it.
+  // cancel() takes the same lock after its request, so no message of a cancelled run can follow it.
   if (stop.stop_requested()) {
     return;
   }

@@ -1,21 +1,14 @@
 #include "docks/size_test/size_test.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "common/panel_names.h"
 #include "report/page/format.h"
 
 namespace chainmail {
 
+QString sizeText(std::uint32_t width) { return QStringLiteral("%1×%1").arg(width); }
+
 std::vector<std::uint32_t> widthsOf(const SizeTestOptions& options) {
-  std::vector<std::uint32_t> widths;
-  for (std::uint32_t width = options.first; std::uint64_t{width} * width <= options.largest;) {
-    widths.push_back(width);
-    width = options.growth == 0 ? report::next_width(width)
-                                : std::max(width + 1, std::uint32_t(std::lround(width * options.growth)));
-  }
-  return widths;
+  return report::ramp_widths(options.first, options.largest, options.growth);
 }
 
 report::RampVerdict verdictOf(const SizeTestContestant& contestant, std::span<const SizeTestRow> rows) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QString>
 #include <cstdint>
 #include <numbers>
 #include <ostream>
@@ -11,38 +12,41 @@
 
 namespace chainmail {
 
-/// Dean 2004, chapter 6, live: square grids grow under a scripted hand until each panel has lost real time.
+/// The ramp of core/report/run/ramp.h in the window (Dean 2004, chapter 6): square grids grow and are dragged by a
+/// script until no panel is in real time.
 struct SizeTestOptions {
   std::uint32_t first = 16;             // elements along a side
-  double growth = std::numbers::sqrt2;  // of a side, from size to size; 0: as `chainmail ramp`
+  double growth = std::numbers::sqrt2;  // factor of a side from size to size; 0: as in `chainmail ramp`
   std::uint64_t largest = 1'000'000;    // elements
-  double budget = 1.0 / 60;             // for a pass, in seconds
-  int drags = 5;                        // at each size, beside one to warm up
-  int moves = 30;                       // a drag
+  double budget = 1.0 / 60;             // per pass, in seconds
+  int drags = 5;                        // at each size, besides one to warm up
+  int moves = 30;                       // per drag
   std::uint64_t seed = 1;               // of the drags
   LinkSoftness softness;
 };
 
-/// The sizes there are, ascending.
+/// Returns a size as "16×16".
+QString sizeText(std::uint32_t width);
+/// Returns the sizes, ascending.
 std::vector<std::uint32_t> widthsOf(const SizeTestOptions& options);
 
-/// A panel that takes part.
+/// A panel that takes part in the test.
 struct SizeTestContestant {
   int panel = 0;
   Algorithm algorithm = Algorithm::natural_queue;
   colours::Colour colour = colours::left;
 };
 
-/// How one panel did at one size.
+/// The figures of one panel at one size.
 struct SizeTestRow {
   int panel = 0;
   report::RampRow figures;
-  int painted = 0;  // frames a second
+  int painted = 0;  // frames per second
 };
 
-/// What the rows of a panel say of it.
+/// Returns what the rows of a panel say.
 report::RampVerdict verdictOf(const SizeTestContestant& contestant, std::span<const SizeTestRow> rows);
-/// With all digits, a row a size and panel.
+/// Writes one row for each size and panel, with all digits.
 void writeCsv(std::ostream& out, std::span<const SizeTestRow> rows);
 
 }  // namespace chainmail

@@ -26,24 +26,24 @@ SizeTestChoices::SizeTestChoices()
       connect(spin, &QAbstractSpinBox::editingFinished, spin, &QWidget::clearFocus);  // shortcuts work again
     }
   };
-  add(QStringLiteral("Begin with"), first_, "sizeTestFirst", QStringLiteral("Elements along a side of the first grid"));
+  add(QStringLiteral("First size"), first_, "sizeTestFirst", QStringLiteral("Elements along a side of the first grid"));
   first_->setRange(4, 1000);
   first_->setValue(int(standard.first));
-  add(QStringLiteral("Grow"), growth_, "sizeTestGrowth", QStringLiteral("How much larger each grid is than the last"));
-  growth_->addItem(QStringLiteral("a tenth a side"), 0.0);
-  growth_->setItemData(0, QStringLiteral("As 'chainmail ramp' does; takes longest"), Qt::ToolTipRole);
+  add(QStringLiteral("Growth"), growth_, "sizeTestGrowth", QStringLiteral("Growth from one grid to the next"));
+  growth_->addItem(QStringLiteral("a tenth per side"), 0.0);
+  growth_->setItemData(0, QStringLiteral("As in 'chainmail ramp'; takes the longest time"), Qt::ToolTipRole);
   growth_->addItem(QStringLiteral("twice the elements"), standard.growth);
   growth_->addItem(QStringLiteral("four times the elements"), 2.0);
   growth_->setCurrentIndex(1);
-  add(QStringLiteral("Up to"), largest_, "sizeTestLargest",
-      QStringLiteral("No grid beyond so many elements; drawing a million takes a good machine"));
+  add(QStringLiteral("Largest size"), largest_, "sizeTestLargest",
+      QStringLiteral("Largest number of elements of a grid; drawing a million needs a fast machine"));
   largest_->setRange(16, 4'000'000);
   largest_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   largest_->setGroupSeparatorShown(true);
   largest_->setValue(int(standard.largest));
   add(QStringLiteral("Real time"), budget_, "sizeTestBudget",
-      QStringLiteral("A pass must take no longer than this, but for the slowest hundredth (ms); a frame at 60 a "
-                     "second is 16.667"));
+      QStringLiteral("Time limit of a pass, except for the slowest hundredth (ms). 60 frames per second are "
+                     "16.667 ms"));
   budget_->setPrefix(QStringLiteral("≤ "));
   budget_->setSuffix(QStringLiteral(" ms"));
   budget_->setDecimals(3);
@@ -51,8 +51,8 @@ SizeTestChoices::SizeTestChoices()
   budget_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   budget_->setValue(1000 * standard.budget);
   add(QStringLiteral("Drags"), drags_, "sizeTestDrags",
-      QStringLiteral("At each size, of 30 moves each, beside one to warm up: half a second each, and "
-                     "fewer where drawing is slow, so that a size takes no longer than about 8 s"));
+      QStringLiteral("Drags at each size, besides one to warm up. A drag has 30 moves and takes half a second. "
+                     "If drawing is slow there are fewer, so that a size takes about 8 s at most"));
   drags_->setRange(1, 20);
   drags_->setValue(standard.drags);
 }

@@ -9,13 +9,13 @@
 
 namespace chainmail {
 
-/// Where a size test begins, how it grows, where it ends at the latest, and what real time is.
+/// Choices for a size test: first size, growth, largest size, limit of real time, and drags.
 class SizeTestChoices : public QWidget {
   Q_OBJECT
 
  public:
   SizeTestChoices();
-  /// As chosen; the softness is the caller's.
+  /// Returns the choices. The caller sets the softness.
   SizeTestOptions options() const;
 
  private:

@@ -15,16 +15,16 @@
 namespace chainmail {
 namespace {
 
-constexpr int controlsWidth = 230;
-constexpr int preferredHeight = 280;
-constexpr int progressSteps = 1000;
-constexpr int progressMilliseconds = 150;
+constexpr int sizeControlsWidth = 230;
+constexpr int sizeHeight = 280;
+constexpr int sizeProgressSteps = 1000;
+constexpr int sizeProgressMilliseconds = 150;
 constexpr int retireMilliseconds = 20;
 
-/// A dock at the bottom is as tall as its content would like to be.
-class Content : public QWidget {
+/// Gives the dock its height: a dock at the bottom is as tall as the size hint of its content.
+class SizeTestContent : public QWidget {
  public:
-  QSize sizeHint() const override { return {QWidget::sizeHint().width(), preferredHeight}; }
+  QSize sizeHint() const override { return {QWidget::sizeHint().width(), sizeHeight}; }
 };
 
 }  // namespace
@@ -44,8 +44,8 @@ SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidge
       progress_(new QProgressBar),
       escape_(new QShortcut(Qt::Key_Escape, &window)) {
   setObjectName(QStringLiteral("sizeTestDock"));
-  auto* note = new QLabel(QStringLiteral("Times measured here share the machine with the window."));
-  note->setToolTip(QStringLiteral("For times to quote, run 'chainmail ramp' on a quiet machine"));
+  auto* note = new QLabel(QStringLiteral("The window runs on the same machine, so these times are not exact."));
+  note->setToolTip(QStringLiteral("For exact times, run 'chainmail ramp' on an idle machine"));
   note->setEnabled(false);
   auto* below = new QHBoxLayout;
   below->addWidget(note, 1);
@@ -55,18 +55,19 @@ SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidge
   right->setSpacing(3);
   right->addWidget(table_, 1);
   right->addLayout(below);
-  auto* content = new Content;
+  auto* content = new SizeTestContent;
   auto* row = new QHBoxLayout(content);
   row->setContentsMargins(6, 4, 6, 2);
   row->addWidget(makeControls());
   row->addLayout(right, 1);
   setWidget(content);
-  // Closed, it takes what it began with it.
+  // Closing the dock cancels the test.
   connect(toggleViewAction(), &QAction::toggled, this, [this](bool shown) { shown ? void() : cancel(); });
-  // What no test has filled speaks of the panels as they are.
+  // An empty table shows the present panels.
   connect(this, &QDockWidget::visibilityChanged, this, [this](bool seen) { seen ? followPanels() : void(); });
   for (const auto& changed : {&Document::panelsChanged, &Document::meshChanged}) {
-    connect(&document, changed, this, &SizeTestDock::followPanels, Qt::QueuedConnection);  // after the panels
+    connect(&document, changed, this, &SizeTestDock::followPanels,
+            Qt::QueuedConnection);  // after the panels have changed
   }
   connect(&document, &Document::algorithmChanged, this, &SizeTestDock::followPanels);
   connect(escape_, &QShortcut::activated, this, &SizeTestDock::cancel);
@@ -86,7 +87,7 @@ void SizeTestDock::offerRun() {
   const bool any = !inSight_().empty();
   run_->setEnabled(!running() && any);
   run_->setToolTip(any ? run_->accessibleName()
-                       : QStringLiteral("It is about the ChainMail family: choose one of it in a panel in sight"));
+                       : QStringLiteral("Only ChainMail algorithms can be tested: choose one in a visible panel"));
 }
 
 SizeTestDock::~SizeTestDock() = default;
@@ -98,19 +99,21 @@ QWidget* SizeTestDock::makeControls() {
     widget->setToolTip(help);
   };
   name(run_, "sizeTestRun",
-       QStringLiteral("Grows a grid under a scripted hand in the panels in sight, until each has lost real time"));
-  name(cancel_, "sizeTestCancel", QStringLiteral("Ends the test (Esc); what was found stays, and your object is back"));
-  name(progress_, "sizeTestProgress", QStringLiteral("How many of the sizes are done, and which is at hand"));
-  name(copy_, "sizeTestCopy", QStringLiteral("Puts the table on the clipboard, columns parted by tabs"));
-  name(save_, "sizeTestSave", QStringLiteral("Writes the table with all digits as CSV, a row a size and panel"));
-  progress_->setRange(0, progressSteps);
+       QStringLiteral("Grows and drags a grid in the visible panels, until each one is slower than real time"));
+  name(cancel_, "sizeTestCancel",
+       QStringLiteral("Cancels the test (Esc); the results stay, and your object is shown again"));
+  name(progress_, "sizeTestProgress", QStringLiteral("Share of the sizes that are done, and the present size"));
+  name(copy_, "sizeTestCopy", QStringLiteral("Copies the table, with tabs between columns"));
+  name(save_, "sizeTestSave",
+       QStringLiteral("Saves the table as CSV with all digits, one row for each size and panel"));
+  progress_->setRange(0, sizeProgressSteps);
   connect(run_, &QPushButton::clicked, this, &SizeTestDock::start);
   connect(cancel_, &QPushButton::clicked, this, &SizeTestDock::cancel);
   connect(copy_, &QPushButton::clicked, this,
           [this] { QGuiApplication::clipboard()->setText(textOf(table_->table())); });
   connect(save_, &QPushButton::clicked, this, &SizeTestDock::saveTable);
   auto* controls = new QWidget;
-  controls->setFixedWidth(controlsWidth);
+  controls->setFixedWidth(sizeControlsWidth);
   auto* column = new QVBoxLayout(controls);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);
@@ -160,7 +163,7 @@ void SizeTestDock::cancel() {
   }
 }
 
-/// The user's own panels are back at once; what the test leaves behind ends when it can.
+/// Shows the panels of the user at once. The stage is deleted when its solvers are idle.
 void SizeTestDock::leave() {
   SizeTestStage* stage = std::exchange(stage_, nullptr).data();
   disconnect(stage, nullptr, this, nullptr);
@@ -173,7 +176,7 @@ void SizeTestDock::leave() {
   retire(stage);
 }
 
-/// A pass may take longer than a click should: nobody waits for it here.
+/// A pass may take long, so this does not wait for it.
 void SizeTestDock::retire(SizeTestStage* stage) {
   QTimer::singleShot(retireMilliseconds, stage,
                      [this, stage] { stage->idle() ? stage->deleteLater() : retire(stage); });
@@ -194,17 +197,17 @@ void SizeTestDock::showState() {
 }
 
 void SizeTestDock::showProgress(double share, const QString& text) {
-  // Each painting of the window is taken from the machine whose times are measured.
-  if (sinceShown_.isValid() && sinceShown_.elapsed() < progressMilliseconds) {
+  // Painting the window disturbs the times that are measured.
+  if (sinceShown_.isValid() && sinceShown_.elapsed() < sizeProgressMilliseconds) {
     return;
   }
   sinceShown_.start();
   copy_->setEnabled(!table_->rows().empty());
-  fillBar(int(progressSteps * share), text);
+  fillBar(int(sizeProgressSteps * share), text);
 }
 
 void SizeTestDock::fillBar(int value, const QString& text) {
-  // A progress bar paints itself, and with it the whole window, before setValue returns: here it waits its turn.
+  // setValue() would repaint the bar at once, and the whole window with it.
   progress_->setUpdatesEnabled(false);
   progress_->setValue(value);
   progress_->setFormat(text);

@@ -18,15 +18,15 @@
 
 namespace chainmail {
 
-/// The size test: a button that grows a grid under a scripted hand where the panels are, until each has lost real time,
-/// and the table of it. The window's own object is not touched; while the test runs, nothing else acts.
+/// The size test: grows a grid and drags it by a script in place of the panels, until no panel is in real time, and
+/// shows the results in a table. The object of the window does not change. While the test runs, nothing else works.
 class SizeTestDock : public QDockWidget {
   Q_OBJECT
 
  public:
   using Contestants = std::function<std::vector<SizeTestContestant>()>;
 
-  /// `area` holds the panels, in a box layout of its parent's; `inSight` says which of them can be seen.
+  /// `area` contains the panels and is in a box layout of its parent. `inSight` returns the visible panels.
   SizeTestDock(QMainWindow& window, const Document& document, QWidget& area, Contestants inSight);
   ~SizeTestDock() override;
 
@@ -62,10 +62,10 @@ class SizeTestDock : public QDockWidget {
   QPushButton* copy_;
   QPushButton* save_;
   QProgressBar* progress_;
-  QPointer<SizeTestStage> stage_;  // a closing window takes it along with the panels
+  QPointer<SizeTestStage> stage_;  // a closing window deletes it with the panels
   std::unique_ptr<WindowRest> rest_;
-  QShortcut* escape_;         // acts while a test runs; made once, as a window that hides looks at each child it had
-  QElapsedTimer sinceShown_;  // since the last progress
+  QShortcut* escape_;         // enabled while a test runs; made once, because a hiding window visits each child it had
+  QElapsedTimer sinceShown_;  // since progress was last shown
 };
 
 }  // namespace chainmail

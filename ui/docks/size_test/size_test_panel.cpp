@@ -9,7 +9,7 @@
 namespace chainmail {
 namespace {
 
-// Where drawing is slow the hand is, too: after so long a size has had enough drags, beside the one that warms up.
+// Slow drawing slows the drags down. After this time a size has enough drags, besides the warm-up.
 constexpr qint64 enoughMilliseconds = 8000;
 constexpr std::size_t fewestDrags = 2;
 
@@ -32,7 +32,7 @@ SizeTestPanel::SizeTestPanel(const SizeTestContestant& contestant, const LinkSof
   arrange();
 }
 
-/// As the panels that it stands in for.
+/// Looks like the panels that it replaces.
 void SizeTestPanel::arrange() {
   auto* swatch = new QLabel;
   swatch->setFixedSize(10, 10);
@@ -53,7 +53,7 @@ void SizeTestPanel::arrange() {
   column->addWidget(view_, 1);
 }
 
-void SizeTestPanel::begin(const MeshPointer& mesh, std::vector<report::HandDrag> drags) {
+void SizeTestPanel::begin(const MeshPointer& mesh, std::vector<report::ScriptedDrag> drags) {
   drags_ = std::move(drags);
   drag_ = move_ = 0;
   moving_ = false;
@@ -62,7 +62,7 @@ void SizeTestPanel::begin(const MeshPointer& mesh, std::vector<report::HandDrag>
   clock_.start();
   if (mesh != mesh_) {
     mesh_ = mesh;
-    solver_.post(commands::ReplaceMesh{mesh});  // the hand begins when it can be seen
+    solver_.post(commands::ReplaceMesh{mesh});  // the drags start with the first frame of the mesh
   } else {
     next();
   }
@@ -95,7 +95,7 @@ void SizeTestPanel::receive() {
 }
 
 void SizeTestPanel::record(const Statistics& statistics) {
-  if (drag_ > 0) {  // the first one takes the memory that the others then find
+  if (drag_ > 0) {  // the first drag allocates the memory of the others
     passes_.ms.push_back(statistics.last_pass_ms);
     passes_.moved += statistics.last_pass.moved;
   }
@@ -114,7 +114,7 @@ void SizeTestPanel::next() {
       return;
     }
   }
-  const report::HandDrag& drag = drags_[drag_];
+  const report::ScriptedDrag& drag = drags_[drag_];
   if (move_ == 0) {
     solver_.post(commands::Reset{});
     solver_.post(commands::Grab{drag.element});

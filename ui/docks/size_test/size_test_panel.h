@@ -7,16 +7,16 @@
 
 #include "docks/size_test/size_test.h"
 #include "docks/size_test/size_test_view.h"
-#include "report/run/hand.h"
 #include "report/run/ramp_rule.h"
+#include "report/run/scripted_drags.h"
 #include "simulate/solver_thread.h"
 
 namespace chainmail {
 
-/// One side of the size test: a solver of its own, the grid it moves, and the scripted hand.
+/// One panel of the size test: a solver, its grid, and the scripted drags.
 ///
-/// The hand makes its next move when the last one has been answered and can be seen, at most 60 a second: every pass
-/// is measured, and no panel waits for another.
+/// The next move starts when the last one is answered and painted, at most 60 times per second. Every pass is measured,
+/// and no panel waits for another.
 class SizeTestPanel : public QFrame {
   Q_OBJECT
 
@@ -24,26 +24,26 @@ class SizeTestPanel : public QFrame {
   SizeTestPanel(const SizeTestContestant& contestant, const LinkSoftness& softness, const MeshPointer& mesh,
                 std::shared_ptr<MeshLevels> levels);
 
-  /// Makes these drags, from rest each; the first one warms up and is not measured.
-  void begin(const MeshPointer& mesh, std::vector<report::HandDrag> drags);
-  /// The hand lets go: nothing more is asked of the solver.
+  /// Makes these drags, each from rest. The first one is a warm-up and is not measured.
+  void begin(const MeshPointer& mesh, std::vector<report::ScriptedDrag> drags);
+  /// Ends the drags: the solver gets no more commands.
   void halt() { running_ = false; }
   bool running() const { return running_; }
-  /// Whether the solver has done all that was asked of it.
+  /// True when the solver has carried out all commands.
   bool idle() const { return solver_.idle(); }
 
   const SizeTestContestant& contestant() const { return contestant_; }
   const report::RampPasses& passes() const { return passes_; }
   /// Frames painted in the last second of the drags.
   int painted() const { return painted_; }
-  /// How many of the moves are made, from 0 to 1.
+  /// Share of the moves that are made, from 0 to 1.
   double share() const;
   void say(const QString& state) { state_->setText(state); }
 
  signals:
-  /// A move was answered.
+  /// Emitted when a move is answered.
   void moved();
-  /// All drags are made.
+  /// Emitted when all drags are made.
   void ended();
   void failed(const QString& sentence);
 
@@ -55,18 +55,18 @@ class SizeTestPanel : public QFrame {
 
   SizeTestContestant contestant_;
   MeshPointer mesh_;
-  std::vector<report::HandDrag> drags_;
-  std::size_t drag_ = 0, move_ = 0;  // the one to come
+  std::vector<report::ScriptedDrag> drags_;
+  std::size_t drag_ = 0, move_ = 0;  // the next one
   bool running_ = false;
-  bool moving_ = false;  // a pass was asked for
-  QElapsedTimer clock_;  // since the drags began
+  bool moving_ = false;  // a pass is under way
+  QElapsedTimer clock_;  // since the drags started
   std::uint64_t passesSeen_ = 0;
   report::RampPasses passes_;
   int painted_ = 0;
   SizeTestView* view_;
   QLabel* state_;
-  std::atomic<bool> announced_ = false;  // frames are announced at most once until they are received
-  SolverThread solver_;                  // last: it ends before what it announces to
+  std::atomic<bool> announced_ = false;  // at most one queued call to receive() at a time
+  SolverThread solver_;                  // last, so that it ends before the members that its callback uses
 };
 
 }  // namespace chainmail

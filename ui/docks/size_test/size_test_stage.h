@@ -9,10 +9,10 @@
 
 namespace chainmail {
 
-/// Carries a size test out in panels of its own, which take the place of the window's while it runs.
+/// Runs a size test in panels of its own, which replace the panels of the window while it runs.
 ///
-/// At each size all that are in the race make the same drags. One is out when the slowest hundredth of its passes
-/// exceeds the budget, and does so again with fresh drags: it stops there, and the others go on.
+/// The order of events is that of report::RampRace. All panels that attempt a size make the same drags at the same
+/// time.
 class SizeTestStage : public QWidget {
   Q_OBJECT
 
@@ -20,37 +20,33 @@ class SizeTestStage : public QWidget {
   SizeTestStage(const SizeTestOptions& options, const std::vector<SizeTestContestant>& contestants);
 
   void start();
-  /// Ends the test at once; nothing is told from here on.
+  /// Ends the test at once. No signal follows.
   void halt();
-  /// Whether no solver is at work: only then the end of this object waits for nothing.
+  /// True when no solver computes. Only then the destructor does not wait.
   bool idle() const;
 
  signals:
   void measured(const chainmail::SizeTestRow& row);
-  /// How much of the sizes is done, from 0 to 1, and what is going on.
+  /// Share of the sizes that are done, from 0 to 1, and the present size.
   void progressed(double share, const QString& text);
   void ended();
   void failed(const QString& sentence);
 
  private:
   void build();
-  void attempt(int number, const std::vector<SizeTestPanel*>& panels);
+  void attempt();
   void receiveEnd();
   void judge();
-  void goOn();
+  std::vector<SizeTestPanel*> attempting() const;
+  QString sizeInWords() const;
   void showProgress();
   void stopFor(const QString& sentence);
 
   SizeTestOptions options_;
-  std::vector<std::uint32_t> widths_;
-  std::size_t size_ = 0;  // which of them
+  report::RampRace race_;  // its contestants are the panels, in their order
   MeshPointer mesh_;
   std::shared_ptr<MeshLevels> levels_ = std::make_shared<MeshLevels>();
-  std::vector<SizeTestPanel*> panels_;  // all
-  std::vector<SizeTestPanel*> racing_;
-  std::vector<SizeTestPanel*> running_;  // of this attempt
-  std::vector<SizeTestRow> rows_;        // of this size
-  int attempt_ = 0;
+  std::vector<SizeTestPanel*> panels_;
   bool halted_ = false;
   Jobs jobs_;  // builds the grids
 };

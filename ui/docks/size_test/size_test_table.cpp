@@ -13,24 +13,23 @@
 namespace chainmail {
 namespace {
 
-constexpr int leading = 2;  // columns before the panels'
-constexpr std::array heads{"median\nms", "slowest\nhundredth ms", "painted\nframes/s", "real\ntime"};
-constexpr std::array helps{"Median time of a pass, of the solver alone (ms)",
-                           "99 % of the passes took no longer (ms); real time is where that fits the budget",
-                           "Frames of this panel that reached the screen in the last second of the drags",
-                           "Whether the slowest hundredth fits the budget; 'no' is said after a second attempt"};
-
-QString sizeOf(std::uint32_t width) { return QStringLiteral("%1×%1").arg(width); }
+constexpr int leading = 2;  // columns before those of the panels
+constexpr std::array heads{"median\n(ms)", "slowest 1 %\n(ms)", "painted\n(frames/s)", "real\ntime"};
+constexpr std::array helps{
+    "Median time of a pass in the solver (ms)",
+    "99 % of the passes are at most this long (ms); real time means that this is within the limit",
+    "Frames of this panel that reached the screen in the last second of the drags",
+    "'yes' if the slowest hundredth is within the limit; 'no' after a second attempt"};
 
 }  // namespace
 
 SizeTestTable::SizeTestTable() : verdicts_(new QLabel), table_(new QTableWidget) {
   verdicts_->setObjectName(QStringLiteral("sizeTestVerdicts"));
-  verdicts_->setAccessibleName(QStringLiteral("Up to which size each panel is in real time"));
+  verdicts_->setAccessibleName(QStringLiteral("Largest size in real time, for each panel"));
   verdicts_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   table_->setObjectName(QStringLiteral("sizeTestTable"));
   table_->setAccessibleName(QStringLiteral("Times at each size"));
-  table_->setToolTip(QStringLiteral("A row a size; Ctrl+C copies the table"));
+  table_->setToolTip(QStringLiteral("One row per size; Ctrl+C copies the table"));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setAlternatingRowColors(true);
@@ -50,8 +49,8 @@ void SizeTestTable::begin(const std::vector<SizeTestContestant>& contestants) {
   table_->clear();
   table_->setRowCount(0);
   table_->setColumnCount(leading + int(contestants.size() * heads.size()));
-  table_->setHorizontalHeaderItem(0, new QTableWidgetItem(QStringLiteral("\nsize")));
-  table_->setHorizontalHeaderItem(1, new QTableWidgetItem(QStringLiteral("\nelements")));
+  table_->setHorizontalHeaderItem(0, new QTableWidgetItem(QStringLiteral("\nSize")));
+  table_->setHorizontalHeaderItem(1, new QTableWidgetItem(QStringLiteral("\nElements")));
   int column = leading;
   for (const SizeTestContestant& one : contestants) {
     for (std::size_t i = 0; i < heads.size(); ++i) {
@@ -78,7 +77,7 @@ void SizeTestTable::add(const SizeTestRow& row) {
   if (rows_.empty() || rows_.back().figures.width != figures.width) {
     const int last = table_->rowCount();
     table_->insertRow(last);
-    put(last, 0, sizeOf(figures.width));
+    put(last, 0, sizeText(figures.width));
     put(last, 1, QLocale().toString(qulonglong(figures.elements)));
   }
   rows_.push_back(row);
@@ -88,7 +87,8 @@ void SizeTestTable::add(const SizeTestRow& row) {
     if (one.panel == row.panel) {
       put(at, column, text(report::figure(figures.median_ms)));
       put(at, column + 1, text(report::figure(figures.p99_ms)),
-          figures.repeated ? QStringLiteral("Of fresh drags: the first ones missed the budget") : QString());
+          figures.repeated ? QStringLiteral("Second attempt with other drags: the first attempt missed the limit")
+                           : QString());
       put(at, column + 2, QString::number(row.painted));
       put(at, column + 3, figures.in_real_time ? QStringLiteral("yes") : QStringLiteral("no"));
     }
@@ -123,7 +123,7 @@ QString SizeTestTable::verdictText(const SizeTestContestant& contestant) const {
   }
   const std::uint32_t width = *verdict.largest_width;
   const QString upTo =
-      QStringLiteral("real time up to %1, %L2 elements").arg(sizeOf(width)).arg(qulonglong(width) * width);
+      QStringLiteral("real time up to %1, %L2 elements").arg(sizeText(width)).arg(qulonglong(width) * width);
   return verdict.lost ? upTo : upTo + (growing_ ? QStringLiteral(" so far") : QStringLiteral(" or more"));
 }
 

@@ -7,16 +7,16 @@
 
 namespace chainmail {
 
-/// What a size test found so far: a verdict a panel, and a row a size, growing.
+/// The results of a size test so far: a verdict for each panel, and a row for each size.
 class SizeTestTable : public QWidget {
   Q_OBJECT
 
  public:
   SizeTestTable();
-  /// Empties it, for these panels.
+  /// Clears the table for these panels.
   void begin(const std::vector<SizeTestContestant>& contestants);
   void add(const SizeTestRow& row);
-  /// Whether there is more to come, which the verdicts say.
+  /// True while more results follow; the verdicts then say "so far".
   void setGrowing(bool growing);
   const std::vector<SizeTestRow>& rows() const { return rows_; }
   QTableWidget& table() { return *table_; }

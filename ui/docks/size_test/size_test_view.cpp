@@ -8,8 +8,8 @@
 namespace chainmail {
 namespace {
 
-constexpr double roomForTheHand = 0.3;  // on each side, in widths of the object
-constexpr float handSize = 13;          // pixels
+constexpr double roomForHandle = 0.3;  // on each side, in widths of the object
+constexpr float handleSize = 13;       // pixels
 
 }  // namespace
 
@@ -21,18 +21,18 @@ SizeTestView::SizeTestView(std::shared_ptr<MeshLevels> levels, colours::Colour c
 
 SizeTestView::~SizeTestView() {
   if (context() != nullptr) {
-    disconnect(context(), nullptr, this, nullptr);  // its end must find nothing of this view
+    disconnect(context(), nullptr, this, nullptr);  // the context must not call a deleted view
   }
-  if (ready_) {  // else it was never seen
+  if (ready_) {  // else it was never shown
     makeCurrent();
     painter_.destroy();
     doneCurrent();
   }
 }
 
-void SizeTestView::show(const Frame& frame, std::optional<ElementId> hand) {
+void SizeTestView::show(const Frame& frame, std::optional<ElementId> handle) {
   frame_ = &frame;
-  hand_ = hand;
+  handle_ = handle;
   if (frame.mesh != fitted_) {
     uncut_ = Cuts(frame.mesh);
     fit();
@@ -43,7 +43,7 @@ void SizeTestView::show(const Frame& frame, std::optional<ElementId> hand) {
 void SizeTestView::fit() {
   fitted_ = frame_->mesh;
   auto box = bounds(*fitted_);
-  const Point room = roomForTheHand * (box[1] - box[0]);
+  const Point room = roomForHandle * (box[1] - box[0]);
   box[0] -= room;
   box[1] += room;
   camera_.fit(box, std::span(fitted_->axes).first(std::size_t(fitted_->space_dimension)), size());
@@ -94,9 +94,9 @@ void SizeTestView::paintGL() {
   painter_.setFrame(*frame_, uncut_);
   const auto in = scene();
   painter_.drawObject(in, {colour_, nullptr, {}}, 1 / camera_.unitsPerPixel(size()));
-  if (hand_) {
-    painter_.drawElements(in, std::span(&*hand_, 1), colours::background, handSize + 4);
-    painter_.drawElements(in, std::span(&*hand_, 1), colours::lit, handSize);
+  if (handle_) {
+    painter_.drawElements(in, std::span(&*handle_, 1), colours::background, handleSize + 4);
+    painter_.drawElements(in, std::span(&*handle_, 1), colours::lit, handleSize);
   }
 }
 

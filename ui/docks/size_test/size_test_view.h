@@ -11,7 +11,7 @@
 
 namespace chainmail {
 
-/// Draws the grid of the size test, in the middle of room for the hand.
+/// Draws the grid of the size test, with space around it for the handle.
 class SizeTestView : public QOpenGLWidget {
   Q_OBJECT
 
@@ -19,8 +19,8 @@ class SizeTestView : public QOpenGLWidget {
   SizeTestView(std::shared_ptr<MeshLevels> levels, colours::Colour colour);
   ~SizeTestView() override;
 
-  /// A frame that stays as it is until the next one is shown, and the element in the hand.
-  void show(const Frame& frame, std::optional<ElementId> hand);
+  /// Shows a frame, which must not change until the next one is shown, and the handle.
+  void show(const Frame& frame, std::optional<ElementId> handle);
   FrameMeter& meter() { return meter_; }
 
  signals:
@@ -41,8 +41,8 @@ class SizeTestView : public QOpenGLWidget {
   FrameMeter meter_;
   Cuts uncut_;
   const Frame* frame_ = nullptr;
-  MeshPointer fitted_;  // the mesh that the camera shows
-  std::optional<ElementId> hand_;
+  MeshPointer fitted_;  // the mesh that the camera is fitted to
+  std::optional<ElementId> handle_;
   bool ready_ = false;
 };
 

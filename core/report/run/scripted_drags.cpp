@@ -1,4 +1,4 @@
-#include "report/run/hand.h"
+#include "report/run/scripted_drags.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,19 +9,19 @@
 namespace chainmail::report {
 namespace {
 
-// A step of the hand on average, in widths of the object.
+// Mean step of the handle, in widths of the object.
 constexpr double mean_step = 0.02;
-// By how much the hand may turn from move to move (radians), and how much of its turning it keeps.
+// Largest change of direction from move to move (radians), and the share of the turning that is kept.
 constexpr double turn = 0.15;
 constexpr double turning_kept = 0.8;
 
-HandDrag draw(const Mesh& mesh, double width, int moves, std::mt19937_64& random) {
-  HandDrag drag{static_cast<ElementId>(random() % mesh.element_count()), {}};
+ScriptedDrag draw_walk(const Mesh& mesh, double width, int moves, std::mt19937_64& random) {
+  ScriptedDrag drag{static_cast<ElementId>(random() % mesh.element_count()), {}};
   Point at = mesh.rest_position(drag.element);
   const double speed = mean_step * width * std::exp2(uniform(random, -1, 1));
   double direction = uniform(random, 0, 2 * std::numbers::pi), turning = 0;
   for (int move = 0; move < moves; ++move) {
-    // Half a sine from the first move to the last, its mean 1.
+    // Half a sine from the first move to the last, with mean 1.
     const double pace = std::numbers::pi / 2 * std::sin(std::numbers::pi * (move + 0.5) / moves);
     turning = turning_kept * turning + uniform(random, -turn, turn);
     direction += turning;
@@ -36,14 +36,14 @@ HandDrag draw(const Mesh& mesh, double width, int moves, std::mt19937_64& random
 
 }  // namespace
 
-std::vector<HandDrag> hand_drags(const Mesh& mesh, std::uint64_t seed, int drags, int moves) {
+std::vector<ScriptedDrag> scripted_drags(const Mesh& mesh, std::uint64_t seed, int drags, int moves) {
   const auto [low, high] = bounds(mesh);
   const double width = (high - low).maxCoeff();
   std::mt19937_64 random(seed);
-  std::vector<HandDrag> result;
+  std::vector<ScriptedDrag> result;
   result.reserve(static_cast<std::size_t>(drags));
   for (int i = 0; i < drags; ++i) {
-    result.push_back(draw(mesh, width, moves, random));
+    result.push_back(draw_walk(mesh, width, moves, random));
   }
   return result;
 }

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <ostream>
+
+#include "report/page/figure_table.h"
+#include "report/run/physics.h"
+
+namespace chainmail::report {
+
+/// Returns relative errors and times of all objects for a terminal: contestants without sweeps, and calibrated ones.
+FigureTable physics_summary(const PhysicsReport& report);
+/// Returns the main table of one object: relative errors and times; on a page also errors over the displacement of the
+/// handle.
+FigureTable physics_table(const PhysicsObject& object, bool for_text = false);
+/// Returns the largest size of each contestant, and the growth of its time.
+FigureTable growth_table(const PhysicsGrowth& growth);
+
+/// Writes the report as text.
+void write_text(std::ostream& out, const PhysicsReport& report);
+
+}  // namespace chainmail::report
