@@ -660,9 +660,7 @@ Algorithm Document::unusedAlgorithm() const {
 }
 
 /// Free-form deformation is the only elastic method that needs no pins.
-bool Document::lacksPins(int panel) const {
-  return pins().empty() && info(algorithm(panel)).needs_pins;
-}
+bool Document::lacksPins(int panel) const { return pins().empty() && info(algorithm(panel)).needs_pins; }
 
 void Document::postAlgorithm(int panel, Algorithm algorithm) {
   dropWaypoints();

@@ -386,8 +386,8 @@ QString Colouring::errorText(const Work& work) const {
   const BackgroundReference::Answer& answer = *solution_.answer();
   const QLocale locale;
   return QStringLiteral(" on the same cells: relative %1, nothing moves %2; RMS %3")
-      .arg(locale.toString(work.rms * answer.solution.handle_displacement / answer.rms, 'g', 3), locale.toString(answer.nothing, 'g', 3),
-           locale.toString(work.rms, 'g', 3));
+      .arg(locale.toString(work.rms * answer.solution.handle_displacement / answer.rms, 'g', 3),
+           locale.toString(answer.nothing, 'g', 3), locale.toString(work.rms, 'g', 3));
 }
 
 }  // namespace chainmail

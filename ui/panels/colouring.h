@@ -8,8 +8,8 @@
 #include <span>
 #include <string_view>
 
-#include "document/document.h"
 #include "document/background_reference.h"
+#include "document/document.h"
 #include "drawing/colour_values.h"
 
 namespace chainmail {

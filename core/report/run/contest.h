@@ -17,8 +17,8 @@ class Contest {
   ~Contest();
 
   /// Runs a drag with all contestants, and compares them with the reference solution at its end.
-  std::vector<PhysicsEntry> run(const RecordedMoves& moves, const ReferenceSolution& truth, const std::function<void(double)>& tell,
-                                const std::stop_token& stop);
+  std::vector<PhysicsEntry> run(const RecordedMoves& moves, const ReferenceSolution& truth,
+                                const std::function<void(double)>& tell, const std::stop_token& stop);
 
  private:
   class Participant;
