@@ -14,7 +14,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int refreshMilliseconds = 100;
+constexpr int elementRefreshMilliseconds = 100;
 // The hub of a star may have as many neighbours as there are elements.
 constexpr int mostRows = 200;
 constexpr int shownRows = 6;
@@ -60,7 +60,7 @@ ElementDock::ElementDock(Document& document)
       QStringLiteral("Softness relative to the rest vector; largest violation of all panels in rest lengths.\n"
                      "Double-click or Enter: go to this neighbour"));
   refresh_.setSingleShot(true);
-  refresh_.setInterval(refreshMilliseconds);
+  refresh_.setInterval(elementRefreshMilliseconds);
   arrange();
   listen();
   adaptToMesh();

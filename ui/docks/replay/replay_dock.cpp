@@ -19,7 +19,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int refreshMilliseconds = 50;
+constexpr int tapeRefreshMilliseconds = 50;
 constexpr int standardSpeed = 60;  // moves per second, the rate at which drags are sampled
 
 QString movesFilter() { return QStringLiteral("Recorded moves (*.json)"); }
@@ -43,7 +43,7 @@ ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
   playing_.setTimerType(Qt::PreciseTimer);
   connect(&playing_, &QTimer::timeout, this, &ReplayDock::playOn);
   refresh_.setSingleShot(true);
-  refresh_.setInterval(refreshMilliseconds);
+  refresh_.setInterval(tapeRefreshMilliseconds);
   connect(&refresh_, &QTimer::timeout, this, &ReplayDock::showTape);
   connect(&document, &Document::tapeChanged, this, &ReplayDock::scheduleShow);
   connect(&document, &Document::meshChanged, this, [this] { setPlaying(false); });
