@@ -15,19 +15,19 @@ using namespace chainmail;
 
 namespace {
 
-std::vector<std::uint32_t> allCells(const MeshLevel& level) {
-  std::vector<std::uint32_t> cells(level.cellCount());
-  std::iota(cells.begin(), cells.end(), 0U);
-  return cells;
+std::vector<std::uint32_t> allClusters(const MeshLevel& level) {
+  std::vector<std::uint32_t> clusters(level.clusterCount());
+  std::iota(clusters.begin(), clusters.end(), 0U);
+  return clusters;
 }
 
 /// The ends of the links that are drawn, as they come.
 std::vector<ElementId> ends(const MeshLevelPointer& level, const Cuts& cuts) {
-  return drawnLinks(*level, cuts, allCells(*level)).ends;
+  return drawnLinks(*level, cuts, allClusters(*level)).ends;
 }
 
 std::size_t faceCount(const MeshLevelPointer& level, const Cuts& cuts) {
-  return drawnFaces(*level, cuts, allCells(*level)).size() / 3;
+  return drawnFaces(*level, cuts, allClusters(*level)).size() / 3;
 }
 
 /// Whether two elements hang together by links that are drawn.
@@ -92,12 +92,12 @@ class DrawnIndices : public QObject {
     QCOMPARE(faceCount(wholeLevel(mesh), Cuts(mesh)), 2U);
   }
 
-  void everyLinkAndFaceIsInOneCell() {
+  void everyLinkAndFaceIsInOneCluster() {
     for (const auto& mesh : {generate({MeshKind::cloth, {70, 33, 1}, 1, {}}), plainCloth(70, 33),
                              generate({MeshKind::tetra, {13, 14, 15}, 1, {}})}) {
       const auto level = wholeLevel(mesh);
-      QVERIFY(level->cellCount() > 4);
-      auto numbers = drawnLinks(*level, Cuts(mesh), allCells(*level)).numbers;
+      QVERIFY(level->clusterCount() > 4);
+      auto numbers = drawnLinks(*level, Cuts(mesh), allClusters(*level)).numbers;
       std::sort(numbers.begin(), numbers.end());
       QCOMPARE(numbers.size(), mesh->links.size());
       QVERIFY(std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end());

@@ -155,7 +155,7 @@ class Picking : public QObject {
         RC_ASSERT(scene.crossed(cuts, {from, to}) == crossed);
       }
     };
-    QVERIFY(test::check_property("cells that are passed over hold nothing of the answer", holds));
+    QVERIFY(test::check_property("clusters that are passed over hold nothing of the answer", holds));
   }
 
   /// Boxes of every element, and of coarse links, which reach further.
@@ -171,12 +171,12 @@ class Picking : public QObject {
       moveCamera(scene, random);
       scene.boxes.follow(level, scene.frame);
       const QRectF view(QPointF(), scene.view);
-      const auto seen = cellsSeen(scene.boxes, scene.projection());
-      for (std::uint32_t cell = 0; cell < level->cellCount(); ++cell) {
-        if (std::binary_search(seen.begin(), seen.end(), cell)) {
+      const auto seen = clustersSeen(scene.boxes, scene.projection());
+      for (std::uint32_t cluster = 0; cluster < level->clusterCount(); ++cluster) {
+        if (std::binary_search(seen.begin(), seen.end(), cluster)) {
           continue;
         }
-        for (const std::uint32_t link : level->cellLinks[cell]) {
+        for (const std::uint32_t link : level->clusterLinks[cluster]) {
           for (int step = 0; step <= 16; ++step) {
             const auto at = along(scene, level->links[link], float(step) / 16);
             RC_ASSERT(!(at.visible() && view.contains(QPointF(at.x, at.y))));

@@ -37,7 +37,7 @@ struct Scene {
   Frame frame;
   Camera camera;
   MeshLevelPointer level;
-  CellBoxes boxes;
+  ClusterBoxes boxes;
 };
 
 }  // namespace chainmail

@@ -59,7 +59,7 @@ void addFaces(MeshLevel& level, std::span<const MeshLevel::Face> finer, Represen
 MeshLevelPointer finished(std::shared_ptr<MeshLevel> level) {
   level->links = level->coarseLinks;
   level->faces = level->coarseFaces;
-  makeCells(*level);
+  makeClusters(*level);
   return level;
 }
 

@@ -11,10 +11,10 @@ ElementId scatter(ElementId e) { return e * 2654435761U >> 16; }
 
 }  // namespace
 
-DrawnLinks drawnLinks(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& cells) {
+DrawnLinks drawnLinks(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& clusters) {
   DrawnLinks drawn;
-  for (const std::uint32_t cell : cells) {
-    for (const std::uint32_t link : level.cellLinks[cell]) {
+  for (const std::uint32_t cluster : clusters) {
+    for (const std::uint32_t link : level.clusterLinks[cluster]) {
       if (level.isUncut(link, cuts)) {
         drawn.numbers.push_back(link);
         drawn.ends.insert(drawn.ends.end(), level.links[link].begin(), level.links[link].end());
@@ -24,10 +24,11 @@ DrawnLinks drawnLinks(const MeshLevel& level, const Cuts& cuts, const std::vecto
   return drawn;
 }
 
-std::vector<ElementId> drawnFaces(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& cells) {
+std::vector<ElementId> drawnFaces(const MeshLevel& level, const Cuts& cuts,
+                                  const std::vector<std::uint32_t>& clusters) {
   std::vector<ElementId> indices;
-  for (const std::uint32_t cell : cells) {
-    for (const std::uint32_t face : level.cellFaces[cell]) {
+  for (const std::uint32_t cluster : clusters) {
+    for (const std::uint32_t face : level.clusterFaces[cluster]) {
       if (level.isWhole(face, cuts)) {
         indices.insert(indices.end(), level.faces[face].begin(), level.faces[face].end());
       }

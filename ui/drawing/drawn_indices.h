@@ -15,11 +15,11 @@ struct DrawnLinks {
   std::vector<ElementId> ends;
 };
 
-/// Returns the links of some cells that are not cut.
-DrawnLinks drawnLinks(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& cells);
+/// Returns the links of some clusters that are not cut.
+DrawnLinks drawnLinks(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& clusters);
 
-/// Returns three corners per face of some cells, without faces that have a cut side.
-std::vector<ElementId> drawnFaces(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& cells);
+/// Returns three corners per face of some clusters, without faces that have a cut side.
+std::vector<ElementId> drawnFaces(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& clusters);
 
 /// Returns the visible links of a volume: those on its surface, and those that are part of no cell.
 DrawnLinks surfaceLinks(const Surface& surface, const Cuts& cuts);

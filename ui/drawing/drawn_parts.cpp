@@ -11,7 +11,7 @@ namespace chainmail {
 namespace {
 
 // An object with more links and faces than this is drawn more coarsely if its links are shorter than `fewestPixels` or
-// if too many of them are in the view. It is drawn cell by cell.
+// if too many of them are in the view. It is drawn cluster by cluster.
 constexpr std::size_t mostShapes = 60'000;
 constexpr double fewestPixels = 3;  // per link
 constexpr unsigned coarsestStep = 64;
@@ -61,12 +61,12 @@ bool DrawnParts::choose(const ObjectDrawing::Scene& scene, const ObjectDrawing::
     level_ = levels_->at(mesh_, step_);
     outdated_ = true;
   }
-  auto cells = visibleCells(scene, level_, boxes_);
-  if (!outdated_ && cells == cells_) {
+  auto clusters = visibleClusters(scene, level_, boxes_);
+  if (!outdated_ && clusters == clusters_) {
     return false;
   }
   outdated_ = false;
-  cells_ = std::move(cells);
+  clusters_ = std::move(clusters);
   return true;
 }
 
@@ -115,34 +115,34 @@ void DrawnParts::chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerU
   }
 }
 
-/// Returns the share of the cells that may be visible.
+/// Returns the share of the clusters that may be visible.
 double DrawnParts::shareInView(const ObjectDrawing::Scene& scene) {
   const auto whole = levels_->at(mesh_, 1);
-  const auto seen = visibleCells(scene, whole, wholeBoxes_);
-  return double(seen.size()) / double(whole->cellCount());
+  const auto seen = visibleClusters(scene, whole, wholeBoxes_);
+  return double(seen.size()) / double(whole->clusterCount());
 }
 
-std::vector<std::uint32_t> DrawnParts::visibleCells(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
-                                                    CellBoxes& boxes) const {
+std::vector<std::uint32_t> DrawnParts::visibleClusters(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
+                                                       ClusterBoxes& boxes) const {
   if (level->links.size() + level->faces.size() <= mostShapes) {
-    std::vector<std::uint32_t> all(level->cellCount());
+    std::vector<std::uint32_t> all(level->clusterCount());
     std::iota(all.begin(), all.end(), 0U);
     return all;
   }
   boxes.follow(level, *frame_);
-  return cellsSeen(boxes, Projection(*mesh_, scene.toView, scene.toClip, scene.size));
+  return clustersSeen(boxes, Projection(*mesh_, scene.toView, scene.toClip, scene.size));
 }
 
 DrawnLinks DrawnParts::links() const {
   return !parts_.links      ? DrawnLinks()
          : parts_.ofSurface ? surfaceLinks(surface(), *cuts_)
-                            : drawnLinks(*level_, *cuts_, cells_);
+                            : drawnLinks(*level_, *cuts_, clusters_);
 }
 
 std::vector<ElementId> DrawnParts::faces() const {
   return !parts_.faces      ? std::vector<ElementId>()
          : parts_.ofSurface ? surfaceFaces(surface(), *cuts_)
-                            : drawnFaces(*level_, *cuts_, cells_);
+                            : drawnFaces(*level_, *cuts_, clusters_);
 }
 
 const Section* DrawnParts::section() const { return plane_ ? &levels_->section(mesh_, *cuts_, *plane_) : nullptr; }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "drawing/cell_boxes.h"
+#include "drawing/cluster_boxes.h"
 #include "drawing/drawn_indices.h"
 #include "drawing/mesh_levels.h"
 #include "drawing/object_drawing.h"
@@ -54,9 +54,9 @@ class DrawnParts {
   bool hidesSurface(std::size_t links, double pixelsPerUnit) const;
   void chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit);
   double shareInView(const ObjectDrawing::Scene& scene);
-  /// Returns the cells of a level that may be visible.
-  std::vector<std::uint32_t> visibleCells(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
-                                          CellBoxes& boxes) const;
+  /// Returns the clusters of a level that may be visible.
+  std::vector<std::uint32_t> visibleClusters(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
+                                             ClusterBoxes& boxes) const;
 
   std::shared_ptr<MeshLevels> levels_;
   MeshPointer mesh_;
@@ -65,9 +65,9 @@ class DrawnParts {
   Parts parts_;
   unsigned step_ = 1;
   MeshLevelPointer level_;
-  CellBoxes boxes_;       // of level_
-  CellBoxes wholeBoxes_;  // of the level with every element
-  std::vector<std::uint32_t> cells_;
+  ClusterBoxes boxes_;       // of level_
+  ClusterBoxes wholeBoxes_;  // of the level with every element
+  std::vector<std::uint32_t> clusters_;
   std::optional<SectionPlane> plane_;  // of the section
   bool outdated_ = true, sectionOutdated_ = true;
 };

@@ -91,20 +91,20 @@ std::vector<SeenFace> facesAt(const Frame& frame, const Projection& projection, 
   return seen;
 }
 
-/// Returns where the faces of each cell may appear. They extend to the cells that it reaches.
-std::vector<ViewBounds> faceBounds(const CellBoxes& boxes, const Projection& projection) {
+/// Returns where the faces of each cluster may appear. They extend to the clusters that it reaches.
+std::vector<ViewBounds> faceBounds(const ClusterBoxes& boxes, const Projection& projection) {
   const MeshLevel& level = boxes.level();
-  std::vector<ViewBounds> own(level.cellCount());
-  for (std::size_t cell = 0; cell < own.size(); ++cell) {
-    own[cell] = projection.bounds(boxes[cell]);
+  std::vector<ViewBounds> own(level.clusterCount());
+  for (std::size_t cluster = 0; cluster < own.size(); ++cluster) {
+    own[cluster] = projection.bounds(boxes[cluster]);
   }
   std::vector<ViewBounds> bounds = own;
-  for (std::size_t cell = 0; cell < own.size(); ++cell) {
-    for (const std::uint32_t other : level.reached[cell]) {
-      if (own[cell].empty() != own[other].empty()) {
-        bounds[cell] = ViewBounds::everywhere();  // the faces extend from in front of the eye to behind it
+  for (std::size_t cluster = 0; cluster < own.size(); ++cluster) {
+    for (const std::uint32_t other : level.reached[cluster]) {
+      if (own[cluster].empty() != own[other].empty()) {
+        bounds[cluster] = ViewBounds::everywhere();  // the faces extend from in front of the eye to behind it
       }
-      bounds[cell].unite(own[other]);
+      bounds[cluster].unite(own[other]);
     }
   }
   return bounds;
@@ -129,8 +129,8 @@ Crossing crossingOf(const Frame& frame, const Projection& projection, QLineF str
 }
 
 /// Returns the elements within `about` pixels of the bounds of a stroke, with their depths in pixels.
-std::vector<Spot> elementsAbout(const Frame& frame, const CellBoxes& boxes, const Projection& projection, QLineF stroke,
-                                double about) {
+std::vector<Spot> elementsAbout(const Frame& frame, const ClusterBoxes& boxes, const Projection& projection,
+                                QLineF stroke, double about) {
   const QRectF bounds = QRectF(stroke.p1(), stroke.p2()).normalized().adjusted(-about, -about, about, about);
   std::vector<Spot> spots;
   for (const ElementId element :
@@ -143,16 +143,16 @@ std::vector<Spot> elementsAbout(const Frame& frame, const CellBoxes& boxes, cons
 
 }  // namespace
 
-std::vector<Face> wholeFaces(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts, const Projection& projection,
-                             QRectF part) {
+std::vector<Face> wholeFaces(const Frame& frame, const ClusterBoxes& boxes, const Cuts& cuts,
+                             const Projection& projection, QRectF part) {
   const MeshLevel& level = boxes.level();
   std::vector<Face> faces;
   const auto bounds = faceBounds(boxes, projection);
-  for (std::size_t cell = 0; cell < level.cellCount(); ++cell) {
-    if (!bounds[cell].meets(part)) {
+  for (std::size_t cluster = 0; cluster < level.clusterCount(); ++cluster) {
+    if (!bounds[cluster].meets(part)) {
       continue;
     }
-    for (const std::uint32_t face : level.cellFaces[cell]) {
+    for (const std::uint32_t face : level.clusterFaces[cluster]) {
       const auto& [a, b, c] = level.faces[face];
       if (!is_cut_between(*frame.mesh, cuts, a, b) && !is_cut_between(*frame.mesh, cuts, b, c) &&
           !is_cut_between(*frame.mesh, cuts, c, a)) {
@@ -185,7 +185,7 @@ std::vector<LinkId> unhiddenLinks(const Frame& frame, const Projection& projecti
   return unhidden;
 }
 
-std::vector<LinkId> nearestLinks(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
+std::vector<LinkId> nearestLinks(const Frame& frame, const ClusterBoxes& boxes, const Projection& projection,
                                  QLineF stroke, std::span<const LinkId> crossed) {
   std::vector<Crossing> crossings;
   double about = 0;

@@ -14,8 +14,8 @@ namespace chainmail {
 using Face = std::array<ElementId, 3>;
 
 /// Returns the triangles of the mesh without a cut side that may appear in a part of the view (logical pixels).
-std::vector<Face> wholeFaces(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts, const Projection& projection,
-                             QRectF part);
+std::vector<Face> wholeFaces(const Frame& frame, const ClusterBoxes& boxes, const Cuts& cuts,
+                             const Projection& projection, QRectF part);
 
 /// Appends the faces of a volume's surface.
 void appendFaces(const Surface& surface, std::vector<Face>& faces);
@@ -26,7 +26,7 @@ std::vector<LinkId> unhiddenLinks(const Frame& frame, const Projection& projecti
 
 /// Returns the same for an object without faces: the links that are, where they cross the stroke, less than a mean link
 /// length behind the nearest element around there.
-std::vector<LinkId> nearestLinks(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
+std::vector<LinkId> nearestLinks(const Frame& frame, const ClusterBoxes& boxes, const Projection& projection,
                                  QLineF stroke, std::span<const LinkId> crossed);
 
 }  // namespace chainmail

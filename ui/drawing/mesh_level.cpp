@@ -10,8 +10,8 @@
 namespace chainmail {
 namespace {
 
-constexpr std::size_t cellElements = 256;  // approximately
-constexpr unsigned keyBits = 10;           // per axis
+constexpr std::size_t clusterElements = 256;  // approximately
+constexpr unsigned keyBits = 10;              // per axis
 
 /// Spreads ten bits with two free bits between neighbours.
 std::uint32_t spread(std::uint32_t bits) {
@@ -54,11 +54,11 @@ std::vector<ElementId> sortedAlongCurve(const Mesh& mesh, std::vector<ElementId>
   return elements;
 }
 
-/// The cells of a lattice are bricks, with as many rows along each axis as fill a cell approximately.
+/// The clusters of a lattice are bricks, with as many rows along each axis as fill a cluster approximately.
 struct Bricks {
   Bricks(const Mesh& mesh, unsigned step) : size(mesh.lattice->size) {
     const auto axes = std::count_if(size.begin(), size.end(), [](auto one) { return one > 1; });
-    rows = step * std::uint32_t(axes == 3 ? 6 : axes == 2 ? 16 : cellElements);
+    rows = step * std::uint32_t(axes == 3 ? 6 : axes == 2 ? 16 : clusterElements);
     for (int k = 0; k < 3; ++k) {
       count[k] = (size[k] + rows - 1) / rows;
     }
@@ -71,67 +71,67 @@ struct Bricks {
   std::uint32_t rows = 1;
 };
 
-Groups cellsOf(const MeshLevel& level) {
+Groups clustersOf(const MeshLevel& level) {
   if (level.mesh->lattice) {
     const Bricks bricks(*level.mesh, level.step);
-    Groups cells = grouped(std::size_t{bricks.count[0]} * bricks.count[1] * bricks.count[2], level.elements.size(),
-                           [&](std::uint32_t i) { return bricks.of(level.elements[i]); });
-    std::ranges::transform(cells.items, cells.items.begin(), [&](std::uint32_t i) { return level.elements[i]; });
-    return cells;
+    Groups clusters = grouped(std::size_t{bricks.count[0]} * bricks.count[1] * bricks.count[2], level.elements.size(),
+                              [&](std::uint32_t i) { return bricks.of(level.elements[i]); });
+    std::ranges::transform(clusters.items, clusters.items.begin(), [&](std::uint32_t i) { return level.elements[i]; });
+    return clusters;
   }
-  Groups cells;
-  cells.items = sortedAlongCurve(*level.mesh, level.elements);
-  for (std::size_t end = cellElements; end < cells.items.size(); end += cellElements) {
-    cells.first.push_back(std::uint32_t(end));
+  Groups clusters;
+  clusters.items = sortedAlongCurve(*level.mesh, level.elements);
+  for (std::size_t end = clusterElements; end < clusters.items.size(); end += clusterElements) {
+    clusters.first.push_back(std::uint32_t(end));
   }
-  cells.close();
-  return cells;
+  clusters.close();
+  return clusters;
 }
 
-/// Finds the cells that each cell reaches, and sorts its links by them.
-void findReached(MeshLevel& level, const std::vector<std::uint32_t>& cellOf) {
-  std::vector<std::uint32_t> slotOf(level.cellCount()), seenBy(level.cellCount(), MeshLevel::none), ends, sorted;
-  for (std::uint32_t cell = 0; cell < level.cellCount(); ++cell) {
+/// Finds the clusters that each cluster reaches, and sorts its links by them.
+void findReached(MeshLevel& level, const std::vector<std::uint32_t>& clusterOf) {
+  std::vector<std::uint32_t> slotOf(level.clusterCount()), seenBy(level.clusterCount(), MeshLevel::none), ends, sorted;
+  for (std::uint32_t cluster = 0; cluster < level.clusterCount(); ++cluster) {
     const auto add = [&](ElementId element) {
-      const std::uint32_t other = cellOf[element];
-      if (seenBy[other] != cell) {
-        seenBy[other] = cell;
+      const std::uint32_t other = clusterOf[element];
+      if (seenBy[other] != cluster) {
+        seenBy[other] = cluster;
         slotOf[other] = std::uint32_t(ends.size());
         level.reached.items.push_back(other);
         ends.push_back(0);
       }
       return slotOf[other];
     };
-    const auto links = level.cellLinks[cell];
+    const auto links = level.clusterLinks[cluster];
     ends.clear();
     for (const std::uint32_t link : links) {
       ++ends[add(level.links[link][1])];
     }
-    for (const std::uint32_t face : level.cellFaces[cell]) {
+    for (const std::uint32_t face : level.clusterFaces[cluster]) {
       add(level.faces[face][1]);
       add(level.faces[face][2]);
     }
     std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), 0U);
-    const std::uint32_t first = level.cellLinks.first[cell];
+    const std::uint32_t first = level.clusterLinks.first[cluster];
     std::ranges::transform(ends, std::back_inserter(level.reachedLinks), [first](auto end) { return first + end; });
     sorted.resize(links.size());
     for (const std::uint32_t link : links) {
-      sorted[ends[slotOf[cellOf[level.links[link][1]]]]++] = link;
+      sorted[ends[slotOf[clusterOf[level.links[link][1]]]]++] = link;
     }
-    std::ranges::copy(sorted, level.cellLinks.items.begin() + first);
+    std::ranges::copy(sorted, level.clusterLinks.items.begin() + first);
     level.reached.close();
   }
   level.reachedLinks.push_back(std::uint32_t(level.links.size()));
 }
 
-/// Returns the blocks that contain each cell's elements.
+/// Returns the blocks that contain each cluster's elements.
 Groups blocksOf(const MeshLevel& level) {
   Groups result;
   std::vector<std::uint32_t> seenBy(level.mesh->element_count() / Frame::block_elements + 1, MeshLevel::none);
-  for (std::uint32_t cell = 0; cell < level.cellCount(); ++cell) {
-    for (const ElementId e : level.cells[cell]) {
-      if (std::uint32_t& seen = seenBy[e / Frame::block_elements]; seen != cell) {
-        seen = cell;
+  for (std::uint32_t cluster = 0; cluster < level.clusterCount(); ++cluster) {
+    for (const ElementId e : level.clusters[cluster]) {
+      if (std::uint32_t& seen = seenBy[e / Frame::block_elements]; seen != cluster) {
+        seen = cluster;
         result.items.push_back(e / Frame::block_elements);
       }
     }
@@ -163,18 +163,20 @@ bool isWholeFace(const Mesh& mesh, const Cuts& cuts, const MeshLevel::Face& face
   return !is_cut_between(mesh, cuts, a, b) && !is_cut_between(mesh, cuts, b, c) && !is_cut_between(mesh, cuts, c, a);
 }
 
-void makeCells(MeshLevel& level) {
-  level.cells = cellsOf(level);
-  std::vector<std::uint32_t> cellOf(level.mesh->element_count());
-  for (std::uint32_t cell = 0; cell < level.cellCount(); ++cell) {
-    for (const ElementId e : level.cells[cell]) {
-      cellOf[e] = cell;
+void makeClusters(MeshLevel& level) {
+  level.clusters = clustersOf(level);
+  std::vector<std::uint32_t> clusterOf(level.mesh->element_count());
+  for (std::uint32_t cluster = 0; cluster < level.clusterCount(); ++cluster) {
+    for (const ElementId e : level.clusters[cluster]) {
+      clusterOf[e] = cluster;
     }
   }
-  level.cellLinks = grouped(level.cellCount(), level.links.size(), [&](auto i) { return cellOf[level.links[i][0]]; });
-  level.cellFaces = grouped(level.cellCount(), level.faces.size(), [&](auto i) { return cellOf[level.faces[i][0]]; });
-  findReached(level, cellOf);
-  level.cellBlocks = blocksOf(level);
+  level.clusterLinks =
+      grouped(level.clusterCount(), level.links.size(), [&](auto i) { return clusterOf[level.links[i][0]]; });
+  level.clusterFaces =
+      grouped(level.clusterCount(), level.faces.size(), [&](auto i) { return clusterOf[level.faces[i][0]]; });
+  findReached(level, clusterOf);
+  level.clusterBlocks = blocksOf(level);
 }
 
 MeshLevelPointer wholeLevel(const MeshPointer& mesh) {
@@ -184,7 +186,7 @@ MeshLevelPointer wholeLevel(const MeshPointer& mesh) {
   level->faces = mesh->triangles;
   level->elements.resize(mesh->element_count());
   std::iota(level->elements.begin(), level->elements.end(), ElementId{0});
-  makeCells(*level);
+  makeClusters(*level);
   return level;
 }
 

@@ -44,8 +44,8 @@ Groups grouped(std::size_t groups, std::size_t size, GroupOf groupOf) {
 }
 
 /// One level of detail of a mesh, for drawing and searching: the whole mesh, or some of its elements joined by coarse
-/// links, each of which replaces a path of links. Groups of elements that are close together at rest form cells, so
-/// that a search can skip them together. (These cells are not tetrahedra or hexahedra.)
+/// links, each of which replaces a path of links. Groups of elements that are close together at rest form clusters, so
+/// that a search can skip them together.
 struct MeshLevel {
   using Link = std::array<ElementId, 2>;
   using Face = std::array<ElementId, 3>;
@@ -56,12 +56,12 @@ struct MeshLevel {
   std::span<const Link> links;  // the mesh's own at step 1
   std::span<const Face> faces;
   std::vector<ElementId> elements;
-  Groups cells;      // of elements
-  Groups cellLinks;  // each link is in the cell of its first element
-  Groups cellFaces;
-  Groups reached;                           // the cells that a cell's links and faces lead to; may include the cell
-  std::vector<std::uint32_t> reachedLinks;  // index in cellLinks of the first link to each reached cell, and the end
-  Groups cellBlocks;                        // the blocks of Frame::changed that contain a cell's elements
+  Groups clusters;      // of elements
+  Groups clusterLinks;  // each link is in the cluster of its first element
+  Groups clusterFaces;
+  Groups reached;  // the clusters that a cluster's links and faces lead to; may include the cluster
+  std::vector<std::uint32_t> reachedLinks;  // indices in clusterLinks of the first links to each reached one
+  Groups clusterBlocks;                     // the blocks of Frame::changed that contain a cluster's elements
 
   // Only for steps above 1.
   std::vector<Link> coarseLinks;
@@ -73,7 +73,7 @@ struct MeshLevel {
   MeshLevel(const MeshLevel&) = delete;  // the spans refer to the level's own vectors
   MeshLevel& operator=(const MeshLevel&) = delete;
 
-  std::size_t cellCount() const { return cells.count(); }
+  std::size_t clusterCount() const { return clusters.count(); }
   /// True if none of the links that this link replaces is cut.
   bool isUncut(std::uint32_t link, const Cuts& cuts) const;
   /// True if no side of a face is cut.
@@ -88,7 +88,7 @@ using MeshLevelPointer = std::shared_ptr<const MeshLevel>;
 /// Returns the level with every element, link and face.
 MeshLevelPointer wholeLevel(const MeshPointer& mesh);
 
-/// Computes the cells from the elements (in any order), the links and the faces.
-void makeCells(MeshLevel& level);
+/// Computes the clusters from the elements (in any order), the links and the faces.
+void makeClusters(MeshLevel& level);
 
 }  // namespace chainmail

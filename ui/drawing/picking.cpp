@@ -27,7 +27,7 @@ bool segmentsCross(QLineF a, QLineF b) {
   return side(a, b.p1()) * side(a, b.p2()) <= 0 && side(b, a.p1()) * side(b, a.p2()) <= 0 && !a.isNull() && !b.isNull();
 }
 
-/// Returns where links between two cells may appear: anywhere if they extend from in front of the eye to behind it.
+/// Returns where links between two clusters may appear: anywhere if they extend from in front of the eye to behind it.
 ViewBounds united(ViewBounds a, const ViewBounds& b) {
   if (a.empty() != b.empty()) {
     return ViewBounds::everywhere();
@@ -36,34 +36,34 @@ ViewBounds united(ViewBounds a, const ViewBounds& b) {
   return a;
 }
 
-std::vector<ViewBounds> cellBounds(const CellBoxes& boxes, const Projection& projection) {
-  std::vector<ViewBounds> bounds(boxes.level().cellCount());
-  for (std::size_t cell = 0; cell < bounds.size(); ++cell) {
-    bounds[cell] = projection.bounds(boxes[cell]);
+std::vector<ViewBounds> clusterBounds(const ClusterBoxes& boxes, const Projection& projection) {
+  std::vector<ViewBounds> bounds(boxes.level().clusterCount());
+  for (std::size_t cluster = 0; cluster < bounds.size(); ++cluster) {
+    bounds[cluster] = projection.bounds(boxes[cluster]);
   }
   return bounds;
 }
 
 }  // namespace
 
-std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
+std::optional<ElementId> nearestElement(const Frame& frame, const ClusterBoxes& boxes, const Projection& projection,
                                         QPointF position, double reach, const std::function<bool(ElementId)>& shown) {
   const int dimension = frame.mesh->space_dimension;
   const QRectF within(position - QPointF(reach, reach), position + QPointF(reach, reach));
   std::optional<ElementId> best;
   float bestScore = 0;
-  for (std::size_t cell = 0; cell < boxes.level().cellCount(); ++cell) {
-    if (!projection.bounds(boxes[cell]).meets(within)) {
+  for (std::size_t cluster = 0; cluster < boxes.level().clusterCount(); ++cluster) {
+    if (!projection.bounds(boxes[cluster]).meets(within)) {
       continue;
     }
-    for (const ElementId e : boxes.level().cells[cell]) {
+    for (const ElementId e : boxes.level().clusters[cluster]) {
       const auto at = projection(frame.positions.data() + std::size_t{e} * dimension);
       const float dx = at.x - float(position.x()), dy = at.y - float(position.y());
       if (!(dx * dx + dy * dy <= float(reach * reach)) || !at.visible() || (shown && !shown(e))) {
         continue;
       }
       const float score = std::hypot(dx, dy) + depthWeight * projection.depth(at);
-      // Of two equal ones the lower id wins, whatever the order of the cells.
+      // Of two equal ones the lower id wins, whatever the order of the clusters.
       if (!best || score < bestScore || (score == bestScore && e < *best)) {
         best = e;
         bestScore = score;
@@ -73,15 +73,15 @@ std::optional<ElementId> nearestElement(const Frame& frame, const CellBoxes& box
   return best;
 }
 
-std::vector<ElementId> elementsWhere(const Frame& frame, const CellBoxes& boxes, const Projection& projection,
+std::vector<ElementId> elementsWhere(const Frame& frame, const ClusterBoxes& boxes, const Projection& projection,
                                      QRectF bounds, const std::function<bool(QPointF)>& inside,
                                      const std::function<bool(ElementId)>& shown) {
   std::vector<ElementId> found;
-  for (std::size_t cell = 0; cell < boxes.level().cellCount(); ++cell) {
-    if (!projection.bounds(boxes[cell]).meets(bounds)) {
+  for (std::size_t cluster = 0; cluster < boxes.level().clusterCount(); ++cluster) {
+    if (!projection.bounds(boxes[cluster]).meets(bounds)) {
       continue;
     }
-    for (const ElementId e : boxes.level().cells[cell]) {
+    for (const ElementId e : boxes.level().clusters[cluster]) {
       const auto at = projection(frame.positions.data() + std::size_t{e} * frame.mesh->space_dimension);
       if (at.visible() && inside(QPointF(at.x, at.y)) && (!shown || shown(e))) {
         found.push_back(e);
@@ -99,48 +99,48 @@ double distanceFrom(QLineF segment, QPointF position) {
   return QLineF(segment.p1() + share * along, position).length();
 }
 
-std::vector<std::uint32_t> cellsSeen(const CellBoxes& boxes, const Projection& projection) {
+std::vector<std::uint32_t> clustersSeen(const ClusterBoxes& boxes, const Projection& projection) {
   const MeshLevel& level = boxes.level();
-  std::vector<unsigned> beyond(level.cellCount());
-  for (std::size_t cell = 0; cell < beyond.size(); ++cell) {
-    beyond[cell] = projection.beyond(boxes[cell]);
+  std::vector<unsigned> beyond(level.clusterCount());
+  for (std::size_t cluster = 0; cluster < beyond.size(); ++cluster) {
+    beyond[cluster] = projection.beyond(boxes[cluster]);
   }
   std::vector<std::uint32_t> seen;
-  for (std::uint32_t cell = 0; cell < beyond.size(); ++cell) {
-    const auto isSeen = [&](std::uint32_t other) { return (beyond[cell] & beyond[other]) == 0; };
-    if (isSeen(cell) || std::ranges::any_of(level.reached[cell], isSeen)) {
-      seen.push_back(cell);
+  for (std::uint32_t cluster = 0; cluster < beyond.size(); ++cluster) {
+    const auto isSeen = [&](std::uint32_t other) { return (beyond[cluster] & beyond[other]) == 0; };
+    if (isSeen(cluster) || std::ranges::any_of(level.reached[cluster], isSeen)) {
+      seen.push_back(cluster);
     }
   }
   return seen;
 }
 
-std::vector<LinkId> crossedLinks(const Frame& frame, const CellBoxes& boxes, const Cuts& cuts,
+std::vector<LinkId> crossedLinks(const Frame& frame, const ClusterBoxes& boxes, const Cuts& cuts,
                                  const Projection& projection, QLineF stroke) {
   const MeshLevel& level = boxes.level();
-  // Memory for all elements, of which only those in cells near the stroke are filled in.
+  // Memory for all elements, of which only those in clusters near the stroke are filled in.
   const auto places = std::make_unique_for_overwrite<Projection::Place[]>(level.mesh->element_count());
-  std::vector<bool> placed(level.cellCount());
-  const auto projectCell = [&](std::size_t cell) {
-    if (!placed[cell]) {
-      for (const ElementId e : level.cells[cell]) {
+  std::vector<bool> placed(level.clusterCount());
+  const auto projectCluster = [&](std::size_t cluster) {
+    if (!placed[cluster]) {
+      for (const ElementId e : level.clusters[cluster]) {
         places[e] = projection(frame.positions.data() + std::size_t{e} * level.mesh->space_dimension);
       }
-      placed[cell] = true;
+      placed[cluster] = true;
     }
   };
-  const auto bounds = cellBounds(boxes, projection);
+  const auto bounds = clusterBounds(boxes, projection);
   std::vector<LinkId> crossed;
-  for (std::size_t cell = 0; cell < bounds.size(); ++cell) {
-    for (std::uint32_t i = level.reached.first[cell]; i < level.reached.first[cell + 1]; ++i) {
+  for (std::size_t cluster = 0; cluster < bounds.size(); ++cluster) {
+    for (std::uint32_t i = level.reached.first[cluster]; i < level.reached.first[cluster + 1]; ++i) {
       const std::uint32_t other = level.reached.items[i];
-      if (!united(bounds[cell], bounds[other]).meets(stroke)) {
+      if (!united(bounds[cluster], bounds[other]).meets(stroke)) {
         continue;
       }
-      projectCell(cell);
-      projectCell(other);
+      projectCluster(cluster);
+      projectCluster(other);
       for (std::uint32_t at = level.reachedLinks[i]; at < level.reachedLinks[i + 1]; ++at) {
-        const LinkId link = level.cellLinks.items[at];
+        const LinkId link = level.clusterLinks.items[at];
         const auto &a = places[level.links[link][0]], &b = places[level.links[link][1]];
         if (a.visible() && b.visible() && segmentsCross(stroke, QLineF(a.x, a.y, b.x, b.y)) && !cuts.is_cut(link)) {
           crossed.push_back(link);

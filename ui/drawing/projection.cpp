@@ -78,7 +78,7 @@ float Projection::depth(const Place& place) const {
   return pixelsPerZ_ != 0 ? pixelsPerZ_ * place.z : pixelsPerDepth_ * std::log(place.distance);
 }
 
-std::array<double, 4> Projection::clipped(const CellBoxes::Box& box, int corner) const {
+std::array<double, 4> Projection::clipped(const ClusterBoxes::Box& box, int corner) const {
   const float* m = matrix_.constData();
   std::array<double, 4> clip{m[12], m[13], m[14], m[15]};
   for (int k = 0; k < dimension_; ++k) {
@@ -90,7 +90,7 @@ std::array<double, 4> Projection::clipped(const CellBoxes::Box& box, int corner)
   return clip;
 }
 
-unsigned Projection::beyond(const CellBoxes::Box& box) const {
+unsigned Projection::beyond(const ClusterBoxes::Box& box) const {
   unsigned sides = 31;
   for (int corner = 0; corner < 1 << dimension_ && sides != 0; ++corner) {
     const auto clip = clipped(box, corner);
@@ -102,7 +102,7 @@ unsigned Projection::beyond(const CellBoxes::Box& box) const {
 }
 
 /// The projection of a convex body in front of the eye is within the bounds of its projected corners.
-ViewBounds Projection::bounds(const CellBoxes::Box& box) const {
+ViewBounds Projection::bounds(const ClusterBoxes::Box& box) const {
   const float* m = matrix_.constData();
   std::array<double, 4> size{};  // sum of the magnitudes of the terms of each row
   for (int row = 0; row < 4; ++row) {

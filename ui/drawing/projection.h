@@ -5,7 +5,7 @@
 #include <QRectF>
 #include <limits>
 
-#include "drawing/cell_boxes.h"
+#include "drawing/cluster_boxes.h"
 
 namespace chainmail {
 
@@ -48,13 +48,13 @@ class Projection {
   }
   /// Returns the sides of the view, as bits, beyond which the whole box is. Anything between two boxes is beyond the
   /// sides that they have in common, even if one of them is behind the eye.
-  unsigned beyond(const CellBoxes::Box& box) const;
+  unsigned beyond(const ClusterBoxes::Box& box) const;
   /// Returns where the contents of a box appear, rounding included: nowhere if the box is behind the eye, everywhere if
   /// a part of it is.
-  ViewBounds bounds(const CellBoxes::Box& box) const;
+  ViewBounds bounds(const ClusterBoxes::Box& box) const;
 
  private:
-  std::array<double, 4> clipped(const CellBoxes::Box& box, int corner) const;
+  std::array<double, 4> clipped(const ClusterBoxes::Box& box, int corner) const;
 
   QMatrix4x4 matrix_;
   int dimension_;

@@ -215,7 +215,7 @@ void View::zoom(double factor, QPointF about) {
 
 // Search: what is at a position in the view, and where things appear
 
-const CellBoxes& View::boxes(const Frame& frame) const {
+const ClusterBoxes& View::boxes(const Frame& frame) const {
   boxes_.follow(levels_->at(frame.mesh, 1), frame);
   return boxes_;
 }

@@ -134,7 +134,7 @@ class View : public QOpenGLWidget {
 
   /// Returns a filter for the elements that the section leaves; empty without a section.
   std::function<bool(ElementId)> shown() const;
-  const CellBoxes& boxes(const Frame& frame) const;
+  const ClusterBoxes& boxes(const Frame& frame) const;
   Projection projection() const;
   std::vector<MeshLevel::Face> frontFaces(const Frame& frame, QRectF part) const;
 
@@ -164,7 +164,7 @@ class View : public QOpenGLWidget {
   Tool* tool_ = nullptr;
   std::vector<Overlay*> overlays_;
   std::shared_ptr<MeshLevels> levels_;
-  mutable CellBoxes boxes_;  // of the newest frame that was searched
+  mutable ClusterBoxes boxes_;  // of the newest frame that was searched
   ObjectPainter painter_;
   Look look_;
   Ghost ghost_;

@@ -1,12 +1,12 @@
-#include "drawing/cell_boxes.h"
+#include "drawing/cluster_boxes.h"
 
 #include <algorithm>
 
 namespace chainmail {
 namespace {
 
-CellBoxes::Box boxOf(std::span<const ElementId> elements, const Frame& frame) {
-  CellBoxes::Box box;
+ClusterBoxes::Box boxOf(std::span<const ElementId> elements, const Frame& frame) {
+  ClusterBoxes::Box box;
   if (elements.empty()) {
     return box;
   }
@@ -25,11 +25,11 @@ CellBoxes::Box boxOf(std::span<const ElementId> elements, const Frame& frame) {
 
 }  // namespace
 
-void CellBoxes::follow(const MeshLevelPointer& level, const Frame& frame) {
+void ClusterBoxes::follow(const MeshLevelPointer& level, const Frame& frame) {
   if (level != level_) {
     level_ = level;
     seen_ = 0;
-    boxes_.assign(level->cellCount(), {});
+    boxes_.assign(level->clusterCount(), {});
   }
   if (frame.series != series_) {
     series_ = frame.series;
@@ -38,16 +38,16 @@ void CellBoxes::follow(const MeshLevelPointer& level, const Frame& frame) {
   if (frame.number == seen_) {
     return;
   }
-  for (std::size_t cell = 0; cell < boxes_.size(); ++cell) {
-    if (seen_ == 0 || isOutdated(cell, frame)) {
-      boxes_[cell] = boxOf(level_->cells[cell], frame);
+  for (std::size_t cluster = 0; cluster < boxes_.size(); ++cluster) {
+    if (seen_ == 0 || isOutdated(cluster, frame)) {
+      boxes_[cluster] = boxOf(level_->clusters[cluster], frame);
     }
   }
   seen_ = frame.number;
 }
 
-bool CellBoxes::isOutdated(std::size_t cell, const Frame& frame) const {
-  const auto blocks = level_->cellBlocks[cell];
+bool ClusterBoxes::isOutdated(std::size_t cluster, const Frame& frame) const {
+  const auto blocks = level_->clusterBlocks[cluster];
   return std::any_of(blocks.begin(), blocks.end(), [&](auto block) { return frame.changed[block] > seen_; });
 }
 

@@ -8,8 +8,8 @@
 
 namespace chainmail {
 
-/// Bounding boxes of a level's cells in the newest frame. An update costs only the cells that changed.
-class CellBoxes {
+/// Bounding boxes of a level's clusters in the newest frame. An update costs only the clusters that changed.
+class ClusterBoxes {
  public:
   /// Lowest and highest coordinates, for the axes that the mesh has.
   struct Box {
@@ -20,10 +20,10 @@ class CellBoxes {
   void follow(const MeshLevelPointer& level, const Frame& frame);
 
   const MeshLevel& level() const { return *level_; }
-  const Box& operator[](std::size_t cell) const { return boxes_[cell]; }
+  const Box& operator[](std::size_t cluster) const { return boxes_[cluster]; }
 
  private:
-  bool isOutdated(std::size_t cell, const Frame& frame) const;
+  bool isOutdated(std::size_t cluster, const Frame& frame) const;
 
   MeshLevelPointer level_;
   std::uint64_t seen_ = 0;  // number of the frame of the boxes
