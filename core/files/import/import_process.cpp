@@ -277,7 +277,8 @@ void check_end(int status, const std::string& where, const ImportLimits& limits)
                 "close other programs, or use a smaller file");
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    throw Error(where, "it is damaged: the library that reads it failed on it", "export it again, or in another format");
+    throw Error(where, "it is damaged: the library that reads it failed on it",
+                "export it again, or in another format");
   }
 }
 

@@ -39,7 +39,8 @@ void add_polygon(MeshParts& parts, const Polygon& polygon) {
 ImportedMesh read_polygons(const std::string& name, const std::filesystem::path& path) {
   Soup soup;
   if (!read(name, path.string(), soup)) {
-    refuse("it is damaged, or not a file of the format " + name + ": CGAL cannot read it to its end", "export it again");
+    refuse("it is damaged, or not a file of the format " + name + ": CGAL cannot read it to its end",
+           "export it again");
   }
   if (soup.points.size() > element_limit) {
     refuse("there are more than " + std::to_string(element_limit) + " points", "use a smaller mesh");
