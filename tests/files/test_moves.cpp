@@ -129,7 +129,7 @@ void MovesTest::other_files_are_refused_data() {
   row(" ", "m.json:1: it is not JSON; ");
   row(R"({"version": 1, "commands": []} x)", "m.json:1: it is not JSON; ");
   row(R"({"version": 1, "commands": [NaN]})", "m.json:1: it is not JSON; ");
-  row(R"({"version": 1, "commands": [1e999]})", "m.json: a number in it is beyond ");
+  row(R"({"version": 1, "commands": [1e999]})", "m.json: it holds a number that is too large");
   row("[]", "m.json: it holds no recorded moves; ");
   row("null", "m.json: it holds no recorded moves; ");
   row("{}", "m.json: 'version' is missing; ");
@@ -172,7 +172,7 @@ void MovesTest::other_commands_are_refused_data() {
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": 1})", "1: 'target' is not an array; ");
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, null, 2]})", "1: 'null' is not a number; ");
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, "2", 2]})", "1: '\"2\"' is not a number; ");
-  row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, 1e101, 2]})", "1: '1e+101' is too large ");
+  row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, 1e101, 2]})", "1: '1e+101' is too large");
   row(R"({"do": "cut", "links": [[0, 1], [0, 2]]})", "0: the elements 0 and 2 are not linked; ");
   row(R"({"do": "cut", "links": [[1, 1]]})", "0: the elements 1 and 1 are not linked; ");
   row(R"({"do": "cut", "links": [0, 1]})", "0: a link is not an array of 2; ");

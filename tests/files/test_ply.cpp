@@ -74,8 +74,9 @@ void PlyTest::wrong_files_are_refused_data() {
       "ply\nformat ascii 1.0\nelement vertex 4294967295\nproperty float x\nproperty float y\n"
       "property float z\nend_header\n0 0 0\n",
       "it ends before the last element that its header states; ");
-  row("beyond any count", "ply\nformat ascii 1.0\nelement vertex 18446744073709551616\n", "no whole number of them; ");
-  row("truncated", face + "0 0 0\n1 0", "a.ply:11: it ends before the elements");
+  row("beyond any count", "ply\nformat ascii 1.0\nelement vertex 18446744073709551616\n",
+      "its count is not a whole number; ");
+  row("truncated", face + "0 0 0\n1 0", "a.ply:11: it ends before the last element");
   row("word", face + "0 0 0\n1 zero 0\n", "a.ply:11: 'zero' is not a number; ");
   row("not finite", face + "0 0 0\n1 nan 0\n", "vertex 1 has a coordinate that is not a number");
   row("dangling", face + points + "3 0 1 4\n", "a face or edge names the vertex 4, which does not exist; ");
@@ -88,7 +89,7 @@ void PlyTest::wrong_files_are_refused_data() {
   row("no z", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
       "an element 'vertex' has no number 'z'; ");
   row("binary", "ply\nformat binary_big_endian 1.0\nelement vertex 9\nproperty float x\nend_header\nabc",
-      "a.ply: it ends before the elements");
+      "a.ply: it ends before the last element");
 }
 
 void PlyTest::wrong_files_are_refused() {

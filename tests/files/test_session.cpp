@@ -208,7 +208,7 @@ void SessionTest::numbers_that_are_none_are_not_written() {
   for (const double none : {std::nan(""), HUGE_VAL}) {
     Session session = session_on(made(MeshKind::grid, {3, 3, 1}));
     session.panels[0].placement.held[0] = none;
-    QVERIFY(error_of([&] { session_text(session); }).startsWith("session: a coordinate is no finite number; "));
+    QVERIFY(error_of([&] { session_text(session); }).startsWith("session: a coordinate is not a finite number; "));
   }
 }
 

@@ -52,8 +52,8 @@ void SessionErrorsTest::other_files_are_refused_data() {
   row("{\"format\": \"chainmail session\",\n", "a.chainmail:2: it ends too early; ");
   row("{} x", "a.chainmail:1: it is not JSON; ");
   row("{\"format\": NaN}", "a.chainmail:1: it is not JSON; ");
-  row("{\"format\": 1e999}", "a.chainmail: a number in it is beyond ");
-  row("{\"rest\": [1e999]}", "a.chainmail: a number in it is beyond ");
+  row("{\"format\": 1e999}", "a.chainmail: it holds a number that is too large ");
+  row("{\"rest\": [1e999]}", "a.chainmail: it holds a number that is too large ");
   row("[]", "a.chainmail: it is not a session; ");
   row("[[1], [2]]", "a.chainmail: it is not a session; ");
   row("null", "a.chainmail: it is not a session; ");
@@ -98,9 +98,9 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"elements\": 9", "\"elements\": -9", "mesh: 'elements' is not a whole number from 1 to 20000000; ");
   row("\"space\": 2", "\"space\": 1", "mesh: space dimension 1: the object extends along 2 axes; ");
   row("\"space\": 2", "\"space\": 4", "mesh: 'space' is not a whole number from 1 to 3; ");
-  row("\"size\": [3,3,1]", "\"size\": [3,2,1]", "mesh: the lattice is not one of 9 elements; ");
-  row("\"size\": [3,3,1]", "\"size\": [3,3]", "mesh: the lattice is not one of 9 elements; ");
-  row("\"size\": [3,3,1]", "\"size\": [3,3,1.0]", "mesh: the lattice is not one of 9 elements; ");
+  row("\"size\": [3,3,1]", "\"size\": [3,2,1]", "mesh: the lattice does not have 9 elements; ");
+  row("\"size\": [3,3,1]", "\"size\": [3,3]", "mesh: the lattice does not have 9 elements; ");
+  row("\"size\": [3,3,1]", "\"size\": [3,3,1.0]", "mesh: the lattice does not have 9 elements; ");
   row("\"spacing\": 1.5", "\"spacing\": 1", "mesh: element 1 is not at its position in the lattice; ");
   row("\"spacing\": 1.5", "\"spacing\": null", "mesh: 'null' is not a number; ");
   row("3,3,0],", "3,3,1e101],", "mesh: 'rest' puts element 8 beyond 1e100; ");
@@ -136,7 +136,8 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   texture(R"("size": [1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "AA==")", "mesh: the texture has no size ");
   texture(R"("size": [4294967295,4294967295,4294967295], "channels": 4, "box": [0,0,0,1,1,0], "texels": "AA==")",
           "mesh: 'texels' does not hold one byte ");
-  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,0,0], "texels": "AA==")", "mesh: 'box' is none of a ");
+  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,0,0], "texels": "AA==")",
+          "mesh: 'box' is not the box of a ");
   texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1], "texels": "AA==")", "mesh: 'box' holds 5 numbers; ");
   texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "AAAA")", "mesh: 'texels' does not hold ");
   texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "A!==")", "mesh: 'texels' does not hold ");
@@ -219,7 +220,7 @@ void SessionErrorsTest::huge_claims_take_no_memory() {
       with("\"elements\": 9", "\"elements\": 1000000000").contains("mesh: 'elements' is not a whole number from 1 "));
   QVERIFY(with("\"elements\": 9", "\"elements\": 20000000").contains("mesh: 'rest' holds 27 numbers, and 20000000 "));
   QVERIFY(with("\"elements\": 9", "\"elements\": 18446744073709551617").contains("mesh: 'elements' is not a whole "));
-  QVERIFY(with("[3,3,1]", "[4294967295,4294967295,4294967295]").contains("mesh: the lattice is not one of 9 "));
+  QVERIFY(with("[3,3,1]", "[4294967295,4294967295,4294967295]").contains("mesh: the lattice does not have 9 "));
   const auto table = [&](const char* counts) {
     std::string text = good_;
     const auto first = text.find("\"links\""), end = text.find("\"triangles\"");

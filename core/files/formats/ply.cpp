@@ -134,7 +134,7 @@ void PlyHeadReader::take_element(std::string_view rest) {
   element.name = take_word(rest);
   const auto count = parse_count(take_word(rest));
   if (element.name.empty() || !count) {
-    fail("an element has no name or no count", "write 'element NAME COUNT'");
+    fail("an element has no name, or its count is not a whole number", "write 'element NAME COUNT'");
   }
   element.count = *count;
   head_.elements.push_back(std::move(element));
