@@ -10,10 +10,10 @@
 #include <functional>
 #include <memory>
 
-#include "docks/size_test/window_rest.h"
 #include "docks/size_test/size_test_choices.h"
 #include "docks/size_test/size_test_stage.h"
 #include "docks/size_test/size_test_table.h"
+#include "docks/size_test/window_rest.h"
 #include "document/document.h"
 
 namespace chainmail {
