@@ -17,7 +17,7 @@ namespace {
 constexpr double markUnit = 4.6;  // looks are drawn about (0, 0) in units of this
 constexpr double markSide = 3.2;  // of the square that holds a look, in its units
 constexpr double lineWidth = 1.4;
-constexpr double keyWidth = 22, betweenKeys = 16, betweenLabels = 6;
+constexpr double keyWidth = 22, betweenKeys = 16, betweenLabels = 5;
 
 constexpr QSizeF pdfPage{160, 90};     // mm
 constexpr QSizeF savedSize{640, 360};  // logical pixels
@@ -33,8 +33,8 @@ double luminanceOf(const QColor& colour) {
 }
 
 double contrastOf(const QColor& one, const QColor& other) {
-  const auto [low, high] = std::minmax(luminanceOf(one), luminanceOf(other));
-  return (high + 0.05) / (low + 0.05);
+  const double a = luminanceOf(one), b = luminanceOf(other);
+  return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
 }
 
 QColor mixed(const QColor& one, const QColor& other, double share) {
@@ -127,7 +127,7 @@ void PlotPainting::layOutLabels(const QRectF& area, const QFontMetricsF& metrics
     const double width = metrics.horizontalAdvance(text(tick.label));
     const double x = inner_.left() + inner_.width() * tick.position - width / 2;
     const double end = std::max(inner_.left(), area.right() - width);
-    add({std::clamp(x, inner_.left() - line / 2, end), inner_.bottom() + 2, width, line}, text(tick.label),
+    add({std::clamp(x, inner_.left(), end), inner_.bottom() + 2, width, line}, text(tick.label),
         {betweenLabels, 0, betweenLabels, 0});
   });
   const auto title = [&](double y, const std::string& words, Qt::Alignment side) {

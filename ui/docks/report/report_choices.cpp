@@ -1,6 +1,7 @@
 #include "docks/report/report_choices.h"
 
 #include <QFormLayout>
+#include <QGuiApplication>
 #include <QStandardItemModel>
 #include <QVBoxLayout>
 
@@ -78,7 +79,8 @@ void ReportChoices::fillAlgorithms() {
     const QSignalBlocker block(algorithms_);  // the user has chosen nothing
     for (int row = 0; row < algorithms_->count(); ++row) {
       const auto algorithm = Algorithm(algorithms_->item(row)->data(Qt::UserRole).toInt());
-      algorithms_->item(row)->setIcon(QIcon(plotMark(algorithm, false, listMarkSize, devicePixelRatioF(), palette())));
+      algorithms_->item(row)->setIcon(
+          QIcon(plotMark(algorithm, false, listMarkSize, devicePixelRatioF(), QGuiApplication::palette())));
     }
   });
 }

@@ -1,5 +1,6 @@
 #include "docks/report/report_table.h"
 
+#include <QGuiApplication>
 #include <QHeaderView>
 #include <limits>
 
@@ -117,7 +118,7 @@ void ReportTable::show(const report::DragResult& drag) {
     const int row = rowCount();
     insertRow(row);
     auto* name = new QTableWidgetItem(QIcon(plotMark(entry.contestant.algorithm, entry.contestant.sweeps > 0,
-                                                     tableMarkSize, devicePixelRatioF(), palette())),
+                                                     tableMarkSize, devicePixelRatioF(), QGuiApplication::palette())),
                                       shortName(report::label(entry.contestant)));
     name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
     setItem(row, 0, name);
