@@ -6,7 +6,7 @@
 
 namespace chainmail::report {
 
-using Look = PlotMark;
+using Look = AlgorithmLook;
 
 /// Returns the index of an algorithm's look.
 std::size_t look_of(Algorithm algorithm);
