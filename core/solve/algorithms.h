@@ -27,7 +27,7 @@ enum class Algorithm {
 enum class Family { chainmail, elastic };
 
 /// Mark of an algorithm in plots.
-struct Look {
+struct AlgorithmLook {
   std::string_view path;    // SVG path about (0, 0), of size 1
   std::string_view colour;  // empty: the colour of lines and text
 };
@@ -42,7 +42,7 @@ struct AlgorithmInfo {
   std::string_view label;       // title in the window and in reports
   std::string_view source;      // publication
   std::string_view summary;     // one sentence for help texts
-  Look look;
+  AlgorithmLook look;
 
   // What answers a move: a waiting list, a method of elasticity or, without either, Exact ChainMail.
   const ListAlgorithm* list = nullptr;

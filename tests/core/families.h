@@ -10,7 +10,7 @@
 
 namespace chainmail::test {
 
-struct Family {
+struct MeshFamily {
   std::string name;
   MeshPointer mesh;
 };
@@ -102,7 +102,7 @@ inline MeshPointer side_by_side(const Mesh& one, const Mesh& other, const Point&
 }
 
 /// Every kind of mesh there is, small enough for a list search.
-inline std::vector<Family> families() {
+inline std::vector<MeshFamily> families() {
   const auto grid = make_mesh(MeshKind::grid, {6, 5, 1});
   return {
       {"line", make_mesh(MeshKind::line, {12, 1, 1})},

@@ -60,9 +60,9 @@ inline rc::Gen<Precision> any_precision() {
   return rc::gen::element(Precision::single_precision, Precision::double_precision);
 }
 
-inline const Family& draw_family() {
-  static const std::vector<Family> all = families();
-  const Family& family = all[*rc::gen::inRange<std::size_t>(0, all.size())];
+inline const MeshFamily& draw_family() {
+  static const std::vector<MeshFamily> all = families();
+  const MeshFamily& family = all[*rc::gen::inRange<std::size_t>(0, all.size())];
   RC_LOG() << "mesh: " << family.name << '\n';
   return family;
 }

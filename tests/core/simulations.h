@@ -37,8 +37,8 @@ inline void drag_by(Simulation& simulation, ElementId element, const Point& by) 
 }
 
 /// All that a command may change and a user may see of it.
-struct Snapshot {
-  explicit Snapshot(const Simulation& simulation)
+struct SavedState {
+  explicit SavedState(const Simulation& simulation)
       : mesh(simulation.mesh_pointer()),
         positions(positions_of(simulation)),
         cuts(simulation.solver().cuts().links()),
@@ -50,11 +50,11 @@ struct Snapshot {
         valid(simulation.valid()) {}
 
   /// The same object: mesh, positions to the bit, cuts and softness.
-  bool same_object(const Snapshot& other) const {
+  bool same_object(const SavedState& other) const {
     return mesh == other.mesh && same_bits(positions, other.positions) && cuts == other.cuts &&
            softness == other.softness;
   }
-  bool operator==(const Snapshot& other) const {
+  bool operator==(const SavedState& other) const {
     return same_object(other) && grabbed == other.grabbed && algorithm == other.algorithm && passes == other.passes &&
            relaxing == other.relaxing && valid == other.valid;
   }

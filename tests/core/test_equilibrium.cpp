@@ -69,7 +69,7 @@ void EquilibriumTest::a_chain_held_at_both_ends_is_stretched_evenly() {
 }
 
 void EquilibriumTest::one_fixed_element_carries_all_along() {
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     const auto solver = displaced(family.mesh, {{2, {0.5, -0.25, 2}}, {0, {1, 1, 1}}});
     const auto result = solve(*family.mesh, *solver, {2, 2});
     const int n = family.mesh->space_dimension;

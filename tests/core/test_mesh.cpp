@@ -78,7 +78,7 @@ void MeshTest::links_are_numbered_by_first_element() {
 }
 
 void MeshTest::every_link_stands_in_both_rows() {
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     const Mesh& mesh = *family.mesh;
     QCOMPARE(mesh.entry_link.size(), mesh.neighbours.size());
     QCOMPARE(mesh.neighbours.size(), 2 * mesh.links.size());
@@ -92,7 +92,7 @@ void MeshTest::every_link_stands_in_both_rows() {
 }
 
 void MeshTest::find_link_finds_links_and_nothing_else() {
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     const Mesh& mesh = *family.mesh;
     std::size_t found = 0;
     for (ElementId a = 0; a < mesh.element_count(); ++a) {

@@ -7,7 +7,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-Q_DECLARE_METATYPE(chainmail::test::Family)
+Q_DECLARE_METATYPE(chainmail::test::MeshFamily)
 
 namespace {
 
@@ -154,9 +154,9 @@ class OracleTest : public QObject {
 };
 
 void OracleTest::agrees_with_the_thesis_data() {
-  QTest::addColumn<Family>("family");
+  QTest::addColumn<MeshFamily>("family");
   QTest::addColumn<int>("algorithm");
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     for (const AlgorithmInfo& one : algorithms_for(*family.mesh)) {
       if (one.algorithm == Algorithm::exact) {
         continue;
@@ -167,7 +167,7 @@ void OracleTest::agrees_with_the_thesis_data() {
 }
 
 void OracleTest::agrees_with_the_thesis() {
-  QFETCH(Family, family);
+  QFETCH(MeshFamily, family);
   QFETCH(int, algorithm);
   for (std::uint64_t seed = 0; seed < 10 && !QTest::currentTestFailed(); ++seed) {
     run_side_by_side<double>(family.mesh, static_cast<Algorithm>(algorithm), seed);
@@ -177,7 +177,7 @@ void OracleTest::agrees_with_the_thesis() {
 
 void OracleTest::spiral_ends_where_natural_queue_does() {
   std::mt19937_64 random(5);
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     for (const Precision precision : precisions) {
       const auto spiral = make_solver(family.mesh, Algorithm::spiral, precision);
       const auto queue = make_solver(family.mesh, Algorithm::natural_queue, precision);

@@ -33,7 +33,7 @@ LinkId above(const Mesh& mesh, std::uint32_t x, std::uint32_t y) {
 }  // namespace
 
 void PartsTest::a_mesh_knows_its_parts() {
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     QCOMPARE(family.mesh->part_count, family.name == "two parts" ? 2U : 1U);
   }
   MeshParts alone;

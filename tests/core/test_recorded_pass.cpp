@@ -106,7 +106,7 @@ void RecordedPassTest::steps_lead_from_before_to_after() {
 }
 
 void RecordedPassTest::each_step_clamps_into_the_region_about_the_sponsor() {
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     for (const AlgorithmInfo& one : algorithms_for(*family.mesh)) {
       for_each_pass(family.mesh, one.algorithm, [&](const RecordedPass& pass) {
         Player player(pass);
@@ -123,7 +123,7 @@ void RecordedPassTest::each_step_clamps_into_the_region_about_the_sponsor() {
 }
 
 void RecordedPassTest::the_next_one_on_the_list_is_the_one_that_is_taken() {
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     for (const AlgorithmInfo& one : algorithms_for(*family.mesh)) {
       for_each_pass(family.mesh, one.algorithm, [&](const RecordedPass& pass) {
         const WaitingHistory history(pass);

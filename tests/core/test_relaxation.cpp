@@ -132,7 +132,7 @@ void RelaxationTest::the_held_element_stays() {
 }
 
 void RelaxationTest::the_rest_shape_stays() {
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     for (const Precision precision : precisions) {
       const auto solver = make_solver(family.mesh, Algorithm::natural_queue, precision);
       const auto before = positions_of(*solver, *family.mesh);

@@ -60,7 +60,7 @@ void RepairTest::a_start_that_is_not_valid_is_repaired() {
 void RepairTest::a_repair_leaves_what_is_valid() {
   // Set from outside, a valid state is as unknown as any other; it must not change.
   std::mt19937_64 random(3);
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     const auto solver = make_solver(family.mesh, Algorithm::exact, Precision::double_precision);
     const auto state = random_valid_state(*family.mesh, {}, 0.5, random);
     solver->set_positions(state);

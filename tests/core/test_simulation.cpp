@@ -83,9 +83,9 @@ void SimulationTest::after_release_a_drag_has_nothing_to_move() {
   carry_out(simulation, commands::Release{});
   QVERIFY(!simulation.grabbed());
   carry_out(simulation, commands::Release{});  // does no harm
-  const Snapshot before(simulation);
+  const SavedState before(simulation);
   QVERIFY_EXCEPTION_THROWN(carry_out(simulation, commands::Drag{Point(9, 9, 0)}), std::runtime_error);
-  QVERIFY(Snapshot(simulation) == before);
+  QVERIFY(SavedState(simulation) == before);
 }
 
 void SimulationTest::new_softness_acts_at_once_under_load() {

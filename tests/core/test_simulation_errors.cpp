@@ -70,7 +70,7 @@ void SimulationErrorsTest::refused_without_a_trace() {
   for (const Precision precision : precisions) {
     auto simulation = busy_simulation(mesh, precision);
     auto undisturbed = busy_simulation(mesh, precision);
-    const Snapshot before(simulation);
+    const SavedState before(simulation);
     QString sentence;
     try {
       carry_out(simulation, bad);
@@ -78,22 +78,22 @@ void SimulationErrorsTest::refused_without_a_trace() {
       sentence = QString::fromStdString(error.what());
     }
     QVERIFY2(sentence.startsWith(names + ": "), qPrintable("said: " + sentence));
-    QVERIFY(Snapshot(simulation) == before);
+    QVERIFY(SavedState(simulation) == before);
     // And what comes next comes out as if nothing had been.
     for (Simulation* one : {&simulation, &undisturbed}) {
       carry_out(*one, commands::Drag{Point(-1, 4, 0)});
       one->step();
       carry_out(*one, commands::Drag{Point(3, 3, 0)});
     }
-    QVERIFY(Snapshot(simulation) == Snapshot(undisturbed));
+    QVERIFY(SavedState(simulation) == SavedState(undisturbed));
   }
 }
 
 void SimulationErrorsTest::a_hand_that_holds_nothing_drags_nothing() {
   Simulation simulation(make_mesh(MeshKind::grid, {6, 5, 1}), Algorithm::natural_queue, Precision::double_precision);
-  const Snapshot before(simulation);
+  const SavedState before(simulation);
   QVERIFY_EXCEPTION_THROWN(carry_out(simulation, commands::Drag{Point(1, 1, 0)}), Error);
-  QVERIFY(Snapshot(simulation) == before);
+  QVERIFY(SavedState(simulation) == before);
   // A new mesh has not been grabbed either.
   carry_out(simulation, commands::Grab{7});
   carry_out(simulation, commands::ReplaceMesh{make_mesh(MeshKind::line, {3, 1, 1})});

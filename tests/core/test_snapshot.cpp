@@ -32,7 +32,7 @@ class SnapshotTest : public QObject {
 };
 
 void SnapshotTest::another_simulation_takes_it_to_the_bit() {
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     for (const Precision precision : precisions) {
       for (const Algorithm algorithm : {Algorithm::natural_queue, Algorithm::exact}) {
         const Simulation one = dragged(family.mesh, algorithm, precision);

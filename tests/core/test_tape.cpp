@@ -186,7 +186,7 @@ void TapeTest::its_commands_repeat_a_simulation_to_the_bit() {
     for (const Command& command : tape.commands()) {
       again.apply(command);
     }
-    QVERIFY(Snapshot(again).same_object(Snapshot(simulation)));
+    QVERIFY(SavedState(again).same_object(SavedState(simulation)));
   }
 }
 

@@ -65,17 +65,17 @@ Trace trace_of_drags(Simulation& simulation) {
 void UndoTest::swapping_brings_the_object_back_and_forth() {
   for (const Precision precision : precisions) {
     auto simulation = worked_simulation(Algorithm::natural_queue, precision);
-    const Snapshot before(simulation);
+    const SavedState before(simulation);
     carry_out(simulation, commands::KeepState{1});
-    QVERIFY(Snapshot(simulation) == before);
+    QVERIFY(SavedState(simulation) == before);
     change_everything(simulation);
-    const Snapshot after(simulation);
+    const SavedState after(simulation);
     QVERIFY(!after.same_object(before));
     for (int i = 0; i < 3; ++i) {
       exchange(simulation, 1);  // undo
-      QVERIFY(Snapshot(simulation).same_object(before));
+      QVERIFY(SavedState(simulation).same_object(before));
       exchange(simulation, 1);  // redo
-      QVERIFY(Snapshot(simulation).same_object(after));
+      QVERIFY(SavedState(simulation).same_object(after));
     }
   }
 }
@@ -94,15 +94,15 @@ void UndoTest::later_moves_come_out_as_if_nothing_had_been() {
 
 void UndoTest::another_mesh_comes_back_with_its_cuts_and_softness() {
   auto simulation = worked_simulation(Algorithm::natural_queue, Precision::double_precision);
-  const Snapshot before(simulation);
+  const SavedState before(simulation);
   carry_out(simulation, commands::KeepState{1});
   carry_out(simulation, commands::ReplaceMesh{make_mesh(MeshKind::block, {3, 3, 3})});
   drag_by(simulation, 0, Point(-1, -2, -3));
-  const Snapshot after(simulation);
+  const SavedState after(simulation);
   exchange(simulation, 1);
-  QVERIFY(Snapshot(simulation).same_object(before));
+  QVERIFY(SavedState(simulation).same_object(before));
   exchange(simulation, 1);
-  QVERIFY(Snapshot(simulation).same_object(after));
+  QVERIFY(SavedState(simulation).same_object(after));
 }
 
 void UndoTest::any_change_is_undone() {
@@ -117,15 +117,15 @@ void UndoTest::any_change_is_undone() {
       simulation.relax(*rc::gen::inRange(0, 3), 1);
     };
     work();
-    const Snapshot before(simulation);
+    const SavedState before(simulation);
     carry_out(simulation, commands::KeepState{1});
     work();
-    const Snapshot after(simulation);
+    const SavedState after(simulation);
     exchange(simulation, 1);
-    RC_ASSERT(Snapshot(simulation).same_object(before));
+    RC_ASSERT(SavedState(simulation).same_object(before));
     RC_ASSERT(simulation.valid() == before.valid);
     exchange(simulation, 1);
-    RC_ASSERT(Snapshot(simulation).same_object(after));
+    RC_ASSERT(SavedState(simulation).same_object(after));
   };
   QVERIFY(check_property("undo and redo of cuts, softness, drags and relaxation are exact", holds));
 }
@@ -144,29 +144,29 @@ void UndoTest::whether_the_object_is_valid_comes_back_too() {
 
 void UndoTest::states_have_names_of_their_own() {
   auto simulation = worked_simulation(Algorithm::natural_queue, Precision::double_precision);
-  const Snapshot first(simulation);
+  const SavedState first(simulation);
   carry_out(simulation, commands::KeepState{1});
   drag_by(simulation, 3, Point(1, 1, 0));
-  const Snapshot second(simulation);
+  const SavedState second(simulation);
   carry_out(simulation, commands::KeepState{2});
   drag_by(simulation, 9, Point(-1, 1, 0));
   exchange(simulation, 2);  // undo the second step, then the first
-  QVERIFY(Snapshot(simulation).same_object(second));
+  QVERIFY(SavedState(simulation).same_object(second));
   exchange(simulation, 1);
-  QVERIFY(Snapshot(simulation).same_object(first));
+  QVERIFY(SavedState(simulation).same_object(first));
   exchange(simulation, 1);  // and redo the first
-  QVERIFY(Snapshot(simulation).same_object(second));
+  QVERIFY(SavedState(simulation).same_object(second));
 }
 
 void UndoTest::a_restored_state_stays_kept() {
   auto simulation = worked_simulation(Algorithm::natural_queue, Precision::single_precision);
-  const Snapshot first(simulation);
+  const SavedState first(simulation);
   carry_out(simulation, commands::KeepState{1});
   for (int i = 0; i < 2; ++i) {
     change_everything(simulation);
-    QVERIFY(!Snapshot(simulation).same_object(first));
+    QVERIFY(!SavedState(simulation).same_object(first));
     carry_out(simulation, commands::RestoreState{1});
-    QVERIFY(Snapshot(simulation).same_object(first));
+    QVERIFY(SavedState(simulation).same_object(first));
   }
 }
 
@@ -176,20 +176,20 @@ void UndoTest::states_come_back_in_any_order() {
   const auto holds = [] {
     const auto algorithm = *rc::gen::elementOf(on_any_mesh);
     Simulation simulation(make_mesh(MeshKind::grid, {30, 20, 1}), algorithm, *any_precision());
-    std::vector<Snapshot> kept;
+    std::vector<SavedState> kept;
     for (int step = 0; step < 20; ++step) {
       const auto state = *rc::gen::inRange<std::size_t>(0, kept.size() + 1);
       if (state == kept.size()) {
         kept.emplace_back(simulation);
         carry_out(simulation, commands::KeepState{state});
       } else if (*rc::gen::arbitrary<bool>()) {
-        const Snapshot now(simulation);
+        const SavedState now(simulation);
         exchange(simulation, state);
-        RC_ASSERT(Snapshot(simulation).same_object(kept[state]));
+        RC_ASSERT(SavedState(simulation).same_object(kept[state]));
         kept[state] = now;
       } else {
         carry_out(simulation, commands::RestoreState{state});
-        RC_ASSERT(Snapshot(simulation).same_object(kept[state]));
+        RC_ASSERT(SavedState(simulation).same_object(kept[state]));
       }
       const auto hand = *any_hand();
       switch (*rc::gen::inRange(0, 4)) {
@@ -210,25 +210,25 @@ void UndoTest::states_come_back_in_any_order() {
 void UndoTest::a_change_to_exact_is_undone_with_it() {
   for (const Precision precision : precisions) {
     auto simulation = worked_simulation(Algorithm::natural_queue, precision);
-    const Snapshot before(simulation);
+    const SavedState before(simulation);
     carry_out(simulation, commands::KeepState{1});
     carry_out(simulation, commands::SetAlgorithm{Algorithm::exact});
-    const Snapshot exact(simulation);
+    const SavedState exact(simulation);
     carry_out(simulation, commands::KeepState{2});
     drag_by(simulation, 20, Point(-3, 2, 0));
     exchange(simulation, 2);
-    QVERIFY(Snapshot(simulation).same_object(exact));
+    QVERIFY(SavedState(simulation).same_object(exact));
     carry_out(simulation, commands::SetAlgorithm{Algorithm::natural_queue});
     exchange(simulation, 1);
-    QVERIFY(Snapshot(simulation).same_object(before));
+    QVERIFY(SavedState(simulation).same_object(before));
     // Taken back by an algorithm that holds positions otherwise, they are rounded, and kept as they are then.
     carry_out(simulation, commands::SetAlgorithm{Algorithm::exact});
     carry_out(simulation, commands::RestoreState{1});
-    const Snapshot rounded(simulation);
+    const SavedState rounded(simulation);
     carry_out(simulation, commands::KeepState{3});
     drag_by(simulation, 20, Point(-3, 2, 0));
     exchange(simulation, 3);
-    QVERIFY(Snapshot(simulation).same_object(rounded));
+    QVERIFY(SavedState(simulation).same_object(rounded));
   }
 }
 
@@ -237,22 +237,22 @@ void UndoTest::a_dropped_state_is_gone() {
   carry_out(simulation, commands::KeepState{1});
   carry_out(simulation, commands::DropState{1});
   carry_out(simulation, commands::DropState{1});  // does no harm
-  const Snapshot before(simulation);
+  const SavedState before(simulation);
   QVERIFY_EXCEPTION_THROWN(exchange(simulation, 1), Error);
-  QVERIFY(Snapshot(simulation) == before);
+  QVERIFY(SavedState(simulation) == before);
 }
 
 void UndoTest::the_hand_lets_go_and_relaxation_sleeps() {
   auto simulation = worked_simulation(Algorithm::natural_queue, Precision::double_precision);
   carry_out(simulation, commands::KeepState{1});
-  const Snapshot kept(simulation);
+  const SavedState kept(simulation);
   carry_out(simulation, commands::SetRelaxation{true, 1});
   drag_by(simulation, 20, Point(-3, 2, 0));
   exchange(simulation, 1);
   QVERIFY(!simulation.grabbed());
   QVERIFY(!simulation.statistics().relaxing);
   QVERIFY(!simulation.step());  // or the state that undo brought back would creep away
-  QVERIFY(Snapshot(simulation).same_object(kept));
+  QVERIFY(SavedState(simulation).same_object(kept));
 }
 
 QTEST_APPLESS_MAIN(UndoTest)

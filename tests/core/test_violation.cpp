@@ -173,7 +173,7 @@ void ViolationTest::regions_of_neighbours_by_hand() {
 
 void ViolationTest::regions_agree_with_the_violation() {
   std::mt19937_64 random(5);
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     const Mesh& mesh = *family.mesh;
     std::vector<double> positions = mesh.rest;
     for (double& x : positions) {

@@ -42,7 +42,7 @@ class SessionTest : public QObject {
 void SessionTest::what_is_written_reads_back_data() {
   QTest::addColumn<int>("which");
   int i = 0;
-  for (const Family& family : families()) {
+  for (const MeshFamily& family : families()) {
     if (family.mesh->element_count() >= 9 && family.mesh->link_count() > 4) {
       QTest::newRow(family.name.c_str()) << i;
     }
