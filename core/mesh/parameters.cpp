@@ -27,7 +27,9 @@ std::string range_of(const Parameter& parameter) {
 
 void check(const Parameter& parameter, double value) {
   if (!(value >= parameter.lowest && value <= parameter.highest)) {
-    throw Error(std::string(parameter.name), shortest_digits(value) + " is out of range", "use " + range_of(parameter));
+    throw Error(std::string(parameter.name),
+                std::string(parameter.label) + ' ' + shortest_digits(value) + " is out of range",
+                "use " + range_of(parameter));
   }
 }
 

@@ -49,7 +49,7 @@ void CompareCommandTest::writes_the_report() {
   QCOMPARE(objects.size(), 2);
   QCOMPARE(objects[1]["name"].toString(), QString("cloth.obj"));
   const auto contestants = objects[1]["drags"][0]["contestants"].toArray();
-  QVERIFY(contestants[2]["refusal"].toString().contains("grids alone"));
+  QVERIFY(contestants[2]["refusal"].toString().contains("only on grids"));
   QVERIFY(contestants[4]["distance_to_exact"]["max"].toDouble() < 1e-5);  // Exact itself, in float
   QXmlStreamReader page(program_->read("out/report.html"));
   while (!page.atEnd()) {

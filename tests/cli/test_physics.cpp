@@ -85,7 +85,7 @@ void PhysicsCommandTest::nothing_pins_it() {
     QCOMPARE(outcome.code, 2);
     QCOMPARE(
         QString::fromUtf8(outcome.error),
-        QString("chainmail: cloth.obj: nothing pins it, so physics has no static answer; add --pins bottom, --pins "
+        QString("chainmail: cloth.obj: it has no pins, so physics has no static answer; add --pins bottom, --pins "
                 "boundary, or --pins ID,ID,…\n"));
   }
   QVERIFY(!program_->files().contains("out"));
@@ -96,7 +96,7 @@ void PhysicsCommandTest::calibrates_and_saves_a_preset() {
       "calibrate cloth.obj --pins 20,24,21,22,23 --drags 2 --evaluations 30 --name felt -o felt.json --json out.json";
   const auto outcome = program_->run(line);
   QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
-  QVERIFY(outcome.out.contains(" sweeps a move\n") && outcome.out.contains("\n  calibrated "));
+  QVERIFY(outcome.out.contains(" sweeps per move\n") && outcome.out.contains("\n  calibrated "));
   const auto preset = program_->json("felt.json")["presets"].toArray().at(0).toObject();
   const auto result = program_->json("out.json");
   QCOMPARE(preset["name"].toString(), QString("felt"));
@@ -112,7 +112,7 @@ void PhysicsCommandTest::calibrates_and_saves_a_preset() {
   QCOMPARE(held_out["drags"].toArray().size(), 4);
   QVERIFY(held_out["residual"]["rms"].toDouble() > 0 && held_out["residual"]["max"].toDouble() > 0);
   QVERIFY(relative(held_out, "residual_nothing") > 0.6 && relative(held_out["drags"][0], "after") < 9);
-  QVERIFY(outcome.out.contains("Drags that it did not see, 4 of them:\n"));
+  QVERIFY(outcome.out.contains("Drags not used by the search (4):\n"));
   // The same again, and with the pins by their name.
   const QByteArray first = program_->read("out.json");
   QCOMPARE(program_->run("calibrate cloth.obj --pins top --drags 2 --evaluations 30 --json out.json").code, 0);

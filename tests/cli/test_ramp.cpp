@@ -101,7 +101,7 @@ void RampCommandTest::wrong_arguments_data() {
   row("--largest x", "--largest: 'x' ");
   row("--largest 20000001", "--largest: 20000001 is more elements than a mesh may have; ");
   row("--precision half", "--precision: 'half' ");
-  row("--shear -1", "--shear: -1 ");
+  row("--shear -1", "--shear: Shear -1 ");
   row("--json none/a.json", "none/a.json: ");
   row("--json a --csv a", "a: ");
   row("--json - --csv -", "standard output: ");

@@ -89,11 +89,11 @@ void ElasticObjectsTest::wrong_objects_are_refused() {
               .startsWith("the part of element 0: fewer than three pins that do not lie on one"));
   QVERIFY(
       refusal(pinned(make_mesh(MeshKind::cloth, {3, 3, 1}), {4})).contains("fewer than two pins at different places"));
-  QVERIFY(refusal(pinned(tetra, left, 0.5)).startsWith("poisson: 0.5 is out of range; use 0 to 0.499"));
+  QVERIFY(refusal(pinned(tetra, left, 0.5)).startsWith("poisson: Poisson's ratio 0.5 is out of range; use 0 to 0.499"));
   QVERIFY(refusal(pinned(tetra, left, -0.1)).startsWith("poisson: "));
   ElasticProblem soft = pinned(tetra, left);
   soft.options.material.young = 0;
-  QVERIFY(refusal(soft).startsWith("young: 0 is out of range; use a number above 0"));
+  QVERIFY(refusal(soft).startsWith("young: Young's modulus 0 is out of range; use a number above 0"));
   const auto cloth_in_space = make_mesh(MeshKind::cloth, {4, 4, 1}, 3);
   for (const ElasticMethod method : {ElasticMethod::linear_fem, ElasticMethod::neo_hookean}) {
     QVERIFY(!fits(method, *cloth_in_space));

@@ -28,7 +28,7 @@ class ShuffledSchedule {
     std::uint32_t index;
   };
   static constexpr bool adapts = false;
-  bool keeps_place() const { return false; }
+  bool keeps_position() const { return false; }
   static inline std::uint64_t seed = 0;
 
   bool empty() const { return entries_.empty(); }
@@ -70,7 +70,7 @@ std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, cons
   }
   std::vector<Scalar> positions;
   for (const auto& position : body.positions) {
-    positions.insert(positions.end(), place.at, place.at + Dimension);
+    positions.insert(positions.end(), position.at, position.at + Dimension);
   }
   return positions;
 }

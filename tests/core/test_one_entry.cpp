@@ -186,11 +186,11 @@ void OneEntryTest::a_parameter_is_an_option() {
   QCOMPARE(command_line::value_of(option, dummy_parameter), 3.5);
   app.parse(std::vector<std::string>{"5", "--dummy"});
   QCOMPARE(message([&] { command_line::value_of(option, dummy_parameter); }),
-           std::string("--dummy: 5 is out of range; use 1 to 4"));
+           std::string("--dummy: Dummy 5 is out of range; use 1 to 4"));
 }
 
 void OneEntryTest::a_parameter_is_checked() {
-  QCOMPARE(message([] { check(dummy_parameter, 0.5); }), std::string("dummy: 0.5 is out of range; use 1 to 4"));
+  QCOMPARE(message([] { check(dummy_parameter, 0.5); }), std::string("dummy: Dummy 0.5 is out of range; use 1 to 4"));
   for (const double accepted : {1.0, 2.5, 4.0}) {
     QCOMPARE(message([=] { check(dummy_parameter, accepted); }), std::string());
   }
@@ -212,7 +212,10 @@ void OneEntryTest::defaults_and_limits_are_those_of_the_table() {
   QCOMPARE(softness.stretch, parameters::stretch.standard);
   QCOMPARE(softness.shear, parameters::shear.standard);
   check(LinkSoftness{parameters::compression.highest, parameters::stretch.lowest, parameters::shear.lowest});
-  QVERIFY(contains(message([] { check(LinkSoftness{1.01, 1, 0}); }), "compression: 1.01 is out of range; use 0 to 1"));
+  QVERIFY(contains(message([] {
+                     check(LinkSoftness{1.01, 1, 0});
+                   }),
+                   "compression: Compression 1.01 is out of range; use 0 to 1"));
   ElasticOptions elastic;
   QCOMPARE(elastic.material.young, parameters::young.standard);
   QCOMPARE(elastic.material.poisson, parameters::poisson.standard);
@@ -220,7 +223,7 @@ void OneEntryTest::defaults_and_limits_are_those_of_the_table() {
   elastic.material.poisson = parameters::poisson.highest;
   check(elastic);
   elastic.lattice[1] = static_cast<std::uint32_t>(parameters::lattice.highest) + 1;
-  QVERIFY(contains(message([&] { check(elastic); }), "lattice: 9 is out of range; use 2 to 8"));
+  QVERIFY(contains(message([&] { check(elastic); }), "lattice: Control points 9 is out of range; use 2 to 8"));
   QCOMPARE(MeshRecipe().spacing, parameters::spacing.standard);
 }
 

@@ -93,14 +93,14 @@ void SnapshotTest::held_otherwise_it_is_rounded_alone() {
 void SnapshotTest::what_does_not_fit_is_refused() {
   const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
   Simulation simulation = dragged(mesh, Algorithm::spiral, Precision::single_precision);
-  const Snapshot before(simulation);
+  const SavedState before(simulation);
   const std::vector<Snapshot> wrong{
       {false, {0, 1}, {1}},       {false, {0, 1}, {1, 2, 3}},        {false, {0}, {}},
       {false, {1, 0}, {}},        {false, {15, 17}, {1, 2, 3, 4}},   {false, {0, 1, 0, 1}, {1, 2, 3, 4}},
       {false, {0, 1}, {1, 1e38}}, {false, {0, 1}, {1, std::nan("")}}};
   for (const Snapshot& placement : wrong) {
     QVERIFY_THROWS_EXCEPTION(Error, carry_out(simulation, place(placement)));
-    QVERIFY(Snapshot(simulation) == before);
+    QVERIFY(SavedState(simulation) == before);
   }
 }
 

@@ -148,8 +148,8 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"pins\": [0,8]", "\"pins\": [0,9]", "'pins' names element 9, which does not exist; ");
   row("\"pins\": [0,8]", "\"pins\": [8,0,8]", "'pins' holds an element twice; ");
   row("\"pins\": [0,8]", "\"pins\": true", "'pins' is not an array; ");
-  row("\"stretch\":1.25", "\"stretch\":0.5", "softness: stretch: 0.5 is out of range; ");
-  row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,2,1,0]", "softness: compression: 2 is out of range; ");
+  row("\"stretch\":1.25", "\"stretch\":0.5", "softness: stretch: Stretch 0.5 is out of range; ");
+  row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,2,1,0]", "softness: compression: Compression 2 is out of range; ");
   row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,1,1]", "softness: 'own' ends within a group of 5; ");
   row("\"own\": [3,4,1,1,0]", "\"own\": [3,4.5,1,1,0]",
       "softness: 'own' names an element that does not exist in its link 0; ");

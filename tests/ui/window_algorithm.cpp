@@ -31,7 +31,7 @@ class WindowAlgorithm : public QObject {
     bench.document().replaceMesh(cloth(), QStringLiteral("cloth"), QStringLiteral("build cloth"));
     for (int p = 0; p < 2; ++p) {
       QVERIFY(!item(bench, p, "3D ChainMail").isEnabled());
-      QVERIFY(item(bench, p, "3D ChainMail").toolTip().contains(QStringLiteral("grids alone")));
+      QVERIFY(item(bench, p, "3D ChainMail").toolTip().contains(QStringLiteral("only on grids")));
       QVERIFY(item(bench, p, "Exact ChainMail").isEnabled());
     }
     bench.document().undoStack().undo();
