@@ -17,12 +17,13 @@ std::string shortest_digits(double number) {
 }  // namespace
 
 std::string range_of(const Parameter& parameter) {
+  const bool open = parameter.highest == parameters::no_highest;
   if (parameter.lowest == parameters::above_zero) {
-    return "a number above 0";
+    return "a number above 0" + (open ? std::string() : ", up to " + shortest_digits(parameter.highest));
   }
-  return shortest_digits(parameter.lowest) + (parameter.highest == parameters::no_highest
-                                                  ? std::string(" or more")
-                                                  : " to " + shortest_digits(parameter.highest));
+  const std::string highest =
+      parameter.highest == parameters::below_half ? "below 0.5" : shortest_digits(parameter.highest);
+  return shortest_digits(parameter.lowest) + (open ? std::string(" or more") : " to " + highest);
 }
 
 void check(const Parameter& parameter, double value) {

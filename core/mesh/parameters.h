@@ -27,6 +27,8 @@ namespace parameters {
 inline constexpr double no_highest = std::numeric_limits<double>::max();
 /// Lower limit of numbers that must be above 0.
 inline constexpr double above_zero = std::numeric_limits<double>::min();
+/// Upper limit of numbers that must be below 0.5: the largest one.
+inline constexpr double below_half = 0.5 - std::numeric_limits<double>::epsilon() / 4;
 
 inline constexpr Parameter compression{.name = "compression",
                                        .label = "Compression",
@@ -64,7 +66,7 @@ inline constexpr Parameter relax_step{
     .label = "Step",
     .unit = "of the way",
     .standard = 1,
-    .lowest = 0.01,
+    .lowest = above_zero,
     .highest = 1,
     .slider_highest = 1,
     .step = 0.05,
@@ -96,7 +98,7 @@ inline constexpr Parameter poisson{
     .unit = "of the stretch",
     .standard = 0.3,
     .lowest = 0,
-    .highest = 0.499,
+    .highest = below_half,
     .slider_highest = 0.499,
     .step = 0.01,
     .decimals = 3,

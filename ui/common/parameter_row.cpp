@@ -34,9 +34,11 @@ ParameterRow::ParameterRow(const Parameter& parameter, const QString& prefix)
   slider_->setPageStep(sliderSteps / 20);
   spin_->setKeyboardTracking(false);
   spin_->setDecimals(parameter.decimals);
-  // A smaller number would be shown as 0.
-  const double least = parameter.lowest > 0 ? std::max(parameter.lowest, std::pow(10, -parameter.decimals)) : 0;
-  spin_->setRange(least, std::min(parameter.highest, largestInField));
+  // A number nearer to a limit that is not accepted itself would be shown as that limit.
+  const double digit = std::pow(10, -parameter.decimals);
+  const double least = parameter.lowest > 0 ? std::max(parameter.lowest, digit) : 0;
+  const double most = std::floor(std::min(parameter.highest, largestInField) / digit) * digit;
+  spin_->setRange(least, most);
   spin_->setSingleStep(parameter.step);
   spin_->setStepType(parameter.highest > 1000 ? QAbstractSpinBox::AdaptiveDecimalStepType
                                               : QAbstractSpinBox::DefaultStepType);
