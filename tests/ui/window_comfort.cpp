@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "common/icons.h"
+#include "common/plot_painting.h"
 #include "common/theme.h"
-#include "docks/report/report_looks.h"
 #include "drawing/annotation.h"
 #include "drawing/colour_map.h"
 #include "window.h"
@@ -72,7 +72,8 @@ class WindowComfort : public QObject {
         QVERIFY2(contrast(mark, colours::background) >= ofMarks, qPrintable(mark.name()));
       }
       for (const auto& one : algorithms()) {
-        QVERIFY(contrast(reportColour(one.algorithm), palette.color(QPalette::Window)) >= ofMarks);
+        const QImage mark = plotMark(one.algorithm, false, 16, 1, palette).toImage();
+        QVERIFY(contrast(mark.pixelColor(8, 8), palette.color(QPalette::Window)) >= ofMarks);
       }
     }
   }
