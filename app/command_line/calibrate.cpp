@@ -17,14 +17,14 @@ namespace {
 
 using report::figure;
 
-struct Options {
+struct CalibrateArguments {
   MeshOptions mesh;
   ElasticArguments elastic;
   CLI::Option *pins, *algorithm, *relaxation, *drags, *seed, *evaluations;
   CLI::Option *name, *preset, *json;
 };
 
-constexpr const char* footer =
+constexpr const char* calibrate_footer =
     "The reference solution is neo-Hookean FEM on the same cells. Drags are random: elements away from the pins, by\n"
     "5 to 20 % of the object's size. The search lowers the relative error at the end of the drags: the RMS of the\n"
     "error over the RMS of the reference's displacements. The result is also tested on drags that the search did not\n"
@@ -33,7 +33,7 @@ constexpr const char* footer =
     "Example:\n"
     "  chainmail calibrate organ.msh --young 3000 --poisson 0.45 --pins bottom -o liver.json";
 
-CalibrationOptions read_options(const Options& options, const std::string& object, const Mesh& mesh) {
+CalibrationOptions calibration_options(const CalibrateArguments& options, const std::string& object, const Mesh& mesh) {
   CalibrationOptions result;
   result.elastic = elastic_of(options.elastic);
   result.pins = pins_of(options.pins, object, mesh);
@@ -49,7 +49,7 @@ CalibrationOptions read_options(const Options& options, const std::string& objec
   return result;
 }
 
-std::string read_name(const Options& options, const CalibrationOptions& how) {
+std::string read_name(const CalibrateArguments& options, const CalibrationOptions& how) {
   const std::filesystem::path path = *value_of(options.mesh.path);
   std::string name = printable(path.stem().string()).substr(0, longest_preset_name - 20);
   name = value_of(options.name).value_or(name + ", Poisson " + figure(how.elastic.material.poisson));
@@ -75,7 +75,7 @@ void write_residuals(std::ostream& out, const TestedDrags& tested) {
   report::write_columns(out, rows);
 }
 
-void write_text(std::ostream& out, const CalibrationOptions& how, const CalibrationResult& result) {
+void write_calibration(std::ostream& out, const CalibrationOptions& how, const CalibrationResult& result) {
   out << info(how.algorithm).label << " comes closest to neo-Hookean FEM on the same cells (Young's modulus "
       << figure(how.elastic.material.young) << ", Poisson's ratio " << figure(how.elastic.material.poisson)
       << ") with\n  compression " << figure(result.softness.compression) << ", stretch "
@@ -89,11 +89,11 @@ void write_text(std::ostream& out, const CalibrationOptions& how, const Calibrat
   write_residuals(out, result.held_out);
 }
 
-void calibrate(const Options& options) {
+void calibrate(const CalibrateArguments& options) {
   const OpenedMesh opened = open_mesh(options.mesh);
   const std::filesystem::path path = *value_of(options.mesh.path);
   const std::string object = printable(path.filename().string());
-  const CalibrationOptions how = read_options(options, object, *opened.mesh);
+  const CalibrationOptions how = calibration_options(options, object, *opened.mesh);
   const SoftnessPreset preset{read_name(options, how), {}};
   const auto preset_file = value_of(options.preset), json_file = value_of(options.json);
   CalibrationResult result;
@@ -116,7 +116,7 @@ void calibrate(const Options& options) {
     outputs.add(*json_file, [&](std::ostream& out) { write_json(out, how, result); });
   }
   if (preset_file != "-" && json_file != "-") {
-    outputs.add("-", [&](std::ostream& out) { write_text(out, how, result); });
+    outputs.add("-", [&](std::ostream& out) { write_calibration(out, how, result); });
   }
   outputs.commit();
 }
@@ -125,7 +125,7 @@ void calibrate(const Options& options) {
 
 Command add_calibrate(CLI::App& root) {
   CLI::App* app = root.add_subcommand("calibrate", "Find the softness that is closest to an elastic material");
-  Options options{};
+  CalibrateArguments options{};
   options.mesh = add_mesh_options(*app);
   options.mesh.space = add_value(*app, "--space", "1|2|3",
                                  "space dimension [stated by the file, else the axes that the mesh extends along]");
@@ -141,7 +141,7 @@ Command add_calibrate(CLI::App& root) {
   options.name = add_value(*app, "--name", "NAME", "name of the preset [the mesh and Poisson's ratio]");
   options.preset = add_value(*app, "-o", "FILE", "write the softness as a preset (JSON)");
   options.json = add_value(*app, "--json", "FILE", "write softness, sweeps and residuals as JSON");
-  app->footer(footer);
+  app->footer(calibrate_footer);
   return {app, [options] { calibrate(options); }};
 }
 

@@ -16,7 +16,7 @@
 namespace chainmail::command_line {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* compare_footer =
     "Without MESH, six built-in objects are used, which takes one or two minutes. Each object is dragged three times\n"
     "from rest: locally, as a whole, and back and forth. Writes report.html, report.json and report.csv to FOLDER and\n"
     "prints the main table.\n\n"
@@ -45,7 +45,7 @@ std::vector<report::RecordedMoves> drags_of(const report::Case& object, const st
   return {std::move(moves)};
 }
 
-std::vector<report::Case> read_cases(const CompareArguments& options) {
+std::vector<report::Case> cases_to_compare(const CompareArguments& options) {
   const LinkSoftness softness = softness_of(options);
   const auto recorded = value_of(options.moves);
   if (options.meshes->count() == 0 && recorded) {
@@ -75,7 +75,7 @@ void refuse_physics(const CompareArguments& arguments) {
 void compare(const CompareArguments& options, const std::string& command_line) {
   const report::CompareOptions how = contest_of(options, algorithms(), "0,10");
   OutputFolder folder(*value_of(options.output));
-  const std::vector<report::Case> cases = read_cases(options);
+  const std::vector<report::Case> cases = cases_to_compare(options);
 
   ProgressLine line;
   const report::Comparison comparison =
@@ -97,7 +97,7 @@ void compare(const CompareArguments& options, const std::string& command_line) {
 Command add_compare(CLI::App& root, const std::string& command_line) {
   CLI::App* app = root.add_subcommand("compare", "Compare algorithms: a report of speed against error");
   const CompareArguments arguments = add_compare_arguments(*app);
-  app->footer(footer);
+  app->footer(compare_footer);
   return {app, [arguments, command_line] {
             const std::string against = value_of(arguments.against).value_or("exact");
             check_word("--against", against, {"exact", "physics"});

@@ -19,7 +19,7 @@ namespace {
 // Single plots must be readable on a light and on a dark background.
 constexpr const char* ink = "#808080";
 
-report::PhysicsOptions read_options(const CompareArguments& arguments) {
+report::PhysicsOptions physics_options(const CompareArguments& arguments) {
   report::PhysicsOptions options;
   const double seconds_per_drag = options.contest.seconds;
   options.contest = contest_of(arguments, every_algorithm(), "0,1,3,10,30,100");
@@ -39,7 +39,7 @@ report::PhysicsOptions read_options(const CompareArguments& arguments) {
   return options;
 }
 
-std::vector<report::Case> read_cases(const CompareArguments& arguments) {
+std::vector<report::Case> physics_cases(const CompareArguments& arguments) {
   const LinkSoftness softness = softness_of(arguments);
   const ElasticOptions elastic = elastic_of(arguments.elastic);
   if (arguments.moves->count() > 0) {
@@ -82,9 +82,9 @@ void add_plots(Outputs& outputs, const std::filesystem::path& folder, const repo
 }  // namespace
 
 void compare_with_physics(const CompareArguments& arguments, const std::string& command_line) {
-  const report::PhysicsOptions options = read_options(arguments);
+  const report::PhysicsOptions options = physics_options(arguments);
   OutputFolder folder(*value_of(arguments.output));
-  const std::vector<report::Case> cases = read_cases(arguments);
+  const std::vector<report::Case> cases = physics_cases(arguments);
   ProgressLine line;
   const report::PhysicsReport report = report::compare_with_physics(
       cases, options, [&](double fraction, const std::string& text) { line.show(fraction, text); });

@@ -16,7 +16,7 @@
 namespace chainmail::command_line {
 namespace {
 
-struct Options {
+struct DeformArguments {
   CLI::App* app = nullptr;
   MeshOptions mesh;
   ElasticArguments elastic;
@@ -41,7 +41,7 @@ constexpr const char* example =
     "      --relax 20 --positions moved.csv --json -";
 
 /// Throws Error, with the option, if the algorithm does not work on the mesh.
-void check_algorithm(const Options& options, Algorithm algorithm, const Mesh& mesh) {
+void check_algorithm(const DeformArguments& options, Algorithm algorithm, const Mesh& mesh) {
   try {
     check(algorithm, mesh);
   } catch (const Error& error) {
@@ -49,30 +49,30 @@ void check_algorithm(const Options& options, Algorithm algorithm, const Mesh& me
   }
 }
 
-Precision read_precision(const Options& options) {
+Precision read_precision(const DeformArguments& options) {
   const std::string word = value_of(options.precision).value_or("double");
   check_word("--precision", word, {"double", "float"});
   return word == "float" ? Precision::single_precision : Precision::double_precision;
 }
 
-LinkSoftness read_global_softness(const Options& options) {
+LinkSoftness read_global_softness(const DeformArguments& options) {
   return {value_of(options.compression, parameters::compression), value_of(options.stretch, parameters::stretch),
           value_of(options.shear, parameters::shear)};
 }
 
-RelaxationScheme read_relaxation(const Options& options) {
+RelaxationScheme read_relaxation(const DeformArguments& options) {
   const std::string word = value_of(options.relaxation).value_or("mean");
   check_word("--relaxation", word, {"mean", "link"});
   return word == "link" ? RelaxationScheme::link : RelaxationScheme::mean;
 }
 
-Schedule read_schedule(const Options& options, const Targets& targets) {
+Schedule read_schedule(const DeformArguments& options, const Targets& targets) {
   return {whole_number_of(options.steps, 1, 1), whole_number_of(options.relax, 0, 0),
           value_of(options.relax_step, parameters::relax_step), targets.trace.has_value()};
 }
 
 /// Returns the acts in the order of their options on the command line.
-std::vector<Act> read_acts(const Options& options) {
+std::vector<Act> read_acts(const DeformArguments& options) {
   const std::map<const CLI::Option*, Act::Kind> kinds{{options.move, Act::Kind::move},
                                                       {options.by, Act::Kind::by},
                                                       {options.cut, Act::Kind::cut},
@@ -96,7 +96,7 @@ const MeshFormat& positions_format(const std::string& path) {
   }
 }
 
-Targets read_targets(const Options& options) {
+Targets read_targets(const DeformArguments& options) {
   Targets targets{
       value_of(options.positions), value_of(options.trace), value_of(options.json), {*value_of(options.mesh.path)}};
   for (const CLI::Option* option : {options.softness, options.script}) {
@@ -130,7 +130,7 @@ void write_positions(std::ostream& out, const std::string& path, const Simulatio
              {simulation.mesh(), solver.cuts(), solver.positions(), simulation.softness()});
 }
 
-void write_text(std::ostream& out, const DeformSummary& summary) {
+void write_deformation(std::ostream& out, const DeformSummary& summary) {
   out << summary.algorithm << " on " << summary.elements << " elements, " << summary.links << " links\n";
   for (std::size_t i = 0; i < summary.passes.size(); ++i) {
     const auto& pass = summary.passes[i];
@@ -161,12 +161,12 @@ void write_results(const Targets& targets, const Simulation& simulation, const R
     outputs.add(*targets.json, [&](std::ostream& out) { write_json(out, summary); });
   }
   if (targets.none()) {
-    outputs.add("-", [&](std::ostream& out) { write_text(out, summary); });
+    outputs.add("-", [&](std::ostream& out) { write_deformation(out, summary); });
   }
   outputs.commit();
 }
 
-void deform(const Options& options) {
+void deform(const DeformArguments& options) {
   const Algorithm algorithm = algorithm_of("--algorithm", *value_of(options.algorithm), every_algorithm());
   const Precision precision = read_precision(options);
   const RelaxationScheme relaxation = read_relaxation(options);
@@ -199,7 +199,7 @@ void deform(const Options& options) {
   write_results(targets, simulation, run, summarize(simulation, run));
 }
 
-void add_acts(CLI::App& app, Options& options) {
+void add_acts(CLI::App& app, DeformArguments& options) {
   options.move = add_value(app, "--move", "ID:X[,Y[,Z]]", "drag an element to a position; omitted coordinates stay");
   options.by = add_value(app, "--by", "ID:DX[,DY[,DZ]]", "drag an element by a distance");
   options.cut = add_value(app, "--cut", "A-B", "cut the link between two elements");
@@ -213,7 +213,7 @@ void add_acts(CLI::App& app, Options& options) {
       add_value(app, "--script", "FILE", "recorded moves (JSON) as the workbench saves them; run before all acts");
 }
 
-void add_model(CLI::App& app, Options& options) {
+void add_model(CLI::App& app, DeformArguments& options) {
   std::string names;
   for (const std::string& name : names_of(every_algorithm())) {
     names += (names.empty() ? "" : "|") + name;
@@ -234,7 +234,7 @@ void add_model(CLI::App& app, Options& options) {
                                  "space dimension [stated by the file, else the axes that the mesh extends along]");
 }
 
-void add_outputs(CLI::App& app, Options& options) {
+void add_outputs(CLI::App& app, DeformArguments& options) {
   options.positions =
       add_value(app, "--positions", "FILE", "write the final positions: " + mesh_endings(FormatUse::write_positions));
   options.trace =
@@ -246,7 +246,7 @@ void add_outputs(CLI::App& app, Options& options) {
 
 Command add_deform(CLI::App& root) {
   CLI::App* app = root.add_subcommand("deform", "Drag elements of a mesh, pin elements, cut links");
-  Options options{};
+  DeformArguments options{};
   options.app = app;
   options.mesh = add_mesh_options(*app);
   add_model(*app, options);

@@ -8,7 +8,7 @@
 namespace chainmail::command_line {
 namespace {
 
-struct Options {
+struct GenerateArguments {
   CLI::Option *kind, *size, *spacing, *space, *output;
 };
 
@@ -34,7 +34,7 @@ const MeshKindInfo& find_kind(const std::string& name) {
   throw Error("KIND", "it is not known", "see chainmail generate --help");
 }
 
-MeshRecipe read_recipe(const Options& options) {
+MeshRecipe read_recipe(const GenerateArguments& options) {
   const MeshKindInfo& info = find_kind(*value_of(options.kind));
   MeshRecipe recipe;
   recipe.kind = info.kind;
@@ -50,7 +50,7 @@ MeshRecipe read_recipe(const Options& options) {
   return recipe;
 }
 
-void generate_to_file(const Options& options) {
+void generate_to_file(const GenerateArguments& options) {
   const MeshRecipe recipe = read_recipe(options);
   const std::filesystem::path path = *value_of(options.output);
   const MeshFormat& format = mesh_format(path == "-" ? "standard_output.dat" : path, FormatUse::write);
@@ -63,7 +63,7 @@ void generate_to_file(const Options& options) {
 
 Command add_generate(CLI::App& root) {
   CLI::App* app = root.add_subcommand("generate", "Generate a regular mesh");
-  Options options{};
+  GenerateArguments options{};
   options.kind = add_value(*app, "KIND", "", kinds_help())->required();
   options.size = add_value(*app, "SIZE", "", "number of elements along each axis")->required();
   options.spacing = add_parameter(*app, parameters::spacing);

@@ -8,17 +8,17 @@
 namespace chainmail::command_line {
 namespace {
 
-std::string digits(double number) {
+std::string short_digits(double number) {
   std::string text;
   append_number(text, number);
   return text;
 }
 
-std::string digits(const Point& point) {
-  return "(" + digits(point.x()) + ", " + digits(point.y()) + ", " + digits(point.z()) + ")";
+std::string short_digits(const Point& point) {
+  return "(" + short_digits(point.x()) + ", " + short_digits(point.y()) + ", " + short_digits(point.z()) + ")";
 }
 
-void write_text(std::ostream& out, const MeshSummary& summary) {
+void write_summary(std::ostream& out, const MeshSummary& summary) {
   out << "elements          " << summary.elements << '\n'
       << "links             " << summary.links << '\n'
       << "triangles         " << summary.triangles << '\n'
@@ -27,8 +27,8 @@ void write_text(std::ostream& out, const MeshSummary& summary) {
       << "object dimension  " << summary.object_dimension << '\n'
       << "space dimension   " << summary.space_dimension << '\n'
       << "components        " << summary.components << '\n'
-      << "bounds            " << digits(summary.bounds[0]) << " to " << digits(summary.bounds[1]) << '\n'
-      << "mean link length  " << digits(summary.mean_link_length) << '\n';
+      << "bounds            " << short_digits(summary.bounds[0]) << " to " << short_digits(summary.bounds[1]) << '\n'
+      << "mean link length  " << short_digits(summary.mean_link_length) << '\n';
   for (const auto& [title, words] :
        {std::pair("taken as          ", summary.remark), std::pair("note              ", in_words(summary.flaws))}) {
     if (!words.empty()) {
@@ -52,7 +52,7 @@ Command add_info(CLI::App& root) {
               outputs.add(*path, [&](std::ostream& out) { write_json(out, summary); });
               outputs.commit();
             } else {
-              write_file("-", [&](std::ostream& out) { write_text(out, summary); });
+              write_file("-", [&](std::ostream& out) { write_summary(out, summary); });
             }
           }};
 }

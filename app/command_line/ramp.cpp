@@ -15,7 +15,7 @@
 namespace chainmail::command_line {
 namespace {
 
-struct Options {
+struct RampArguments {
   CLI::Option *algorithms, *seed, *budget, *largest, *precision;
   CLI::Option *compression, *stretch, *shear;
   CLI::Option *json, *csv;
@@ -23,7 +23,7 @@ struct Options {
 
 constexpr std::uint32_t smallest_grid = 16;
 
-constexpr const char* footer =
+constexpr const char* ramp_footer =
     "Runs square grids from 4x4 upward. At each size all algorithms run the same drags, with steps in proportion to\n"
     "the grid's width, as on a screen. An algorithm stops when the 99th percentile of its pass times exceeds the\n"
     "budget twice.\n\n"
@@ -38,7 +38,7 @@ std::uint64_t largest_for_memory(std::uint64_t limit) {
   return std::min(limit, memory / 2 / bytes_per_element);
 }
 
-std::uint64_t read_largest(const Options& options, std::uint64_t limit) {
+std::uint64_t read_largest(const RampArguments& options, std::uint64_t limit) {
   if (options.largest->count() == 0) {
     return largest_for_memory(limit);
   }
@@ -50,7 +50,7 @@ std::uint64_t read_largest(const Options& options, std::uint64_t limit) {
   return largest;
 }
 
-double read_budget(const Options& options, double standard) {
+double read_budget(const RampArguments& options, double standard) {
   const auto text = value_of(options.budget);
   const double budget = text ? parse_number_of("--budget", *text) : standard;
   if (!(budget > 0)) {
@@ -59,7 +59,7 @@ double read_budget(const Options& options, double standard) {
   return budget;
 }
 
-report::RampOptions read_options(const Options& options) {
+report::RampOptions ramp_options(const RampArguments& options) {
   report::RampOptions result;
   result.algorithms = algorithms_of(options.algorithms, algorithms());
   result.seed = whole_number_of(options.seed, 0, static_cast<std::uint32_t>(result.seed));
@@ -89,12 +89,12 @@ void write(const std::vector<Target>& targets, bool is_trial) {
 }
 
 /// A progress line on standard error, if that is a terminal. The destructor clears it.
-class ProgressLine {
+class RampProgress {
  public:
-  ProgressLine() = default;
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  ~ProgressLine() {
+  RampProgress() = default;
+  RampProgress(const RampProgress&) = delete;
+  RampProgress& operator=(const RampProgress&) = delete;
+  ~RampProgress() {
     if (is_terminal_) {
       std::cerr << "\r\x1b[K" << std::flush;
     }
@@ -112,8 +112,8 @@ class ProgressLine {
   bool is_terminal_ = isatty(STDERR_FILENO) != 0;
 };
 
-void ramp(const Options& options) {
-  const report::RampOptions how = read_options(options);
+void ramp(const RampArguments& options) {
+  const report::RampOptions how = ramp_options(options);
   report::Ramp result;
   const report::Machine machine = report::this_machine();
   std::vector<Target> targets;
@@ -128,7 +128,7 @@ void ramp(const Options& options) {
   }
   write(targets, true);  // fails now, not after minutes of work, if an output cannot be written
   {
-    const ProgressLine line;
+    const RampProgress line;
     result = report::ramp(how, [&](const report::RampProgress& progress) { line.show(progress); });
   }
   write(targets, false);
@@ -138,7 +138,7 @@ void ramp(const Options& options) {
 
 Command add_ramp(CLI::App& root) {
   CLI::App* app = root.add_subcommand("ramp", "Find the largest grid on which each algorithm runs in real time");
-  Options options{};
+  RampArguments options{};
   options.algorithms = add_value(*app, "--algorithms", "A,B,…", "algorithms to run: see deform --help [all]");
   options.seed = add_value(*app, "--seed", "N", "random seed of the drags [1]");
   options.budget = add_value(*app, "--budget", "SECONDS", "time per pass [1/60]");
@@ -150,7 +150,7 @@ Command add_ramp(CLI::App& root) {
   options.shear = add_parameter(*app, parameters::shear);
   options.json = add_value(*app, "--json", "FILE", "write all results as JSON");
   options.csv = add_value(*app, "--csv", "FILE", "write one row per algorithm and size as CSV");
-  app->footer(footer);
+  app->footer(ramp_footer);
   return {app, [options] { ramp(options); }};
 }
 

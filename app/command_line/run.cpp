@@ -8,7 +8,7 @@
 namespace chainmail::command_line {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* run_footer =
     "Exit status: 0 done; 2 bad usage or bad input, with one line on standard error and no output\n"
     "file changed; 1 any other error. The file name - is standard output.\n\n"
     "Example:\n"
@@ -89,7 +89,7 @@ std::string as_typed(int argc, char** argv) {
 void run(int argc, char** argv) {
   CLI::App root("Deforms meshes with the ChainMail family of algorithms.", "chainmail");
   root.set_version_flag("--version", std::string("chainmail ") + CHAINMAIL_VERSION, "Print the version and exit");
-  root.footer(footer);
+  root.footer(run_footer);
   root.allow_extras()->require_subcommand(0, 1);
   const std::vector<Command> commands{add_generate(root),  add_convert(root), add_fill(root),
                                       add_info(root),      add_deform(root),  add_compare(root, as_typed(argc, argv)),

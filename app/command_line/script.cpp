@@ -17,12 +17,12 @@ namespace chainmail::command_line {
 namespace {
 
 /// A progress line on standard error, if that is a terminal, for work that takes more than a second.
-class Progress {
+class ScriptProgress {
  public:
-  explicit Progress(std::uint64_t total) : total_(total), is_terminal_(isatty(STDERR_FILENO) != 0) {}
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  ~Progress() {
+  explicit ScriptProgress(std::uint64_t total) : total_(total), is_terminal_(isatty(STDERR_FILENO) != 0) {}
+  ScriptProgress(const ScriptProgress&) = delete;
+  ScriptProgress& operator=(const ScriptProgress&) = delete;
+  ~ScriptProgress() {
     if (shown_) {
       std::cerr << "\r\x1b[K" << std::flush;
     }
@@ -149,7 +149,7 @@ class Runner {
 
   Simulation& simulation_;
   const Schedule& schedule_;
-  Progress progress_;
+  ScriptProgress progress_;
   Run run_;
 };
 

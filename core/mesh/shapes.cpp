@@ -9,10 +9,10 @@ namespace chainmail {
 namespace {
 
 /// A rest vector as bits: two that differ in any are two shapes.
-using Bits = std::array<std::uint64_t, 3>;
+using PointBits = std::array<std::uint64_t, 3>;
 
 struct Hash {
-  std::size_t operator()(const Bits& bits) const {
+  std::size_t operator()(const PointBits& bits) const {
     std::uint64_t hash = 0;
     for (const std::uint64_t word : bits) {
       hash = (hash ^ word) * 0x9e3779b97f4a7c15U;  // the golden ratio's bits (Knuth 1973)
@@ -28,7 +28,7 @@ class Shapes {
 
   /// Most rows look like the row before: its entry in the same place is tried first.
   bool add(EntryId entry, ElementId from, std::optional<EntryId> alike) {
-    const Bits bits = bits_of(from, mesh_.neighbours[entry]);
+    const PointBits bits = bits_of(from, mesh_.neighbours[entry]);
     if (alike && *alike < entry && bits == known_[mesh_.entry_shape[*alike]]) {
       mesh_.entry_shape[entry] = mesh_.entry_shape[*alike];
       return true;
@@ -45,7 +45,7 @@ class Shapes {
   }
 
   void store() {
-    for (const Bits& bits : known_) {
+    for (const PointBits& bits : known_) {
       for (std::size_t k = 0; k < dimension_; ++k) {
         mesh_.shapes.push_back(std::bit_cast<double>(bits[k]));
       }
@@ -53,8 +53,8 @@ class Shapes {
   }
 
  private:
-  Bits bits_of(ElementId from, ElementId to) const {
-    Bits bits{};
+  PointBits bits_of(ElementId from, ElementId to) const {
+    PointBits bits{};
     for (std::size_t k = 0; k < dimension_; ++k) {
       bits[k] = std::bit_cast<std::uint64_t>(mesh_.rest[to * dimension_ + k] - mesh_.rest[from * dimension_ + k]);
     }
@@ -63,8 +63,8 @@ class Shapes {
 
   Mesh& mesh_;
   std::size_t dimension_;
-  std::vector<Bits> known_;
-  std::unordered_map<Bits, std::uint16_t, Hash> numbers_;
+  std::vector<PointBits> known_;
+  std::unordered_map<PointBits, std::uint16_t, Hash> numbers_;
 };
 
 bool number_all(Mesh& mesh, Shapes& shapes, const Progress& progress) {

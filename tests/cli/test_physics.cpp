@@ -83,10 +83,9 @@ void PhysicsCommandTest::nothing_pins_it() {
   for (const char* line : {"compare cloth.obj --against physics -o out", "calibrate cloth.obj"}) {
     const auto outcome = program_->run(line);
     QCOMPARE(outcome.code, 2);
-    QCOMPARE(
-        QString::fromUtf8(outcome.error),
-        QString("chainmail: cloth.obj: it has no pins, so physics has no static answer; add --pins bottom, --pins "
-                "boundary, or --pins ID,ID,…\n"));
+    QCOMPARE(QString::fromUtf8(outcome.error),
+             QString("chainmail: cloth.obj: it has no pins, so physics has no static answer; add --pins bottom, --pins "
+                     "boundary, or --pins ID,ID,…\n"));
   }
   QVERIFY(!program_->files().contains("out"));
 }

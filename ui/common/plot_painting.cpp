@@ -16,7 +16,7 @@ namespace {
 // Logical pixels.
 constexpr double markUnit = 4.6;  // looks are drawn about (0, 0) in units of this
 constexpr double markSide = 3.2;  // of the square that holds a look, in its units
-constexpr double lineWidth = 1.4;
+constexpr double curveWidth = 1.4;
 constexpr double keyWidth = 22, betweenKeys = 16, betweenLabels = 5;
 
 constexpr QSizeF pdfPage{160, 90};     // mm
@@ -207,7 +207,7 @@ void PlotPainting::paintCurves(QPainter& painter) const {
   painter.save();
   painter.setClipRect(inner_.adjusted(-1, -1, 1, 1));
   for (const report::PlotCurve& curve : panel()->curves) {
-    painter.setPen(QPen(colourOf(curve.series), lineWidth, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.setPen(QPen(colourOf(curve.series), curveWidth, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
     QPolygonF line;
     line.reserve(qsizetype(curve.points.size()));
     for (const auto& [x, y] : curve.points) {
@@ -245,7 +245,7 @@ void PlotPainting::paintKey(QPainter& painter, std::size_t series, QPointF centr
     return;
   }
   const QPointF half((keyWidth - 6) / 2, 0);
-  painter.setPen(QPen(colourOf(series), 2 * lineWidth));
+  painter.setPen(QPen(colourOf(series), 2 * curveWidth));
   painter.drawLine(centre - half, centre + half);
 }
 

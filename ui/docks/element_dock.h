@@ -2,6 +2,7 @@
 
 #include <QDockWidget>
 #include <QTableWidget>
+#include <QTimer>
 
 #include "docks/element_move.h"
 

@@ -1,5 +1,7 @@
 #include "tools/element_readout.h"
 
+#include <QLocale>
+
 #include "document/element_facts.h"
 
 namespace chainmail {

@@ -12,7 +12,7 @@ namespace chainmail {
 namespace {
 
 enum Column { actionColumn, keysColumn, effectColumn };
-constexpr QSize preferredSize(760, 560);
+constexpr QSize dialogSize(760, 560);
 
 QString shown(const QKeySequence& keys) { return keys.toString(QKeySequence::NativeText); }
 
@@ -37,7 +37,7 @@ ShortcutsDialog::ShortcutsDialog(Shortcuts& shortcuts, QWidget* parent)
       answer_(new QLabel) {
   setObjectName(QStringLiteral("shortcutsDialog"));
   setWindowTitle(QStringLiteral("Keyboard shortcuts"));
-  resize(preferredSize);
+  resize(dialogSize);
   makeList();
   auto* column = new QVBoxLayout(this);
   column->addWidget(search_);

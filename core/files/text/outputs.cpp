@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string reason() { return std::generic_category().message(errno); }
-
 void refuse_unwritable(const fs::path& path, const fs::path& target, const fs::file_status& status) {
   if (fs::is_directory(status) || !target.has_filename()) {
     throw Error(shown(path), "it is a folder", "give a file");
@@ -28,7 +26,7 @@ void refuse_unwritable(const fs::path& path, const fs::path& target, const fs::f
   }
   // A rename would ignore that the file may not be written.
   if (fs::exists(status) && !std::ofstream(target, std::ios::app)) {
-    throw Error(shown(path), "it cannot be written (" + reason() + ")", "check its permissions");
+    throw Error(shown(path), "it cannot be written (" + system_reason() + ")", "check its permissions");
   }
 }
 
@@ -50,7 +48,7 @@ void write_stream(std::ostream& out, const fs::path& path, const Outputs::Writer
   out.flush();
   if (!out) {
     throw WriteFailure(path == "-" ? "standard output" : shown(path),
-                       "it cannot be written to its end (" + reason() + ")",
+                       "it cannot be written to its end (" + system_reason() + ")",
                        "free disk space, or check the program that reads the pipe");
   }
 }
@@ -94,7 +92,8 @@ void Outputs::add(const fs::path& path, Writer writer) {
   const fs::path temporary = temporary_for(target);
   std::ofstream out(temporary, std::ios::binary);
   if (!out) {
-    throw Error(shown(path), "it cannot be written (" + reason() + ")", "check the name and its folder's permissions");
+    throw Error(shown(path), "it cannot be written (" + system_reason() + ")",
+                "check the name and its folder's permissions");
   }
   files_.push_back({path, target, temporary});
   if (fs::exists(status)) {

@@ -12,12 +12,6 @@
 #include "mesh/error.h"
 
 namespace chainmail {
-namespace {
-
-std::string reason() { return std::generic_category().message(errno); }
-
-}  // namespace
-
 void require_file(const std::filesystem::path& path) {
   using std::filesystem::file_type;
   std::error_code error;
@@ -42,7 +36,7 @@ RegularFile::RegularFile(const std::filesystem::path& path) : path_(path) {
   descriptor_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   struct stat status {};
   if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) {
-    const std::string why = reason();
+    const std::string why = system_reason();
     close(descriptor_);
     throw Error(shown(path), "it cannot be read (" + why + ")", "check its permissions");
   }
@@ -67,7 +61,7 @@ std::size_t RegularFile::read(std::span<char> bytes) {
   while (done < bytes.size()) {
     const ssize_t got = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
     if (got < 0 && errno != EINTR) {
-      throw Error(shown(path_), "it cannot be read to its end (" + reason() + ")", "check the disk");
+      throw Error(shown(path_), "it cannot be read to its end (" + system_reason() + ")", "check the disk");
     }
     if (got == 0) {
       break;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -270,5 +271,7 @@ std::optional<int> stated_space(std::string_view line, const std::filesystem::pa
   }
   return static_cast<int>(*space);
 }
+
+std::string system_reason() { return std::generic_category().message(errno); }
 
 }  // namespace chainmail

@@ -91,6 +91,9 @@ class TextBlocks {
   char* end_ = block_.data();
 };
 
+/// Returns the reason for the last failed system call, from errno.
+std::string system_reason();
+
 /// Returns the values of a comment `# WORD value…`, if the first value begins like a number. Prose that begins with
 /// WORD does not count.
 std::optional<std::string_view> stated(std::string_view line, std::string_view word);

@@ -25,8 +25,6 @@ enum GmshType {
   point = 15
 };
 
-[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) { throw Error("", problem, remedy); }
-
 /// Maps tags to elements, in the order of the tags, and stores their positions.
 class Points {
  public:

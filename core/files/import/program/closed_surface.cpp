@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 
+#include "files/import/program/tasks.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -18,8 +19,6 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Link = std::array<ElementId, 2>;
-
-[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) { throw Error("", problem, remedy); }
 
 std::string numbers(const Triangle& t) {
   return std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " + std::to_string(t[2]);

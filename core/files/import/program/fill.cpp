@@ -21,8 +21,6 @@
 namespace chainmail::import {
 namespace {
 
-[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) { throw Error("", problem, remedy); }
-
 ImportedMesh load(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   const std::vector<char> letters{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

@@ -16,8 +16,6 @@ struct Remove {
   void operator()(Nrrd* nrrd) const { nrrdNuke(nrrd); }
 };
 
-[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) { throw Error("", problem, remedy); }
-
 constexpr std::size_t longest = 150;
 
 /// The last word of teem's account, which begins with what went wrong first.

@@ -24,8 +24,6 @@ bool read(const std::string& name, const std::string& path, Soup& soup) {
                        : CGAL::IO::read_STL(path, soup.points, soup.polygons);
 }
 
-[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) { throw Error("", problem, remedy); }
-
 void add_polygon(MeshParts& parts, const Polygon& polygon) {
   if (polygon.size() < 2 ||
       std::any_of(polygon.begin(), polygon.end(), [&](auto corner) { return corner >= parts.rest.size(); })) {

@@ -6,9 +6,15 @@
 #include <vector>
 
 #include "files/import/handover.h"
+#include "mesh/error.h"
 
 /// Tasks of the import program. They call libraries that may crash on a damaged file.
 namespace chainmail::import {
+
+/// Ends the task: the program that started this one names the file, and shows both sentences.
+[[noreturn]] inline void refuse(const std::string& problem, const std::string& remedy) {
+  throw Error("", problem, remedy);
+}
 
 /// Reports the share that is done, from 0 to 1.
 using Report = std::function<void(double)>;
