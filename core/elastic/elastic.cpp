@@ -69,7 +69,7 @@ const MethodEntry& entry_of(ElasticMethod method) { return *std::ranges::find(me
 
 void check_boundary_size(std::uint64_t triangles, std::uint64_t elements_of_cells) {
   if (triangles > boundary_limit) {
-    refuse_size("BEM", triangles, boundary_limit, "triangles on their surface");
+    refuse_size("BEM", triangles, boundary_limit, "triangles on the surface");
   }
   if (elements_of_cells > boundary_inner_limit) {
     refuse_size("BEM", elements_of_cells, boundary_inner_limit, "elements, if they are volumes");

@@ -336,7 +336,7 @@ void BoundaryElementsTest::wrong_surfaces_are_refused() {
   QVERIFY(refused(build_mesh(one_sided), pins).contains("has one side alone"));
   QVERIFY(!fits(ElasticMethod::boundary, *make_mesh(MeshKind::cloth, {4, 4, 1})));
   QVERIFY(!fits(ElasticMethod::boundary, *make_mesh(MeshKind::tetra, {40, 40, 40})));
-  QVERIFY(refused(sphere(30), pins).contains("triangles on their surface, and this one has 7200; use a coarser mesh"));
+  QVERIFY(refused(sphere(30), pins).contains("triangles on the surface, and this object has 7200; use a coarser mesh"));
 }
 
 void BoundaryElementsTest::loose_parts_are_refused() {

@@ -4,6 +4,7 @@
 #include "command_line/common.h"
 #include "core/recorded.h"
 #include "files/results/report_json.h"
+#include "report/page/csv.h"
 #include "report/page/looks.h"
 #include "report/page/table.h"
 #include "report/run/ramp.h"

@@ -1,6 +1,7 @@
 // Dragging in a real window: what a hand does in one panel happens in both.
 
 #include <QWheelEvent>
+#include <future>
 
 #include "window.h"
 
@@ -60,14 +61,20 @@ class WindowDrag : public QObject {
       document.drag(Point(4, 3 + 0.1 * i, 0));
       QCOMPARE(document.tape().length(), recorded + 1);
     }
-    // While the solvers are busy only the newest move waits.
+    // While a solver is busy only the newest move waits.
+    finish();
+    std::promise<void> busy;
+    document.ask(1, [end = busy.get_future().share()](const Simulation&) { end.wait(); });
+    const std::size_t recorded = document.tape().length();
     for (int i = 1; i <= 200; ++i) {
       document.drag(Point(4, 4 + 0.01 * i, 0));
     }
+    QCOMPARE(document.tape().length(), recorded);
+    busy.set_value();
     finish();
     bench.settle();
     QCOMPARE(bench.position(1, 31), Point(4, 6, 0));
-    QVERIFY(document.tape().length() < 200);
+    QCOMPARE(document.tape().length(), recorded + 1);
     document.release();
   }
 

@@ -55,7 +55,7 @@ class WindowPhysics : public QObject {
     bench.document().replaceMesh(generate({MeshKind::cloth, {5, 5, 1}, 1, 3}), QStringLiteral("cloth"),
                                  QStringLiteral("build"));
     QVERIFY(!item(bench, 0, "Neo-Hookean FEM").isEnabled());
-    QVERIFY(item(bench, 0, "Neo-Hookean FEM").toolTip().contains(QStringLiteral("no solid")));
+    QVERIFY(item(bench, 0, "Neo-Hookean FEM").toolTip().contains(QStringLiteral("not a solid")));
     QVERIFY(item(bench, 0, "Exact ChainMail").isEnabled());
   }
 
@@ -283,7 +283,7 @@ class WindowPhysics : public QObject {
     const QPoint from = bench.place(0, 12);
     bench.stroke(0, {from, from + QPoint(20, -20)});
     bench.trigger("colourBy-truth");
-    QTRY_VERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("it is no solid")));
+    QTRY_VERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("it is not a solid")));
   }
 };
 
