@@ -30,7 +30,7 @@ struct RateBench : Workbench {
       there << from + QPoint(i % 2 == 0 ? 120 : 0, -60);
     }
     // The dock takes a sample five times per second.
-    const QDeadlineTimer samples(1200);
+    const QDeadlineTimer samples(2500);
     do {
       stroke(0, there);
     } while (!samples.hasExpired());
