@@ -20,10 +20,10 @@ int fail(const QString& sentence) {
 }
 
 /// True if there is a display. Without one, Qt would end the process without a helpful message.
-bool hasDisplay(int argc, char** argv) {
-  const auto namesPlatform = [](const char* argument) { return std::string_view(argument) == "-platform"; };
+bool has_display(int argc, char** argv) {
+  const auto names_platform = [](const char* argument) { return std::string_view(argument) == "-platform"; };
   return !qEnvironmentVariableIsEmpty("DISPLAY") || !qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") ||
-         !qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") || std::any_of(argv, argv + argc, namesPlatform);
+         !qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") || std::any_of(argv, argv + argc, names_platform);
 }
 
 /// Sets the options and the help text.
@@ -42,7 +42,7 @@ void describe(QCommandLineParser& parser) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit (ulimit -f) fails to be written, as on a full disk
-  if (!hasDisplay(argc, argv)) {
+  if (!has_display(argc, argv)) {
     return fail(
         QStringLiteral("there is no display; start it in a desktop session, or use the command line program "
                        "chainmail"));

@@ -178,7 +178,8 @@ std::vector<LinkId> unhiddenLinks(const Frame& frame, const Projection& projecti
     const auto [a, b] = frame.mesh->links[link];
     const Spot first = spotOf(project(frame, projection, a)), second = spotOf(project(frame, projection, b));
     const Spot spot = between(first, second, shareAt(stroke, first.at, second.at));
-    if (std::ranges::none_of(seen, [&](const SeenFace& f) { return !(f.has(a) && f.has(b)) && f.hides(spot); })) {
+    const auto hides = [&, a = a, b = b](const SeenFace& f) { return !(f.has(a) && f.has(b)) && f.hides(spot); };
+    if (std::ranges::none_of(seen, hides)) {
       unhidden.push_back(link);
     }
   }
@@ -196,9 +197,10 @@ std::vector<LinkId> nearestLinks(const Frame& frame, const ClusterBoxes& boxes, 
   const auto spots = elementsAbout(frame, boxes, projection, stroke, about);
   std::vector<LinkId> nearest;
   for (std::size_t i = 0; i < crossed.size(); ++i) {
-    const auto& [at, depth, radius] = crossings[i];
-    const bool behind = std::ranges::any_of(
-        spots, [&](const Spot& spot) { return spot.depth < depth - radius && QLineF(at, spot.at).length() <= radius; });
+    const Crossing& crossing = crossings[i];
+    const bool behind = std::ranges::any_of(spots, [&](const Spot& spot) {
+      return spot.depth < crossing.depth - crossing.radius && QLineF(crossing.at, spot.at).length() <= crossing.radius;
+    });
     if (!behind) {
       nearest.push_back(crossed[i]);
     }

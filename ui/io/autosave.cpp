@@ -40,8 +40,7 @@ QString newPath() {
 }  // namespace
 
 QString Autosave::folder() {
-  const QString path =
-      QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + QStringLiteral("/autosave");
+  QString path = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + QStringLiteral("/autosave");
   QDir().mkpath(path);
   return path;
 }

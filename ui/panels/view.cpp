@@ -253,7 +253,7 @@ std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
 }
 
 std::vector<LinkId> View::frontLinksCrossing(QLineF stroke) const {
-  const std::vector<LinkId> crossed = linksCrossing(stroke);
+  std::vector<LinkId> crossed = linksCrossing(stroke);
   const Frame* frame = document_.frame(panel_);
   if (crossed.empty() || !camera_->spatial()) {
     return crossed;

@@ -9,9 +9,9 @@
 namespace chainmail::report {
 namespace {
 
-template <double Distance::*member>
+template <double Distance::*Member>
 std::optional<double> to_exact(const Errors& errors) {
-  return errors.to_exact ? std::optional((*errors.to_exact).*member) : std::nullopt;
+  return errors.to_exact ? std::optional((*errors.to_exact).*Member) : std::nullopt;
 }
 
 constexpr std::array errors_to_plot{

@@ -113,6 +113,7 @@ class RampRun {
 
   std::vector<Algorithm> algorithms_of(const std::vector<std::size_t>& contestants) const {
     std::vector<Algorithm> found;
+    found.reserve(contestants.size());
     for (const std::size_t contestant : contestants) {
       found.push_back(result_.options.algorithms[contestant]);
     }

@@ -140,7 +140,8 @@ std::span<const RateSample> RateHistory::since(double time) const {
 std::vector<QPolygonF> curveOf(std::span<const RateSample> samples, const RateQuantity& quantity, double from,
                                double to, std::size_t points) {
   // A piece gives two points at most, and one more piece begins before the first whole one.
-  const double pieces = std::max(1.0, double(points / 2) - 1);
+  const std::size_t pairs = points / 2;
+  const double pieces = std::max(1.0, double(pairs) - 1);
   const double length = samples.size() > points ? (to - from) / pieces : 0;
   const double gap = std::max(longestGap, length);  // no piece is part of two lines
   RateLines lines(length);

@@ -41,9 +41,9 @@ struct Column {
   std::string (*words)(const Measurement& one) = nullptr;
 };
 
-template <double Distance::*member>
+template <double Distance::*Member>
 std::optional<double> of(const std::optional<Distance>& distance) {
-  return distance ? std::optional((*distance).*member) : std::nullopt;
+  return distance ? std::optional((*distance).*Member) : std::nullopt;
 }
 
 constexpr std::array columns{

@@ -12,6 +12,7 @@ MeshRecipe gridOf(std::uint32_t width) { return {MeshKind::grid, {width, width, 
 
 std::vector<Algorithm> algorithmsOf(const std::vector<SizeTestContestant>& contestants) {
   std::vector<Algorithm> algorithms;
+  algorithms.reserve(contestants.size());
   for (const SizeTestContestant& contestant : contestants) {
     algorithms.push_back(contestant.algorithm);
   }
