@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QSpinBox>
+#include <QTableWidget>
 #include <QToolButton>
 
 #include "common/icons.h"
@@ -80,9 +81,22 @@ class WindowDocks : public QObject {
     enter("7");
     QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{7});
     enter("63");  // one beyond the last
-    QVERIFY(bench.find<QLabel>("elementState")->text().contains(QStringLiteral("from 0 to 62")));
+    const auto answered = [&] {
+      return bench.find<QLabel>("elementState")->text().contains(QStringLiteral("from 0 to 62"));
+    };
+    QVERIFY(answered());
     QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{7});
     QCOMPARE(id->value(), 7);
+    Document& document = bench.document();
+    const auto shown = [&] { return bench.find<QTableWidget>("elementPositions")->item(1, 1)->text(); };
+    const QString before = shown();
+    document.grab(7);  // the frames of a drag refresh the dock; the answer stays
+    document.drag(document.mesh()->rest_position(7) + Point(0.5, 0, 0));
+    document.release();
+    QTRY_VERIFY(shown() != before);
+    QVERIFY(answered());
+    enter("8");
+    QVERIFY(!answered());
   }
 
   void stiffness_data() {

@@ -209,10 +209,10 @@ class WindowExact : public QObject {
     bench.document().select({to});
     bench.find<QDockWidget>("elementDock")->show();
     bench.settleFigures();
-    const auto* places = bench.find<QTableWidget>("elementPlaces");
+    const auto* positions = bench.find<QTableWidget>("elementPositions");
     const auto row = [&](int number) {
-      return QStringList{places->item(number, 0)->text(), places->item(number, 1)->text(),
-                         places->item(number, 2)->text()};
+      return QStringList{positions->item(number, 0)->text(), positions->item(number, 1)->text(),
+                         positions->item(number, 2)->text()};
     };
     QCOMPARE(row(0), (QStringList{QStringLiteral("rest"), QStringLiteral("4"), QStringLiteral("2")}));
     for (int panel = 0; panel < 2; ++panel) {
@@ -233,10 +233,10 @@ class WindowExact : public QObject {
     QTest::keyClicks(id, QStringLiteral("31"));
     QTest::keyClick(id, Qt::Key_Return);
     QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{31});
-    auto* places = bench.find<QTableWidget>("elementPlaces");
-    QCOMPARE(places->rowCount(), 3);  // at rest, left, right
-    QCOMPARE(places->columnCount(), 3);
-    QCOMPARE(places->item(2, 1)->text(), QStringLiteral("4"));
+    auto* positions = bench.find<QTableWidget>("elementPositions");
+    QCOMPARE(positions->rowCount(), 3);  // at rest, left, right
+    QCOMPARE(positions->columnCount(), 3);
+    QCOMPARE(positions->item(2, 1)->text(), QStringLiteral("4"));
     QCOMPARE(bench.find<QTableWidget>("elementNeighbours")->rowCount(), 4);
     // A selection made elsewhere shows too, where it is one element.
     bench.document().select({0});

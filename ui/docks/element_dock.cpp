@@ -41,7 +41,7 @@ ElementDock::ElementDock(Document& document)
     : document_(document),
       id_(new IdBox),
       state_(new QLabel),
-      positions_(table("elementPlaces", QStringLiteral("Positions of the element (mesh units)"), {})),
+      positions_(table("elementPositions", QStringLiteral("Positions of the element (mesh units)"), {})),
       neighbours_(table("elementNeighbours", QStringLiteral("Neighbours and links of the element"),
                         {QStringLiteral("To"), QStringLiteral("Compr."), QStringLiteral("Stretch"),
                          QStringLiteral("Shear"), QStringLiteral("Violation")})),
@@ -107,6 +107,7 @@ void ElementDock::arrange() {
 void ElementDock::listen() {
   connect(id_, &QSpinBox::valueChanged, this, &ElementDock::pick);
   connect(&id_->field(), &QLineEdit::returnPressed, this, &ElementDock::pick);  // also if the id is unchanged
+  connect(&id_->field(), &QLineEdit::textEdited, this, [this] { missing_.reset(); });
   connect(toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
     if (shown) {
       id_->setFocus(Qt::ShortcutFocusReason);
@@ -153,6 +154,7 @@ void ElementDock::adaptToMesh() {
 void ElementDock::followSelection() {
   const auto& selected = document_.selection().elements;
   element_.reset();
+  missing_.reset();
   if (selected.size() == 1) {
     element_ = selected.front();
     const QSignalBlocker quiet(id_);
@@ -174,17 +176,27 @@ void ElementDock::pick() {
     const QSignalBlocker quiet(id_);
     id_->setValue(int(*element_));
   }
-  state_->setText(QStringLiteral("There is no element %1: ids are from 0 to %2.").arg(asked).arg(count - 1));
+  missing_ = asked;
+  state_->setText(stateText());
+}
+
+QString ElementDock::stateText() const {
+  if (missing_) {
+    return QStringLiteral("There is no element %1: ids are from 0 to %2.")
+        .arg(*missing_)
+        .arg(document_.mesh()->element_count() - 1);
+  }
+  if (element_) {
+    return counted(document_.mesh()->neighbours_of(*element_).size(), QStringLiteral("neighbour")) +
+           (document_.isPinned(*element_) ? QStringLiteral(" · pinned") : QString());
+  }
+  const std::size_t selected = document_.selection().elements.size();
+  return selected == 0 ? QStringLiteral("Type an id and press Enter, or select one element in a view.")
+                       : QStringLiteral("%L1 elements are selected: type an id to select one.").arg(selected);
 }
 
 void ElementDock::showElement() {
-  const std::size_t selected = document_.selection().elements.size();
-  state_->setText(
-      element_ ? QStringLiteral("%1%2").arg(
-                     counted(document_.mesh()->neighbours_of(*element_).size(), QStringLiteral("neighbour")),
-                     document_.isPinned(*element_) ? QStringLiteral(" · pinned") : QString())
-      : selected == 0 ? QStringLiteral("Type an id and press Enter, or select one element in a view.")
-                      : QStringLiteral("%L1 elements are selected: type an id to select one.").arg(selected));
+  state_->setText(stateText());
   move_->setElement(element_);
   showPositions();
   showNeighbours();

@@ -26,6 +26,7 @@ class ElementDock : public QDockWidget {
   void followSelection();
   void pick();
   void showElement();
+  QString stateText() const;
   void showPositions();
   void showNeighbours();
   void showNeighbour(int row, EntryId entry);
@@ -35,6 +36,7 @@ class ElementDock : public QDockWidget {
 
   Document& document_;
   std::optional<ElementId> element_;
+  std::optional<int> missing_;  // the id last typed, while it is none of the mesh's
   IdBox* id_;
   QLabel* state_;
   QTableWidget* positions_;
