@@ -3,7 +3,7 @@
 namespace chainmail {
 namespace {
 
-/// All Bernstein polynomials of one degree at t in [0, 1], by their recurrence.
+/// Returns all Bernstein polynomials of one degree at t in [0, 1], by their recurrence.
 Eigen::VectorXd polynomials(int count, double t) {
   Eigen::VectorXd values = Eigen::VectorXd::Unit(count, 0);
   for (int degree = 1; degree < count; ++degree) {

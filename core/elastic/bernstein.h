@@ -8,22 +8,23 @@
 
 namespace chainmail {
 
-/// A lattice of control points about the box of an object at rest, and the Bernstein polynomials by which each moves an
-/// element (Sederberg and Parry 1986). The first axis runs fastest.
+/// The lattice of control points around the box of an object at rest, and the Bernstein polynomials by which each point
+/// moves an element (Sederberg and Parry 1986). Indices run fastest along the first axis.
 class BernsteinVolume {
  public:
-  /// `counts` control points along x, y and z; axes that the scene does not carry have none.
+  /// Creates `counts` control points along x, y and z. Axes that do not exist in the scene get none.
   BernsteinVolume(const Mesh& mesh, const std::array<std::uint32_t, 3>& counts);
 
   Eigen::Index count() const { return count_; }
-  /// Where a control point is at rest (space_dimension coordinates, mesh units).
+  /// Returns the rest position of a control point (space_dimension coordinates, mesh units).
   Eigen::VectorXd rest(Eigen::Index point) const;
-  /// How far an element goes with each control point: not below 0, and 1 in sum.
+  /// Returns the share of the displacement of each control point by which an element moves: at least 0 each, and 1 in
+  /// sum.
   Eigen::VectorXd weights(ElementId element) const;
 
  private:
   const Mesh& mesh_;
-  std::vector<int> counts_;  // along the carried axes
+  std::vector<int> counts_;  // along the axes that exist
   Eigen::Index count_ = 1;
 };
 

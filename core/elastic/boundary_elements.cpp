@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-/// An object of one solid or several, each on its own: what happens to one does nothing to another.
+/// An object of one or more solids. Each is solved on its own and does not affect the others.
 class BoundaryElements final : public LinearResponse {
  public:
   BoundaryElements(const ElasticProblem& problem, const Progress& progress)
@@ -40,8 +40,9 @@ class BoundaryElements final : public LinearResponse {
       if (solid.has_corner(element)) {
         add(solid, solid.respond(element, progress), response);
       } else if (std::ranges::count(solid.elements(), element) != 0) {
-        throw Error("BEM", "element " + std::to_string(element) + " lies inside, and it works on the surface",
-                    "take hold of an element of the surface");
+        throw Error("BEM",
+                    "element " + std::to_string(element) + " lies inside the object, and BEM works only on the surface",
+                    "grab an element of the surface");
       }
     }
     for (std::size_t e = 0; e < pinned_.size(); ++e) {
@@ -66,7 +67,7 @@ class BoundaryElements final : public LinearResponse {
     set_base({rest.data(), rest.data() + rest.size()});
   }
 
-  /// What the elements of a solid do; one that two solids share is in between.
+  /// Adds the displacements of the elements of a solid. An element that two solids share gets the mean.
   void add(const PinnedSolid& solid, const Eigen::MatrixXd& of_solid, Eigen::MatrixXd& to) const {
     for (std::size_t i = 0; i < solid.elements().size(); ++i) {
       const ElementId e = solid.elements()[i];
@@ -75,7 +76,7 @@ class BoundaryElements final : public LinearResponse {
   }
 
   PinnedElements pinned_;
-  std::vector<std::uint32_t> solids_of_;  // how many have the element
+  std::vector<std::uint32_t> solids_of_;  // number of solids that have each element
   std::vector<PinnedSolid> solids_;
 };
 

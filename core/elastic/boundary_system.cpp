@@ -15,15 +15,17 @@ BoundarySystem::BoundarySystem(std::vector<Facet> facets, std::vector<bool> disp
       displacement_known_(std::move(displacement_known)),
       poisson_(poisson),
       own_traction_(facets_.size()) {
-  // Integrals grow by the square, the factors by the cube of the facets: they take as long at a few hundred.
+  // The time for the integrals grows with the square of the number of facets, the time for the factors with its cube.
+  // They are equal at about 300 facets.
   const double size = double(facets_.size()), share = 300 / (300 + size);
   Eigen::MatrixXd matrix(row_of(facets_.size()), row_of(facets_.size()));
   assemble(matrix, progress.part(0, share));
   factors_ = DenseLu(std::move(matrix), progress.part(share, 1));
 }
 
-/// Σ_j H_ij u_j = Σ_j G_ij t_j, with what is unknown on the left. H has the jump of ½ on its diagonal: no displacement
-/// of the whole causes tractions, so that each row of H adds up to 0, and its diagonal follows from the rest of it.
+/// Assembles Σ_j H_ij u_j = Σ_j G_ij t_j with the unknowns on the left. The diagonal of H includes the jump of ½. A
+/// displacement of the whole solid causes no tractions, so each row of H adds up to 0, and its diagonal follows from
+/// its other entries.
 void BoundarySystem::assemble(Eigen::MatrixXd& matrix, const Progress& progress) {
   for (std::size_t i = 0; i < facets_.size(); ++i) {
     progress.report(double(i) / double(facets_.size()));
@@ -51,7 +53,7 @@ Eigen::MatrixXd BoundarySystem::right_sides(const Eigen::MatrixXd& known) const 
   for (std::size_t j = 0; j < facets_.size(); ++j) {
     const auto of_facet = known.middleRows<3>(row_of(j));
     if (of_facet.isZero(0)) {
-      continue;  // most are, and integrals are dear
+      continue;  // most displacements are 0, and integrals are slow
     }
     for (std::size_t i = 0; i < facets_.size(); ++i) {
       if (i == j && displacement_known_[j]) {

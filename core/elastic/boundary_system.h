@@ -9,15 +9,16 @@
 
 namespace chainmail {
 
-/// The boundary element method for one elastic solid (Brebbia 1978): displacement and traction constant on each facet,
-/// the boundary integral equation taken at its centroid. On each facet one of the two is known and the other is found.
+/// The boundary element method for one elastic solid (Brebbia 1978). Displacement and traction are constant on each
+/// facet, and the boundary integral equation holds at its centroid. On each facet one of the two is known, and the
+/// system computes the other.
 ///
-/// Fields hold three coordinates a facet in each row, and any number of cases as columns. Tractions are in shear
-/// moduli.
+/// Fields hold three coordinates per facet as rows, and any number of cases as columns. Tractions are in units of the
+/// shear modulus.
 class BoundarySystem {
  public:
-  /// The facets close the solid, cavities included, all looking out of it. The displacement is known on some of them
-  /// (at least one), and the traction on the others. Factors the dense matrix: (3 facets)² doubles. Throws Cancelled.
+  /// The facets enclose the solid, including its cavities, and face outward. The displacement is known on some of them
+  /// (at least one), and the traction on the others. Factors a dense matrix of (3 facets)² doubles. Throws Cancelled.
   BoundarySystem(std::vector<Facet> facets, std::vector<bool> displacement_known, double poisson,
                  const Progress& progress = {});
 
@@ -27,10 +28,10 @@ class BoundarySystem {
   struct Fields {
     Eigen::MatrixXd displacements, tractions;
   };
-  /// The displacements or tractions known, facet by facet, give both everywhere.
+  /// Computes displacements and tractions on all facets from the known value of each facet.
   Fields solve(const Eigen::MatrixXd& known) const;
 
-  /// The displacement at a point inside (Somigliana's identity), case by case.
+  /// Returns the displacement at a point inside the solid (Somigliana's identity), one case per column.
   Eigen::Matrix3Xd displacement_inside(const Point& point, const Fields& fields) const;
 
  private:
@@ -40,7 +41,7 @@ class BoundarySystem {
   std::vector<Facet> facets_;
   std::vector<bool> displacement_known_;
   double poisson_;
-  std::vector<Eigen::Matrix3d> own_traction_;  // what multiplies a facet's own displacement in its own equation
+  std::vector<Eigen::Matrix3d> own_traction_;  // factor of the displacement of a facet in its own equation
   DenseLu factors_;
 };
 

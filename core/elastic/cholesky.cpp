@@ -7,15 +7,16 @@
 namespace chainmail {
 namespace {
 
-// Columns join a supernode although their rows differ by so many: a few zeros cost less than another small block.
+// Columns join a supernode although their rows differ by up to this many: a few zeros cost less than another small
+// block.
 constexpr int most_zeros = 8;
 
-// Of a front, between two looks at the progress: some tenths of a second at most.
+// Columns of a front between two progress reports: a few tenths of a second at most.
 constexpr Eigen::Index columns_at_once = 128;
 
 constexpr int none = -1;
 
-/// The elimination tree's parent of each column, and how many rows each column of the factor has (Liu 1990).
+/// The parent of each column in the elimination tree, and the number of rows of each column of the factor (Liu 1990).
 struct Columns {
   explicit Columns(const Cholesky::Sparse& lower)
       : parent(static_cast<std::size_t>(lower.cols()), none), length(parent.size(), 1) {
@@ -42,7 +43,7 @@ struct Columns {
 void Cholesky::analyze(const Sparse& lower) {
   supernodes_.clear();
   find_supernodes(lower);
-  places_.assign(static_cast<std::size_t>(lower.cols()), none);
+  front_rows_.assign(static_cast<std::size_t>(lower.cols()), none);
   find_rows(lower);
   std::size_t size = 0;
   for (Supernode& one : supernodes_) {
@@ -64,7 +65,7 @@ void Cholesky::find_supernodes(const Sparse& lower) {
   }
 }
 
-/// The rows of a supernode are those of its columns in the matrix, and what its children leave to it.
+/// Finds the rows of each supernode: the rows of its columns in the matrix, and those passed on by its children.
 void Cholesky::find_rows(const Sparse& lower) {
   std::vector<std::size_t> of_column(static_cast<std::size_t>(lower.cols()));
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
@@ -73,8 +74,8 @@ void Cholesky::find_rows(const Sparse& lower) {
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
     Supernode& one = supernodes_[s];
     const auto add = [&](int row) {
-      if (places_[static_cast<std::size_t>(row)] != static_cast<int>(s)) {
-        places_[static_cast<std::size_t>(row)] = static_cast<int>(s);
+      if (front_rows_[static_cast<std::size_t>(row)] != static_cast<int>(s)) {
+        front_rows_[static_cast<std::size_t>(row)] = static_cast<int>(s);
         one.rows.push_back(row);
       }
     };
@@ -98,24 +99,25 @@ void Cholesky::find_rows(const Sparse& lower) {
   }
 }
 
-/// The lower triangle of what the supernode's columns and rows hold before it is eliminated.
+/// Returns the lower triangle of the front of a supernode before elimination: its columns of the matrix plus the
+/// updates of its children.
 Eigen::MatrixXd Cholesky::front_of(const Supernode& supernode, const Sparse& lower,
                                    std::vector<Eigen::MatrixXd>& updates) {
   Eigen::MatrixXd front = Eigen::MatrixXd::Zero(supernode.height(), supernode.height());
   for (int i = 0; i < supernode.height(); ++i) {
-    places_[static_cast<std::size_t>(supernode.rows[static_cast<std::size_t>(i)])] = i;
+    front_rows_[static_cast<std::size_t>(supernode.rows[static_cast<std::size_t>(i)])] = i;
   }
-  const auto place = [this](int row) { return places_[static_cast<std::size_t>(row)]; };
+  const auto front_row = [this](int row) { return front_rows_[static_cast<std::size_t>(row)]; };
   for (int column = 0; column < supernode.width; ++column) {
     for (Sparse::InnerIterator entry(lower, supernode.first + column); entry; ++entry) {
-      front(place(static_cast<int>(entry.row())), column) += entry.value();
+      front(front_row(static_cast<int>(entry.row())), column) += entry.value();
     }
   }
   std::vector<int> to;
   for (const std::size_t child : supernode.children) {
     const Supernode& below = supernodes_[child];
     to.clear();
-    std::transform(below.rows.begin() + below.width, below.rows.end(), std::back_inserter(to), place);
+    std::transform(below.rows.begin() + below.width, below.rows.end(), std::back_inserter(to), front_row);
     Eigen::MatrixXd& update = updates[child];
     for (Eigen::Index j = 0; j < update.cols(); ++j) {
       for (Eigen::Index i = j; i < update.rows(); ++i) {
@@ -129,7 +131,7 @@ Eigen::MatrixXd Cholesky::front_of(const Supernode& supernode, const Sparse& low
 
 namespace {
 
-/// Eliminates the first `width` columns of a front, of which the lower triangle counts. Returns false where it is not
+/// Eliminates the first `width` columns of a front. Only the lower triangle is used. Returns false if it is not
 /// positive definite.
 bool eliminate(Eigen::MatrixXd& front, Eigen::Index width, const Progress& progress) {
   for (Eigen::Index first = 0; first < width; first += columns_at_once) {

@@ -9,28 +9,29 @@
 
 namespace chainmail {
 
-/// Sparse Cholesky factors of symmetric positive definite matrices of one pattern, in the order in which the unknowns
-/// are given: multifrontal, over supernodes (Duff and Reid 1983), so that nearly all work is on dense blocks. Against a
-/// factorization column by column it takes a fifth of the time for a solid of some thousand elements.
+/// Sparse Cholesky factors of symmetric positive definite matrices that have the same pattern. The order of the
+/// unknowns is kept. The method is multifrontal, with supernodes (Duff and Reid 1983), so that nearly all work is on
+/// dense blocks. For a solid of some thousand elements this takes a fifth of the time of a factorization column by
+/// column.
 class Cholesky {
  public:
   using Sparse = Eigen::SparseMatrix<double>;
 
-  /// Looks at the pattern of the lower triangle alone.
+  /// Analyses the pattern of the lower triangle. Values are ignored.
   void analyze(const Sparse& lower);
-  /// Of a matrix of that pattern. Returns false where it is not positive definite; there is no factor then, nor where
-  /// it leaves by Cancelled.
+  /// Factors a matrix with that pattern. Returns false if it is not positive definite. In that case, and after
+  /// Cancelled, there are no factors.
   bool factor(const Sparse& lower, const Progress& progress = {});
   /// Solves for each column of `right`.
   Eigen::MatrixXd solve(Eigen::MatrixXd right) const;
 
  private:
-  /// Consecutive columns of the factor that have their rows in common.
+  /// Consecutive columns of the factor that share their rows.
   struct Supernode {
     int first = 0, width = 0;
     std::vector<int> rows;  // its own columns first, ascending
     std::vector<std::size_t> children;
-    std::size_t panel = 0;  // where its block of the factor begins (rows x width)
+    std::size_t panel = 0;  // start of its block of the factor (rows x width)
 
     int height() const { return static_cast<int>(rows.size()); }
   };
@@ -45,7 +46,7 @@ class Cholesky {
 
   std::vector<Supernode> supernodes_;
   std::vector<double> panels_;
-  std::vector<int> places_;  // of rows in the front at hand
+  std::vector<int> front_rows_;  // position of each row in the current front
 };
 
 }  // namespace chainmail

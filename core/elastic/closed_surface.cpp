@@ -16,10 +16,10 @@ namespace {
 
 using Triangle = std::array<ElementId, 3>;
 
-constexpr double flat = 1e-9;   // height over longest edge: below this, a normal is rounding
-constexpr double empty = 1e-9;  // volume over area to the power of 3/2: a sphere has 0.09
+constexpr double flat = 1e-9;   // height / longest edge: below this, the normal is mostly rounding
+constexpr double empty = 1e-9;  // volume / area^(3/2): a sphere has 0.09
 
-/// The triangles of the object, and the elements of its cells, if it has any.
+/// The triangles on the outside of an object, and the elements of its cells, if any.
 struct Outside {
   std::vector<Triangle> triangles;
   std::vector<ElementId> of_cells;
@@ -32,7 +32,7 @@ Outside outside_of_cells(const MeshPointer& mesh, const Cuts& cuts, const Progre
   for (std::size_t i = 0; i < corners.size(); i += 3) {
     outside.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
   }
-  std::ranges::sort(outside.triangles);  // sides in sight come in no order
+  std::ranges::sort(outside.triangles);  // Surface has no fixed order of sides
   for (ElementId e = 0; e < mesh->element_count(); ++e) {
     if (std::ranges::any_of(surface.table().cells_of(e), [&](CellId cell) { return surface.is_whole(cell); })) {
       outside.of_cells.push_back(e);
@@ -57,17 +57,17 @@ void check_flat(const Mesh& mesh, const std::vector<Triangle>& triangles) {
     if (!(facet.area > flat * longest * longest)) {
       throw Error("BEM",
                   "the elements " + std::to_string(triangle[0]) + ", " + std::to_string(triangle[1]) + " and " +
-                      std::to_string(triangle[2]) + " of a triangle stand on one line",
+                      std::to_string(triangle[2]) + " of a triangle are on one line",
                   "move one of them, or leave the triangle out of the file");
     }
   }
 }
 
-/// A surface that hangs together, turned outward.
+/// A connected surface whose triangles face outward.
 struct Shell {
   std::vector<Triangle> triangles;
   std::vector<Facet> facets;
-  std::vector<std::size_t> about;  // the shells that enclose it
+  std::vector<std::size_t> about;  // indices of the shells that enclose this one
 };
 
 void turn_round(const Mesh& mesh, Shell& shell) {
@@ -88,7 +88,7 @@ Shell outward(const Mesh& mesh, const std::vector<Triangle>& triangles, const st
   }
   if (!(std::abs(volume) > empty * area * std::sqrt(area))) {
     throw Error("BEM", "the surface about element " + std::to_string(shell.triangles[0][0]) + " encloses no volume",
-                "use a surface that does");
+                "use a surface that encloses a volume");
   }
   if (volume < 0) {
     turn_round(mesh, shell);
@@ -101,7 +101,7 @@ bool encloses(const std::vector<Facet>& facets, const Point& point) {
   for (const Facet& facet : facets) {
     sum += solid_angle(facet, point);
   }
-  // 4π inside and 0 outside; 2π on it, which is not inside.
+  // The sum is 4π inside and 0 outside. It is 2π on the surface, which does not count as inside.
   return sum > 3 * std::numbers::pi;
 }
 
@@ -121,7 +121,8 @@ void append(const Shell& shell, Solid& solid) {
   solid.facets.insert(solid.facets.end(), shell.facets.begin(), shell.facets.end());
 }
 
-/// A shell in an even number of others bounds a solid; in an odd number, a cavity of the solid of the innermost.
+/// Makes solids of shells. A shell inside an even number of others bounds a solid. A shell inside an odd number is a
+/// cavity of the solid of the innermost of them.
 std::vector<Solid> solids_of(const Mesh& mesh, std::vector<Shell>& shells) {
   std::vector<Solid> solids;
   std::vector<std::size_t> solid_of(shells.size());

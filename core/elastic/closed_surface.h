@@ -11,25 +11,26 @@
 
 namespace chainmail {
 
-/// An elastic solid by what encloses it.
+/// An elastic solid, described by the surface that encloses it.
 struct Solid {
-  /// Elements, as seen from outside the material, counterclockwise; in a cavity, that is from inside it.
+  /// Corners of each triangle, counterclockwise as seen from outside the material. For a cavity, this is as seen from
+  /// inside the cavity.
   std::vector<std::array<ElementId, 3>> triangles;
-  /// The same in the units of unit_position.
+  /// The same triangles in the units of unit_position.
   std::vector<Facet> facets;
-  /// The elements inside: corners of a volume's whole cells, and not of triangles. Ascending.
+  /// The elements inside, ascending: corners of the volume's whole cells that are not corners of `triangles`.
   std::vector<ElementId> inner;
-  std::vector<Point> inner_positions;  // in these units
+  std::vector<Point> inner_positions;  // in the units of unit_position
 };
 
-/// The solids that the triangles of a surface enclose, or those about the whole cells of a volume; whichever way the
-/// triangles are turned. A surface within another is a cavity of its solid, one within a cavity a solid again. Throws
-/// Error where they are open, too many, flat, where three meet at an edge, where a surface has one side alone or
-/// encloses nothing; and Cancelled.
+/// Returns the solids that a surface of triangles encloses, or those made of the whole cells of a volume. The triangles
+/// may have any orientation. A surface inside another one is a cavity of its solid, and a surface inside a cavity is
+/// again a solid. Throws Error if a surface is open, too large, one-sided or encloses nothing, if a triangle is flat,
+/// or if three triangles meet at an edge. Throws Cancelled.
 std::vector<Solid> enclosed_solids(const MeshPointer& mesh, const Cuts& cuts, const Progress& progress = {});
 
-/// Where an element is at rest, from the middle of the object's box, whose diagonal is 1: a surface far from the origin
-/// keeps its digits, and a large one no power that overflows.
+/// Returns the rest position of an element relative to the centre of the object's box, in units of the box diagonal. So
+/// a surface far from the origin keeps its digits, and no power of a large coordinate overflows.
 Point unit_position(const Mesh& mesh, ElementId element);
 
 }  // namespace chainmail

@@ -8,8 +8,8 @@
 namespace chainmail {
 namespace {
 
-constexpr Eigen::Index block = 128;  // columns: most of the work is products of matrices this thin
-constexpr Eigen::Index slab = 512;   // columns of the rest between two looks at the progress
+constexpr Eigen::Index block = 128;  // columns; most of the work is products of matrices of this width
+constexpr Eigen::Index slab = 512;   // columns of the remainder between two progress reports
 
 }  // namespace
 
@@ -20,7 +20,7 @@ DenseLu::DenseLu(Eigen::MatrixXd&& matrix, const Progress& progress)
     const Eigen::Index width = std::min(block, size - first);
     factor_block(first, width);
     swap_rows(first, width, 0, first);
-    // What is left shrinks by the cube of the size.
+    // The remaining work shrinks with the cube of the remaining size.
     const double before = double(size - first) / double(size), after = double(size - first - width) / double(size);
     update_rest(first, width, progress.part(1 - before * before * before, 1 - after * after * after));
   }

@@ -7,15 +7,15 @@
 
 namespace chainmail {
 
-/// The factors L U = P A of a square matrix, in its own memory. As Eigen's, block by block, but it says how far it has
-/// come and can be cancelled in between.
+/// The factors L U = P A of a square matrix, in the memory of the matrix. Works block by block, as Eigen does, but
+/// reports its progress and can be cancelled.
 class DenseLu {
  public:
   DenseLu() = default;
-  /// Throws Error where the matrix is singular, and Cancelled.
+  /// Throws Error if the matrix is singular, and Cancelled.
   explicit DenseLu(Eigen::MatrixXd&& matrix, const Progress& progress = {});
 
-  /// Right sides as columns; answers in their place.
+  /// Replaces right sides, one per column, by the solutions.
   void solve(Eigen::MatrixXd& columns) const;
 
  private:
@@ -24,7 +24,7 @@ class DenseLu {
   void update_rest(Eigen::Index first, Eigen::Index width, const Progress& progress);
 
   Eigen::MatrixXd factors_;
-  std::vector<Eigen::Index> swapped_;  // step i swapped row i with this one
+  std::vector<Eigen::Index> swapped_;  // step i swapped row i with row swapped_[i]
 };
 
 }  // namespace chainmail

@@ -6,7 +6,7 @@
 namespace chainmail {
 namespace {
 
-// So few are left as they are: their fill is whole anyway.
+// Sets of at most this many elements are not split further: their factor is dense anyway.
 constexpr std::size_t fewest = 24;
 
 class Dissection {
@@ -66,7 +66,7 @@ class Dissection {
     return false;
   }
 
-  /// Brings them into order: one half, the other, and what lies between.
+  /// Orders elements: one half, the other half, then the elements between them.
   void sort(std::span<ElementId> elements) {
     if (elements.size() <= fewest) {
       return;
@@ -89,7 +89,7 @@ class Dissection {
   const Simplices& simplices_;
   const Mesh& mesh_;
   std::vector<std::size_t> first_, cells_;  // of each element
-  std::vector<std::uint32_t> half_;         // the last one that each element was in
+  std::vector<std::uint32_t> half_;         // number of the last half that each element was in
   std::uint32_t halves_ = 0;
 };
 

@@ -6,8 +6,8 @@
 
 namespace chainmail {
 
-/// The elements that have a cell, by nested dissection (George 1973): the object is halved across its longest side
-/// again and again, and what parts the halves comes after both.
+/// Returns the elements that have a cell, in the order of nested dissection (George 1973). The object is halved across
+/// its longest side again and again. The elements between two halves come after both.
 std::vector<ElementId> dissect(const Simplices& simplices, const Mesh& mesh);
 
 }  // namespace chainmail

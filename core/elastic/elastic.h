@@ -43,13 +43,13 @@ class ElasticSolver {
   virtual void reset() = 0;
   /// Call this after others moved the object. Methods that depend on the path continue from these displacements.
   virtual void start_from(std::span<const double> /*displacements*/) {}
-  /// The last answer; before the first, the answer to the pins, or rest.
+  /// Returns the last answer. Before the first one, this is the answer to the pins, or rest.
   virtual const std::vector<double>& displacements() const = 0;
   /// Reason why the last answer is not the requested one, and which one it is. Usually empty.
   virtual const std::string& remark() const = 0;
 
-  /// Control points that a user may drag: those of free-form deformation, displaced, space_dimension coordinates each
-  /// (mesh units), the first axis first.
+  /// Returns the current positions of the control points that a user may drag (free-form deformation only):
+  /// space_dimension coordinates each (mesh units). Indices run fastest along the first axis.
   virtual std::span<const double> control_points() const { return {}; }
   /// Moves a control point to a position (mesh units). Elements follow, pins stay.
   virtual void move_control_point(std::size_t /*point*/, std::span<const double> /*position*/) {}

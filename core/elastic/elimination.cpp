@@ -9,7 +9,7 @@
 namespace chainmail {
 namespace {
 
-/// Who shares a cell with whom: entries above 0 in both triangles.
+/// Entries above 0, in both triangles, for pairs of elements that share a cell.
 using Graph = Eigen::SparseMatrix<char>;
 
 Graph graph_of(const Simplices& simplices, const Mesh& mesh) {
@@ -30,7 +30,7 @@ Graph graph_of(const Simplices& simplices, const Mesh& mesh) {
   return graph;
 }
 
-/// Who has a cell, as the minimum degree has them.
+/// Returns the elements that have a cell, in the order of minimum degree.
 std::vector<ElementId> by_degree(const Graph& graph) {
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
   Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), order);
@@ -44,18 +44,19 @@ std::vector<ElementId> by_degree(const Graph& graph) {
   return all;
 }
 
-/// The sum of the squares of the columns' lengths in the factor, walking up the elimination tree (Liu 1990).
+/// Returns the sum of the squares of the column lengths of the factor, found by walking up the elimination tree (Liu
+/// 1990).
 double operations(const Graph& graph, const std::vector<ElementId>& order) {
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> place(static_cast<std::size_t>(graph.cols()), none);
+  std::vector<std::size_t> position(static_cast<std::size_t>(graph.cols()), none);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    place[order[i]] = i;
+    position[order[i]] = i;
   }
   std::vector<std::size_t> parent(order.size(), none), seen(order.size(), none), length(order.size(), 1);
   for (std::size_t row = 0; row < order.size(); ++row) {
     seen[row] = row;
     for (Graph::InnerIterator one(graph, order[row]); one; ++one) {
-      for (std::size_t i = place[static_cast<std::size_t>(one.row())]; i < row && seen[i] != row; i = parent[i]) {
+      for (std::size_t i = position[static_cast<std::size_t>(one.row())]; i < row && seen[i] != row; i = parent[i]) {
         parent[i] = parent[i] == none ? row : parent[i];
         ++length[i];
         seen[i] = row;

@@ -6,11 +6,11 @@
 namespace chainmail {
 namespace {
 
-constexpr int most_turns = 60;  // far more than a convex function of one unknown takes
+constexpr int most_turns = 60;  // far more than Newton needs for a convex function of one unknown
 
-/// ln of the stretch s on the axes that are free of stress: μ (s² − 1) + λ (ln J + m ln s) = 0.
+/// Returns ln s for the stretch s on the axes that are free of stress: μ (s² − 1) + λ (ln J + m ln s) = 0.
 double log_of_free_stretch(double log_volume, const Lame& lame, int free_axes) {
-  // The linear answer lies right of the root, and the function is convex: Newton comes from there without overshoot.
+  // The linear answer is to the right of the root, and the function is convex, so Newton does not overshoot.
   double a = -lame.lambda * log_volume / (2 * lame.mu + free_axes * lame.lambda);
   for (int turn = 0; turn < most_turns; ++turn) {
     const double squared = std::exp(2 * a);
@@ -49,7 +49,7 @@ SimplexEnergy neo_hookean(const Simplices& simplices, std::size_t simplex, const
     return result;
   }
   const VolumeTerm term = volume_term(std::log(determinant), lame, n);
-  // tr FᵀF − n in terms of F − 1 keeps the digits of a small deformation.
+  // Written in terms of F − 1, tr FᵀF − n keeps its digits for a small deformation.
   const double shape = lame.mu / 2 * (2 * strain.trace() + strain.squaredNorm());
   result.energy = volume * (shape + term.value);
   result.magnitude = volume * (std::abs(shape) + std::abs(term.value));
@@ -57,7 +57,7 @@ SimplexEnergy neo_hookean(const Simplices& simplices, std::size_t simplex, const
     return result;
   }
   const CornerDisplacements gradients =
-      deformation.inverse().transpose() * rest_gradients;  // of the shape functions, in the deformed simplex
+      deformation.inverse().transpose() * rest_gradients;  // of the shape functions in the deformed simplex
   const CornerDisplacements forces = volume * (lame.mu * (deformation * rest_gradients) + term.slope * gradients);
   result.gradient = Eigen::Map<const CornerVector>(forces.data(), forces.size());
   if (want == Want::gradient) {

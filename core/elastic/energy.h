@@ -7,36 +7,37 @@
 
 namespace chainmail {
 
-/// Up to the 12 coordinates of a tetrahedron's corners: on the stack.
+/// Up to 12 coordinates of the corners of a tetrahedron, stored on the stack.
 using CornerVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
 using CornerMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 12, 12>;
 
-/// A column a corner (n x (n + 1), mesh units).
+/// Displacements of the corners, one per column (n x (n + 1), mesh units).
 using CornerDisplacements = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 4>;
 
-/// How the energy density depends on ln J, J = det F, and its first two derivatives.
+/// A part of the energy density as a function of ln J, J = det F, with its first two derivatives.
 struct VolumeTerm {
   double value = 0, slope = 0, curvature = 0;
 };
-/// Of the compressible neo-Hookean material of Bonet and Wood (1997),
-///     W = μ/2 (tr FᵀF − 3) − μ ln J + λ/2 (ln J)²,
-/// in `dimension` axes of which the deformation is known; on the others the material is free of stress and stretches by
-/// what makes W least. So 3 is a solid, 2 plane stress, 1 a bar, and at small strains each is the linear one.
+/// Returns the part of the energy density that depends on J, for the compressible neo-Hookean material of Bonet and
+/// Wood (1997),
+///     W = μ/2 (tr FᵀF − 3) − μ ln J + λ/2 (ln J)².
+/// The deformation is known on `dimension` axes. On the other axes the material is free of stress, and its stretch
+/// minimizes W. So 3 is a solid, 2 is plane stress and 1 is a bar. At small strains each equals linear elasticity.
 VolumeTerm volume_term(double log_volume, const Lame& lame, int dimension);
 
-/// A simplex under displacements of its corners (n rows, n + 1 columns, mesh units).
+/// Energy of a simplex whose corners are displaced, with its derivatives.
 struct SimplexEnergy {
   bool inverted = false;  // then there is no energy
   double energy = 0;
-  double magnitude = 0;   // of what the energy is a difference of: rounding is a share of it
-  CornerVector gradient;  // by the corners' coordinates, corner after corner
+  double magnitude = 0;   // of the terms whose difference is the energy; rounding is a share of it
+  CornerVector gradient;  // by the coordinates of the corners, corner by corner
   CornerMatrix hessian;
 };
 enum class Want { energy, gradient, hessian };
 SimplexEnergy neo_hookean(const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at,
                           const Lame& lame, Want want);
 
-/// The stiffness of a simplex: the Hessian at rest.
+/// Returns the stiffness of a simplex: the Hessian at rest.
 CornerMatrix stiffness(const Simplices& simplices, std::size_t simplex, const Lame& lame);
 
 }  // namespace chainmail

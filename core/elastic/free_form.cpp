@@ -9,13 +9,15 @@
 namespace chainmail {
 namespace {
 
-// Pins weigh so much more than the wish to move control points little: they stay to a millionth of the hand's way.
+// Weight of the pins relative to the smallest motion of the control points. Pins stay to a millionth of the handle's
+// displacement.
 constexpr double pin_weight = 1e6;
-// Control points are fitted to so many elements at most: more tell nothing new of a few hundred of them.
+// Largest number of elements to which control points are fitted. More would not change a few hundred points much.
 constexpr std::size_t most_fitted = 20'000;
 
-/// Free-form deformation (Sederberg and Parry 1986) by direct manipulation: of all moves of the control points that
-/// bring the element in the hand to its target the least, pins held as well as the lattice can (Hsu et al. 1992).
+/// Free-form deformation (Sederberg and Parry 1986) by direct manipulation (Hsu et al. 1992): of all motions of the
+/// control points that bring the grabbed element to its target, takes the smallest. Pins stay as well as the lattice
+/// allows.
 class FreeForm final : public ElasticSolver {
  public:
   explicit FreeForm(const ElasticProblem& problem)
@@ -51,7 +53,7 @@ class FreeForm final : public ElasticSolver {
     const Eigen::RowVectorXd way = (to - fields(begun_).col(held_)).transpose();
     controls_ = begun_controls_ + control_response_ * way;
     fields(displacements_).noalias() = fields(begun_) + way.transpose() * response_.transpose();
-    fields(displacements_).col(held_) = to;  // to the bit
+    fields(displacements_).col(held_) = to;  // exact, without rounding
     hold_pins();
     place_controls();
   }
@@ -64,7 +66,7 @@ class FreeForm final : public ElasticSolver {
     begin();
   }
 
-  /// The control points go where they explain these displacements best; what they do not explain stays.
+  /// Moves the control points to where they explain these displacements best. The remainder is kept.
   void start_from(std::span<const double> displacements) override {
     displacements_.assign(displacements.begin(), displacements.end());
     const bool at_rest = std::ranges::all_of(displacements_, [](double one) { return one == 0; });
@@ -91,13 +93,13 @@ class FreeForm final : public ElasticSolver {
   }
 
  private:
-  using Fields = Eigen::Map<Eigen::MatrixXd>;  // a column an element
+  using Fields = Eigen::Map<Eigen::MatrixXd>;  // one column per element
 
   Fields fields(std::vector<double>& all) const {
     return {all.data(), dimension_, static_cast<Eigen::Index>(mesh_->element_count())};
   }
 
-  /// What the hand's way is counted from.
+  /// Sets the state from which the handle's displacement is measured.
   void begin() {
     begun_ = displacements_;
     begun_controls_ = controls_;
@@ -119,7 +121,7 @@ class FreeForm final : public ElasticSolver {
   }
 
   Eigen::MatrixXd fitted() {
-    // A trace of the wish to move little decides where elements leave control points free.
+    // A small weight on all motion decides where the elements leave control points free.
     Eigen::MatrixXd normal = 1e-9 * Eigen::MatrixXd::Identity(volume_.count(), volume_.count());
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(volume_.count(), dimension_);
     const std::size_t stride = std::max<std::size_t>(1, mesh_->element_count() / most_fitted);
@@ -136,11 +138,11 @@ class FreeForm final : public ElasticSolver {
   std::vector<double> pinned_;
   BernsteinVolume volume_;
   int dimension_;
-  Eigen::LLT<Eigen::MatrixXd> resistance_;  // of the control points against being moved
+  Eigen::LLT<Eigen::MatrixXd> resistance_;  // of the control points to motion
   ElementId held_ = 0;
-  Eigen::VectorXd control_response_, response_;  // to a unit of the hand's way, along each axis the same
-  std::vector<double> displacements_, begun_;    // now, and when the hand's way began
-  Eigen::MatrixXd controls_, begun_controls_;    // displacements, a row a control point
+  Eigen::VectorXd control_response_, response_;  // to a unit displacement of the handle, the same along each axis
+  std::vector<double> displacements_, begun_;    // now, and when the handle was grabbed
+  Eigen::MatrixXd controls_, begun_controls_;    // displacements, one row per control point
   std::vector<double> control_places_;
   std::string none_;
 };

@@ -1,4 +1,4 @@
-// Whether pins leave a part of an object free to move as a rigid body.
+// Checks whether pins leave a part of an object free to move as a rigid body.
 
 #include "elastic/held.h"
 
@@ -14,10 +14,10 @@
 namespace chainmail {
 namespace {
 
-// Pins closer to one line or point than this share of the object's size do not hold it.
+// Pins that are closer to one line or point than this share of the object's size do not hold it.
 constexpr double apart_from = 1e-6;
 
-/// The elements joined by cells, as a forest: each element's root names its part.
+/// The elements joined by cells, as a forest: the root of each element names its part.
 class Forest {
  public:
   explicit Forest(const Simplices& simplices, ElementId count) : parent_(count), in_cell_(count, false) {
@@ -42,7 +42,7 @@ class Forest {
   bool in_cell(ElementId element) const { return in_cell_[element]; }
 
  private:
-  /// The lower id is the root, so that a part is called after its first element.
+  /// Joins two parts. The lower id becomes the root, so a part is named after its first element.
   void join(ElementId a, ElementId b) {
     const auto [low, high] = std::minmax({root(a), root(b)});
     parent_[high] = low;
@@ -52,7 +52,8 @@ class Forest {
   std::vector<bool> in_cell_;
 };
 
-/// What is left of the points when the line through the origin along `unit` is taken out: the one furthest from it.
+/// Subtracts from the points their component along the line through the origin with direction `unit`. Returns the
+/// longest remainder.
 Point furthest(const std::vector<Point>& from_first, const Point& unit) {
   Point best = Point::Zero();
   for (const Point& point : from_first) {
@@ -83,14 +84,14 @@ bool holds(const Mesh& mesh, const std::vector<ElementId>& pins) {
 
 std::string too_few(int dimension) {
   return dimension == 1   ? "no pin holds it"
-         : dimension == 2 ? "fewer than two pins at different places hold it"
+         : dimension == 2 ? "fewer than two pins at different positions hold it"
                           : "fewer than three pins that do not lie on one line hold it";
 }
 
-/// A closed surface has no boundary to be pinned.
+/// Returns what a user can pin. A closed surface has no boundary.
 const char* remedy(const Mesh& mesh) {
-  return boundary(mesh).empty() ? "pin its bottom layer, or elements by hand"
-                                : "pin its bottom layer, its boundary, or elements by hand";
+  return boundary(mesh).empty() ? "pin its bottom layer, or single elements"
+                                : "pin its bottom layer, its boundary, or single elements";
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// A facet's corners as seen from a point.
+/// The corners of a facet relative to a point.
 struct Seen {
   std::array<Point, 3> r;
   std::array<double, 3> distance;
@@ -24,7 +24,7 @@ Seen see(const Facet& facet, const Point& point) {
   return seen;
 }
 
-/// Van Oosterom and Strackee 1983.
+/// Formula of van Oosterom and Strackee (1983).
 double solid_angle(const Seen& seen) {
   const auto& [a, b, c] = seen.r;
   const auto& [length_a, length_b, length_c] = seen.distance;
@@ -32,17 +32,18 @@ double solid_angle(const Seen& seen) {
                                                c.dot(a) * length_b);
 }
 
-/// Integrals along an edge; s runs along it from the foot of the point, r is the distance from the point.
+/// Integrals along an edge. The foot is the projection of the point onto the facet's plane. s is the position along the
+/// edge's line from the foot, r is the distance from the point.
 struct EdgeIntegrals {
-  double across;           // the line's distance from the foot of the point in the facet's plane, signed
+  double across;           // distance of the line from the foot, signed
   double inverse;          // of 1 / r
   double s_inverse;        // of s / r
   double inverse_cubed;    // of 1 / r³
   double s_inverse_cubed;  // of s / r³
 };
 
-/// ∫ ds / r³ = [s / (q² r)] with q the line's distance. Where both ends lie on one side of the foot, q is taken out of
-/// the fraction: it may be 0.
+/// Returns ∫ ds / r³ = [s / (q² r)] with q the distance of the line from the point. If both ends are on the same side
+/// of the foot, q is cancelled from the fraction, because it may be 0.
 double integrate_inverse_cubed(double s1, double s2, double r1, double r2, double q_squared) {
   if (s1 * s2 > 0) {
     return (s2 - s1) * (s1 + s2) / ((s2 * r1 + s1 * r2) * r1 * r2);
@@ -95,9 +96,9 @@ Eigen::Matrix3d kelvin_traction(const Point& r, const Point& normal, double pois
 
 double solid_angle(const Facet& facet, const Point& point) { return solid_angle(see(facet, point)); }
 
-// With d the height of the plane above the point, n its normal, r = ρ + d n, m an edge's outward direction in the plane
-// and τ along it, the divergence theorem in the plane turns all integrals but the solid angle Ω = ∫ d / r³ into sums
-// over edges:
+// Let d be the height of the plane above the point, n its normal, r = ρ + d n, m the direction outward across an edge
+// in the plane, and τ the direction along it. The divergence theorem in the plane turns all integrals except the solid
+// angle Ω = ∫ d / r³ into sums over edges:
 //     ∫ 1 / r        = Σ (m·ρ) ∫ 1/r − d Ω                                            since ∇·(ρ / r) = 1/r + d²/r³
 //     ∫ ρ_i ρ_j / r³ = (δ − n n)_ij ∫ 1/r − Σ m_j ∫ ρ_i / r                           since ∂_j (ρ_i / r)
 //     ∫ ρ / r³       = −Σ m ∫ 1/r                                                     since ∇ (1 / r)

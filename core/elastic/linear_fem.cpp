@@ -11,7 +11,7 @@
 namespace chainmail {
 namespace {
 
-/// Linear elasticity on linear elements: factored once for an object and its pins.
+/// Linear elasticity on linear elements. The matrix is factored once per object and pins.
 class LinearFem final : public LinearResponse {
  public:
   LinearFem(const ElasticProblem& problem, const Progress& progress)
@@ -33,9 +33,10 @@ class LinearFem final : public LinearResponse {
     if (unknowns_.count() > 0) {
       factor_.analyze(stiffness.matrix());
       if (!factor_.factor(stiffness.matrix(), progress.part(0.3, 1))) {
-        throw Error("linear FEM",
-                    "the stiffness is not positive: cells are too thin, or Poisson's ratio too close to 0.5",
-                    "mesh the object anew, or lower Poisson's ratio");
+        throw Error(
+            "linear FEM",
+            "the stiffness matrix is not positive definite: cells are too thin, or Poisson's ratio is too close to 0.5",
+            "mesh the object again, or lower Poisson's ratio");
       }
       std::vector<double> base = displacements();
       unknowns_.scatter(factor_.solve(load), base);
@@ -45,7 +46,7 @@ class LinearFem final : public LinearResponse {
   }
 
  private:
-  /// What the pins' displacements ask of the unknowns.
+  /// Adds the forces that the displacements of the pins exert on the unknowns.
   void add_load(std::size_t simplex, const CornerMatrix& of_simplex, Eigen::VectorXd& load) const {
     const int n = simplices_.dimension;
     const auto corners = simplices_.corners_of(simplex);
@@ -70,7 +71,8 @@ class LinearFem final : public LinearResponse {
     }
   }
 
-  /// Unit forces on the element, scaled so that they displace it by one (Schur complement of the compliance).
+  /// Applies unit forces to the element, and scales them so that they displace it by one (Schur complement of the
+  /// compliance).
   Eigen::MatrixXd respond(ElementId element, const Progress& /*progress*/) override {
     const int n = simplices_.dimension;
     const auto size = static_cast<Eigen::Index>(displacements().size());
@@ -88,7 +90,7 @@ class LinearFem final : public LinearResponse {
         response.col(k) = Eigen::Map<const Eigen::VectorXd>(all.data(), size);
       }
     }
-    // To the bit: a hand is where it is. And an element without a cell follows it alone.
+    // The grabbed element is exactly at its target, without rounding. If it has no cell, it moves alone.
     response.middleRows(Eigen::Index{element} * n, n).setIdentity();
     return response;
   }

@@ -13,7 +13,7 @@ std::unique_ptr<ElasticSolver> make_neo_hookean(const ElasticProblem& problem, c
 std::unique_ptr<ElasticSolver> make_boundary_elements(const ElasticProblem& problem, const Progress& progress);
 std::unique_ptr<ElasticSolver> make_free_form(const ElasticProblem& problem, const Progress& progress);
 
-/// Throws Error if boundary elements are limited to fewer triangles, or to fewer elements of a volume (0 for a
+/// Throws Error if boundary elements do not support so many triangles, or so many elements of a volume (0 for a
 /// surface).
 void check_boundary_size(std::uint64_t triangles, std::uint64_t elements_of_cells);
 

@@ -11,7 +11,8 @@
 namespace chainmail {
 namespace {
 
-// The hand's way is taken in one step where that converges, else in ever smaller ones, down to this share of it.
+// The handle's displacement is applied in one step if that converges. Otherwise it is split into smaller and smaller
+// load steps, down to this share of it.
 constexpr double smallest_step = 1.0 / 64;
 
 std::string percent(double share) {
@@ -20,7 +21,8 @@ std::string percent(double share) {
   return text.data();
 }
 
-/// Finite deformations on linear elements: Newton under a line search, the hand's way in load steps.
+/// Finite deformations on linear elements: Newton's method with a line search. The handle's displacement is applied in
+/// load steps.
 class NeoHookean final : public ElasticSolver {
  public:
   NeoHookean(const ElasticProblem& problem, const Progress& progress)
@@ -37,7 +39,7 @@ class NeoHookean final : public ElasticSolver {
       Newton newton(simplices_, lame_, elements_, order_, pins_);
       const std::string stuck = carry(newton, pins_, pinned_, base_, progress.part(0.1, 1));
       if (!stuck.empty()) {
-        throw Error("neo-Hookean FEM", "with the pins where they are " + stuck, "reset the object, then pin it");
+        throw Error("neo-Hookean FEM", "with the pins at their positions, " + stuck, "reset the object, then pin it");
       }
     }
     reset();
@@ -52,15 +54,15 @@ class NeoHookean final : public ElasticSolver {
     }
   }
 
-  /// From the last answer on, which is near; where no step leads on from there, from the pins' own.
+  /// Starts from the last answer, which is near. If that does not converge, starts from the answer to the pins alone.
   void move(std::span<const double> displacement, const Progress& progress) override {
-    const std::vector<ElementId> hand{held_};
+    const std::vector<ElementId> handle{held_};
     const std::vector<double> target(displacement.begin(), displacement.end());
     std::vector<double> answer = displacements_;
-    remark_ = carry(*newton_, hand, target, answer, progress.part(0, 0.5));
+    remark_ = carry(*newton_, handle, target, answer, progress.part(0, 0.5));
     if (!remark_.empty() && displacements_ != base_) {
       std::vector<double> anew = base_;
-      const std::string from_base = carry(*newton_, hand, target, anew, progress.part(0.5, 1));
+      const std::string from_base = carry(*newton_, handle, target, anew, progress.part(0.5, 1));
       if (from_base.empty()) {
         answer = std::move(anew);
         remark_.clear();
@@ -77,8 +79,8 @@ class NeoHookean final : public ElasticSolver {
   const std::string& remark() const override { return remark_; }
 
  private:
-  /// Carries some prescribed elements from where `displacements` have them to their targets. Returns why it ended
-  /// before, with the last converged state in `displacements`, and nothing where it did not.
+  /// Moves some prescribed elements from their displacements to their targets. Returns an empty text if it converged.
+  /// Otherwise returns the reason, and `displacements` is the last converged state.
   std::string carry(Newton& newton, const std::vector<ElementId>& carried, const std::vector<double>& target,
                     std::vector<double>& displacements, const Progress& progress) {
     std::vector<double> way;
@@ -102,11 +104,11 @@ class NeoHookean final : public ElasticSolver {
         ++number;
       } else if ((step /= 2) < smallest_step) {
         return "Newton did not converge in load step " + std::to_string(number) + ", at " + percent(next) +
-               " of the hand's way; this is the last converged state, at " + percent(done);
+               " of the handle's displacement; this is the last converged state, at " + percent(done);
       }
     }
     for (std::size_t i = 0; i < target.size(); ++i) {
-      displacements[carried[i / dimension_] * dimension_ + i % dimension_] = target[i];  // to the bit
+      displacements[carried[i / dimension_] * dimension_ + i % dimension_] = target[i];  // exact, without rounding
     }
     return {};
   }
@@ -116,10 +118,10 @@ class NeoHookean final : public ElasticSolver {
   std::vector<ElementId> pins_;
   std::vector<double> pinned_;
   Simplices simplices_;
-  std::vector<ElementId> order_;  // of the unknowns
+  std::vector<ElementId> order_;  // order of the unknowns
   Lame lame_;
   std::vector<double> base_, displacements_;
-  std::unique_ptr<Newton> newton_;  // of the element in the hand
+  std::unique_ptr<Newton> newton_;  // for the grabbed element
   ElementId held_ = 0;
   std::string remark_;
 };

@@ -6,13 +6,13 @@
 namespace chainmail {
 namespace {
 
-constexpr int most_steps = 30;  // where it converges at all, ten are many
+constexpr int most_steps = 30;  // if it converges, it rarely needs more than ten
 constexpr int most_halvings = 30;
 // Newton's convergence is quadratic: the step after one this short (in cell lengths) is rounding.
 constexpr double converged_below = 1e-9;
-// Of the magnitude of what sums to the energy: some roundings of a double.
+// Rounding error of the energy, as a share of the magnitude of its terms: a few roundings of a double.
 constexpr double rounding_share = 1e-15;
-// Armijo: what a step must gain of what its slope promises.
+// Armijo condition: the energy must fall by at least this share of what the slope predicts.
 constexpr double share_of_slope = 1e-4;
 
 Eigen::Map<const Eigen::MatrixXd> all_of(const std::vector<double>& displacements, int dimension) {
@@ -29,7 +29,7 @@ CornerDisplacements corners_of(const Simplices& simplices, std::size_t simplex,
   return at;
 }
 
-/// The nearest matrix without negative curvature (Teran et al. 2005).
+/// Returns the nearest matrix without negative curvature (Teran et al. 2005).
 CornerMatrix convex_part(const CornerMatrix& hessian) {
   const Eigen::SelfAdjointEigenSolver<CornerMatrix> modes(hessian);
   const CornerMatrix& vectors = modes.eigenvectors();
@@ -104,13 +104,14 @@ bool Newton::factor(const std::vector<double>& displacements, const Progress& pr
   return false;
 }
 
-/// Moves the prescribed, and all others as the tangent has them follow: a step that keeps cells from turning over.
+/// Moves the prescribed elements, and the others as the tangent stiffness predicts. The step is short enough that no
+/// cell inverts.
 bool Newton::predict(std::vector<double>& displacements, const std::vector<double>& increment,
                      const Progress& progress) {
   if (!factor(displacements, progress)) {
     return false;
   }
-  // K_ff u_f = −K_fp u_p, cell by cell.
+  // Right side of K_ff u_f = −K_fp u_p, cell by cell.
   std::vector<double> force(displacements.size(), 0.0);
   const int n = simplices_.dimension;
   for (std::size_t s = 0; s < simplices_.count(); ++s) {
@@ -133,7 +134,7 @@ bool Newton::predict(std::vector<double>& displacements, const std::vector<doubl
   return energy(displacements).has_value();
 }
 
-/// Goes along a step as far as the energy falls. Returns false where it never does.
+/// Moves along a step as far as the energy falls. Returns false if it never falls.
 bool Newton::descend(std::vector<double>& displacements, const Eigen::VectorXd& step, double slope) {
   const Energy before = *energy(displacements);
   const Eigen::VectorXd from = unknowns_.gather(displacements);
@@ -141,7 +142,7 @@ bool Newton::descend(std::vector<double>& displacements, const Eigen::VectorXd& 
   for (int halving = 0; halving < most_halvings; ++halving, share /= 2) {
     unknowns_.scatter(from + share * step, displacements);
     const auto after = energy(displacements);
-    // Close to the minimum the gain is less than what rounding does to the energy.
+    // Close to the minimum, the gain is smaller than the rounding error of the energy.
     if (after && after->value <= before.value + share_of_slope * share * slope + before.rounding + after->rounding) {
       return true;
     }

@@ -10,25 +10,25 @@
 
 namespace chainmail {
 
-/// Finds displacements at which the neo-Hookean energy is least while some elements are prescribed.
+/// Finds displacements of least neo-Hookean energy while the displacements of some elements are prescribed.
 class Newton {
  public:
-  /// `simplices` must outlive it; `order` is that of Unknowns.
+  /// `simplices` must outlive this object. `order` is the order of the unknowns, as in Unknowns.
   Newton(const Simplices& simplices, const Lame& lame, ElementId elements, std::span<const ElementId> order,
          std::span<const ElementId> prescribed);
 
-  /// From displacements in balance (n coordinates an element) to those in balance after the prescribed elements moved
-  /// by `increment` (of all elements; 0 elsewhere). Returns false where it does not converge; `displacements` are worth
-  /// nothing then. Throws Cancelled.
+  /// Starts from displacements in equilibrium (n coordinates per element), moves the prescribed elements by `increment`
+  /// (n coordinates per element; 0 for the others) and finds the new equilibrium. Returns false if it does not
+  /// converge; `displacements` are then meaningless. Throws Cancelled.
   bool solve(std::vector<double>& displacements, const std::vector<double>& increment, const Progress& progress = {});
 
-  /// The energy (Young's modulus times mesh units to the n), and what rounding may make of it.
+  /// Energy (Young's modulus times mesh units to the power n), and its possible rounding error.
   struct Energy {
     double value = 0, rounding = 0;
   };
-  /// None where a cell is inverted.
+  /// Returns the energy, or none if a cell is inverted.
   std::optional<Energy> energy(const std::vector<double>& displacements) const;
-  /// Its gradient by all coordinates, the prescribed included: what holds them, with the other sign.
+  /// Returns the derivatives of the energy by all coordinates, including those of prescribed elements.
   std::vector<double> gradient(const std::vector<double>& displacements) const;
 
  private:
@@ -42,8 +42,8 @@ class Newton {
   Unknowns unknowns_;
   Stiffness stiffness_;
   Cholesky factor_;
-  bool convex_ = true;  // the last matrix is the Hessian itself
-  double length_;       // of a cell, to measure steps by (mesh units)
+  bool convex_ = true;  // true if the last matrix was the Hessian itself
+  double length_;       // of a cell, the unit in which steps are measured (mesh units)
 };
 
 }  // namespace chainmail

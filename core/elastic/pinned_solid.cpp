@@ -45,9 +45,10 @@ bool PinnedSolid::has_corner(ElementId element) const {
 void PinnedSolid::check_pins(const Mesh& mesh, const PinnedElements& pinned) const {
   const auto holds_surface = [&](ElementId e) { return pinned[e] && has_corner(e); };
   for (const ElementId e : solid_.inner) {
-    // A layer of pins may be two elements deep, of which the outer ones hold the surface.
+    // A layer of pins may be two elements deep. Then its outer elements hold the surface.
     if (pinned[e] && std::ranges::none_of(mesh.neighbours_of(e), holds_surface)) {
-      throw Error("BEM", "element " + std::to_string(e) + " is pinned inside the object, and it works on the surface",
+      throw Error("BEM",
+                  "element " + std::to_string(e) + " is pinned inside the object, and BEM works only on the surface",
                   "unpin it, or compare by linear FEM");
     }
   }
@@ -60,7 +61,7 @@ void PinnedSolid::find_pinned_facets(const PinnedElements& pinned) {
   const auto& triangles = solid_.triangles;
   const auto is_pinned = [&](ElementId e) { return pinned[e].has_value(); };
   is_pinned_.resize(triangles.size());
-  std::vector<bool> holds(pinned.size());  // a facet alone
+  std::vector<bool> holds(pinned.size());  // true for corners of facets with only pinned corners
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (std::ranges::all_of(triangles[t], is_pinned)) {
       is_pinned_[t] = true;
@@ -88,31 +89,32 @@ std::vector<std::size_t> PinnedSolid::facets_about(ElementId corner) const {
   return about;
 }
 
-/// The system knows the tractions of the facets in the hand: unit tractions on these tell which carry them along. Those
-/// that pins hold as well go with the hand by themselves.
+/// In the system, the tractions of the handle's facets are known. So this computes the displacements for unit tractions
+/// on them, and combines these so that the facets move by one along each axis. Facets that pins also hold have known
+/// displacements and move with the handle directly.
 Eigen::MatrixXd PinnedSolid::respond(ElementId corner, const Progress& progress) const {
   auto free = facets_about(corner);
-  Eigen::MatrixXd hand = Eigen::MatrixXd::Zero(pins_.size(), 3);
+  Eigen::MatrixXd handle = Eigen::MatrixXd::Zero(pins_.size(), 3);
   std::erase_if(free, [&](std::size_t t) {
     if (is_pinned_[t]) {
-      hand.middleRows<3>(Index(3 * t)).setIdentity();
+      handle.middleRows<3>(Index(3 * t)).setIdentity();
     }
     return is_pinned_[t];
   });
   const Index units = Index(3 * free.size());
   Eigen::MatrixXd known = Eigen::MatrixXd::Zero(pins_.size(), units + 3);
-  known.rightCols<3>() = hand;
+  known.rightCols<3>() = handle;
   for (std::size_t i = 0; i < free.size(); ++i) {
     known.block<3, 3>(Index(3 * free[i]), Index(3 * i)).setIdentity();
   }
   const auto fields = system_->solve(known);
   progress.report(0.5);
-  Eigen::MatrixXd in_hand(units, units + 3), follow(units, 3);
+  Eigen::MatrixXd at_handle(units, units + 3), follow(units, 3);
   for (std::size_t i = 0; i < free.size(); ++i) {
-    in_hand.middleRows<3>(Index(3 * i)) = fields.displacements.middleRows<3>(Index(3 * free[i]));
+    at_handle.middleRows<3>(Index(3 * i)) = fields.displacements.middleRows<3>(Index(3 * free[i]));
     follow.middleRows<3>(Index(3 * i)).setIdentity();
   }
-  const Eigen::MatrixXd tractions = in_hand.leftCols(units).partialPivLu().solve(follow - in_hand.rightCols<3>());
+  const Eigen::MatrixXd tractions = at_handle.leftCols(units).partialPivLu().solve(follow - at_handle.rightCols<3>());
   const auto together = [&](const Eigen::MatrixXd& of) -> Eigen::MatrixXd {
     return of.rightCols<3>() + of.leftCols(units) * tractions;
   };
@@ -136,8 +138,8 @@ Eigen::MatrixXd PinnedSolid::at_elements(const BoundarySystem::Fields& fields, c
   }
   for (std::size_t i = 0; i < solid_.inner.size(); ++i) {
     progress.report(double(i) / double(solid_.inner.size()));
-    const std::size_t place = corner_count_ + i;
-    at.middleRows<3>(Index(3 * place)) = system_->displacement_inside(solid_.inner_positions[i], fields);
+    const std::size_t index = corner_count_ + i;
+    at.middleRows<3>(Index(3 * index)) = system_->displacement_inside(solid_.inner_positions[i], fields);
   }
   return at;
 }

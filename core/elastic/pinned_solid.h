@@ -25,11 +25,11 @@ class PinnedSolid {
   /// Throws Error if the pins do not hold the solid, and Cancelled.
   PinnedSolid(const Mesh& mesh, Solid solid, const PinnedElements& pinned, double poisson, const Progress& progress);
 
-  /// The corners of its triangles, ascending, then the elements inside.
+  /// Returns the corners of the triangles, ascending, then the elements inside.
   std::span<const ElementId> elements() const { return elements_; }
   bool has_corner(ElementId element) const;
 
-  /// The displacements of its elements, three rows each, with the pins only.
+  /// Returns the displacements of its elements, three rows each, while only the pins are prescribed.
   const Eigen::VectorXd& at_rest() const { return at_rest_; }
   /// Returns what a handle at a corner adds for a unit displacement along each axis, one column each. On facets that
   /// both hold, the handle counts. Throws Cancelled.
@@ -44,8 +44,8 @@ class PinnedSolid {
   Solid solid_;
   std::vector<ElementId> elements_;
   std::size_t corner_count_ = 0;
-  std::vector<bool> is_pinned_;  // facet by facet
-  Eigen::VectorXd pins_;         // the displacements of those that are, facet by facet
+  std::vector<bool> is_pinned_;  // per facet
+  Eigen::VectorXd pins_;         // displacements of the pinned facets, 0 for others; three rows per facet
   std::optional<BoundarySystem> system_;
   Eigen::VectorXd at_rest_;
 };

@@ -8,8 +8,9 @@
 
 namespace chainmail {
 
-/// The answer of a linear method: a displacement field for the pins alone, and how the field answers to each unit of
-/// the hand's way from there. A move is a product of a matrix and a vector (condensation: Bro-Nielsen and Cotin 1996).
+/// The answer of a linear method: the displacement field for the pins alone, and the response of the field to a unit
+/// displacement of the handle from there. A move is one product of a matrix and a vector (condensation: Bro-Nielsen and
+/// Cotin 1996).
 class LinearResponse : public ElasticSolver {
  public:
   void hold(ElementId element, const Progress& progress) final;
@@ -21,11 +22,11 @@ class LinearResponse : public ElasticSolver {
  protected:
   explicit LinearResponse(const ElasticProblem& problem);
 
-  /// To be called by the constructor of a method: the field while the pins alone are prescribed (n coordinates an
-  /// element).
+  /// Sets the field while only the pins are prescribed (n coordinates per element). The constructor of a method calls
+  /// this.
   void set_base(std::vector<double> displacements);
-  /// How the field answers to unit displacements of an element along each axis while the pins stay: n coordinates an
-  /// element in each of the n columns, at the element itself the identity.
+  /// Returns the response of the field to a unit displacement of an element along each axis, while the pins stay: n
+  /// columns, n coordinates per element. It is the identity at the element itself.
   virtual Eigen::MatrixXd respond(ElementId element, const Progress& progress) = 0;
 
  private:

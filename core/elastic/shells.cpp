@@ -15,12 +15,12 @@ using Triangle = std::array<ElementId, 3>;
 
 std::string name(ElementId element) { return std::to_string(element); }
 
-/// An edge as one triangle runs along it.
+/// An edge of a triangle, in the direction in which the triangle runs.
 struct Edge {
   std::array<ElementId, 2> ends;  // ascending
   std::uint32_t triangle;
-  int side;        // from this corner of the triangle to the next
-  bool ascending;  // the way that the triangle runs
+  int side;        // index of the corner where the edge begins
+  bool ascending;  // true if the edge begins at its lower end
 };
 
 std::vector<Edge> list_edges(std::span<const Triangle> triangles) {
@@ -40,17 +40,19 @@ std::vector<Edge> list_edges(std::span<const Triangle> triangles) {
                               std::ptrdiff_t triangles) {
   const std::string where = "the edge between the elements " + name(ends[0]) + " and " + name(ends[1]);
   if (is_cut_between(mesh, cuts, ends[0], ends[1])) {
-    throw Error("BEM", "a cut along " + where + " opens the surface, and it takes closed ones", "undo the cut");
+    throw Error("BEM", "a cut along " + where + " opens the surface, and BEM needs a closed one", "undo the cut");
   }
   if (triangles == 1) {
-    throw Error("BEM", "the surface is open along " + where + ", and it takes closed ones",
+    throw Error("BEM", "the surface is open along " + where + ", and BEM needs a closed one",
                 "close the hole in the file, or compare by another method");
   }
-  throw Error("BEM", std::to_string(triangles) + " triangles meet at " + where + ", so it has no inside and outside",
-              "part them in the file, or compare by another method");
+  throw Error("BEM",
+              std::to_string(triangles) + " triangles meet at " + where + ", so the surface has no inside and outside",
+              "separate them in the file, or compare by another method");
 }
 
-/// What lies across a triangle's side, and whether it runs the other way there, as it should.
+/// The triangle across a side of another one. `agrees` is true if both have the same orientation, so that they run
+/// along the side in opposite directions.
 struct Across {
   std::uint32_t triangle = 0;
   bool agrees = false;
@@ -74,7 +76,7 @@ std::vector<std::array<Across, 3>> pair_triangles(const Mesh& mesh, const Cuts& 
   return across;
 }
 
-/// Turns the triangles of a shell as its first one is turned.
+/// Gives the triangles of a shell the orientation of its first one.
 std::vector<std::uint32_t> turn_alike(std::vector<Triangle>& triangles,
                                       const std::vector<std::array<Across, 3>>& across, std::uint32_t first,
                                       std::vector<std::optional<bool>>& turned) {
@@ -89,8 +91,8 @@ std::vector<std::uint32_t> turn_alike(std::vector<Triangle>& triangles,
         shell.push_back(other);
       } else if (*turned[other] != turn) {
         throw Error("BEM",
-                    "the surface about element " + name(triangles[t][0]) +
-                        " has one side alone, as a Klein bottle, so it has no inside",
+                    "the surface around element " + name(triangles[t][0]) +
+                        " has only one side, like a Klein bottle, so it has no inside",
                     "use a surface that encloses a volume");
       }
     }

@@ -9,8 +9,9 @@
 
 namespace chainmail {
 
-/// Parts triangles into surfaces that hang together along edges, each ascending, by their first triangle, and turns the
-/// triangles of each alike. Throws Error where one is open, cut open, has three triangles at an edge or one side alone.
+/// Splits triangles into surfaces that are connected along edges, and gives the triangles of each the same orientation.
+/// Returns the indices of the triangles of each surface, ascending; surfaces are in the order of their first triangles.
+/// Throws Error if a surface is open, cut open or one-sided, or if three triangles meet at an edge.
 std::vector<std::vector<std::uint32_t>> part_into_shells(const Mesh& mesh, const Cuts& cuts,
                                                          std::vector<std::array<ElementId, 3>>& triangles);
 

@@ -11,11 +11,11 @@
 namespace chainmail {
 namespace {
 
-// A cell whose volume is below this share of its longest edge's power is flat: its shape functions have lost half the
-// digits of a double.
+// A cell is flat if its volume is below this share of its longest edge to the power n: its shape functions have then
+// lost half the digits of a double.
 constexpr double flat_below = 1e-8;
 
-/// Links of a lattice's square or cube must all be there, and uncut.
+/// Returns true if an uncut link joins two elements. A square or cube of a lattice needs all its links.
 bool has_link(const Mesh& mesh, const Cuts& cuts, ElementId a, ElementId b) {
   const auto link = find_link(mesh, a, b);
   return link && !cuts.is_cut(*link);
@@ -40,7 +40,7 @@ class Builder {
         mesh_.tetrahedra.empty() && mesh_.hexahedra.empty() ? add_cubes() : add_cells();
     }
     if (simplices_.corners.empty()) {
-      throw Error("object", "no cell is left that could resist", "uncut links, or use an object with cells");
+      throw Error("object", "it has no uncut cell, so it cannot resist", "uncut links, or use an object with cells");
     }
     find_shapes();
     return std::move(simplices_);
@@ -79,7 +79,8 @@ class Builder {
     }
   }
 
-  /// A fan from the lowest corner over the sides that do not hold it; they are parted by diagonals from their own.
+  /// Splits a hexahedron into a fan from its lowest corner over the sides without this corner. Each side is split by
+  /// the diagonal from its own lowest corner.
   void add_hexahedron(const std::array<ElementId, 8>& cell) {
     const ElementId lowest = *std::ranges::min_element(cell);
     for (const auto& side : hexahedron_sides) {
@@ -92,7 +93,7 @@ class Builder {
     }
   }
 
-  /// Diagonals alternate, so that the sheet leans to no side.
+  /// Diagonals alternate, so that the sheet has no preferred direction.
   void add_squares() {
     const auto [width, height, depth] = mesh_.lattice->size;
     for (std::uint32_t y = 0; y + 1 < height; ++y) {
@@ -167,16 +168,16 @@ class Builder {
     simplices_.volumes.push_back(std::abs(volume));
   }
 
-  /// Which way round the cells are listed is the file's choice, but it must be one.
+  /// The cells of a file may have either orientation, but all must have the same.
   void check_shape(std::span<const ElementId> corners, double volume, double scale) {
     const std::string where = "the cell of elements " + names(corners);
     if (!(std::abs(volume) > flat_below * scale)) {
-      throw Error(where, "it is flat, so it cannot resist", "remove it, or mesh the object anew");
+      throw Error(where, "it is flat, so it cannot resist", "remove it, or mesh the object again");
     }
     const bool has_way_round = simplices_.dimension == 3;  // a sheet is the same from behind
     if (has_way_round && orientation_ != 0 && (volume > 0) != (orientation_ > 0)) {
-      throw Error(where, "it is inverted: its corners lie the other way round than those of the cells before it",
-                  "list its corners in the order of the others, or mesh the object anew");
+      throw Error(where, "it is inverted: its corners are in the opposite order to those of the cells before it",
+                  "list its corners in the order of the others, or mesh the object again");
     }
     orientation_ = volume > 0 ? 1 : -1;
   }
@@ -193,7 +194,7 @@ class Builder {
   const Cuts& cuts_;
   const Progress& progress_;
   Simplices simplices_;
-  int orientation_ = 0;  // of the cells so far
+  int orientation_ = 0;  // of the cells so far: 1, -1, or 0 before the first
 };
 
 }  // namespace

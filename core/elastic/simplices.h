@@ -11,7 +11,7 @@
 
 namespace chainmail {
 
-/// Up to 3 x 3, and up to the 12 coordinates of a tetrahedron's corners: on the stack.
+/// Up to 3 x 3 entries, or up to 12 coordinates of the corners of a tetrahedron, stored on the stack.
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
 
@@ -28,22 +28,23 @@ struct Simplices {
     const auto width = static_cast<std::size_t>(dimension) + 1;
     return std::span(corners).subspan(simplex * width, width);
   }
-  /// A corner's gradient in column i of (n x (n + 1)).
+  /// Returns the gradient of each corner's shape function, one per column (n x (n + 1), 1 / mesh unit).
   Eigen::Map<const Eigen::MatrixXd> gradients_of(std::size_t simplex) const {
     const Eigen::Index width = dimension + 1;
     return {gradients.data() + static_cast<Eigen::Index>(simplex) * width * dimension, dimension, width};
   }
 };
 
-/// The cells of an object that no cut goes through: its tetrahedra and hexahedra, its faces in a plane, its links on a
-/// line; where a grid or a block has links alone, its squares and cubes. A hexahedron is parted into six tetrahedra
-/// about its lowest corner, so that neighbours agree on the diagonals (Dompierre et al. 1999).
+/// Makes simplices of the uncut cells of an object: tetrahedra and hexahedra in space, faces in a plane, links on a
+/// line. For a grid or a block without faces or cells, these are its squares or cubes. A hexahedron is split into six
+/// tetrahedra around its lowest corner, so that neighbours agree on the diagonals (Dompierre et al. 1999).
 ///
-/// Throws Error, naming the corners, for a cell that is flat or the other way round than the others, and where no cell
-/// is left; Cancelled.
+/// Throws Error, with the corners, for a cell that is flat or oriented differently from the others, and if no cell is
+/// left. Throws Cancelled.
 Simplices build_simplices(const Mesh& mesh, const Cuts& cuts, const Progress& progress = {});
 
-/// Throws Error, naming it, for a part, over the cells, whose pins leave it free to move as a rigid body.
+/// Throws Error if the pins of a part leave it free to move as a rigid body. A part is a set of cells that share
+/// elements; the message names one of its elements.
 void check_held(const Simplices& simplices, const Mesh& mesh, std::span<const ElementId> pins);
 
 }  // namespace chainmail

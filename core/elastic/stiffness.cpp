@@ -39,7 +39,7 @@ void Unknowns::scatter(const Eigen::VectorXd& unknown, std::vector<double>& all)
 
 namespace {
 
-/// The unknown of each coordinate of a simplex's corners, or none.
+/// Returns the unknown of each coordinate of the corners of a simplex, or none.
 std::array<std::int32_t, 12> unknowns_of(const Simplices& simplices, std::size_t simplex, const Unknowns& unknowns) {
   std::array<std::int32_t, 12> all{};
   const auto n = static_cast<std::size_t>(simplices.dimension);
@@ -51,7 +51,7 @@ std::array<std::int32_t, 12> unknowns_of(const Simplices& simplices, std::size_t
   return all;
 }
 
-/// Calls visit(place among all entries, row, column) for each entry of each simplex that is in the lower triangle.
+/// Calls visit(index among all entries, row, column) for each entry of each simplex that is in the lower triangle.
 template <class Visit>
 void for_each_entry(const Simplices& simplices, const Unknowns& unknowns, Visit visit) {
   const auto n = static_cast<std::size_t>(simplices.dimension);
@@ -78,11 +78,11 @@ Stiffness::Stiffness(const Simplices& simplices, const Unknowns& unknowns)
   matrix_.setFromTriplets(entries.begin(), entries.end());
   entries = {};
   const auto n = static_cast<std::size_t>(simplices.dimension);
-  places_.assign(simplices.count() * n * (n + 1) * n * (n + 1), Unknowns::none);
+  indices_.assign(simplices.count() * n * (n + 1) * n * (n + 1), Unknowns::none);
   for_each_entry(simplices, unknowns, [&](std::size_t entry, std::int32_t row, std::int32_t column) {
     const auto* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
     const auto* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
-    places_[entry] = static_cast<std::int32_t>(std::lower_bound(begin, end, row) - matrix_.innerIndexPtr());
+    indices_[entry] = static_cast<std::int32_t>(std::lower_bound(begin, end, row) - matrix_.innerIndexPtr());
   });
 }
 
@@ -90,12 +90,12 @@ void Stiffness::clear() { std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.
 
 void Stiffness::add(std::size_t simplex, const CornerMatrix& stiffness) {
   const auto width = static_cast<std::size_t>(stiffness.rows());
-  const std::int32_t* place = places_.data() + simplex * width * width;
+  const std::int32_t* index = indices_.data() + simplex * width * width;
   for (const double value : stiffness.reshaped()) {
-    if (*place != Unknowns::none) {
-      matrix_.valuePtr()[*place] += value;
+    if (*index != Unknowns::none) {
+      matrix_.valuePtr()[*index] += value;
     }
-    ++place;
+    ++index;
   }
 }
 

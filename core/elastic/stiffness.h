@@ -11,19 +11,19 @@
 
 namespace chainmail {
 
-/// The unknowns of an object whose elements are free, or have their displacement prescribed: n an element that is free
-/// and has a cell.
+/// The unknowns of an object: n per element that has a cell and no prescribed displacement.
 class Unknowns {
  public:
-  /// Numbered in the order of `order`, all elements that have a cell, but for the prescribed ones.
+  /// Numbers the unknowns in the order of `order`, which lists all elements that have a cell, without the prescribed
+  /// ones.
   Unknowns(int dimension, ElementId elements, std::span<const ElementId> order, std::span<const ElementId> prescribed);
 
   static constexpr std::int32_t none = -1;
-  /// The first unknown of an element, or none.
+  /// Returns the first unknown of an element, or `none`.
   std::int32_t of(ElementId element) const { return first_[element]; }
   Eigen::Index count() const { return count_; }
 
-  /// The entries of all elements (n each) that are unknown, and back.
+  /// Copies the unknown entries out of a field of all elements (n each), and back.
   Eigen::VectorXd gather(const std::vector<double>& all) const;
   void scatter(const Eigen::VectorXd& unknown, std::vector<double>& all) const;
 
@@ -33,8 +33,8 @@ class Unknowns {
   Eigen::Index count_ = 0;
 };
 
-/// The lower triangle of the stiffness of the unknowns, put together from simplices: where each of their entries goes
-/// is found once.
+/// The lower triangle of the stiffness matrix of the unknowns, assembled from simplices. The target of each of their
+/// entries is found only once.
 class Stiffness {
  public:
   using Sparse = Eigen::SparseMatrix<double>;
@@ -47,7 +47,7 @@ class Stiffness {
 
  private:
   const Simplices& simplices_;
-  std::vector<std::int32_t> places_;  // of each simplex's entries, column after column, among the matrix's; or none
+  std::vector<std::int32_t> indices_;  // index in the matrix of each entry of each simplex, column by column, or none
   Sparse matrix_;
 };
 

@@ -7,7 +7,7 @@
 namespace chainmail {
 namespace {
 
-/// A side by its corners beside the lowest, ascending: alike for the two sides that lie on each other.
+/// Sort key of a side: its corners except the lowest, ascending. Two coinciding sides have the same corners.
 struct Key {
   std::uint64_t second_and_third = 0;
   ElementId fourth = CellTable::none;
@@ -78,14 +78,14 @@ Side CellTable::side_by_number(SideId number) const {
   Side side;
   const auto take = [&](const auto& places) {
     side.count = static_cast<int>(places.size());
-    std::transform(places.begin(), places.end(), side.corner.begin(), [&](int place) { return corners[place]; });
+    std::transform(places.begin(), places.end(), side.corner.begin(), [&](int index) { return corners[index]; });
   };
   const SideId which = number - first_side(cell);
   cell < tetrahedra_ ? take(tetrahedron_sides[which]) : take(hexahedron_sides[which]);
   return side;
 }
 
-/// By the three edges at its first corner.
+/// Returns true if the three edges at the first corner of the cell form a left-handed system.
 bool CellTable::is_inverted(CellId cell) const {
   const auto corners = corners_of(cell);
   const Point at = mesh_->rest_position(corners[0]);
@@ -116,7 +116,7 @@ bool CellTable::has_edge(CellId cell, ElementId a, ElementId b) const {
 }
 
 void CellTable::list_cells() {
-  // A collapsed cell has a corner twice, but stands there once.
+  // A collapsed cell has the same corner twice, but is listed there once.
   const auto for_each_corner = [this](auto visit) {
     for (CellId cell = 0; cell < cell_count(); ++cell) {
       const auto corners = corners_of(cell);
@@ -135,7 +135,7 @@ void CellTable::list_cells() {
   for_each_corner([&](CellId cell, ElementId corner) { cells_[next[corner]++] = cell; });
 }
 
-/// Sides that lie on each other have the same lowest corner: few have, and those are sorted.
+/// Pairs coinciding sides. They have the same lowest corner, and few sides share one, so only short lists are sorted.
 void CellTable::pair_sides(const Progress& progress) {
   twins_.assign(std::size_t{4} * tetrahedra_ + 6 * mesh_->hexahedra.size(), none);
   std::vector<Key> keys;
@@ -161,7 +161,7 @@ void CellTable::pair_sides(const Progress& progress) {
 }
 
 void CellTable::find_loose_links() {
-  std::vector<ElementId> joined(mesh_->element_count(), none);  // by an edge to this element
+  std::vector<ElementId> joined(mesh_->element_count(), none);  // joined[b] is a while an edge of a cell joins a and b
   for (ElementId a = 0; a < mesh_->element_count(); ++a) {
     for (const CellId cell : cells_of(a)) {
       const auto corners = corners_of(cell);

@@ -39,7 +39,7 @@ bool is_whole(const Mesh& mesh, const Cuts& cuts, const std::array<ElementId, Co
                       [&](const CellEdge& edge) { return is_cut_between(mesh, cuts, cell[edge[0]], cell[edge[1]]); });
 }
 
-/// Returns links along the edges of all faces and cells, for files that list no links.
+/// Adds links along the edges of all faces and cells, for files that list no links.
 void add_links_along_edges(MeshParts& parts);
 
 }  // namespace chainmail

@@ -15,11 +15,11 @@ void set_bit(Bits& bits, std::size_t i, bool on) {
   bits[i / 64] = on ? bits[i / 64] | bit : bits[i / 64] & ~bit;
 }
 
-/// Calls visit(i) for each bit set, i being counted from 64 times the word's place.
+/// Calls visit(64 * index + i) for each bit i that is set in a word.
 template <class Visit>
-void for_each_bit(std::uint64_t word, std::size_t place, Visit visit) {
+void for_each_bit(std::uint64_t word, std::size_t index, Visit visit) {
   for (; word != 0; word &= word - 1) {
-    visit(64 * place + static_cast<std::size_t>(std::countr_zero(word)));
+    visit(64 * index + static_cast<std::size_t>(std::countr_zero(word)));
   }
 }
 

@@ -87,7 +87,7 @@ class ElementBlocks {
     finish();
   }
 
-  /// Calls visit(block, first, end), of element ids, for each block, in ascending order.
+  /// Calls visit(block, first, end), with element ids, for each block, in ascending order.
   template <class Visit>
   void for_each_block(Visit visit) const {
     for_each_run([&](ElementId first, ElementId end) {

@@ -17,8 +17,8 @@ constexpr std::array kinds{
     MeshKindInfo{MeshKind::tetra, "tetra", 3, "a block whose cubes are split into tetrahedra"},
 };
 
-/// The six ways from a cube's first corner to its last, one axis after another: each way is the
-/// spine of one tetrahedron.
+/// The six paths along the edges of a cube from its first corner to its last, as orders of the axes. The corners of
+/// each path form one tetrahedron (Freudenthal 1942).
 constexpr std::array<std::array<int, 3>, 6> axis_orders{
     {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
 
@@ -37,7 +37,7 @@ void check(const MeshRecipe& recipe, const Lattice& lattice) {
   }
 }
 
-/// Calls `visit(element, {dx, dy, dz})` for every element, where d says which axes go on.
+/// Calls visit(element, {x, y, z}) for every element. Each flag is true if the lattice continues along that axis.
 template <class Visit>
 void for_each_element(const Lattice& lattice, Visit visit) {
   ElementId element = 0;
@@ -50,7 +50,7 @@ void for_each_element(const Lattice& lattice, Visit visit) {
   }
 }
 
-/// Sets of axes along which a link goes one step: bit k is axis k.
+/// Sets of axes along which a link leads to the next element: bit k is axis k.
 constexpr std::array<unsigned, 3> straight{1, 2, 4};
 constexpr std::array<unsigned, 7> straight_and_diagonal{1, 2, 3, 4, 5, 6, 7};
 
@@ -59,7 +59,7 @@ struct Builder {
   std::array<ElementId, 3> stride;
   std::span<const unsigned> ways;
 
-  /// Links to the elements one step on.
+  /// Adds the links to the next elements.
   void add_links(ElementId element, const std::array<bool, 3>& more) {
     const unsigned open = unsigned{more[0]} | unsigned{more[1]} << 1 | unsigned{more[2]} << 2;
     for (const unsigned axes : ways) {

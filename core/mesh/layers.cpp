@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-/// Counts sides by their corners in ascending order, and keeps those that come once.
+/// Collects sides by their corners in ascending order, and keeps those that occur only once.
 template <std::size_t Corners>
 class OneSided {
  public:
@@ -59,7 +59,7 @@ void append_open_edges(const Mesh& mesh, std::vector<ElementId>& elements) {
   edges.append(elements);
 }
 
-/// Without faces: who has fewer neighbours than those inside.
+/// Appends the rim of an object without faces: the elements with fewer neighbours than those inside.
 void append_rim(const Mesh& mesh, std::vector<ElementId>& elements) {
   std::size_t most = 0;
   for (ElementId e = 0; e < mesh.element_count(); ++e) {

@@ -14,7 +14,7 @@
 namespace chainmail {
 namespace {
 
-/// Rows in ascending order, each link in both its rows once, from pairs in any order.
+/// Fills the neighbour table from pairs in any order. Rows are ascending, and each link is once in both of its rows.
 void fill_neighbour_table(Mesh& mesh, const std::vector<std::array<ElementId, 2>>& links, std::size_t element_count,
                           const Progress& progress) {
   std::vector<EntryId> next(element_count + 1, 0);
@@ -46,7 +46,7 @@ void fill_neighbour_table(Mesh& mesh, const std::vector<std::array<ElementId, 2>
   mesh.neighbours.resize(kept);
 }
 
-/// The entries of each row in ascending order of neighbour.
+/// Returns the entries of each row in ascending order of neighbour.
 std::vector<EntryId> ascending_entries(const Mesh& mesh, const Progress& progress) {
   std::vector<EntryId> order(mesh.neighbours.size());
   std::iota(order.begin(), order.end(), EntryId{0});
@@ -63,8 +63,8 @@ std::vector<EntryId> ascending_entries(const Mesh& mesh, const Progress& progres
 
 void number_links(Mesh& mesh, const Progress& progress) {
   const std::vector<EntryId> order = ascending_entries(mesh, progress.part(0, 0.3));
-  // Elements are taken in ascending order, and so an element meets its lower neighbours in that order too: the entry
-  // that is a link's second end is the next in its row.
+  // Elements are visited in ascending order, so an element meets its lower neighbours in ascending order too. In the
+  // row of the higher element, the entry of a link is therefore the next one.
   std::vector<EntryId> next(mesh.first_entry.begin(), mesh.first_entry.end() - 1);
   mesh.entry_link.resize(mesh.neighbours.size());
   mesh.links.reserve(mesh.neighbours.size() / 2);
@@ -74,7 +74,7 @@ void number_links(Mesh& mesh, const Progress& progress) {
       const ElementId b = mesh.neighbours[entry];
       if (a < b) {
         const EntryId twin = order[next[b]++];
-        assert(mesh.neighbours[twin] == a && "a link stands in both its rows");
+        assert(mesh.neighbours[twin] == a && "a link is in both of its rows");
         mesh.entry_link[entry] = mesh.entry_link[twin] = mesh.link_count();
         mesh.links.push_back({a, b});
       }
@@ -82,7 +82,7 @@ void number_links(Mesh& mesh, const Progress& progress) {
   }
 }
 
-/// Chooses the axes that the object needs, and those asked for beyond them in the order x, y, z.
+/// Chooses the axes that the object needs, then others in the order x, y, z until there are `asked` axes.
 void choose_axes(Mesh& mesh, const std::vector<Point>& rest, std::optional<int> asked) {
   std::array<bool, 3> carried{};
   for (int k = 0; k < 3; ++k) {
@@ -121,7 +121,7 @@ void store_rest(Mesh& mesh, const std::vector<Point>& rest) {
   }
 }
 
-/// A fan about the first corner: enough to draw a convex polygon.
+/// Splits polygons into fans of triangles around the first corner. This is enough to draw a convex polygon.
 void split_polygons(Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.polygons.size(); i += mesh.polygons[i] + 1) {
     const ElementId* corner = mesh.polygons.data() + i + 1;
@@ -146,7 +146,7 @@ int object_dimension(const Mesh& mesh) {
   return std::max(1, static_cast<int>(extended));
 }
 
-/// Whether the way from an element to one of a higher id is one step along an axis.
+/// Returns true if `to`, which has the higher id, is next to `from` along one axis.
 bool is_one_step(const Lattice& lattice, ElementId from, ElementId to) {
   const auto [width, height, depth] = lattice.size;
   const ElementId way = to - from;

@@ -27,7 +27,7 @@ namespace parameters {
 inline constexpr double no_highest = std::numeric_limits<double>::max();
 /// Lower limit of numbers that must be above 0.
 inline constexpr double above_zero = std::numeric_limits<double>::min();
-/// Upper limit of numbers that must be below 0.5: the largest one.
+/// Upper limit of numbers that must be below 0.5: the largest double below it.
 inline constexpr double below_half = 0.5 - std::numeric_limits<double>::epsilon() / 4;
 
 inline constexpr Parameter compression{.name = "compression",

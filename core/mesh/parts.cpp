@@ -34,7 +34,7 @@ std::uint32_t count_parts(const Mesh& mesh, const Cuts& cuts, const Progress& pr
 
 namespace {
 
-/// Sets that become one, numbered from 0 (Galler and Fischer 1964).
+/// Disjoint sets, numbered from 0, that can be joined (Galler and Fischer 1964).
 class JoinedSets {
  public:
   void add() { parents_.push_back(static_cast<std::uint32_t>(parents_.size())); }
@@ -44,15 +44,15 @@ class JoinedSets {
     }
     return one;
   }
-  /// Both numbers are of sets; the first one's is that of both then.
+  /// Joins two sets, given by the numbers that of() returns. Both then have the first number.
   void join(std::uint32_t into, std::uint32_t other) { parents_[other] = into; }
 
  private:
   std::vector<std::uint32_t> parents_;
 };
 
-/// Searches from the ends of cut links. Those that meet become one. Beside, searches belong to a group: those that
-/// the links would join, were they not cut.
+/// Searches that start at the ends of the cut links. Two searches that meet become one. Each search also belongs to a
+/// group: the searches that these links would join if they were not cut.
 class Searches {
  public:
   Searches(const Mesh& mesh, const Cuts& cuts, std::vector<std::uint32_t>& reached_by)
@@ -64,16 +64,17 @@ class Searches {
   }
 
   void begin(LinkId link) { same_group(at(mesh_.links[link][0]), at(mesh_.links[link][1])); }
-  /// How many parts of their own the groups fall into, beyond one each.
+  /// Runs the searches. Returns the number of separate parts that the groups have beyond one each.
   std::uint32_t grow();
   std::size_t reached() const { return reached_.size(); }
 
  private:
   struct Search {
-    std::vector<ElementId> open;  // from `next` on
+    std::vector<ElementId> open;  // elements to visit, from `next` on
     std::size_t next = 0;
-    bool live = true;           // it may still reach more
-    std::uint32_t growing = 1;  // of a group, where it stands for one: its live searches
+    bool live = true;  // may still reach more elements
+    // Number of live searches in the group. Only the search that stands for the group uses it.
+    std::uint32_t growing = 1;
   };
 
   std::uint32_t at(ElementId end);
@@ -89,7 +90,7 @@ class Searches {
   std::vector<ElementId> reached_;
   std::vector<Search> searches_;
   JoinedSets met_, groups_;
-  std::uint32_t exhausted_ = 0;  // while others of their groups were not
+  std::uint32_t exhausted_ = 0;  // searches that ended while others of their group were still live
 };
 
 std::uint32_t Searches::at(ElementId end) {
@@ -118,7 +119,7 @@ void Searches::same_group(std::uint32_t one, std::uint32_t other) {
   }
 }
 
-/// Two searches are one; the first goes on with what is open to both.
+/// Makes two searches one. The first one continues with the open elements of both.
 void Searches::meet(std::uint32_t search, std::uint32_t other) {
   same_group(search, other);
   --searches_[groups_.of(search)].growing;
@@ -132,7 +133,7 @@ void Searches::meet(std::uint32_t search, std::uint32_t other) {
   two = Search{{}, 0, false, two.growing};
 }
 
-/// Looks at the neighbours of one element.
+/// Visits one element and reaches its neighbours.
 void Searches::step(std::uint32_t search) {
   Search& own = searches_[search];
   if (own.next == own.open.size()) {
@@ -151,7 +152,7 @@ void Searches::step(std::uint32_t search) {
   });
 }
 
-/// In turns, an element each: none goes further than the smallest of them needs.
+/// The searches take turns, one element each, so that none visits more elements than the smallest of them needs.
 std::uint32_t Searches::grow() {
   std::vector<std::uint32_t> turn(searches_.size());
   std::iota(turn.begin(), turn.end(), 0U);
@@ -170,7 +171,7 @@ std::uint32_t Searches::grow() {
 
 Parts::Parts(const MeshPointer& mesh) : mesh_(mesh), count_(mesh->part_count) {}
 
-/// How many parts more there are than there would be with these links, all of them cut, joined again.
+/// Returns the number of parts that would vanish if these links, all of which are cut, were joined again.
 std::uint32_t Parts::kept_apart(const Cuts& cuts, std::span<const LinkId> links) {
   reached_by_.resize(mesh_->element_count());
   Searches searches(*mesh_, cuts, reached_by_);

@@ -26,7 +26,7 @@ class Parts {
   /// Number of elements that the last change visited.
   std::size_t looked_at() const { return looked_at_; }
 
-  /// Cuts those links that are not cut yet in `cuts`, which is of the same mesh and changed only here.
+  /// Cuts the links that are not cut yet. `cuts` belongs to the same mesh, and only this object changes it.
   void cut(Cuts& cuts, std::span<const LinkId> links);
   void uncut(Cuts& cuts, std::span<const LinkId> links);
 

@@ -5,9 +5,8 @@
 namespace chainmail {
 namespace {
 
-/// The six tetrahedra about the diagonal from a hexahedron's first corner to
-/// the one opposite, as places among its corners (Freudenthal 1942). Neighbours
-/// in a regular block part the side between them alike.
+/// The six tetrahedra around the diagonal of a hexahedron from its first corner to the opposite one, as indices of its
+/// corners (Freudenthal 1942). In a regular block, two neighbours split their common side in the same way.
 constexpr std::array<std::array<int, 4>, 6> tetrahedra_of_hexahedron{
     {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}}};
 
@@ -43,7 +42,7 @@ void Section::cross(CellId cell, const std::vector<bool>& before) {
   first_corner_.push_back(static_cast<std::uint32_t>(corners_.size()));
 }
 
-/// One corner alone on its side gives a triangle, two a quadrilateral.
+/// Cuts a tetrahedron. One corner alone on its side of the plane gives a triangle, two corners give a quadrilateral.
 void Section::cross_tetrahedron(const std::array<ElementId, 4>& corners, const std::vector<bool>& before) {
   std::array<ElementId, 4> sorted = corners;
   const auto middle = std::stable_partition(sorted.begin(), sorted.end(), [&](ElementId e) { return !before[e]; });

@@ -24,7 +24,7 @@ class Section {
 
   const CellTable& table() const { return *table_; }
   const SectionPlane& plane() const { return plane_; }
-  /// Each once.
+  /// The points, each one once.
   const std::vector<SectionPoint>& points() const { return points_; }
   /// Triangles, three points each, of the cells that are whole. Takes time in proportion to the crossed cells.
   std::vector<std::uint32_t> triangles(const Surface& surface) const;

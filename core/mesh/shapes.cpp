@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-/// A rest vector as bits: two that differ in any are two shapes.
+/// The bits of a rest vector. Vectors that differ in any bit are different shapes.
 using PointBits = std::array<std::uint64_t, 3>;
 
 struct Hash {
@@ -26,7 +26,7 @@ class Shapes {
  public:
   explicit Shapes(Mesh& mesh) : mesh_(mesh), dimension_(static_cast<std::size_t>(mesh.space_dimension)) {}
 
-  /// Most rows look like the row before: its entry in the same place is tried first.
+  /// Most rows are like the row before, so the entry `alike` at the same position of that row is tried first.
   bool add(EntryId entry, ElementId from, std::optional<EntryId> alike) {
     const PointBits bits = bits_of(from, mesh_.neighbours[entry]);
     if (alike && *alike < entry && bits == known_[mesh_.entry_shape[*alike]]) {

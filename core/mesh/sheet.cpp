@@ -9,8 +9,8 @@
 namespace chainmail {
 namespace {
 
-/// Element i of n along a side: the last one stands on its end to the bit.
-double place(std::uint32_t i, std::uint32_t n, std::uint32_t side) { return double(i) * side / (n - 1); }
+/// Returns the coordinate of element i of n along a side (mesh units). The last one is exactly at the end.
+double coordinate(std::uint32_t i, std::uint32_t n, std::uint32_t side) { return double(i) * side / (n - 1); }
 
 void add_square(MeshParts& parts, ElementId a, std::uint32_t width) {
   const ElementId b = a + 1, c = a + width, d = c + 1;
@@ -29,7 +29,7 @@ std::array<std::uint32_t, 2> sheet_size(std::array<std::uint32_t, 2> picture, st
 MeshPointer make_sheet(Texture picture, std::uint32_t across, const Progress& progress) {
   const std::array<std::uint32_t, 2> pixels{picture.size[0], picture.size[1]};
   if (across < 2) {
-    throw Error("sheet", "fewer than 2 elements across make none", "use 2 or more");
+    throw Error("sheet", "it needs at least 2 elements across", "use 2 or more");
   }
   const auto [width, height] = sheet_size(pixels, across);
   const std::uint64_t count = std::uint64_t{width} * height;
@@ -45,7 +45,7 @@ MeshPointer make_sheet(Texture picture, std::uint32_t across, const Progress& pr
   for (ElementId e = 0; e < count; ++e) {
     progress.part(0, 0.3).report(e, count);
     const std::uint32_t x = e % width, y = e / width;
-    parts.rest.emplace_back(place(x, width, pixels[0]), place(y, height, pixels[1]), 0);
+    parts.rest.emplace_back(coordinate(x, width, pixels[0]), coordinate(y, height, pixels[1]), 0);
     if (x + 1 < width) {
       parts.links.push_back({e, e + 1});
     }

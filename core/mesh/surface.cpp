@@ -5,20 +5,20 @@
 namespace chainmail {
 
 void NumberSet::set(std::uint32_t number, bool in) {
-  const auto found = places_.find(number);
-  if (in == (found != places_.end())) {
+  const auto found = indices_.find(number);
+  if (in == (found != indices_.end())) {
     return;
   }
   if (in) {
-    places_.emplace(number, static_cast<std::uint32_t>(numbers_.size()));
+    indices_.emplace(number, static_cast<std::uint32_t>(numbers_.size()));
     numbers_.push_back(number);
     return;
   }
-  const std::uint32_t place = found->second, last = numbers_.back();
-  numbers_[place] = last;
+  const std::uint32_t index = found->second, last = numbers_.back();
+  numbers_[index] = last;
   numbers_.pop_back();
-  places_[last] = place;
-  places_.erase(number);
+  indices_[last] = index;
+  indices_.erase(number);
 }
 
 Surface::Surface(CellTablePointer table) : table_(std::move(table)) { show_uncut(); }
@@ -69,7 +69,7 @@ void Surface::change(LinkId link, bool cut) {
   }
 }
 
-/// At those of a cell, and those of others that lie on them.
+/// Updates the visibility of the sides of a cell and of the sides that coincide with them.
 void Surface::look_at_sides(CellId cell) {
   for (SideId side = table_->first_side(cell); side < table_->end_side(cell); ++side) {
     const SideId twin = table_->twin(side);

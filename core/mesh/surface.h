@@ -11,12 +11,12 @@ namespace chainmail {
 class NumberSet {
  public:
   std::span<const std::uint32_t> numbers() const { return numbers_; }
-  bool contains(std::uint32_t number) const { return places_.count(number) != 0; }
+  bool contains(std::uint32_t number) const { return indices_.count(number) != 0; }
   void set(std::uint32_t number, bool in);
 
  private:
   std::vector<std::uint32_t> numbers_;
-  std::unordered_map<std::uint32_t, std::uint32_t> places_;  // index of each number in the list
+  std::unordered_map<std::uint32_t, std::uint32_t> indices_;  // index of each number in the list
 };
 
 /// The outer surface of a mesh's cells under cuts. A cell is whole while no link along its edges is cut. A side is
@@ -59,7 +59,7 @@ class Surface {
   NumberSet sides_, links_;              // visible
 };
 
-/// Returns the triangles of a side: one, or two that are split by the diagonal from the lowest corner, the same for
+/// Appends the triangles of a side: one, or two that are split by the diagonal from the lowest corner, the same for
 /// both of two coinciding sides.
 void append_triangles(const Side& side, std::vector<ElementId>& corners);
 

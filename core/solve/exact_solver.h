@@ -16,7 +16,7 @@ class ExactSolver {
  public:
   using State = Body<Scalar, Dimension>;
 
-  /// Sets what is known of the links without checking them: all are valid, or nothing is known. In the second case the
+  /// Sets what is known about the links without a check: all are valid, or nothing is known. In the second case the
   /// next pass checks them first.
   void set_valid(bool is_valid) {
     is_valid_ = is_valid;
@@ -46,8 +46,8 @@ class ExactSolver {
   }
 
  private:
-  /// Large coordinates leave links with rounding of their size. When the handle is back among small ones, the links
-  /// must be checked again.
+  /// Large coordinates leave large rounding errors in the links. When the handle returns to small coordinates, the
+  /// links must be checked again.
   double note_reach(const State& body, ElementId grabbed, const Scalar (&target)[Dimension]) {
     double reach = 0;
     for (int k = 0; k < Dimension; ++k) {
@@ -63,7 +63,7 @@ class ExactSolver {
     return reach;
   }
 
-  /// A repair and the pass after it count as one pass: an element has moved if its position changed in total. Elements
+  /// Counts a repair and the pass after it as one pass. An element has moved if its position changed in total. Elements
   /// that the pass did not reach moved without a sponsor.
   void add_repaired(const State& body, const std::vector<Position<Scalar, Dimension>>& before, ElementId grabbed,
                     std::vector<ElementId>& moved, PassCount& count, Trace* trace) const {

@@ -90,7 +90,7 @@ struct RecordedBody {
   std::vector<bool> is_updated;
 };
 
-/// Takes the place of PassRecord: the outcome of a candidate is read from the trace.
+/// Used in place of PassRecord. The outcome of a candidate is read from the trace.
 class RecordedOutcomes {
  public:
   RecordedOutcomes(const RecordedPass& pass, WaitingLog& log) : pass_(pass), log_(log) {}

@@ -19,10 +19,9 @@ class ListMethod {
  public:
   virtual ~ListMethod() = default;
 
-  /// Answers the move of the grabbed element, which is at its target already. Returns
-  /// the candidates that were
-  /// processed, in order. `moved` receives the elements that moved, in order of update, without the grabbed one; it
-  /// must be as the last pass left it, unless that pass was forgotten.
+  /// Answers the move of the grabbed element, which is at its target already. Returns the processed candidates, in
+  /// order. `moved` receives the elements that moved, in order of update, without the grabbed one. It must be unchanged
+  /// since the last pass, unless that pass was forgotten.
   virtual std::span<const Step> propagate(Body<Scalar, Dimension>& body, ElementId grabbed,
                                           std::vector<ElementId>& moved) = 0;
 
@@ -62,7 +61,7 @@ class ManyLists final : public ListMethod<Scalar, Dimension> {
   PassRecord record_;
 };
 
-/// Natural Queue ChainMail: its queue is its record.
+/// Natural Queue ChainMail, which records its passes in its queue.
 template <class Scalar, int Dimension>
 class OneQueue final : public ListMethod<Scalar, Dimension> {
  public:
@@ -77,8 +76,8 @@ class OneQueue final : public ListMethod<Scalar, Dimension> {
   NaturalQueue<Scalar, Dimension> queue_;
 };
 
-/// What the algorithm table holds of a list-driven algorithm: how to make it, and how to find the waiting list of a
-/// recorded pass.
+/// The part of the algorithm table for list-driven algorithms: how to make the method, and how to find the waiting list
+/// of a recorded pass.
 struct ListAlgorithm {
   template <class Scalar, int Dimension>
   using Make = std::unique_ptr<ListMethod<Scalar, Dimension>> (*)();
@@ -95,7 +94,7 @@ std::unique_ptr<ListMethod<Scalar, Dimension>> make_list_method() {
   return std::make_unique<Method>();
 }
 
-/// The entry of a method, for each scalar and space dimension.
+/// Returns the entry of a method, for each scalar and space dimension.
 template <template <class Scalar, int Dimension> class Method>
 constexpr ListAlgorithm list_algorithm_of(WaitingHistory (*history)(const RecordedPass& pass)) {
   return {{make_list_method<Method<float, 1>, float, 1>, make_list_method<Method<float, 2>, float, 2>,

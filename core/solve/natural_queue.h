@@ -25,7 +25,8 @@ class NaturalQueue {
   using State = Body<Scalar, Dimension>;
 
   /// Answers the move of the grabbed element, which is at its target already. `moved` receives the elements that moved,
-  /// in order of update, without the grabbed one; it must be as the last pass left it, unless that pass was forgotten.
+  /// in order of update, without the grabbed one. It must be unchanged since the last pass, unless that pass was
+  /// forgotten.
   void propagate(State& body, ElementId grabbed, std::vector<ElementId>& moved) {
     if (grabbed == grabbed_) {
       const std::size_t agreed = replay(body, steps());
@@ -89,7 +90,7 @@ class NaturalQueue {
     tail_ = tail;
   }
 
-  /// Restores the state of the pass when candidate `agreed` was taken.
+  /// Restores the state of the pass at the time when candidate `agreed` was taken.
   void take_up(State& body, std::size_t agreed, std::vector<ElementId>& moved) {
     body.begin_pass();
     body.mark_updated(grabbed_);
@@ -99,7 +100,7 @@ class NaturalQueue {
       moved_count += queue_[i].has_moved() ? 1 : 0;
     }
     moved.resize(moved_count);
-    // The candidates that waited then were admitted by elements that had been taken.
+    // Candidates that were waiting at that time were admitted by elements taken before it.
     std::size_t tail = agreed;
     while (tail < tail_ && body.updated(queue_[tail].sponsor)) {
       ++tail;

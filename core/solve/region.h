@@ -38,7 +38,7 @@ Region<Scalar, Dimension> valid_region(const double (&rest_vector)[Dimension], c
   return region;
 }
 
-/// The valid region of element `to` relative to element `from`.
+/// Returns the valid region of element `to` relative to element `from`.
 template <class Scalar, int Dimension>
 Region<Scalar, Dimension> valid_region(const Mesh& mesh, ElementId from, ElementId to, const LinkSoftness& softness,
                                        bool about_rest_vector = false) {

@@ -27,8 +27,8 @@ class Repair {
   /// `reach`: the largest displacement or move that led to the state (mesh units).
   Repair(State& body, PathSearch& search, double reach) : body_(body), search_(search), reach_(reach) {}
 
-  /// True if every link is valid, up to rounding of displacements of this size, and, within an invisible tolerance, up
-  /// to rounding of the displacements that led to the state.
+  /// Returns true if every link is valid, up to rounding of displacements of this size and, within an invisible
+  /// tolerance, up to rounding of the displacements that led to the state.
   bool is_valid() const {
     for (ElementId e = 0; e < body_.mesh->element_count(); ++e) {
       bool holds = true;
@@ -78,7 +78,8 @@ class Repair {
     return true;
   }
 
-  /// Searches how far up the links let every element be, from each source; or how far down, negated.
+  /// Computes the highest position to which links let every element go, from all sources together; for Way::down the
+  /// lowest one, negated.
   template <class Sources>
   void search(const Labels& u, const Sources& sources, Way way, int k) {
     search_.begin(body_.mesh->element_count());
@@ -91,7 +92,7 @@ class Repair {
     });
   }
 
-  /// Clamps to what the anchors allow.
+  /// Clamps displacements to the range that the anchors allow.
   void clamp(Labels& u, const std::vector<ElementId>& anchors, int k) {
     const Labels positions = u;
     search(positions, anchors, Way::down, k);
@@ -165,7 +166,7 @@ class Repair {
     }
     if (worst != pin) {
       throw Error("pins " + std::to_string(std::min(pin, worst)) + " and " + std::to_string(std::max(pin, worst)),
-                  "they contradict each other: the links between them cannot span them where they are",
+                  "they contradict each other: the links between them do not allow their positions",
                   "unpin one of them, or soften the object");
     }
   }

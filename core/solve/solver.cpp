@@ -40,19 +40,19 @@ void check(const Snapshot& snapshot, const Mesh& mesh, Precision precision) {
     given += runs[i + 1] - runs[i];
   }
   if (!ascending) {
-    throw Error("positions", "its runs are not ascending runs of elements",
-                "give the first of each run, and the one behind its last");
+    throw Error("positions", "the runs of elements are not ascending pairs",
+                "give the first element of each run and the one after its last, in ascending order");
   }
   const auto dimension = static_cast<std::uint64_t>(mesh.space_dimension);
   if (snapshot.held.size() != dimension * given) {
     throw Error("positions",
-                "it holds " + std::to_string(snapshot.held.size()) + " coordinates, and its runs name " +
+                "there are " + std::to_string(snapshot.held.size()) + " coordinates, but the runs contain " +
                     std::to_string(given) + " elements in " + std::to_string(dimension) + "D",
-                "give each coordinate of each of them");
+                "give all coordinates of each element");
   }
   const double limit = position_limit(precision);
   if (!std::ranges::all_of(snapshot.held, [limit](double held) { return std::abs(held) <= limit; })) {
-    throw Error("positions", "it holds a number beyond what the precision does", "keep coordinates within 1e37");
+    throw Error("positions", "a coordinate is out of the range of the precision", "keep coordinates within 1e37");
   }
 }
 

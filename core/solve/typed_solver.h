@@ -37,7 +37,7 @@ class TypedSolver final : public Solver {
       body_.hold_from_rest(algorithm_.from_rest, softness_);
       exact_.set_valid(at_rest_);
       if (at_rest_) {
-        body_.reset_positions();  // restores what was lost by rounding to absolute positions
+        body_.reset_positions();  // restores digits that absolute positions lost by rounding
       }
     }
   }
@@ -109,7 +109,7 @@ class TypedSolver final : public Solver {
     Scalar next[Dimension];
     for (int k = 0; k < Dimension; ++k) {
       const double to = target[body_.mesh->axes[k]];
-      // A move to the position that was read is no move, whatever rounding did.
+      // A move to the position that was read must not move the element, even after rounding.
       const bool stays = body_.from_rest && to == body_.absolute(element, k);
       next[k] = stays ? body_.positions[element][k] : static_cast<Scalar>(to - body_.origin(element, k));
       if (!(std::abs(next[k]) <= limit)) {
@@ -302,7 +302,7 @@ class TypedSolver final : public Solver {
   std::vector<ElementId> moved_;
   Relaxation<Scalar, Dimension> relaxation_;
   RelaxationScheme scheme_ = RelaxationScheme::mean;
-  bool at_rest_ = true;  // as it was built
+  bool at_rest_ = true;  // all elements are known to be at rest
 };
 
 }  // namespace chainmail

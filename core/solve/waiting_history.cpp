@@ -33,7 +33,7 @@ WaitingHistory follow_directions(const RecordedPass& pass) {
   return follow_pass(pass, TakingOrder::by_key, [&](auto& body, RecordedOutcomes& outcomes, WaitingLog& log) {
     using List = LoggedList<BackList>;
 
-    // All candidates of the first list are taken, then all of the next: the keys descend.
+    // The lists are emptied one after another, so the keys descend from list to list.
     DirectionLists<List> lists(
         {List(log, 0), List(log, -1), List(log, -2), List(log, -3), List(log, -4), List(log, -5)});
     std::vector<ElementId> none;

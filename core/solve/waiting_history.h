@@ -20,20 +20,22 @@ struct WaitingCandidate {
 
 /// The waiting list of a recorded pass at each of its steps.
 ///
-/// The algorithm's own list is fed by the loop that every pass runs in; only whether an element moved is read from the
-/// trace instead of computed. The history of a pass is unknown if its algorithm has no list (Exact ChainMail), or if
-/// the list does not lead to the pass.
+/// The algorithm's own list is fed by the common loop of a pass. The only difference is that the trace, not a
+/// computation, says whether an element moved. The history of a pass is unknown if its algorithm has no list (Exact
+/// ChainMail), or if the list does not lead to the pass.
 class WaitingHistory {
- public:  /// An unknown history.
+ public:
+  /// Creates an unknown history.
   WaitingHistory() = default;
 
-  /// The history of a pass, by the algorithm's entry in the table.
+  /// Finds the history of a pass, with the algorithm's entry in the table.
   explicit WaitingHistory(const RecordedPass& pass);
 
-  /// A known history. `keys`, one per candidate, are used for TakingOrder::by_key only.
+  /// Creates a known history. `keys`, one per candidate, are used for TakingOrder::by_key only.
   WaitingHistory(TakingOrder order, std::vector<WaitingCandidate> candidates, std::vector<double> keys)
       : known_(true), order_(order), candidates_(std::move(candidates)), keys_(std::move(keys)) {}
-  bool known() const { return known_; }  /// Every candidate that ever waited, in the order in which they entered.
+  bool known() const { return known_; }
+  /// Every candidate that ever waited, in the order in which they entered.
   const std::vector<WaitingCandidate>& candidates() const { return candidates_; }
 
   /// Returns the indices of the candidates that wait at a step, the next one first. Takes time in proportion to the

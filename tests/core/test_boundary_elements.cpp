@@ -319,7 +319,7 @@ void BoundaryElementsTest::wrong_surfaces_are_refused() {
   three.triangles.push_back({three.triangles[0][0], three.triangles[0][1], ElementId(three.rest.size() - 1)});
   QVERIFY(refused(build_mesh(three), pins).contains("3 triangles meet at the edge between the elements "));
   flat.rest[flat.triangles[0][0]] = (flat.rest[flat.triangles[0][1]] + flat.rest[flat.triangles[0][2]]) / 2;
-  QVERIFY(refused(build_mesh(flat), pins).contains("of a triangle stand on one line"));
+  QVERIFY(refused(build_mesh(flat), pins).contains("of a triangle are on one line"));
   Cuts cuts(ball);
   cuts.cut(*find_link(*ball, ball->triangles[0][0], ball->triangles[0][1]));
   QVERIFY(refused(ball, pins, cuts).startsWith("BEM: a cut along the edge between the elements "));
@@ -333,7 +333,7 @@ void BoundaryElementsTest::wrong_surfaces_are_refused() {
   one_sided.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1},
                          {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
   add_links_along_edges(one_sided);
-  QVERIFY(refused(build_mesh(one_sided), pins).contains("has one side alone"));
+  QVERIFY(refused(build_mesh(one_sided), pins).contains("has only one side"));
   QVERIFY(!fits(ElasticMethod::boundary, *make_mesh(MeshKind::cloth, {4, 4, 1})));
   QVERIFY(!fits(ElasticMethod::boundary, *make_mesh(MeshKind::tetra, {40, 40, 40})));
   QVERIFY(refused(sphere(30), pins).contains("triangles on the surface, and this object has 7200; use a coarser mesh"));
@@ -342,7 +342,7 @@ void BoundaryElementsTest::wrong_surfaces_are_refused() {
 void BoundaryElementsTest::loose_parts_are_refused() {
   const auto ball = sphere(3);
   QCOMPARE(refused(ball, {}),
-           QString("object: nothing pins it, so there is no static answer; pin its bottom layer, or elements by hand"));
+           QString("object: nothing pins it, so there is no static answer; pin its bottom layer, or single elements"));
   QVERIFY(refused(ball, {0, 1}).startsWith("the part of element 0: fewer than three pins"));
   const auto two = build_mesh(together(sphere_parts(3), sphere_parts(3), Point(3, 0, 0)));
   QVERIFY(refused(two, {0, 1, 2, 3})

@@ -87,8 +87,8 @@ void ElasticObjectsTest::wrong_objects_are_refused() {
       refusal(pinned(tetra, {})).startsWith("object: nothing pins it, so there is no static answer; pin its bottom"));
   QVERIFY(refusal(pinned(tetra, {0, 1, 2}))
               .startsWith("the part of element 0: fewer than three pins that do not lie on one"));
-  QVERIFY(
-      refusal(pinned(make_mesh(MeshKind::cloth, {3, 3, 1}), {4})).contains("fewer than two pins at different places"));
+  QVERIFY(refusal(pinned(make_mesh(MeshKind::cloth, {3, 3, 1}), {4}))
+              .contains("fewer than two pins at different positions"));
   QVERIFY(
       refusal(pinned(tetra, left, 0.5)).startsWith("poisson: Poisson's ratio 0.5 is out of range; use 0 to below 0.5"));
   QVERIFY(refusal(pinned(tetra, left, -0.1)).startsWith("poisson: "));

@@ -174,15 +174,15 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"precision\": \"float\", \"from_rest\": false", "\"precision\": \"half\", \"from_rest\": false",
       "panel 1: 'precision' is not known; ");
   row("\"from_rest\": true", "\"from_rest\": 1", "panel 0: 'from_rest' is neither true nor false; ");
-  row("\"runs\": [2,4]", "\"runs\": [2]", "panel 0: positions: its runs are not ascending runs of elements; ");
-  row("\"runs\": [2,4]", "\"runs\": [4,2]", "panel 0: positions: its runs are not ascending runs of elements; ");
-  row("\"runs\": [2,4]", "\"runs\": [2,4,3,4]", "panel 0: positions: its runs are not ascending runs of elements; ");
+  row("\"runs\": [2,4]", "\"runs\": [2]", "panel 0: positions: the runs of elements are not ascending pairs; ");
+  row("\"runs\": [2,4]", "\"runs\": [4,2]", "panel 0: positions: the runs of elements are not ascending pairs; ");
+  row("\"runs\": [2,4]", "\"runs\": [2,4,3,4]", "panel 0: positions: the runs of elements are not ascending pairs; ");
   row("\"runs\": [2,4]", "\"runs\": [2,4294967295]",
-      "panel 0: positions: its runs are not ascending runs of elements; ");
+      "panel 0: positions: the runs of elements are not ascending pairs; ");
   row("\"runs\": [2,4]", "\"runs\": [2,5]",
-      "panel 0: positions: it holds 4 coordinates, and its runs name 3 elements in 2D; ");
-  row("2.5,2.25", "2.5,2.25,1", "panel 1: positions: it holds 3 coordinates, and its runs name 1 elements in 2D; ");
-  row("2.5,2.25", "2.5,1e38", "panel 1: positions: it holds a number beyond ");
+      "panel 0: positions: there are 4 coordinates, but the runs contain 3 elements in 2D; ");
+  row("2.5,2.25", "2.5,2.25,1", "panel 1: positions: there are 3 coordinates, but the runs contain 1 elements in 2D; ");
+  row("2.5,2.25", "2.5,1e38", "panel 1: positions: a coordinate is out of the range ");
   row("\"panels\": [", "\"panels\": [7,", "panel 0: it is not an object; ");
   row("\"ui\": {\"colour\":\"plain\"}", "\"ui\": []", "'ui' is not an object; ");
 }
