@@ -64,7 +64,8 @@ void FillTest::surfaces_that_enclose_nothing_are_refused_data() {
   QTest::addColumn<QString>("sentence");
   QTest::newRow("hole") << QByteArray::fromStdString(octahedron(7))
                         << "surface: the surface is open: it has 1 hole, the first at element 0, near (3, 0, 0); ";
-  QTest::newRow("lines") << QByteArray("v 0 0 0\nv 1 0 0\nl 1 2\n") << "surface: it has no faces, and so no inside; ";
+  QTest::newRow("lines") << QByteArray("v 0 0 0\nv 1 0 0\nl 1 2\n")
+                         << "surface: it has no faces, so it has no inside; ";
   QTest::newRow("three at a link") << QByteArray::fromStdString(octahedron(8) + "v 9 9 9\nf 1 3 7\n")
                                    << "surface: 3 faces meet at the link 0-2, near (3, 0, 0); ";
   // Another octahedron, whose corner is within the first.

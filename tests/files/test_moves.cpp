@@ -156,8 +156,8 @@ void MovesTest::other_commands_are_refused_data() {
   const auto row = [](const char* text, const char* said) { QTest::newRow(text) << QString(text) << QString(said); };
   row("5", "0: it is not an object; ");
   row("{}", "0: 'do' is missing; ");
-  row(R"({"do": 1})", "0: 'do' names no command; ");
-  row(R"({"do": "Grab", "element": 1})", "0: 'do' names no command; ");
+  row(R"({"do": 1})", "0: 'do' is not a known command; ");
+  row(R"({"do": "Grab", "element": 1})", "0: 'do' is not a known command; ");
   row(R"({"do": "grab"})", "0: 'element' is missing; ");
   row(R"({"do": "grab", "element": 6})", "0: there is no element 6; ids run from 0 to 5");
   row(R"({"do": "grab", "element": 4294967296})", "0: there is no element 4294967296; ");
@@ -166,7 +166,7 @@ void MovesTest::other_commands_are_refused_data() {
   row(R"({"do": "grab", "element": 1.5})", "0: '1.5' is not an element's id; ");
   row(R"({"do": "grab", "element": [1]})", "0: '[1]' is not an element's id; ");
   row(R"({"do": "grab", "element": 1, "elemen": 2})", "0: 'elemen' is not known here; ");
-  row(R"({"do": "release"}, {"do": "drag", "target": [1, 2, 3]})", "1: no element is grabbed by then; ");
+  row(R"({"do": "release"}, {"do": "drag", "target": [1, 2, 3]})", "1: no element is grabbed at that time; ");
   row(R"({"do": "grab", "element": 1}, {"do": "release"}, {"do": "drag", "target": [1, 2, 3]})", "2: no element is ");
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, 2]})", "1: 'target' does not have three ");
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": 1})", "1: 'target' is not an array; ");
@@ -179,8 +179,8 @@ void MovesTest::other_commands_are_refused_data() {
   row(R"({"do": "uncut", "links": [[0, 1, 2]]})", "0: a link is not an array of 2; ");
   row(R"({"do": "pin", "elements": 1})", "0: 'elements' is not an array; ");
   row(R"({"do": "pin", "elements": [6]})", "0: there is no element 6; ");
-  row(R"({"do": "pin", "elements": [2]}, {"do": "grab", "element": 2})", "1: element 2 is pinned by then ");
-  row(R"({"do": "grab", "element": 2}, {"do": "pin", "elements": [1, 2]})", "1: element 2 is grabbed by then; ");
+  row(R"({"do": "pin", "elements": [2]}, {"do": "grab", "element": 2})", "1: element 2 is pinned at that time ");
+  row(R"({"do": "grab", "element": 2}, {"do": "pin", "elements": [1, 2]})", "1: element 2 is grabbed at that time; ");
   row(R"({"do": "softness", "compression": 1, "stretch": 1})", "0: 'shear' is missing; ");
   row(R"({"do": "softness", "compression": 2, "stretch": 1, "shear": 0})", "0: compression: ");
   const char* softness = R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "links": )";
@@ -258,7 +258,7 @@ void MovesTest::what_is_wrong_with_the_file_comes_before_its_commands() {
           }).startsWith("m.json:1: it is not JSON; "));
   QVERIFY(error_of([&] {
             read(R"({"version": 1, "commands": [{"do": "twist"}, {"do": "turn"}]})");
-          }).startsWith("m.json: command 0: 'do' names no command; "));
+          }).startsWith("m.json: command 0: 'do' is not a known command; "));
 }
 
 void MovesTest::a_large_file_takes_little_memory_besides_its_commands_data() {

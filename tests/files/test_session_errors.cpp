@@ -79,7 +79,7 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
     QTest::addRow("%s: %s", passage, other) << QString(passage) << QString(other) << QString(said);
   };
   row("\"version\": 1", "\"version\": 2",
-      "its version is 2, and this program knows 1 and older; open it with a newer ");
+      "its version is 2, but this program knows only version 1 and older; open it with a newer ");
   row("\"version\": 1", "\"version\": 0", "'version' is not a whole number from 1 to 1; ");
   row("\"version\": 1", "\"version\": \"1\"", "'version' is not a whole number from 1 to 1; ");
   row("\"name\": ", "\"nam\": ", "'nam' is not known here; ");
@@ -93,21 +93,21 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"name\": ", R"("moves": {"version": 1, "commands": []}, "name": )", "'moves_done' is missing; ");
   row("\"name\": ", R"("moves": {"version": 1, "commands": []}, "moves_done": 1, "name": )",
       "'moves_done' is not a whole number up to ");
-  row("\"elements\": 9", "\"elements\": 8", "mesh: 'rest' holds 27 numbers, and 8 elements have 24; ");
+  row("\"elements\": 9", "\"elements\": 8", "mesh: 'rest' holds 27 numbers, but 8 elements have 24; ");
   row("\"elements\": 9", "\"elements\": 0", "mesh: 'elements' is not a whole number from 1 to 20000000; ");
   row("\"elements\": 9", "\"elements\": -9", "mesh: 'elements' is not a whole number from 1 to 20000000; ");
   row("\"space\": 2", "\"space\": 1", "mesh: space dimension 1: the object extends along 2 axes; ");
   row("\"space\": 2", "\"space\": 4", "mesh: 'space' is not a whole number from 1 to 3; ");
-  row("\"size\": [3,3,1]", "\"size\": [3,2,1]", "mesh: the lattice does not have 9 elements; ");
-  row("\"size\": [3,3,1]", "\"size\": [3,3]", "mesh: the lattice does not have 9 elements; ");
-  row("\"size\": [3,3,1]", "\"size\": [3,3,1.0]", "mesh: the lattice does not have 9 elements; ");
+  row("\"size\": [3,3,1]", "\"size\": [3,2,1]", "mesh: the size of the lattice does not give 9 elements; ");
+  row("\"size\": [3,3,1]", "\"size\": [3,3]", "mesh: the size of the lattice does not give 9 elements; ");
+  row("\"size\": [3,3,1]", "\"size\": [3,3,1.0]", "mesh: the size of the lattice does not give 9 elements; ");
   row("\"spacing\": 1.5", "\"spacing\": 1", "mesh: element 1 is not at its position in the lattice; ");
   row("\"spacing\": 1.5", "\"spacing\": null", "mesh: 'null' is not a number; ");
   row("3,3,0],", "3,3,1e101],", "mesh: 'rest' puts element 8 beyond 1e100; ");
   row("3,3,0],", "3,3,\"0\"],", "number 26 of 'rest' is not a number; ");
   row("3,3,0],", "3,3,[0]],", "number 26 of 'rest' is not a number; ");
   row("3,3,0],", "3,3,{}],", "number 26 of 'rest' is not a number; ");
-  row("3,3,0],", "3,3],", "mesh: 'rest' holds 26 numbers, and 9 elements have 27; ");
+  row("3,3,0],", "3,3],", "mesh: 'rest' holds 26 numbers, but 9 elements have 27; ");
   row("0,1,0,3,0,4", "0,1,0,3,0,9", "mesh: 'links' names element 9, which does not exist; ids run from 0 to 8");
   row("0,1,0,3,0,4", "0,1,0,3,0", "mesh: 'links' ends within a group of 2; ");
   row("0,1,0,3,0,4", "0,1,0,3,1,0", "mesh: 'links' holds a link twice; ");
@@ -198,7 +198,7 @@ void SessionErrorsTest::wrong_members_are_refused() {
 /// Whatever a later version means by its members.
 void SessionErrorsTest::a_newer_version_is_named_before_all_else() {
   const auto error = read(R"({"format": "chainmail session", "version": 7, "mesh": [], "rest": "elsewhere"})");
-  QCOMPARE(error, QString("a.chainmail: its version is 7, and this program knows 1 and older; "
+  QCOMPARE(error, QString("a.chainmail: its version is 7, but this program knows only version 1 and older; "
                           "open it with a newer program"));
 }
 
@@ -218,7 +218,7 @@ void SessionErrorsTest::wrong_paths() {
 void SessionErrorsTest::huge_claims_take_no_memory() {
   QVERIFY(
       with("\"elements\": 9", "\"elements\": 1000000000").contains("mesh: 'elements' is not a whole number from 1 "));
-  QVERIFY(with("\"elements\": 9", "\"elements\": 20000000").contains("mesh: 'rest' holds 27 numbers, and 20000000 "));
+  QVERIFY(with("\"elements\": 9", "\"elements\": 20000000").contains("mesh: 'rest' holds 27 numbers, but 20000000 "));
   QVERIFY(with("\"elements\": 9", "\"elements\": 18446744073709551617").contains("mesh: 'elements' is not a whole "));
   QVERIFY(with("[3,3,1]", "[4294967295,4294967295,4294967295]").contains("mesh: the lattice does not have 9 "));
   const auto table = [&](const char* counts) {

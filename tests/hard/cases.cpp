@@ -8,7 +8,7 @@ namespace {
 
 constexpr LinkSoftness usual{0.8, 1.2, 0.1};
 
-/// What a case does with its scene; it may fill in the outcome's drift.
+/// The moves of a case. It may also set the drift of the outcome.
 using Act = std::function<void(Scene&, Outcome&)>;
 
 Case make(const std::string& name, const MeshPointer& mesh, const LinkSoftness& softness, const Act& act) {
@@ -52,7 +52,7 @@ void add_meshes(std::vector<Case>& all) {
                        const auto before = scene.positions();
                        scene.drag_by(55, Point(60, 40, 0), 3);
                        auto after = scene.positions();
-                       // The other part must not have moved: the drift is its own.
+                       // The other part must not have moved: the drift is measured on it alone.
                        std::copy(before.begin(), before.begin() + 200, after.begin());
                        outcome.drift = distance_between(*make_grid(20, 10), before, after);
                      }));
@@ -113,7 +113,7 @@ void add_large(std::vector<Case>& all) {
       scene.drag(27, home);
     };
     scene.drag(27, home + Point(2, 1, 0));
-    for (int i = 0; i < 100; ++i) {  // the first round may loosen the object: hysteresis, not drift
+    for (int i = 0; i < 100; ++i) {  // the first round may change the object: hysteresis, not drift
       there_and_back(i);
     }
     const auto before = scene.positions();

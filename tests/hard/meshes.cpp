@@ -29,8 +29,8 @@ MeshPointer doubled_grid(std::uint32_t side) {
 }
 
 MeshPointer far_grid(std::uint32_t side, double origin, double spacing) {
-  const auto place = [&](const Point& p) { return Point(origin + spacing * p[0], origin + spacing * p[1], 0); };
-  return build_mesh(test::placed(*make_grid(side, side), place));
+  const auto map = [&](const Point& p) { return Point(origin + spacing * p[0], origin + spacing * p[1], 0); };
+  return build_mesh(test::placed(*make_grid(side, side), map));
 }
 
 MeshPointer decades_chain() {
@@ -73,7 +73,7 @@ MeshPointer slivers(std::uint32_t side) {
   const auto regular = test::make_mesh(MeshKind::tetra, {side, side, side});
   MeshParts parts = test::placed(*regular, [&](const Point& p) { return Point(p + random_point(random, 1.2)); });
   parts.tetrahedra = regular->tetrahedra;
-  for (std::size_t i = 0; i < parts.tetrahedra.size(); i += 3) {  // a third of them flat to a millionth
+  for (std::size_t i = 0; i < parts.tetrahedra.size(); i += 3) {  // a third of them, flat to a millionth
     const auto& t = parts.tetrahedra[i];
     parts.rest[t[3]] = (parts.rest[t[0]] + parts.rest[t[1]] + parts.rest[t[2]]) / 3 + random_point(random, 1e-6);
   }

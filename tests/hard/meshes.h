@@ -9,23 +9,23 @@ inline MeshPointer make_grid(std::uint32_t width, std::uint32_t height) {
 }
 inline MeshPointer make_chain(std::uint32_t length) { return test::make_mesh(MeshKind::line, {length, 1, 1}); }
 
-/// A grid in which every element has a twin in the same place, linked to it.
+/// A grid in which every element has a twin at the same position, linked to it.
 MeshPointer doubled_grid(std::uint32_t side);
 /// A grid far from the origin.
 MeshPointer far_grid(std::uint32_t side, double origin, double spacing);
-/// A chain whose links are 1e-6 to 1e6 long, a decade apart, there and back.
+/// A chain whose links are 1e-6 to 1e6 long, each ten times its neighbour, first growing and then shrinking.
 MeshPointer decades_chain();
-/// One element in the middle of all others, at random distances about 1.
+/// One element in the middle of all others, at random distances of about 1.
 MeshPointer star(std::uint32_t arms);
-/// Random points in a cube, each linked to each.
+/// Random points in a cube, with links between all of them.
 MeshPointer complete_graph(std::uint32_t count);
-/// Tetrahedra of which some are almost flat and some inside out: points off their places by up to 1.2.
+/// Tetrahedra, some of them almost flat and some inverted: points are moved from the lattice by up to 1.2.
 MeshPointer slivers(std::uint32_t side);
 
-/// A grid of 16x16 turned by 45° about the origin; to 3D ChainMail it is none.
+/// A grid of 16x16 turned by 45° about the origin. 3D ChainMail does not accept it as a grid.
 MeshPointer turned_grid();
-/// A drag of the grid and the same drag with object and hand turned: the drift is the difference between the
-/// answers. Boxes follow the axes, so there is one.
+/// Drags the grid, then drags it with object and move turned. The drift is the difference between the two answers. It
+/// is not 0, because valid regions are boxes along the axes.
 Outcome turned(Algorithm algorithm, Precision precision);
 
 }  // namespace chainmail::hard

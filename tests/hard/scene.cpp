@@ -26,7 +26,7 @@ void Scene::drag(ElementId element, const Point& target, int steps) {
     simulation_.apply(commands::Drag{target_});
     stopped_ = simulation_.statistics().last_pass.stopped;
   }
-  hand_ = element;
+  handle_ = element;
 }
 
 void Scene::drag_by(ElementId element, const Point& by, int steps) {
@@ -35,18 +35,18 @@ void Scene::drag_by(ElementId element, const Point& by, int steps) {
 
 void Scene::pin(const std::vector<ElementId>& elements) {
   simulation_.apply(commands::Release{});
-  hand_.reset();
+  handle_.reset();
   simulation_.apply(commands::Pin{elements});
   for (const ElementId element : elements) {
     pins_.emplace_back(element, test::position_of(simulation_, element));
   }
 }
 
-/// Whether an element stands within some ulps of a place, on the axes that exist.
-bool Scene::is_at(ElementId element, const Point& place, double ulps) const {
+/// Returns true if an element is within some ulps of a position, on the axes that exist.
+bool Scene::is_at(ElementId element, const Point& position, double ulps) const {
   const Mesh& mesh = simulation_.mesh();
   for (int k = 0; k < mesh.space_dimension; ++k) {
-    const double there = place[mesh.axes[k]];
+    const double there = position[mesh.axes[k]];
     const double rest = mesh.rest[std::size_t{element} * mesh.space_dimension + k];
     const double size = std::max(std::abs(there), std::abs(rest));
     const double rounding = ulps * std::max(epsilon(precision_) * size, smallest(precision_));
@@ -74,20 +74,20 @@ Outcome Scene::outcome() {
     outcome.finite = outcome.finite && std::isfinite(x);
   }
   outcome.stopped = stopped_;
-  outcome.anchors = !hand_ || stopped_ || is_at(*hand_, target_, 1);
-  for (const auto& [pin, place] : pins_) {
-    outcome.anchors = outcome.anchors && is_at(pin, place, 0);
+  outcome.anchors = !handle_ || stopped_ || is_at(*handle_, target_, 1);
+  for (const auto& [pin, position] : pins_) {
+    outcome.anchors = outcome.anchors && is_at(pin, position, 0);
   }
   simulation_.refresh_statistics(true);
   outcome.violation = simulation_.statistics().violation;
-  // Positions that are held absolute round at their coordinates, displacements at their own size.
+  // Absolute positions round in proportion to their coordinates, displacements in proportion to their own size.
   const bool absolute = simulation_.statistics().algorithm != Algorithm::exact;
   double size = largest_, coordinate = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
     size = std::max(size, std::abs(absolute ? now[i] : now[i] - simulation_.mesh().rest[i]));
     coordinate = std::max(coordinate, std::abs(now[i]));
   }
-  // The figure itself is taken from absolute positions in double.
+  // The violation itself is computed from absolute positions in double.
   outcome.rounding = 8 * (epsilon(precision_) * size + 0x1p-52 * coordinate) / shortest_link();
   return outcome;
 }

@@ -12,23 +12,23 @@
 
 namespace chainmail::hard {
 
-/// What held at the end of a hard case.
+/// What was true at the end of a hard case.
 struct Outcome {
   bool finite = true;           // every position is a number
-  bool anchors = true;          // pins where they were, the hand at its target (Exact: or stopped by pins)
-  bool stopped = false;         // by pins
+  bool anchors = true;          // pins are unmoved, and the handle is at its target (Exact: or stopped by pins)
+  bool stopped = false;         // pins stopped the handle
   Violation violation;          // of the whole mesh, in rest lengths
   double rounding = 0;          // the violation that rounding alone explains, in rest lengths
-  std::optional<double> drift;  // as the case defines it, in mean rest lengths
+  std::optional<double> drift;  // defined by the case, in mean rest lengths
 };
 
-/// A simulation that keeps book of what must hold.
+/// A simulation that records what must be true at the end.
 class Scene {
  public:
   Scene(MeshPointer mesh, Algorithm algorithm, Precision precision, const Softness& softness);
 
   void apply(const Command& command) { simulation_.apply(command); }
-  /// Grabs an element and drags it to a place, in equal steps from where it is.
+  /// Grabs an element and drags it to a target, in equal steps from its position.
   void drag(ElementId element, const Point& target, int steps = 1);
   void drag_by(ElementId element, const Point& by, int steps = 1);
   void pin(const std::vector<ElementId>& elements);
@@ -38,12 +38,12 @@ class Scene {
   Outcome outcome();
 
  private:
-  bool is_at(ElementId element, const Point& place, double ulps) const;
+  bool is_at(ElementId element, const Point& position, double ulps) const;
   double shortest_link() const;
 
   Simulation simulation_;
   Precision precision_;
-  std::optional<ElementId> hand_;
+  std::optional<ElementId> handle_;
   Point target_ = Point::Zero();
   bool stopped_ = false;
   std::vector<std::pair<ElementId, Point>> pins_;
@@ -59,7 +59,7 @@ struct Case {
   std::function<Outcome(Algorithm, Precision)> run;
 };
 
-/// Every hard case; those of a million moves or elements only where `large` asks for them.
+/// Returns all hard cases. Those with a million moves or elements are included only if `large` is true.
 std::vector<Case> cases(bool large);
 
 }  // namespace chainmail::hard

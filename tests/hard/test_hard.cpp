@@ -23,7 +23,7 @@ struct Row {
   std::string algorithm;
   Precision precision;
   Outcome outcome;
-  std::string refusal;  // the sentence, where the case was refused
+  std::string refusal;  // the error message, if the case was refused
 };
 
 std::string number(double x) {
@@ -32,7 +32,7 @@ std::string number(double x) {
   return text;
 }
 
-/// The largest violation, or what else was not held.
+/// Returns the largest violation, or another condition that failed.
 std::string held(const Row& row) {
   if (!row.refusal.empty()) {
     return "refused";
@@ -51,10 +51,10 @@ std::string held_and_drift(const Row& row) {
   return held(row) + (row.outcome.drift ? ", drift " + number(*row.outcome.drift) : "");
 }
 
-/// What the cells of a table say, by the names of their case and their algorithm.
+/// Texts of table cells, by the names of their case and algorithm.
 using Cells = std::map<std::pair<std::string, std::string>, std::string>;
 
-/// Float and double in one cell, once where they say the same.
+/// Puts float and double into one cell, and only once if they are equal.
 template <class Text>
 Cells cells_of(const std::vector<Row>& rows, Text text_of) {
   Cells cells;
@@ -102,7 +102,7 @@ QStringList cells_in(const QString& line) {
   return cells;
 }
 
-/// Returns the text of the manual's page without its line breaks; its table line by line in `table`.
+/// Returns the text of the manual's page without line breaks. `table` receives the lines of its table.
 QString page_text(QStringList& table) {
   QFile file(QStringLiteral(PAGE));
   if (!file.open(QIODevice::ReadOnly)) {
@@ -117,7 +117,7 @@ QString page_text(QStringList& table) {
   return text.simplified();
 }
 
-/// Labels of the algorithms in a column of the page's table: 'Spiral and Natural Queue' are two.
+/// Returns the labels of the algorithms in a column head of the page's table: 'Spiral and Natural Queue' are two.
 std::vector<std::string> algorithms_in(const QString& column) {
   std::vector<std::string> labels;
   for (const QString& name : column.split(" and ")) {
@@ -131,13 +131,13 @@ std::vector<std::string> algorithms_in(const QString& column) {
   return labels;
 }
 
-/// Returns a drift as the page writes it.
+/// Returns a drift in the format of the page.
 QString on_page(double drift) { return QString::fromStdString(number(drift)).replace("e-0", "e-").replace("e+0", "e"); }
 
 }  // namespace
 
-/// Numerical stability on hard cases: each by each algorithm, in float and in double. What an algorithm
-/// cannot hold is reported in the table; what every one must hold is asserted.
+/// Numerical stability of hard cases: each case with each algorithm, in float and in double. The table reports what an
+/// algorithm does not achieve; the test checks what every algorithm must achieve.
 class HardTest : public QObject {
   Q_OBJECT
 
@@ -151,7 +151,7 @@ class HardTest : public QObject {
   void cleanupTestCase();
 
  private:
-  /// False where not all cases were run, as when a function is named on the command line.
+  /// False if only some cases ran, for example if the command line names a function.
   bool has_all_rows() const {
     std::set<std::string> names;
     std::ranges::transform(rows_, std::inserter(names, names.end()), &Row::name);
@@ -176,7 +176,7 @@ void HardTest::holds_data() {
   QTest::addColumn<int>("algorithm");
   static const std::vector<Case> all = cases(large);
   if (!large) {
-    qInfo("cases of a million moves or elements run in the release build alone");
+    qInfo("cases of a million moves or elements run only in the release build");
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (const AlgorithmInfo& one : test::algorithms_for(*all[i].mesh)) {
@@ -201,22 +201,23 @@ void HardTest::holds() {
     rows_.push_back(row);
     QVERIFY(row.outcome.finite);
     QVERIFY(row.outcome.anchors);
-    // Contradicting pins have no answer: Exact alone looks for one, and says so.
+    // Contradicting pins have no answer. Only Exact searches for one, and it reports this.
     QCOMPARE(row.refusal.empty(), !(of == Algorithm::exact && one.name == "pins that contradict"));
     if (of == Algorithm::exact) {
       QVERIFY2(row.outcome.violation.max <= row.outcome.rounding, number(row.outcome.violation.max).c_str());
     }
     if (one.name == "disconnected parts" || (of == Algorithm::exact && one.name.ends_with("there and back"))) {
-      // What no link joins does not move at all; a million moves drift by 2 ulp of the largest displacement.
+      // Elements that no link joins to the handle do not move at all. A million moves drift by at most 2 ulp of the
+      // largest displacement.
       QVERIFY(*row.outcome.drift <= (one.name == "disconnected parts" ? 0 : 4 * 0x1p-23));
     }
   }
 }
 
-/// Every cell, and no case more or less: positions are the same to the bit on every machine.
+/// Checks that the manual has exactly these cases and cells: positions are the same to the bit on every machine.
 void HardTest::the_manual_has_the_table() {
   if (!has_all_rows()) {
-    QSKIP("compares what all cases gave");
+    QSKIP("needs the results of all cases");
   }
   QStringList table, wrong;
   page_text(table);
@@ -231,7 +232,7 @@ void HardTest::the_manual_has_the_table() {
     in_table.insert(name);
     if (std::ranges::none_of(rows_, [&](const Row& one) { return one.name == name; })) {
       QVERIFY2(!large, qPrintable("the manual has a case that does not exist: " + row.front()));
-      qInfo() << "compared in release builds alone:" << row.front();
+      qInfo() << "compared only in release builds:" << row.front();
       continue;
     }
     for (qsizetype column = 1; column < row.size(); ++column) {
@@ -252,10 +253,10 @@ void HardTest::the_manual_has_the_table() {
   QCOMPARE(algorithms_there.size(), algorithms().size());
 }
 
-/// The text below the table says what the printed table calls drift.
+/// Checks the figures in the text below the table, which the printed table calls drift.
 void HardTest::the_manual_has_the_drifts() {
   if (!has_all_rows()) {
-    QSKIP("compares what all cases gave");
+    QSKIP("needs the results of all cases");
   }
   QStringList table;
   const QString text = page_text(table);
@@ -267,7 +268,7 @@ void HardTest::the_manual_has_the_drifts() {
       QString("up to %1 rest lengths apart (Generalized %2)").arg(on_page(turned), on_page(generalized));
   QVERIFY2(text.contains(apart), qPrintable("the manual lacks: " + apart));
   if (!large) {
-    QSKIP("the drift of a million moves is compared in release builds alone");
+    QSKIP("the drift of a million moves is compared only in release builds");
   }
   const std::string moves = "1,000,000 tiny moves there and back";
   QCOMPARE(largest_drift(moves, Precision::single_precision, false), 0.0);

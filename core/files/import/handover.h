@@ -12,7 +12,7 @@
 
 namespace chainmail {
 
-/// Why the import program returns nothing, in the words of Error: the problem and the remedy.
+/// The reason why the import program returns nothing: the problem and the remedy of an Error.
 struct Refusal {
   std::string problem;
   std::string remedy;
@@ -25,9 +25,9 @@ using Imported = std::variant<ImportedMesh, Volume, Refusal>;
 /// programs run on the same machine.
 std::vector<std::byte> encode_imported(const Imported& imported);
 
-/// Reads such bytes. It checks every count against the number of bytes before it takes memory, and every id against the
-/// number of elements. Throws Error about `path`, the file that was read, where the bytes are damaged, a coordinate is
-/// not finite or beyond coordinate_limit, or there are more than element_limit elements.
+/// Reads these bytes. It checks every count against the number of bytes before it allocates memory, and every id
+/// against the number of elements. Throws Error about `path`, the file that was read, if the bytes are damaged, if a
+/// coordinate is not finite or beyond coordinate_limit, or if there are more than element_limit elements.
 Imported decode_imported(std::span<const std::byte> bytes, const std::filesystem::path& path);
 
 }  // namespace chainmail

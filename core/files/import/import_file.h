@@ -9,13 +9,13 @@
 
 namespace chainmail {
 
-/// Reads a mesh by a library in the import program. `task` is the program's word for the format, and `passes` the
-/// number of times that the library reads the file. Throws as run_import (files/import/import_process.h).
+/// Reads a mesh by a library in the import program. `task` is the program's word for the format. `passes` is the number
+/// of times that the library reads the file. Throws the same as run_import (files/import/import_process.h).
 ImportedMesh import_mesh(const std::string& task, const std::filesystem::path& path, int passes,
                          const Progress& progress);
 
 /// Reads an NRRD volume by teem in the import program. The header may name data outside its folder if `outside` is
-/// true. Throws as run_import.
+/// true. Throws the same as run_import.
 Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progress& progress);
 
 }  // namespace chainmail

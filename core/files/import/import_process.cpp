@@ -32,8 +32,8 @@ constexpr int first_free = import::last_input + 1;  // descriptors below have a 
 std::filesystem::path import_program() {
   std::error_code none;
   const auto folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
-  for (const char* place : {"", "../bin", "../libexec/chainmail"}) {
-    if (auto program = folder / place / "chainmail-import"; std::filesystem::is_regular_file(program, none)) {
+  for (const char* subfolder : {"", "../bin", "../libexec/chainmail"}) {
+    if (auto program = folder / subfolder / "chainmail-import"; std::filesystem::is_regular_file(program, none)) {
       return program;
     }
   }
@@ -41,7 +41,7 @@ std::filesystem::path import_program() {
 }
 
 /// Returns the environment of the program: only variables that locate its libraries or configure a sanitizer. No other
-/// variable of the user can affect a library. The private folder takes the place of the home folder.
+/// variable of the user can affect a library. The private folder replaces the home folder.
 std::vector<std::string> environment_in(const std::string& folder) {
   std::vector<std::string> variables{"HOME=" + folder, "TMPDIR=" + folder, "LC_ALL=C", "OMP_NUM_THREADS=1",
                                      "OPENBLAS_NUM_THREADS=1"};

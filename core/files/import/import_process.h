@@ -17,7 +17,8 @@ struct ImportLimits {
   unsigned wall_seconds = 600;
 };
 
-/// Returns the limits for reading so many bytes: a multiple of them, and what the libraries themselves need.
+/// Returns the limits for reading a file of this size (bytes). Memory grows with the size, on top of what the libraries
+/// themselves need.
 ImportLimits limits_for(std::uint64_t size);
 
 /// Runs a task of the import program on a file. Libraries may crash or hang on damaged files: they run in a process of

@@ -26,7 +26,7 @@ constexpr std::array harmless{
     "access", "close", "close_range", "dup", "dup2", "dup3", "faccessat", "faccessat2", "fstat", "fstatfs", "getcwd",
     "getdents", "getdents64", "lseek", "lstat", "newfstatat", "pread64", "preadv", "read", "readlink", "readlinkat",
     "readv", "stat", "statfs", "statx",
-    // pipes, and what is already open
+    // pipes and open descriptors
     "pipe", "pipe2", "poll", "ppoll", "pselect6", "select", "write", "writev",
     // memory
     "brk", "madvise", "mincore", "mmap", "mprotect", "mremap", "munmap",
@@ -34,7 +34,7 @@ constexpr std::array harmless{
     "exit", "exit_group", "futex", "get_robust_list", "getpid", "gettid", "restart_syscall", "rseq", "rt_sigaction",
     "rt_sigpending", "rt_sigprocmask", "rt_sigreturn", "sched_getaffinity", "sched_getparam", "sched_getscheduler",
     "sched_yield", "set_robust_list", "set_tid_address", "sigaltstack",
-    // time, and what the machine and the user are
+    // time, information about the machine and the user
     "clock_getres", "clock_gettime", "clock_nanosleep", "getcpu", "getegid", "geteuid", "getgid", "getpgrp", "getppid",
     "getrandom", "getrlimit", "getrusage", "gettimeofday", "getuid", "nanosleep", "sysinfo", "time", "times", "uname"};
 

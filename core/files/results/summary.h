@@ -17,7 +17,7 @@ namespace chainmail {
 struct MeshSummary {
   std::uint64_t elements = 0;
   std::uint64_t links = 0;
-  std::uint64_t triangles = 0;  // as drawn: includes those that polygons are split into
+  std::uint64_t triangles = 0;  // as drawn, including those of polygons
   std::uint64_t tetrahedra = 0;
   std::uint64_t hexahedra = 0;
   int object_dimension = 1;
@@ -26,13 +26,13 @@ struct MeshSummary {
   std::array<Point, 2> bounds{Point::Zero(), Point::Zero()};
   double mean_link_length = 0;
   MeshFlaws flaws;
-  std::string remark;  // how voxels became elements, else empty
+  std::string remark;  // how voxels became elements; usually empty
 };
 MeshSummary summarize(const Mesh& mesh);
 MeshSummary summarize(const OpenedMesh& opened);
 void write_json(std::ostream& out, const MeshSummary& summary);
 
-/// What a deformation did, pass by pass, and the state of the object after it.
+/// The passes of a deformation, and the state of the object after them.
 struct DeformSummary {
   struct Pass {
     ElementId element = 0;
@@ -41,7 +41,7 @@ struct DeformSummary {
     std::uint64_t moved = 0;
     double milliseconds = 0;
     std::optional<Point> stopped_at = {};  // where pins stopped the handle before its target
-    std::string remark = {};               // why it did not end as requested
+    std::string remark = {};               // reason why it did not end as requested; usually empty
   };
 
   std::string algorithm;

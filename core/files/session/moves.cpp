@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
-/// Checks and returns the members of a command. Throws Error where one is wrong.
+/// Checks and returns the members of a command. Throws Error if one is wrong.
 class MoveFields : public JsonFields {
  public:
   /// `where` appears in errors.
@@ -88,7 +88,7 @@ std::vector<ElementId> MoveFields::elements(const MoveMembers& command) const {
 constexpr int moves_version = 1;
 constexpr std::uint64_t most_sweeps = 1'000'000;
 
-/// Checks commands one after another, as a simulation at rest would take them.
+/// Checks commands one after another, as a simulation would execute them from rest.
 class MovesReader {
  public:
   MovesReader(const std::string& where, const Mesh& mesh) : where_(where), fields_(where_, mesh) {}
@@ -115,7 +115,7 @@ class MovesReader {
   std::string where_;
   MoveFields fields_;  // of the file, then of each command
   std::vector<Command> commands_;
-  std::optional<Error> fault_;  // of the first wrong command; faults of the whole file are reported before it
+  std::optional<Error> fault_;  // of the first wrong command; errors of the whole file are reported first
   // The state that the simulation would be in.
   std::optional<ElementId> grabbed_;
   std::set<ElementId> pinned_;
@@ -125,7 +125,7 @@ Command MovesReader::grab(const Members& of) {
   fields_.check_keys(of.members, {"do", "element"});
   const ElementId one = fields_.element(fields_.member(of.members, "element"));
   if (pinned_.contains(one)) {
-    fields_.fail("element " + std::to_string(one) + " is pinned by then and may not move", "unpin it first");
+    fields_.fail("element " + std::to_string(one) + " is pinned at that time and cannot move", "unpin it first");
   }
   grabbed_ = one;
   return commands::Grab{one};
@@ -134,7 +134,7 @@ Command MovesReader::grab(const Members& of) {
 Command MovesReader::drag(const Members& of) {
   fields_.check_keys(of.members, {"do", "target"});
   if (!grabbed_) {
-    fields_.fail("no element is grabbed by then", "grab one first");
+    fields_.fail("no element is grabbed at that time", "grab an element first");
   }
   const Json& target = fields_.array(of.members, "target");
   if (target.size() != 3) {
@@ -152,7 +152,7 @@ Command MovesReader::release(const Members& of) {
 Command MovesReader::pin(const Members& of) {
   const auto pins = fields_.elements(of);
   if (grabbed_ && std::find(pins.begin(), pins.end(), *grabbed_) != pins.end()) {
-    fields_.fail("element " + std::to_string(*grabbed_) + " is grabbed by then", "release it first");
+    fields_.fail("element " + std::to_string(*grabbed_) + " is grabbed at that time", "release it first");
   }
   pinned_.insert(pins.begin(), pins.end());
   return commands::Pin{pins};
@@ -193,11 +193,11 @@ Command MovesReader::relax(const Members& of) {
   fields_.check_keys(of.members, {"do", "sweeps", "step", "scheme"});
   const Json& sweeps = fields_.member(of.members, "sweeps");
   if (!sweeps.is_number_unsigned() || sweeps.get<std::uint64_t>() > most_sweeps) {
-    fields_.fail("'sweeps' is not a whole number up to " + std::to_string(most_sweeps), "write how many there are");
+    fields_.fail("'sweeps' is not a whole number up to " + std::to_string(most_sweeps), "write the number of sweeps");
   }
   const double step = of.members.contains("step") ? fields_.number(of.members["step"]) : 1;
   if (!(step > 0 && step <= 1)) {
-    fields_.fail("'step' is not above 0 and up to 1", "1 moves elements all the way");
+    fields_.fail("'step' is not above 0 and at most 1", "1 moves elements all the way");
   }
   const Json scheme = of.members.value("scheme", Json("mean"));
   if (scheme != "mean" && scheme != "link") {
@@ -216,7 +216,8 @@ Command MovesReader::command(const Members& of) {
   const Json& what = fields_.member(of.members, "do");
   const auto found = known.find(what.is_string() ? what.get<std::string>() : "");
   if (found == known.end()) {
-    fields_.fail("'do' names no command", "use grab, drag, release, cut, uncut, pin, unpin, softness, relax or reset");
+    fields_.fail("'do' is not a known command",
+                 "use grab, drag, release, cut, uncut, pin, unpin, softness, relax or reset");
   }
   return (this->*found->second)(of);
 }
@@ -238,7 +239,7 @@ void MovesReader::take(const Json& value, const Members& of) {
 
 void MovesReader::check_head(const Json& head) const {
   if (!head.is_object()) {
-    fields_.fail("it holds no recorded moves", "give recorded moves");
+    fields_.fail("it holds no recorded moves", "use a file of recorded moves");
   }
   const Json& version = fields_.member(head, "version");
   if (!version.is_number_unsigned() || version.get<std::uint64_t>() != moves_version) {

@@ -12,8 +12,8 @@
 
 namespace chainmail {
 
-/// The items of an array of numbers, or of an array of arrays of equally many numbers, without a tree. The first other
-/// item ends the list, for a check to refuse it; later items are dropped.
+/// The items of an array of numbers, or of an array of arrays that all have the same length, without a tree. The first
+/// item that is anything else ends the list, so that a check can refuse it. Later items are dropped.
 class NumberList {
  public:
   using Json = nlohmann::json;

@@ -21,12 +21,12 @@ namespace chainmail {
 struct Session {
   struct Panel {
     Algorithm algorithm = Algorithm::natural_queue;
-    /// Precision of the numbers in the placement: single precision means floats.
+    /// Precision of the coordinates in `placement`. In single precision they are floats.
     Precision precision = Precision::single_precision;
     Snapshot placement;
   };
 
-  std::string name;  // of the object, as titles show it
+  std::string name;  // name of the object, as in titles
   MeshPointer mesh;
   std::vector<LinkId> cuts;     // ascending
   std::vector<ElementId> pins;  // ascending
@@ -68,7 +68,7 @@ bool is_session(const std::filesystem::path& path);
 ///      "elastic": {"young": E, "poisson": v, "lattice": [control points along each axis]},
 ///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
 ///        "runs": [first, end of each run of elements that are given…], "held": [their coordinates…]}],
-///      "moves": {as recorded moves are written}, "moves_done": how many of them,
+///      "moves": {as in files/session/moves.h}, "moves_done": how many of them,
 ///      "ui": {…}}
 ///
 /// "moves" are left out above session_moves; "lattice", "hexahedra" and "texture" if there are none; and "elastic" if

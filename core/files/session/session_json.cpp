@@ -110,8 +110,8 @@ bool SessionScanner::number(Value value, double real, std::optional<std::uint64_
     return true;
   }
   if (open_.size() == 1 && key_ == "version" && whole && *whole > session_version) {
-    fail("its version is " + std::to_string(*whole) + ", and this program knows " + std::to_string(session_version) +
-             " and older",
+    fail("its version is " + std::to_string(*whole) + ", but this program knows only version " +
+             std::to_string(session_version) + " and older",
          "open it with a newer program");
   }
   return put(value);
@@ -120,7 +120,7 @@ bool SessionScanner::number(Value value, double real, std::optional<std::uint64_
 /// Adds a value to the tree.
 Json& SessionScanner::add(Json value) {
   if (++values_ > most_session_values) {
-    fail("it holds too many values", "give a session");
+    fail("it holds too many values", "use a session that the workbench saved");
   }
   if (open_.empty()) {
     return result_.tree = std::move(value);
@@ -148,7 +148,7 @@ bool SessionScanner::put(Json value) {
 
 bool SessionScanner::open(Json container) {
   if (open_.size() + in_moves_ == deepest_session) {
-    fail("it is nested too deeply", "give a session");
+    fail("it is nested too deeply", "use a session that the workbench saved");
   }
   if (packed_ != Packed::no) {
     refuse_in_array();
@@ -213,11 +213,11 @@ bool SessionScanner::end_array() {
 
 bool SessionScanner::parse_error(std::size_t position, const std::string&, const Json::exception& error) {
   if (dynamic_cast<const Json::parse_error*>(&error) == nullptr) {
-    fail("it holds a number that is too large for a double", "give a session");
+    fail("it holds a number that is too large for a double", "use a session that the workbench saved");
   }
   const bool ended = position > text_.size();
   throw Error(shown(path_, line_at(text_, position)), ended ? "it ends too early" : "it is not JSON",
-              "give a session as it was saved");
+              "use a session that the workbench saved, without changes");
 }
 
 }  // namespace
@@ -252,14 +252,15 @@ const std::vector<std::uint32_t>& SessionFields::elements(const Json& object, co
 
 void SessionFields::check_groups(std::size_t size, std::size_t of_each, const char* key) const {
   if (size % of_each != 0) {
-    fail("'" + std::string(key) + "' ends within a group of " + std::to_string(of_each), "give whole groups");
+    fail("'" + std::string(key) + "' ends within a group of " + std::to_string(of_each), "write complete groups");
   }
 }
 
 std::uint64_t SessionFields::count(const Json& object, const char* key, std::uint64_t highest) const {
   const Json& json = member(object, key);
   if (!json.is_number_unsigned() || json.get<std::uint64_t>() == 0 || json.get<std::uint64_t>() > highest) {
-    fail("'" + std::string(key) + "' is not a whole number from 1 to " + std::to_string(highest), "give one");
+    fail("'" + std::string(key) + "' is not a whole number from 1 to " + std::to_string(highest),
+         "write such a number");
   }
   return json.get<std::uint64_t>();
 }

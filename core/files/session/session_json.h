@@ -24,9 +24,9 @@ struct SessionJson {  // NOLINT(bugprone-exception-escape): moving a tree throws
   std::string_view moves;  // the array or object `moves` in the parsed text; null in the tree
 };
 
-/// Parses the text of a session. Throws Error where it is not JSON, where an array of ids or numbers holds anything
-/// else, where a key appears twice, and where the version is newer than session_version, before it looks at the rest;
-/// and Cancelled.
+/// Parses the text of a session. Throws Error if it is not JSON, if an array of ids or numbers holds anything else, if
+/// a key appears twice, or if the version is newer than session_version. The version is checked before the rest. Throws
+/// Cancelled.
 SessionJson parse_session_json(std::string_view text, const std::filesystem::path& path, const Progress& progress);
 
 /// Checks and returns the members of a session, the packed ones too.

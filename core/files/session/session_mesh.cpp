@@ -90,7 +90,7 @@ class SessionMeshReader {
 void SessionMeshReader::take_rest(const Progress& progress) {
   const auto& rest = fields_.reals(object_, "rest");
   if (rest.size() != 3 * count_) {
-    fields_.fail("'rest' holds " + std::to_string(rest.size()) + " numbers, and " + std::to_string(count_) +
+    fields_.fail("'rest' holds " + std::to_string(rest.size()) + " numbers, but " + std::to_string(count_) +
                      " elements have " + std::to_string(3 * count_),
                  "give three coordinates of each element");
   }
@@ -122,7 +122,8 @@ void SessionMeshReader::take_lattice() {
     product *= lattice.size[k];
   }
   if (product != double(count_)) {
-    fields_.fail("the lattice does not have " + std::to_string(count_) + " elements", "write its size [w, h, d]");
+    fields_.fail("the size of the lattice does not give " + std::to_string(count_) + " elements",
+                 "write its size [w, h, d]");
   }
   for (ElementId e = 0; e < count_; ++e) {
     if (parts_.rest[e] != lattice.position(e)) {
@@ -173,7 +174,7 @@ void SessionMeshReader::check_polygons() const {
   for (std::size_t i = 0; i < all.size(); i += std::size_t{all[i]} + 1) {
     if (all[i] < 3 || all[i] >= all.size() - i) {
       fields_.fail("'polygons' has a count of " + std::to_string(all[i]) + " at number " + std::to_string(i),
-                   "give each polygon as its count, 3 or more, and so many ids");
+                   "write each polygon as its count, 3 or more, and as many ids");
     }
     for (std::size_t j = i + 1; j <= i + all[i]; ++j) {
       if (all[j] >= count_) {

@@ -45,7 +45,7 @@ class SessionReader {
 void SessionReader::check_kind() const {
   const bool is_session = tree_.is_object() && tree_.contains("format") && tree_["format"] == Json("chainmail session");
   if (!is_session) {
-    fields_.fail("it is not a session", "give one that the workbench has saved");
+    fields_.fail("it is not a session", "use a file that the workbench saved");
   }
   fields_.count(tree_, "version", session_version);
   fields_.check_keys(tree_, {"format", "version", "name", "mesh", "cuts", "pins", "softness", "relaxation", "elastic",
@@ -118,7 +118,7 @@ void SessionReader::take_relaxation() {
   }
   const double step = fields_.number(fields_.member(object, "step"));
   if (!(step > 0 && step <= 1)) {
-    fields_.fail("'step' is not above 0 and up to 1", "1 moves elements all the way to the mean");
+    fields_.fail("'step' is not above 0 and at most 1", "1 moves elements all the way to the mean");
   }
   result_.relaxation = {fields_.boolean(object, "on"), step,
                         scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link};

@@ -34,7 +34,7 @@ class Digits {
       const std::string_view shorter = text(single);
       double back = 0;
       std::from_chars(shorter.data(), shorter.data() + shorter.size(), back);
-      // Rounded twice, a float near the middle of two may become its neighbour.
+      // The text is rounded twice, to a double and then to a float, so it could become a neighbour of the float.
       if (static_cast<float>(back) == single) {
         return shorter;
       }
@@ -51,7 +51,7 @@ class Digits {
   std::array<char, 32> digits_;
 };
 
-/// Returns the size of a command, in drags.
+/// Returns the size of a command, in units of one drag.
 std::size_t weight(const Command& command) {
   return std::visit(
       [](const auto& one) -> std::size_t {
@@ -123,7 +123,7 @@ void SessionWriter::write_groups(const char* key, std::span<const std::array<Ele
   write_array(key, Size * groups.size(), progress, [&](std::size_t i) { out_ << groups[i / Size][i % Size]; });
 }
 
-/// Writes links as pairs, or row by row where the neighbours are not in ascending order.
+/// Writes links as pairs, or row by row if the neighbours are not in ascending order.
 void SessionWriter::write_links(const Progress& progress) {
   bool ascending = true;
   for (ElementId e = 0; e < mesh_.element_count() && ascending; ++e) {
@@ -168,7 +168,7 @@ void SessionWriter::write_mesh(const Progress& progress) {
   out_ << "}";
 }
 
-/// As an object whose texels are bytes in base 64.
+/// Writes a texture as an object whose texels are bytes in base 64.
 void SessionWriter::write_texture(const Texture& texture, const Progress& progress) {
   const auto& [low, high] = texture.box;
   const OrderedJson json{{"size", texture.size},

@@ -12,24 +12,25 @@ namespace {
 
 constexpr std::uint64_t presets_version = 1;
 
-// A preset describes how far a material deforms before it reaches its limit, not the force that this takes.
+// A preset describes how far a material deforms before it reaches its limit, not the force for this.
 constexpr std::array all_built_in_presets{
-    BuiltInPreset{"Standard", {}, "what a new object begins with"},
-    // Rings of wire do not lengthen; they slide into each other until wire lies on wire, at about half their distance
-    // where four pass through one; and they turn in each other by little more than a ring's play.
+    BuiltInPreset{"Standard", {}, "the softness of a new object"},
+    // Rings of wire do not lengthen. They slide together until wires touch, at about half their distance if four rings
+    // pass through each one. They turn by little more than their play.
     BuiltInPreset{"Steel mail", {0.5, 1, 0.15}, "rings do not lengthen, they slide together and turn a little"},
-    // Weaving bends the yarns: pulled straight they give some percent. Pushed, cloth buckles rather than shortens, and
-    // its ends come to a third of their distance. Yarns that cross turn until they lock, at 30 to 45 degrees.
+    // Weaving bends the yarns, so they lengthen by a few percent when pulled straight. When pushed, cloth buckles
+    // instead of shortening, and its ends come to a third of their distance. Crossing yarns turn until they lock, at 30
+    // to 45 degrees.
     BuiltInPreset{"Cloth", {0.35, 1.05, 0.6}, "yarns hardly lengthen, buckle when pushed, and turn until they lock"},
-    // Twice its length comes back without loss, well below the six times at which it tears. Its volume stays, so that
-    // at twice the length the sides shrink to 1/√2; bearings are sheared by up to about a half.
-    BuiltInPreset{"Rubber", {0.7, 2, 0.5}, "lengthens to twice, keeps its volume, is sheared by half"},
-    // A gel of gelatine is squeezed and pulled by about two fifths before it breaks, and wobbles by as much.
-    BuiltInPreset{"Jelly", {0.6, 1.4, 0.4}, "gives by two fifths each way before it would break"},
-    // Squeezed by three tenths in tests of the tissue (Miller and Chinzei 1997); nerve fibres take harm from
-    // about a fifth more length on (Bain and Meaney 2000); it hardly resists shear.
+    // Rubber returns from twice its length without loss, and tears only at about six times. Its volume stays constant,
+    // so its sides shrink to 1/√2 at twice the length. Rubber bearings are sheared by up to about a half.
+    BuiltInPreset{"Rubber", {0.7, 2, 0.5}, "lengthens to twice its length, keeps its volume, shears by half"},
+    // Gelatine can be compressed and stretched by about two fifths before it breaks, and wobbles by as much.
+    BuiltInPreset{"Jelly", {0.6, 1.4, 0.4}, "changes its length by two fifths before it breaks"},
+    // Tests compress the tissue by three tenths (Miller and Chinzei 1997). Nerve fibres are damaged when they lengthen
+    // by about a fifth (Bain and Meaney 2000). The tissue hardly resists shear.
     BuiltInPreset{
-        "Brain-soft", {0.7, 1.2, 0.3}, "squeezed by three tenths, lengthened by a fifth, hardly resists shear"}};
+        "Brain-soft", {0.7, 1.2, 0.3}, "shortens by three tenths, lengthens by a fifth, hardly resists shear"}};
 
 SoftnessPreset preset_of(const JsonFields& fields, const nlohmann::json& json) {
   if (!json.is_object()) {
@@ -56,19 +57,19 @@ std::span<const BuiltInPreset> built_in_presets() { return all_built_in_presets;
 
 std::string fault_of_name(std::string_view name) {
   if (name.empty() || name.front() == ' ' || name.back() == ' ') {
-    return "a name begins and ends with a character";
+    return "a name must not be empty, or begin or end with a blank";
   }
   if (name.size() > longest_preset_name) {
-    return "a name has " + std::to_string(longest_preset_name) + " bytes at most";
+    return "a name has at most " + std::to_string(longest_preset_name) + " bytes";
   }
-  return printable(name) == name ? "" : "a name is one line of text";
+  return printable(name) == name ? "" : "a name must be one line of text";
 }
 
 std::vector<SoftnessPreset> read_presets(std::string_view text, const std::filesystem::path& path) {
   const auto json = parse_json(text, path, "presets of softness");
   JsonFields fields(shown(path));
   if (!json.is_object()) {
-    fields.fail("it holds no presets", "give presets of softness");
+    fields.fail("it holds no presets", "use a file of softness presets");
   }
   const auto& version = fields.member(json, "version");
   if (!version.is_number_unsigned() || version.get<std::uint64_t>() != presets_version) {

@@ -5,7 +5,7 @@
 
 namespace chainmail::import {
 
-/// Throws Error where a .msh or .mesh file (`name`) does not begin as a mesh: Gmsh runs any other file as a script,
+/// Throws Error if a .msh or .mesh file (`name`) does not begin like a mesh. Gmsh runs any other file as a script,
 /// which may start programs and write files.
 void check_beginning(const std::string& name, const std::filesystem::path& path);
 

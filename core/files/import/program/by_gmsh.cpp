@@ -47,7 +47,7 @@ class Points {
   ElementId of(std::size_t tag) const {
     const auto found = std::lower_bound(tags_.begin(), tags_.end(), tag);
     if (found == tags_.end() || *found != tag) {
-      refuse("point " + std::to_string(tag) + " is used and does not exist", "export it again");
+      refuse("point " + std::to_string(tag) + " is used but does not exist", "export it again");
     }
     return static_cast<ElementId>(found - tags_.begin());
   }

@@ -24,7 +24,7 @@ std::string numbers(const Triangle& t) {
   return std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " + std::to_string(t[2]);
 }
 
-std::string place(const Point& point) {
+std::string position_text(const Point& point) {
   std::string text = "(";
   for (int k = 0; k < 3; ++k) {
     text += k > 0 ? ", " : "";
@@ -79,15 +79,16 @@ void check_links(const MeshParts& parts, const std::vector<Triangle>& triangles)
       border.push_back(link);
     } else if (count > 2) {
       refuse(std::to_string(count) + " faces meet at the link " + std::to_string(link[0]) + "-" +
-                 std::to_string(link[1]) + ", near " + place(parts.rest[link[0]]),
-             "leave two of them");
+                 std::to_string(link[1]) + ", near " + position_text(parts.rest[link[0]]),
+             "keep two of them");
     }
   }
   if (!border.empty()) {
     const std::size_t holes = count_rings(border);
     refuse("the surface is open: it has " + std::to_string(holes) + (holes == 1 ? " hole" : " holes") +
-               ", the first at element " + std::to_string(border[0][0]) + ", near " + place(parts.rest[border[0][0]]),
-           "close it");
+               ", the first at element " + std::to_string(border[0][0]) + ", near " +
+               position_text(parts.rest[border[0][0]]),
+           "close it in another program");
   }
 }
 
@@ -98,13 +99,13 @@ void check_crossings(const MeshParts& parts, const std::vector<Triangle>& triang
   std::vector<std::vector<std::size_t>> faces;
   for (const auto& [a, b, c] : triangles) {
     if (CGAL::collinear(points[a], points[b], points[c])) {
-      refuse("the face of the elements " + numbers({a, b, c}) + " is flat, near " + place(parts.rest[a]),
+      refuse("the face of the elements " + numbers({a, b, c}) + " is flat, near " + position_text(parts.rest[a]),
              "remove it, or move one of them");
     }
     faces.push_back({a, b, c});
   }
   namespace processing = CGAL::Polygon_mesh_processing;
-  processing::orient_polygon_soup(points, faces);  // doubles points where parts touch, which does not matter below
+  processing::orient_polygon_soup(points, faces);  // duplicates points where parts touch, which does not matter below
   CGAL::Surface_mesh<Kernel::Point_3> surface;
   processing::polygon_soup_to_polygon_mesh(points, faces, surface);
   using Face = CGAL::Surface_mesh<Kernel::Point_3>::Face_index;
@@ -114,8 +115,8 @@ void check_crossings(const MeshParts& parts, const std::vector<Triangle>& triang
     const auto& [one, other] = crossings.front();
     refuse("the surface intersects itself, at " + std::to_string(crossings.size()) +
                " places: the first is where the faces (" + numbers(triangles[one]) + ") and (" +
-               numbers(triangles[other]) + ") meet, near " + place(parts.rest[triangles[one][0]]),
-           "repair it there");
+               numbers(triangles[other]) + ") meet, near " + position_text(parts.rest[triangles[one][0]]),
+           "repair the surface there");
   }
 }
 
@@ -124,7 +125,7 @@ void check_crossings(const MeshParts& parts, const std::vector<Triangle>& triang
 std::vector<Triangle> closed_surface(const MeshParts& parts) {
   auto triangles = split(parts);
   if (triangles.empty()) {
-    refuse("it has no faces, and so no inside", "take a closed surface");
+    refuse("it has no faces, so it has no inside", "use a closed surface");
   }
   check_links(parts, triangles);
   check_crossings(parts, triangles);

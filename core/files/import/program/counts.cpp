@@ -9,22 +9,22 @@
 namespace chainmail::import {
 namespace {
 
-/// Lines that are longer are numbers, or binary.
+/// Longer lines contain numbers or binary data, and are skipped.
 constexpr std::size_t longest_line = 80;
 
-/// Medit's words for what Gmsh reads, each before its number.
+/// Medit's keywords for the items that Gmsh reads. A count follows each.
 constexpr std::array<std::string_view, 6> medit_elements{"Edges",      "Triangles", "Quadrilaterals",
                                                          "Tetrahedra", "Hexahedra", "Prisms"};
-std::uint64_t first_number(const std::string& line, int place) {
+std::uint64_t first_number(const std::string& line, int nth) {
   std::istringstream words(line);
   std::uint64_t number = 0;
-  for (int i = 0; i < place; ++i) {
+  for (int i = 0; i < nth; ++i) {
     words >> number;
   }
   return words ? number : 0;
 }
 
-/// Takes a line that begins with a word, and the one behind it.
+/// Adds up the counts. take() receives each line that may begin with a keyword, and the line after it.
 class Counter {
  public:
   explicit Counter(const std::string& name) : name_(name) {}

@@ -27,7 +27,7 @@ ImportedMesh load(const std::filesystem::path& path) {
   auto imported = decode_imported(std::as_bytes(std::span(letters)), path);
   auto* mesh = std::get_if<ImportedMesh>(&imported);
   if (mesh == nullptr) {
-    refuse("it holds no surface", "take a closed surface");
+    refuse("it holds no surface", "use a closed surface");
   }
   return std::move(*mesh);
 }

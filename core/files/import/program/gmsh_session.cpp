@@ -23,7 +23,7 @@ void GmshSession::open(const std::filesystem::path& path) const {
   };
   try {
     gmsh::open(path.string());
-  } catch (...) {  // it throws numbers, strings and exceptions
+  } catch (...) {  // Gmsh throws numbers, strings and exceptions
     fail();
   }
   if (gmsh_complaint() != "it does not say why") {

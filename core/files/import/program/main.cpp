@@ -35,7 +35,7 @@ void use_all_of_the_stack() {
 void set_limits(const char* bytes, const char* seconds) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with its caller
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, std::strtoull(seconds, nullptr, 10), 1);  // SIGXCPU first: its caller then knows the reason
+  limit(RLIMIT_CPU, std::strtoull(seconds, nullptr, 10), 1);  // SIGXCPU comes first, so the caller knows the reason
 #ifndef __SANITIZE_ADDRESS__                                  // a sanitizer takes more address space than any limit
   limit(RLIMIT_AS, std::strtoull(bytes, nullptr, 10));
 #else

@@ -18,7 +18,7 @@ struct Remove {
 
 constexpr std::size_t longest = 150;
 
-/// The last word of teem's account, which begins with what went wrong first.
+/// Returns the last line of teem's messages, which is the cause. The lines before it say where the error occurred.
 std::string complaint() {
   const std::unique_ptr<char, decltype(&std::free)> text(biffGetDone(NRRD), &std::free);
   const std::string all = text ? text.get() : "";
@@ -30,7 +30,8 @@ std::string complaint() {
   return printable(all.substr(first, std::min(longest, last + 1 - first)));
 }
 
-/// From voxel to voxel: as the file says it of the axis, or as the length of its direction in space, or 1.
+/// Returns the distance between voxels along an axis: the spacing that the file states, else the length of the axis
+/// direction in space, else 1.
 double spacing_of(const NrrdAxisInfo& axis, unsigned dimension) {
   double squares = 0;
   for (unsigned k = 0; k < dimension; ++k) {
@@ -52,8 +53,8 @@ Volume read_nrrd(const std::filesystem::path& path) {
     refuse("teem cannot read it (" + complaint() + ")", "export it again");
   }
   if (file->dim != 3 || file->type == nrrdTypeBlock) {
-    refuse("it has " + std::to_string(file->dim) + " axes, and a volume of densities has 3",
-           "save one channel and one moment of it");
+    refuse("it has " + std::to_string(file->dim) + " axes, but a volume of densities has 3",
+           "save a single channel at a single time");
   }
   Volume volume;
   volume.size = checked_volume_size("", {file->axis[0].size, file->axis[1].size, file->axis[2].size});
