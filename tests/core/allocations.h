@@ -8,17 +8,17 @@
 #include <cstdlib>
 #include <new>
 
-/// Counts what a program takes from the heap through operator new, by replacing all its forms, under the
-/// sanitizers too: to be included by one source of a program alone. What a library takes by malloc is not counted.
+/// Counts the memory that a program allocates by operator new. It replaces all forms of operator new, under sanitizers
+/// too, so only one source of a program may include it. Memory that a library allocates by malloc is not counted.
 namespace chainmail::test {
 
 inline std::atomic<std::uint64_t> allocations = 0;
 inline std::atomic<std::size_t> bytes_held = 0;
-inline std::atomic<std::size_t> most_bytes_held = 0;  // since it was last set to bytes_held; exact for one thread
+inline std::atomic<std::size_t> most_bytes_held = 0;  // since it was last set to bytes_held; exact only for one thread
 
 inline void* counted(std::size_t bytes, std::size_t alignment) noexcept {
   allocations.fetch_add(1, std::memory_order_relaxed);
-  // Whole multiples alone.
+  // aligned_alloc accepts only multiples of the alignment.
   void* taken = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
   const std::size_t size = malloc_usable_size(taken);
   const std::size_t held = bytes_held.fetch_add(size, std::memory_order_relaxed) + size;

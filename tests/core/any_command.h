@@ -10,10 +10,10 @@
 
 namespace chainmail::test {
 
-/// Draws commands of all kinds, some of which do not fit the object and are refused.
+/// Draws commands of all kinds. Some do not fit the object and are refused.
 class AnyCommand {
  public:
-  /// Elements and links are drawn below these; `relaxed`, where relaxation may be switched on.
+  /// Ids of elements and links are drawn below these limits. `relaxed` is true if relaxation may be turned on.
   AnyCommand(std::uint64_t seed, bool relaxed, std::vector<MeshPointer> meshes, ElementId elements, LinkId links)
       : random_(seed), relaxed_(relaxed), meshes_(std::move(meshes)), elements_(elements), links_(links) {}
 
@@ -57,7 +57,7 @@ class AnyCommand {
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random_() % n); }
 
  private:
-  /// A few elements of some mesh, in one to three dimensions.
+  /// Positions of a few elements of a mesh, in one to three dimensions.
   Command place() {
     const ElementId first = below(elements_), end = first + 1 + below(70);
     Snapshot placement{below(2) == 0, {first, end}, {}};

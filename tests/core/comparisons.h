@@ -7,7 +7,7 @@ namespace chainmail::report::test {
 
 using chainmail::test::jittered_triangles;
 
-/// Drags of one element by so many steps.
+/// A drag of one element in this number of steps.
 inline RecordedMoves drag(const Mesh& mesh, ElementId element, const Point& by, int steps = 4) {
   RecordedMoves moves{"drag", "", {commands::Grab{element}}};
   for (int i = 1; i <= steps; ++i) {
@@ -43,7 +43,7 @@ inline Case jittered() {
   return object(mesh, drag(*mesh, 27, {4, 2, 0}));
 }
 
-// Positions below 10 and paths of some ten links, in double.
+// For positions below 10 and paths of about ten links, in double.
 constexpr double rounding = 1e-13;
 
 }  // namespace chainmail::report::test

@@ -13,7 +13,8 @@ namespace chainmail::test {
 
 using Field = std::function<Point(const Point&)>;
 
-/// The same mesh with its inner elements moved at random, up to a share of the spacing 1: no cell is like another.
+/// The same mesh with its inner elements moved at random, up to a share of the spacing 1, so that no two cells are
+/// equal.
 inline MeshPointer jittered(const MeshPointer& mesh, double share = 0.2) {
   MeshParts parts;
   std::mt19937_64 random(7);
@@ -32,7 +33,7 @@ inline MeshPointer jittered(const MeshPointer& mesh, double share = 0.2) {
   return build_mesh(std::move(parts));
 }
 
-/// An object with elements pinned where a displacement field has them.
+/// An object whose pinned elements have the positions that a displacement field gives them.
 inline ElasticProblem pinned(const MeshPointer& mesh, std::vector<ElementId> pins, const Field& field, double poisson) {
   ElasticProblem problem{mesh, Cuts(mesh), std::move(pins), {}, {}};
   problem.options.material = {3, poisson};
@@ -49,7 +50,7 @@ inline ElasticProblem pinned(const MeshPointer& mesh, std::vector<ElementId> pin
       mesh, std::move(pins), [](const Point&) { return Point(Point::Zero()); }, poisson);
 }
 
-/// The layers at both ends of x.
+/// The elements at both ends of the x axis.
 inline std::vector<ElementId> both_ends(const Mesh& mesh) {
   std::vector<ElementId> pins = layer(mesh, *find_side("left"));
   const auto right = layer(mesh, *find_side("right"));
@@ -58,7 +59,7 @@ inline std::vector<ElementId> both_ends(const Mesh& mesh) {
   return pins;
 }
 
-/// What parts displacements from a field, coordinate by coordinate (mesh units).
+/// Returns the difference between displacements and a field, coordinate by coordinate (mesh units).
 inline Eigen::VectorXd apart_from(const Mesh& mesh, const std::vector<double>& displacements, const Field& field) {
   const int n = mesh.space_dimension;
   Eigen::VectorXd apart(static_cast<Eigen::Index>(displacements.size()));
@@ -72,7 +73,7 @@ inline Eigen::VectorXd apart_from(const Mesh& mesh, const std::vector<double>& d
   return apart;
 }
 
-/// The largest of it, and the root of the mean square of the distances.
+/// The largest difference, and the root mean square of the distances (mesh units).
 inline double furthest_from(const Mesh& mesh, const std::vector<double>& displacements, const Field& field) {
   return apart_from(mesh, displacements, field).lpNorm<Eigen::Infinity>();
 }
@@ -80,7 +81,7 @@ inline double rms_from(const Mesh& mesh, const std::vector<double>& displacement
   return apart_from(mesh, displacements, field).norm() / std::sqrt(double(mesh.element_count()));
 }
 
-/// The slope of log error over log size, from the first to the last.
+/// Returns the slope of log error over log size, between the first and the last value.
 inline double order_of(const std::vector<double>& sizes, const std::vector<double>& errors) {
   return std::log(errors.front() / errors.back()) / std::log(sizes.front() / sizes.back());
 }

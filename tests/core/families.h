@@ -20,8 +20,8 @@ inline void add_triangle(MeshParts& parts, ElementId a, ElementId b, ElementId c
   parts.links.insert(parts.links.end(), {{a, b}, {b, c}, {c, a}});
 }
 
-/// A plane of triangles without any two links alike: points off their places by up to 0.3, and each
-/// square split along either diagonal. Links come as triangle edges, most of them twice.
+/// A plane of triangles in which no two links are equal: points are moved from the lattice by up to 0.3, and each
+/// square is split along either diagonal. Links are given as triangle edges, most of them twice.
 inline MeshPointer jittered_triangles(std::uint32_t width, std::uint32_t height, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   MeshParts parts;
@@ -62,7 +62,7 @@ inline MeshPointer sphere(std::uint32_t segments, std::uint32_t rings) {
   return build_mesh(std::move(parts));
 }
 
-/// The parts of a mesh with each rest position passed through `place` (and so links anew).
+/// Returns the parts of a mesh after `place` was applied to each rest position.
 template <class Place>
 MeshParts placed(const Mesh& mesh, Place place) {
   MeshParts parts;
@@ -73,7 +73,7 @@ MeshParts placed(const Mesh& mesh, Place place) {
   return parts;
 }
 
-/// The same mesh with its neighbours listed in an order of the file's own.
+/// The same mesh with its neighbours listed in a random order.
 inline MeshPointer shuffled_neighbours(const Mesh& mesh, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   MeshParts parts = placed(mesh, [](const Point& p) { return p; });
@@ -89,7 +89,7 @@ inline MeshPointer shuffled_neighbours(const Mesh& mesh, std::uint64_t seed) {
   return build_mesh(std::move(parts));
 }
 
-/// Two meshes in one object, `apart` from each other; the second one's ids follow the first's.
+/// Two meshes in one object, `apart` from each other. The ids of the second follow those of the first.
 inline MeshPointer side_by_side(const Mesh& one, const Mesh& other, const Point& apart) {
   MeshParts parts = placed(one, [](const Point& p) { return p; });
   for (ElementId e = 0; e < other.element_count(); ++e) {
@@ -101,7 +101,7 @@ inline MeshPointer side_by_side(const Mesh& one, const Mesh& other, const Point&
   return build_mesh(std::move(parts));
 }
 
-/// Every kind of mesh there is, small enough for a list search.
+/// All kinds of meshes, small enough for a list search.
 inline std::vector<MeshFamily> families() {
   const auto grid = make_mesh(MeshKind::grid, {6, 5, 1});
   return {

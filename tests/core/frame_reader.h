@@ -7,10 +7,10 @@
 
 namespace chainmail::test {
 
-/// Whoever draws: it keeps what it was shown, and takes of a frame only the blocks that are newer.
+/// Stands for a view that draws: it keeps the positions that it received, and takes only newer blocks from a frame.
 class FrameReader {
  public:
-  /// Says whether it has the frame's positions now: whether the stamps told the truth.
+  /// Returns true if it then has the same positions as the frame, so the stamps of the blocks are right.
   bool take(const Frame& frame) {
     if (frame.mesh != mesh_) {
       mesh_ = frame.mesh;

@@ -4,7 +4,8 @@
 
 namespace chainmail::test {
 
-/// A block of hexahedra, `size` of them along x, y and z, with links along their edges; as parts, to be changed.
+/// The parts of a block of hexahedra, `size` of them along x, y and z, with links along their edges. A test may change
+/// them.
 inline MeshParts hexahedral_parts(std::array<std::uint32_t, 3> size, double spacing = 1) {
   MeshParts parts;
   const std::uint32_t width = size[0] + 1, layer = width * (size[1] + 1);

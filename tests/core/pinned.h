@@ -7,7 +7,7 @@
 
 namespace chainmail::test {
 
-/// A chain of twelve by Exact ChainMail, of links between 0.75 and 1.25, with some elements pinned.
+/// A chain of twelve elements with Exact ChainMail, links between 0.75 and 1.25 long, and some elements pinned.
 inline std::unique_ptr<Solver> pinned_chain(Precision precision, const std::vector<ElementId>& pins) {
   auto solver = make_solver(make_mesh(MeshKind::line, {12, 1, 1}), Algorithm::exact, precision);
   solver->set_softness({{0.75, 1.25, 0}, {}});
@@ -15,7 +15,7 @@ inline std::unique_ptr<Solver> pinned_chain(Precision precision, const std::vect
   return solver;
 }
 
-/// A sentence that an Error says, or nothing.
+/// Returns the message of the Error that `act` throws, or an empty text.
 template <class Act>
 std::string refusal(Act act) {
   try {

@@ -12,13 +12,13 @@
 
 namespace chainmail::test {
 
-/// A simulation as the window runs it, with its recorder.
+/// A simulation with its recorder, as the window runs it.
 struct Recorded {
   Recorded(const MeshPointer& mesh, Algorithm algorithm) : simulation(mesh, algorithm, Precision::single_precision) {
     recorder.set_on(true);
   }
 
-  /// False where the command was refused.
+  /// Returns false if the command was refused.
   bool apply(const Command& command) {
     bool done = true;
     recorder.begin(command, simulation);
@@ -30,7 +30,7 @@ struct Recorded {
     recorder.end(simulation);
     return done;
   }
-  /// As when a frame is handed over.
+  /// Records, as at the handover of a frame.
   void publish() {
     recorder.note_changes(simulation);
     simulation.forget_changes();
@@ -45,7 +45,7 @@ struct Recorded {
   PassRecorder recorder;
 };
 
-/// The states of a pass, one after another.
+/// Shows the states of a pass, one after another.
 struct Player {
   explicit Player(const RecordedPass& of) : pass(of), positions(of.before) {
     place(pass.grabbed, pass.grabbed_after());
@@ -77,8 +77,8 @@ inline bool stays(const RecordedPass& pass, std::size_t row) {
   return std::ranges::equal(pass.position_before(pass.trace[row].element), pass.position_after(row));
 }
 
-/// Where the element of a row goes along an axis, as the sponsor stands at that step. In a space of three, the axis
-/// first: the others are summed in the order of axes, of which there are two at most.
+/// Returns the coordinate of the element of a row after its update, computed from the position of its sponsor at that
+/// step. In three dimensions, the other two axes are summed in their order.
 inline float clamped_by_hand(const Player& player, std::size_t row, int k) {
   const Mesh& mesh = *player.pass.mesh;
   const auto [element, sponsor, moved] = player.pass.trace[row];
@@ -93,7 +93,7 @@ inline float clamped_by_hand(const Player& player, std::size_t row, int k) {
   return std::min(std::max(player.at(element, k), low), high);
 }
 
-/// Whether the list names, as the next one that will not be dropped, what the trace has next, at every step.
+/// Returns true if at every step the next waiting candidate that will not be dropped is the next one of the trace.
 inline bool leads_through(const RecordedPass& pass, const WaitingHistory& history) {
   std::set<ElementId> updated(pass.conditions->pins.begin(), pass.conditions->pins.end());
   updated.insert(pass.grabbed);

@@ -17,7 +17,7 @@ inline void showValue(const LinkSoftness& softness, std::ostream& out) {
 
 namespace test {
 
-/// A move of the hand from where the element is, in quarters of a mesh unit: whole numbers shrink well.
+/// A move of the handle relative to its position, in quarters of a mesh unit: whole numbers shrink well.
 struct Hand {
   std::uint32_t element;  // modulo the number of elements
   int x, y, z;
@@ -34,7 +34,7 @@ inline PassCount move_by(Solver& solver, const Mesh& mesh, ElementId element, co
   return solver.move(element, position_of(solver, mesh, element) + by, trace);
 }
 
-/// Up to `reach` quarters of a mesh unit along each axis.
+/// Draws moves of up to `reach` quarters of a mesh unit along each axis.
 inline rc::Gen<Hand> any_hand(int reach = 20) {
   const auto quarters = rc::gen::inRange(-reach, reach + 1);
   return rc::gen::construct<Hand>(rc::gen::inRange<std::uint32_t>(0, 1000), quarters, quarters, quarters);
@@ -43,7 +43,7 @@ inline rc::Gen<std::vector<Hand>> any_hands(int reach = 20) {
   return rc::gen::container<std::vector<Hand>>(any_hand(reach));
 }
 
-/// Softness in hundredths, over all that is admitted and useful.
+/// Draws softness in hundredths, over the accepted and useful range.
 inline rc::Gen<LinkSoftness> any_link_softness() {
   return rc::gen::map(rc::gen::tuple(rc::gen::inRange(0, 101), rc::gen::inRange(100, 301), rc::gen::inRange(0, 101)),
                       [](const auto& hundredths) {
@@ -52,7 +52,7 @@ inline rc::Gen<LinkSoftness> any_link_softness() {
                       });
 }
 
-/// Any of those that work on every mesh and take one candidate after another.
+/// Draws an algorithm that works on every mesh and processes one candidate after another.
 inline rc::Gen<Algorithm> any_algorithm() {
   return rc::gen::element(Algorithm::generalized, Algorithm::spiral, Algorithm::natural_queue, Algorithm::enhanced);
 }
@@ -67,7 +67,7 @@ inline const MeshFamily& draw_family() {
   return family;
 }
 
-/// Uncut lattices without diagonals, in each space dimension that holds them.
+/// Draws a lattice without cuts and diagonals, in any space dimension that it fits.
 inline MeshPointer draw_grid() {
   static const std::vector<MeshPointer> grids{
       make_mesh(MeshKind::line, {20, 1, 1}),   make_mesh(MeshKind::line, {20, 1, 1}, 3),
@@ -77,7 +77,7 @@ inline MeshPointer draw_grid() {
   return grids[*rc::gen::inRange<std::size_t>(0, grids.size())];
 }
 
-/// Any softness for all links, and others for some of them.
+/// Draws a softness for all links, and others for some of them.
 inline Softness draw_softness(const Mesh& mesh) {
   Softness softness{*any_link_softness(), {}};
   const auto some = *rc::gen::container<std::vector<std::pair<LinkId, LinkSoftness>>>(

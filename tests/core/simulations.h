@@ -9,7 +9,7 @@ namespace chainmail::test {
 
 inline void carry_out(Simulation& simulation, const Command& command) { simulation.apply(command); }
 
-/// Exchanges the object with the one kept under a name, as undo and redo do.
+/// Exchanges the state of the object with a kept state, like undo and redo.
 inline void exchange(Simulation& simulation, commands::StateId state) {
   constexpr commands::StateId before = 1'000'000, after = before + 1;
   carry_out(simulation, commands::KeepState{before});
@@ -30,13 +30,13 @@ inline Point position_of(const Simulation& simulation, ElementId element) {
   return position_of(simulation.solver(), simulation.mesh(), element);
 }
 
-/// Grabs an element and drags it from where it is.
+/// Grabs an element and drags it from its position.
 inline void drag_by(Simulation& simulation, ElementId element, const Point& by) {
   carry_out(simulation, commands::Grab{element});
   carry_out(simulation, commands::Drag{position_of(simulation, element) + by});
 }
 
-/// All that a command may change and a user may see of it.
+/// Everything that a command may change and that a user may see.
 struct SavedState {
   explicit SavedState(const Simulation& simulation)
       : mesh(simulation.mesh_pointer()),
@@ -49,7 +49,7 @@ struct SavedState {
         relaxing(simulation.statistics().relaxing),
         valid(simulation.valid()) {}
 
-  /// The same object: mesh, positions to the bit, cuts and softness.
+  /// Returns true for the same object: mesh, positions to the bit, cuts and softness.
   bool same_object(const SavedState& other) const {
     return mesh == other.mesh && same_bits(positions, other.positions) && cuts == other.cuts &&
            softness == other.softness;

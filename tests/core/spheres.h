@@ -7,7 +7,8 @@
 
 namespace chainmail::test {
 
-/// A sphere about the origin: an octahedron, each face parted into n² triangles, all as seen from outside.
+/// A sphere about the origin: an octahedron with each face split into n² triangles, counterclockwise as seen from
+/// outside.
 inline MeshParts sphere_parts(int n, double radius = 1) {
   MeshParts parts;
   std::map<std::array<int, 3>, ElementId> ids;
@@ -38,7 +39,7 @@ inline MeshParts sphere_parts(int n, double radius = 1) {
   return parts;
 }
 
-/// Both objects as one, the second moved.
+/// Returns both objects as one, with the second one moved.
 inline MeshParts together(MeshParts one, const MeshParts& other, const Point& by = Point::Zero()) {
   const auto first = static_cast<ElementId>(one.rest.size());
   for (const Point& at : other.rest) {

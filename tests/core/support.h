@@ -17,7 +17,7 @@
 
 namespace chainmail {
 
-// RapidCheck and Qt Test compare and print these.
+// RapidCheck and Qt Test use these to compare and print.
 inline bool operator==(const TraceRow& a, const TraceRow& b) {
   return a.element == b.element && a.sponsor == b.sponsor && a.moved == b.moved;
 }
@@ -31,7 +31,7 @@ inline MeshPointer make_mesh(MeshKind kind, std::array<std::uint32_t, 3> size, s
   return generate({kind, size, spacing, space});
 }
 
-/// Every carried coordinate, element by element. Float widens to double one to one.
+/// Returns all coordinates that exist, element by element. Float converts to double exactly.
 inline std::vector<double> positions_of(const Solver& solver, const Mesh& mesh) {
   std::vector<double> positions(mesh.rest.size());
   solver.copy_positions(std::span(positions));
@@ -52,7 +52,7 @@ inline Point position_of(const Solver& solver, const Mesh& mesh, ElementId eleme
   return mesh.to_point(carried.data());
 }
 
-/// The largest step of any element on any axis between two states (mesh units).
+/// Returns the largest step of any element on any axis between two states (mesh units).
 inline double largest_step(const std::vector<double>& before, const std::vector<double>& after) {
   double largest = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -65,7 +65,7 @@ inline double largest_coordinate(const std::vector<double>& positions) {
   return largest_step(std::vector<double>(positions.size()), positions);
 }
 
-/// Every algorithm that works on this mesh.
+/// Returns all algorithms that work on this mesh.
 inline std::vector<AlgorithmInfo> algorithms_for(const Mesh& mesh) {
   std::vector<AlgorithmInfo> all(algorithms().begin(), algorithms().end());
   std::erase_if(all, [&](const AlgorithmInfo& one) { return !fits(one.algorithm, mesh); });
@@ -74,17 +74,18 @@ inline std::vector<AlgorithmInfo> algorithms_for(const Mesh& mesh) {
 
 inline double half_ulp(Precision precision) { return precision == Precision::single_precision ? 0x1p-24 : 0x1p-53; }
 
-/// Largest displacement from rest along an axis (mesh units).
+/// Returns the largest displacement from rest along an axis (mesh units).
 inline double largest_displacement(const Mesh& mesh, const std::vector<double>& positions) {
   return largest_step(mesh.rest, positions);
 }
 
-/// A uniform number: the same on every machine, which the standard's distributions do not promise.
+/// Draws a uniform number that is the same on every machine. The distributions of the standard library do not promise
+/// this.
 inline double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// The intersection, on one axis, of the valid regions about an element's neighbours (mesh units).
+/// Returns the intersection of the valid regions about an element's neighbours, on one axis (mesh units).
 inline std::array<double, 2> valid_interval(const Mesh& mesh, const Softness& softness,
                                             const std::vector<double>& positions, ElementId element, int k) {
   std::array<double, 2> interval{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -104,8 +105,8 @@ inline std::array<double, 2> valid_interval(const Mesh& mesh, const Softness& so
   return interval;
 }
 
-/// A state in which every link is valid with room to spare, whatever the mesh: from rest, element after
-/// element goes somewhere inside all its neighbours' regions, `reach` (0 to 1) of the way to their edge.
+/// Returns a random state in which every link is valid with room to spare, for any mesh. Starting from rest, each
+/// element moves to a point inside the regions of all its neighbours, `reach` (0 to 1) of the way to their border.
 inline std::vector<double> random_valid_state(const Mesh& mesh, const Softness& softness, double reach,
                                               std::mt19937_64& random) {
   std::vector<double> positions = mesh.rest;

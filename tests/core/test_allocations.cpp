@@ -1,4 +1,4 @@
-// A pass takes no memory after its first ones, whatever the algorithm: nor does relaxation.
+// Checks that neither a pass nor relaxation allocates memory after warm-up, with any algorithm.
 
 #include <QTest>
 #include <numbers>
@@ -14,8 +14,9 @@ namespace {
 constexpr LinkSoftness stiff{0.999, 1.001, 0.0005};
 constexpr int rounds_to_warm_up = 10;
 
-/// Moves an element round a circle and counts what each round takes from the heap. The first rounds are not
-/// counted: lists grow in them, that of Generalized still in the third, as it does not end where it began.
+/// Moves an element around a circle and returns the number of allocations. The first rounds are not counted: lists grow
+/// in them. The list of Generalized still grows in the third round, because that algorithm does not return to its
+/// start.
 std::uint64_t taken_by_drag(Solver& solver, const Mesh& mesh, ElementId element, double radius) {
   const auto round = [&] {
     for (int i = 0; i < 16; ++i) {

@@ -23,7 +23,7 @@ QString refused(const MeshPointer& mesh, const std::vector<ElementId>& pins, con
 
 }  // namespace
 
-/// Closed surfaces under a hand, by boundary elements.
+/// Boundary elements on closed surfaces: the answer to a handle.
 class BoundaryElementsTest : public QObject {
   Q_OBJECT
 
@@ -43,7 +43,7 @@ class BoundaryElementsTest : public QObject {
   void loose_parts_are_refused();
 };
 void BoundaryElementsTest::cavities_and_turned_triangles_are_found() {
-  // A ball in a cavity of a ball, and another ball beside them; every other triangle the wrong way round.
+  // A ball in a cavity of a ball, and another ball next to them. Every other triangle has the wrong orientation.
   MeshParts parts = together(together(sphere_parts(3, 3), sphere_parts(3, 2)), sphere_parts(2, 1));
   parts = together(parts, sphere_parts(2), Point(8, 0, 0));
   for (std::size_t t = 0; t < parts.triangles.size(); t += 2) {
@@ -61,7 +61,7 @@ void BoundaryElementsTest::cavities_and_turned_triangles_are_found() {
   }
 }
 
-/// A hollow ball in a hollow ball: each cavity is of the ball that it lies in, not of the outer one.
+/// A hollow ball inside a hollow ball: each cavity belongs to the ball around it, not to the outer one.
 void BoundaryElementsTest::a_cavity_belongs_to_the_innermost_solid() {
   const auto mesh = build_mesh(
       together(together(sphere_parts(2, 4), sphere_parts(2, 3)), together(sphere_parts(2, 2), sphere_parts(2, 1))));
@@ -92,7 +92,7 @@ void BoundaryElementsTest::the_hand_and_the_pins_are_where_they_are() {
     solver->move(std::array{to.x(), to.y(), to.z()});
     answers.push_back(solver->displacements());
     for (int k = 0; k < 3; ++k) {
-      // The way from where the pins had it is added to that place: a rounding.
+      // The displacement from the position that the pins gave it is added to that position, which rounds.
       QVERIFY(std::abs(answers.back()[3 * top.front() + std::size_t(k)] - to[k]) < 1e-15);
       for (const ElementId pin : pins) {
         QCOMPARE(answers.back()[3 * pin + std::size_t(k)], rest[3 * pin + std::size_t(k)]);
@@ -103,7 +103,7 @@ void BoundaryElementsTest::the_hand_and_the_pins_are_where_they_are() {
     QCOMPARE(rest[3 * pin + 1], 0.1);
     QCOMPARE(rest[3 * pin + 2], 0.05 * mesh->rest_position(pin).x());
   }
-  // From where the pins have all, the third way is the sum of the first two: so is its answer.
+  // Measured from the answer to the pins, the third move is the sum of the first two, and so is its answer.
   for (std::size_t i = 0; i < rest.size(); ++i) {
     QVERIFY(std::abs(answers[0][i] + answers[1][i] - rest[i] - answers[2][i]) < 1e-12);
   }
@@ -111,12 +111,12 @@ void BoundaryElementsTest::the_hand_and_the_pins_are_where_they_are() {
   QVERIFY(same_bits(solver->displacements(), rest));
 }
 
-/// With every element pinned each triangle moves by the mean of its corners. A corner moves by the mean of the
-/// triangles about it, weighted by area: otherwise many small triangles on one side of it would pull it their way.
+/// If every element is pinned, each triangle moves by the mean of its corners. A corner moves by the mean of the
+/// triangles around it, weighted by area: otherwise many small triangles on one side would dominate.
 void BoundaryElementsTest::corners_average_their_triangles_by_area() {
   MeshParts parts = sphere_parts(3);
   for (Point& at : parts.rest) {
-    at = at.cwiseProduct(Point(1, 3, 0.4));  // so the triangles about a corner have different areas
+    at = at.cwiseProduct(Point(1, 3, 0.4));  // so the triangles around a corner have different areas
   }
   const auto mesh = build_mesh(std::move(parts));
   const auto displacement = [&](ElementId e) {
@@ -143,7 +143,7 @@ void BoundaryElementsTest::corners_average_their_triangles_by_area() {
   }
 }
 
-/// Single pins hold the triangles about them although the other corners of these are free.
+/// Single pins hold the triangles around them, although the other corners of these are free.
 void BoundaryElementsTest::pins_that_move_alike_take_the_solid_along() {
   const auto mesh = sphere(4);
   const Point by(0.3, -0.2, 0.1);
@@ -159,7 +159,7 @@ void BoundaryElementsTest::pins_that_move_alike_take_the_solid_along() {
   QVERIFY(furthest_from(*mesh, solver->displacements(), shift) < 1e-10);
 }
 
-/// Two balls that touch in one element, each pinned on its far side.
+/// Two balls that touch in one element. Each is pinned on its far side.
 void BoundaryElementsTest::a_corner_of_two_solids_is_halfway_between_them() {
   const MeshParts ball = sphere_parts(2);
   const auto find = [&](const Point& at) {
@@ -199,7 +199,7 @@ void BoundaryElementsTest::a_corner_of_two_solids_is_halfway_between_them() {
   }
 }
 
-/// Its patch prescribed by pins is another system of equations with the same answer.
+/// Prescribing the facets of the handle by pins is another system of equations with the same answer.
 void BoundaryElementsTest::the_hand_does_what_pins_would() {
   const auto mesh = sphere(4);
   const auto bottom = layer(*mesh, *find_side("bottom"));
@@ -223,7 +223,7 @@ void BoundaryElementsTest::the_hand_does_what_pins_would() {
   }
 }
 
-/// Single pins hold all triangles about them: here, all that the hand holds.
+/// Single pins hold all triangles around them. Here these are all triangles that the handle holds.
 void BoundaryElementsTest::the_hand_wins_over_pins() {
   const auto octahedron = sphere(1);
   const ElementId top = layer(*octahedron, *find_side("top")).front(),
@@ -244,7 +244,7 @@ void BoundaryElementsTest::the_hand_wins_over_pins() {
 
 void BoundaryElementsTest::parts_move_by_themselves() {
   MeshParts parts = together(sphere_parts(2), sphere_parts(2), Point(3, 0, 0));
-  parts.rest.emplace_back(0, 0, 0);  // no triangle holds it
+  parts.rest.emplace_back(0, 0, 0);  // not the corner of a triangle
   const auto two = build_mesh(std::move(parts)), one = sphere(2);
   const auto count = one->element_count();
   auto pins = layer(*one, *find_side("bottom"));
@@ -276,8 +276,8 @@ void BoundaryElementsTest::parts_move_by_themselves() {
   QCOMPARE(beside->displacements()[3 * top], 0.0);
 }
 
-/// A cube between two plates, one of which moves: on the surface alone, and filled with tetrahedra. Both come closer to
-/// what is true, so to each other, with the size of their elements: constant elements are the coarser ones.
+/// A cube between two plates, one of which moves, computed on its surface and filled with tetrahedra. Both come closer
+/// to the exact answer, and so to each other, as the elements become smaller. Constant elements are less accurate.
 void BoundaryElementsTest::it_agrees_with_finite_elements() {
   const Field plates = [](const Point& at) { return at.x() > 0 ? Point(0.1, 0.05, -0.02) : Point(Point::Zero()); };
   std::vector<double> sizes, errors;
@@ -295,8 +295,8 @@ void BoundaryElementsTest::it_agrees_with_finite_elements() {
                               }) /
                      plates(Point(1, 0, 0)).norm());
   }
-  qInfo() << "boundary elements beside finite elements: order" << order_of(sizes, errors) << "differences over the move"
-          << errors;
+  qInfo() << "boundary elements compared with finite elements: order" << order_of(sizes, errors)
+          << "differences over the move" << errors;
   QVERIFY(order_of(sizes, errors) > 0.8);
   QVERIFY(errors.back() < 0.05);
 }
@@ -327,7 +327,7 @@ void BoundaryElementsTest::wrong_surfaces_are_refused() {
   doubled.triangles.resize(1);
   doubled.triangles.push_back(doubled.triangles[0]);
   QVERIFY(refused(build_mesh(doubled), pins).contains("encloses no volume"));
-  // The projective plane of six corners: no edge is open, and no side is the inside.
+  // The projective plane with six corners: no edge is open, and there is no inside.
   MeshParts one_sided;
   one_sided.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0.3}, {0.4, 1, 1}};
   one_sided.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1},

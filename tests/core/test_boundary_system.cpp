@@ -13,7 +13,7 @@ namespace {
 
 constexpr double poisson = 0.3;
 
-/// What integrals are by definition: the kernels at the middles of ever smaller parts of a facet.
+/// The integrals by their definition: the sum of the kernels at the centres of smaller and smaller parts of a facet.
 KelvinIntegrals summed(const Facet& facet, const Point& point, int depth) {
   if (depth == 0) {
     const Point r = facet.centroid - point;
@@ -47,14 +47,14 @@ Eigen::VectorXd at_facets(const std::vector<Facet>& facets, const std::function<
   return values;
 }
 
-/// The tractions that a displacement of the whole surface takes.
+/// Returns the tractions that cause a displacement of the whole surface.
 Eigen::VectorXd tractions_for(const std::vector<Facet>& facets, const std::function<Point(const Facet&)>& field) {
   const BoundarySystem system(facets, std::vector<bool>(facets.size(), true), poisson);
   return system.solve(at_facets(facets, field)).tractions;
 }
 
-/// Largest error of displacements over the largest displacement, where tractions are given on most facets: the
-/// displacement is where x, y and z are all above 0, so that the body stays.
+/// Returns the largest error of displacements over the largest displacement. Tractions are given on most facets, and
+/// displacements where x, y and z are all above 0, so that the body cannot move as a whole.
 double error_under(const std::vector<Facet>& facets, const std::function<Point(const Facet&)>& displacement,
                    const std::function<Point(const Facet&)>& traction) {
   std::vector<bool> known;
@@ -70,12 +70,12 @@ double error_under(const std::vector<Facet>& facets, const std::function<Point(c
   return (fields.displacements - right).norm() / right.norm();
 }
 
-/// Young's modulus 1: what tractions have to be divided by.
+/// The shear modulus for Young's modulus 1: tractions are divided by it.
 constexpr double shear_modulus = 1 / (2 * (1 + poisson));
 
 }  // namespace
 
-/// The equations of boundary elements against what is known without them.
+/// Checks the equations of boundary elements against known solutions.
 class BoundarySystemTest : public QObject {
   Q_OBJECT
 
@@ -90,7 +90,7 @@ class BoundarySystemTest : public QObject {
   void a_hollow_sphere_under_pressure_converges();
 };
 
-/// The traction kernel from the displacement kernel by differences.
+/// Checks the traction kernel against differences of the displacement kernel.
 void BoundarySystemTest::kernels_obey_hookes_law() {
   const Point r(0.7, -0.4, 0.9), normal = Point(1, 2, -0.5).normalized();
   const double lambda = 2 * poisson / (1 - 2 * poisson), step = 1e-5;
@@ -103,7 +103,7 @@ void BoundarySystemTest::kernels_obey_hookes_law() {
     }
     const Eigen::Matrix3d stress =
         lambda * gradient.trace() * Eigen::Matrix3d::Identity() + gradient + gradient.transpose();
-    // Differences of this step are wrong by its square.
+    // The error of differences is the square of their step.
     QVERIFY((stress * normal - kelvin_traction(r, normal, poisson).row(force).transpose()).norm() < 1e-9);
   }
 }
@@ -116,11 +116,11 @@ void BoundarySystemTest::integrals_are_those_of_the_kernels() {
        {Point(0.2, 0.3, 0.5), Point(0.5, 0.4, -0.3), Point(3, 2, -1), Point(40, -60, 20), beside}) {
     const auto [displacement, traction] = integrate_kelvin(facet, point, poisson);
     const auto sum = summed(facet, point, 6);
-    // The sums are wrong by the square of their parts' size, 1 / 64, over the distance.
+    // The error of the sums is the square of their parts' size, 1 / 64, over the distance.
     QVERIFY((displacement - sum.displacement).norm() < 5e-4 * displacement.norm());
     QVERIFY((traction - sum.traction).norm() < 5e-4 * traction.norm());
   }
-  // On the facet the displacement is continuous, and the traction jumps by the force.
+  // On the facet, the displacement is continuous, and the traction jumps by the force.
   const auto on = integrate_kelvin(facet, facet.centroid, poisson);
   const auto above = integrate_kelvin(facet, facet.centroid + 1e-7 * normal, poisson);
   const auto below = integrate_kelvin(facet, facet.centroid - 1e-7 * normal, poisson);
@@ -129,8 +129,8 @@ void BoundarySystemTest::integrals_are_those_of_the_kernels() {
   QVERIFY((above.traction - below.traction - Eigen::Matrix3d::Identity()).norm() < 1e-6);
 }
 
-/// The tractions on a closed surface carry a force inside it, and are in balance where the force is outside. Exactly,
-/// whatever the facets: this is what the diagonal of the equations rests on.
+/// The tractions on a closed surface balance a force inside it, and are in balance with themselves if the force is
+/// outside. This is exact for any facets, and the diagonal of the equations relies on it.
 void BoundarySystemTest::a_point_force_is_balanced() {
   const auto facets = facets_of(sphere_parts(2));
   const auto carried = [&](const Point& force) {
@@ -168,7 +168,7 @@ void BoundarySystemTest::a_rigid_motion_takes_no_tractions() {
   for (const int n : {2, 6}) {
     const auto facets = facets_of(sphere_parts(n));
     const auto moved = tractions_for(facets, [](const Facet&) { return Point(1, -2, 0.5); });
-    QVERIFY(moved.cwiseAbs().maxCoeff() < 1e-10);  // the condition of the equations times rounding
+    QVERIFY(moved.cwiseAbs().maxCoeff() < 1e-10);  // condition number of the equations times rounding
     const auto turned =
         tractions_for(facets, [](const Facet& facet) { return Point(-facet.centroid.y(), facet.centroid.x(), 0); });
     sizes.push_back(1.0 / n);
@@ -178,7 +178,7 @@ void BoundarySystemTest::a_rigid_motion_takes_no_tractions() {
   QVERIFY(order_of(sizes, errors) > 0.8);
 }
 
-/// Constant elements hold a strain to the order of their size.
+/// With constant elements, the error of a uniform strain shrinks in proportion to their size.
 void BoundarySystemTest::a_uniform_strain_takes_its_tractions() {
   Eigen::Matrix3d strain;
   strain << 0.2, 0.05, -0.1, 0.05, -0.1, 0.08, -0.1, 0.08, 0.15;
@@ -196,7 +196,7 @@ void BoundarySystemTest::a_uniform_strain_takes_its_tractions() {
   QVERIFY(order_of(sizes, errors) > 0.8);
 }
 
-/// Lamé 1852: u = -p (1 - 2ν) r / E.
+/// Solution of Lamé (1852): u = -p (1 - 2ν) r / E.
 void BoundarySystemTest::a_sphere_under_pressure_converges() {
   std::vector<double> sizes, errors;
   for (const int n : {2, 6}) {
@@ -210,7 +210,8 @@ void BoundarySystemTest::a_sphere_under_pressure_converges() {
   QVERIFY(errors.back() < 0.05);
 }
 
-/// Lamé: u = p a³ / (b³ - a³) ((1 - 2ν) r + (1 + ν) b³ / (2 r²)) / E for a pressure inside, from a to b.
+/// Solution of Lamé (1852): u = p a³ / (b³ - a³) ((1 - 2ν) r + (1 + ν) b³ / (2 r²)) / E for a pressure inside, radii a
+/// to b.
 void BoundarySystemTest::a_hollow_sphere_under_pressure_converges() {
   constexpr double inner = 0.5;
   const auto displacement = [](const Facet& facet) {

@@ -16,7 +16,7 @@
 using namespace chainmail;
 using chainmail::test::make_mesh;
 
-/// Calibration: the search, and what it finds on a tiny sheet.
+/// Calibration: the search, and its result on a tiny sheet.
 class CalibrateTest : public QObject {
   Q_OBJECT
 
@@ -74,10 +74,10 @@ void CalibrateTest::an_optimum_is_found_within_its_bounds() {
   const Optimum optimum = find_optimum(search, {0, 1}, {1, 3}, {1, 1}, 200, [&](const std::vector<double>& at) {
     ++asked;
     [&] { QVERIFY(at[0] >= 0 && at[0] <= 1 && at[1] >= 1 && at[1] <= 3); }();
-    return std::abs(at[0] - x) + std::abs(at[1] - y);  // no derivative at its least
+    return std::abs(at[0] - x) + std::abs(at[1] - y);  // not differentiable at its minimum
   });
   QVERIFY(asked <= 200);
-  // A hundredth of the ranges: what 200 evaluations reach with ease, and a grid of as many would not.
+  // A hundredth of the ranges: 200 evaluations reach this easily, while a grid of 200 points would not.
   QVERIFY(std::abs(optimum.at[0] - std::clamp(x, 0.0, 1.0)) < 0.01);
   QVERIFY(std::abs(optimum.at[1] - std::clamp(y, 1.0, 3.0)) < 0.02);
 }
@@ -98,8 +98,8 @@ void CalibrateTest::drags_are_those_of_a_hand_data() {
   QTest::newRow("large solid") << make_mesh(MeshKind::tetra, {6, 5, 5}, {}, 3);
 }
 
-/// By 5 to 20 % of the object's size, in equal steps, of an element that a hand reaches and that is not beside the
-/// pins.
+/// Each drag has a length of 5 to 20 % of the object's size and equal steps. Its element is on the surface and not next
+/// to the pins.
 void CalibrateTest::drags_are_those_of_a_hand() {
   QFETCH(MeshPointer, mesh);
   CalibrationOptions options;
@@ -128,7 +128,7 @@ void CalibrateTest::drags_are_those_of_a_hand() {
 
 namespace {
 
-/// A sheet that is cut from the bottom to its middle, of another material than the default one.
+/// A sheet that is cut from the bottom to its middle, with a material other than the default.
 CalibrationOptions cut_sheet(Cuts& cuts) {
   for (const auto& [a, b] : {std::pair(2U, 3U), {7U, 8U}}) {
     cuts.cut(*find_link(*sheet, a, b));
@@ -152,7 +152,7 @@ void CalibrateTest::each_drag_has_its_reference_solution() {
   }
 }
 
-/// Carries the drags out once more, with the softness, the sweeps and the scheme that were found.
+/// Runs the drags again, with the softness, the number of sweeps and the scheme of the result.
 void CalibrateTest::the_residuals_are_those_of_the_result() {
   for (const RelaxationScheme scheme : {RelaxationScheme::mean, RelaxationScheme::link}) {
     Cuts cuts(sheet);
@@ -237,7 +237,7 @@ void CalibrateTest::its_residuals_are_those_of_its_softness_and_sweeps() {
   CalibrationOptions options = quick();
   options.algorithm = Algorithm::exact;
   const CalibrationResult result = found(options);
-  QVERIFY(result.sweeps > 0);  // relaxation helps here, so what it does must count
+  QVERIFY(result.sweeps > 0);  // relaxation must help here, so that its effect counts
   ReferenceSolver reference({sheet, Cuts(sheet), options.pins, std::vector<double>(2 * options.pins.size(), 0.0), {}});
   const auto measured = [&](const CalibrationDrag& drag, const LinkSoftness& softness, int sweeps) {
     const Point way = drag.target - sheet->rest_position(drag.element);
@@ -260,7 +260,7 @@ void CalibrateTest::its_residuals_are_those_of_its_softness_and_sweeps() {
 }
 
 void CalibrateTest::drags_go_as_far_as_documented() {
-  // 5 to 20 % of the sheet's width of 4, whatever the seed.
+  // 5 to 20 % of the sheet's width of 4, for any seed.
   double least = 4, most = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     CalibrationOptions options = quick();
@@ -309,7 +309,7 @@ void CalibrateTest::it_is_the_same_each_time() {
   other.seed = 2;
   const CalibrationResult second = found(other);
   QVERIFY(second.fitted.drags[0].target != first.fitted.drags[0].target);
-  // Pins in another order, or twice, are the same pins.
+  // Pins in another order or given twice are the same pins.
   CalibrationOptions same = quick();
   std::ranges::reverse(same.pins);
   same.pins.push_back(same.pins.front());

@@ -14,7 +14,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// The factorization of stiffness against a dense one, and its order.
+/// Checks the factorization of stiffness matrices against a dense one, and the order of elimination.
 class CholeskyTest : public QObject {
   Q_OBJECT
 
@@ -30,7 +30,7 @@ class CholeskyTest : public QObject {
 
 namespace {
 
-/// Positive definite, of a random pattern: some columns alone, some nearly full.
+/// Returns a positive definite matrix with a random pattern: some columns have one entry, some are nearly full.
 Eigen::MatrixXd some_matrix(int size, int entries, std::mt19937_64& random) {
   Eigen::MatrixXd half = Eigen::MatrixXd::Zero(size, size);
   for (int i = 0; i < entries; ++i) {
@@ -44,7 +44,8 @@ Cholesky::Sparse lower_of(const Eigen::MatrixXd& matrix) {
   return Eigen::MatrixXd(matrix.triangularView<Eigen::Lower>()).sparseView();
 }
 
-/// Elements that share a cell: an element's neighbours in the pattern of the stiffness matrix.
+/// Returns, for each element, the elements that share a cell with it: its neighbours in the pattern of the stiffness
+/// matrix.
 std::vector<std::set<ElementId>> sharing_a_cell(const Simplices& simplices, ElementId count) {
   std::vector<std::set<ElementId>> all(count);
   for (std::size_t s = 0; s < simplices.count(); ++s) {
@@ -56,20 +57,21 @@ std::vector<std::set<ElementId>> sharing_a_cell(const Simplices& simplices, Elem
   return all;
 }
 
-/// The number of entries of each column of the factor, the diagonal included: elements are eliminated one by one, and
-/// the neighbours of an eliminated element become neighbours of each other. It is enough to tell them to the first one.
+/// Returns the number of entries of each column of the factor, including the diagonal. Elements are eliminated one by
+/// one, and the neighbours of an eliminated element become neighbours of each other. It is enough to pass them to the
+/// first of them.
 std::vector<std::size_t> factor_columns(const Simplices& simplices, ElementId count,
                                         const std::vector<ElementId>& order) {
-  std::vector<std::size_t> place(count), lengths;
+  std::vector<std::size_t> position(count), lengths;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    place[order[i]] = i;
+    position[order[i]] = i;
   }
   const auto sharing = sharing_a_cell(simplices, count);
   std::vector<std::vector<std::size_t>> below(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     auto& rows = below[i];
     for (const ElementId e : sharing[order[i]]) {
-      rows.push_back(place[e]);
+      rows.push_back(position[e]);
     }
     std::ranges::sort(rows);
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
@@ -84,7 +86,7 @@ std::vector<std::size_t> factor_columns(const Simplices& simplices, ElementId co
   return lengths;
 }
 
-/// Multiplications and additions of the factorization: the squares of the columns' lengths.
+/// Multiplications and additions of the factorization: the sum of the squares of the column lengths.
 double operations(const std::vector<std::size_t>& columns) {
   return std::transform_reduce(columns.begin(), columns.end(), 0.0, std::plus(),
                                [](std::size_t one) { return double(one) * double(one); });
@@ -117,7 +119,7 @@ void CholeskyTest::solves_as_a_dense_one_does() {
     cholesky.analyze(lower_of(matrix));
     QVERIFY(cholesky.factor(lower_of(matrix)));
     const Eigen::MatrixXd expected = matrix.llt().solve(right);
-    // The matrices are well conditioned: both are right to some roundings.
+    // The matrices are well conditioned, so both solutions are exact up to some roundings.
     QVERIFY((cholesky.solve(right) - expected).norm() < 1e-11 * (1 + expected.norm()));
   }
 }
@@ -158,14 +160,14 @@ void CholeskyTest::every_element_with_a_cell_is_ordered_once() {
   }
 }
 
-/// Without the separator, which comes last, no cell joins the two halves: their columns do not fill in each other.
+/// Without the separator, which comes last, no cell joins the two halves, so their columns do not fill each other.
 void CholeskyTest::the_last_elements_part_the_halves() {
   constexpr std::uint32_t side = 16;
   const auto mesh = make_mesh(MeshKind::cloth, {side, side, 1});
   const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
   auto rest = dissect(simplices, *mesh);
   QCOMPARE(rest.size(), std::size_t(side * side));
-  rest.resize(rest.size() - side);  // one line across the square is enough to part it
+  rest.resize(rest.size() - side);  // one line across the square separates the halves
   const auto sharing = sharing_a_cell(simplices, mesh->element_count());
   std::set<ElementId> left(rest.begin(), rest.end()), half;
   std::vector<ElementId> waiting{rest.front()};
@@ -180,7 +182,7 @@ void CholeskyTest::the_last_elements_part_the_halves() {
   QVERIFY(half.size() >= rest.size() / 3 && left.size() >= rest.size() / 3);
 }
 
-/// George 1973: nested dissection of a square of n x n elements leaves 31/4 n² log2 n entries in the factor at most.
+/// Nested dissection of a square of n x n elements leaves at most 31/4 n² log2 n entries in the factor (George 1973).
 void CholeskyTest::a_square_fills_in_as_little_as_dissection_promises() {
   for (const std::uint32_t side : {32U, 64U}) {
     const auto mesh = make_mesh(MeshKind::cloth, {side, side, 1});
@@ -191,7 +193,7 @@ void CholeskyTest::a_square_fills_in_as_little_as_dissection_promises() {
   }
 }
 
-/// At 2,744 elements by about a third; the more elements, the greater the gain.
+/// At 2,744 elements dissection saves about a third. The gain grows with the number of elements.
 void CholeskyTest::a_solid_takes_fewer_operations_than_by_minimum_degree() {
   const auto mesh = make_mesh(MeshKind::tetra, {14, 14, 14});
   const Simplices simplices = build_simplices(*mesh, Cuts(mesh));

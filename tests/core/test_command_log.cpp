@@ -6,7 +6,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// One log feeds both panels: the same commands in the same order, and no solver falls behind the hand.
+/// One log sends the same commands in the same order to both panels, and no solver falls behind the handle.
 class CommandLogTest : public QObject {
   Q_OBJECT
 
@@ -27,7 +27,7 @@ struct TwoPanels {
   explicit TwoPanels(const MeshPointer& mesh = make_mesh(MeshKind::grid, {8, 8, 1}),
                      Algorithm algorithm = Algorithm::natural_queue)
       : left(mesh, algorithm, [this] { gate.pass(); }), right(mesh, algorithm, [] {}), log({&left, &right}) {}
-  ~TwoPanels() { gate.open(); }  // or the left one would wait for ever
+  ~TwoPanels() { gate.open(); }  // otherwise the left solver would wait for ever
 
   bool wait_for_passes(std::uint64_t passes) {
     return test::wait_for_passes(left, passes) && test::wait_for_passes(right, passes);
@@ -58,7 +58,7 @@ void CommandLogTest::both_solvers_end_where_a_simulation_ends() {
   const auto all = [&](const Command& command) {
     simulation.apply(command);
     panels.log.post(command);
-    QVERIFY(panels.sample_until_sent());  // or a move might be replaced by a later one
+    QVERIFY(panels.sample_until_sent());  // otherwise a later move might replace this one
   };
   for (int i = 0; i < 60 && !QTest::currentTestFailed(); ++i) {
     all(commands::Grab{static_cast<ElementId>(random() % mesh->element_count())});
@@ -96,7 +96,7 @@ void CommandLogTest::of_several_moves_the_last_is_sent() {
 }
 
 void CommandLogTest::other_commands_follow_the_move_before_them() {
-  // The hand's last move counts, though it was not sampled before the hand let go.
+  // The last move of the handle counts, although it was not sampled before the release.
   TwoPanels panels;
   panels.log.post(commands::Grab{9});
   panels.log.post(commands::Drag{Point(4, 3, 0)});
@@ -117,7 +117,7 @@ void CommandLogTest::a_slider_is_sampled_like_a_move() {
     panels.log.post(commands::SetSoftness{{{0.8, 1.2 + 0.01 * i, 0.1}, {}}});
   }
   QVERIFY(panels.sample_until_sent());
-  QVERIFY(panels.wait_for_passes(2));  // one for the hand, and one that answers the new softness
+  QVERIFY(panels.wait_for_passes(2));  // one for the move, and one that answers the new softness
 }
 
 void CommandLogTest::kinds_keep_their_order() {
@@ -130,7 +130,7 @@ void CommandLogTest::kinds_keep_their_order() {
                                       commands::SetSoftness{{{0.9, 1.1, 0}, {}}},
                                       commands::Drag{Point(5, -4, 0)},
                                       commands::Release{}};
-  for (const Command& command : in_order) {  // none has a next one of its kind, so none is replaced
+  for (const Command& command : in_order) {  // no two commands of one kind follow each other, so none is replaced
     simulation.apply(command);
     panels.log.post(command);
   }
@@ -144,7 +144,7 @@ void CommandLogTest::while_one_solver_is_busy_neither_gets_a_move() {
   panels.gate.close();
   panels.log.post(commands::Grab{9});
   QVERIFY(wait_until([&] { return panels.gate.someone_stands(); }));
-  panels.log.post(commands::Cut{{0}});  // the left one cannot begin it
+  panels.log.post(commands::Cut{{0}});  // the left solver cannot start it
   QVERIFY(!panels.left.idle());
   for (int i = 0; i < 5; ++i) {
     panels.log.post(commands::Drag{Point(i, 7, 0)});
@@ -153,7 +153,7 @@ void CommandLogTest::while_one_solver_is_busy_neither_gets_a_move() {
   }
   QVERIFY(wait_until([&] { return panels.right.idle(); }));
   panels.log.sample();
-  QVERIFY(panels.log.waits());  // the right one is idle, and waits for the left one
+  QVERIFY(panels.log.waits());  // the right solver is idle, and waits for the left one
   QCOMPARE(panels.right.latest_frame().statistics.passes, std::uint64_t{0});
   panels.gate.open();
   QVERIFY(panels.sample_until_sent());

@@ -11,7 +11,7 @@ using namespace chainmail::report;
 using namespace chainmail::report::test;
 using chainmail::test::make_mesh;
 
-/// The experiment: who takes part, and what is measured.
+/// The experiment: its contestants and its measurements.
 class CompareTest : public QObject {
   Q_OBJECT
 
@@ -50,7 +50,7 @@ void CompareTest::exact_is_at_no_distance_from_itself() {
   QCOMPARE(errors.energy_over_exact.value(), 1.0);
   QVERIFY(errors.violation.max < rounding);
   QVERIFY(errors.largest_over_hand.value() <= 1 + rounding);
-  // In float it is near, and not there.
+  // Float is close to double, but not equal.
   QVERIFY(errors.float_to_double.max > 0 && errors.float_to_double.max < 1e-5);
 }
 
@@ -70,7 +70,7 @@ void CompareTest::generalized_leaves_violations() {
 }
 
 void CompareTest::errors_by_hand_on_a_chain() {
-  // 0 goes to -1 in one move: 1 and 2 are carried to 0.2 and 1.4, and 3 to 2.6.
+  // Element 0 moves to -1 in one move. 1 and 2 follow to 0.2 and 1.4, and 3 to 2.6.
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
   const auto result = compare_one(object(line, drag(*line, 0, {-1, 0, 0}, 1)), quick({Algorithm::spiral}));
   const Measurement& measurement = result.entries[0].measurement.value();
@@ -82,7 +82,7 @@ void CompareTest::errors_by_hand_on_a_chain() {
 }
 
 void CompareTest::relaxation_is_made_and_counted() {
-  // One sweep after the move of 0 to -0.3: 1 to 0.85, 2 to 1.925, 3 to 2.925; without it, 1 to 0.9 alone.
+  // One sweep after 0 moved to -0.3: 1 moves to 0.85, 2 to 1.925, 3 to 2.925. Without it, only 1 moves, to 0.9.
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
   const Case one = object(line, drag(*line, 0, {-0.3, 0, 0}, 1));
   const Errors errors = errors_of(one, Algorithm::spiral, 1);
@@ -178,12 +178,12 @@ void CompareTest::three_drags_reach_as_far_as_they_say() {
     }
     return count;
   };
-  // An eighth of 255 and the hand's own; the steps between distances let it be more.
+  // An eighth of 255 elements, and the handle. The steps between the distances allow more.
   QVERIFY(displaced(one.drags[0]) >= 32 && displaced(one.drags[0]) < 128);
   QCOMPARE(displaced(one.drags[1]), 256);
   const auto& back = one.drags[2].commands;
-  const ElementId hand = std::get<commands::Grab>(back.front()).element;
-  QVERIFY(std::get<commands::Drag>(back.back()).target == grid->rest_position(hand));
+  const ElementId handle = std::get<commands::Grab>(back.front()).element;
+  QVERIFY(std::get<commands::Drag>(back.back()).target == grid->rest_position(handle));
   QVERIFY(displaced(one.drags[2]) > 128);  // the object does not spring back by itself
 }
 

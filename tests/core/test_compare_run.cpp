@@ -13,7 +13,7 @@ using namespace chainmail::report;
 using namespace chainmail::report::test;
 using chainmail::test::make_mesh;
 
-/// How the experiment goes: repeated, told, stopped, refused.
+/// How the experiment runs: repetitions, progress, stopping, refusals.
 class CompareRunTest : public QObject {
   Q_OBJECT
 
@@ -55,18 +55,18 @@ void CompareRunTest::stops_between_repetitions() {
   Case one = jittered();
   one.drags.push_back(one.drags[0]);
   auto options = quick();
-  options.repetitions = 1'000'000'000;  // would not end in anybody's lifetime
-  int told = 0;
+  options.repetitions = 1'000'000'000;  // would take years
+  int reported = 0;
   const auto comparison = compare(
       {one}, options,
       [&](double, const std::string&) {
-        if (++told == 10) {
+        if (++reported == 10) {
           stop.request_stop();
         }
       },
       stop.get_token());
   QVERIFY(comparison.stopped);
-  QCOMPARE(told, 10);
+  QCOMPARE(reported, 10);
   QVERIFY(comparison.cases.at(0).drags.empty());
 }
 
@@ -88,32 +88,32 @@ void CompareRunTest::stops_between_sweeps() {
   std::atomic<std::clock_t> asked = 0;
   const std::clock_t begun = std::clock();
   const std::jthread user([&] {
-    // In this program's own time, so that it is at work by then however busy the machine is.
+    // Measured in this program's processor time, so that it is running by then even on a busy machine.
     chainmail::test::wait_until([&] { return std::clock() - begun > CLOCKS_PER_SEC / 30; });
     asked = std::clock();
     stop.request_stop();
   });
-  // So many sweeps would take hours.
+  // This number of sweeps would take hours.
   const auto comparison = compare({one}, quick({Algorithm::exact}, {after_a_move}), {}, stop.get_token());
   QVERIFY(comparison.stopped);
-  // It may still be at the pass before the sweeps. In this program's own time, as others may run.
+  // It may still be in the pass before the sweeps. Processor time, because other programs may run.
   QVERIFY(std::clock() - asked < 2 * CLOCKS_PER_SEC);
 }
 
 void CompareRunTest::progress_goes_from_0_to_1() {
-  std::vector<double> told;
+  std::vector<double> reported;
   compare({jittered(), jittered()}, quick({Algorithm::spiral}), [&](double fraction, const std::string& text) {
-    told.push_back(fraction);
+    reported.push_back(fraction);
     QVERIFY(fraction == 1 || text == "object, drag");
   });
-  QVERIFY(told.size() > 4);
-  QCOMPARE(told.front(), 0.0);
-  QCOMPARE(told.back(), 1.0);
-  QVERIFY(std::is_sorted(told.begin(), told.end()));
+  QVERIFY(reported.size() > 4);
+  QCOMPARE(reported.front(), 0.0);
+  QCOMPARE(reported.back(), 1.0);
+  QVERIFY(std::is_sorted(reported.begin(), reported.end()));
 }
 
 void CompareRunTest::contradicting_pins_are_told() {
-  // Element 1 is pinned where it is dragged to; then 3 is pinned far off, in the same recording.
+  // Element 1 is dragged and pinned there. Then 3 is pinned far away, in the same recording.
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
   RecordedMoves moves = drag(*line, 3, {9, 0, 0}, 1);
   moves.commands.insert(moves.commands.end(), {commands::Release{}, commands::Pin{{0, 3}}, commands::Grab{1},
@@ -121,7 +121,7 @@ void CompareRunTest::contradicting_pins_are_told() {
   Case one = object(line, moves);
   one.pins = {1};
   const auto result = compare_one(one, quick({Algorithm::natural_queue, Algorithm::exact}));
-  // Pinned elements cannot be grabbed, by anyone: all are listed with the reason.
+  // No contestant can grab a pinned element: all are listed with the reason.
   for (const Entry& entry : result.entries) {
     QVERIFY(!entry.measurement && QString::fromStdString(entry.refusal).contains("pinned"));
   }

@@ -6,7 +6,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Cutting, and that uncutting undoes it without a trace.
+/// Cutting, and that uncutting restores the object exactly.
 class CutsTest : public QObject {
   Q_OBJECT
 
@@ -20,7 +20,8 @@ class CutsTest : public QObject {
 
 namespace {
 
-/// The same moves in two solvers: the same bits and the same candidates in the same order?
+/// Makes the same moves in two solvers. Returns true if they give the same bits, and the same candidates in the same
+/// order.
 bool move_alike(Solver& one, Solver& other, const Mesh& mesh, const std::vector<Hand>& hands) {
   for (const Hand& hand : hands) {
     const Point target = position_of(one, mesh, hand.of(mesh)) + hand.by();
@@ -34,7 +35,7 @@ bool move_alike(Solver& one, Solver& other, const Mesh& mesh, const std::vector<
   return true;
 }
 
-/// The elements that links which are not cut join to `start`.
+/// Returns the elements that uncut links join to `start`.
 std::vector<bool> connected_to(const Mesh& mesh, const Cuts& cuts, ElementId start) {
   std::vector<bool> reached(mesh.element_count());
   reached[start] = true;
@@ -101,17 +102,17 @@ void CutsTest::a_cut_link_carries_nothing() {
   const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
   for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
     if (one.algorithm == Algorithm::exact) {
-      continue;  // uncut, it mends the link between the parts: a test of its own
+      continue;  // it repairs the link between the parts after uncutting: another test covers this
     }
     const auto solver = make_solver(mesh, one.algorithm, Precision::double_precision);
     const LinkId middle = *find_link(*mesh, 1, 2);
     solver->cut(std::span(&middle, 1));
     solver->move(0, Point(-5, 0, 0));
-    // 1 follows 0 at a stretch of 1.2; 2 and 3 are another object now.
+    // 1 follows 0 at a stretch of 1.2. 2 and 3 are now another part.
     QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-5, -3.8, 2, 3}));
     solver->uncut(std::span(&middle, 1));
     QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-5, -3.8, 2, 3}));
-    solver->move(0, Point(-5, 0, 0));  // 1 is where it may be, so it wakes nobody
+    solver->move(0, Point(-5, 0, 0));  // 1 is already valid, so nothing else moves
     QCOMPARE(solver->positions()(2, 0), 2.0);
   }
 }
@@ -130,7 +131,7 @@ void CutsTest::disconnected_parts_do_not_move() {
       RC_ASSERT(connected[i / mesh->space_dimension] || before[i] == after[i]);
     }
   };
-  QVERIFY(check_property("what no link joins to the hand stays", holds));
+  QVERIFY(check_property("elements that no link joins to the handle stay", holds));
 }
 
 QTEST_APPLESS_MAIN(CutsTest)

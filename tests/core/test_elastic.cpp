@@ -12,7 +12,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Finite elements against what mechanics knows without them.
+/// Checks finite elements against known solutions of mechanics.
 class ElasticTest : public QObject {
   Q_OBJECT
 
@@ -37,7 +37,7 @@ MeshPointer of_dimension(int dimension) {
                           : jittered(make_mesh(MeshKind::tetra, {4, 4, 3}));
 }
 
-/// Corners of a simplex that are displaced at random, without turning it over.
+/// Returns random displacements of the corners of a simplex that do not invert it.
 CornerDisplacements some_corners(int dimension, std::mt19937_64& random) {
   CornerDisplacements at(dimension, dimension + 1);
   for (double& one : at.reshaped()) {
@@ -58,7 +58,7 @@ void ElasticTest::uniform_strain_is_exact_data() {
   }
 }
 
-/// The patch test: whatever the cells, a field that linear elements hold is found.
+/// The patch test: for any cells, the method finds a field that linear elements can represent.
 void ElasticTest::uniform_strain_is_exact() {
   QFETCH(const int, dimension);
   QFETCH(const int, method);
@@ -67,7 +67,7 @@ void ElasticTest::uniform_strain_is_exact() {
   strain << 0.2, -0.05, 0.1, 0.15, -0.1, 0.02, -0.07, 0.03, 0.12;
   const Field field = [&](const Point& at) { return Point(strain * at); };
   const auto solver = make_elastic(ElasticMethod(method), pinned(mesh, boundary(*mesh), field, 0.35));
-  // Newton ends a step of 1e-9 cells from balance at the latest, and its last step is quadratically better.
+  // Newton's method stops after a step below 1e-9 cells, and that step leaves a quadratically smaller error.
   const Field flat = [&](const Point& at) {
     Point to = field(at);
     for (int k = dimension; k < 3; ++k) {
@@ -96,12 +96,12 @@ void ElasticTest::rigid_motion_costs_nothing() {
       }
     }
     const Newton newton(simplices, lame({3, 0.4}), mesh->element_count(), {}, {});
-    // Young's modulus is 3 and the object a few units large: these are roundings.
+    // Young's modulus is 3 and the object a few units large, so these are roundings.
     QVERIFY(std::abs(newton.energy(displacements)->value) < 1e-12);
     for (const double force : newton.gradient(displacements)) {
       QVERIFY(std::abs(force) < 1e-12);
     }
-    // A linear material knows small turns alone: K (ω × x) = 0.
+    // A linear material resists no infinitesimal rotation: K (ω × x) = 0.
     for (std::size_t s = 0; s < simplices.count(); ++s) {
       CornerVector spin(dimension * (dimension + 1));
       for (int a = 0; a <= dimension; ++a) {
@@ -114,7 +114,8 @@ void ElasticTest::rigid_motion_costs_nothing() {
   }
 }
 
-/// E for a bar, E / (1 − ν²) for a sheet held across, and E (1 − ν) / ((1 + ν)(1 − 2ν)) for a solid held across.
+/// Moduli: E for a bar, E / (1 − ν²) for a sheet that is held laterally, and E (1 − ν) / ((1 + ν)(1 − 2ν)) for a solid
+/// that is held laterally.
 void ElasticTest::stiffness_at_rest_is_that_of_textbooks() {
   constexpr double young = 7, poisson = 0.25;
   const std::array<double, 3> moduli{young, young / (1 - poisson * poisson),
@@ -146,7 +147,7 @@ void ElasticTest::derivatives_are_those_of_differences() {
       const CornerDisplacements at = some_corners(dimension, random);
       const SimplexEnergy here = neo_hookean(simplices, s, at, material, Want::hessian);
       QVERIFY(!here.inverted);
-      constexpr double step = 1e-6;  // the error of central differences is step² against rounding / step: 1e-10
+      constexpr double step = 1e-6;  // the error of central differences is step² and rounding / step: 1e-10
       for (int i = 0; i < dimension * (dimension + 1); ++i) {
         CornerDisplacements forward = at, back = at;
         forward.reshaped()[i] += step;
@@ -161,8 +162,8 @@ void ElasticTest::derivatives_are_those_of_differences() {
   }
 }
 
-/// A cantilever under an end load in plane stress, both ends where Timoshenko and Goodier (1951) have them, its long
-/// sides free: linear elements come closer with the square of their size.
+/// A cantilever under an end load in plane stress (Timoshenko and Goodier 1951). Both ends have the displacements of
+/// that solution, and the long sides are free. The error of linear elements shrinks with the square of their size.
 void ElasticTest::a_bent_sheet_converges() {
   constexpr double length = 8, height = 2, poisson = 0.3;
   const Field field = [](const Point& at) {
@@ -183,7 +184,7 @@ void ElasticTest::a_bent_sheet_converges() {
   QVERIFY(order_of(sizes, errors) > 1.7);
 }
 
-/// Saint-Venant's pure bending of a solid beam, the same way.
+/// The same for a solid beam in pure bending (Saint-Venant).
 void ElasticTest::a_bent_solid_converges() {
   constexpr double poisson = 0.3;
   const Field field = [](const Point& at) {
@@ -201,8 +202,8 @@ void ElasticTest::a_bent_solid_converges() {
   QVERIFY(order_of(sizes, errors) > 1.7);
 }
 
-/// Clamped at one end, in the hand at the other: the line between is the cubic of Euler and Bernoulli, and
-/// Timoshenko's shear, which a length of ten heights makes small, beside it.
+/// A beam that is clamped at one end and grabbed at the other. Its line is the cubic of Euler and Bernoulli plus
+/// Timoshenko's shear, which is small because the length is ten heights.
 void ElasticTest::a_cantilever_bends_as_beams_do() {
   constexpr std::uint32_t parts = 8;
   constexpr double height = 1, length = 10, poisson = 0.3;
@@ -220,11 +221,12 @@ void ElasticTest::a_cantilever_bends_as_beams_do() {
   };
   for (const double x : {2.5, 5.0, 7.5}) {
     const double ratio = deflection(x) / deflection(9) / (beam(x) / beam(9));
-    QVERIFY2(std::abs(ratio - 1) < 0.02, qPrintable(QString::number(ratio)));  // clamping also holds the end's width
+    QVERIFY2(std::abs(ratio - 1) < 0.02,
+             qPrintable(QString::number(ratio)));  // clamping also holds the width of the end
   }
 }
 
-/// The two models part with the square of the hand's way.
+/// The difference between the two models grows with the square of the handle's displacement.
 void ElasticTest::small_moves_are_linear() {
   for (const int dimension : {2, 3}) {
     const MeshPointer mesh = of_dimension(dimension);

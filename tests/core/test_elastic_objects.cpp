@@ -8,7 +8,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Which objects finite elements take, and what they say of the others.
+/// Which objects finite elements accept, and what the messages say about the others.
 class ElasticObjectsTest : public QObject {
   Q_OBJECT
 
@@ -33,7 +33,7 @@ QString sentence(const std::function<void()>& act) {
 
 }  // namespace
 
-/// A grid and a block have links along the axes alone: their squares and cubes are what resists.
+/// A grid and a block have only links along the axes. Their squares and cubes resist deformation.
 void ElasticObjectsTest::a_block_of_links_has_cells() {
   const auto grid = make_mesh(MeshKind::grid, {5, 4, 1}), block = make_mesh(MeshKind::block, {4, 3, 3});
   const Simplices squares = build_simplices(*grid, Cuts(grid)), cubes = build_simplices(*block, Cuts(block));
@@ -42,15 +42,15 @@ void ElasticObjectsTest::a_block_of_links_has_cells() {
   QCOMPARE(std::accumulate(squares.volumes.begin(), squares.volumes.end(), 0.0), 12.0);
   QCOMPARE(std::accumulate(cubes.volumes.begin(), cubes.volumes.end(), 0.0), 12.0);
   Cuts cuts(block);
-  cuts.cut(*find_link(*block, 0, 1));  // on an edge of one cube alone
+  cuts.cut(*find_link(*block, 0, 1));  // an edge of only one cube
   QCOMPARE(build_simplices(*block, cuts).count(), cubes.count() - 6);
 }
 
-/// Neighbours agree on the diagonals of their common side, or a uniform strain would not come out.
+/// Neighbours must agree on the diagonals of their common side, otherwise a uniform strain would not be exact.
 void ElasticObjectsTest::hexahedra_have_cells() {
   const auto block = make_mesh(MeshKind::block, {4, 4, 4});
   MeshParts parts;
-  // Numbered anew at random, so that the lowest corner of a cell is any of them.
+  // Elements are renumbered at random, so that any corner of a cell can have the lowest id.
   std::vector<ElementId> number(block->element_count());
   std::iota(number.begin(), number.end(), 0U);
   std::mt19937_64 random(5);
@@ -128,7 +128,7 @@ void ElasticObjectsTest::a_cut_part_is_named() {
       sentence([&] { make_elastic(ElasticMethod::linear_fem, problem); }).startsWith("the part of element 3: fewer"));
 }
 
-/// The hand is pushed through the wall that holds the object: cells cannot follow without turning over.
+/// The handle is pushed through the wall that holds the object. Cells cannot follow without inverting.
 void ElasticObjectsTest::what_does_not_converge_is_told() {
   const auto mesh = make_mesh(MeshKind::tetra, {4, 3, 3});
   const auto solver = make_elastic(ElasticMethod::neo_hookean, pinned(mesh, boundary(*mesh)));
@@ -139,7 +139,7 @@ void ElasticObjectsTest::what_does_not_converge_is_told() {
   QVERIFY2(remark.startsWith("Newton did not converge in load step "), qPrintable(remark));
   QVERIFY(remark.contains("this is the last converged state"));
   const double reached = solver->displacements()[3 * middle];
-  QVERIFY(reached < 0 && reached > -1);  // the wall stands a spacing away
+  QVERIFY(reached < 0 && reached > -1);  // the wall is one spacing away
   solver->move(std::array{-0.3, 0.0, 0.0});
   QVERIFY(solver->remark().empty());
   QCOMPARE(solver->displacements()[3 * middle], -0.3);

@@ -7,7 +7,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Methods of elasticity as algorithms of a panel: the same commands, the same undo.
+/// Methods of elasticity as algorithms of a panel: they support the same commands and the same undo.
 class ElasticSimulationTest : public QObject {
   Q_OBJECT
 
@@ -36,7 +36,7 @@ class ElasticSimulationTest : public QObject {
   static void every_method() {
     QTest::addColumn<int>("algorithm");
     for (const AlgorithmInfo& one : elastic_algorithms()) {
-      if (one.algorithm != Algorithm::boundary_elements) {  // needs a closed surface, and has tests of its own
+      if (one.algorithm != Algorithm::boundary_elements) {  // needs a closed surface, and has its own tests
         QTest::newRow(one.name.data()) << int(one.algorithm);
       }
     }
@@ -106,11 +106,11 @@ void ElasticSimulationTest::undo_is_exact() {
   bar.apply(commands::RestoreState{1});
   QVERIFY(same_bits(bar.all(), kept));
   bar.drag(44, Point(4, 3, 2));
-  // The same balance again: Newton comes to it within its tolerance of 1e-9 cells.
+  // The same equilibrium again: Newton's method reaches it within its tolerance of 1e-9 cells.
   QVERIFY(largest_step(bar.all(), after) < 1e-8);
 }
 
-/// Free-form deformation goes on from the shape that the object has: after an undo, from the one before.
+/// Free-form deformation continues from the current shape of the object, also after an undo.
 void ElasticSimulationTest::a_drag_after_an_undo_knows_nothing_of_what_was_undone() {
   Bar bar(Algorithm::free_form), never(Algorithm::free_form);
   for (Bar* one : {&bar, &never}) {
@@ -127,11 +127,11 @@ void ElasticSimulationTest::a_drag_after_an_undo_knows_nothing_of_what_was_undon
   never.drag(24, Point(4, 2, 2));
   bar.drag(24, Point(5, 3, 3));
   bar.apply(commands::RestoreState{2});
-  bar.drag(24, Point(4, 2, 2));  // of the element that was held before the undo, too
+  bar.drag(24, Point(4, 2, 2));  // also for the element that was grabbed before the undo
   QVERIFY(largest_step(bar.all(), never.all()) < 1e-9);
 }
 
-/// A placement, as a recording keeps them, is where the next drag goes on from, also of the element that was held.
+/// A restored snapshot, as a recording keeps it, is where the next drag starts, also for the element that was grabbed.
 void ElasticSimulationTest::a_drag_after_a_placement_goes_on_from_there() {
   for (const ElementId next : {ElementId{24}, ElementId{44}}) {
     Bar bar(Algorithm::free_form), fresh(Algorithm::free_form);
@@ -146,8 +146,7 @@ void ElasticSimulationTest::a_drag_after_a_placement_goes_on_from_there() {
   }
 }
 
-/// Going back to rest takes the pinned elements along. What a method has prepared for where they were is then of no
-/// use.
+/// A reset moves the pinned elements to rest. A method must not use what it prepared for their old positions.
 void ElasticSimulationTest::pins_that_were_moved_hold_where_they_are_now() {
   QFETCH(const int, algorithm);
   Bar bar(Algorithm::natural_queue, false), fresh{Algorithm(algorithm)};
@@ -175,7 +174,7 @@ void ElasticSimulationTest::cuts_and_pins_between_drags_count_data() {
   QTest::newRow("neo-Hookean FEM") << int(Algorithm::neo_hookean);
 }
 
-/// An answer is that of the object as it is now, whatever it was at the drag before.
+/// An answer depends on the object as it is now, not on the object of the last drag.
 void ElasticSimulationTest::cuts_and_pins_between_drags_count() {
   QFETCH(const int, algorithm);
   const Point target(4.2, 0.3, 0.1);
@@ -205,7 +204,7 @@ void ElasticSimulationTest::cuts_and_pins_between_drags_count() {
   QVERIFY(largest_step(now(commands::Unpin{{22, 23}}), plain) < 1e-8);
 }
 
-/// Exact holds positions as displacements from rest: the change must not take the object for one at rest.
+/// Exact stores positions as displacements from rest. The change must not treat the object as being at rest.
 void ElasticSimulationTest::a_shape_is_kept_when_exact_takes_over() {
   Bar bar(Algorithm::free_form, false);
   bar.apply(commands::MoveControlPoint{63, Point(4.2, 2.1, 2)});
@@ -228,7 +227,7 @@ void ElasticSimulationTest::without_pins_nothing_moves() {
     QVERIFY(same_bits(bar.all(), rest));
     QCOMPARE(bar.statistics().passes, std::uint64_t(0));
     bar.apply(commands::Pin{layer(bar.mesh(), *find_side("left"))});
-    bar.apply(commands::Drag{Point(5, 1, 0)});  // and once it is pinned, it has
+    bar.apply(commands::Drag{Point(5, 1, 0)});  // once it is pinned, there is an answer
     QCOMPARE(bar.at(tip), Point(5, 1, 0));
   }
 }
@@ -279,7 +278,7 @@ void ElasticSimulationTest::control_points_are_for_free_form_alone() {
 
   Bar chain(Algorithm::natural_queue);
   QVERIFY(chain.control_points().empty());
-  chain.apply(up);  // is not meant for it
+  chain.apply(up);  // has no control points, so nothing moves
   QVERIFY(same_bits(chain.all(), rest));
 }
 

@@ -8,7 +8,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// The relaxed equilibrium: known answers, what is left out, and that relaxation comes to it.
+/// The relaxed equilibrium: known answers, left-out elements, and convergence of relaxation to it.
 class EquilibriumTest : public QObject {
   Q_OBJECT
 
@@ -51,7 +51,7 @@ Equilibrium solve(const Mesh& mesh, const Solver& solver, const std::vector<Elem
   return *result;
 }
 
-// A direct solve loses up to the condition number, about the square of a chain's length: 1e2 for these.
+// A direct solve loses up to the condition number, about the square of a chain's length: here 1e2.
 constexpr double rounding = 1e-13;
 
 }  // namespace
@@ -84,13 +84,13 @@ void EquilibriumTest::one_fixed_element_carries_all_along() {
 }
 
 void EquilibriumTest::axes_are_solved_each_for_itself() {
-  // A plus of five: the middle one has the mean of the four about it.
+  // A plus of five elements: the middle one is at the mean of the four around it.
   const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
   const auto solver = displaced(mesh, {{1, {0, 0.4, 0}}, {3, {0.8, 0, 0}}, {5, {-0.4, 0.2, 0}}, {7, {0, 0.2, 0}}});
   const auto result = solve(*mesh, *solver, {0, 1, 2, 3, 5, 6, 7, 8});
   QVERIFY(std::abs(result.displacements[8] - 0.1) < rounding);
   QVERIFY(std::abs(result.displacements[9] - 0.2) < rounding);
-  QVERIFY(std::abs(result.displacements[6] - 0.8) < rounding);  // fixed: it stays
+  QVERIFY(std::abs(result.displacements[6] - 0.8) < rounding);  // fixed, so it stays
 }
 
 void EquilibriumTest::components_without_a_fixed_element_are_undefined() {
@@ -100,7 +100,7 @@ void EquilibriumTest::components_without_a_fixed_element_are_undefined() {
   const auto result = solve(*mesh, *solver, {5});
   QVERIFY(result.defined == (std::vector<bool>{false, false, false, false, true, true, true, true}));
   for (ElementId e = 0; e < 8; ++e) {
-    const double expected = e >= 4 ? 1 : e == 2 ? 0.125 : 0;  // those left out stay where they stand
+    const double expected = e >= 4 ? 1 : e == 2 ? 0.125 : 0;  // elements that are left out stay
     QVERIFY(std::abs(result.displacements[e] - expected) < rounding);
   }
 }
@@ -142,7 +142,7 @@ void EquilibriumTest::regions_that_bind() {
   QVERIFY(solve(*mesh, *pulled, {0, 4}, {}).binds);
   QVERIFY(!solve(*mesh, *pulled, {0, 4}, {{0.8, 1.26, 0.1}, {}}).binds);
   QVERIFY(solve(*mesh, *pulled, {0, 4}, {{0.8, 1.26, 0.1}, {{3, {1, 1, 0}}}}).binds);
-  // What is cut, and what is not defined, binds nothing.
+  // Links that are cut or not defined do not count.
   pulled->cut(std::array{LinkId{3}});
   QVERIFY(!solve(*mesh, *pulled, {0}, {}).binds);
 }
@@ -153,7 +153,7 @@ void EquilibriumTest::relaxation_comes_to_it() {
   simulation.apply(Command(commands::SetSoftness{wide}));
   simulation.apply(Command(commands::Pin{{0, 41}}));
   drag_by(simulation, 17, {1.5, -0.75, 0});
-  simulation.apply(Command(commands::SetRelaxation{true, 1, RelaxationScheme::mean}));  // wakes everything
+  simulation.apply(Command(commands::SetRelaxation{true, 1, RelaxationScheme::mean}));  // wakes all elements
   const auto result = solve(*mesh, simulation.solver(), {0, 17, 41});
   QVERIFY(!result.binds);
   const auto distance = [&] {
@@ -166,7 +166,7 @@ void EquilibriumTest::relaxation_comes_to_it() {
   };
   QVERIFY(distance() > 0.1);
   simulation.relax(2000, 1);
-  // Steps below 1e-6 mean rest lengths are not taken; what is left is some tens of such steps.
+  // Steps below 1e-6 mean rest lengths are not taken. The remaining distance is some tens of such steps.
   QVERIFY2(distance() < 1e-4, qPrintable(QString::number(distance())));
 }
 
@@ -176,7 +176,7 @@ void EquilibriumTest::gradients_agree_with_cholesky() {
   solver->cut(std::array{LinkId{100}, LinkId{101}, LinkId{2000}});
   const auto direct = solve(*mesh, *solver, {0, 600, 1199});
   const auto iterated = solve(*mesh, *solver, {0, 600, 1199}, wide, 0);
-  // The residual of 1e-12 times the condition number, some 1e4 here, times the deflection.
+  // The residual of 1e-12 times the condition number (about 1e4 here) times the deflection.
   QVERIFY(largest_step(direct.displacements, iterated.displacements) < 1e-7);
   QVERIFY(largest_coordinate(direct.displacements) > 5);
 }

@@ -19,7 +19,7 @@ reference::LeastAnswer oracle(const MeshPointer& mesh, const Softness& softness,
   return {mesh, factors, cut};
 }
 
-/// Takes waiting elements in an order drawn at random.
+/// Takes waiting elements in a random order.
 template <class Scalar>
 class ShuffledSchedule {
  public:
@@ -47,8 +47,8 @@ class ShuffledSchedule {
   std::mt19937_64 random_{seed};
 };
 
-/// Drags by Exact with this schedule; returns where the elements end. No element may be visited more often in a
-/// pass than its region has sides, where that is promised.
+/// Drags with Exact and this schedule. Returns the final positions. If the schedule promises it, checks that a pass
+/// visits no element more often than its region has sides.
 template <class Scalar, int Dimension, class Schedule>
 std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, const std::vector<Hand>& hands,
                          bool* visits_are_bounded = nullptr) {
@@ -102,7 +102,7 @@ bool schedules_agree(const MeshPointer& mesh, const Softness& softness, const st
 
 }  // namespace
 
-/// Exact ChainMail: the least answer, whatever the order.
+/// Exact ChainMail gives the least answer, in any order.
 class ExactTest : public QObject {
   Q_OBJECT
 
@@ -137,8 +137,8 @@ void ExactTest::agrees_with_bellman_and_ford() {
       }
       const auto expected = answer.move(before, element, carried);
       const auto after = positions_of(*solver, *mesh);
-      // Along a path each link rounds its slack (of positions and bounds) and a difference; paths are shorter
-      // than the object has elements. The violation that earlier rounding left is of the same size.
+      // Along a path, each link rounds its slack (of positions and bounds) and a difference. Paths are shorter than the
+      // number of elements. The violation that earlier rounding left has the same size.
       const double size = largest_displacement(*mesh, after) + largest_step(before, after) + 4;
       RC_ASSERT(largest_step(expected, after) <= 4 * mesh->element_count() * half_ulp(precision) * size);
     }
@@ -162,7 +162,7 @@ void ExactTest::links_hold() {
       for (LinkId link = 0; link < mesh->link_count(); ++link) {
         const double length = rest_length(*mesh, link) > 0 ? rest_length(*mesh, link) : mesh->mean_link_length;
         const double outside = link_violation(*mesh, softness, solver->positions(), link) * length;
-        // 4 ulp an axis, as derived, of the largest displacement or move.
+        // 4 ulp per axis of the largest displacement or move, as derived.
         RC_ASSERT(outside <= std::sqrt(3) * 8 * half_ulp(precision) * size);
       }
     }
@@ -183,8 +183,8 @@ void ExactTest::the_schedule_changes_no_bit() {
 }
 
 void ExactTest::visits_are_bounded() {
-  // A pass may go through the elements and a quarter of them again before it sets labels: then once a side of
-  // each axis. The heap alone does only that.
+  // Before it sets labels, a pass may visit all elements and a quarter of them again. Then it visits each element once
+  // per side of each axis. The heap does only the latter.
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const Softness softness = draw_softness(*mesh);
@@ -218,8 +218,8 @@ void ExactTest::from_its_own_states_a_zero_move_moves_nothing() {
 }
 
 void ExactTest::the_trace_names_the_binding_neighbour() {
-  // A grid dragged to the right at its middle: 5 is pushed by 4, 3 pulled; the corners follow both their
-  // neighbours alike, and the one with the lower id is named.
+  // A grid is dragged to the right at its middle: 4 pushes 5 and pulls 3. The corners follow both of their neighbours
+  // equally, and the trace names the one with the lower id.
   const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
   const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
   solver->set_softness({{0.75, 1.25, 0.25}, {}});
@@ -235,7 +235,7 @@ void ExactTest::the_trace_names_the_binding_neighbour() {
 }
 
 void ExactTest::drags_there_and_back_do_not_drift() {
-  // After the first round the object is as loose as it gets; every further one must be the same to 2 ulp.
+  // After the first round the object does not get any looser. Every further round must be the same to 2 ulp.
   const auto mesh = jittered_triangles(8, 8, 2);
   const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
   const ElementId middle = 27;
@@ -256,7 +256,7 @@ void ExactTest::drags_there_and_back_do_not_drift() {
 }
 
 void ExactTest::a_far_origin_costs_no_digits() {
-  // At 2^24 mesh units float holds whole numbers alone; from rest it holds what it always does.
+  // At 2^24 mesh units, float stores only whole numbers. Displacements from rest keep their digits.
   const auto grid = make_mesh(MeshKind::grid, {8, 8, 1});
   const Point way(16777216, -16777216, 0);
   const auto far = build_mesh(placed(*grid, [&](const Point& p) { return Point(p + way); }));
@@ -265,7 +265,7 @@ void ExactTest::a_far_origin_costs_no_digits() {
   move_by(*here, *grid, 27, Point(3.5, -2.25, 0));
   move_by(*there, *far, 27, Point(3.5, -2.25, 0));
   for (ElementId e = 0; e < grid->element_count(); ++e) {
-    // Only reading them costs digits: an ulp of double at 2^24.
+    // Only reading them loses digits: an ulp of double at 2^24.
     QVERIFY((position_of(*here, *grid, e) + way - position_of(*there, *far, e)).norm() <= 1e-8);
   }
 }

@@ -10,7 +10,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// What a frame says of a simulation: all positions, and which blocks of them changed.
+/// A frame of a simulation: all positions, and the blocks that changed.
 class FramesTest : public QObject {
   Q_OBJECT
 
@@ -22,7 +22,7 @@ class FramesTest : public QObject {
 
 namespace {
 
-/// A simulation, and someone who draws it.
+/// A simulation and a reader that draws it.
 struct Scene {
   explicit Scene(const MeshPointer& mesh, Algorithm algorithm = Algorithm::natural_queue)
       : simulation(mesh, algorithm, Precision::single_precision) {
@@ -33,7 +33,7 @@ struct Scene {
     writer.publish(simulation);
     return frames.latest();
   }
-  /// The blocks that the next frame says have changed.
+  /// Returns the blocks that changed according to the next frame.
   std::set<std::size_t> changed() {
     const Frame& frame = show();
     std::set<std::size_t> blocks;
@@ -50,7 +50,7 @@ struct Scene {
   FrameWriter writer{frames};
 };
 
-/// The blocks of the element last dragged and of those that it moved.
+/// Returns the blocks of the last dragged element and of those that it moved.
 std::set<std::size_t> blocks_of_last_pass(const Simulation& simulation) {
   std::set<std::size_t> blocks{*simulation.grabbed() / Frame::block_elements};
   for (const ElementId element : simulation.solver().moved()) {
@@ -69,7 +69,7 @@ void carry_out_if_it_fits(Simulation& simulation, const Command& command) {
 }  // namespace
 
 void FramesTest::whoever_copies_what_changed_has_it_all() {
-  // From 11 blocks to more than a word of 64 has bits for; the last block is not full.
+  // From 11 blocks to more than the 64 bits of a word. The last block is not full.
   const std::vector<MeshPointer> meshes{make_mesh(MeshKind::grid, {70, 70, 1}), jittered_triangles(30, 30, 5),
                                         make_mesh(MeshKind::tetra, {9, 9, 9}),
                                         make_mesh(MeshKind::line, {700, 1, 1}, 3)};
@@ -99,7 +99,7 @@ void FramesTest::whoever_copies_what_changed_has_it_all() {
 }
 
 void FramesTest::what_stays_is_not_copied() {
-  Scene scene(make_mesh(MeshKind::grid, {64, 64, 1}));  // a block a row
+  Scene scene(make_mesh(MeshKind::grid, {64, 64, 1}));  // one block per row
   Simulation& simulation = scene.simulation;
   QCOMPARE(scene.frames.latest().changed.size(), std::size_t{64});
   const std::vector<Command> still{
@@ -136,7 +136,7 @@ void FramesTest::an_undone_reset_changes_what_it_brings_back() {
   QVERIFY(scene.frames.latest().positions == positions);
   exchange(scene.simulation, 1);
   QVERIFY(scene.changed() == away);
-  // Once more at rest, there is nothing to put back.
+  // A second reset changes nothing.
   carry_out(scene.simulation, commands::Reset{});
   QVERIFY(scene.changed().empty());
 }

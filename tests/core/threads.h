@@ -14,8 +14,8 @@ namespace chainmail::test {
 
 using namespace std::chrono_literals;
 
-/// Waits for something that happens in milliseconds; the limit is for a machine with much else to do. The only place
-/// in the tests that sleeps: between two looks at the condition.
+/// Waits for an event that takes milliseconds. The long limit is for a busy machine. This is the only sleep in the
+/// tests: between two checks of the condition.
 template <class Condition>
 bool wait_until(Condition condition, std::chrono::steady_clock::duration limit = 30s) {
   const auto end = std::chrono::steady_clock::now() + limit;
@@ -28,13 +28,13 @@ bool wait_until(Condition condition, std::chrono::steady_clock::duration limit =
   return true;
 }
 
-/// Waits for the frame after a known number of passes. With relaxation off it shows the final positions
-/// if a pass was the last command.
+/// Waits for the frame after this number of passes. If relaxation is off and a pass was the last command, the frame
+/// shows the final positions.
 inline bool wait_for_passes(SolverThread& solver, std::uint64_t passes) {
   return wait_until([&] { return solver.idle() && solver.latest_frame().statistics.passes == passes; });
 }
 
-/// The positions as a solver in float shows them.
+/// Returns the positions in the precision of a float solver.
 inline std::vector<float> floats_of(const Simulation& simulation) {
   std::vector<float> positions(simulation.mesh().rest.size());
   simulation.solver().copy_positions(std::span(positions));
