@@ -7,7 +7,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Free-form deformation and the dragging of elements through it.
+/// Free-form deformation, and dragging elements by it.
 class FreeFormTest : public QObject {
   Q_OBJECT
 
@@ -37,7 +37,7 @@ ElasticProblem with_lattice(const MeshPointer& mesh, std::array<std::uint32_t, 3
 
 }  // namespace
 
-/// Bernstein polynomials have linear precision: what control points do alike, all that they carry does.
+/// Bernstein polynomials have linear precision: an affine map of all control points is the same map of all elements.
 void FreeFormTest::control_points_carry_affine_maps() {
   Eigen::Matrix3d map;
   map << 0.3, 0.1, -0.2, 0.05, -0.2, 0.4, 0.1, 0.2, 0.3;
@@ -66,7 +66,8 @@ void FreeFormTest::control_points_carry_affine_maps() {
   }
 }
 
-/// Of all moves of the control points that bring the element there, the smallest: along the element's weights.
+/// Of all motions of the control points that bring the element to its target, the smallest: along the weights of the
+/// element.
 void FreeFormTest::elements_follow_the_hand_by_least_squares() {
   const auto mesh = make_mesh(MeshKind::cloth, {9, 9, 1});
   const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(mesh, {3, 3, 2}));
@@ -87,7 +88,7 @@ void FreeFormTest::elements_follow_the_hand_by_least_squares() {
     QVERIFY(std::abs(solver->control_points()[2 * c] - before[2 * c] - 0.5 * weight / squares) < 1e-12);
     QVERIFY(std::abs(solver->control_points()[2 * c + 1] - before[2 * c + 1] + weight / squares) < 1e-12);
   }
-  solver->move(std::array{0.0, 0.0});  // and back: nothing is left
+  solver->move(std::array{0.0, 0.0});  // back again: no displacement remains
   QVERIFY(furthest_from(*mesh, solver->displacements(), [](const Point&) { return Point(Point::Zero()); }) < 1e-12);
 }
 
@@ -100,7 +101,7 @@ void FreeFormTest::pins_hold_as_well_as_the_lattice_can() {
   for (const ElementId pin : left) {
     QCOMPARE(solver->displacements()[2 * pin], 0.0);
   }
-  // Beside a pin the sheet is as good as still: the lattice's own column at the left does not move.
+  // Next to a pin the sheet is almost still: the leftmost column of the lattice does not move.
   for (std::size_t c = 0; c < 16; c += 4) {
     QVERIFY(std::abs(solver->control_points()[2 * c]) < 1e-4);
   }
@@ -112,18 +113,18 @@ void FreeFormTest::goes_on_from_where_others_put_it() {
   std::vector<double> bent;
   for (ElementId e = 0; e < mesh->element_count(); ++e) {
     const Point at = mesh->rest_position(e);
-    bent.push_back(0.1 * at.y() * at.y());  // a cubic lattice holds it
-    bent.push_back(e == 14 ? 0.3 : 0.0);    // and does not hold that
+    bent.push_back(0.1 * at.y() * at.y());  // a cubic lattice represents this
+    bent.push_back(e == 14 ? 0.3 : 0.0);    // but not this
   }
   solver->start_from(bent);
   QVERIFY(same_bits(solver->displacements(), bent));
   QVERIFY(std::abs(solver->control_points()[2 * 15] - 5 - 2.5) < 1e-6);  // the far corner: 0.1 · 5²
   solver->hold(0);
   solver->move(std::array{1.0, 0.0});
-  QVERIFY(std::abs(solver->displacements()[2 * 14 + 1] - 0.3) < 1e-12);  // what it does not explain stays
+  QVERIFY(std::abs(solver->displacements()[2 * 14 + 1] - 0.3) < 1e-12);  // the remainder stays
 }
 
-/// The next move of the element that is held counts from where others put the object, not from where it was grabbed.
+/// The next move of a grabbed element starts from the current positions, which others may have set, not from the grab.
 void FreeFormTest::the_drag_goes_on_from_there_too() {
   const auto mesh = make_mesh(MeshKind::cloth, {6, 6, 1});
   const auto problem = with_lattice(mesh, {3, 3, 2});
@@ -137,7 +138,7 @@ void FreeFormTest::the_drag_goes_on_from_there_too() {
   dragged->hold(14);
   dragged->move(std::array{3.0, -2.0});
   dragged->start_from(bent);
-  dragged->move(std::array{bent[2 * 14], bent[2 * 14 + 1]});  // where it already is
+  dragged->move(std::array{bent[2 * 14], bent[2 * 14 + 1]});  // to its current position
   QVERIFY(largest_step(dragged->displacements(), bent) < 1e-12);
   dragged->move(std::array{1.0, 0.5});
   const auto fresh = make_elastic(ElasticMethod::free_form, problem);
@@ -147,7 +148,7 @@ void FreeFormTest::the_drag_goes_on_from_there_too() {
   QVERIFY(largest_step(dragged->displacements(), fresh->displacements()) < 1e-12);
 }
 
-/// The counts of control points are along x, y and z, also where a sheet stands upright and has no y.
+/// The counts of control points are along x, y and z, also for an upright sheet, which has no y.
 void FreeFormTest::a_lattice_lies_along_the_axes_of_the_object() {
   MeshParts parts = placed(*make_mesh(MeshKind::cloth, {6, 4, 1}), [](const Point& p) { return Point(p[0], 2, p[1]); });
   const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(build_mesh(std::move(parts)), {4, 8, 3}));

@@ -9,7 +9,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// The generators: as many elements, links, triangles and tetrahedra as a sheet of paper says.
+/// Checks the numbers of elements, links, triangles and tetrahedra of generated meshes, counted by hand.
 class GenerateTest : public QObject {
   Q_OBJECT
 
@@ -37,12 +37,12 @@ void GenerateTest::counts_data() {
                       unsigned tetrahedra) {
     QTest::newRow(name) << static_cast<int>(kind) << elements << links << triangles << tetrahedra;
   };
-  // At size 5x4x3. Along x, y, z there are 4·4, 5·3 links a layer; across each of the 12 squares one.
+  // Size 5x4x3. Each layer has 4·4 and 5·3 links along x and y. Each of the 12 squares has one diagonal.
   row("line", MeshKind::line, 5, 4, 0, 0);
   row("grid", MeshKind::grid, 20, 16 + 15, 0, 0);
   row("cloth", MeshKind::cloth, 20, 16 + 15 + 12, 2 * 12, 0);
   row("block", MeshKind::block, 60, 3 * (16 + 15) + 2 * 20, 0, 0);
-  // Face diagonals: 12 an xy layer (3), 4·2 an xz layer (4), 3·2 a yz layer (5); body diagonals: 4·3·2.
+  // Face diagonals: 12 per xy layer (3), 4·2 per xz layer (4), 3·2 per yz layer (5). Body diagonals: 4·3·2.
   row("tetra", MeshKind::tetra, 60, 3 * (16 + 15) + 2 * 20 + 3 * 12 + 4 * 8 + 5 * 6 + 24, 0, 6 * 24);
 }
 
@@ -80,7 +80,7 @@ void GenerateTest::cloth_covers_the_plane_once() {
   for (const auto& [a, b, c] : mesh->triangles) {
     const Point ab = mesh->rest_position(b) - mesh->rest_position(a);
     const Point ac = mesh->rest_position(c) - mesh->rest_position(a);
-    QVERIFY(ab.cross(ac)[2] > 0);  // all face the same way
+    QVERIFY(ab.cross(ac)[2] > 0);  // all face the same direction
     area += ab.cross(ac)[2] / 2;
   }
   QCOMPARE(area, 4.0 * 3.0 * 9.0);
@@ -93,7 +93,7 @@ void GenerateTest::tetra_fills_the_block_once() {
     const Point from = mesh->rest_position(a);
     const double six =
         (mesh->rest_position(b) - from).cross(mesh->rest_position(c) - from).dot(mesh->rest_position(d) - from);
-    QCOMPARE(six, 8.0);  // right-handed, a sixth of a cube each
+    QCOMPARE(six, 8.0);  // right-handed, each a sixth of a cube
     volume += six / 6;
   }
   QCOMPARE(volume, 3.0 * 2.0 * 2.0 * 8.0);
@@ -125,9 +125,9 @@ void GenerateTest::bad_recipes_are_refused_data() {
   QTest::newRow("no elements") << 0u << 1.0;
   QTest::newRow("no spacing") << 4u << 0.0;
   QTest::newRow("negative spacing") << 4u << -1.0;
-  QTest::newRow("endless spacing") << 4u << std::numeric_limits<double>::infinity();
-  QTest::newRow("spacing is no number") << 4u << std::numeric_limits<double>::quiet_NaN();
-  QTest::newRow("endless object") << 4u << std::numeric_limits<double>::max();
+  QTest::newRow("infinite spacing") << 4u << std::numeric_limits<double>::infinity();
+  QTest::newRow("spacing is NaN") << 4u << std::numeric_limits<double>::quiet_NaN();
+  QTest::newRow("infinite object") << 4u << std::numeric_limits<double>::max();
 }
 
 void GenerateTest::bad_recipes_are_refused() {

@@ -4,8 +4,8 @@
 #include <QtTest>
 #include <algorithm>
 
-/// One rule of direction: app → ui → core. Within them every source lies in a room, and a room includes only those that
-/// the table names for it. Qt and OpenGL stay in ui, and each library in the room that wraps it.
+/// One rule of direction: app → ui → core. In each of them, every source belongs to a room, and a room may include only
+/// the rooms that the table lists for it. Qt and OpenGL stay in ui, and each library in the room that wraps it.
 class IncludesTest : public QObject {
   Q_OBJECT
 
@@ -22,8 +22,8 @@ namespace {
 
 const QString root = QStringLiteral(PROJECT_SOURCE_DIR);
 
-/// A folder of sources, and the rooms just below it: it includes them and all that they may include. A folder within a
-/// room that has no row of its own belongs to that room.
+/// A folder of sources, and the rooms directly below it. It may include these and all that they may include. A folder
+/// in a room without a row of its own belongs to that room.
 struct Room {
   QString folder;
   QStringList below;
@@ -57,10 +57,10 @@ const QList<Room> rooms{
     {"app", {"app/command_line", "ui/window"}},
 };
 
-/// Libraries that one room wraps: others include that room.
+/// A library that one room wraps. Other rooms include that room instead.
 struct Wrapped {
   QRegularExpression headers;
-  QStringList folders;  // where they may be included, and below
+  QStringList folders;  // may include the library, with their subfolders
   QString rule;
 };
 
@@ -71,16 +71,16 @@ const QList<Wrapped> libraries{
     {QRegularExpression("^nlohmann/"), {"core/files"}, "JSON belongs in core/files"},
     {QRegularExpression("^(gmsh|CGAL/|teem/)"),
      {"core/files/import/program"},
-     "libraries that read meshes run in the import program alone"},
+     "libraries that read meshes run only in the import program"},
     {QRegularExpression("^seccomp"), {"core/files/import"}, "the sandbox belongs in core/files/import"},
     {QRegularExpression("^nlopt"), {"core/calibrate"}, "optimization belongs in core/calibrate"},
     {QRegularExpression("^CLI/|^CLI\\."), {"app"}, "arguments belong in app"},
-    {QRegularExpression("^rapidcheck"), {"tests/property.h"}, "properties are checked by tests/property.h"},
+    {QRegularExpression("^rapidcheck"), {"tests/property.h"}, "tests/property.h checks properties"},
 };
 
 bool is_within(const QString& file, const QString& folder) { return file == folder || file.startsWith(folder + "/"); }
 
-/// The innermost room that a file lies in, or none.
+/// Returns the innermost room of a file, or null.
 const Room* room_of(const QString& file) {
   const Room* innermost = nullptr;
   for (const Room& room : rooms) {
@@ -97,7 +97,7 @@ bool sees(const QString& room, const QString& other) {
                                       [&](const QString& below) { return sees(below, other); });
 }
 
-/// The path from the root of a header that an #include of ours names, as core and ui are the compiler's folders.
+/// Returns the path from the root of one of our headers as an #include names it. The compiler searches core and ui.
 QString path_of(const QString& included) {
   for (const QString folder : {"core/", "ui/", "app/"}) {
     if (const Room* room = room_of(folder + included); room != nullptr && room->folder.contains('/')) {
@@ -107,10 +107,10 @@ QString path_of(const QString& included) {
   return included;
 }
 
-/// Returns what is wrong with a file, given by its path from the root, that includes this; empty if nothing.
+/// Returns the reason why a file, given by its path from the root, may not include this; empty if it may.
 QString fault(const QString& file, const QString& included) {
   if (included.startsWith("..") || included.contains("/../")) {
-    return "goes round the rooms";
+    return "must not use a relative path";
   }
   const bool tests = file.startsWith("tests/");
   for (const Wrapped& library : libraries) {
@@ -124,9 +124,10 @@ QString fault(const QString& file, const QString& included) {
   const Room* room = room_of(file);
   const Room* other = room_of(path_of(included));
   if (room == nullptr) {
-    return tests ? "" : "lies in no room";
+    return tests ? "" : "is in no room";
   }
-  return other == nullptr || sees(room->folder, other->folder) ? "" : room->folder + " must not know " + other->folder;
+  return other == nullptr || sees(room->folder, other->folder) ? ""
+                                                               : room->folder + " must not include " + other->folder;
 }
 
 QStringList includes_of(const QString& text) {
@@ -139,11 +140,11 @@ QStringList includes_of(const QString& text) {
   return found;
 }
 
-/// Polls a condition, with a limit: no wait of a fixed length.
+/// This file polls a condition, with a limit, and so may sleep.
 const QString polls = "tests/core/threads.h";
 
-/// The lines of a source, from 1, that wait for a length of time and not for an event. On a busy machine the event
-/// comes later than that; on an idle one the test wastes time.
+/// Returns the lines of a source, from 1, that wait for a fixed time instead of an event. On a busy machine the event
+/// comes later; on an idle machine the test wastes time.
 QList<int> fixed_waits_in(const QString& text) {
   static const QRegularExpression pattern(
       R"((?<!->)(?<!\.)\b(qWait|qSleep|sleep_for|sleep_until|nanosleep|[mu]?sleep)\s*\()");
@@ -262,7 +263,7 @@ void IncludesTest::fixed_waits_are_found_data() {
   QTest::addColumn<QString>("line");
   QTest::addColumn<bool>("fixed");
   const auto row = [](const char* line, bool fixed) { QTest::newRow(line) << QString(line) << fixed; };
-  // Adjacent literals, so that this file has no such call itself.
+  // Literals are split, so that this file does not contain such a call.
   row("  QTest::qWait"
       "(30);",
       true);

@@ -9,8 +9,8 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// The jumps of thesis 4.4: with relaxation, "elements jump to different places when elements at the far
-/// side of the object are deformed". On an uncut grid nothing may outrun the hand, relaxed or not.
+/// The jumps of thesis 4.4: with relaxation, "elements jump to different places when elements at the far side of the
+/// object are deformed". On an uncut grid, no element may move further than the handle, with or without relaxation.
 class JumpsTest : public QObject {
   Q_OBJECT
 
@@ -30,7 +30,7 @@ struct Drag {
   double step;  // along x and along y (mesh units)
 };
 
-/// A hand that pulls one corner out fast, then the far one slowly, and so on in turn.
+/// Drags that pull one corner out fast, then the opposite corner slowly, and so on.
 std::vector<Drag> far_drags() {
   std::vector<Drag> drags;
   for (int turn = 0; turn < 6; ++turn) {
@@ -40,8 +40,8 @@ std::vector<Drag> far_drags() {
   return drags;
 }
 
-/// Runs the drags through the simulation; returns the largest step of any element on any axis in a pass,
-/// over the hand's own.
+/// Runs the drags in a simulation. Returns the largest step of any element on any axis in a pass, over the step of the
+/// handle.
 double largest_step_in_simulation(bool relaxed, double step, int slices) {
   Simulation simulation(make_mesh(MeshKind::grid, {side, side, 1}), Algorithm::natural_queue,
                         Precision::double_precision);
@@ -65,7 +65,7 @@ std::vector<double> positions_in_thesis(const reference::Object<double>& object)
   return positions;
 }
 
-/// The same with the thesis' lists and its relaxation as it stands there.
+/// The same with the lists and the relaxation of the thesis.
 double largest_step_in_thesis(int sweeps) {
   reference::Object<double> object(make_mesh(MeshKind::grid, {side, side, 1}),
                                    [](ElementId, ElementId) { return reference::Factors{}; });
@@ -83,7 +83,7 @@ double largest_step_in_thesis(int sweeps) {
   return largest;
 }
 
-// Some 50 passes and 1,000 sweeps of rounding at coordinates below 100, against steps of 0.1 and more.
+// Rounding of some 50 passes and 1,000 sweeps at coordinates below 100. Steps are 0.1 and more.
 constexpr double rounding = 1e-9;
 
 }  // namespace
@@ -93,9 +93,9 @@ void JumpsTest::far_elements_never_jump_data() {
   QTest::addColumn<double>("step");
   QTest::addColumn<int>("slices");
   QTest::newRow("not relaxed") << false << 1.0 << 0;
-  QTest::newRow("one sweep a pass") << true << 1.0 << 1;
-  QTest::newRow("one sweep of half steps a pass") << true << 0.5 << 1;
-  QTest::newRow("twenty sweeps a pass") << true << 1.0 << 20;
+  QTest::newRow("one sweep per pass") << true << 1.0 << 1;
+  QTest::newRow("one sweep of half steps per pass") << true << 0.5 << 1;
+  QTest::newRow("twenty sweeps per pass") << true << 1.0 << 20;
   QTest::newRow("until it sleeps") << true << 1.0 << 100'000;
 }
 
@@ -104,13 +104,13 @@ void JumpsTest::far_elements_never_jump() {
   QFETCH(double, step);
   QFETCH(int, slices);
   const double largest = largest_step_in_simulation(relaxed, step, slices);
-  QVERIFY(largest >= 1 - rounding);  // the hand's own
+  QVERIFY(largest >= 1 - rounding);  // the step of the handle
   QVERIFY2(largest <= 1 + rounding, qPrintable(QString::number(largest)));
 }
 
 void JumpsTest::unclamped_relaxation_jumps() {
-  // So the test above can fail: the thesis' own relaxation sends elements further than the hand went,
-  // and its algorithm alone does not.
+  // Shows that the test above can fail: the relaxation of the thesis moves elements further than the handle, and its
+  // algorithm alone does not.
   QVERIFY(largest_step_in_thesis(0) <= 1 + rounding);
   for (const int sweeps : {1, 3}) {
     const double largest = largest_step_in_thesis(sweeps);
@@ -129,12 +129,12 @@ void JumpsTest::nothing_outruns_the_hand_however_often_it_relaxes() {
       drag_by(simulation, hand.of(*mesh), hand.by());
       const auto after = positions_of(simulation);
       for (std::size_t i = 0; i < after.size(); ++i) {
-        const double of_hand = std::abs(hand.by()[mesh->axes[i % mesh->space_dimension]]);
-        RC_ASSERT(std::abs(after[i] - before[i]) <= of_hand + rounding);
+        const double of_handle = std::abs(hand.by()[mesh->axes[i % mesh->space_dimension]]);
+        RC_ASSERT(std::abs(after[i] - before[i]) <= of_handle + rounding);
       }
     }
   };
-  QVERIFY(check_property("on uncut grids relaxation never makes an element outrun the hand", holds));
+  QVERIFY(check_property("on uncut grids relaxation never moves an element further than the handle", holds));
 }
 
 QTEST_APPLESS_MAIN(JumpsTest)

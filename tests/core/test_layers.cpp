@@ -12,7 +12,7 @@ namespace {
 
 using Elements = std::vector<ElementId>;
 
-/// The elements whose rest position says yes.
+/// Returns the elements for whose rest position `where` is true.
 template <class Where>
 Elements elements(const Mesh& mesh, Where where) {
   Elements found;
@@ -26,7 +26,7 @@ Elements elements(const Mesh& mesh, Where where) {
 
 Elements side(const Mesh& mesh, std::string_view name) { return layer(mesh, *find_side(name)); }
 
-/// Of a lattice of spacing 1: those at an end of an axis.
+/// Returns the elements of a lattice of spacing 1 that are at an end of one of the first axes.
 Elements rim(const Mesh& mesh, int axes) {
   const auto& [low, high] = mesh.box;
   return elements(mesh, [&, low = low, high = high](const Point& at) {
@@ -36,7 +36,7 @@ Elements rim(const Mesh& mesh, int axes) {
 
 }  // namespace
 
-/// What there is to pin: sides and boundaries.
+/// The elements that a user can pin: sides and boundaries.
 class LayersTest : public QObject {
   Q_OBJECT
 
@@ -76,7 +76,7 @@ void LayersTest::a_layer_is_where_its_axis_ends() {
   }
 }
 
-/// The end of an object that is not flat; links are 1.2 long in the mean.
+/// An object whose end is not flat. The mean link length is 1.2.
 void LayersTest::a_layer_reaches_half_a_link_deep() {
   MeshParts parts;
   parts.rest = {{0, 0, 0}, {1, 0.4, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1.8, 0}, {2, 1, 0}};

@@ -10,7 +10,7 @@ using namespace chainmail::test;
 namespace {
 
 constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
-constexpr LinkSoftness wide{0, 100, 100};  // no region binds
+constexpr LinkSoftness wide{0, 100, 100};  // regions have no effect
 
 std::unique_ptr<Solver> stretched_chain(std::uint32_t length, const std::vector<double>& positions) {
   auto solver =
@@ -30,7 +30,7 @@ std::vector<double> positions_of_chain(const Solver& solver, std::uint32_t lengt
 
 }  // namespace
 
-/// Relaxation by links (Schill 2001): the two ends share each link's deflection.
+/// Relaxation by links (Schill 2001): the two ends of each link share its deflection.
 class LinkRelaxationTest : public QObject {
   Q_OBJECT
 
@@ -54,7 +54,7 @@ void LinkRelaxationTest::two_ends_share_the_deflection() {
 void LinkRelaxationTest::a_step_is_that_share_of_the_way() {
   const auto solver = stretched_chain(2, {0, 3});
   solver->relax(0.5, no_limit, {});
-  // A half of each half: the first end goes a quarter of the way to 2, the second a quarter of that to 1.
+  // Half steps: the first end moves a quarter of the way to 2, the second a quarter of the way to 1.
   QCOMPARE(positions_of_chain(*solver, 2), (std::vector<double>{0.5, 2.5}));
 }
 
@@ -69,7 +69,7 @@ void LinkRelaxationTest::a_held_end_leaves_its_half_to_the_next_sweep() {
 void LinkRelaxationTest::links_come_in_their_order() {
   const auto solver = stretched_chain(3, {0, 3, 4});
   solver->relax(1, no_limit, {});
-  // 0-1: to 1 and 2; 1-2 is 2 long then: to 2.5 and 3.5.
+  // Link 0-1 moves its ends to 1 and 2. Link 1-2 is then 2 long and moves its ends to 2.5 and 3.5.
   QCOMPARE(positions_of_chain(*solver, 3), (std::vector<double>{1, 2.5, 3.5}));
 }
 
@@ -81,9 +81,9 @@ void LinkRelaxationTest::a_free_chain_comes_to_rest_in_its_shape() {
   QVERIFY(sweeps < 10'000);
   const auto x = positions_of_chain(*solver, 5);
   for (int i = 1; i < 5; ++i) {
-    QVERIFY(std::abs(x[i] - x[i - 1] - 1) < 1e-4);  // steps below 1e-6 are not taken; they add up
+    QVERIFY(std::abs(x[i] - x[i - 1] - 1) < 1e-4);  // steps below 1e-6 are not taken, and they add up
   }
-  QVERIFY(std::abs(std::accumulate(x.begin(), x.end(), 0.0) / 5 - 4.7) < 1e-9);  // what one end gains the other loses
+  QVERIFY(std::abs(std::accumulate(x.begin(), x.end(), 0.0) / 5 - 4.7) < 1e-9);  // the ends move by opposite amounts
 }
 
 void LinkRelaxationTest::a_chain_between_pins_ends_near_even() {
@@ -97,7 +97,7 @@ void LinkRelaxationTest::a_chain_between_pins_ends_near_even() {
   QCOMPARE(x[0], 0.0);
   QCOMPARE(x[4], 8.0);
   for (int i = 1; i < 4; ++i) {
-    QVERIFY(std::abs(x[i] - 2 * i) < 0.2);  // links that cannot be satisfied pull it to and fro by the step
+    QVERIFY(std::abs(x[i] - 2 * i) < 0.2);  // links that contradict each other pull it back and forth by one step
   }
 }
 
@@ -116,7 +116,7 @@ void LinkRelaxationTest::valid_links_stay_valid() {
     solver->wake(all);
     for (int i = 0; i < 5; ++i) {
       solver->relax(*rc::gen::inRange(1, 101) / 100.0, no_limit, (*any_hand()).of(*mesh));
-      // In rest lengths: rounding alone.
+      // In rest lengths: only rounding.
       RC_ASSERT(measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max <= 1e-9);
     }
   };
@@ -124,7 +124,7 @@ void LinkRelaxationTest::valid_links_stay_valid() {
 }
 
 void LinkRelaxationTest::displacements_relax_like_positions() {
-  // Exact holds displacements: the same sweeps must lead to the same places, up to rounding.
+  // Exact stores displacements. The same sweeps must lead to the same positions, up to rounding.
   for (const RelaxationScheme scheme : {RelaxationScheme::mean, RelaxationScheme::link}) {
     const auto mesh = jittered_triangles(8, 8, 4);
     std::mt19937_64 random(9);

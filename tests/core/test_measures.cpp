@@ -8,7 +8,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Distances between states, ratios, and the spread of times, by hand.
+/// Distances between states, ratios, and the spread of times, compared with figures computed by hand.
 class MeasuresTest : public QObject {
   Q_OBJECT
 
@@ -70,7 +70,7 @@ void MeasuresTest::energy_ratio_is_none_at_0() {
 
 void MeasuresTest::largest_over_hand_by_hand() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1}, 2);
-  const auto solver = at(mesh, {0, 2, 1, 0, 5, 4});  // the hand's by 2, the last one by (3, 4)
+  const auto solver = at(mesh, {0, 2, 1, 0, 5, 4});  // the handle moved by 2, the last element by (3, 4)
   QCOMPARE(largest_over_hand(*mesh, solver->positions(), 0).value(), 2.5);
   QCOMPARE(largest_over_hand(*mesh, solver->positions(), 2).value(), 1.0);
 }
@@ -85,7 +85,7 @@ void MeasuresTest::a_hand_that_is_back_gives_no_ratio() {
 void MeasuresTest::spread_by_hand() {
   // Sorted: 1 2 3 4 10. The quartiles are the second and the fourth.
   QVERIFY(spread_of({10, 1, 3, 2, 4}) == (TimeSpread{3, 2, 4, 1, 10, 5}));
-  // Sorted: 0 1 2 10. The median lies between 1 and 2; the quartiles 3/4 and 9/4 of the way from the first.
+  // Sorted: 0 1 2 10. The median is between 1 and 2. The quartiles are at 3/4 and 9/4 of the way from the first.
   QVERIFY(spread_of({2, 0, 10, 1}) == (TimeSpread{1.5, 0.75, 4, 0, 10, 4}));
 }
 

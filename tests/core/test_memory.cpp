@@ -7,7 +7,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Once it has warmed up, a simulation that is dragged and shown takes no memory.
+/// After warm-up, a simulation that is dragged and shown allocates no memory.
 class MemoryTest : public QObject {
   Q_OBJECT
 
@@ -18,7 +18,7 @@ class MemoryTest : public QObject {
 
 namespace {
 
-/// A hand that goes to and fro, with all figures and a frame for each of its moves.
+/// Moves a handle back and forth, with all figures and a frame for each move.
 void drag_and_show(Simulation& simulation, FrameWriter& writer, TripleBuffer& frames) {
   for (int i = 0; i < 40; ++i) {
     simulation.apply(commands::Drag{Point(i % 2 == 0 ? -30 : 5, i % 3, 0)});

@@ -6,7 +6,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// What a mesh promises its users: whose neighbour is whose, in which order, and which axes exist.
+/// What a mesh guarantees: the neighbours of each element, their order, and the axes that exist.
 class MeshTest : public QObject {
   Q_OBJECT
 
@@ -73,7 +73,7 @@ void MeshTest::links_are_numbered_by_first_element() {
   MeshParts parts = square();
   parts.first_entry = {0, 2, 4, 6, 8};
   parts.neighbours = {3, 1, 0, 2, 3, 1, 2, 0};
-  // Then in that element's own order.
+  // Then in the order of that element's neighbours.
   QVERIFY(build_mesh(std::move(parts))->links == (Links{{0, 3}, {0, 1}, {1, 2}, {2, 3}}));
 }
 
@@ -136,7 +136,7 @@ void MeshTest::a_grid_has_links_of_one_step_along_an_axis() {
     QVERIFY(make_mesh(MeshKind::block, size)->is_grid);
   }
   QVERIFY(!make_mesh(MeshKind::cloth, {3, 3, 1})->is_grid);
-  QVERIFY(!build_mesh(square())->is_grid);  // it stands in no lattice
+  QVERIFY(!build_mesh(square())->is_grid);  // it is not in a lattice
   const auto with_link = [](ElementId a, ElementId b) {
     const auto grid = make_mesh(MeshKind::block, {3, 2, 2});
     MeshParts parts = placed(*grid, [](const Point& p) { return p; });
@@ -144,9 +144,9 @@ void MeshTest::a_grid_has_links_of_one_step_along_an_axis() {
     parts.links.push_back({a, b});
     return build_mesh(std::move(parts));
   };
-  QVERIFY(with_link(0, 6)->is_grid);   // it was there
-  QVERIFY(!with_link(2, 3)->is_grid);  // from the end of a row to the next
-  QVERIFY(!with_link(4, 7)->is_grid);  // from a plane's last row to the next plane's first
+  QVERIFY(with_link(0, 6)->is_grid);   // this link exists already
+  QVERIFY(!with_link(2, 3)->is_grid);  // from the end of a row to the start of the next
+  QVERIFY(!with_link(4, 7)->is_grid);  // from the last row of a plane to the first row of the next plane
   QVERIFY(!with_link(0, 2)->is_grid);
   QVERIFY(!with_link(0, 4)->is_grid);
 }
@@ -176,7 +176,7 @@ void MeshTest::an_object_in_the_xz_plane_keeps_its_y() {
   QVERIFY(mesh->rest_position(5) == Point(1, 2.5, 1));
   for (const Precision precision : precisions) {
     const auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
-    solver->move(5, Point(4, -7, 3));  // the hand's y does not exist here
+    solver->move(5, Point(4, -7, 3));  // there is no y axis here
     QVERIFY(position_of(*solver, *mesh, 5) == Point(4, 2.5, 3));
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
       QCOMPARE(position_of(*solver, *mesh, e)[1], 2.5);
@@ -191,7 +191,7 @@ void MeshTest::a_higher_space_dimension_adds_axes_in_order() {
   MeshParts upright = placed(*line, [](const Point& p) { return Point(7, 8, p[0]); });
   upright.space_dimension = 2;
   const auto mesh = build_mesh(std::move(upright));
-  QCOMPARE(mesh->axes[0], 0);  // x joins z, and y stays constant
+  QCOMPARE(mesh->axes[0], 0);  // the axes are x and z, and y is constant
   QCOMPARE(mesh->axes[1], 2);
   QVERIFY(mesh->rest_position(3) == Point(7, 8, 3));
 }
@@ -200,7 +200,8 @@ void MeshTest::a_space_dimension_too_small_is_refused() {
   QVERIFY_EXCEPTION_THROWN(make_mesh(MeshKind::grid, {3, 3, 1}, 1), Error);
   QVERIFY_EXCEPTION_THROWN(make_mesh(MeshKind::block, {2, 2, 2}, 2), Error);
   QVERIFY_EXCEPTION_THROWN(make_mesh(MeshKind::line, {2, 1, 1}, 0), Error);
-  QCOMPARE(make_mesh(MeshKind::grid, {3, 1, 1}, 1)->space_dimension, 1);  // a grid one element high is a line
+  QCOMPARE(make_mesh(MeshKind::grid, {3, 1, 1}, 1)->space_dimension,
+           1);  // a grid of height 1 is a line
 }
 
 void MeshTest::an_element_alone_is_an_object() {

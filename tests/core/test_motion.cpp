@@ -7,8 +7,8 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// What must hold in motion, whatever the mesh: no skew on the first deformation, no element that
-/// outruns the hand.
+/// What must be true for any move of any mesh: no skew in the first deformation, and no element that moves further than
+/// the handle.
 class MotionTest : public QObject {
   Q_OBJECT
 
@@ -28,7 +28,7 @@ class MotionTest : public QObject {
 
 namespace {
 
-/// A solver in a random valid state of a random mesh; `reach` says how near the edge of validity.
+/// A solver with a random mesh in a random valid state. `reach` says how close links are to their limits.
 struct ValidState {
   explicit ValidState(double reach)
       : mesh(draw_family().mesh),
@@ -46,11 +46,11 @@ struct ValidState {
   std::unique_ptr<Solver> solver;
 };
 
-/// Unit in the last place of the precision, relative to 1.
+/// Returns the unit in the last place of the precision, relative to 1.
 double ulp(Precision precision) { return precision == Precision::single_precision ? 0x1p-23 : 0x1p-52; }
 
-/// Rounding of a pass: at most an ulp of the largest coordinate a link, and none of the meshes here has a
-/// path of more than 40.
+/// Returns the possible rounding of a pass: at most an ulp of the largest coordinate per link. No mesh here has a path
+/// of more than 40 links.
 double rounding_of_a_pass(Precision precision, const std::vector<double>& positions) {
   return 40 * ulp(precision) * (1 + largest_coordinate(positions));
 }
@@ -61,14 +61,14 @@ void MotionTest::at_rest_a_zero_move_moves_nothing() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const auto solver = make_solver(mesh, *any_algorithm(), Precision::double_precision);
-    // However soft, but not rigid: there the rest shape has no slack to take up rounding.
+    // Any softness except rigid, because then the rest shape has no slack for rounding.
     solver->set_softness({{*rc::gen::inRange(0, 100) / 100.0, *rc::gen::inRange(101, 300) / 100.0, 0.01}, {}});
     const ElementId element = (*any_hand()).of(*mesh);
     const auto before = positions_of(*solver, *mesh);
     const PassCount count = move_by(*solver, *mesh, element, Point(0, 0, 0));
     RC_ASSERT(count.moved == 0u);
     RC_ASSERT(count.checked == mesh->neighbours_of(element).size());
-    RC_ASSERT(before == positions_of(*solver, *mesh));  // but for the sign of a zero
+    RC_ASSERT(before == positions_of(*solver, *mesh));  // except for the sign of a zero
   };
   QVERIFY(check_property("at rest a zero move looks at the neighbours and moves none", holds));
 }
@@ -79,14 +79,14 @@ void MotionTest::from_a_valid_state_a_zero_move_moves_nothing() {
     const auto before = positions_of(*state.solver, *state.mesh);
     move_by(*state.solver, *state.mesh, (*any_hand()).of(*state.mesh), Point(0, 0, 0));
     const auto after = positions_of(*state.solver, *state.mesh);
-    // A rigid link leaves no room, so there the state itself is valid up to rounding only.
+    // A rigid link has no slack, so the state itself is valid only up to rounding.
     RC_ASSERT(largest_step(before, after) <= rounding_of_a_pass(state.precision, before));
   };
   QVERIFY(check_property("from a valid state a zero move moves nothing", holds));
 }
 
 void MotionTest::after_a_drag_a_zero_move_anywhere_moves_nothing() {
-  // Softness and moves in eighths: every sum is exact, so nothing at all may move.
+  // Softness and moves are in eighths, so every sum is exact and nothing at all may move.
   const auto holds = [] {
     const auto mesh = make_mesh(MeshKind::grid, {9, 7, 1});
     const auto solver = make_solver(mesh, Algorithm::natural_queue, *any_precision());
@@ -110,7 +110,7 @@ void MotionTest::a_move_inside_every_region_moves_the_grabbed_element_alone() {
     Point target = position_of(*state.solver, mesh, element);
     for (int k = 0; k < mesh.space_dimension; ++k) {
       const auto [low, high] = valid_interval(mesh, state.softness, before, element, k);
-      // Anywhere inside, but for rounding at the edges; in the middle where there is no inside.
+      // Anywhere inside, away from the borders because of rounding. In the middle if the interval is empty.
       const double share = *rc::gen::inRange(1, 100) / 100.0;
       target[mesh.axes[k]] = low + share * (high - low);
       RC_PRE(high - low > 1000 * ulp(state.precision) * (1 + largest_coordinate(before)));
@@ -122,11 +122,11 @@ void MotionTest::a_move_inside_every_region_moves_the_grabbed_element_alone() {
       RC_ASSERT(before[i] == after[i] || i / mesh.space_dimension == element);
     }
   };
-  QVERIFY(check_property("a move inside every neighbour's region moves the grabbed element alone", holds));
+  QVERIFY(check_property("a move inside every neighbour's region moves only the grabbed element", holds));
 }
 
 void MotionTest::from_a_valid_state_nothing_outruns_the_hand() {
-  // On any mesh, by any algorithm, cuts and all: a valid link hands on at most its sponsor's step.
+  // For any mesh, algorithm and cuts, a valid link passes on at most the step of its sponsor.
   const auto holds = [] {
     const ValidState state(0.9);
     state.solver->cut(draw_links(*state.mesh));
@@ -136,11 +136,11 @@ void MotionTest::from_a_valid_state_nothing_outruns_the_hand() {
     const auto after = positions_of(*state.solver, *state.mesh);
     const int n = state.mesh->space_dimension;
     for (std::size_t i = 0; i < after.size(); ++i) {
-      const double of_hand = std::abs(hand.by()[state.mesh->axes[i % n]]);
-      RC_ASSERT(std::abs(after[i] - before[i]) <= of_hand + rounding_of_a_pass(state.precision, after));
+      const double of_handle = std::abs(hand.by()[state.mesh->axes[i % n]]);
+      RC_ASSERT(std::abs(after[i] - before[i]) <= of_handle + rounding_of_a_pass(state.precision, after));
     }
   };
-  QVERIFY(check_property("from a valid state no element moves further than the hand on any axis", holds));
+  QVERIFY(check_property("from a valid state no element moves further than the handle on any axis", holds));
 }
 
 void MotionTest::on_uncut_grids_natural_queue_never_outruns_the_hand() {
@@ -149,19 +149,19 @@ void MotionTest::on_uncut_grids_natural_queue_never_outruns_the_hand() {
     const auto precision = *any_precision();
     const auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
     solver->set_softness({*any_link_softness(), {}});
-    double rounding = 0;  // an earlier pass leaves its own in the state
+    double rounding = 0;  // an earlier pass leaves its rounding in the state
     for (const Hand& hand : *any_hands()) {
       const auto before = positions_of(*solver, *mesh);
       move_by(*solver, *mesh, hand.of(*mesh), hand.by());
       const auto after = positions_of(*solver, *mesh);
       rounding += rounding_of_a_pass(precision, after);
       for (std::size_t i = 0; i < after.size(); ++i) {
-        const double of_hand = std::abs(hand.by()[mesh->axes[i % mesh->space_dimension]]);
-        RC_ASSERT(std::abs(after[i] - before[i]) <= of_hand + rounding);
+        const double of_handle = std::abs(hand.by()[mesh->axes[i % mesh->space_dimension]]);
+        RC_ASSERT(std::abs(after[i] - before[i]) <= of_handle + rounding);
       }
     }
   };
-  QVERIFY(check_property("on uncut grids Natural Queue moves no element further than the hand", holds));
+  QVERIFY(check_property("on uncut grids Natural Queue moves no element further than the handle", holds));
 }
 
 void MotionTest::on_uncut_grids_natural_queue_stays_valid() {
@@ -172,7 +172,7 @@ void MotionTest::on_uncut_grids_natural_queue_stays_valid() {
     solver->set_softness(softness);
     for (const Hand& hand : *any_hands()) {
       move_by(*solver, *mesh, hand.of(*mesh), hand.by());
-      // Rounding, in rest lengths: 1e-9 is far above it and far below what could be seen.
+      // Rounding in rest lengths: 1e-9 is far above it, and far below visible violations.
       RC_ASSERT(measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max <= 1e-9);
     }
   };
@@ -180,7 +180,7 @@ void MotionTest::on_uncut_grids_natural_queue_stays_valid() {
 }
 
 void MotionTest::the_mirror_image_of_a_drag_gives_the_mirror_image() {
-  // Mirrored in all axes, about the origin: each sum and comparison has its exact mirror image.
+  // Mirrored on all axes about the origin: each sum and comparison has its exact mirror image.
   const auto holds = [] {
     const auto& family = draw_family();
     const Mesh& mesh = *family.mesh;
@@ -202,11 +202,11 @@ void MotionTest::the_mirror_image_of_a_drag_gives_the_mirror_image() {
       RC_ASSERT(there[i] == -back[i]);
     }
   };
-  QVERIFY(check_property("a mirrored object under a mirrored hand is the mirror image", holds));
+  QVERIFY(check_property("a mirrored object with mirrored moves is the mirror image", holds));
 }
 
 void MotionTest::a_translated_object_deforms_alike() {
-  // Softness, moves and the way are in eighths, so the sums are exact.
+  // Softness, moves and the shift are in eighths, so the sums are exact.
   const auto grid = make_mesh(MeshKind::grid, {8, 8, 1});
   const Point way(64, -32, 0);
   const auto moved = build_mesh(placed(*grid, [&](const Point& p) { return p + way; }));
@@ -237,11 +237,11 @@ void MotionTest::a_target_that_is_no_number_is_refused() {
   const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
   const auto before = positions_of(*solver, *mesh);
-  for (const double bad : {std::nan(""), HUGE_VAL, 1e300}) {  // the last is endless in float
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e300}) {  // the last one is infinite in float
     QVERIFY_EXCEPTION_THROWN(solver->move(5, Point(1, bad, 0)), Error);
     QVERIFY(same_bits(before, positions_of(*solver, *mesh)));
   }
-  solver->move(5, Point(1, 1, std::nan("")));  // a coordinate that does not exist here is not looked at
+  solver->move(5, Point(1, 1, std::nan("")));  // a coordinate on an axis that does not exist is ignored
 }
 
 QTEST_APPLESS_MAIN(MotionTest)

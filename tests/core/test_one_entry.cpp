@@ -18,7 +18,7 @@ using command_line::algorithms_help;
 using command_line::algorithms_of;
 using command_line::names_of;
 
-/// An algorithm is one entry of a table, and so is a parameter: every listing follows from a new entry.
+/// An algorithm is one entry of a table, and so is a parameter. Every list of them includes a new entry.
 class OneEntryTest : public QObject {
   Q_OBJECT
 
@@ -39,7 +39,7 @@ namespace {
 
 constexpr auto dummy = Algorithm(1000);
 
-/// A waiting list like that of Spiral.
+/// A waiting list like the one of Spiral.
 struct DummyList : BackList {
   static constexpr bool admits_updated = true;
   static constexpr TakingOrder order = TakingOrder::first_in;
@@ -67,7 +67,7 @@ constexpr Parameter dummy_parameter{.name = "dummy",
                                     .decimals = 1,
                                     .help = "a number without a meaning"};
 
-/// Runs `use` with an option, as parsed from a command line.
+/// Parses a command line with one option, and calls `use` with the option.
 template <class Use>
 auto parsed(const std::string& name, const std::vector<std::string>& arguments, Use use) {
   CLI::App app;

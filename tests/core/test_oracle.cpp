@@ -13,7 +13,7 @@ namespace {
 
 constexpr int passes = 20;
 
-/// Half of the links as soft as by default, the others each of a softness of its own.
+/// Half of the links have the default softness, the others each a softness of their own.
 Softness mixed_softness(const Mesh& mesh, std::mt19937_64& random) {
   Softness softness;
   for (LinkId link = 0; link < mesh.link_count(); ++link) {
@@ -35,7 +35,7 @@ template <class Scalar>
 constexpr Precision precision_of = sizeof(Scalar) == sizeof(float) ? Precision::single_precision
                                                                    : Precision::double_precision;
 
-/// The project's solver and the thesis' lists, side by side on one object.
+/// The project's solver and the lists of the thesis, side by side on one object.
 template <class Scalar>
 class SideBySide {
  public:
@@ -61,7 +61,7 @@ class SideBySide {
     }
   }
 
-  /// A move of a random element by up to `reach`, in both; they must agree in all that can be seen.
+  /// Moves a random element by up to `reach` in both. All results must agree.
   void move(double reach) {
     const ElementId element = random_() % mesh_->element_count();
     const auto target = random_target(element, reach);
@@ -96,7 +96,7 @@ class SideBySide {
       case Algorithm::chainmail_3d:
         return reference::move_3d_chainmail(object_, element, target);
       default:
-        return {};  // Exact has an oracle of its own, methods of elasticity have mechanics
+        return {};  // Exact has its own oracle, and methods of elasticity are checked by mechanics
     }
   }
 
@@ -131,7 +131,7 @@ void run_side_by_side(const MeshPointer& mesh, Algorithm algorithm, std::uint64_
     if (seed % 2 == 1) {
       both.cut_or_uncut_a_link();
     }
-    // A small move that stays near, a large one that goes through the object, and none at all.
+    // A small move with a local effect, a large one that affects the whole object, and none.
     both.move(pass % 5 == 4 ? 0 : pass % 2 == 0 ? 4 : 0.4);
     if (QTest::currentTestFailed()) {
       qWarning("seed %llu, pass %d", static_cast<unsigned long long>(seed), pass);
@@ -142,7 +142,7 @@ void run_side_by_side(const MeshPointer& mesh, Algorithm algorithm, std::uint64_
 
 }  // namespace
 
-/// The solver against the algorithms as the thesis writes them: after every pass the same bits, the same
+/// Compares the solver with the algorithms as the thesis describes them: after every pass, the same bits, and the same
 /// candidates in the same order.
 class OracleTest : public QObject {
   Q_OBJECT

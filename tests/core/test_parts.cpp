@@ -6,7 +6,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// How many parts an object has, kept up to date as it is cut.
+/// The number of parts of an object, updated while it is cut.
 class PartsTest : public QObject {
   Q_OBJECT
 
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint32_t width = 300;
 
-/// The links of a 300 x 300 grid that leave one of its elements to the right, and those that leave it upward.
+/// Return the link from an element of a 300 x 300 grid to the next one to the right, and to the next one above.
 LinkId right_of(const Mesh& mesh, std::uint32_t x, std::uint32_t y) {
   return *find_link(mesh, x + width * y, x + 1 + width * y);
 }
@@ -83,7 +83,8 @@ void PartsTest::a_slit_is_quick() {
   }
   parts.cut(cuts, slit);
   QCOMPARE(parts.count(), 1U);
-  // Both sides meet at its ends within about three elements of it: 2 sides, 20 long, 3 deep, and some beside.
+  // Searches from both sides meet at the ends of the slit after about three elements: 2 sides, 20 long, 3 deep, and
+  // some more.
   QVERIFY2(parts.looked_at() < 200, qPrintable(QString::number(parts.looked_at())));
   parts.uncut(cuts, slit);
   QVERIFY(parts.looked_at() < 200);
@@ -100,7 +101,7 @@ void PartsTest::a_loose_part_costs_its_own_size() {
   }
   parts.cut(cuts, around);
   QCOMPARE(parts.count(), 2U);
-  // Its 100, and as many turns of the rest, each of which reaches two or three at most.
+  // Its 100 elements, and as many turns of searches in the rest, each of which reaches two or three at most.
   QVERIFY2(parts.looked_at() < 400, qPrintable(QString::number(parts.looked_at())));
   parts.uncut(cuts, around);
   QCOMPARE(parts.count(), 1U);

@@ -5,7 +5,7 @@
 using namespace chainmail;
 using namespace std::chrono_literals;
 
-/// The times of the passes of the last second, told by a clock of the test's own.
+/// The times of the passes of the last second, with a clock that the test controls.
 class PassTimesTest : public QObject {
   Q_OBJECT
 

@@ -23,7 +23,7 @@ using namespace chainmail::report;
 using chainmail::report::test::drag;
 using chainmail::test::make_mesh;
 
-/// The comparison with physics: the metric, who takes part, and how it is written.
+/// The comparison with physics: the metric, the contestants, and the report.
 class PhysicsTest : public QObject {
   Q_OBJECT
 
@@ -57,7 +57,7 @@ PhysicsOptions quick(std::vector<Algorithm> algorithms, std::vector<int> sweeps)
   return options;
 }
 
-/// All of it on a tiny bar and a tiny sheet, once for all tests that look at it.
+/// The whole report on a tiny bar and a tiny sheet, computed once for all tests.
 const PhysicsReport& everything() {
   static const PhysicsReport report = [] {
     PhysicsOptions options = quick({}, {0, 1, 10});
@@ -67,7 +67,7 @@ const PhysicsReport& everything() {
   return report;
 }
 
-/// The errors of contestants at the end of a drag.
+/// Returns the errors of all contestants at the end of a drag.
 std::map<std::pair<Algorithm, int>, PhysicalError> errors_of(const PhysicsDrag& drag) {
   std::map<std::pair<Algorithm, int>, PhysicalError> errors;
   for (const PhysicsEntry& entry : drag.entries) {
@@ -82,7 +82,7 @@ std::map<std::pair<Algorithm, int>, PhysicalError> errors_of(const PhysicsDrag& 
 
 Origin origin() { return {{"a processor", 2, "a compiler", "Release"}, "chainmail compare", "today", "v"}; }
 
-// What Newton's method leaves, over the hand's displacement.
+// Error of Newton's method, over the handle's displacement.
 constexpr double converged = 1e-6;
 
 }  // namespace
@@ -90,17 +90,17 @@ constexpr double converged = 1e-6;
 void PhysicsTest::errors_by_hand() {
   // The handle, element 0, moved by 2; the reference solution displaces 1 by 1, 2 by 0.01 and 3 not at all.
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
-  const ReferenceSolution truth{{-2, -1, -0.01, 0}, 2, {0}};
+  const ReferenceSolution reference{{-2, -1, -0.01, 0}, 2, {0}};
   const std::vector<double> at{-2, 0.4, 1.99, 3};
   const PhysicalError error =
-      measure_physical_error(*line, PositionView(at.data(), sizeof(double), Precision::double_precision), truth);
+      measure_physical_error(*line, PositionView(at.data(), sizeof(double), Precision::double_precision), reference);
   QVERIFY(std::abs(error.max - 0.4 / 2) < 1e-15);
   QVERIFY(std::abs(error.rms - 0.4 / std::sqrt(4.0) / 2) < 1e-15);
-  QCOMPARE(error.moving, std::uint64_t{2});  // 0.01 is half a percent of the hand's
+  QCOMPARE(error.moving, std::uint64_t{2});  // 0.01 is half a percent of the handle's displacement
   QVERIFY(std::abs(error.moving_rms - 0.4 / std::sqrt(2.0) / 2) < 1e-15);
   QCOMPARE(error.moving_max, error.max);
   QVERIFY(std::abs(error.relative - std::sqrt(0.4 * 0.4 / (2 * 2 + 1 * 1 + 0.01 * 0.01))) < 1e-15);
-  // An element moves from 1 % of the handle's displacement on: 0.02 here.
+  // An element counts as moving if it moves by at least 1 % of the handle's displacement, here 0.02.
   for (const auto& [by, moving] : {std::pair(0.019, 2), {0.021, 3}}) {
     const ReferenceSolution other{{-2, -1, -by, 0}, 2, {0}};
     QCOMPARE(
@@ -111,9 +111,9 @@ void PhysicsTest::errors_by_hand() {
 }
 
 void PhysicsTest::nothing_moving_on_a_stretched_bar() {
-  // A bar without lateral contraction, its left layer held and its right layer moved along it: each layer goes the
-  // share of the way that it is on. Without the n - 2 layers between, whose squares sum to (n - 2)(n - 1)(2n - 3) / 6,
-  // over all, whose squares sum to (n - 1) n (2n - 1) / 6.
+  // A bar without lateral contraction: its left layer is pinned and its right layer moved along the bar. Each layer
+  // moves in proportion to its position. Of n layers, the squares of the n - 2 between sum to (n - 2)(n - 1)(2n - 3) /
+  // 6, and the squares of all to (n - 1) n (2n - 1) / 6.
   constexpr int n = 8;
   const auto bar = make_mesh(MeshKind::tetra, {n, 3, 3});
   const std::vector<ElementId> left = layer(*bar, *find_side("left")), right = layer(*bar, *find_side("right"));
@@ -161,7 +161,7 @@ void PhysicsTest::nothing_moving_takes_part_first() {
       const PhysicsEntry& first = one.entries.front();
       QCOMPARE(label(first.contestant), std::string("Nothing moves"));
       const PhysicalError& error = first.measurement.value().error;
-      // All but the handle and the pins are off by all of their way, the farthest of them by nearly that of the handle.
+      // All elements except the handle and the pins are wrong by their whole displacement, at most nearly the handle's.
       QVERIFY2(error.relative > 0.6 && error.relative < 1, qPrintable(QString::number(error.relative)));
       QCOMPARE(first.measurement->ms_per_move.count, 0);
     }
@@ -184,7 +184,7 @@ void PhysicsTest::times_of_a_drag_are_split() {
 }
 
 void PhysicsTest::preparation_is_no_part_of_a_move() {
-  // Factorizing for some 2000 elements takes a thousand times as long as a move: no share of it is hidden in one.
+  // Factorizing for some 2000 elements takes a thousand times as long as a move, so no share of it can hide in a move.
   Case bar = pinned_bar(2000, {}, {});
   bar.drags = {bar.drags[1], bar.drags.back()};
   const auto report = compare_with_physics({bar}, quick({Algorithm::linear_fem}, {0}));
@@ -193,7 +193,7 @@ void PhysicsTest::preparation_is_no_part_of_a_move() {
   QVERIFY(measured.prepare.factorize.count >= 1 && measured.prepare.grab.count >= 1);
   const double factorize = measured.prepare.factorize.median, grab = measured.prepare.grab.median;
   QVERIFY2(factorize > grab && grab > 0, qPrintable(QStringLiteral("%1 %2").arg(factorize).arg(grab)));
-  // Of the first run, in which everything is prepared, too.
+  // Also in the first run, which prepares everything.
   Runner runner(bar, Algorithm::linear_fem, Precision::double_precision, {});
   const auto moves = with_preparing_move(*bar.mesh, bar.drags[0]);
   QCOMPARE(count_moves(moves), count_moves(bar.drags[0]) + 1);
@@ -202,7 +202,7 @@ void PhysicsTest::preparation_is_no_part_of_a_move() {
   for (const double ms : {measured.first_move.median, measured.ms_per_move.median, cold.first, cold.later}) {
     QVERIFY2(ms > 0 && ms < 0.02 * factorize, qPrintable(QStringLiteral("%1 of %2").arg(ms).arg(factorize)));
   }
-  // After a cut all of it is due again, in that one move.
+  // After a cut, all of it is needed again, in one move.
   const PhysicsMeasurement& cut = report.objects[0].drags[1].entries[1].measurement.value();
   QVERIFY2(cut.move_after_cut.median > 0.5 * factorize, qPrintable(QString::number(cut.move_after_cut.median)));
   QVERIFY(cut.ms_per_move.median < 0.02 * factorize);
@@ -220,7 +220,7 @@ void PhysicsTest::a_cut_in_the_middle_is_measured_against_the_same_cut() {
                entry.measurement && entry.contestant.algorithm);
     }
   }
-  // The cut matters: the object without it stands elsewhere.
+  // The cut matters: without it the object has another shape.
   const Case sheet = pinned_sheet(25, {}, {});
   Case whole = sheet;
   whole.drags = {sheet.drags.back()};
@@ -255,7 +255,7 @@ void PhysicsTest::calibrated_contestants_have_their_softness_and_sweeps() {
   };
   const PhysicsReport calibrated = compare_with_physics({sheet}, options);
   QCOMPARE(avoided, physics_handles(sheet));
-  QCOMPARE(calibrated.objects[0].calibrations.size(), std::size_t{1});  // of these two, Exact alone is calibrated
+  QCOMPARE(calibrated.objects[0].calibrations.size(), std::size_t{1});  // of these two, only Exact is calibrated
   Case stiffer = sheet;
   stiffer.softness = {stiff, {}};
   const PhysicsReport by_hand = compare_with_physics({stiffer}, quick({Algorithm::exact}, {7}));
@@ -275,16 +275,16 @@ void PhysicsTest::calibrated_contestants_have_their_softness_and_sweeps() {
   QVERIFY(refused.objects[0].calibrations.at(0).refusal.find("does not converge") != std::string::npos);
 }
 
-/// Newton's method starts from rest each time: the answer is the same to the bit whatever was asked before.
+/// Newton's method starts from rest each time, so the answer is the same to the bit for any previous target.
 void PhysicsTest::the_reference_solution_knows_nothing_of_the_last_one() {
   const Case sheet = pinned_sheet(25, {}, {});
   const std::vector<double> at_rest(2 * sheet.pins.size());
   ReferenceSolver solver({sheet.mesh, Cuts(sheet.mesh), sheet.pins, at_rest, {}});
-  const ElementId hand = std::get<commands::Grab>(sheet.drags[0].commands[0]).element;
-  const Point near = sheet.mesh->rest_position(hand) + Point(0.1, -0.05, 0), far = near + Point(0.6, -0.6, 0);
-  const ReferenceSolution first = solver.at(hand, near);
-  QVERIFY(solver.at(hand, far).displacements != first.displacements);
-  QVERIFY(chainmail::test::same_bits(solver.at(hand, near).displacements, first.displacements));
+  const ElementId handle = std::get<commands::Grab>(sheet.drags[0].commands[0]).element;
+  const Point near = sheet.mesh->rest_position(handle) + Point(0.1, -0.05, 0), far = near + Point(0.6, -0.6, 0);
+  const ReferenceSolution first = solver.at(handle, near);
+  QVERIFY(solver.at(handle, far).displacements != first.displacements);
+  QVERIFY(chainmail::test::same_bits(solver.at(handle, near).displacements, first.displacements));
 }
 
 void PhysicsTest::everyone_takes_part() {
@@ -314,8 +314,8 @@ void PhysicsTest::everyone_takes_part() {
 
 void PhysicsTest::the_truth_has_no_error_and_linear_elasticity_less_for_less() {
   Case bar = pinned_bar(24, {}, {});
-  const ElementId hand = std::get<commands::Grab>(bar.drags[0].commands[0]).element;
-  bar.drags = {drag(*bar.mesh, hand, {0.4, 0.4, 0}), drag(*bar.mesh, hand, {0.04, 0.04, 0})};
+  const ElementId handle = std::get<commands::Grab>(bar.drags[0].commands[0]).element;
+  bar.drags = {drag(*bar.mesh, handle, {0.4, 0.4, 0}), drag(*bar.mesh, handle, {0.04, 0.04, 0})};
   const auto report = compare_with_physics({bar}, quick({}, {0, 10}));
   const auto far = errors_of(report.objects[0].drags[0]), near = errors_of(report.objects[0].drags[1]);
   for (const auto& errors : {far, near}) {
@@ -325,11 +325,11 @@ void PhysicsTest::the_truth_has_no_error_and_linear_elasticity_less_for_less() {
       QVERIFY(error.max >= error.rms && error.moving_max <= error.max && error.moving_rms >= error.rms);
     }
   }
-  // What linear elasticity leaves out is of second order: a tenth of the way has about a tenth of the error.
+  // Linear elasticity neglects terms of second order: a tenth of the displacement has about a tenth of the error.
   const double ratio = near.at({Algorithm::linear_fem, 0}).rms / far.at({Algorithm::linear_fem, 0}).rms;
   QVERIFY2(ratio > 0.05 && ratio < 0.2, qPrintable(QString::number(ratio)));
   QVERIFY(far.at({Algorithm::exact, 0}) != far.at({Algorithm::exact, 10}));
-  // It found them from where the hand went, not only from what the truth says.
+  // Linear FEM is closer to the reference solution than Exact, which does not know the material.
   QVERIFY(far.at({Algorithm::linear_fem, 0}).rms < far.at({Algorithm::exact, 0}).rms);
 }
 
@@ -351,7 +351,7 @@ void PhysicsTest::drags_are_what_they_say() {
       QVERIFY(std::abs(ways[0].norm() - 0.05 * size) < 1e-12);
       QVERIFY(std::abs(ways[1].norm() - 0.2 * size) < 1e-12 && std::abs(ways[2].norm() - 0.2 * size) < 1e-12);
       QVERIFY(std::abs(ways[1].dot(ways[2])) < 1e-12);
-      // Well spread: a third of the object from the pins and from each other.
+      // Well spread: at least a third of the object away from the pins and from each other.
       std::vector<ElementId> others = object.pins;
       others.insert(others.end(), handles.begin(), handles.end());
       for (const ElementId other : others) {
@@ -440,7 +440,7 @@ void PhysicsTest::the_page_is_well_formed_and_says_all() {
   }
   QVERIFY(std::abs(overview.panels[0].marks[0].y - mean) < 1e-14);
   QVERIFY(std::abs(overview.panels[0].level.value().y - nothing) < 1e-14);
-  QVERIFY(lines >= 2 * 4 * 5);  // an algorithm's sweeps are a line in each panel
+  QVERIFY(lines >= 2 * 4 * 5);  // each number of sweeps of an algorithm is a line in each panel
   for (const AlgorithmInfo& one : every_algorithm()) {
     QVERIFY(text.contains(QString::fromUtf8(one.label.data(), int(one.label.size()))));
   }
@@ -478,7 +478,7 @@ void PhysicsTest::csv_and_text_have_a_row_for_each() {
     QVERIFY2(!row.label.ends_with("sweeps"), row.label.c_str());
   }
   QVERIFY(printed.contains("\n  bar: Nothing moves ") && printed.contains("\n  sheet: Linear FEM, on the same cells "));
-  QCOMPARE(printed.count("\n  3D ChainMail"), 2 + 2);  // refused: once a table, whatever the sweeps
+  QCOMPARE(printed.count("\n  3D ChainMail"), 2 + 2);  // refused, so once per table for any number of sweeps
   QVERIFY(printed.contains("\n  Exact ChainMail, 10 sweeps "));
   QCOMPARE(printed.count("\n  Nothing moves "), 2);
   QVERIFY(printed.contains("\n  BEM, on its surface mesh "));

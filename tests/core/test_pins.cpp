@@ -7,7 +7,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Pinned elements: they stay, whatever pulls.
+/// Pinned elements stay, whatever pulls at them.
 class PinsTest : public QObject {
   Q_OBJECT
 
@@ -44,7 +44,7 @@ void PinsTest::pins_stay() {
       for (int k = 0; k < mesh->space_dimension; ++k) {
         const double rest = mesh->rest[std::size_t{pin} * mesh->space_dimension + k];
         const double now = simulation.solver().positions()(pin, k);
-        RC_ASSERT(now == rest || float(now) == float(rest));  // as the solver's scalar holds it
+        RC_ASSERT(now == rest || float(now) == float(rest));  // in the precision of the solver
       }
     }
   };
@@ -52,7 +52,7 @@ void PinsTest::pins_stay() {
 }
 
 void PinsTest::lists_go_round_a_pin() {
-  // A pin counts as updated: what lies behind it on a chain hears nothing.
+  // A pin counts as updated, so elements behind it on a chain do not move.
   const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
   for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
     if (one.algorithm == Algorithm::exact) {
@@ -79,7 +79,7 @@ void PinsTest::everything_pinned() {
     }
     solver->move(0, Point(-3, -3, 0));
     QCOMPARE(solver->moved().size(), std::size_t{0});
-    // Exact keeps the links: the corner may go by the stretch of one and the lean of the other, 0.1.
+    // Exact keeps all links valid: the corner may move by the stretch of one link and the shear of the other, 0.1.
     const double reached = one.algorithm == Algorithm::exact ? -0.1 : -3;
     QVERIFY(std::abs(solver->positions()(0, 0) - reached) < 1e-6);  // float
   }
@@ -135,9 +135,9 @@ void PinsTest::softness_never_moves_the_hand() {
   drag_by(simulation, 0, Point(-20, 0, 0));
   carry_out(simulation, commands::Release{});
   carry_out(simulation, commands::Grab{11});
-  const Point hand = position_of(simulation, 11);
+  const Point handle = position_of(simulation, 11);
   carry_out(simulation, commands::SetSoftness{{{0.9, 1.1, 0.1}, {}}});
-  QCOMPARE(position_of(simulation, 11)[0], hand[0]);
+  QCOMPARE(position_of(simulation, 11)[0], handle[0]);
   simulation.refresh_statistics(true);
   QVERIFY(simulation.statistics().violation.max < 1e-12);
 }

@@ -8,7 +8,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// One pass in detail: who is looked at, in which order, and what holds afterwards.
+/// One pass in detail: the candidates, their order, and the state after the pass.
 class PropagationTest : public QObject {
   Q_OBJECT
 
@@ -37,7 +37,7 @@ Trace all_moved(const std::vector<std::array<ElementId, 2>>& element_and_sponsor
   return trace;
 }
 
-/// A rigid grid dragged far: every element that is looked at moves.
+/// Drags a rigid grid far, so that every candidate moves.
 Trace drag_rigid(const MeshPointer& mesh, Algorithm algorithm, ElementId element) {
   const auto solver = make_solver(mesh, algorithm, Precision::double_precision);
   solver->set_softness({rigid, {}});

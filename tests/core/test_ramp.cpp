@@ -13,7 +13,7 @@ using namespace chainmail;
 using namespace chainmail::report;
 using namespace chainmail::test;
 
-/// The ramp: its figures, its drags, and when an algorithm is out. Times come from a clock of the test's own.
+/// The ramp: its figures, its drags, and when an algorithm drops out. Times come from a clock that the test controls.
 class RampTest : public QObject {
   Q_OBJECT
 
@@ -38,7 +38,7 @@ class RampTest : public QObject {
 
 namespace {
 
-/// Clocks on which every pass takes so long (ms).
+/// Clocks on which every pass takes this long (ms).
 class Time {
  public:
   Clocks clocks() {
@@ -50,7 +50,7 @@ class Time {
   double own_ms = 1;
 
  private:
-  /// Each reading is later than the last by a pass.
+  /// Each reading is one pass later than the last one.
   static double read(double& seconds, double ms) { return seconds += ms / 1000; }
 
   double wall_ = 0, own_ = 0;
@@ -93,7 +93,7 @@ void RampTest::percentiles() {
 }
 
 void RampTest::growth_of_a_power_law() {
-  std::vector<SizedTime> times{{100, 5}, {999, 7}};  // below where it begins
+  std::vector<SizedTime> times{{100, 5}, {999, 7}};  // below the first size that counts
   for (const double n : {1000.0, 3000.0, 10'000.0, 2e5}) {
     times.push_back({n, 0.25 * std::pow(n, 1.5)});
   }
@@ -103,7 +103,7 @@ void RampTest::growth_of_a_power_law() {
   QCOMPARE(growth->from, 1000.0);
   QCOMPARE(growth->to, 2e5);
   QCOMPARE(growth->sizes, 4);
-  // By hand: (ln n, ln ms) = (0, 0), (1, 2), (2, 1) has the slope 1/2.
+  // Computed by hand: (ln n, ln ms) = (0, 0), (1, 2), (2, 1) has the slope 1/2.
   const double e = std::numbers::e;
   QVERIFY(std::abs(growth_of(std::vector<SizedTime>{{1, 1}, {e, e * e}, {e * e, e}}, 0)->exponent - 0.5) < 1e-12);
 }
@@ -141,14 +141,14 @@ void RampTest::drags_are_a_hands() {
       QVERIFY(target.allFinite() && target.z() == 0);
       const Point step = target - last;
       path += step.norm();
-      // It turns by 0.15 at most more than it did, of which it keeps 0.8: 0.75 at most.
+      // It turns by at most 0.15 more than before, and keeps 0.8 of the last turn: 0.75 at most.
       QVERIFY(last_step.isZero() || step.dot(last_step) >= std::cos(0.75) * step.norm() * last_step.norm());
       turned += std::abs(last_step.x() * step.y() - last_step.y() * step.x());
       last = target;
       last_step = step;
     }
-    QVERIFY(turned > 1e-3 * width);  // no hand goes straight ahead
-    // 2% of the width a move on average, half or twice that; the half sine's mean is 1 to 0.2% with 30 moves.
+    QVERIFY(turned > 1e-3 * width);  // the handle never moves straight ahead
+    // On average 2% of the width per move, half or twice that. The mean of the half sine is 1 to 0.2% for 30 moves.
     QVERIFY(path > 0.998 * 30 * 0.01 * width && path < 1.002 * 30 * 0.04 * width);
   }
 }
@@ -174,7 +174,7 @@ void RampTest::drags_keep_to_the_scenes_axes() {
 
 void RampTest::a_race_gives_second_attempts() {
   const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
-  // Two contestants may have one algorithm, as two panels may.
+  // Two contestants may have the same algorithm, as two panels may.
   RampRace race({4, 5}, {Algorithm::spiral, Algorithm::spiral}, 0.001);
   const RampPasses fast{{0.5, 0.5}, 4}, slow{{2, 2}, 4};  // ms
   QVERIFY(race.finish_attempt(*mesh, std::vector{slow, fast}).empty());
@@ -230,14 +230,15 @@ void RampTest::every_size_and_algorithm_has_a_row() {
 }
 
 void RampTest::all_make_the_same_moves() {
-  // Spiral and Natural Queue end in the same positions, bit for bit: the same moves move as many.
+  // Spiral and Natural Queue end in the same positions, bit for bit, so the same moves move the same number of
+  // elements.
   Time time;
   const auto two = ramp(options_of(time, 400, {Algorithm::natural_queue, Algorithm::spiral}));
   for (std::size_t i = 0; i < two.rows.size(); i += 2) {
     QCOMPARE(two.rows[i].width, two.rows[i + 1].width);
     QCOMPARE(two.rows[i].mean_moved, two.rows[i + 1].mean_moved);
   }
-  // Neither company nor order changes the moves; another seed does.
+  // Neither other contestants nor their order change the moves. Another seed does.
   const auto alone = ramp(options_of(time, 400, {Algorithm::spiral}));
   auto options = options_of(time, 400, {Algorithm::spiral});
   options.seed = 2;
@@ -251,7 +252,7 @@ void RampTest::all_make_the_same_moves() {
   QVERIFY(differs);
 }
 
-/// A second attempt at a size is to show whether the first was bad luck, so it must not repeat its drags.
+/// A second attempt at a size shows whether the first one was bad luck, so it must use other drags.
 void RampTest::every_attempt_has_drags_of_its_own() {
   std::set<std::uint64_t> seeds;
   for (std::uint32_t width = 4; width < 100; ++width) {
@@ -309,11 +310,11 @@ void RampTest::what_others_take_does_not_count() {
   time.wall_ms = 1000;
   const auto waited = ramp(options_of(time, 16, {Algorithm::spiral}));
   QVERIFY(waited.rows[0].p99_ms < 2 && !waited.rows[0].repeated);
-  // The thread's own clock is the slower one to ask: it must not make a pass longer.
+  // Reading the thread's own clock is slower. This must not make a pass longer.
   time.wall_ms = 1;
   time.own_ms = 1000;
   QVERIFY(ramp(options_of(time, 16, {Algorithm::spiral})).rows[0].p99_ms < 2);
-  // The machine's run, and not backwards.
+  // The clocks of the machine run, and not backwards.
   const Clocks clocks = machine_clocks();
   volatile double sum = 0;
   const double seconds = seconds_of(clocks, [&] {

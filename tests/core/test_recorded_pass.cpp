@@ -7,7 +7,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Passes as they were recorded: their positions step by step, and what waited at each step.
+/// Recorded passes: their positions step by step, and the waiting list at each step.
 class RecordedPassTest : public QObject {
   Q_OBJECT
 
@@ -33,7 +33,7 @@ Softness mixed(const Mesh& mesh, std::mt19937_64& random) {
   return softness;
 }
 
-/// Passes of an algorithm on a mesh, with cuts, a pin and mixed softness, each as it was recorded.
+/// Calls check for recorded passes of an algorithm on a mesh with cuts, a pin and mixed softness.
 template <class Check>
 void for_each_pass(const MeshPointer& mesh, Algorithm algorithm, Check check) {
   std::mt19937_64 random(17);
@@ -69,8 +69,8 @@ void RecordedPassTest::steps_lead_from_before_to_after_data() {
   }
 }
 
-/// Whatever happens between passes: relaxation, edits, undo, other meshes and algorithms, and a recorder that is
-/// switched off and on.
+/// Anything may happen between passes: relaxation, edits, undo, other meshes and algorithms, and a recorder that is
+/// turned off and on.
 void RecordedPassTest::steps_lead_from_before_to_after() {
   QFETCH(int, family);
   const MeshPointer mesh = families()[std::size_t(family)].mesh;
@@ -136,7 +136,7 @@ void RecordedPassTest::the_next_one_on_the_list_is_the_one_that_is_taken() {
   }
 }
 
-/// As in test_propagation, where the same drags are worked out: nearly rigid, far enough for all to move.
+/// The drags of test_propagation, where the lists are worked out: nearly rigid, and far enough for all to move.
 void RecordedPassTest::the_lists_of_a_3x3_grid_by_hand() {
   const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
   const auto history_of = [&](Algorithm algorithm) {
@@ -149,7 +149,7 @@ void RecordedPassTest::the_lists_of_a_3x3_grid_by_hand() {
   QCOMPARE(elements_at(generalized, 0), (List{3, 1}));
   QCOMPARE(elements_at(generalized, 1), (List{6, 4, 0, 1}));
   QCOMPARE(elements_at(generalized, 2), (List{7, 3, 4, 0, 1}));
-  QCOMPARE(elements_at(generalized, 4), (List{7, 5, 6, 4, 3, 4, 0, 1}));  // 6 4 before 3, of 7; 7 is to be dropped
+  QCOMPARE(elements_at(generalized, 4), (List{7, 5, 6, 4, 3, 4, 0, 1}));  // 6 4 before 3, by 7; 7 will be dropped
   const auto spiral = history_of(Algorithm::spiral);
   QCOMPARE(elements_at(spiral, 0), (List{1, 3}));
   QCOMPARE(elements_at(spiral, 1), (List{3, 0, 2, 4}));
@@ -166,7 +166,7 @@ void RecordedPassTest::three_d_chainmail_empties_one_list_after_another() {
   Recorded recorded(mesh, Algorithm::chainmail_3d);
   recorded.apply(commands::SetSoftness{{{1, 1, 0}, {}}});
   const WaitingHistory history(*recorded.drag(4, Point(5, 5, 0)));
-  // Right, left, top, bottom of the centre; 5, on the right, feeds right, top and bottom.
+  // Right, left, top, bottom of the centre. 5, on the right, feeds the lists right, top and bottom.
   QCOMPARE(elements_at(history, 0), (std::vector<ElementId>{5, 3, 7, 1}));
   QCOMPARE(elements_at(history, 1), (std::vector<ElementId>{3, 7, 8, 1, 2}));
 }
@@ -188,7 +188,7 @@ void RecordedPassTest::nothing_is_recorded_unless_it_is_asked_for() {
   QVERIFY(recorded.drag(5, Point(0, 0, 0)));
   recorded.apply(commands::Release{});
   recorded.apply(commands::Grab{3});
-  QVERIFY(recorded.recorder.last(0));  // the hand alone changes nothing
+  QVERIFY(recorded.recorder.last(0));  // only the handle changes
 }
 
 void RecordedPassTest::another_thread_may_look_at_any_time() {

@@ -8,7 +8,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Relaxation `mean`, clamped to the neighbours' valid regions.
+/// Relaxation `mean`, limited to the valid regions of the neighbours.
 class RelaxationTest : public QObject {
   Q_OBJECT
 
@@ -38,7 +38,7 @@ void wake_all(Solver& solver, const Mesh& mesh) {
   solver.wake(all);
 }
 
-/// One sweep over all elements of a chain along x, in double, from given positions.
+/// Returns the positions after one sweep over a chain along x, in double, from given positions.
 std::vector<double> sweep_chain(const MeshPointer& mesh, const Softness& softness, const std::vector<double>& positions,
                                 double step, ElementId held) {
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
@@ -49,7 +49,7 @@ std::vector<double> sweep_chain(const MeshPointer& mesh, const Softness& softnes
   return positions_of(*solver, *mesh);
 }
 
-/// A random valid state of a random mesh, all of it active; and a random step.
+/// A random mesh in a random valid state with all elements active, and a random step.
 struct ActiveState {
   ActiveState() : mesh(draw_family().mesh), softness(draw_softness(*mesh)), step(*rc::gen::inRange(1, 101) / 100.0) {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
@@ -75,11 +75,11 @@ const LinkSoftness soft{0.5, 1.5, 0.5};
 }  // namespace
 
 void RelaxationTest::one_free_element_by_hand() {
-  // 0 is where its one neighbour wants it. 1 goes to the mean of 0 + 1 and 2.5 − 1; 2 is held.
+  // 0 is where its only neighbour implies. 1 moves to the mean of 0 + 1 and 2.5 − 1. 2 is held.
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
   QCOMPARE(sweep_chain(mesh, {soft, {}}, {0, 1, 2.5}, 1, 2), (std::vector<double>{0, 1.25, 2.5}));
-  // In ascending id, each from where the one before it went: 1 to the mean of 0.5 + 1 and 2 − 1, and then
-  // 2 to 1.25 + 1.
+  // In ascending id, each from the new positions of those before: 1 moves to the mean of 0.5 + 1 and 2 − 1, and then 2
+  // to 1.25 + 1.
   QCOMPARE(sweep_chain(mesh, {soft, {}}, {0.5, 1, 2}, 1, 0), (std::vector<double>{0.5, 1.25, 2.25}));
 }
 
@@ -95,17 +95,17 @@ void RelaxationTest::the_clamp_keeps_it_inside_the_intersection() {
   QCOMPARE(sweep_chain(mesh, stiff_on_the_left, {0, 1, 3}, 1, 2), (std::vector<double>{0, 1.0625, 3}));
   const Softness stiff_on_the_right{{0, 3, 0}, {{1, {1, 1.75, 0}}}};
   QCOMPARE(sweep_chain(mesh, stiff_on_the_right, {0, 1.25, 3}, 1, 2), (std::vector<double>{0.25, 1.625, 3}));
-  // 0 goes 0.25 to 1.25 − 1; then the mean for 1 is 1.625, inside both regions. A tighter link binds:
+  // 0 moves 0.25 to 1.25 − 1. Then the mean for 1 is 1.625, inside both regions. A tighter link limits it:
   const Softness tight_on_the_right{{0, 3, 0}, {{1, {1, 1.25, 0}}}};
   QCOMPARE(sweep_chain(mesh, tight_on_the_right, {0, 1.75, 3}, 1, 2), (std::vector<double>{0.75, 1.875, 3}));
 }
 
 void RelaxationTest::where_the_intersection_is_empty_it_stays_on_that_axis() {
-  // The ends are 5 apart, the links reach 1.5: on x there is no valid place. On y there is.
+  // The ends are 5 apart, and the links stretch to 1.5, so there is no valid position on x. On y there is.
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1}, 2);
   const auto after = sweep_chain(mesh, {soft, {}}, {0, 0, 1.25, 0.25, 5, 0}, 1, 2);
   QCOMPARE(after[2], 1.25);
-  QCOMPARE(after[3], (0.25 + 0) / 2);  // 0 came to 0.25 − 0 on y before, 2 is at 0
+  QCOMPARE(after[3], (0.25 + 0) / 2);  // 0 moved to 0.25 − 0 on y before, and 2 is at 0
 }
 
 void RelaxationTest::a_cut_link_does_not_pull() {
@@ -150,8 +150,8 @@ void RelaxationTest::the_rest_shape_stays() {
 void RelaxationTest::from_a_valid_state_every_link_stays_valid() {
   const auto holds = [] {
     const ActiveState state;
-    // In rest lengths of the link. The shortest links are 0.05 long and coordinates stay below 100, so
-    // rounding is below 1e-11 a sweep.
+    // In rest lengths of the link. The shortest links are 0.05 long and coordinates stay below 100, so rounding is
+    // below 1e-11 per sweep.
     RC_ASSERT(state.violation() <= 1e-10);
     for (int sweep = 0; sweep < 10; ++sweep) {
       state.solver->relax(state.step, no_limit, state.held);
@@ -168,8 +168,8 @@ void RelaxationTest::from_a_valid_state_the_energy_never_rises() {
     for (int sweep = 0; sweep < 10; ++sweep) {
       state.solver->relax(state.step, no_limit, state.held);
       const double after = state.energy();
-      // E is a sum of some 100 squares of differences; each is off by an ulp of a coordinate (1e-14),
-      // which shows in E by that times a deflection: 1e-12 of E, and less than 1e-20 near none.
+      // E is a sum of some 100 squares of differences. Each difference has an error of an ulp of a coordinate (1e-14),
+      // which changes E by that times a deflection: 1e-12 of E, and less than 1e-20 if E is almost 0.
       RC_ASSERT(after <= before * (1 + 1e-12) + 1e-20);
       before = after;
     }
@@ -178,7 +178,7 @@ void RelaxationTest::from_a_valid_state_the_energy_never_rises() {
 }
 
 void RelaxationTest::it_ends_at_the_rest_shape_about_the_held_element() {
-  // Where no region binds the equilibrium about one held element is the rest shape, carried along.
+  // If no region limits it, the equilibrium about one held element is the rest shape, moved along.
   for (const auto& mesh : {make_mesh(MeshKind::cloth, {5, 5, 1}), make_mesh(MeshKind::tetra, {3, 3, 3})}) {
     const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
     const Point way(0.125, -0.0625, mesh->space_dimension == 3 ? 0.125 : 0);
@@ -189,7 +189,7 @@ void RelaxationTest::it_ends_at_the_rest_shape_about_the_held_element() {
     }
     QVERIFY(sweeps < 10'000);
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
-      // Steps below 1e-6 are not taken; what a hundred sweeps of them would add is below 1e-3.
+      // Steps below 1e-6 are not taken. A hundred sweeps of them would add less than 1e-3.
       QVERIFY((position_of(*solver, *mesh, e) - mesh->rest_position(e) - way).norm() < 1e-3);
     }
   }

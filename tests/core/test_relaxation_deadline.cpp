@@ -6,7 +6,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Relaxation gives up after 10 s: a large object would take minutes to come to rest.
+/// Relaxation stops after 10 s, because a large object would take minutes to come to rest.
 class RelaxationDeadlineTest : public QObject {
   Q_OBJECT
 
@@ -21,11 +21,11 @@ void RelaxationDeadlineTest::relaxation_sleeps_after_ten_seconds() {
   drag_by(simulation, 0, Point(-200, -100, 0));
   QElapsedTimer timer;
   timer.start();
-  // A slice is some milliseconds, also with a sanitizer; a minute is for a machine with much else to do.
+  // A slice takes some milliseconds, also with a sanitizer. The limit of a minute is for a busy machine.
   while (simulation.step() && timer.elapsed() < 60'000) {
   }
   QVERIFY(!simulation.statistics().relaxing);
-  QVERIFY2(timer.elapsed() >= 9'900, "it came to rest of itself: the object is too small for this test");
+  QVERIFY2(timer.elapsed() >= 9'900, "it came to rest before the deadline: the object is too small for this test");
 }
 
 QTEST_APPLESS_MAIN(RelaxationDeadlineTest)

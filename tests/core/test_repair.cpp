@@ -9,7 +9,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Exact ChainMail takes over from any state: what is not valid is repaired.
+/// Exact ChainMail takes over from any state: it repairs an invalid one.
 class RepairTest : public QObject {
   Q_OBJECT
 
@@ -47,7 +47,7 @@ void RepairTest::a_start_that_is_not_valid_is_repaired() {
       const double target = before[at] + hand.by()[mesh->axes[k]];
       RC_ASSERT(std::abs(after[at] - target) <= 8 * half_ulp(precision) * (10 + std::abs(target)));
     }
-    // Rounded once for each envelope's path, the mean of both, and the pass.
+    // Rounding: once for each envelope's path, once for the mean of both, and once for the pass.
     const double size = 10 + largest_displacement(*mesh, after);
     for (LinkId link = 0; link < mesh->link_count(); ++link) {
       const double outside = link_violation(*mesh, softness, solver->positions(), link) * rest_length(*mesh, link);
@@ -58,7 +58,7 @@ void RepairTest::a_start_that_is_not_valid_is_repaired() {
 }
 
 void RepairTest::a_repair_leaves_what_is_valid() {
-  // Set from outside, a valid state is as unknown as any other; it must not change.
+  // A valid state that was set from outside is not known to be valid. It must not change.
   std::mt19937_64 random(3);
   for (const MeshFamily& family : families()) {
     const auto solver = make_solver(family.mesh, Algorithm::exact, Precision::double_precision);
@@ -66,21 +66,21 @@ void RepairTest::a_repair_leaves_what_is_valid() {
     solver->set_positions(state);
     const PassCount count = move_by(*solver, *family.mesh, 0, Point(0, 0, 0));
     QCOMPARE(count.moved, std::uint64_t{0});
-    // Held from rest and summed again: an ulp of the coordinates.
+    // Stored relative to rest and added again: an ulp of the coordinates.
     QVERIFY2(largest_step(state, positions_of(*solver, *family.mesh)) <= 1e-14, family.name.c_str());
   }
 }
 
 void RepairTest::a_repair_halves_between_the_envelopes() {
-  // 0 is held; links are 0.75 to 1.25 long. Clamped to what the hand allows, 1 stays at 1 and 2 comes to 2.5.
-  // They are 1.5 apart: the greatest valid answer below has 2 at 2.25, the least above has 1 at 1.25.
+  // 0 is held, and links are 0.75 to 1.25 long. Clamped to what the handle allows, 1 stays at 1 and 2 moves to 2.5.
+  // They are 1.5 apart. The greatest valid answer below has 2 at 2.25, the least one above has 1 at 1.25.
   const auto chain = make_mesh(MeshKind::line, {3, 1, 1});
   const auto solver = make_solver(chain, Algorithm::exact, Precision::double_precision);
   solver->set_softness({{0.75, 1.25, 0}, {}});
   solver->set_positions(std::vector<double>{0, 1, 4});
   solver->move(0, Point(0, 0, 0));
   QCOMPARE(positions_of(*solver, *chain), (std::vector<double>{0, 1.125, 2.375}));
-  // Far from the hand nothing anchors: 10 and 11 are 2 apart where 1.5 is the most.
+  // Far from the handle there is no anchor: 10 and 11 are 2 apart, and 1.5 is the limit.
   const auto longer = make_mesh(MeshKind::line, {12, 1, 1});
   const auto free = make_solver(longer, Algorithm::exact, Precision::double_precision);
   free->set_softness({{0.5, 1.5, 0}, {}});
@@ -88,7 +88,7 @@ void RepairTest::a_repair_halves_between_the_envelopes() {
   state[11] = 12;
   free->set_positions(state);
   free->move(0, Point(0, 0, 0));
-  // Least: 11 comes down to 11.5. Greatest: 10 goes up to 10.5. Between: 11.75 and 10.25.
+  // Least: 11 moves down to 11.5. Greatest: 10 moves up to 10.5. The means are 11.75 and 10.25.
   QCOMPARE(free->positions()(11, 0), 11.75);
   QCOMPARE(free->positions()(10, 0), 10.25);
   QCOMPARE(free->positions()(9, 0), 9.0);
@@ -152,7 +152,8 @@ void RepairTest::a_repair_of_huge_displacements_stays_finite() {
 }
 
 void RepairTest::back_from_far_away_every_link_holds() {
-  // Far away links hold to the ulp of there; near again they must hold to that of here.
+  // Far away, links are valid to the ulp of large coordinates. Near the origin again, they must be valid to a small
+  // ulp.
   const auto mesh = make_mesh(MeshKind::grid, {20, 20, 1});
   const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
   solver->move(210, Point(1e7, 1e7, 0));
@@ -162,7 +163,7 @@ void RepairTest::back_from_far_away_every_link_holds() {
 }
 
 void RepairTest::relaxation_that_moves_nothing_leaves_the_rest_shape() {
-  // 2^24 and multiples of 0.37 do not fit float: Exact must take the rest shape as the mesh has it.
+  // 2^24 and multiples of 0.37 do not fit into float. Exact must use the rest shape of the mesh.
   const auto line = make_mesh(MeshKind::line, {9, 1, 1}, {}, 0.37);
   const auto mesh = build_mesh(placed(*line, [](const Point& p) { return Point(p + Point(16777216, 0, 0)); }));
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
@@ -172,7 +173,7 @@ void RepairTest::relaxation_that_moves_nothing_leaves_the_rest_shape() {
 }
 
 void RepairTest::what_exact_leaves_needs_no_repair() {
-  // Uncutting a link at rest has all links looked at: they hold as far as a hand this far away rounds them.
+  // Uncutting a link at rest checks all links. They are valid up to the rounding of a handle that is this far away.
   const auto mesh = make_mesh(MeshKind::grid, {200, 200, 1});
   for (const Precision precision : precisions) {
     for (const double far : {30.0, 100.0}) {
@@ -188,7 +189,7 @@ void RepairTest::what_exact_leaves_needs_no_repair() {
 }
 
 void RepairTest::pins_on_what_exact_leaves_contradict_nobody() {
-  // Ten elements in a row are pinned just behind the front of a long drag, and the hand comes back near them.
+  // Ten elements in a row are pinned just behind the front of a long drag, and the handle comes back near them.
   const auto mesh = make_mesh(MeshKind::line, {3000, 1, 1});
   for (const double far : {25.0, 70.0, 400.0}) {
     const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
@@ -197,7 +198,7 @@ void RepairTest::pins_on_what_exact_leaves_contradict_nobody() {
     std::iota(pins.begin(), pins.end(), ElementId(front - 11));
     solver->pin(pins);
     for (const double to : {-0.9 * far, -far / 100, 0.01 - far / 100}) {
-      solver->move(0, Point(to, 0, 0));  // throws where it finds a contradiction
+      solver->move(0, Point(to, 0, 0));  // throws if it finds a contradiction
     }
     QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()).max < 1e-4);
   }
@@ -214,7 +215,7 @@ void RepairTest::an_uncut_link_is_mended() {
   solver->uncut(std::span(&middle, 1));
   Trace trace;
   const PassCount count = solver->move(0, Point(-5, 0, 0), &trace);
-  // 0 is held at −5 and 1 at most 1.25 further, as it was: the others have to come.
+  // 0 is held at −5. 1 is at most 1.25 further, as before, so it stays. The others must move.
   QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-5, -3.75, -2.5, -1.25}));
   QCOMPARE(count.moved, std::uint64_t{2});
   QCOMPARE(trace.size(), std::size_t{2});

@@ -7,10 +7,10 @@ using namespace chainmail::test;
 
 namespace {
 
-/// What a drag meets besides moves of its hand.
+/// Events of a drag besides moves of the handle.
 enum class Event { move, move_back, other_hand, cut, uncut, pin, unpin, soften, reset, count };
 
-/// One solver that goes on, and for each pass another one that has seen nothing of what was before.
+/// One solver that continues, compared for each pass with a new solver that knows nothing of earlier passes.
 class Drag {
  public:
   Drag(MeshPointer mesh, Algorithm algorithm, Precision precision)
@@ -73,7 +73,7 @@ class Drag {
 
 }  // namespace
 
-/// Passes of a drag take over what the last one learnt: the outcome is the same, bit for bit.
+/// Passes of a drag reuse what the last pass recorded. The result is the same, bit for bit.
 class ReplayTest : public QObject {
   Q_OBJECT
 
@@ -86,12 +86,12 @@ void ReplayTest::a_drag_goes_as_without_memory() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     std::vector<AlgorithmInfo> all = algorithms_for(*mesh);
-    // Exact holds displacements from rest: another solver cannot be given them to the bit.
+    // Exact stores displacements from rest, so another solver cannot receive them to the bit.
     std::erase_if(all, [](const AlgorithmInfo& one) { return one.algorithm == Algorithm::exact; });
     Drag drag(mesh, (*rc::gen::elementOf(all)).algorithm, *any_precision());
     const int events = *rc::gen::inRange(1, 40);
     for (int i = 0; i < events; ++i) {
-      // Most are moves, many so large that all elements follow, others so small that few do.
+      // Most events are moves: some so large that all elements follow, others so small that few do.
       const int drawn = *rc::gen::inRange(0, 3 * int(Event::count));
       const int reach = *rc::gen::element(1, 4, 400);
       drag.happen(drawn < int(Event::count) ? Event(drawn) : Event::move, *rc::gen::inRange<std::uint32_t>(0, 1000),
@@ -111,7 +111,7 @@ void ReplayTest::an_algorithm_finds_nothing_of_another() {
   };
   both(-20);
   both(20);
-  // In between, one of them goes by other algorithms that move nothing.
+  // In between, one of the solvers changes to other algorithms, without a move.
   for (const AlgorithmInfo& info : algorithms_for(*mesh)) {
     one->set_algorithm(info.algorithm);
     if (info.algorithm != Algorithm::exact) {

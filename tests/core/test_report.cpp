@@ -14,7 +14,7 @@
 using namespace chainmail;
 using namespace chainmail::report;
 
-/// How a comparison is written: numbers, axes, plots, page and tables.
+/// The output of a comparison: numbers, axes, plots, page and tables.
 class ReportTest : public QObject {
   Q_OBJECT
 
@@ -50,7 +50,7 @@ Measurement measured(double ms, double violation, double distance) {
   return measurement;
 }
 
-/// Two drags on one object: Natural Queue with and without sweeps, 3D ChainMail refused, Exact.
+/// A comparison of two drags on one object: Natural Queue with and without sweeps, 3D ChainMail refused, Exact.
 Comparison comparison() {
   const auto entries = [](double scale) {
     return std::vector<Entry>{
@@ -79,7 +79,7 @@ std::string drawn(const Plot& plot) {
   return out.str();
 }
 
-/// The elements by their names; empty where the text is not well-formed XML.
+/// Returns the names of the XML elements; empty if the text is not well-formed XML.
 QStringList elements_of(const std::string& text, QString* all_text = nullptr) {
   QXmlStreamReader reader(QByteArray::fromStdString(text));
   QStringList names;
@@ -114,7 +114,7 @@ void ReportTest::figures_have_three_digits() {
 
 void ReportTest::text_is_escaped() {
   QCOMPARE(escaped(nasty), std::string("a&lt;b &amp; &quot;c&quot; &#39;d&#39; ]]&gt; ?? \xc3\xa9"));
-  // A character cut short, a surrogate, an overlong form, one beyond the last; and real ones of each length.
+  // A truncated character, a surrogate, an overlong form, and one beyond the last; then valid ones of each length.
   QCOMPARE(escaped("\xc3"), std::string("?"));
   QCOMPARE(escaped("\xed\xa0\x80|\xc0\xaf|\xf4\x90\x80\x80"), std::string("???|??|????"));
   QCOMPARE(escaped("é€𝄞"), std::string("é€𝄞"));
@@ -182,7 +182,7 @@ void ReportTest::a_linear_axis_ends_at_a_round_number() {
 void ReportTest::a_plot_has_every_contestant_on_it() {
   const Plot plot = violation_plot(comparison().cases[0]);
   QCOMPARE(plot.panels.size(), std::size_t{2});
-  QCOMPARE(plot.series.size(), std::size_t{2});  // the refused one has no place
+  QCOMPARE(plot.series.size(), std::size_t{2});  // the refused contestant has no marks
   QVERIFY(plot.series[0].look != plot.series[1].look);
   const auto& marks = plot.panels[1].marks;
   QCOMPARE(marks.size(), std::size_t{3});
@@ -200,7 +200,7 @@ void ReportTest::a_plot_is_well_formed() {
     const QStringList elements = elements_of(drawn(plot));
     QVERIFY(!elements.isEmpty());
     QCOMPARE(elements.first(), QString("svg"));
-    // A mark each, and one for each line of the legend.
+    // One mark per measurement, and one per line of the legend.
     const std::size_t marks = plot.panels.empty() ? 0 : 6 + plot.series.size();
     QCOMPARE(std::size_t(elements.count("path")), marks);
   }
@@ -211,18 +211,18 @@ void ReportTest::marks_stand_where_their_values_are() {
   plot.series = {{"one", 0}};
   plot.panels = {{"", {{0.1, 0.1, 0.1, 1, 0, false, "", ""}, {10, 10, 10, 100, 0, false, "", ""}}}};
   QXmlStreamReader reader(QByteArray::fromStdString(drawn(plot)));
-  QList<QPointF> places;
+  QList<QPointF> positions;
   while (!reader.atEnd()) {
     if (reader.readNext() == QXmlStreamReader::StartElement && reader.name() == QString("path")) {
       const auto numbers =
           reader.attributes().value("transform").toString().section('(', 1).section(')', 0, 0).split(' ');
-      places << QPointF(numbers[0].toDouble(), numbers[1].toDouble());
+      positions << QPointF(numbers[0].toDouble(), numbers[1].toDouble());
     }
   }
-  QCOMPARE(places.size(), 3);
-  // The first at the origin, the second at the far ends of both axes.
-  QCOMPARE(places[0], QPointF(0, 210));
-  QCOMPARE(places[1], QPointF(250, 0));
+  QCOMPARE(positions.size(), 3);
+  // The first mark is at the origin, the second at the far ends of both axes.
+  QCOMPARE(positions[0], QPointF(0, 210));
+  QCOMPARE(positions[1], QPointF(250, 0));
 }
 
 void ReportTest::a_page_is_well_formed_and_needs_nothing_else() {
@@ -271,7 +271,7 @@ void ReportTest::a_refusal_is_listed() {
   QCOMPARE(words.count("it works, on grids, alone"), 3);  // main table, and each drag's
   std::ostringstream out;
   write_text(out, comparison());
-  // As wide as the widest name, `Natural Queue ChainMail, 10 sweeps`.
+  // As wide as the longest name, `Natural Queue ChainMail, 10 sweeps`.
   QVERIFY(QString::fromStdString(out.str()).contains("\n  " + QString("3D ChainMail").leftJustified(34) +
                                                      "  it works, on grids, alone\n"));
 }
@@ -287,7 +287,7 @@ void ReportTest::csv_has_a_row_for_each() {
   for (int i = 1; i < lines.size(); ++i) {
     const QString start = "\"a \"\"b\"\", c\",9,12,";
     QVERIFY2(lines[i].startsWith(start), qPrintable(lines[i]));
-    // The name holds a comma of its own, and so do the refusal's two.
+    // The name contains one comma, and the refusal two.
     QCOMPARE(lines[i].split(',').size(), columns + 1 + (lines[i].contains("original") ? 2 : 0));
   }
   QVERIFY(lines[1].contains(",one,4,natural-queue,0,,5,0.01,0.005,0.02,0.0025,0.04,0,12,8,0.5,0.25,0.125,0.25,0.125,"));

@@ -11,7 +11,7 @@ using namespace chainmail::test;
 
 namespace {
 
-// A share is a float: a place on a link of length 1 is off by at most 2^-25, an area of 6 by a few of these.
+// A share is a float: a position on a link of length 1 is wrong by at most 2^-25, an area of 6 by a few of these.
 constexpr double rounding = 1e-6;
 
 struct Block {
@@ -25,7 +25,7 @@ constexpr std::array<double, 3> area_across{4, 6, 6};
 
 CellTablePointer table_of(const MeshPointer& mesh) { return std::make_shared<CellTable>(mesh); }
 
-Point place(const Mesh& mesh, const SectionPoint& point) {
+Point position_at(const Mesh& mesh, const SectionPoint& point) {
   const Point from = mesh.rest_position(point.from);
   return from + double(point.share) * (mesh.rest_position(point.to) - from);
 }
@@ -35,8 +35,9 @@ double area(const Section& section, const Surface& surface) {
   const auto corners = section.triangles(surface);
   double sum = 0;
   for (std::size_t i = 0; i < corners.size(); i += 3) {
-    const Point a = place(mesh, section.points()[corners[i]]), b = place(mesh, section.points()[corners[i + 1]]),
-                c = place(mesh, section.points()[corners[i + 2]]);
+    const Point a = position_at(mesh, section.points()[corners[i]]),
+                b = position_at(mesh, section.points()[corners[i + 1]]),
+                c = position_at(mesh, section.points()[corners[i + 2]]);
     sum += (b - a).cross(c - a).norm() / 2;
   }
   return sum;
@@ -49,7 +50,7 @@ double area(const MeshPointer& mesh, const SectionPlane& plane) {
 
 }  // namespace
 
-/// The face that a plane gives a volume at rest.
+/// The face that a plane cuts through a volume at rest.
 class SectionTest : public QObject {
   Q_OBJECT
 
@@ -63,7 +64,7 @@ class SectionTest : public QObject {
 void SectionTest::its_area_is_the_cross_sections() {
   for (const auto& [name, mesh] : blocks()) {
     for (int axis = 0; axis < 3; ++axis) {
-      // Through cells, and exactly through elements: there the one side's faces are the section.
+      // Through cells, and exactly through elements. In the second case the section consists of faces on one side.
       for (const double at : {0.25, 0.5, 1.0, 1.75, 1.999}) {
         for (const bool flipped : {false, true}) {
           const double found = area(mesh, {axis, at, flipped});
@@ -80,7 +81,7 @@ void SectionTest::its_points_lie_in_the_plane_each_once() {
     const Section section(table_of(mesh), {1, 0.3, false});
     std::set<std::pair<ElementId, ElementId>> seen;
     for (const SectionPoint& point : section.points()) {
-      QVERIFY(std::abs(place(*mesh, point).y() - 0.3) < rounding);
+      QVERIFY(std::abs(position_at(*mesh, point).y() - 0.3) < rounding);
       QVERIFY(point.share >= 0 && point.share <= 1 && point.from < point.to);
       QVERIFY(seen.insert({point.from, point.to}).second);
     }
@@ -92,7 +93,7 @@ void SectionTest::where_nothing_is_taken_away_there_is_none() {
     QCOMPARE(area(mesh, {0, 3, false}), 0.0);
     QCOMPARE(area(mesh, {0, 0, true}), 0.0);
     QCOMPARE(area(mesh, {0, -1, false}), 0.0);                                 // nor where all is
-    QVERIFY(std::abs(area(mesh, {0, 0, false}) - area_across[0]) < rounding);  // its low end stays to be seen
+    QVERIFY(std::abs(area(mesh, {0, 0, false}) - area_across[0]) < rounding);  // its low end stays visible
     QVERIFY(std::abs(area(mesh, {0, 3, true}) - area_across[0]) < rounding);
   }
   QCOMPARE(area(make_mesh(MeshKind::cloth, {4, 4, 1}, 3), {0, 1.5, false}), 0.0);  // it has no cells
@@ -103,10 +104,10 @@ void SectionTest::cells_that_are_cut_leave_holes() {
   const auto table = table_of(mesh);
   const Section section(table, {0, 1.5, false});
   Surface surface(table);
-  const LinkId link = *find_link(*mesh, 1, 2);  // an edge of one cell that the plane crosses
+  const LinkId link = *find_link(*mesh, 1, 2);  // an edge of only one of the crossed cells
   surface.cut(link);
   QVERIFY(std::abs(area(section, surface) - (area_across[0] - 1)) < rounding);
-  surface.cut(*find_link(*mesh, 0, 1));  // of none
+  surface.cut(*find_link(*mesh, 0, 1));  // of no crossed cell
   QVERIFY(std::abs(area(section, surface) - (area_across[0] - 1)) < rounding);
   surface.uncut(link);
   QVERIFY(std::abs(area(section, surface) - area_across[0]) < rounding);

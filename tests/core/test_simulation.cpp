@@ -5,7 +5,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// What each command does to an object in time.
+/// The effect of each command on an object.
 class SimulationTest : public QObject {
   Q_OBJECT
 
@@ -38,7 +38,7 @@ Simulation grid_simulation(Algorithm algorithm = Algorithm::natural_queue) {
   return {make_mesh(MeshKind::grid, {6, 5, 1}), algorithm, Precision::double_precision};
 }
 
-/// Steps until it sleeps; false where it has not after so many slices.
+/// Runs steps until the simulation sleeps. Returns false if it does not within this number of slices.
 bool comes_to_rest(Simulation& simulation, int slices = 100'000) {
   for (int i = 0; i < slices; ++i) {
     if (!simulation.step()) {
@@ -57,7 +57,7 @@ void SimulationTest::grabbing_moves_nothing() {
   QVERIFY(simulation.grabbed() == 7u);
   QVERIFY(same_bits(before, positions_of(simulation)));
   QCOMPARE(simulation.statistics().passes, std::uint64_t{0});
-  carry_out(simulation, commands::Grab{8});  // another hand takes over
+  carry_out(simulation, commands::Grab{8});  // another handle takes over
   QVERIFY(simulation.grabbed() == 8u);
 }
 
@@ -82,7 +82,7 @@ void SimulationTest::after_release_a_drag_has_nothing_to_move() {
   drag_by(simulation, 7, Point(2, 1, 0));
   carry_out(simulation, commands::Release{});
   QVERIFY(!simulation.grabbed());
-  carry_out(simulation, commands::Release{});  // does no harm
+  carry_out(simulation, commands::Release{});  // has no effect
   const SavedState before(simulation);
   QVERIFY_EXCEPTION_THROWN(carry_out(simulation, commands::Drag{Point(9, 9, 0)}), std::runtime_error);
   QVERIFY(SavedState(simulation) == before);
@@ -142,7 +142,7 @@ void SimulationTest::reset_keeps_cuts_and_softness() {
   QCOMPARE(simulation.solver().cuts().links(), (std::vector<LinkId>{5}));
   QVERIFY(simulation.softness() == softness);
   QVERIFY(simulation.valid());
-  carry_out(simulation, commands::Drag{Point(2, 2, 0)});  // the hand still holds it
+  carry_out(simulation, commands::Drag{Point(2, 2, 0)});  // the element is still grabbed
   QVERIFY(position_of(simulation, 7) == Point(2, 2, 0));
 }
 
@@ -159,7 +159,7 @@ void SimulationTest::another_mesh_is_uncut_and_at_rest() {
   QVERIFY(simulation.solver().cuts().links().empty());
   QVERIFY(simulation.softness() == (Softness{global, {}}));  // softness per link belongs to the old one
   QVERIFY(!simulation.grabbed());
-  // The global softness is in force in the new one: the link along the drag stretches by 1.5.
+  // The global softness also applies to the new mesh: the link along the drag stretches to 1.5.
   drag_by(simulation, 0, Point(-8, 0, 0));
   QCOMPARE(position_of(simulation, 1)[0], -8 + 1.5);
 }
@@ -177,7 +177,7 @@ void SimulationTest::relaxation_runs_in_idle_time_and_sleeps() {
   QVERIFY(comes_to_rest(simulation));
   QVERIFY(!simulation.statistics().relaxing);
   QVERIFY(!simulation.step());
-  QVERIFY(position_of(simulation, 0) == Point(-2, -1, 0));  // the hand holds it
+  QVERIFY(position_of(simulation, 0) == Point(-2, -1, 0));  // the handle stays
   const double after = elastic_energy(simulation.mesh(), simulation.solver().cuts(), simulation.solver().positions());
   QVERIFY(after < before / 10);
 }
@@ -196,7 +196,7 @@ void SimulationTest::relaxation_stops_when_switched_off() {
 }
 
 void SimulationTest::a_cut_under_tension_is_felt() {
-  // Cut off from the hand, the other two go back to their rest length.
+  // After the cut, the other two return to their rest length.
   Simulation simulation(make_mesh(MeshKind::line, {3, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
   carry_out(simulation, commands::SetSoftness{{{0.5, 2, 0}, {{0, {1, 1, 0}}}}});
   drag_by(simulation, 0, Point(-2, 0, 0));
@@ -213,13 +213,14 @@ void SimulationTest::sweeps_at_once_need_no_switch() {
   carry_out(simulation, commands::SetSoftness{{{0.5, 1.5, 0}, {}}});
   drag_by(simulation, 0, Point(-2, 0, 0));
   QCOMPARE(positions_of(simulation), (std::vector<double>{-2, -0.5, 1}));
-  // 1 goes to the mean of −2 + 1 and 1 − 1, which is where it is; 2 to −0.5 + 1. Then 1 to −0.75, 2 to 0.25.
+  // 1 moves to the mean of −2 + 1 and 1 − 1, which is where it is. 2 moves to −0.5 + 1. Then 1 moves to −0.75, 2 to
+  // 0.25.
   simulation.relax(2, 1);
   QCOMPARE(positions_of(simulation), (std::vector<double>{-2, -0.75, 0.25}));
   QVERIFY(!simulation.statistics().relaxing);
 }
 
-/// They are done in slices, between which they may be given up.
+/// Sweeps run in slices, and they can be cancelled between slices.
 void SimulationTest::sweeps_of_a_large_mesh_are_those_of_its_solver() {
   const auto mesh = make_mesh(MeshKind::grid, {250, 200, 1});
   Simulation simulation(mesh, Algorithm::natural_queue, Precision::double_precision);
@@ -250,7 +251,8 @@ void SimulationTest::sweeps_are_given_up_in_the_middle_of_one() {
   const commands::Relax sweeps{1'000'000, 1, RelaxationScheme::mean};
   QVERIFY_THROWS_EXCEPTION(Cancelled, carry_out(given_up, sweeps));
   job.cancelled = false;
-  // It goes on as if there had been none: by its own scheme, with nobody awake of before.
+  // It continues as if the cancelled sweeps had never been: with its own scheme, and without active elements from
+  // before.
   for (Simulation* one : {&given_up, &never}) {
     carry_out(*one, commands::RestoreState{1});
     drag_by(*one, 0, Point(-9, -7, 0));
@@ -262,11 +264,11 @@ void SimulationTest::sweeps_are_given_up_in_the_middle_of_one() {
 void SimulationTest::statistics_say_what_happened() {
   auto simulation = grid_simulation();
   simulation.refresh_statistics(false);
-  QCOMPARE(simulation.statistics().violation.links, std::uint64_t{0});  // no pass has touched any
+  QCOMPARE(simulation.statistics().violation.links, std::uint64_t{0});  // no pass has moved an element
   simulation.refresh_statistics(true);
   QCOMPARE(simulation.statistics().violation.links, std::uint64_t{simulation.mesh().link_count()});
   QVERIFY(simulation.statistics().violation_of_whole_mesh);
-  drag_by(simulation, 0, Point(0.05, 0, 0));  // moves nobody else
+  drag_by(simulation, 0, Point(0.05, 0, 0));  // moves no other element
   simulation.refresh_statistics(false);
   QVERIFY(!simulation.statistics().violation_of_whole_mesh);
   QCOMPARE(simulation.statistics().violation.links, std::uint64_t{2});  // the corner's
@@ -279,15 +281,15 @@ void SimulationTest::statistics_say_what_happened() {
 void SimulationTest::idle_time_measures_in_slices() {
   Simulation simulation(make_mesh(MeshKind::grid, {200, 200, 1}), Algorithm::generalized, Precision::single_precision);
   drag_by(simulation, 0, Point(-3, -2, 0));
-  QVERIFY(simulation.measure());  // there is more than a slice
+  QVERIFY(simulation.measure());  // more than one slice is needed
   drag_by(simulation, 0, Point(2, 9, 0));
   int slices = 1;
   for (; simulation.measure(); ++slices) {
-    QVERIFY(!simulation.statistics().violation_of_whole_mesh);  // half a mesh is no figure
+    QVERIFY(!simulation.statistics().violation_of_whole_mesh);  // half a mesh is not a result
   }
   QVERIFY(slices > 2);
   QVERIFY(simulation.statistics().violation_of_whole_mesh);
-  // Of the positions as they are, with nothing of those before the command.
+  // Of the current positions, without results from before the command.
   QVERIFY(simulation.statistics().violation == measure_violation(simulation.mesh(), simulation.softness(),
                                                                  simulation.solver().cuts(),
                                                                  simulation.solver().positions()));
@@ -298,7 +300,7 @@ void SimulationTest::valid_is_what_the_whole_mesh_says() {
   QVERIFY(simulation.valid());
   drag_by(simulation, 0, Point(0, 0, 9));
   simulation.refresh_statistics(true);
-  QVERIFY(simulation.statistics().violation.fraction > 0);  // what Generalized is known for
+  QVERIFY(simulation.statistics().violation.fraction > 0);  // a known property of Generalized
   QVERIFY(!simulation.valid());
   carry_out(simulation, commands::Reset{});
   QVERIFY(simulation.valid());
@@ -316,7 +318,7 @@ void SimulationTest::exact_takes_over_at_once() {
 }
 
 void SimulationTest::what_passes_did_goes_with_them() {
-  // Another algorithm, the rest shape or an undone state must not stand beside what an older pass did.
+  // After a change of algorithm, a reset or an undo, the figures of an older pass must not remain.
   const std::vector<Command> changes{commands::SetAlgorithm{Algorithm::spiral}, commands::Reset{},
                                      commands::RestoreState{1}};
   for (const Command& change : changes) {

@@ -7,7 +7,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// A command that does not fit is refused with a sentence, and leaves everything as it was.
+/// A command that does not fit is refused with a message, and nothing changes.
 class SimulationErrorsTest : public QObject {
   Q_OBJECT
 
@@ -21,7 +21,7 @@ namespace {
 
 const double no_number = std::nan("");
 
-/// A cut, softened and dragged object, relaxing, with a hand on it.
+/// A simulation of a cut, softened and dragged object, relaxing, with a grabbed element.
 Simulation busy_simulation(const MeshPointer& mesh, Precision precision) {
   Simulation simulation(mesh, Algorithm::natural_queue, precision);
   carry_out(simulation, commands::SetSoftness{{{0.7, 1.3, 0.2}, {{2, {1, 1, 0}}}}});
@@ -42,7 +42,7 @@ Q_DECLARE_METATYPE(chainmail::Command)
 
 void SimulationErrorsTest::refused_without_a_trace_data() {
   QTest::addColumn<Command>("bad");
-  QTest::addColumn<QString>("names");  // what the sentence names
+  QTest::addColumn<QString>("names");  // the subject of the message
   const auto row = [](const char* name, const Command& bad, const char* names) {
     QTest::newRow(name) << bad << QString(names);
   };
@@ -79,7 +79,7 @@ void SimulationErrorsTest::refused_without_a_trace() {
     }
     QVERIFY2(sentence.startsWith(names + ": "), qPrintable("said: " + sentence));
     QVERIFY(SavedState(simulation) == before);
-    // And what comes next comes out as if nothing had been.
+    // Later commands must give the same result as without the refused command.
     for (Simulation* one : {&simulation, &undisturbed}) {
       carry_out(*one, commands::Drag{Point(-1, 4, 0)});
       one->step();
@@ -94,7 +94,7 @@ void SimulationErrorsTest::a_hand_that_holds_nothing_drags_nothing() {
   const SavedState before(simulation);
   QVERIFY_EXCEPTION_THROWN(carry_out(simulation, commands::Drag{Point(1, 1, 0)}), Error);
   QVERIFY(SavedState(simulation) == before);
-  // A new mesh has not been grabbed either.
+  // In a new mesh, no element is grabbed.
   carry_out(simulation, commands::Grab{7});
   carry_out(simulation, commands::ReplaceMesh{make_mesh(MeshKind::line, {3, 1, 1})});
   QVERIFY_EXCEPTION_THROWN(carry_out(simulation, commands::Drag{Point(1, 0, 0)}), Error);

@@ -7,7 +7,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Where elements stand, taken from one simulation and given to another.
+/// Snapshots of positions, taken from one simulation and restored in another.
 class SnapshotTest : public QObject {
   Q_OBJECT
 
@@ -40,7 +40,7 @@ void SnapshotTest::another_simulation_takes_it_to_the_bit() {
         carry_out(other, place(one.snapshot()));
         QVERIFY2(same_bits(positions_of(other), positions_of(one)), family.name.c_str());
         QVERIFY(other.snapshot() == one.snapshot());
-        QVERIFY(!other.valid());  // as far as is known
+        QVERIFY(!other.valid());  // validity is not known
       }
     }
   }
@@ -108,7 +108,7 @@ void SnapshotTest::a_solver_is_asked_in_turn() {
   const auto mesh = make_mesh(MeshKind::cloth, {16, 16, 1});
   SolverThread solver(mesh, Algorithm::natural_queue, [] {});
   Simulation simulation(mesh, Algorithm::natural_queue, Precision::single_precision);
-  std::vector<Snapshot> answers;  // the solver's thread alone until it is idle
+  std::vector<Snapshot> answers;  // only the solver's thread writes it until the solver is idle
   for (int i = 0; i < 20; ++i) {
     for (const Command& command :
          {Command(commands::Grab{static_cast<ElementId>(i)}), Command(commands::Drag{Point(i, -2, 0)})}) {

@@ -9,7 +9,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// The valid region: hand-computed values, its sign rule and its mirror image.
+/// The valid region: values computed by hand, the rule of signs, and mirrored links.
 class SoftnessRegionTest : public QObject {
   Q_OBJECT
 
@@ -28,7 +28,7 @@ class SoftnessRegionTest : public QObject {
 
 namespace {
 
-// Sums of products of short decimals: two roundings of numbers below 8.
+// For sums of products of short decimals: two roundings of numbers below 8.
 constexpr double rounding = 4 * 8 * std::numeric_limits<double>::epsilon();
 
 template <int Dimension>
@@ -66,7 +66,7 @@ bool rest_is_valid(const double (&rest_vector)[3], const LinkSoftness& softness)
   return true;
 }
 
-/// Calls `holds(rest vector, softness)` on what RapidCheck draws: coordinates in hundredths, of any sign.
+/// Calls `holds(rest vector, softness)` for links that RapidCheck draws: coordinates in hundredths, of any sign.
 template <class Holds>
 bool check_any_link(const char* sentence, Holds holds) {
   return check_property(sentence, [&holds] {
@@ -111,7 +111,7 @@ void SoftnessRegionTest::the_table_of_parameters_agrees() {
 }
 
 void SoftnessRegionTest::by_hand_in_1d() {
-  // No other axis, so shear is without effect.
+  // There is no other axis, so shear has no effect.
   compare_region<1>({2}, {0.8, 1.2, 0.5}, {1.6}, {2.4});
   compare_region<1>({2}, {0, 1, 0}, {0}, {2});
 }
@@ -130,7 +130,7 @@ void SoftnessRegionTest::by_hand_in_3d() {
 void SoftnessRegionTest::a_link_that_runs_left_or_down() {
   compare_region<1>({-1}, {0.8, 1.2, 0.1}, {-1.2}, {-0.8});
   compare_region<2>({0, -1}, {0.8, 1.2, 0.1}, {-0.1, -1.2}, {0.1, -0.8});
-  // S takes lengths, whatever the direction.
+  // S is a sum of lengths, whatever the direction.
   compare_region<3>({-1, 2, -3}, {0.5, 2, 0.1}, {-2 - 0.5, 1 - 0.4, -6 - 0.3}, {-0.5 + 0.5, 4 + 0.4, -1.5 + 0.3});
 }
 
@@ -140,7 +140,7 @@ void SoftnessRegionTest::bounds_are_rounded_once() {
   const auto region = valid_region<float, 1>(rest_vector, {0.8, 1.2, 0});
   QVERIFY(region.high[0] == static_cast<float>(1.2 * 0.7));
   QVERIFY(region.low[0] == static_cast<float>(0.8 * 0.7));
-  // Nor is the rest vector rounded before: elements far from the origin keep their digits.
+  // The rest vector is not rounded first either: elements far from the origin keep their digits.
   MeshParts parts;
   parts.rest = {{1e8, 0, 0}, {1e8 + 1, 0, 0}};
   parts.links = {{0, 1}};
@@ -149,14 +149,14 @@ void SoftnessRegionTest::bounds_are_rounded_once() {
 }
 
 void SoftnessRegionTest::the_other_end_sees_the_mirror_image() {
-  QVERIFY(
-      check_any_link("one link is one pair of bounds an axis, to the bit", [](const auto& rest, const auto& softness) {
-        return mirrored<double>(rest, softness) && mirrored<float>(rest, softness);
-      }));
+  QVERIFY(check_any_link("one link has one pair of bounds per axis, to the bit",
+                         [](const auto& rest, const auto& softness) {
+                           return mirrored<double>(rest, softness) && mirrored<float>(rest, softness);
+                         }));
 }
 
 void SoftnessRegionTest::the_rest_shape_is_always_valid() {
-  // Exactly, for rounding never turns an order around.
+  // This is exact, because rounding never reverses an order.
   QVERIFY(check_any_link("the rest vector lies in its own region", [](const auto& rest, const auto& softness) {
     return rest_is_valid<double>(rest, softness) && rest_is_valid<float>(rest, softness);
   }));
@@ -166,7 +166,7 @@ void SoftnessRegionTest::softness_of_a_link_goes_before_the_global_one() {
   Softness softness{{0.5, 1.5, 0}, {{2, {1, 1, 0}}}};
   QVERIFY(softness.of(1) == softness.global);
   QVERIFY(softness.of(2) == (LinkSoftness{1, 1, 0}));
-  // The stiff link 2–3 moves as a piece; the others give.
+  // The stiff link 2–3 moves as a whole; the others stretch.
   const auto mesh = make_mesh(MeshKind::line, {5, 1, 1});
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
   solver->set_softness(softness);

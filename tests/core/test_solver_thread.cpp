@@ -9,7 +9,7 @@ using namespace chainmail::test;
 
 Q_DECLARE_METATYPE(chainmail::Command)
 
-/// How long ending may take; a sanitizer makes all of it slower.
+/// Longest time that ending may take. Sanitizers make everything slower.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr auto promised = 20s;
 #else
@@ -89,9 +89,9 @@ void SolverThreadTest::a_refused_command_leaves_a_sentence() {
   solver.post(commands::Grab{64});
   solver.post(commands::Grab{63});
   solver.post(commands::Drag{Point(9, 9, 0)});
-  QVERIFY(wait_for_passes(solver, 1));  // it goes on
+  QVERIFY(wait_for_passes(solver, 1));  // the solver continues
   QVERIFY(QString::fromStdString(solver.take_error()).startsWith("element 64: "));
-  QVERIFY(solver.take_error().empty());  // told once
+  QVERIFY(solver.take_error().empty());  // reported once
 }
 
 void SolverThreadTest::the_frame_shows_another_mesh() {
@@ -116,8 +116,8 @@ void SolverThreadTest::it_sleeps_when_nothing_is_to_do() {
   solver.post(commands::Grab{0});
   solver.post(commands::Drag{Point(-3, -2, 0)});
   QVERIFY(wait_for_passes(solver, 1));
-  // It comes to rest, and then there is neither a frame nor work while another one carries out a drag and comes to rest
-  // itself. How long that takes is not asked; a solver that never sleeps never gets there.
+  // It comes to rest. Then it produces neither a frame nor work while another solver runs a drag and also comes to
+  // rest. It does not matter how long this takes, but a solver that never sleeps never gets there.
   SolverThread other(small_grid(), Algorithm::natural_queue, [] {});
   other.post(commands::Grab{0});
   std::uint64_t drags = 0;
@@ -152,7 +152,7 @@ void SolverThreadTest::frames_come_at_most_60_times_a_second() {
   }
   const int counted = frames;
   const auto elapsed = std::chrono::steady_clock::now() - start;
-  // One every 16 ms, and a frame of rest at either end.
+  // One frame every 16 ms, and a frame of rest at either end.
   QVERIFY2(counted <= elapsed / 16ms + 3, qPrintable(QString("%1 frames").arg(counted)));
 }
 
@@ -168,7 +168,7 @@ void SolverThreadTest::it_announces_that_it_became_idle() {
 }
 
 void SolverThreadTest::it_ends_without_finishing_the_commands() {
-  // A pass over this chain moves 20,000 elements: all of them would take some ten seconds.
+  // A pass over this chain moves 20,000 elements: all passes would take some ten seconds.
   auto solver =
       std::make_unique<SolverThread>(make_mesh(MeshKind::line, {20'000, 1, 1}), Algorithm::natural_queue, [] {});
   solver->post(commands::Grab{0});
@@ -180,7 +180,8 @@ void SolverThreadTest::it_ends_without_finishing_the_commands() {
   QVERIFY(std::chrono::steady_clock::now() - start < promised);
 }
 
-/// A session that is kept while the window closes asks for the positions: of the object that was asked for last.
+/// A session that is saved while the window closes asks for positions, and gets those of the object that was requested
+/// last.
 void SolverThreadTest::it_answers_questions_when_it_ends() {
   const auto next = make_mesh(MeshKind::grid, {7, 5, 1});
   auto solver =
@@ -198,7 +199,7 @@ void SolverThreadTest::it_answers_questions_when_it_ends() {
   QCOMPARE(answer.get(), next->element_count());
 }
 
-/// Where the hand has already asked for something else nobody waits for some seconds of finite elements.
+/// If the user already asked for something else, a finite element solution of some seconds must not block it.
 void SolverThreadTest::a_pass_that_takes_long_is_given_up_for_another_algorithm() {
   const auto mesh = make_mesh(MeshKind::tetra, {20, 15, 15});
   SolverThread solver(mesh, Algorithm::neo_hookean, [] {});
@@ -217,7 +218,7 @@ void SolverThreadTest::a_pass_that_takes_long_is_given_up_for_another_algorithm(
   QVERIFY(solver.take_error().empty());
 }
 
-/// Begins sweeps that would take hours.
+/// Starts sweeps that would take hours.
 void sweep_for_hours(SolverThread& solver) {
   solver.post(commands::KeepState{1});
   solver.post(commands::Grab{0});
@@ -281,7 +282,7 @@ void SolverThreadTest::abandoned_it_answers_for_the_object_as_it_is() {
   solver.abandon();
   auto answer = placement.get_future();
   QVERIFY(answer.wait_for(30s) == std::future_status::ready);
-  QVERIFY(!answer.get().runs.empty());  // the drag before the sweeps
+  QVERIFY(!answer.get().runs.empty());  // from the drag before the sweeps
   QVERIFY(wait_until([&] { return solver.idle(); }));
   QCOMPARE(solver.latest_frame().statistics.passes, std::uint64_t{1});
 }
@@ -305,7 +306,7 @@ void SolverThreadTest::another_goes_on_from_where_one_stands() {
   const std::vector<float> at_rest(mesh->rest.begin(), mesh->rest.end());
   QVERIFY(first.latest_frame().positions != at_rest);
   QVERIFY(third.latest_frame().statistics.algorithm == Algorithm::enhanced);
-  // The hand still holds the element, the pin holds, and what was kept for undo is kept there too.
+  // The element stays grabbed, the pin stays, and the states that were kept for undo are there too.
   const auto all = [&](const Command& command) {
     for (SolverThread* one : {&first, &second, &third}) {
       one->post(command);
@@ -331,7 +332,7 @@ void SolverThreadTest::another_ends_with_the_one_it_waits_for() {
     first->post(commands::Drag{Point(-double(i), 0, 0)});
   }
   SolverThread second(*first, Algorithm::natural_queue, [] {});
-  first.reset();  // with nearly all of it undone
+  first.reset();  // before most of its commands have run
   QVERIFY(wait_until([&] { return second.idle(); }));
 }
 
@@ -344,7 +345,7 @@ void SolverThreadTest::a_triple_buffer_hands_over_the_newest_frame() {
   QCOMPARE(frames.latest().number, std::uint64_t{0});
   publish(1);
   QCOMPARE(frames.latest().number, std::uint64_t{1});
-  QCOMPARE(frames.latest().number, std::uint64_t{1});  // stays
+  QCOMPARE(frames.latest().number, std::uint64_t{1});  // stays the same
   publish(2);
   publish(3);
   publish(4);
@@ -352,7 +353,7 @@ void SolverThreadTest::a_triple_buffer_hands_over_the_newest_frame() {
   const Frame& held = frames.latest();
   publish(5);
   publish(6);
-  QCOMPARE(held.number, std::uint64_t{4});  // as long as the reader asks for no other
+  QCOMPARE(held.number, std::uint64_t{4});  // valid until the reader asks for another one
   QCOMPARE(frames.latest().number, std::uint64_t{6});
 }
 

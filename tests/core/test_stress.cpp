@@ -9,7 +9,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Everything at once, in a random order, as fast as it goes: for the thread sanitizer first of all.
+/// All kinds of commands in random order, as fast as possible. Mostly for the thread sanitizer.
 class StressTest : public QObject {
   Q_OBJECT
 
@@ -28,13 +28,13 @@ std::vector<MeshPointer> some_meshes() {
           make_mesh(MeshKind::line, {40, 1, 1}, 3)};
 }
 
-/// Reads a solver's frames, on a thread of its own, and checks what a reader relies on at any moment.
+/// Reads a solver's frames on a thread of its own, and checks what a reader relies on at any moment.
 class Reading {
  public:
   explicit Reading(SolverThread& solver) : solver_(solver) {}
   ~Reading() { stop(); }
 
-  /// No frame is read from here on; says what was wrong, if anything.
+  /// Stops reading. Returns what was wrong, if anything.
   std::string stop() {
     thread_.request_stop();
     if (thread_.joinable()) {
@@ -52,9 +52,9 @@ class Reading {
         wrong_ = "an older frame came after a newer one";
       } else if (!std::all_of(frame.positions.begin(), frame.positions.end(),
                               [](float x) { return std::isfinite(x); })) {
-        wrong_ = "a position is no number";
+        wrong_ = "a position is not finite";
       } else if (!reader.take(frame)) {
-        wrong_ = "something moved in a block that does not say so";
+        wrong_ = "an element moved in a block that is not marked as changed";
       }
       std::this_thread::yield();
     }
@@ -95,7 +95,7 @@ void StressTest::any_commands_in_any_order() {
     QCOMPARE(right_reading.stop(), std::string());
   }
   QVERIFY(frames > 2);
-  if (!relaxed) {  // relaxation goes by the clock; all else by the commands alone
+  if (!relaxed) {  // relaxation depends on the clock, everything else only on the commands
     log.post(commands::Grab{1});
     log.post(commands::Drag{Point(1, 2, 3)});
     log.post(commands::Release{});

@@ -13,7 +13,8 @@ using namespace chainmail::test;
 
 namespace {
 
-/// Tetrahedra beside hexahedra that share elements but no side, a link that is no cell's edge, and a chain.
+/// Tetrahedra next to hexahedra, with common elements but no common side, a link that is not the edge of a cell, and a
+/// chain.
 MeshPointer mixed() {
   MeshParts parts = hexahedral_parts({3, 2, 2});
   const auto tetra = make_mesh(MeshKind::tetra, {3, 3, 3});
@@ -27,7 +28,7 @@ MeshPointer mixed() {
   }
   parts.links.clear();
   add_links_along_edges(parts);
-  parts.links.push_back({0, 5});  // across the first hexahedron's side
+  parts.links.push_back({0, 5});  // across a side of the first hexahedron
   parts.rest.emplace_back(-1, 0, 0);
   parts.links.push_back({0, static_cast<ElementId>(parts.rest.size() - 1)});
   return build_mesh(std::move(parts));
@@ -59,7 +60,7 @@ bool is_whole(const CellTable& table, const Cuts& cuts, CellId cell) {
   });
 }
 
-/// What is in sight by the definition alone: every side against every other.
+/// Returns what is visible by the definition alone: compares every side with every other.
 Sight plainly(const CellTable& table, const Cuts& cuts) {
   Sight sight;
   std::map<std::set<ElementId>, std::vector<SideId>> whole_by_corners;
@@ -98,7 +99,7 @@ Sight plainly(const CellTable& table, const Cuts& cuts) {
 
 }  // namespace
 
-/// The outer surface of cells, and that cuts change it where they are.
+/// The outer surface of cells, and its local changes by cuts.
 class SurfaceTest : public QObject {
   Q_OBJECT
 
@@ -118,7 +119,7 @@ void SurfaceTest::a_block_has_its_outer_sides() {
   const Surface tetra(std::make_shared<CellTable>(make_mesh(MeshKind::tetra, {6, 5, 4})));
   QCOMPARE(tetra.sides().size(), 2 * outer(5, 4, 3));
   QCOMPARE(tetra.triangles().size(), 3 * tetra.sides().size());
-  // Euler: as many links as there are corners and faces, less two.
+  // Euler's formula: the number of links is the number of corners and faces, minus two.
   QCOMPARE(tetra.links().size(), tetra.sides().size() + (6 * 5 * 4 - 4 * 3 * 2) - 2);
   const Surface hexa(std::make_shared<CellTable>(hexahedral_block({5, 4, 3})));
   QCOMPARE(hexa.sides().size(), outer(5, 4, 3));
@@ -170,7 +171,7 @@ void SurfaceTest::cuts_show_what_a_look_at_everything_shows() {
     QCOMPARE(sight_of(surface), plainly(*table, cuts));
     for (int step = 0; step < 60; ++step) {
       const auto link = static_cast<LinkId>(random() % mesh->link_count());
-      // Seldom back, so that parts come loose and cells go by several cuts.
+      // Uncuts rarely, so that parts come loose and cells have several cut links.
       if (cuts.is_cut(link) && random() % 2 == 0) {
         cuts.uncut(link);
         surface.uncut(link);
@@ -195,7 +196,7 @@ void SurfaceTest::uncutting_restores_it() {
     std::shuffle(links.begin(), links.end(), std::mt19937_64(3));
     for (const LinkId link : links) {
       surface.cut(link);
-      surface.cut(link);  // was cut
+      surface.cut(link);  // it was already cut
     }
     QVERIFY(surface.sides().empty() && surface.links().empty());
     std::shuffle(links.begin(), links.end(), std::mt19937_64(4));

@@ -6,7 +6,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// The tape holds what makes the object again, through undo and redo.
+/// The tape contains the commands that recreate the object, through undo and redo.
 class TapeTest : public QObject {
   Q_OBJECT
 
@@ -26,7 +26,7 @@ namespace {
 
 ElementId grabbed(const Tape& tape, std::size_t i) { return std::get<commands::Grab>(tape.at(i)).element; }
 
-/// Notes grabs of these elements.
+/// Records grabs of these elements.
 void note(Tape& tape, const std::vector<ElementId>& elements) {
   for (const ElementId element : elements) {
     tape.note(commands::Grab{element});
@@ -109,7 +109,7 @@ void TapeTest::another_mesh_begins_anew_with_the_global_softness() {
   QCOMPARE(tape.object().cuts, std::vector<LinkId>{1});
 }
 
-/// At rest on either mesh nothing was done: which mesh it is must still be told apart.
+/// At rest on either mesh, nothing was done. The tape must still distinguish the two meshes.
 void TapeTest::what_is_loaded_lies_ahead() {
   Tape tape;
   tape.note(commands::KeepState{1});
@@ -151,7 +151,7 @@ void TapeTest::the_last_drag_is_told_apart() {
   for (const Command& command : done) {
     tape.note(command);
   }
-  const auto drag = tape.last_drag();  // a press without a move is none
+  const auto drag = tape.last_drag();  // a grab without a move is not a drag
   QCOMPARE(drag.size(), std::size_t{3});
   QCOMPARE(std::get<commands::Grab>(drag.front()).element, 1U);
   QVERIFY(std::get<commands::Drag>(drag.back()).target == Point(2, 0, 0));

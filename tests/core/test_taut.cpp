@@ -9,7 +9,7 @@ using namespace chainmail::test;
 
 namespace {
 
-/// The places of a chain of twelve.
+/// Positions of a chain of twelve elements.
 std::vector<double> chain_of(double first, double spacing) {
   std::vector<double> x(12);
   for (int i = 0; i < 12; ++i) {
@@ -20,7 +20,8 @@ std::vector<double> chain_of(double first, double spacing) {
 
 }  // namespace
 
-/// Exact ChainMail between pins: the hand stops where the object is taut, and pins that contradict are named.
+/// Exact ChainMail between pins: the handle stops when the object is taut, and a message names pins that contradict
+/// each other.
 class TautTest : public QObject {
   Q_OBJECT
 
@@ -52,7 +53,7 @@ void TautTest::a_taut_chain_stays_as_it_is() {
 }
 
 void TautTest::the_hand_is_free_along_the_other_axis() {
-  // The left column of a grid is pinned; the hand, at the right end of the middle row, pulls right and up.
+  // The left column of a grid is pinned. The handle, at the right end of the middle row, moves right and up.
   const auto mesh = make_mesh(MeshKind::grid, {5, 3, 1});
   const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
   const std::vector<ElementId> column{0, 5, 10};
@@ -60,8 +61,8 @@ void TautTest::the_hand_is_free_along_the_other_axis() {
   solver->pin(column);
   const PassCount count = solver->move(9, Point(50, 2, 0));
   QVERIFY(count.stopped);
-  QCOMPARE(solver->positions()(9, 0), 5.0);  // four links at 1.25
-  QCOMPARE(solver->positions()(9, 1), 2.0);  // four links may lean by 0.5 each: 1 is within reach
+  QCOMPARE(solver->positions()(9, 0), 5.0);  // four links at a length of 1.25
+  QCOMPARE(solver->positions()(9, 1), 2.0);  // four links may lean by 0.5 each, so 1 is within reach
 }
 
 void TautTest::exact_holds_every_link_between_pins() {
@@ -80,7 +81,7 @@ void TautTest::exact_holds_every_link_between_pins() {
       }
       const Point target = position_of(*solver, *mesh, element) + hand.by();
       const PassCount count = solver->move(element, target);
-      // In rest lengths; rounding along a path of up to 60 links, far below what could be seen.
+      // In rest lengths. Rounding along a path of up to 60 links is far below visible violations.
       RC_ASSERT(measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max <= 1e-11);
       const Point off = position_of(*solver, *mesh, element) - target;
       for (int k = 0; k < mesh->space_dimension; ++k) {
@@ -88,7 +89,7 @@ void TautTest::exact_holds_every_link_between_pins() {
       }
     }
   };
-  QVERIFY(check_property("between pins every link holds, and the hand arrives unless it was stopped", holds));
+  QVERIFY(check_property("between pins every link is valid, and the handle arrives unless it was stopped", holds));
 }
 
 void TautTest::pins_that_contradict_are_named() {
@@ -111,7 +112,7 @@ void TautTest::pins_that_contradict_are_named() {
 }
 
 void TautTest::the_pair_that_contradicts_is_named() {
-  // Four pins, of which the last two alone are too far apart.
+  // Of four pins, only the last two are too far apart.
   const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
   const std::vector<ElementId> first{0, 3, 8};
@@ -127,7 +128,8 @@ void TautTest::the_pair_that_contradicts_is_named() {
 }
 
 void TautTest::rounding_is_no_contradiction() {
-  // The solver itself put the end where the chain is taut, rounded along 500 links; pinned there, it holds.
+  // The solver itself moved the end to where the chain is taut, with rounding along 500 links. Pinned there, it is
+  // valid.
   const auto mesh = make_mesh(MeshKind::line, {500, 1, 1}, {}, 0.1);
   for (const double far : {-1e3, 1e3}) {
     for (const Precision precision : precisions) {
@@ -140,7 +142,7 @@ void TautTest::rounding_is_no_contradiction() {
       solver->set_algorithm(Algorithm::natural_queue);
       solver->set_algorithm(Algorithm::exact);
       solver->move(250, position_of(*solver, *mesh, 250) + Point(0.01, 0, 0));
-      // Float: half an ulp of 60 for each of 500 links, over a link's 0.1.
+      // Float: half an ulp of 60 for each of 500 links, divided by a link length of 0.1.
       const double rounding = precision == Precision::single_precision ? 500 * 2e-6 / 0.1 : 1e-10;
       QVERIFY(measure_violation(*mesh, {{0.9, 1.2, 0}, {}}, solver->cuts(), solver->positions()).max <= rounding);
     }
@@ -148,7 +150,7 @@ void TautTest::rounding_is_no_contradiction() {
 }
 
 void TautTest::a_hand_pushed_through_comes_back() {
-  // Pushed by Natural Queue onto its pin; Exact brings it to where links are as short as they get.
+  // Natural Queue pushed it onto its pin. Exact moves it to where links are as short as possible.
   const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
   const auto solver = pinned_chain(Precision::double_precision, {0});
   solver->set_algorithm(Algorithm::natural_queue);
@@ -159,7 +161,7 @@ void TautTest::a_hand_pushed_through_comes_back() {
 }
 
 void TautTest::a_hand_beyond_the_pins_reach_comes_back() {
-  // Pulled by Natural Queue to where the chain tears, then held by Exact: the hand is no second pin.
+  // Natural Queue pulled it to where the chain would tear, then Exact takes over: the handle does not count as a pin.
   const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
   const auto solver = pinned_chain(Precision::double_precision, {0});
   solver->set_algorithm(Algorithm::natural_queue);
@@ -172,10 +174,10 @@ void TautTest::a_hand_beyond_the_pins_reach_comes_back() {
 void TautTest::the_hand_stops_where_the_chain_is_taut_data() {
   QTest::addColumn<double>("target");
   QTest::addColumn<double>("spacing");
-  // Eleven links between 0.75 and 1.25: every sum is exact.
+  // Eleven links between 0.75 and 1.25 long: every sum is exact.
   QTest::newRow("just beyond") << 13.8 << 1.25;
   QTest::newRow("far beyond") << 1e6 << 1.25;
-  QTest::newRow("beyond all bounds") << 1e30 << 1.25;
+  QTest::newRow("extremely far beyond") << 1e30 << 1.25;
   QTest::newRow("pushed together") << 0.0 << 0.75;
   QTest::newRow("pushed through, far") << -1e30 << 0.75;
 }

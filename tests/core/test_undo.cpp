@@ -7,7 +7,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Keeping and swapping states: undo and redo, exact to the bit.
+/// Keeps and exchanges states: undo and redo, exact to the bit.
 namespace {
 
 const std::vector<Algorithm> on_any_mesh{Algorithm::generalized, Algorithm::spiral, Algorithm::natural_queue,
@@ -49,7 +49,7 @@ void change_everything(Simulation& simulation) {
   drag_by(simulation, 20, Point(-3, 2, 0));
 }
 
-/// A few drags, all of whose candidates are recorded.
+/// Makes a few drags. Returns all their candidates.
 Trace trace_of_drags(Simulation& simulation) {
   Trace trace;
   simulation.set_trace(&trace);
@@ -133,7 +133,7 @@ void UndoTest::any_change_is_undone() {
 void UndoTest::whether_the_object_is_valid_comes_back_too() {
   Simulation simulation(sphere(12, 6), Algorithm::generalized, Precision::double_precision);
   carry_out(simulation, commands::KeepState{1});
-  drag_by(simulation, 0, Point(0, 0, 9));  // Generalized leaves links of it invalid
+  drag_by(simulation, 0, Point(0, 0, 9));  // Generalized leaves some of its links invalid
   simulation.refresh_statistics(true);
   QVERIFY(!simulation.valid());
   exchange(simulation, 1);
@@ -170,8 +170,8 @@ void UndoTest::a_restored_state_stays_kept() {
   }
 }
 
-/// States share what did not change between them: none may take from another what is not its own. Exact holds positions
-/// otherwise than the rest, so a change to or from it would round what comes back.
+/// States share the blocks that did not change between them. No state may change the blocks of another. Exact stores
+/// positions differently, so a change to or from it would round restored positions.
 void UndoTest::states_come_back_in_any_order() {
   const auto holds = [] {
     const auto algorithm = *rc::gen::elementOf(on_any_mesh);
@@ -221,7 +221,7 @@ void UndoTest::a_change_to_exact_is_undone_with_it() {
     carry_out(simulation, commands::SetAlgorithm{Algorithm::natural_queue});
     exchange(simulation, 1);
     QVERIFY(SavedState(simulation).same_object(before));
-    // Taken back by an algorithm that holds positions otherwise, they are rounded, and kept as they are then.
+    // If an algorithm that stores positions differently restores them, they are rounded, and kept that way.
     carry_out(simulation, commands::SetAlgorithm{Algorithm::exact});
     carry_out(simulation, commands::RestoreState{1});
     const SavedState rounded(simulation);
@@ -236,7 +236,7 @@ void UndoTest::a_dropped_state_is_gone() {
   auto simulation = worked_simulation(Algorithm::natural_queue, Precision::double_precision);
   carry_out(simulation, commands::KeepState{1});
   carry_out(simulation, commands::DropState{1});
-  carry_out(simulation, commands::DropState{1});  // does no harm
+  carry_out(simulation, commands::DropState{1});  // has no effect
   const SavedState before(simulation);
   QVERIFY_EXCEPTION_THROWN(exchange(simulation, 1), Error);
   QVERIFY(SavedState(simulation) == before);
@@ -251,7 +251,7 @@ void UndoTest::the_hand_lets_go_and_relaxation_sleeps() {
   exchange(simulation, 1);
   QVERIFY(!simulation.grabbed());
   QVERIFY(!simulation.statistics().relaxing);
-  QVERIFY(!simulation.step());  // or the state that undo brought back would creep away
+  QVERIFY(!simulation.step());  // otherwise the state that undo restored would change slowly
   QVERIFY(SavedState(simulation).same_object(kept));
 }
 

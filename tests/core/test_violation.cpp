@@ -8,7 +8,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Violation, energy and displacement, by hand.
+/// Violation, energy and displacement, compared with figures computed by hand.
 class ViolationTest : public QObject {
   Q_OBJECT
 
@@ -29,10 +29,10 @@ class ViolationTest : public QObject {
 
 namespace {
 
-// Positions and regions are short decimals below 10: a few roundings.
+// For positions and regions that are short decimals below 10: a few roundings.
 constexpr double rounding = 1e-14;
 
-/// A solver at given positions.
+/// Returns a solver with given positions.
 std::unique_ptr<Solver> at(const MeshPointer& mesh, const std::vector<double>& positions) {
   auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
   solver->set_positions(positions);
@@ -99,14 +99,14 @@ void ViolationTest::over_some_elements() {
   const Violation violation = touched.measure(*mesh, {}, solver->cuts(), solver->positions(), {some});
   QCOMPARE(violation.links, std::uint64_t{3});
   QVERIFY(close(violation.max, 0.3));
-  // Links 0, 1, 2 and 3: each counts once, whichever and however many of its ends are named.
+  // Links 0, 1, 2 and 3. Each counts once, however many of its ends are named.
   const ElementId one[] = {2}, others[] = {1, 2, 3};
   const Violation once = touched.measure(*mesh, {}, solver->cuts(), solver->positions(), {one, others});
   QCOMPARE(once.links, std::uint64_t{4});
   QVERIFY(close(once.max, 0.4));
   QVERIFY(close(once.rms, std::sqrt((0.09 + 0.16) / 4)));
   QCOMPARE(once.fraction, 0.5);
-  // What was looked at before does not matter, nor do the links that are cut.
+  // Earlier measurements do not matter, nor do cut links.
   QVERIFY(touched.measure(*mesh, {}, solver->cuts(), solver->positions(), {some}) == violation);
   const LinkId worst = 2;
   solver->cut(std::span(&worst, 1));
@@ -114,7 +114,7 @@ void ViolationTest::over_some_elements() {
 }
 
 void ViolationTest::of_a_link_without_length() {
-  // Two elements in one place, and a third 2 away: the mean rest length is 1.
+  // Two elements at one position, and a third 2 away: the mean rest length is 1.
   MeshParts parts;
   parts.rest = {{0, 0, 0}, {0, 0, 0}, {2, 0, 0}};
   parts.links = {{0, 1}, {1, 2}};
@@ -125,7 +125,7 @@ void ViolationTest::of_a_link_without_length() {
 
 void ViolationTest::counts_from_1e_4_on() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
-  const auto solver = at(mesh, {0, 1.2 + 0.5e-4, 2.4 + 2e-4});  // beyond by 0.5e-4 and by 1.5e-4
+  const auto solver = at(mesh, {0, 1.2 + 0.5e-4, 2.4 + 2e-4});  // beyond the limit by 0.5e-4 and by 1.5e-4
   const Violation violation = measure_violation(*mesh, {}, solver->cuts(), solver->positions());
   QCOMPARE(violation.fraction, 0.5);
   QVERIFY(violation.max > 1.4e-4 && violation.max < 1.6e-4);
@@ -136,7 +136,7 @@ void ViolationTest::energy_by_hand() {
   const auto solver = at(line, {0, 0, 1.5, 0.5, 2.5, 0.25});
   // Deflections (0.5, 0.5) and (0, −0.25).
   QCOMPARE(elastic_energy(*line, solver->cuts(), solver->positions()), (0.25 + 0.25 + 0.0625) / 2);
-  // Carried along without any deformation it holds none.
+  // Translated without deformation, it has no energy.
   const auto carried = at(line, {8, 4, 9, 4, 10, 4});
   QCOMPARE(elastic_energy(*line, carried->cuts(), carried->positions()), 0.0);
 }
@@ -150,7 +150,8 @@ void ViolationTest::displacement_by_hand() {
 }
 
 void ViolationTest::regions_of_neighbours_by_hand() {
-  // The middle one of three in a plane, moved; its link to the right gives more, and a cut neighbour has no region.
+  // The middle element of three in a plane is moved. Its link to the right is softer, and a cut neighbour has no
+  // region.
   const auto mesh = make_mesh(MeshKind::grid, {3, 2, 1});
   std::vector<double> positions = mesh->rest;
   positions[2] = 1.5;  // element 1
