@@ -20,7 +20,7 @@ class Error : public std::runtime_error {
 
  private:
   std::string where_;
-  std::pair<std::string, std::string> rest_;  // what is wrong, what to do
+  std::pair<std::string, std::string> rest_;  // the problem and the remedy
 };
 
 }  // namespace chainmail

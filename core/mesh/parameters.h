@@ -12,7 +12,7 @@ struct Parameter {
   std::string_view label;  // in the window
   std::string_view unit;
   double standard;         // the default
-  double lowest, highest;  // what is accepted
+  double lowest, highest;  // limits of accepted values
   double slider_highest;   // right end of the slider, which starts at `lowest`
   double step;             // one click
   int decimals;            // in the window

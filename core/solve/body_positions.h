@@ -24,8 +24,8 @@ Snapshot snapshot_of(const Body<Scalar, Dimension>& body, const ElementBlocks& a
   return result;
 }
 
-/// Restores the positions of a snapshot. Rounds them if the snapshot holds displacements and the body positions, or the
-/// other way round.
+/// Restores the positions of a snapshot. Rounds them if one of snapshot and body stores displacements and the other
+/// positions.
 template <class Scalar, int Dimension>
 void restore_snapshot(Body<Scalar, Dimension>& body, const Snapshot& snapshot) {
   auto held = snapshot.held.begin();
@@ -54,7 +54,7 @@ void put_to_rest(Body<Scalar, Dimension>& body, ElementId first, ElementId end) 
 template <class Scalar, int Dimension>
 using PositionBlock = std::array<Position<Scalar, Dimension>, ElementBlocks::block_elements>;
 
-/// Updates these blocks of `kept`. No element outside `away` may be away from rest.
+/// Saves these blocks in `kept`. No element outside `away` may be away from rest.
 template <class Scalar, int Dimension>
 void save_blocks(const Body<Scalar, Dimension>& body, const ElementBlocks& blocks, const ElementBlocks& away,
                  PositionBlocks& kept) {
@@ -84,7 +84,7 @@ void take_block(Body<Scalar, Dimension>& body, const PositionBlock<Scalar, Dimen
   }
 }
 
-/// Restores these blocks. All others must be as they were saved.
+/// Restores these blocks. All other blocks must be unchanged since they were saved.
 template <class Scalar, int Dimension>
 void restore_blocks(Body<Scalar, Dimension>& body, const PositionBlocks& kept, const ElementBlocks& blocks) {
   blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {

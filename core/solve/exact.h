@@ -21,9 +21,9 @@ class ExactPropagation {
   using State = Body<Scalar, Dimension>;
   using Reach = HandleReach<Scalar, Dimension>;
 
-  /// Moves the grabbed element to this displacement from rest, or, on axes on which pins stop it, as far as they allow.
-  /// The state must be valid. `moved` receives the elements that moved, without the grabbed one. `trace`, if given,
-  /// receives the same elements, the largest move first, ties by id.
+  /// Moves the grabbed element to this displacement from rest. On axes on which pins stop it, it moves as far as they
+  /// allow. The state must be valid. `moved` receives the elements that moved, without the grabbed one. `trace`, if
+  /// given, receives the same elements, the largest move first, ties by id.
   PassCount propagate(State& body, ElementId grabbed, const Scalar (&target)[Dimension], std::vector<ElementId>& moved,
                       Trace* trace) {
     if (grabbed != grabbed_) {
@@ -47,8 +47,8 @@ class ExactPropagation {
   void forget() { grabbed_ = no_element; }
 
  private:
-  /// A drag that once reached far and then moves little would clamp everything that it has reached. So after enough
-  /// idle passes to pay for a new search, the regions are dropped.
+  /// A drag that reached far and then moves little would still clamp all elements that it reached. So the regions are
+  /// dropped after enough idle passes to pay for a new search.
   void drop_what_rests(std::size_t moved) {
     const std::size_t known = regions_.elements().size();
     idle_passes_ = moved < known / 4 ? idle_passes_ + 1 : 0;

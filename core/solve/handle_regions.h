@@ -11,8 +11,9 @@
 
 namespace chainmail {
 
-/// Target of the grabbed element, as bounds of displacements: on an axis along which it moves up, `low` is its target
-/// and `high` is infinite; the other way round if it moves down; both are infinite if it stays.
+/// Target of the grabbed element, as bounds of displacements. On an axis along which it moves up, `low` is the target
+/// and `high` is infinite. On an axis along which it moves down, `high` is the target and `low` is minus infinite. On
+/// an axis along which it stays, both are infinite.
 template <class Scalar, int Dimension>
 struct HandleReach {
   static constexpr Scalar infinite = std::numeric_limits<Scalar>::infinity();
@@ -30,7 +31,7 @@ struct HandleReach {
     high[k] = target < start[k] ? target : infinite;
   }
 
-  /// Stops the handle where an element that cannot move, with this region about the handle, allows it.
+  /// Limits the reach of the handle by a pinned element, which has this region about the handle.
   void hold(const Position<Scalar, Dimension>& pin, const Region<Scalar, Dimension>& region) {
     for (int k = 0; k < Dimension; ++k) {
       const Scalar furthest = std::max(start[k], pin[k] - region.low[k]);
@@ -208,7 +209,7 @@ class HandleRegions {
     }
   }
 
-  /// Called when an element's region became narrower: the regions of its neighbours may follow, once it moves.
+  /// Call this when an element's region became narrower. The regions of its neighbours may follow when it moves.
   void await(const State& body, const Reach& reach, Index index, Scalar key) {
     Searched& one = searched_[index];
     const bool is_smaller = one.state == done || key < one.key;

@@ -88,7 +88,7 @@ class Solver {
   virtual std::span<const ElementId> pins() const = 0;
   /// Moves all elements to rest. Cuts, pins and softness stay.
   virtual void reset() = 0;
-  /// The same, if no element outside these blocks is away from rest.
+  /// The same as reset(), but faster. No element outside these blocks may be away from rest.
   virtual void reset(const ElementBlocks& away) = 0;
 
   /// Moves an element to a target (mesh units, on the axes that exist) and propagates: one pass. `trace`, if given,
@@ -99,8 +99,8 @@ class Solver {
   virtual const std::string& remark() const = 0;
   /// Returns the control points of free-form deformation, as in ElasticSolver; empty for other algorithms.
   virtual std::span<const double> control_points() = 0;
-  /// Moves a control point to a target (mesh units): one pass without a grabbed element. Throws Error if there is no
-  /// such point.
+  /// Moves a control point to a target (mesh units): one pass without a grabbed element. Throws Error if the point does
+  /// not exist.
   virtual PassCount move_control_point(std::size_t point, const Point& target) = 0;
   /// The elements that the last pass moved, in order of update, without the grabbed one.
   virtual std::span<const ElementId> moved() const = 0;
@@ -114,7 +114,7 @@ class Solver {
   virtual RelaxationResult relax(double step, std::uint64_t budget, std::optional<ElementId> held) = 0;
   /// The elements that the last call of relax moved, once per move.
   virtual std::span<const ElementId> relaxed() const = 0;
-  /// Makes no element active.
+  /// Makes all elements inactive.
   virtual void sleep() = 0;
 
   virtual const Cuts& cuts() const = 0;

@@ -200,8 +200,7 @@ void MeshTest::a_space_dimension_too_small_is_refused() {
   QVERIFY_EXCEPTION_THROWN(make_mesh(MeshKind::grid, {3, 3, 1}, 1), Error);
   QVERIFY_EXCEPTION_THROWN(make_mesh(MeshKind::block, {2, 2, 2}, 2), Error);
   QVERIFY_EXCEPTION_THROWN(make_mesh(MeshKind::line, {2, 1, 1}, 0), Error);
-  QCOMPARE(make_mesh(MeshKind::grid, {3, 1, 1}, 1)->space_dimension,
-           1);  // a grid of height 1 is a line
+  QCOMPARE(make_mesh(MeshKind::grid, {3, 1, 1}, 1)->space_dimension, 1);  // a grid of height 1
 }
 
 void MeshTest::an_element_alone_is_an_object() {

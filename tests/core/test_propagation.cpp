@@ -61,17 +61,17 @@ void PropagationTest::order_on_a_3x3_grid_data() {
   const Trace ring = all_moved({{1, 4}, {3, 4}, {5, 4}, {7, 4}, {0, 1}, {2, 1}, {6, 3}, {8, 5}});
   row("Natural Queue, centre", Algorithm::natural_queue, 4, ring);
   row("Spiral, centre", Algorithm::spiral, 4, ring);
-  // Front: after 1 3 5 7 the list reads 7 5 3 1. 7 puts 8 6 4 before it, 8 puts 7 5: 7 is dropped, 5 is
-  // taken, sponsored by 8. 5 puts 8 4 2: 2 is taken, puts 5 1: 1 is taken, puts 4 2 0: 0 is taken, puts
-  // 3 1: 3 is taken, puts 6 4 0: 6 is taken. All that is left is updated.
+  // Front: after 1 3 5 7 the list is 7 5 3 1. 7 puts 8 6 4 before it. 8 puts 7 5: 7 is dropped, and 5 is taken with
+  // sponsor 8. 5 puts 8 4 2: 2 is taken and puts 5 1: 1 is taken and puts 4 2 0: 0 is taken and puts 3 1: 3 is taken
+  // and puts 6 4 0: 6 is taken. All elements that remain are updated already.
   row("Generalized, centre", Algorithm::generalized, 4,
       all_moved({{7, 4}, {8, 7}, {5, 8}, {2, 5}, {1, 2}, {0, 1}, {3, 0}, {6, 3}}));
   // Queue: 0 admits 1 3; 1 admits 2 4; 3 admits 4 6; 2 admits 5; 4 admits 5 7; 6 admits 7; 5 admits 8.
   const Trace fan = all_moved({{1, 0}, {3, 0}, {2, 1}, {4, 1}, {6, 3}, {5, 2}, {7, 4}, {8, 5}});
   row("Natural Queue, corner", Algorithm::natural_queue, 0, fan);
   row("Spiral, corner", Algorithm::spiral, 0, fan);
-  // Front: 3 (of 3 1), 6 (of 6 4 0), 7 (of 7 3), 8 (of 8 6 4), 5 (of 7 5: 7 is dropped), then 5 puts
-  // 8 4 2: 4 goes before 2, and puts 7 5 3 1: 1 is taken, puts 4 2 0: 2 is taken.
+  // Front: 3 (from 3 1), 6 (from 6 4 0), 7 (from 7 3), 8 (from 8 6 4), 5 (from 7 5: 7 is dropped). Then 5 puts 8 4 2: 4
+  // is before 2 and puts 7 5 3 1: 1 is taken and puts 4 2 0: 2 is taken.
   row("Generalized, corner", Algorithm::generalized, 0,
       all_moved({{3, 0}, {6, 3}, {7, 6}, {8, 7}, {5, 8}, {4, 5}, {1, 4}, {2, 1}}));
 }
@@ -85,7 +85,7 @@ void PropagationTest::order_on_a_3x3_grid() {
 }
 
 void PropagationTest::the_files_order_of_neighbours_decides() {
-  // The centre of the grid lists 7 first, then 5, 3, 1; the others as usual.
+  // The neighbours of the centre are listed in the order 7, 5, 3, 1. Those of other elements are listed as usual.
   const auto grid = make_mesh(MeshKind::grid, {3, 3, 1});
   MeshParts parts = placed(*grid, [](const Point& p) { return p; });
   parts.first_entry = grid->first_entry;
@@ -94,15 +94,15 @@ void PropagationTest::the_files_order_of_neighbours_decides() {
   const auto mesh = build_mesh(std::move(parts));
   QVERIFY(drag_rigid(mesh, Algorithm::natural_queue, 4) ==
           all_moved({{7, 4}, {5, 4}, {3, 4}, {1, 4}, {6, 7}, {8, 7}, {2, 5}, {0, 3}}));
-  // Generalized takes 1, listed last; 1 puts 4 2 0: 2, then 5 (of 5 1) and 8 (of 8 4 2), 7 (of 7 5), 6
-  // (of 8 6 4: 8 is dropped), 3 (of 7 3: 7 is dropped), and 3 puts 6 4 0: 0.
+  // Generalized takes 1, which is listed last. 1 puts 4 2 0: 2, then 5 (from 5 1) and 8 (from 8 4 2), 7 (from 7 5), 6
+  // (from 8 6 4: 8 is dropped), 3 (from 7 3: 7 is dropped), and 3 puts 6 4 0: 0.
   QVERIFY(drag_rigid(mesh, Algorithm::generalized, 4) ==
           all_moved({{1, 4}, {2, 1}, {5, 2}, {8, 5}, {7, 8}, {6, 7}, {3, 6}, {0, 3}}));
 }
 
 void PropagationTest::only_elements_that_moved_pass_it_on() {
-  // A drag to the left pulls the right neighbour and pushes the left one; those above and below lean at
-  // most 0.25, and stay at 0.2.
+  // A drag to the left pulls the right neighbour and pushes the left one. Those above and below may lean by 0.25, which
+  // is more than 0.2, so they stay.
   const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
   for (const AlgorithmInfo& one : algorithms()) {
     const auto solver = make_solver(mesh, one.algorithm, Precision::double_precision);
@@ -112,7 +112,7 @@ void PropagationTest::only_elements_that_moved_pass_it_on() {
     std::set<ElementId> moved(solver->moved().begin(), solver->moved().end());
     QVERIFY(moved == (std::set<ElementId>{3, 5}));
     QCOMPARE(count.moved, std::uint64_t{2});
-    // The four neighbours, and the four corners about 3 and 5; Exact reaches those alone that must move.
+    // The four neighbours, and the four corners around 3 and 5. Exact reaches only those that must move.
     const std::size_t reached = one.algorithm == Algorithm::exact ? 2 : 8;
     QCOMPARE(count.checked, std::uint64_t{reached});
     QCOMPARE(trace.size(), reached);
@@ -120,7 +120,7 @@ void PropagationTest::only_elements_that_moved_pass_it_on() {
 }
 
 void PropagationTest::a_chain_follows_link_by_link() {
-  // 0 goes 2 to the left: links stretch to 1.25 one after another until the slack has eaten the move.
+  // 0 moves 2 to the left. Links stretch to 1.25, one after another, until the slack has used up the move.
   const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
   for (const AlgorithmInfo& one : algorithms()) {
     const auto solver = make_solver(mesh, one.algorithm, Precision::single_precision);
@@ -129,14 +129,14 @@ void PropagationTest::a_chain_follows_link_by_link() {
     const std::vector<double> expected{-2, -0.75, 0.5, 1.75, 3, 4.25, 5.5, 6.75, 8, 9, 10, 11};
     QCOMPARE(positions_of(*solver, *mesh), expected);
     QCOMPARE(count.moved, std::uint64_t{7});
-    // 8 was looked at, and stayed; Exact does not reach it.
+    // 8 was checked, and stayed; Exact does not reach it
     QCOMPARE(count.checked, std::uint64_t{one.algorithm == Algorithm::exact ? 7u : 8u});
   }
 }
 
 void PropagationTest::a_second_pass_to_the_same_target_moves_nothing() {
-  // A second pass to the same target finds the hand's links valid and ends at once. (Generalized leaves
-  // some of them to sponsors further on, and may not.)
+  // A second pass to the same target finds the handle's links valid and ends at once. Generalized leaves some of them
+  // to other sponsors further away, so it may not end at once.
   const auto mesh = make_mesh(MeshKind::grid, {9, 9, 1});
   for (const Algorithm algorithm : {Algorithm::spiral, Algorithm::natural_queue}) {
     const auto solver = make_solver(mesh, algorithm, Precision::double_precision);
@@ -160,8 +160,8 @@ void PropagationTest::an_updated_elements_link_to_its_sponsor_is_valid() {
     for (const Hand& hand : *any_hands()) {
       Trace trace;
       move_by(*solver, *mesh, hand.of(*mesh), hand.by(), &trace);
-      // Each bound about the sponsor is one rounded sum of a rounded bound: an ulp of the largest number
-      // that occurs, on each axis, and as much again for the region's size.
+      // Each bound about the sponsor is one rounded sum of a rounded bound: an ulp of the largest number on each axis,
+      // and as much again for the size of the region.
       const double ulp = precision == Precision::single_precision ? 0x1p-23 : std::numeric_limits<double>::epsilon();
       const double largest = largest_coordinate(positions_of(*solver, *mesh)) + 10;
       for (const TraceRow& row : trace) {
@@ -184,7 +184,7 @@ void PropagationTest::no_element_is_updated_twice() {
       move_by(*solver, *mesh, hand.of(*mesh), hand.by(), &trace);
       std::set<ElementId> updated{hand.of(*mesh)};
       for (const TraceRow& row : trace) {
-        RC_ASSERT(updated.contains(row.sponsor));  // whoever sponsors has been updated before
+        RC_ASSERT(updated.contains(row.sponsor));  // every sponsor was updated before
         RC_ASSERT(updated.insert(row.element).second);
       }
     }
@@ -209,7 +209,7 @@ void PropagationTest::counts_agree_with_the_trace() {
     RC_ASSERT(count.moved == moved.size());
     RC_ASSERT(moved == std::vector<ElementId>(solver->moved().begin(), solver->moved().end()));
   };
-  QVERIFY(check_property("counts, moved() and the trace tell one story", holds));
+  QVERIFY(check_property("counts, moved() and the trace agree", holds));
 }
 
 void PropagationTest::algorithms_are_found_by_name() {
