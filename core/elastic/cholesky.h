@@ -46,7 +46,7 @@ class Cholesky {
 
   std::vector<Supernode> supernodes_;
   std::vector<double> panels_;
-  std::vector<int> front_rows_;  // position of each row in the current front
+  std::vector<int> front_rows_;  // of each row: its position in the current front; during analysis, its last supernode
 };
 
 }  // namespace chainmail

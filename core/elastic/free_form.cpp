@@ -141,7 +141,7 @@ class FreeForm final : public ElasticSolver {
   Eigen::LLT<Eigen::MatrixXd> resistance_;  // of the control points to motion
   ElementId held_ = 0;
   Eigen::VectorXd control_response_, response_;  // to a unit displacement of the handle, the same along each axis
-  std::vector<double> displacements_, begun_;    // now, and when the handle was grabbed
+  std::vector<double> displacements_, begun_;    // now, and where the handle's displacement begins
   Eigen::MatrixXd controls_, begun_controls_;    // displacements, one row per control point
   std::vector<double> control_places_;
   std::string none_;

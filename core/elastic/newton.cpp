@@ -104,8 +104,8 @@ bool Newton::factor(const std::vector<double>& displacements, const Progress& pr
   return false;
 }
 
-/// Moves the prescribed elements, and the others as the tangent stiffness predicts. The step is short enough that no
-/// cell inverts.
+/// Moves the prescribed elements by `increment`, and the others as the tangent stiffness predicts: so cells next to the
+/// prescribed elements do not invert at once. Returns false if a cell inverts, or if there is no factor.
 bool Newton::predict(std::vector<double>& displacements, const std::vector<double>& increment,
                      const Progress& progress) {
   if (!factor(displacements, progress)) {
@@ -134,7 +134,8 @@ bool Newton::predict(std::vector<double>& displacements, const std::vector<doubl
   return energy(displacements).has_value();
 }
 
-/// Moves along a step as far as the energy falls. Returns false if it never falls.
+/// Moves along a step: the whole of it, or its first half, quarter, … for which the energy falls enough. Returns false
+/// if there is none.
 bool Newton::descend(std::vector<double>& displacements, const Eigen::VectorXd& step, double slope) {
   const Energy before = *energy(displacements);
   const Eigen::VectorXd from = unknowns_.gather(displacements);
