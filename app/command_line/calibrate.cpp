@@ -4,7 +4,7 @@
 
 #include "command_line/common.h"
 #include "command_line/elastic.h"
-#include "command_line/watched.h"
+#include "command_line/progress_line.h"
 #include "files/results/report_json.h"
 #include "files/session/softness_presets.h"
 #include "files/text/outputs.h"

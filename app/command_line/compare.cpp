@@ -1,7 +1,7 @@
 #include "command_line/compare_options.h"
 #include "command_line/folder.h"
+#include "command_line/progress_line.h"
 #include "command_line/report_origin.h"
-#include "command_line/watched.h"
 #include "files/results/report_json.h"
 #include "files/session/moves.h"
 #include "files/text/outputs.h"
@@ -78,8 +78,9 @@ void compare(const CompareArguments& options, const std::string& command_line) {
   const std::vector<report::Case> cases = cases_to_compare(options);
 
   ProgressLine line;
-  const report::Comparison comparison =
-      report::compare(cases, how, [&](double fraction, const std::string& text) { line.show(fraction, text); });
+  const report::Comparison comparison = report::compare(cases, how, [&](double fraction, const std::string& text) {
+    line.show([&] { return std::to_string(int(100 * fraction)) + "% " + text; });
+  });
   const report::Origin origin = origin_of(command_line);
 
   folder.make();

@@ -4,8 +4,8 @@
 
 #include "command_line/common.h"
 #include "command_line/elastic.h"
+#include "command_line/progress_line.h"
 #include "command_line/script.h"
-#include "command_line/watched.h"
 #include "files/results/trace_csv.h"
 #include "files/session/moves.h"
 #include "files/session/softness_csv.h"
