@@ -124,8 +124,8 @@ Command add_ramp(CLI::App& root) {
   options.algorithms = add_value(*app, "--algorithms", "A,B,…", "algorithms to run: see deform --help [all]");
   options.seed = add_value(*app, "--seed", "N", "random seed of the drags [1]");
   options.budget = add_value(*app, "--budget", "SECONDS", "time per pass [1/60]");
-  options.largest =
-      add_value(*app, "--largest", "ELEMENTS", "most elements of a grid [4000000, or as many as fit into memory]");
+  options.largest = add_value(*app, "--largest", "ELEMENTS",
+                              "largest number of elements in a grid [4000000, or as many as fit into memory]");
   options.precision = add_value(*app, "--precision", "float|double", "precision of the solver [float]");
   options.compression = add_parameter(*app, parameters::compression);
   options.stretch = add_parameter(*app, parameters::stretch);

@@ -27,7 +27,7 @@ ReportDock::ReportDock(Document& document)
       cancel_(new QPushButton(QStringLiteral("Cancel"))),
       progress_(new QProgressBar),
       pages_(new QStackedWidget) {
-  setAccessibleName(QStringLiteral("Report: speed against error"));
+  setAccessibleName(QStringLiteral("Report: time against error"));
   pages_->addWidget(makeEmptyPage());
   pages_->addWidget(results_);
   auto* shared = new QLabel(QStringLiteral("The window runs on the same machine, so these times are not exact."));

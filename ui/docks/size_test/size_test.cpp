@@ -27,7 +27,7 @@ report::Plot plotOf(const std::vector<SizeTestContestant>& contestants, std::spa
   report::Plot plot;
   plot.title = "Elements against time";
   plot.x.title = "elements";
-  plot.y.title = "slowest 1 % of the passes (ms)";
+  plot.y.title = "99th percentile of the pass times (ms)";
   plot.good_below = 1e3 * budget;
   plot.good_label = "real time";
   report::PlotPanel& panel = plot.panels.emplace_back();
@@ -44,7 +44,7 @@ report::Plot plotOf(const std::vector<SizeTestContestant>& contestants, std::spa
         curve.points.push_back({elements, row.figures.p99_ms});
         panel.marks.push_back({elements, elements, elements, row.figures.p99_ms, series, !row.figures.in_real_time, "",
                                name + ", " + sizeText(row.figures.width).toStdString() + ": median " +
-                                   report::figure(row.figures.median_ms) + " ms, slowest 1 % " +
+                                   report::figure(row.figures.median_ms) + " ms, 99th percentile " +
                                    report::figure(row.figures.p99_ms) + " ms"});
       }
     }

@@ -47,7 +47,7 @@ struct SizeTestRow {
 
 /// Returns what the rows of a panel say.
 report::RampVerdict verdictOf(const SizeTestContestant& contestant, std::span<const SizeTestRow> rows);
-/// Returns a plot of the elements against the slowest hundredth of the passes, with one line for each panel. `budget`
+/// Returns a plot of the elements against the 99th percentile of the pass times, with one line for each panel. `budget`
 /// is in seconds.
 report::Plot plotOf(const std::vector<SizeTestContestant>& contestants, std::span<const SizeTestRow> rows,
                     double budget);
