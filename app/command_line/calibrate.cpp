@@ -4,7 +4,7 @@
 
 #include "command_line/common.h"
 #include "command_line/elastic.h"
-#include "command_line/watched.h"
+#include "command_line/progress_line.h"
 #include "files/results/report_json.h"
 #include "files/session/softness_presets.h"
 #include "files/text/outputs.h"
@@ -98,7 +98,7 @@ void calibrate(const CalibrateArguments& options) {
   const auto preset_file = value_of(options.preset), json_file = value_of(options.json);
   CalibrationResult result;
   {
-    Watch watch("calibrating to " + object);
+    Watch watch("calibrating softness for " + object);
     try {
       result = chainmail::calibrate(opened.mesh, Cuts(opened.mesh), how, watch.progress());
     } catch (const Error& error) {
@@ -127,8 +127,9 @@ Command add_calibrate(CLI::App& root) {
   CLI::App* app = root.add_subcommand("calibrate", "Find the softness that is closest to an elastic material");
   CalibrateArguments options{};
   options.mesh = add_mesh_options(*app);
-  options.mesh.space = add_value(*app, "--space", "1|2|3",
-                                 "space dimension [stated by the file, else the axes that the mesh extends along]");
+  options.mesh.space =
+      add_value(*app, "--space", "1|2|3",
+                "number of coordinates [from the file, otherwise the number of axes along which the mesh extends]");
   options.elastic = add_material(*app);
   options.pins = add_pins(*app);
   options.algorithm =
@@ -137,7 +138,8 @@ Command add_calibrate(CLI::App& root) {
                                  "relaxation scheme: toward the mean of the neighbours, or link by link [mean]");
   options.drags = add_value(*app, "--drags", "N", "number of drags to fit [4]");
   options.seed = add_value(*app, "--seed", "S", "random seed of the drags [1]");
-  options.evaluations = add_value(*app, "--evaluations", "N", "most evaluations of all drags [200]");
+  options.evaluations =
+      add_value(*app, "--evaluations", "N", "largest number of evaluations; each runs all drags [200]");
   options.name = add_value(*app, "--name", "NAME", "name of the preset [the mesh and Poisson's ratio]");
   options.preset = add_value(*app, "-o", "FILE", "write the softness as a preset (JSON)");
   options.json = add_value(*app, "--json", "FILE", "write softness, sweeps and residuals as JSON");

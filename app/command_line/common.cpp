@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "command_line/watched.h"
+#include "command_line/progress_line.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 

@@ -1,7 +1,7 @@
 #include "command_line/compare_options.h"
 #include "command_line/folder.h"
+#include "command_line/progress_line.h"
 #include "command_line/report_origin.h"
-#include "command_line/watched.h"
 #include "files/results/report_json.h"
 #include "files/session/moves.h"
 #include "files/text/outputs.h"
@@ -37,7 +37,7 @@ std::vector<report::RecordedMoves> drags_of(const report::Case& object, const st
   }
   const std::filesystem::path path = *recorded;
   Watch watch("reading " + printable(*recorded));
-  report::RecordedMoves moves{"recorded", "as " + printable(path.filename().string()) + " has it",
+  report::RecordedMoves moves{"recorded", "recorded in " + printable(path.filename().string()),
                               read_moves(path, *object.mesh, watch.progress())};
   if (report::count_moves(moves) == 0) {
     throw Error(printable(*recorded), "it contains no move", "write a grab and a drag, as in compare --help");
@@ -78,8 +78,9 @@ void compare(const CompareArguments& options, const std::string& command_line) {
   const std::vector<report::Case> cases = cases_to_compare(options);
 
   ProgressLine line;
-  const report::Comparison comparison =
-      report::compare(cases, how, [&](double fraction, const std::string& text) { line.show(fraction, text); });
+  const report::Comparison comparison = report::compare(cases, how, [&](double fraction, const std::string& text) {
+    line.show([&] { return std::to_string(int(100 * fraction)) + "% " + text; });
+  });
   const report::Origin origin = origin_of(command_line);
 
   folder.make();
@@ -95,7 +96,7 @@ void compare(const CompareArguments& options, const std::string& command_line) {
 }  // namespace
 
 Command add_compare(CLI::App& root, const std::string& command_line) {
-  CLI::App* app = root.add_subcommand("compare", "Compare algorithms: a report of speed against error");
+  CLI::App* app = root.add_subcommand("compare", "Compare algorithms: a report of time against error");
   const CompareArguments arguments = add_compare_arguments(*app);
   app->footer(compare_footer);
   return {app, [arguments, command_line] {

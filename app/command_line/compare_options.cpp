@@ -62,7 +62,7 @@ void add_physics(CLI::App& app, CompareArguments& options) {
   options.pins = add_pins(app);
   options.elastic = add_elastic(app);
   options.grow = add_value(app, "--grow", "SECONDS",
-                           "refine a bar and a sheet until an algorithm has used this much time; 0: off [1]");
+                           "time that each contestant may use on a growing bar and a growing sheet; 0: off [1]");
   options.calibrated =
       add_value(app, "--calibrated", "on|off",
                 "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 sweeps [on]");
@@ -108,7 +108,7 @@ report::Case case_of(const std::string& file, const LinkSoftness& softness) {
   const std::filesystem::path path = file;
   OpenedMesh opened = chainmail::open_mesh(path);
   return {printable(path.filename().string()),
-          "as the file has it",
+          "mesh from a file",
           opened.mesh,
           {},
           {},
@@ -129,7 +129,7 @@ CompareArguments add_compare_arguments(CLI::App& app) {
   options.stretch = add_parameter(app, parameters::stretch);
   options.shear = add_parameter(app, parameters::shear);
   options.preset = add_value(app, "--preset", "NAME|FILE",
-                             "softness of a built-in preset, or of a preset file as calibrate writes it");
+                             "name of a built-in preset, or a preset file (for example from calibrate -o)");
   options.moves =
       add_value(app, "--moves", "FILE", "recorded moves (JSON) to run from rest, instead of the three drags");
   options.output = add_value(app, "-o", "FOLDER", "folder for the report; created if missing")->required();

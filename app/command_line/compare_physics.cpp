@@ -3,6 +3,7 @@
 #include "calibrate/for_report.h"
 #include "command_line/compare_options.h"
 #include "command_line/folder.h"
+#include "command_line/progress_line.h"
 #include "command_line/report_origin.h"
 #include "files/results/report_json.h"
 #include "files/text/outputs.h"
@@ -86,8 +87,10 @@ void compare_with_physics(const CompareArguments& arguments, const std::string& 
   OutputFolder folder(*value_of(arguments.output));
   const std::vector<report::Case> cases = physics_cases(arguments);
   ProgressLine line;
-  const report::PhysicsReport report = report::compare_with_physics(
-      cases, options, [&](double fraction, const std::string& text) { line.show(fraction, text); });
+  const report::PhysicsReport report =
+      report::compare_with_physics(cases, options, [&](double fraction, const std::string& text) {
+        line.show([&] { return std::to_string(int(100 * fraction)) + "% " + text; });
+      });
   const report::Origin origin = origin_of(command_line);
 
   folder.make();

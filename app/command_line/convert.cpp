@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "command_line/common.h"
-#include "command_line/watched.h"
+#include "command_line/progress_line.h"
 #include "files/mesh/fill.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"

@@ -4,8 +4,8 @@
 
 #include "command_line/common.h"
 #include "command_line/elastic.h"
+#include "command_line/progress_line.h"
 #include "command_line/script.h"
-#include "command_line/watched.h"
 #include "files/results/trace_csv.h"
 #include "files/session/moves.h"
 #include "files/session/softness_csv.h"
@@ -130,8 +130,8 @@ void write_positions(std::ostream& out, const std::string& path, const Simulatio
              {simulation.mesh(), solver.cuts(), solver.positions(), simulation.softness()});
 }
 
-void write_deformation(std::ostream& out, const DeformSummary& summary) {
-  out << summary.algorithm << " on " << summary.elements << " elements, " << summary.links << " links\n";
+void write_deformation(std::ostream& out, const AlgorithmInfo& algorithm, const DeformSummary& summary) {
+  out << algorithm.offered_name() << " on " << summary.elements << " elements, " << summary.links << " links\n";
   for (std::size_t i = 0; i < summary.passes.size(); ++i) {
     const auto& pass = summary.passes[i];
     out << "pass " << i << ": element " << pass.element << " to (" << pass.target.x() << ", " << pass.target.y() << ", "
@@ -142,7 +142,7 @@ void write_deformation(std::ostream& out, const DeformSummary& summary) {
     }
     out << (pass.remark.empty() ? "" : ", ") << pass.remark << '\n';
   }
-  out << "violation: max " << summary.violation.max << " rest lengths, rms " << summary.violation.rms << ", "
+  out << "violation: max " << summary.violation.max << " rest lengths, RMS " << summary.violation.rms << ", "
       << 100 * summary.violation.fraction << "% of links\n";
 }
 
@@ -161,7 +161,8 @@ void write_results(const Targets& targets, const Simulation& simulation, const R
     outputs.add(*targets.json, [&](std::ostream& out) { write_json(out, summary); });
   }
   if (targets.none()) {
-    outputs.add("-", [&](std::ostream& out) { write_deformation(out, summary); });
+    outputs.add("-",
+                [&](std::ostream& out) { write_deformation(out, info(simulation.statistics().algorithm), summary); });
   }
   outputs.commit();
 }
@@ -206,11 +207,11 @@ void add_acts(CLI::App& app, DeformArguments& options) {
   options.pin =
       add_value(app, "--pin", "ID|LAYER", "pin an element at its current position, or all elements of " + pin_names());
   for (CLI::Option* option : {options.move, options.by, options.cut, options.pin}) {
-    option->group("Acts: may be repeated, run in the order given");
+    option->group("Actions (may be repeated; they run in the given order)");
   }
   options.steps = add_value(app, "--steps", "N", "passes per move, in equal steps [1]");
   options.script =
-      add_value(app, "--script", "FILE", "recorded moves (JSON) as the workbench saves them; run before all acts");
+      add_value(app, "--script", "FILE", "recorded moves (JSON) saved by the workbench; they run before all actions");
 }
 
 void add_model(CLI::App& app, DeformArguments& options) {
@@ -230,8 +231,9 @@ void add_model(CLI::App& app, DeformArguments& options) {
   options.relax_step = add_parameter(app, parameters::relax_step);
   options.precision = add_value(app, "--precision", "double|float", "precision of the solver [double]");
   options.elastic = add_elastic(app);
-  options.mesh.space = add_value(app, "--space", "1|2|3",
-                                 "space dimension [stated by the file, else the axes that the mesh extends along]");
+  options.mesh.space =
+      add_value(app, "--space", "1|2|3",
+                "number of coordinates [from the file, otherwise the number of axes along which the mesh extends]");
 }
 
 void add_outputs(CLI::App& app, DeformArguments& options) {

@@ -74,7 +74,7 @@ std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, con
 std::vector<ElementId> pins_of(const CLI::Option* option, const std::string& object, const Mesh& mesh) {
   const auto list = value_of(option);
   if (!list) {
-    throw Error(object, "it has no pins, so physics has no static answer",
+    throw Error(object, "it has no pins, so physics has no solution",
                 "add --pins bottom, --pins boundary, or --pins ID,ID,…");
   }
   if (auto pins = pins_by_name("--pins", *list, mesh)) {
@@ -89,7 +89,7 @@ std::vector<ElementId> pins_of(const CLI::Option* option, const std::string& obj
     }
     if (*id >= mesh.element_count()) {
       throw Error("--pins", object + " has no element " + word,
-                  "ids go from 0 to " + std::to_string(mesh.element_count() - 1));
+                  "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
     }
     pins.push_back(*id);
   }
@@ -98,7 +98,7 @@ std::vector<ElementId> pins_of(const CLI::Option* option, const std::string& obj
 }
 
 CLI::Option* add_pins(CLI::App& app) {
-  return add_value(app, "--pins", "SIDE|ID,ID,…", "pinned elements: a layer (" + pin_names() + ") or ids");
+  return add_value(app, "--pins", "LAYER|ID,ID,…", "pinned elements: a layer (" + pin_names() + ") or ids");
 }
 
 std::string pin_names() {

@@ -67,7 +67,8 @@ Command add_generate(CLI::App& root) {
   options.kind = add_value(*app, "KIND", "", kinds_help())->required();
   options.size = add_value(*app, "SIZE", "", "number of elements along each axis")->required();
   options.spacing = add_parameter(*app, parameters::spacing);
-  options.space = add_value(*app, "--space", "1|2|3", "space dimension [the axes that the mesh extends along]");
+  options.space =
+      add_value(*app, "--space", "1|2|3", "number of coordinates [the number of axes along which the mesh extends]");
   options.output = add_value(*app, "-o", "FILE",
                              "output file: " + mesh_endings(FormatUse::write) + "; - writes .dat to standard output")
                        ->required();

@@ -26,11 +26,11 @@ void write_summary(std::ostream& out, const MeshSummary& summary) {
       << "hexahedra         " << summary.hexahedra << '\n'
       << "object dimension  " << summary.object_dimension << '\n'
       << "space dimension   " << summary.space_dimension << '\n'
-      << "components        " << summary.components << '\n'
+      << "parts             " << summary.components << '\n'
       << "bounds            " << short_digits(summary.bounds[0]) << " to " << short_digits(summary.bounds[1]) << '\n'
       << "mean link length  " << short_digits(summary.mean_link_length) << '\n';
   for (const auto& [title, words] :
-       {std::pair("taken as          ", summary.remark), std::pair("note              ", in_words(summary.flaws))}) {
+       {std::pair("read as           ", summary.remark), std::pair("note              ", in_words(summary.flaws))}) {
     if (!words.empty()) {
       out << title << words << '\n';
     }

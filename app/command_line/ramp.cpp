@@ -1,11 +1,10 @@
 #include "report/run/ramp.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <iostream>
 
 #include "command_line/common.h"
+#include "command_line/progress_line.h"
 #include "files/results/report_json.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
@@ -88,29 +87,11 @@ void write(const std::vector<Target>& targets, bool is_trial) {
   }
 }
 
-/// A progress line on standard error, if that is a terminal. The destructor clears it.
-class RampProgress {
- public:
-  RampProgress() = default;
-  RampProgress(const RampProgress&) = delete;
-  RampProgress& operator=(const RampProgress&) = delete;
-  ~RampProgress() {
-    if (is_terminal_) {
-      std::cerr << "\r\x1b[K" << std::flush;
-    }
-  }
-
-  void show(const report::RampProgress& progress) const {
-    if (is_terminal_) {
-      std::cerr << "\r\x1b[K" << progress.width << 'x' << progress.width << ", drag " << progress.drag << " of "
-                << progress.drags << (progress.repeated ? ", repeated" : "")
-                << ", in real time so far: " << progress.in_race.size() << std::flush;
-    }
-  }
-
- private:
-  bool is_terminal_ = isatty(STDERR_FILENO) != 0;
-};
+std::string text_of(const report::RampProgress& progress) {
+  return std::to_string(progress.width) + 'x' + std::to_string(progress.width) + ", drag " +
+         std::to_string(progress.drag) + " of " + std::to_string(progress.drags) +
+         (progress.repeated ? ", repeated" : "") + ", in real time so far: " + std::to_string(progress.in_race.size());
+}
 
 void ramp(const RampArguments& options) {
   const report::RampOptions how = ramp_options(options);
@@ -128,8 +109,9 @@ void ramp(const RampArguments& options) {
   }
   write(targets, true);  // fails now, not after minutes of work, if an output cannot be written
   {
-    const RampProgress line;
-    result = report::ramp(how, [&](const report::RampProgress& progress) { line.show(progress); });
+    ProgressLine line;
+    result =
+        report::ramp(how, [&](const report::RampProgress& progress) { line.show([&] { return text_of(progress); }); });
   }
   write(targets, false);
 }
@@ -142,8 +124,8 @@ Command add_ramp(CLI::App& root) {
   options.algorithms = add_value(*app, "--algorithms", "A,B,…", "algorithms to run: see deform --help [all]");
   options.seed = add_value(*app, "--seed", "N", "random seed of the drags [1]");
   options.budget = add_value(*app, "--budget", "SECONDS", "time per pass [1/60]");
-  options.largest =
-      add_value(*app, "--largest", "ELEMENTS", "most elements of a grid [4000000, or as many as fit into memory]");
+  options.largest = add_value(*app, "--largest", "ELEMENTS",
+                              "largest number of elements in a grid [4000000, or as many as fit into memory]");
   options.precision = add_value(*app, "--precision", "float|double", "precision of the solver [float]");
   options.compression = add_parameter(*app, parameters::compression);
   options.stretch = add_parameter(*app, parameters::stretch);

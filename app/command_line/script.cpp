@@ -1,51 +1,33 @@
 #include "command_line/script.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iostream>
 #include <set>
 
 #include "command_line/common.h"
 #include "command_line/elastic.h"
+#include "command_line/progress_line.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail::command_line {
 namespace {
 
-/// A progress line on standard error, if that is a terminal, for work that takes more than a second.
-class ScriptProgress {
+/// Counts the passes that are done on a progress line.
+class PassCount {
  public:
-  explicit ScriptProgress(std::uint64_t total) : total_(total), is_terminal_(isatty(STDERR_FILENO) != 0) {}
-  ScriptProgress(const ScriptProgress&) = delete;
-  ScriptProgress& operator=(const ScriptProgress&) = delete;
-  ~ScriptProgress() {
-    if (shown_) {
-      std::cerr << "\r\x1b[K" << std::flush;
-    }
-  }
+  explicit PassCount(std::uint64_t total) : total_(total) {}
 
   void advance() {
     ++done_;
-    const auto now = Clock::now();
-    if (is_terminal_ && now - last_ > std::chrono::seconds(1)) {
-      std::cerr << "\r\x1b[Kpass " << done_ << " of " << total_ << std::flush;
-      shown_ = true;
-      last_ = now;
-    }
+    line_.show([this] { return "pass " + std::to_string(done_) + " of " + std::to_string(total_); });
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   std::uint64_t total_;
   std::uint64_t done_ = 0;
-  bool is_terminal_;
-  bool shown_ = false;
-  Clock::time_point last_ = Clock::now();
+  ProgressLine line_{std::chrono::seconds(1)};
 };
 
 ElementId parse_id(const std::string& where, std::string_view text) {
@@ -149,7 +131,7 @@ class Runner {
 
   Simulation& simulation_;
   const Schedule& schedule_;
-  ScriptProgress progress_;
+  PassCount progress_;
   Run run_;
 };
 

@@ -53,7 +53,7 @@ inline constexpr Parameter stretch{
     .help = "greatest length of a link along each axis: 1 rigid, 2 twice its rest length"};
 inline constexpr Parameter shear{.name = "shear",
                                  .label = "Shear",
-                                 .unit = "of rest length",
+                                 .unit = "of length along the other axes",
                                  .standard = 0.1,
                                  .lowest = 0,
                                  .highest = no_highest,
@@ -95,7 +95,7 @@ inline constexpr Parameter young{.name = "young",
 inline constexpr Parameter poisson{
     .name = "poisson",
     .label = "Poisson's ratio",
-    .unit = "of the stretch",
+    .unit = "sideways per lengthwise strain",
     .standard = 0.3,
     .lowest = 0,
     .highest = below_half,

@@ -106,7 +106,7 @@ void CompareCommandTest::the_page_names_the_command() {
 void CompareCommandTest::prints_the_main_table() {
   const auto outcome = program_->run("compare cloth.obj" + QByteArray(short_run));
   QCOMPARE(outcome.code, 0);
-  QVERIFY(outcome.out.contains("\ncloth.obj: as the file has it; 30 elements, 69 links\n"));
+  QVERIFY(outcome.out.contains("\ncloth.obj: mesh from a file; 30 elements, 69 links\n"));
   QVERIFY(outcome.out.contains("\n  Natural Queue ChainMail, 10 sweeps  "));
   QVERIFY(outcome.out.contains("  local  whole body  back and forth  violation"));
 }

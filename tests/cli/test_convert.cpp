@@ -52,7 +52,7 @@ void ConvertCommandTest::a_volume_is_taken_as_asked() {
   const Program program;
   program.write("a.mha", volume);
   QCOMPARE(program.run("convert a.mha --threshold 20 --voxels 1 -o a.csv").code, 0);
-  QVERIFY(program.run("info a.mha --threshold 20").out.contains("taken as"));  // at which threshold, and how finely
+  QVERIFY(program.run("info a.mha --threshold 20").out.contains("read as"));  // at which threshold, and how finely
   QCOMPARE(program.read("a.csv"), QByteArray("id,x,y,z\n0,1,0,0\n1,2,0,0\n2,3,0,0\n"));
   const auto stiff = program.run("deform a.mha --threshold 20 --algorithm exact --by 2:1 --positions b.csv");
   QCOMPARE(stiff.code, 0);
@@ -77,9 +77,9 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
   QTest::newRow("format") << "convert a.off -o a.xyz"
                           << "a.xyz: the ending .xyz is not known; ";
   QTest::newRow("read only") << "convert a.off -o a.stl"
-                             << "a.stl: a .stl file is opened, not written; ";
+                             << "a.stl: a .stl file can be opened but not written; ";
   QTest::newRow("itself") << "convert a.off -o a.off"
-                          << "a.off: a .off file is opened, not written; ";
+                          << "a.off: a .off file can be opened but not written; ";
   QTest::newRow("no volume") << "convert a.off --threshold 3 -o a.obj"
                              << "a.off: it is not a volume of voxels; ";
   QTest::newRow("threshold") << "convert a.mha --threshold dense -o a.obj"
@@ -87,7 +87,7 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
   QTest::newRow("voxels") << "convert a.mha --voxels 0 -o a.obj"
                           << "--voxels: ";
   QTest::newRow("nothing") << "convert a.mha --threshold 41 -o a.obj"
-                           << "a.mha: no voxel is above the threshold of 41; ";
+                           << "a.mha: no voxel has a density of 41 or more; ";
   QTest::newRow("open") << "fill open.off -o a.msh"
                         << "open.off: the surface is open: it has 1 hole, ";
   QTest::newRow("size") << "fill a.off --edge -1 -o a.msh"

@@ -69,7 +69,7 @@ void PhysicsCommandTest::the_report_is_written() {
   QVERIFY(calibration["algorithm"].toString() == "exact" && calibration["seconds"].toDouble() > 0);
   QCOMPARE(report()["options"]["young"].toDouble(), 7.0);
   QCOMPARE(report()["options"]["poisson"].toDouble(), 0.4);
-  QVERIFY(outcome.out.contains("\ncloth.obj: as the file has it; 25 elements, 56 links, 5 pinned; "));
+  QVERIFY(outcome.out.contains("\ncloth.obj: mesh from a file; 25 elements, 56 links, 5 pinned; "));
   QVERIFY(outcome.out.contains("\n  Exact ChainMail, 5 sweeps "));
   QVERIFY(outcome.out.contains("\n  Exact ChainMail, calibrated"));
   QVERIFY(outcome.out.contains("\n  Nothing moves "));
@@ -84,7 +84,7 @@ void PhysicsCommandTest::nothing_pins_it() {
     const auto outcome = program_->run(line);
     QCOMPARE(outcome.code, 2);
     QCOMPARE(QString::fromUtf8(outcome.error),
-             QString("chainmail: cloth.obj: it has no pins, so physics has no static answer; add --pins bottom, --pins "
+             QString("chainmail: cloth.obj: it has no pins, so physics has no solution; add --pins bottom, --pins "
                      "boundary, or --pins ID,ID,…\n"));
   }
   QVERIFY(!program_->files().contains("out"));

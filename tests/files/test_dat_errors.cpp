@@ -43,10 +43,10 @@ void DatErrorsTest::wrong_files_data() {
   row("no count", "# size 1\n0\n", "mesh.dat:2: the row ends before the count; ");
   row("no rows", "# size 1\n\n", "mesh.dat: it holds no rows; ");
   row("no size", "0 0\n", "mesh.dat: the size of its lattice is not known; ");
-  row("size no number", "# size 2 x\n0 0\n", "mesh.dat:1: the size is not up to three whole numbers from 1; ");
-  row("size of 0", "# size 0\n0 0\n", "mesh.dat:1: the size is not up to three whole numbers from 1; ");
-  row("size too long", "# size 1 1 1 1\n0 0\n", "mesh.dat:1: the size is not up to three whole numbers from 1; ");
-  row("size joined", "# size 1x1\n0 0\n", "mesh.dat:1: the size is not up to three whole numbers from 1; ");
+  row("size no number", "# size 2 x\n0 0\n", "mesh.dat:1: the size must be one to three whole numbers above 0; ");
+  row("size of 0", "# size 0\n0 0\n", "mesh.dat:1: the size must be one to three whole numbers above 0; ");
+  row("size too long", "# size 1 1 1 1\n0 0\n", "mesh.dat:1: the size must be one to three whole numbers above 0; ");
+  row("size joined", "# size 1x1\n0 0\n", "mesh.dat:1: the size must be one to three whole numbers above 0; ");
   row("size too large", "# size 99999 99999\n0 0\n",
       "mesh.dat:1: the size 99999x99999 is more than 20000000 elements; ");
   row("sizes differ", "# size 1 2\n# size 2\n0 0\n1 0\n", "mesh.dat:2: the size differs from that of line 1; ");

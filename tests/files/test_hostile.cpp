@@ -39,7 +39,7 @@ void HostileTest::wrong_paths() {
   QVERIFY(error("none").endsWith("none: there is no such file; check the path"));
   std::filesystem::create_directory(path("folder.dat"));
   QVERIFY(error("folder.dat").endsWith("folder.dat: it is a folder; give a file"));
-  const QString known = "; meshes are " + QString::fromStdString(mesh_endings(FormatUse::read));
+  const QString known = "; open a mesh in one of these formats: " + QString::fromStdString(mesh_endings(FormatUse::read));
   put_file(path("a.doc"), "text");
   QVERIFY(error("a.doc").endsWith("a.doc: the ending .doc is not known" + known));
   put_file(path("a"), "0 0");

@@ -21,12 +21,12 @@ void ObjErrorsTest::wrong_files_data() {
   const auto row = [](const char* name, const char* lines, const char* message) {
     QTest::newRow(name) << lines << message;
   };
-  row("word for a number", "v 0 zero 0", "mesh.obj:4: 'zero' is not a number that a coordinate can be; ");
-  row("nan", "v 0 0 nan", "mesh.obj:4: 'nan' is not a number that a coordinate can be; ");
-  row("infinite", "v inf 0 0", "mesh.obj:4: 'inf' is not a number that a coordinate can be; ");
-  row("out of range", "v 1e999 0 0", "mesh.obj:4: '1e999' is not a number that a coordinate can be; ");
-  row("absurd", "v -1e200 0 0", "mesh.obj:4: '-1e200' is not a number that a coordinate can be; ");
-  row("rubbish behind", "v 1.0.0 0 0", "mesh.obj:4: '1.0.0' is not a number that a coordinate can be; ");
+  row("word for a number", "v 0 zero 0", "mesh.obj:4: 'zero' is not a valid coordinate; ");
+  row("nan", "v 0 0 nan", "mesh.obj:4: 'nan' is not a valid coordinate; ");
+  row("infinite", "v inf 0 0", "mesh.obj:4: 'inf' is not a valid coordinate; ");
+  row("out of range", "v 1e999 0 0", "mesh.obj:4: '1e999' is not a valid coordinate; ");
+  row("absurd", "v -1e200 0 0", "mesh.obj:4: '-1e200' is not a valid coordinate; ");
+  row("rubbish behind", "v 1.0.0 0 0", "mesh.obj:4: '1.0.0' is not a valid coordinate; ");
   row("two coordinates", "v 0 0", "mesh.obj:4: a vertex has 2 of its 3 coordinates; ");
   row("no coordinates", "v", "mesh.obj:4: a vertex has 0 of its 3 coordinates; ");
   row("eight numbers", "v 1 2 3 4 5 6 7 8", "mesh.obj:4: a vertex has more than 7 numbers; ");
@@ -48,8 +48,8 @@ void ObjErrorsTest::wrong_files_data() {
   row("face closed twice", "f 1 2 3 1", "mesh.obj:4: vertex 1 is linked to itself; ");
   row("face corner twice, counted back", "f 1 2 -2 3", "mesh.obj:4: vertex 2 is linked to itself; ");
   row("line to itself", "l 3 3", "mesh.obj:4: vertex 3 is linked to itself; ");
-  row("unknown statement", "vertex 1 2 3", "mesh.obj:4: 'vertex' begins no OBJ statement; ");
-  row("number alone", "1 2 3", "mesh.obj:4: '1' begins no OBJ statement; ");
+  row("unknown statement", "vertex 1 2 3", "mesh.obj:4: 'vertex' is not an OBJ statement; ");
+  row("number alone", "1 2 3", "mesh.obj:4: '1' is not an OBJ statement; ");
   row("a line that goes on", "f 1 2 \\\n3", "mesh.obj:4: '\\' is not the index of a vertex; ");
 }
 

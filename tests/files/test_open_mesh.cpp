@@ -236,8 +236,8 @@ void OpenMeshTest::flaws_are_told() {
   QCOMPARE(opened.mesh->triangles.size(), std::size_t{3});
   QVERIFY2(find_link(*opened.mesh, 3, 5), "the edges of what is left out are links all the same");
   QCOMPARE(QString::fromStdString(in_words(opened.flaws)),
-           QString("1 face or cell with a point named twice, 1 duplicate face or cell left out; 1 face or cell is "
-                   "flat, 1 element has the position of another"));
+           QString("1 face or cell with a point used twice, 1 duplicate face or cell left out; 1 face or cell is "
+                   "flat, 1 element shares its position with another"));
   QCOMPARE(in_words(open_mesh(std::filesystem::path(FOREIGN) / "gmsh22.msh").flaws), std::string());
 }
 

@@ -81,7 +81,7 @@ void PlyTest::wrong_files_are_refused_data() {
   row("not finite", face + "0 0 0\n1 nan 0\n", "vertex 1 has a coordinate that is not a number");
   row("dangling", face + points + "3 0 1 4\n", "a face or edge names the vertex 4, which does not exist; ");
   row("negative", face + points + "3 0 1 -1\n", "a face or edge names the vertex -1, which does not exist; ");
-  row("count of a list", face + points + "-3 0 1 2\n", "a list has no whole number of entries");
+  row("count of a list", face + points + "-3 0 1 2\n", "the length of a list is not a whole number");
   row("point as face", face + points + "1 0\n", "a face has fewer than 2 corners; ");
   row("strips",
       vertices + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" + points + "3 0 1 2\n",

@@ -159,7 +159,7 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,1,1,0,4,3,1,1,0]", "softness: the link 4-3 is given twice; ");
   row("\"on\":false", "\"on\":0", "relaxation: 'on' is neither true nor false; ");
   row("\"scheme\":\"link\"", "\"scheme\":\"links\"", "relaxation: 'scheme' is not known; ");
-  row("\"step\":0.5", "\"step\":0", "relaxation: 'step' is not above 0 ");
+  row("\"step\":0.5", "\"step\":0", "relaxation: relax-step: Step 0 is out of range; use a number above 0, up to 1");
   const auto elastic = [&row](const char* said, const char* members) {
     row("\"step\":0.5}", (std::string("\"step\":0.5}, \"elastic\": {") + members + "}").c_str(), said);
   };

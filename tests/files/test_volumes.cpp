@@ -325,7 +325,7 @@ void VolumesTest::nothing_above_the_threshold_is_said() {
   QCOMPARE(error_of([] {
              voxel_block(volume_of({2, 1, 1}, {1, 2}), {3.5, 1, true}, "a.nrrd");
            }),
-           QString("a.nrrd: no voxel is above the threshold of 3.5; choose a lower one"));
+           QString("a.nrrd: no voxel has a density of 3.5 or more; choose a lower density"));
 }
 
 QTEST_APPLESS_MAIN(VolumesTest)

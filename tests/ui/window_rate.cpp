@@ -6,6 +6,7 @@
 #include <QFile>
 #include <QImage>
 #include <QLabel>
+#include <functional>
 #include <sstream>
 
 #include "docks/frame_rate/frame_rate_dock.h"
@@ -31,13 +32,19 @@ struct RateBench : Workbench {
     }
     stroke(0, there);
   }
-  /// The dock takes a sample five times per second while there are passes.
-  bool shakeUntilSampled(std::size_t panel) {
-    for (const QDeadlineTimer limit(20'000); points(panel).size() <= 3 && !limit.hasExpired();) {
+  /// The dock reads its figures five times per second while there are passes.
+  bool shakeUntil(const std::function<bool()>& met) {
+    for (const QDeadlineTimer limit(20'000); !met() && !limit.hasExpired();) {
       shake();
       QCoreApplication::processEvents();
     }
-    return points(panel).size() > 3;
+    return met();
+  }
+  bool shakeUntilSampled(std::size_t panel) {
+    return shakeUntil([&] { return points(panel).size() > 3; });
+  }
+  bool shakeUntilShown() {
+    return shakeUntil([&] { return find<QLabel>("painted0")->text().toInt() > 0; });
   }
   void set(const char* box, const QVariant& data) {
     auto* field = find<QComboBox>(box);
@@ -197,7 +204,7 @@ class WindowRate : public QObject {
 
   void aPlotStandsStillWhereItIsPausedOrNothingHappens() {
     RateBench bench;
-    bench.shake();
+    QVERIFY(bench.shakeUntilShown());
     bench.rest();
     const QList<QTimer*> readings = bench.dock().findChildren<QTimer*>(QString(), Qt::FindDirectChildrenOnly);
     QVERIFY(!readings.isEmpty());
@@ -211,12 +218,12 @@ class WindowRate : public QObject {
     QVERIFY(!isRead());
     QCOMPARE(bench.end(), to);
     bench.trigger("pauseRates");
-    bench.shake();
+    QVERIFY(bench.shakeUntilShown());
     bench.rest();
     QCOMPARE(bench.points(0), before);
     QCOMPARE(bench.end(), to);
     bench.trigger("pauseRates");
-    bench.shake();
+    QVERIFY(bench.shakeUntilShown());
     bench.rest();
     QVERIFY(bench.end() > to);
     QVERIFY(bench.points(0) != before);
@@ -254,7 +261,7 @@ class WindowRate : public QObject {
     const QTemporaryDir folder;
     RateBench bench;
     bench.set("rateQuantity", QStringLiteral("painted"));
-    bench.shake();
+    QVERIFY(bench.shakeUntilShown());
     bench.rest();
     bench.dock().savePicturePath(folder.filePath(QStringLiteral("rates.png")));
     const QImage picture(folder.filePath(QStringLiteral("rates.png")));

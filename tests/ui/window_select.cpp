@@ -173,7 +173,7 @@ class WindowSelect : public QObject {
       QCOMPARE(own().at(link), (LinkSoftness{0.3, 1.2, 0.1}));
     }
     QCOMPARE(bench.document().softness(), LinkSoftness());
-    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("stiffness of 12 links"));
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("softness of 12 links"));
     bench.document().undoStack().undo();
     QVERIFY(own().empty());
     bench.document().undoStack().redo();

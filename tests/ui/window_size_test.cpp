@@ -10,7 +10,9 @@
 #include <QSpinBox>
 #include <QTableWidget>
 
+#include "common/plot_widget.h"
 #include "docks/size_test/size_test_dock.h"
+#include "report/page/format.h"
 #include "window.h"
 #include "window/message_bar.h"
 
@@ -107,6 +109,7 @@ class WindowSizeTest : public QObject {
       }
     }
     QVERIFY(bench.verdicts().contains(QStringLiteral("real time up to 8×8, 64 elements or more")));
+    checkThePlotShowsTheTable(bench);
 
     QVERIFY(bench.view(0).isVisible() && bench.view(1).isVisible());
     QCOMPARE(bench.document().mesh(), mesh);
@@ -184,6 +187,17 @@ class WindowSizeTest : public QObject {
   }
 
  private:
+  static void checkThePlotShowsTheTable(SizeBench& bench) {
+    auto* widget = bench.find<PlotWidget>("sizeTestPlot");
+    const report::PlotPanel& panel = widget->plot().panels.front();
+    QCOMPARE(panel.curves.size(), std::size_t{contestants});
+    QCOMPARE(panel.marks.size(), std::size_t{3 * contestants});
+    const report::PlotMark& last = panel.marks.back();  // of panel B
+    QCOMPARE(last.x, 64.0);
+    QCOMPARE(QString::fromStdString(report::figure(last.y)), bench.cell(2, 2 + columnsOfAPanel + 1));
+    const QString reading = widget->readingAt(widget->positionOf(last.x, last.y));
+    QVERIFY2(reading.contains(QStringLiteral("8×8")), qPrintable(reading));
+  }
   static void checkTheTableLeavesTheWindow(SizeBench& bench) {
     bench.table().setFocus();
     QTest::keyClick(&bench.table(), Qt::Key_C, Qt::ControlModifier);

@@ -338,11 +338,11 @@ class WindowUndo : public QObject {
            document.cut({7, 8, 40});
          }},
         {QStringLiteral("stretch"), [&] { spin("stretchSpin", 1.5); }},
-        {QStringLiteral("stiffness of 2 links"),
+        {QStringLiteral("softness of 2 links"),
          [&] {
            document.setSoftnessOf({2, 9}, LinkSoftness{0.5, 2, 1});
          }},
-        {QStringLiteral("reset stiffness"), [&] { document.resetSoftness(); }},
+        {QStringLiteral("reset softness"), [&] { document.resetSoftness(); }},
         {QStringLiteral("relaxation settings"),
          [&] {
            document.setRelaxation({document.relaxation().on, 0.5, RelaxationScheme::link});

@@ -18,7 +18,7 @@ QString change(const char* name, double before, double after) {
 
 QString errors(const TestedDrags& tested) {
   const Residual &before = tested.before, &after = tested.after;
-  return QStringLiteral("%1 (without motion: %2), %3, %4 of the handle's displacement")
+  return QStringLiteral("%1 (nothing moves: %2), %3, %4 of the handle's displacement")
       .arg(change("relative error", before.relative, after.relative), rounded(tested.nothing.relative),
            change("RMS", before.rms, after.rms), change("max", before.max, after.max));
 }
@@ -28,7 +28,7 @@ QString errors(const TestedDrags& tested) {
 CalibrationBox::CalibrationBox(Document& document, Jobs& jobs)
     : document_(document),
       jobs_(jobs),
-      start_(new QPushButton(QStringLiteral("Calibrate softness…"))),
+      start_(new QPushButton(QStringLiteral("Calibrate softness"))),
       keep_(new QPushButton(QStringLiteral("Save as preset…"))),
       result_(new QLabel) {
   arrange();
@@ -51,11 +51,10 @@ void CalibrationBox::arrange() {
   result_->setObjectName(QStringLiteral("calibrationResult"));
   result_->setWordWrap(true);
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  result_->setToolTip(QStringLiteral(
-      "Distance of elements from neo-Hookean FEM on the same cells after random drags, with the default "
-      "softness and with the found one. The relative error is the RMS distance divided by the RMS displacement "
-      "of the FEM solution: an object that does not move has about 1. Unseen drags are drags that the search "
-      "did not use."));
+  result_->setToolTip(
+      QStringLiteral("Distance of the elements from neo-Hookean FEM on the same cells after random drags, before → "
+                     "after calibration. Relative error: RMS distance divided by the RMS displacement of the reference "
+                     "solution; about 1 if nothing moves. The search does not use the unseen drags."));
   result_->hide();
   keep_->hide();
   auto* column = new QVBoxLayout(this);

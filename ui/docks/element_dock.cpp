@@ -51,7 +51,7 @@ ElementDock::ElementDock(Document& document)
       refresh_(this) {
   id_->setObjectName(QStringLiteral("elementId"));
   id_->setKeyboardTracking(false);
-  id_->setToolTip(QStringLiteral("Id of the element: its index in the file, from 0. Selects the element"));
+  id_->setToolTip(QStringLiteral("Index of the element in the file, from 0. Selects this element"));
   state_->setObjectName(QStringLiteral("elementState"));
   state_->setWordWrap(true);
   pin_->setObjectName(QStringLiteral("pinElement"));
@@ -182,7 +182,7 @@ void ElementDock::pick() {
 
 QString ElementDock::stateText() const {
   if (missing_) {
-    return QStringLiteral("There is no element %1: ids are from 0 to %2.")
+    return QStringLiteral("There is no element %1: use an id from 0 to %2.")
         .arg(*missing_)
         .arg(document_.mesh()->element_count() - 1);
   }

@@ -69,7 +69,7 @@ void Gallery::fill() {
     button->setAutoRaise(true);
     button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     button->setToolTip(
-        QStringLiteral("%1: %2 elements (%3)\nClick: replaces the object by this sample")
+        QStringLiteral("%1: %2 elements (%3)\nClick: replaces the object with this sample")
             .arg(QString::fromUtf8(sample.what), QLocale().toString(sample.elements), QFileInfo(path).fileName()));
     connect(button, &QToolButton::clicked, this, [this, path] { emit chosen(path); });
     grid_->addWidget(button, index / galleryColumns, index % galleryColumns);

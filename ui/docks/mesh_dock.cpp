@@ -56,7 +56,7 @@ MeshDock::MeshDock(Document& document, Jobs& jobs)
   space_->setObjectName(QStringLiteral("spaceDimension"));
   space_->setToolTip(QStringLiteral("Number of coordinates: a 2D scene has no z"));
   kind_->setToolTip(QStringLiteral("Kind of the mesh: chain, surface or volume, with or without diagonal links"));
-  build_->setToolTip(QStringLiteral("Replaces the object by this mesh, as one undo step"));
+  build_->setToolTip(QStringLiteral("Replaces the object with this mesh, as one undo step"));
   build_->setObjectName(QStringLiteral("buildMesh"));
   description_->setObjectName(QStringLiteral("meshDescription"));
   description_->setWordWrap(true);

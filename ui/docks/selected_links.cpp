@@ -108,7 +108,7 @@ QString SelectedLinks::describe(const Common& all) const {
   QString description =
       some(selection.elements.size(), "element") + QStringLiteral(", ") + some(selection.links.size(), "link");
   if (selection.links.empty()) {
-    description += QStringLiteral("<br>A link is selected with both its ends.");
+    description += QStringLiteral("<br>No link: select both ends of a link.");
   } else if (!(all.compression && all.stretch && all.shear)) {
     description += QStringLiteral("<br>Their softness differs.");
   }

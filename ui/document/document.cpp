@@ -307,7 +307,7 @@ void Document::setSoftnessOf(const std::vector<LinkId>& links, const std::option
     }
   }
   if (softness.links != wholeSoftness()->links) {
-    Change edit = change(counted(QStringLiteral("stiffness of"), links.size(), QStringLiteral("link")));
+    Change edit = change(counted(QStringLiteral("softness of"), links.size(), QStringLiteral("link")));
     edit.after.softness = std::make_shared<const Softness>(std::move(softness));
     apply(std::move(edit));
   }
@@ -315,7 +315,7 @@ void Document::setSoftnessOf(const std::vector<LinkId>& links, const std::option
 
 void Document::resetSoftness() {
   if (*wholeSoftness() != Softness()) {
-    Change edit = change(QStringLiteral("reset stiffness"));
+    Change edit = change(QStringLiteral("reset softness"));
     edit.after.softness = std::make_shared<const Softness>();
     apply(std::move(edit));
   }

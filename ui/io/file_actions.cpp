@@ -112,7 +112,7 @@ void FileActions::fill(QMenu& menu) {
   open_->setObjectName(QStringLiteral("openFile"));
   open_->setIconText(QStringLiteral("Open"));
   open_->setStatusTip(
-      QStringLiteral("Replaces the object by a session (.chainmail), a mesh or volume (%1) or a picture "
+      QStringLiteral("Replaces the object with a session (.chainmail), a mesh or volume (%1) or a picture "
                      "(.png .jpg)")
           .arg(endings(FormatUse::read)));
   recent_ = menu.addMenu(QStringLiteral("Open &recent"));
@@ -133,7 +133,8 @@ void FileActions::addSaveActions(QMenu& menu) {
     action->setStatusTip(help);
     return action;
   };
-  const QString all = QStringLiteral("mesh, cuts, pins, softness, positions of all panels, cameras and layout");
+  const QString all =
+      QStringLiteral("mesh, cuts, pins, softness, positions of all panels, recorded moves, cameras and layout");
   save_ = add("saveSession", QStringLiteral("&Save session"), QKeySequence::Save, &FileActions::saveSession,
               QStringLiteral("Saves everything in one file: ") + all);
   save_->setIconText(QStringLiteral("Save"));

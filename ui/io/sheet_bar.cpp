@@ -18,7 +18,7 @@ std::array<std::uint32_t, 2> pixelsOf(QSize picture) {
 
 SheetBar::SheetBar()
     : AskBar(QStringLiteral("sheet"), QStringLiteral("Open s&heet"),
-             QStringLiteral("Replaces the object by the picture as a sheet, as one undo step")),
+             QStringLiteral("Replaces the object with the picture as a sheet, as one undo step")),
       across_(new QSpinBox) {
   across_->setObjectName(QStringLiteral("sheetAcross"));
   across_->setAccessibleName(QStringLiteral("Elements across the picture"));

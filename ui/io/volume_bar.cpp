@@ -32,12 +32,12 @@ std::uint64_t OpenedVolume::above(double density) const {
 }
 
 VolumeBar::VolumeBar()
-    : AskBar(QStringLiteral("volume"), QStringLiteral("Open &block"),
-             QStringLiteral("Replaces the object by the dense voxels of the volume, as one undo step")),
+    : AskBar(QStringLiteral("volume"), QStringLiteral("Open &volume"),
+             QStringLiteral("Replaces the object with the dense voxels of the volume, as one undo step")),
       slider_(new QSlider(Qt::Horizontal)),
       threshold_(new QDoubleSpinBox),
       every_(new QSpinBox),
-      stiff_(new QCheckBox(QStringLiteral("Sti&ff where dense"))) {
+      stiff_(new QCheckBox(QStringLiteral("So&ftness from density"))) {
   makeFields();
   connect(slider_, &QSlider::valueChanged, this, [this](int position) { threshold_->setValue(fromSlider(position)); });
   connect(threshold_, &QDoubleSpinBox::valueChanged, this, &VolumeBar::describe);
@@ -65,9 +65,9 @@ void VolumeBar::makeFields() {
           .arg(voxel_elements));
   stiff_->setToolTip(QStringLiteral(
       "Sets the softness of links by density: from the default at the lowest density to rigid at the highest"));
-  addField(QStringLiteral("&Density from"), threshold_);
+  addField(QStringLiteral("Lowest &density"), threshold_);
   addField({}, slider_);
-  addField(QStringLiteral("&Voxels per element"), every_);
+  addField(QStringLiteral("Vo&xels per element"), every_);
   addField({}, stiff_);
 }
 

@@ -25,7 +25,7 @@ constexpr std::array modeInfos{
     ColourModeInfo{ColourMode::plain, "plain", "Plain", "", ""},
     ColourModeInfo{ColourMode::compression, "compression", "Compression of links", "Compression", "of rest length"},
     ColourModeInfo{ColourMode::stretch, "stretch", "Stretch of links", "Stretch", "of rest length"},
-    ColourModeInfo{ColourMode::shear, "shear", "Shear of links", "Shear", "of rest length"},
+    ColourModeInfo{ColourMode::shear, "shear", "Shear of links", "Shear", "of length along the other axes"},
     ColourModeInfo{ColourMode::violation, "violation", "Violation of links", "Violation, live", "rest lengths"},
     ColourModeInfo{ColourMode::distance, "distance", "Distance between panels", "Distance", "mean rest lengths"},
     ColourModeInfo{ColourMode::violationDifference, "violationDifference", "Violation, difference of panels",
@@ -385,7 +385,7 @@ QString Colouring::title(int panel) const {
 QString Colouring::errorText(const Work& work) const {
   const BackgroundReference::Answer& answer = *solution_.answer();
   const QLocale locale;
-  return QStringLiteral(" on the same cells: relative %1, nothing moves %2; RMS %3")
+  return QStringLiteral(" on the same cells: relative error %1 (nothing moves: %2), RMS %3")
       .arg(locale.toString(work.rms * answer.solution.handle_displacement / answer.rms, 'g', 3),
            locale.toString(answer.nothing, 'g', 3), locale.toString(work.rms, 'g', 3));
 }

@@ -127,7 +127,7 @@ QString Panel::describe(const Statistics& statistics, bool briefly) const {
 QString Panel::describePass(const Statistics& statistics, bool briefly) {
   const QLocale locale;
   const bool solved = elastic_method(statistics.algorithm).has_value();
-  const QString checked = solved    ? QStringLiteral("solved for <b>%2</b>")
+  const QString checked = solved    ? QStringLiteral("solved for <b>%2</b> elements")
                           : briefly ? QStringLiteral("<b>%2</b> checked")
                                     : QStringLiteral("<b>%2</b> links checked");
   return (QStringLiteral("<b>%1</b> moved · ") + checked + QStringLiteral(" · <b>%3</b> ms") +
@@ -173,7 +173,7 @@ QStringList Panel::states(const Statistics& statistics) const {
     states << QStringLiteral("ghost of %1, %2 %").arg(panelName(*ghost.of)).arg(std::lround(100 * ghost.blend));
   }
   if (view_->drawnStep() > 1) {
-    states << QStringLiteral("drawn coarsely, 1 in %1").arg(view_->drawnStep());
+    states << QStringLiteral("simplified drawing, 1 of %1 links").arg(view_->drawnStep());
   }
   if (view_->leavesLinksOut()) {
     states << QStringLiteral("zoom in to see links");

@@ -38,7 +38,7 @@ bool isSurfaceInSpace(const Mesh& mesh) { return mesh.object_dimension == 2 && m
 
 Filling::Filling(Document& document, Jobs& jobs)
     : AskBar(QStringLiteral("fill"), QStringLiteral("&Fill"),
-             QStringLiteral("Replaces the surface with a volume of tetrahedra, as one step of undo")),
+             QStringLiteral("Replaces the surface with a volume of tetrahedra, as one undo step")),
       document_(document),
       jobs_(jobs),
       size_(new QDoubleSpinBox),

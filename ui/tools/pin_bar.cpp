@@ -8,13 +8,13 @@ namespace chainmail {
 
 PinBar::PinBar(Document& document, PinLayers& layers)
     : AskBar(QStringLiteral("pins"), QStringLiteral("Pin &bottom layer"),
-             QStringLiteral("Pins the bottom layer at its present positions, as one step of undo")),
+             QStringLiteral("Pins the bottom layer at its present positions, as one undo step")),
       document_(document),
       layers_(layers) {
   addChoices();
   connect(this, &AskBar::agreed, this, [this] { layers_.pin(layers_.foot()); });
   connect(&document, &Document::unpinned, this, &PinBar::await);
-  // The end of a drag is a step of undo.
+  // The end of a drag is an undo step.
   connect(&document.undoStack(), &QUndoStack::indexChanged, this, &PinBar::offer);
   connect(&document, &Document::pinsChanged, this, &PinBar::follow);
   connect(&document, &Document::meshChanged, this, &PinBar::follow);
@@ -32,8 +32,8 @@ void PinBar::addChoices() {
   };
   auto* boundary =
       add("pinsBoundary", QStringLiteral("Pin b&oundary"),
-          QStringLiteral("Pins all elements on the boundary at their present positions, as one step of undo"));
-  auto* byHand = add("pinsByHand", QStringLiteral("Pin by &hand"),
+          QStringLiteral("Pins all elements on the boundary at their present positions, as one undo step"));
+  auto* byHand = add("pinsByHand", QStringLiteral("Pin &single elements"),
                      QStringLiteral("Switches to the pin tool: click the elements to pin"));
   connect(boundary, &QPushButton::clicked, this, [this] { layers_.pinBoundary(); });
   connect(byHand, &QPushButton::clicked, this, [this] {
@@ -57,7 +57,7 @@ void PinBar::offer() {
   awaits_ = false;
   asked_ = true;
   setAgree(QStringLiteral("Pin &%1 layer").arg(text(layers_.foot().name)));
-  ask(QStringLiteral("Nothing pins this object, so %1 has no static answer.")
+  ask(QStringLiteral("Nothing pins this object, so %1 has no solution.")
           .arg(text(info(document_.algorithm(panel_)).label)),
       byHand_);
 }

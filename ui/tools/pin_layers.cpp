@@ -98,8 +98,7 @@ void PinLayers::show(const Choice& choice, std::optional<std::size_t> count) con
   choice.action->setText(words);
   choice.action->setEnabled(some);
   choice.action->setStatusTip(
-      some ? QStringLiteral("Pins the elements of the %1 at their present positions, as one step of undo")
-                 .arg(choice.name)
+      some ? QStringLiteral("Pins the elements of the %1 at their present positions, as one undo step").arg(choice.name)
            : QStringLiteral("All elements of the %1 are pinned already").arg(choice.name));
   choice.action->setToolTip(choice.action->statusTip());
 }

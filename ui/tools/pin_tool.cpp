@@ -5,7 +5,7 @@
 namespace chainmail {
 
 QString PinTool::hint() const {
-  return QStringLiteral("Left: pin or unpin an element  ·  Object, Unpin all  ·  Ctrl+Z: undo");
+  return QStringLiteral("Left: pin or unpin an element  ·  Object > Unpin all  ·  Ctrl+Z: undo");
 }
 
 void PinTool::hover(View& view, QPointF place) { document_.setHighlight({view.elementAt(place), false, {}}); }

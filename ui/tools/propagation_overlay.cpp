@@ -111,8 +111,8 @@ std::optional<OverlayLegend> PropagationOverlay::legend(int panel) const {
   if (player(panel) == nullptr) {
     return std::nullopt;
   }
-  return OverlayLegend{QStringLiteral("Order of update (step of the pass)"), scale(),
-                       QStringLiteral("One scale for all panels: a colour is the same step in each")};
+  return OverlayLegend{QStringLiteral("Order of update (candidate of the pass)"), scale(),
+                       QStringLiteral("One scale for all panels: a colour means the same candidate number in each")};
 }
 
 QString PropagationOverlay::note(int panel) const {
@@ -123,11 +123,11 @@ QString PropagationOverlay::note(int panel) const {
   const QLocale locale;
   QString note = QStringLiteral("pass %1").arg(locale.toString(qulonglong(player->pass().number)));
   if (!propagation_.follows()) {
-    note += QStringLiteral(", step %1 of %2")
+    note += QStringLiteral(", candidate %1 of %2")
                 .arg(locale.toString(qulonglong(player->step())), locale.toString(qulonglong(player->stepCount())));
   }
   if (const std::size_t every = drawnEvery(*player); every > 1) {
-    note += QStringLiteral(", 1 step in %1 drawn").arg(every);
+    note += QStringLiteral(", 1 of %1 candidates drawn").arg(every);
   }
   return note;
 }

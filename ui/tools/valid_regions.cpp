@@ -24,8 +24,8 @@ ValidRegions::ValidRegions(const Document& document)
   shown_->setCheckable(true);
   shown_->setShortcut(Qt::Key_V);
   shown_->setStatusTip(
-      QStringLiteral("Shows the valid regions of the neighbours of the element under the cursor; solid with a ring: "
-                     "the neighbour is inside; dashed with a cross: it is outside"));
+      QStringLiteral("Shows where the neighbours of the element under the cursor may lie. Solid box with ring: the "
+                     "neighbour is inside. Dashed box with cross: it is outside"));
   connect(shown_, &QAction::toggled, this, &ValidRegions::changed);
   const auto follow = [this] {
     if (shown_->isChecked()) {

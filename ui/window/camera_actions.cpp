@@ -69,9 +69,9 @@ void CameraActions::makeMoves() {
         [way = one.way](View& view) { view.pan(way * panPixels); });
   }
   add("zoomIn", QStringLiteral("Zoom &in"), "zoomIn", {Qt::Key_Plus, Qt::Key_Equal},
-      QStringLiteral("Shows the object 1.2 times as large"), [](View& view) { view.zoom(zoomStep); });
+      QStringLiteral("Shows the object larger by a factor of 1.2"), [](View& view) { view.zoom(zoomStep); });
   add("zoomOut", QStringLiteral("Zoom &out"), "zoomOut", {Qt::Key_Minus},
-      QStringLiteral("Shows the object 1.2 times as small"), [](View& view) { view.zoom(1 / zoomStep); });
+      QStringLiteral("Shows the object smaller by a factor of 1.2"), [](View& view) { view.zoom(1 / zoomStep); });
 }
 
 void CameraActions::add(const char* name, const QString& text, const char* iconName, const QList<QKeySequence>& keys,

@@ -175,7 +175,7 @@ const std::array entries{
     DockEntry{.id = "reportDock",
               .action = "showReport",
               .title = "Report",
-              .menuText = "&Report: speed against error",
+              .menuText = "&Report: time against error",
               .tooltip = "Measures time per move and errors of the algorithms on this object",
               .icon = "report",
               .key = Qt::Key_E,
@@ -210,7 +210,8 @@ const std::array entries{
     DockEntry{.id = "replayDock",
               .action = "showReplay",
               .title = "Record and replay",
-              .tooltip = "Steps through all moves since the object was opened; plays, saves and films them",
+              .tooltip = "Steps through all moves since the object was opened; plays them and saves them as files, "
+                         "pictures or video",
               .icon = "record",
               .key = Qt::CTRL | Qt::Key_R,
               .area = Qt::BottomDockWidgetArea,

@@ -222,9 +222,8 @@ void MainWindow::cancelCurrent() {
 /// Document::undo and Document::redo end an unfinished drag first.
 void MainWindow::makeUndo() {
   const auto undoVerb = QStringLiteral("Undo"), redoVerb = QStringLiteral("Redo");
-  undo_ = addUndo(undoVerb, "undo", QKeySequence::Undo,
-                  QStringLiteral("Reverts the last step: elements, cuts, pins and parameters"));
-  redo_ = addUndo(redoVerb, "redo", QKeySequence::Redo, QStringLiteral("Repeats the step that was undone last"));
+  undo_ = addUndo(undoVerb, "undo", QKeySequence::Undo, QStringLiteral("Undoes the last change"));
+  redo_ = addUndo(redoVerb, "redo", QKeySequence::Redo, QStringLiteral("Repeats the change that was undone"));
   const QUndoStack& stack = document_.undoStack();
   connect(&stack, &QUndoStack::canUndoChanged, undo_, &QAction::setEnabled);
   connect(&stack, &QUndoStack::canRedoChanged, redo_, &QAction::setEnabled);

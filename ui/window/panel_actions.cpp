@@ -21,7 +21,7 @@ PanelActions::PanelActions(PanelArea& area, Document& document, Colouring& colou
       add_(add(QStringLiteral("addPanel"), QStringLiteral("&Add panel"), Qt::Key_N, {})),
       remove_(add(QStringLiteral("removePanel"), QStringLiteral("&Remove panel"), Qt::SHIFT | Qt::Key_N, {})),
       swap_(add(QStringLiteral("swapPanels"), QStringLiteral("S&wap panels"), Qt::Key_W,
-                QStringLiteral("Moves each panel to the place of the next one; two panels exchange sides"))),
+                QStringLiteral("Moves each panel to the next position; two panels swap sides"))),
       ghosts_(add(QStringLiteral("ghosts"), QStringLiteral("&Ghosts"), Qt::Key_G,
                   QStringLiteral("Shows the next panel's object over each panel's own, transparent and in that panel's "
                                  "colour. The button above a panel chooses another"))) {
@@ -91,9 +91,10 @@ void PanelActions::makeOnes(int panel) {
 
 void PanelActions::makeOneAlone(int panel) {
   const QString name = panelName(panel);
-  alone_ << add(QStringLiteral("showAlone%1").arg(name), QStringLiteral("%1 alone").arg(name),
-                Qt::ALT | Qt::Key(Qt::Key_1 + panel),
-                QStringLiteral("Show only panel %1, or all panels (or double-click the head of the panel)").arg(name));
+  alone_ << add(
+      QStringLiteral("showAlone%1").arg(name), QStringLiteral("Show only %1").arg(name),
+      Qt::ALT | Qt::Key(Qt::Key_1 + panel),
+      QStringLiteral("Show only panel %1, or all panels (or double-click the header of the panel)").arg(name));
   connect(alone_.last(), &QAction::triggered, this,
           [this, panel](bool alone) { area_.setAlone(alone ? std::optional(panel) : std::nullopt); });
 }

@@ -69,7 +69,7 @@ void DatParser::read_size(std::string_view numbers) {
   for (auto word = take_word(numbers); !word.empty(); word = take_word(numbers)) {
     const auto number = parse_count(word);
     if (!number || *number == 0 || count == 3) {
-      fail("the size is not up to three whole numbers from 1", "write '# size W [H [D]]'");
+      fail("the size must be one to three whole numbers above 0", "write '# size W [H [D]]'");
     }
     size[count++] = *number;
   }
@@ -133,7 +133,7 @@ void DatParser::read_row(std::string_view line) {
   row.last = result_.neighbours.size();
   if (const std::size_t listed = row.last - row.first; listed != count) {
     fail("the count says " + std::to_string(count) + " neighbours, the row lists " + std::to_string(listed),
-         "make them agree");
+         "correct the count or the list");
   }
   result_.rows.push_back(row);
 }

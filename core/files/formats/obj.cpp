@@ -104,7 +104,7 @@ void ObjReader::read_line(std::string_view line) {
     }
   } else if (!word.empty() &&
              std::find(skipped_statements.begin(), skipped_statements.end(), word) == skipped_statements.end()) {
-    fail(line_, in_quotes(word) + " begins no OBJ statement", "elements are 'v x y z', links come from 'f' and 'l'");
+    fail(line_, in_quotes(word) + " is not an OBJ statement", "elements are 'v x y z', links come from 'f' and 'l'");
   }
 }
 
@@ -127,7 +127,7 @@ void ObjReader::read_vertex(std::string_view rest) {
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
     const auto number = parse_number(word);
     if (!number || std::abs(*number) > coordinate_limit) {
-      fail(line_, in_quotes(word) + " is not a number that a coordinate can be", "write a finite decimal number");
+      fail(line_, in_quotes(word) + " is not a valid coordinate", "write a finite decimal number");
     }
     if (count == numbers.size()) {
       fail(line_, "a vertex has more than 7 numbers", "write 'v x y z'");
@@ -150,7 +150,8 @@ void ObjReader::read_corners(std::string_view rest) {
 ElementId ObjReader::read_corner(std::string_view word) {
   const auto index = parse_corner(word);
   if (!index) {
-    fail(line_, in_quotes(word) + " is not the index of a vertex", "indices are whole numbers from 1, or from -1 back");
+    fail(line_, in_quotes(word) + " is not the index of a vertex",
+         "indices are use 1, 2, … from the first vertex, or -1, -2, … from the last one read");
   }
   const auto known = static_cast<std::int64_t>(result_.parts.rest.size());
   const std::int64_t vertex = *index > 0 ? *index - 1 : known + *index;

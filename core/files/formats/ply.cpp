@@ -250,7 +250,7 @@ void PlyReader::read_property(const PlyProperty& property) {
   if (property.count != nullptr) {
     count = number(*property.count);
     if (!(count >= 0 && count <= double(bytes_.size())) || count != std::floor(count)) {
-      fail("a list has no whole number of entries, or more than the file holds", "export it again");
+      fail("the length of a list is not a whole number, or is larger than the rest of the file", "export it again");
     }
   }
   for (auto i = static_cast<std::size_t>(count); i > 0; --i) {

@@ -66,7 +66,7 @@ class TetGenTable {
     const auto word = take_word(rest_);
     const auto number = parse_number(word);
     if (!number || std::abs(*number) > coordinate_limit) {
-      fail(in_quotes(word) + " is not a number that a coordinate can be", "write a finite decimal number");
+      fail(in_quotes(word) + " is not a valid coordinate", "write a finite decimal number");
     }
     return *number;
   }

@@ -78,7 +78,7 @@ std::shared_ptr<const Texture> texture_of(const Volume& volume, const Progress& 
   return texture;
 }
 
-/// Builds the elements of bricks above a threshold, numbered along x, then y, then z, with their links and cells.
+/// Builds the elements of bricks that reach a density, numbered along x, then y, then z, with their links and cells.
 class BlockBuilder {
  public:
   BlockBuilder(const Volume& volume, const Bricks& bricks, std::uint32_t every, double threshold)
@@ -213,10 +213,10 @@ VoxelBlock voxel_block(const Volume& volume, const VoxelOptions& options, const 
   std::string threshold;
   append_number(threshold, block.threshold);
   if (count == 0) {
-    throw Error(where, "no voxel is above the threshold of " + threshold, "choose a lower one");
+    throw Error(where, "no voxel has a density of " + threshold + " or more", "choose a lower density");
   }
   if (count > element_limit) {
-    throw Error(where, std::to_string(count) + " voxels are above the threshold of " + threshold,
+    throw Error(where, std::to_string(count) + " voxels have a density of " + threshold + " or more",
                 "use several voxels per element");
   }
   std::vector<float> densities;

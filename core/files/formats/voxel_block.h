@@ -26,7 +26,7 @@ struct VoxelOptions {
 /// Up to this number of elements, an object follows the handle in real time.
 inline constexpr std::uint64_t voxel_elements = 100'000;
 
-/// An object of the voxels above a threshold, linked along the axes: the purpose that ChainMail was made for
+/// An object of the voxels from a density on, linked along the axes: the purpose that ChainMail was made for
 /// (Frisken-Gibson 1997).
 struct VoxelBlock {
   MeshPointer mesh;                         // its texture is the volume
@@ -38,7 +38,7 @@ struct VoxelBlock {
 /// Returns the threshold that best separates the densities of a volume into two classes (Otsu 1979).
 double otsu_threshold(const Volume& volume);
 
-/// Throws Error about `where` if no voxel is above the threshold, or more than element_limit elements are; and
+/// Throws Error about `where` if no voxel reaches the density, or more than element_limit elements are; and
 /// Cancelled.
 VoxelBlock voxel_block(const Volume& volume, const VoxelOptions& options, const std::string& where,
                        const Progress& progress = {});

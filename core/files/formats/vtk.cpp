@@ -257,7 +257,7 @@ void VtkReader::read_field() {
 
 CellRows VtkReader::read_rows() {
   const std::uint64_t cells = cursor_.count("the number of cells");
-  const std::uint64_t size = cursor_.count("the number of numbers of the cells");
+  const std::uint64_t size = cursor_.count("the length of the cell list");
   return has_offsets_ ? read_offsets(cells, size) : read_old_rows(cells, size);
 }
 

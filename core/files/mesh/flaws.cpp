@@ -157,12 +157,13 @@ void count_flaws(const Mesh& mesh, MeshFlaws& flaws) {
 std::string in_words(const MeshFlaws& flaws) {
   std::string out, kept;
   add_words(out, flaws.unused, "unused point", "unused points", "");
-  add_words(out, flaws.collapsed, "face or cell", "faces or cells", " with a point named twice");
+  add_words(out, flaws.collapsed, "face or cell", "faces or cells", " with a point used twice");
   add_words(out, flaws.doubled, "duplicate face or cell", "duplicate faces or cells", "");
   add_words(kept, flaws.flat, "face or cell is flat", "faces or cells are flat", "");
   add_words(kept, flaws.inverted, "cell is inside out", "cells are inside out", "");
-  add_words(kept, flaws.coincident, "element has the position of another", "elements have the position of another", "");
-  out += out.empty() ? "" : " left out" + std::string(flaws.unused > 0 ? " (ids number the other points)" : "");
+  add_words(kept, flaws.coincident, "element shares its position with another",
+            "elements share their position with another", "");
+  out += out.empty() ? "" : " left out" + std::string(flaws.unused > 0 ? " (ids count only the other points)" : "");
   return out + (out.empty() || kept.empty() ? "" : "; ") + kept;
 }
 

@@ -162,9 +162,9 @@ std::string refusal(const std::string& ending, const MeshFormat* format, FormatU
     return "the ending " + printable(ending) + " is not known";
   }
   return "a " + ending + " file " +
-         (use == FormatUse::read ? "is written, not opened"
-          : format->writes()     ? "holds no positions"
-                                 : "is opened, not written");
+         (use == FormatUse::read ? "can be written but not opened"
+          : format->writes()     ? "contains no positions"
+                                 : "can be opened but not written");
 }
 
 }  // namespace
@@ -204,9 +204,9 @@ const MeshFormat& mesh_format(const fs::path& path, FormatUse use) {
     return *format;
   }
   throw Error(shown(path), refusal(ending, format, use),
-              use == FormatUse::read    ? "meshes are " + mesh_endings(use)
-              : use == FormatUse::write ? "meshes are written as " + mesh_endings(use)
-                                        : "positions are written as " + mesh_endings(use));
+              use == FormatUse::read    ? "open a mesh in one of these formats: " + mesh_endings(use)
+              : use == FormatUse::write ? "write the mesh in one of these formats: " + mesh_endings(use)
+                                        : "write positions in one of these formats: " + mesh_endings(use));
 }
 
 const MeshFormat& detect_format(const fs::path& path) {

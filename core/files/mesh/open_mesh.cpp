@@ -64,7 +64,7 @@ bool is_volume(const std::filesystem::path& path) { return detect_format(path).r
 Volume read_volume(const std::filesystem::path& path, const Progress& progress) {
   const MeshFormat& format = detect_format(path);
   if (format.read_volume == nullptr) {
-    throw Error(shown(path), "it is not a volume of voxels", "give a volume");
+    throw Error(shown(path), "it is not a volume of voxels", "open a volume");
   }
   return format.read_volume(path, {}, progress);
 }

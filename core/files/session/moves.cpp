@@ -195,10 +195,7 @@ Command MovesReader::relax(const Members& of) {
   if (!sweeps.is_number_unsigned() || sweeps.get<std::uint64_t>() > most_sweeps) {
     fields_.fail("'sweeps' is not a whole number up to " + std::to_string(most_sweeps), "write the number of sweeps");
   }
-  const double step = of.members.contains("step") ? fields_.number(of.members["step"]) : 1;
-  if (!(step > 0 && step <= 1)) {
-    fields_.fail("'step' is not above 0 and at most 1", "1 moves elements all the way");
-  }
+  const double step = of.members.contains("step") ? fields_.number(of.members["step"], parameters::relax_step) : 1;
   const Json scheme = of.members.value("scheme", Json("mean"));
   if (scheme != "mean" && scheme != "link") {
     fields_.fail("'scheme' is not known", "use mean or link");

@@ -116,10 +116,7 @@ void SessionReader::take_relaxation() {
   if (scheme != "mean" && scheme != "link") {
     fields_.fail("'scheme' is not known", "use mean or link");
   }
-  const double step = fields_.number(fields_.member(object, "step"));
-  if (!(step > 0 && step <= 1)) {
-    fields_.fail("'step' is not above 0 and at most 1", "1 moves elements all the way to the mean");
-  }
+  const double step = fields_.number(fields_.member(object, "step"), parameters::relax_step);
   result_.relaxation = {fields_.boolean(object, "on"), step,
                         scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link};
 }

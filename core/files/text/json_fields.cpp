@@ -96,14 +96,19 @@ double JsonFields::number(const Json& json) const {
   return number;
 }
 
-LinkSoftness JsonFields::softness(const Json& compression, const Json& stretch, const Json& shear) const {
-  const LinkSoftness softness{number(compression), number(stretch), number(shear)};
+double JsonFields::number(const Json& json, const Parameter& parameter) const {
+  const double value = number(json);
   try {
-    check(softness);
+    check(parameter, value);
   } catch (const Error& error) {
     throw error.at(where_ + ": " + error.where());
   }
-  return softness;
+  return value;
+}
+
+LinkSoftness JsonFields::softness(const Json& compression, const Json& stretch, const Json& shear) const {
+  return {number(compression, parameters::compression), number(stretch, parameters::stretch),
+          number(shear, parameters::shear)};
 }
 
 }  // namespace chainmail

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/parameters.h"
 #include "solve/softness.h"
 
 namespace chainmail {
@@ -35,6 +36,8 @@ class JsonFields {
   std::string text(const Json& object, const std::string& key) const;
   bool boolean(const Json& object, const std::string& key) const;
   double number(const Json& json) const;
+  /// Returns a number in the range of a parameter.
+  double number(const Json& json, const Parameter& parameter) const;
   LinkSoftness softness(const Json& compression, const Json& stretch, const Json& shear) const;
 
  private:

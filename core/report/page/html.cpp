@@ -140,7 +140,7 @@ FigureTable table_of(const MainTable& main) {
 }  // namespace
 
 void write_html(std::ostream& out, const Comparison& comparison, const Origin& origin) {
-  begin_page(out, "ChainMail: speed against error", origin);
+  begin_page(out, "ChainMail: time against error", origin);
   out << how_to_read_comparison
       << "<h2>Main table</h2>\n<p class=\"faint\">Lengths in rest lengths; times in milliseconds, medians.</p>\n";
   for (const MainTable& table : main_tables(comparison)) {

@@ -67,7 +67,7 @@ std::string cell(const RampRow* row) {
 void write_sizes(std::ostream& out, const Ramp& ramp) {
   out << "\nmedian/99th percentile in ms; ! over the budget in two attempts\n" << left_aligned("", 10);
   for (const Algorithm algorithm : ramp.options.algorithms) {
-    out << right_aligned(std::string(info(algorithm).name) + " ", 16);
+    out << right_aligned(std::string(info(algorithm).offered_name()) + " ", 16);
   }
   out << '\n';
   std::uint32_t last = 0;
@@ -90,7 +90,7 @@ void write_text(std::ostream& out, const Ramp& ramp, const Machine& machine) {
   write_conditions(out, ramp, machine);
   out << '\n'
       << left_aligned("", 24) << right_aligned("real time up to", 18) << right_aligned("elements", 10)
-      << right_aligned("median ms", 11) << right_aligned("99% ms", 9) << right_aligned("exponent", 10)
+      << right_aligned("median ms", 11) << right_aligned("99th ms", 9) << right_aligned("exponent", 10)
       << "  of the median, over elements\n";
   for (const RampVerdict& verdict : ramp.verdicts) {
     write_verdict(out, ramp, verdict);

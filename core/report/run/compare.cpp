@@ -7,6 +7,7 @@
 #include <set>
 
 #include "mesh/error.h"
+#include "mesh/parameters.h"
 #include "report/run/errors.h"
 #include "report/run/runner.h"
 
@@ -181,9 +182,7 @@ void check(const CompareOptions& options) {
   if (options.sweeps.empty() || *std::ranges::min_element(options.sweeps) < 0) {
     throw Error("relax", "there is no number of sweeps, or a number below 0", "use numbers from 0");
   }
-  if (!(options.relax_step > 0 && options.relax_step <= 1)) {
-    throw Error("relax-step", "it must be above 0 and at most 1", "use 1 to move all the way to the mean");
-  }
+  check(parameters::relax_step, options.relax_step);
   if (options.repetitions && *options.repetitions < 1) {
     throw Error("repetitions", "the number is below 1", "use 1 or more");
   }

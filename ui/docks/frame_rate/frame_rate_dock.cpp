@@ -38,8 +38,7 @@ std::vector<report::LabelledValue> timeTicks(double from, double to) {
 }  // namespace
 
 FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& panels)
-    : QDockWidget(QStringLiteral("Frame rate")),
-      document_(document),
+    : document_(document),
       panels_(panels),
       histories_(Document::mostPanels),
       passesSeen_(Document::mostPanels, 0),
@@ -49,7 +48,6 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
       span_(new QComboBox),
       menu_(new QMenu(QStringLiteral("&Rates over time"), this)),
       timer_(this) {
-  setObjectName(QStringLiteral("frameRateDock"));
   plot_->setObjectName(QStringLiteral("ratePlot"));
   plot_->setAccessibleName(QStringLiteral("Rates of the panels over time"));
   plot_->setToolTip(QStringLiteral(

@@ -33,8 +33,8 @@ PropagationColumn::PropagationColumn(Document& document, Propagation& propagatio
   choice_->setToolTip(QStringLiteral("Buttons and keys step this panel. Its slider always does"));
   choice_->setAutoExclusive(false);
   slider_->setObjectName(QStringLiteral("propagationStep%1").arg(panel));
-  slider_->setAccessibleName(QStringLiteral("Step of the pass in panel %1").arg(panelName(panel)));
-  slider_->setToolTip(QStringLiteral("Shown step of the pass: number of candidates taken"));
+  slider_->setAccessibleName(QStringLiteral("Candidate of the pass in panel %1").arg(panelName(panel)));
+  slider_->setToolTip(QStringLiteral("Number of candidates processed so far in this pass"));
   state_->setObjectName(QStringLiteral("propagationState%1").arg(panel));
   state_->setWordWrap(true);
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // must not widen the dock
@@ -86,17 +86,17 @@ void PropagationColumn::arrange() {
 
 QString PropagationColumn::describe(const PassPlayer& player) const {
   const QLocale locale;
-  QString text = QStringLiteral("Step <b>%1</b> of %2 · ")
+  QString text = QStringLiteral("Candidate <b>%1</b> of %2 · ")
                      .arg(locale.toString(qulonglong(player.step())), locale.toString(qulonglong(player.stepCount())));
   if (player.history().known()) {
     return text + QStringLiteral("<b>%1</b> waiting").arg(locale.toString(qulonglong(model_.waitingCount())));
   }
   if (player.pass().algorithm == Algorithm::exact) {
-    return text + QStringLiteral("no waiting list: lists the steps to come, longest move first");
+    return text + QStringLiteral("no waiting list: the table lists the next candidates, longest move first");
   }
   return text + (player.stepCount() > PassPlayer::listedSteps
-                     ? QStringLiteral("pass too long for a waiting list: lists the steps to come")
-                     : QStringLiteral("waiting list not known: lists the steps to come"));
+                     ? QStringLiteral("the pass is too long for a waiting list: the table lists the next candidates")
+                     : QStringLiteral("the waiting list is not known: the table lists the next candidates"));
 }
 
 void PropagationColumn::refresh() {

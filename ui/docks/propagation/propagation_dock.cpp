@@ -111,9 +111,9 @@ QWidget* PropagationDock::makeButtons() {
 void PropagationDock::makeSpeeds() {
   speed_->setObjectName(QStringLiteral("passSpeed"));
   speed_->setAccessibleName(QStringLiteral("Speed of slow motion"));
-  speed_->setToolTip(QStringLiteral("Speed of slow motion (steps per second)"));
+  speed_->setToolTip(QStringLiteral("Speed of slow motion (candidates per second)"));
   for (const int speed : speeds) {
-    speed_->addItem(QStringLiteral("%L1 steps/s").arg(speed), speed);
+    speed_->addItem(QStringLiteral("%L1 candidates/s").arg(speed), speed);
   }
   connect(speed_, &QComboBox::currentIndexChanged, this,
           [this] { propagation_.setSpeed(speed_->currentData().toDouble()); });

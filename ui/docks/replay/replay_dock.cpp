@@ -251,7 +251,7 @@ void ReplayDock::arrange() {
   line->addWidget(speed_);
   auto* more = new QToolButton;
   more->setObjectName(QStringLiteral("replayMore"));
-  more->setText(QStringLiteral("Moves and films"));
+  more->setText(QStringLiteral("Moves and videos"));
   more->setToolTip(QStringLiteral("Opens and saves moves, saves them as pictures or video"));
   more->setMenu(menu_);
   more->setPopupMode(QToolButton::InstantPopup);
@@ -268,11 +268,11 @@ QWidget* ReplayDock::makeFilmBar() {
   line->setContentsMargins(0, 0, 0, 0);
   filmed_ = new QProgressBar;
   filmed_->setObjectName(QStringLiteral("filmProgress"));
-  filmed_->setFormat(QStringLiteral("Filming: picture %v of %m"));
+  filmed_->setFormat(QStringLiteral("Saving video: picture %v of %m"));
   auto* cancel = new QToolButton;
   cancel->setObjectName(QStringLiteral("cancelFilm"));
   cancel->setText(QStringLiteral("Cancel"));
-  cancel->setToolTip(QStringLiteral("Cancels the film and deletes its unfinished files"));
+  cancel->setToolTip(QStringLiteral("Cancels the video and deletes its unfinished files"));
   connect(cancel, &QToolButton::clicked, this, [this] { film_.cancel(); });
   line->addWidget(filmed_, 1);
   line->addWidget(cancel);

@@ -65,7 +65,7 @@ void ReportChoices::fillDrags() {
 }
 
 void ReportChoices::fillAlgorithms() {
-  name(algorithms_, "reportAlgorithms", QStringLiteral("Algorithms that take part"),
+  name(algorithms_, "reportAlgorithms", QStringLiteral("Algorithms to compare"),
        QStringLiteral("Algorithms to compare, with their marks in the plot"));
   algorithms_->setIconSize({listMarkSize, listMarkSize});
   algorithms_->setUniformItemSizes(true);
@@ -93,7 +93,7 @@ void ReportChoices::fillRest() {
                      QStringLiteral("off, and %1 per move").arg(sweepsPerMove)});
   sweeps_->setCurrentIndex(2);
   name(precision_, "reportPrecision", QStringLiteral("Precision of the contestants"),
-       QStringLiteral("Precision in which the contestants compute. The references are always in double"));
+       QStringLiteral("Number type that the algorithms use (float or double). Reference solutions always use double"));
   precision_->addItems({QStringLiteral("float"), QStringLiteral("double")});
   name(seconds_, "reportSeconds", QStringLiteral("Time in seconds"),
        QStringLiteral("Time for the repetitions of one drag by all algorithms, at least five repetitions.\n"

@@ -20,16 +20,14 @@ class ReportContent : public QWidget {
 }  // namespace
 
 ReportDock::ReportDock(Document& document)
-    : QDockWidget(QStringLiteral("Report")),
-      choices_(new ReportChoices(document)),
+    : choices_(new ReportChoices(document)),
       results_(new ReportResults),
       thread_(new ReportThread(this)),
       run_(new QPushButton(QStringLiteral("Run"))),
       cancel_(new QPushButton(QStringLiteral("Cancel"))),
       progress_(new QProgressBar),
       pages_(new QStackedWidget) {
-  setObjectName(QStringLiteral("reportDock"));
-  setAccessibleName(QStringLiteral("Report: speed against error"));
+  setAccessibleName(QStringLiteral("Report: time against error"));
   pages_->addWidget(makeEmptyPage());
   pages_->addWidget(results_);
   auto* shared = new QLabel(QStringLiteral("The window runs on the same machine, so these times are not exact."));

@@ -49,7 +49,7 @@ std::optional<double> of(const std::optional<Distance>& distance) {
 constexpr std::array columns{
     Column{"Time\n(ms per move)", "Median over the repetitions: a pass and its sweeps",
            [](auto& one) { return std::optional(one.ms_per_move.median); }},
-    Column{"Quartiles\n(ms per move)", "Half of the repetitions took a time between these two (ms per move)",
+    Column{"Quartiles\n(ms per move)", "Lower and upper quartile of the repetitions (ms per move)",
            [](auto& one) { return std::optional(one.ms_per_move.lower_quartile); },
            [](auto& one) {
              return report::figure(one.ms_per_move.lower_quartile) + " – " +
@@ -87,7 +87,7 @@ QString shortName(std::string_view label) {
 ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   setObjectName(QStringLiteral("reportTable"));
   setAccessibleName(QStringLiteral("Table of times and errors"));
-  setToolTip(QStringLiteral("Click a column head to sort by it; point at it for an explanation"));
+  setToolTip(QStringLiteral("Click a column header to sort by it; point at it for an explanation"));
   setSelectionBehavior(SelectRows);
   setAlternatingRowColors(true);
   setShowGrid(false);

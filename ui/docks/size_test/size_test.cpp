@@ -2,6 +2,7 @@
 
 #include "common/panel_names.h"
 #include "report/page/format.h"
+#include "report/page/looks.h"
 
 namespace chainmail {
 
@@ -19,6 +20,39 @@ report::RampVerdict verdictOf(const SizeTestContestant& contestant, std::span<co
     }
   }
   return report::ramp_verdict(contestant.algorithm, own);
+}
+
+report::Plot plotOf(const std::vector<SizeTestContestant>& contestants, std::span<const SizeTestRow> rows,
+                    double budget) {
+  report::Plot plot;
+  plot.title = "Elements against time";
+  plot.x.title = "elements";
+  plot.y.title = "99th percentile of the pass times (ms)";
+  plot.good_below = 1e3 * budget;
+  plot.good_label = "real time";
+  report::PlotPanel& panel = plot.panels.emplace_back();
+  for (const SizeTestContestant& contestant : contestants) {
+    const std::string name =
+        panelName(contestant.panel).toStdString() + ' ' + std::string(info(contestant.algorithm).label);
+    const std::size_t series = plot.series.size();
+    plot.series.push_back(
+        {name, report::look_of(contestant.algorithm), QColor(contestant.colour).name().toStdString()});
+    report::PlotCurve curve{series, {}};
+    for (const SizeTestRow& row : rows) {
+      if (row.panel == contestant.panel) {
+        const auto elements = double(row.figures.elements);
+        curve.points.push_back({elements, row.figures.p99_ms});
+        panel.marks.push_back({elements, elements, elements, row.figures.p99_ms, series, !row.figures.in_real_time, "",
+                               name + ", " + sizeText(row.figures.width).toStdString() + ": median " +
+                                   report::figure(row.figures.median_ms) + " ms, 99th percentile " +
+                                   report::figure(row.figures.p99_ms) + " ms"});
+      }
+    }
+    if (!curve.points.empty()) {
+      panel.curves.push_back(std::move(curve));
+    }
+  }
+  return plot;
 }
 
 void writeCsv(std::ostream& out, std::span<const SizeTestRow> rows) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/colours.h"
+#include "report/page/plot.h"
 #include "report/run/ramp_rule.h"
 
 namespace chainmail {
@@ -46,6 +47,10 @@ struct SizeTestRow {
 
 /// Returns what the rows of a panel say.
 report::RampVerdict verdictOf(const SizeTestContestant& contestant, std::span<const SizeTestRow> rows);
+/// Returns a plot of the elements against the 99th percentile of the pass times, with one line for each panel. `budget`
+/// is in seconds.
+report::Plot plotOf(const std::vector<SizeTestContestant>& contestants, std::span<const SizeTestRow> rows,
+                    double budget);
 /// Writes one row for each size and panel, with all digits.
 void writeCsv(std::ostream& out, std::span<const SizeTestRow> rows);
 

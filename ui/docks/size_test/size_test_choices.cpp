@@ -30,10 +30,10 @@ SizeTestChoices::SizeTestChoices()
   first_->setRange(4, 1000);
   first_->setValue(int(standard.first));
   add(QStringLiteral("Growth"), growth_, "sizeTestGrowth", QStringLiteral("Growth from one grid to the next"));
-  growth_->addItem(QStringLiteral("a tenth per side"), 0.0);
+  growth_->addItem(QStringLiteral("10 % more per side"), 0.0);
   growth_->setItemData(0, QStringLiteral("As in 'chainmail ramp'; takes the longest time"), Qt::ToolTipRole);
-  growth_->addItem(QStringLiteral("twice the elements"), standard.growth);
-  growth_->addItem(QStringLiteral("four times the elements"), 2.0);
+  growth_->addItem(QStringLiteral("2 × elements"), standard.growth);
+  growth_->addItem(QStringLiteral("4 × elements"), 2.0);
   growth_->setCurrentIndex(1);
   add(QStringLiteral("Largest size"), largest_, "sizeTestLargest",
       QStringLiteral("Largest number of elements of a grid; drawing a million needs a fast machine"));
@@ -42,8 +42,7 @@ SizeTestChoices::SizeTestChoices()
   largest_->setGroupSeparatorShown(true);
   largest_->setValue(int(standard.largest));
   add(QStringLiteral("Real time"), budget_, "sizeTestBudget",
-      QStringLiteral("Time limit of a pass, except for the slowest hundredth (ms). 60 frames per second are "
-                     "16.667 ms"));
+      QStringLiteral("Limit for the 99th percentile of the pass times (ms). 60 frames per second leave 16.667 ms"));
   budget_->setPrefix(QStringLiteral("≤ "));
   budget_->setSuffix(QStringLiteral(" ms"));
   budget_->setDecimals(3);
@@ -51,8 +50,8 @@ SizeTestChoices::SizeTestChoices()
   budget_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   budget_->setValue(1000 * standard.budget);
   add(QStringLiteral("Drags"), drags_, "sizeTestDrags",
-      QStringLiteral("Drags at each size, besides one to warm up. A drag has 30 moves and takes half a second. "
-                     "If drawing is slow there are fewer, so that a size takes about 8 s at most"));
+      QStringLiteral("Number of drags at each size, plus one to warm up. A drag has 30 moves and takes 0.5 s. If "
+                     "drawing is slow, fewer drags run, so that a size takes at most about 8 s"));
   drags_->setRange(1, 20);
   drags_->setValue(standard.drags);
 }

@@ -30,20 +30,18 @@ class SizeTestContent : public QWidget {
 }  // namespace
 
 SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidget& area, Contestants inSight)
-    : QDockWidget(QStringLiteral("Size test")),
-      window_(window),
+    : window_(window),
       document_(document),
       area_(area),
       inSight_(std::move(inSight)),
       choices_(new SizeTestChoices),
-      table_(new SizeTestTable),
+      results_(new SizeTestResults),
       run_(new QPushButton(icon("grow"), QStringLiteral("Size test"))),
       cancel_(new QPushButton(QStringLiteral("Cancel"))),
       copy_(new QPushButton(icon("copy"), QStringLiteral("Copy table"))),
       save_(new QPushButton(icon("save"), QStringLiteral("Save…"))),
       progress_(new QProgressBar),
       escape_(new QShortcut(Qt::Key_Escape, &window)) {
-  setObjectName(QStringLiteral("sizeTestDock"));
   auto* note = new QLabel(QStringLiteral("The window runs on the same machine, so these times are not exact."));
   note->setToolTip(QStringLiteral("For exact times, run 'chainmail ramp' on an idle machine"));
   note->setEnabled(false);
@@ -53,7 +51,7 @@ SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidge
   below->addWidget(save_);
   auto* right = new QVBoxLayout;
   right->setSpacing(3);
-  right->addWidget(table_, 1);
+  right->addWidget(results_, 1);
   right->addLayout(below);
   auto* content = new SizeTestContent;
   auto* row = new QHBoxLayout(content);
@@ -76,9 +74,9 @@ SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidge
 }
 
 void SizeTestDock::followPanels() {
-  if (!running() && table_->rows().empty()) {
-    table_->begin(inSight_());
-    table_->setGrowing(false);
+  if (!running() && results_->rows().empty()) {
+    results_->begin(inSight_(), choices_->options().budget);
+    results_->setGrowing(false);
   }
   offerRun();
 }
@@ -110,7 +108,7 @@ QWidget* SizeTestDock::makeControls() {
   connect(run_, &QPushButton::clicked, this, &SizeTestDock::start);
   connect(cancel_, &QPushButton::clicked, this, &SizeTestDock::cancel);
   connect(copy_, &QPushButton::clicked, this,
-          [this] { QGuiApplication::clipboard()->setText(textOf(table_->table())); });
+          [this] { QGuiApplication::clipboard()->setText(textOf(results_->table())); });
   connect(save_, &QPushButton::clicked, this, &SizeTestDock::saveTable);
   auto* controls = new QWidget;
   controls->setFixedWidth(sizeControlsWidth);
@@ -134,7 +132,7 @@ void SizeTestDock::start() {
   }
   SizeTestOptions options = choices_->options();
   options.softness = document_.softness();
-  table_->begin(contestants);
+  results_->begin(contestants, options.budget);
   stage_ = new SizeTestStage(options, contestants);
   listen(*stage_);
   auto* layout = qobject_cast<QBoxLayout*>(area_.parentWidget()->layout());
@@ -147,7 +145,7 @@ void SizeTestDock::start() {
 }
 
 void SizeTestDock::listen(const SizeTestStage& stage) {
-  connect(&stage, &SizeTestStage::measured, table_, &SizeTestTable::add);
+  connect(&stage, &SizeTestStage::measured, results_, &SizeTestResults::add);
   connect(&stage, &SizeTestStage::progressed, this, &SizeTestDock::showProgress);
   connect(&stage, &SizeTestStage::ended, this, &SizeTestDock::leave);
   connect(&stage, &SizeTestStage::failed, this, [this](const QString& sentence) {
@@ -167,11 +165,11 @@ void SizeTestDock::cancel() {
 void SizeTestDock::leave() {
   SizeTestStage* stage = std::exchange(stage_, nullptr).data();
   disconnect(stage, nullptr, this, nullptr);
-  disconnect(stage, nullptr, table_, nullptr);
+  disconnect(stage, nullptr, results_, nullptr);
   stage->hide();
   area_.show();
   rest_.reset();
-  table_->setGrowing(false);
+  results_->setGrowing(false);
   showState();
   retire(stage);
 }
@@ -187,7 +185,7 @@ void SizeTestDock::showState() {
   offerRun();
   cancel_->setEnabled(running());
   escape_->setEnabled(running());
-  const bool empty = table_->rows().empty();
+  const bool empty = results_->rows().empty();
   copy_->setEnabled(!empty);
   save_->setEnabled(!empty && !running());
   progress_->setEnabled(running());
@@ -202,7 +200,7 @@ void SizeTestDock::showProgress(double share, const QString& text) {
     return;
   }
   sinceShown_.start();
-  copy_->setEnabled(!table_->rows().empty());
+  copy_->setEnabled(!results_->rows().empty());
   fillBar(int(sizeProgressSteps * share), text);
 }
 
@@ -226,7 +224,7 @@ void SizeTestDock::saveTable() {
 void SizeTestDock::saveTablePath(const QString& path) {
   try {
     write_file(std::filesystem::path(path.toStdU16String()),
-               [this](std::ostream& out) { writeCsv(out, table_->rows()); });
+               [this](std::ostream& out) { writeCsv(out, results_->rows()); });
     emit saved(path);
   } catch (const Error& error) {
     emit failed(QString::fromStdString(error.what()));

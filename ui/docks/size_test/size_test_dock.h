@@ -11,8 +11,8 @@
 #include <memory>
 
 #include "docks/size_test/size_test_choices.h"
+#include "docks/size_test/size_test_results.h"
 #include "docks/size_test/size_test_stage.h"
-#include "docks/size_test/size_test_table.h"
 #include "docks/size_test/window_rest.h"
 #include "document/document.h"
 
@@ -56,7 +56,7 @@ class SizeTestDock : public QDockWidget {
   QWidget& area_;
   Contestants inSight_;
   SizeTestChoices* choices_;
-  SizeTestTable* table_;
+  SizeTestResults* results_;
   QPushButton* run_;
   QPushButton* cancel_;
   QPushButton* copy_;

@@ -1,4 +1,4 @@
-#include "command_line/watched.h"
+#include "command_line/progress_line.h"
 
 #include <unistd.h>
 
@@ -10,6 +10,26 @@
 #include <utility>
 
 namespace chainmail::command_line {
+namespace {
+
+constexpr auto clear_line = "\r\x1b[K";
+
+}  // namespace
+
+ProgressLine::ProgressLine(std::chrono::milliseconds delay)
+    : is_terminal_(isatty(STDERR_FILENO) != 0), next_(std::chrono::steady_clock::now() + delay) {}
+
+ProgressLine::~ProgressLine() {
+  if (is_shown_) {
+    std::cerr << clear_line << std::flush;
+  }
+}
+
+void ProgressLine::write(const std::string& text) {
+  std::cerr << clear_line << text << std::flush;
+  is_shown_ = true;
+  next_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
+}
 
 struct Watch::Line {
   Line(std::string text, const JobState& job)
@@ -19,9 +39,9 @@ struct Watch::Line {
     std::unique_lock lock(mutex);
     // Short jobs show nothing.
     while (!over.wait_for(lock, stop, std::chrono::milliseconds(300), [&] { return stop.stop_requested(); })) {
-      std::cerr << "\r\x1b[K" << int(100 * job.share.load(std::memory_order_relaxed)) << "% " << text << std::flush;
+      std::cerr << clear_line << int(100 * job.share.load(std::memory_order_relaxed)) << "% " << text << std::flush;
     }
-    std::cerr << "\r\x1b[K" << std::flush;
+    std::cerr << clear_line << std::flush;
   }
 
   std::mutex mutex;

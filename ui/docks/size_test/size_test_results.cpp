@@ -1,7 +1,8 @@
-#include "docks/size_test/size_test_table.h"
+#include "docks/size_test/size_test_results.h"
 
 #include <QHeaderView>
 #include <QLocale>
+#include <QSplitter>
 #include <QVBoxLayout>
 #include <array>
 
@@ -14,16 +15,19 @@ namespace chainmail {
 namespace {
 
 constexpr int leading = 2;  // columns before those of the panels
-constexpr std::array heads{"median\n(ms)", "slowest 1 %\n(ms)", "painted\n(frames/s)", "real\ntime"};
-constexpr std::array helps{
-    "Median time of a pass in the solver (ms)",
-    "99 % of the passes are at most this long (ms); real time means that this is within the limit",
-    "Frames of this panel that reached the screen in the last second of the drags",
-    "'yes' if the slowest hundredth is within the limit; 'no' after a second attempt"};
+constexpr std::array heads{"median\n(ms)", "99th perc.\n(ms)", "painted\n(frames/s)", "real\ntime"};
+constexpr std::array helps{"Median time of a pass in the solver (ms)",
+                           "99th percentile of the pass times (ms): 99 % of the passes are at most this long. Real "
+                           "time means that it is within the limit",
+                           "Frames of this panel that reached the screen in the last second of the drags",
+                           "'yes' if the 99th percentile is within the limit; 'no' after a second attempt"};
 
 }  // namespace
 
-SizeTestTable::SizeTestTable() : verdicts_(new QLabel), table_(new QTableWidget) {
+SizeTestResults::SizeTestResults()
+    : verdicts_(new QLabel),
+      plot_(new PlotWidget(QStringLiteral("Time of a pass at each size"))),
+      table_(new QTableWidget) {
   verdicts_->setObjectName(QStringLiteral("sizeTestVerdicts"));
   verdicts_->setAccessibleName(QStringLiteral("Largest size in real time, for each panel"));
   verdicts_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -35,16 +39,33 @@ SizeTestTable::SizeTestTable() : verdicts_(new QLabel), table_(new QTableWidget)
   table_->setAlternatingRowColors(true);
   table_->verticalHeader()->hide();
   copyByKeys(*table_);
+  plot_->setObjectName(QStringLiteral("sizeTestPlot"));
+  plot_->setAccessibleName(QStringLiteral("Plot of the time of a pass against the number of elements"));
+  plot_->setToolTip(
+      QStringLiteral("99 % of the passes are at most this long; the strip is real time. Point at a mark to see its "
+                     "values"));
+  auto* split = new QSplitter;
+  split->setObjectName(QStringLiteral("sizeTestSplitter"));
+  split->setChildrenCollapsible(false);
+  split->addWidget(plot_);
+  split->addWidget(table_);
+  split->setStretchFactor(0, 2);
+  split->setStretchFactor(1, 3);
+  split->setSizes({300, 450});
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(3);
   column->addWidget(verdicts_);
-  column->addWidget(table_, 1);
-  followTheme(*this, [this] { showVerdicts(); });
+  column->addWidget(split, 1);
+  followTheme(*this, [this] {
+    showVerdicts();
+    showPlot();
+  });
 }
 
-void SizeTestTable::begin(const std::vector<SizeTestContestant>& contestants) {
+void SizeTestResults::begin(const std::vector<SizeTestContestant>& contestants, double budget) {
   contestants_ = contestants;
+  budget_ = budget;
   rows_.clear();
   table_->clear();
   table_->setRowCount(0);
@@ -62,17 +83,18 @@ void SizeTestTable::begin(const std::vector<SizeTestContestant>& contestants) {
     }
   }
   table_->resizeColumnsToContents();
+  showPlot();
   setGrowing(true);
 }
 
-void SizeTestTable::put(int row, int column, const QString& text, const QString& help) {
+void SizeTestResults::put(int row, int column, const QString& text, const QString& help) {
   auto* item = new QTableWidgetItem(text);
   item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
   item->setToolTip(help);
   table_->setItem(row, column, item);
 }
 
-void SizeTestTable::add(const SizeTestRow& row) {
+void SizeTestResults::add(const SizeTestRow& row) {
   const report::RampRow& figures = row.figures;
   if (rows_.empty() || rows_.back().figures.width != figures.width) {
     const int last = table_->rowCount();
@@ -96,15 +118,18 @@ void SizeTestTable::add(const SizeTestRow& row) {
   }
   table_->resizeColumnsToContents();
   table_->scrollToBottom();
+  showPlot();
   showVerdicts();
 }
 
-void SizeTestTable::setGrowing(bool growing) {
+void SizeTestResults::setGrowing(bool growing) {
   growing_ = growing;
   showVerdicts();
 }
 
-void SizeTestTable::showVerdicts() {
+void SizeTestResults::showPlot() { plot_->show(plotOf(contestants_, rows_, budget_)); }
+
+void SizeTestResults::showVerdicts() {
   QStringList lines;
   for (const SizeTestContestant& one : contestants_) {
     lines << QStringLiteral("<span style='color:%1'>━━</span> <b>%2: %3</b>: %4")
@@ -114,7 +139,7 @@ void SizeTestTable::showVerdicts() {
   verdicts_->setText(lines.join(QStringLiteral("<br>")));
 }
 
-QString SizeTestTable::verdictText(const SizeTestContestant& contestant) const {
+QString SizeTestResults::verdictText(const SizeTestContestant& contestant) const {
   const report::RampVerdict verdict = verdictOf(contestant, rows_);
   if (!verdict.largest_width) {
     return verdict.lost ? QStringLiteral("never in real time")

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "mesh/progress.h"
+
+namespace chainmail::command_line {
+
+/// A line of progress on standard error, if that is a terminal. The destructor clears it.
+class ProgressLine {
+ public:
+  /// Nothing is shown before `delay` has passed.
+  explicit ProgressLine(std::chrono::milliseconds delay = std::chrono::milliseconds(0));
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ~ProgressLine();
+
+  /// Shows `text()`, at most five times per second.
+  template <typename Text>
+  void show(const Text& text) {
+    if (is_terminal_ && is_due()) {
+      write(text());
+    }
+  }
+
+ private:
+  bool is_due() const { return std::chrono::steady_clock::now() >= next_; }
+  void write(const std::string& text);
+
+  bool is_terminal_;
+  bool is_shown_ = false;
+  std::chrono::steady_clock::time_point next_;
+};
+
+/// Shows the progress of a job on standard error, if that is a terminal, while this object exists.
+class Watch {
+ public:
+  explicit Watch(std::string text);
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+  ~Watch();
+
+  /// For the job, which reports here.
+  Progress progress() { return Progress(job_); }
+
+ private:
+  struct Line;
+
+  JobState job_;
+  std::unique_ptr<Line> line_;  // none without a terminal
+};
+
+}  // namespace chainmail::command_line
