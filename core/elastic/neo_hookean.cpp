@@ -61,10 +61,10 @@ class NeoHookean final : public ElasticSolver {
     std::vector<double> answer = displacements_;
     remark_ = carry(*newton_, handle, target, answer, progress.part(0, 0.5));
     if (!remark_.empty() && displacements_ != base_) {
-      std::vector<double> anew = base_;
-      const std::string from_base = carry(*newton_, handle, target, anew, progress.part(0.5, 1));
+      std::vector<double> retried = base_;
+      const std::string from_base = carry(*newton_, handle, target, retried, progress.part(0.5, 1));
       if (from_base.empty()) {
-        answer = std::move(anew);
+        answer = std::move(retried);
         remark_.clear();
       }
     }

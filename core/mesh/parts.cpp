@@ -73,7 +73,7 @@ class Searches {
     std::vector<ElementId> open;  // elements to visit, from `next` on
     std::size_t next = 0;
     bool live = true;  // may still reach more elements
-    // Number of live searches in the group. Only the search that stands for the group uses it.
+    // Number of live searches in the group. Only the search that names the group uses it.
     std::uint32_t growing = 1;
   };
 
