@@ -16,10 +16,9 @@ namespace {
 constexpr float mostFaded = 0.75F;   // largest fading with depth, the same as on the screen
 constexpr float liftOfLines = 0.5F;  // mean link lengths; draws links and marks of a surface in front of its faces
 constexpr float ringHole = 0.64F;    // diameter of the hole, as a fraction of the ring's diameter
-constexpr double softEdge =
-    0.5;  // pixels by which marks are smaller, as on the screen, where they fade inside their edges
-constexpr int shadesOfALink = 8;                 // largest number, if the values at its ends differ
-constexpr float seamWidth = 0.4F;                // pixels; closes the gaps between faces
+constexpr double softEdge = 0.5;     // pixels; on the screen, marks fade inside their edges
+constexpr int shadesOfALink = 8;     // largest number, if the values at its ends differ
+constexpr float seamWidth = 0.4F;    // pixels; closes the gaps between faces
 constexpr std::size_t mostRingsPrinted = 5'000;  // more rings would hide each other
 
 /// Returns the mean colour of a few texels in a triangle. `corners` are its rest positions.

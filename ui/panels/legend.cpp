@@ -10,7 +10,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int legendMargin = 8;  // pixels, the same as of the other lines of a panel
+constexpr int legendMargin = 8;  // pixels, the same as in the other lines of a panel
 constexpr int gap = 6;           // pixels between the bar and its numbers
 constexpr int barHeight = 10;
 constexpr int widestBar = 280;
