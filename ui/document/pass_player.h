@@ -22,7 +22,7 @@ class PassPlayer {
   const WaitingHistory& history() const { return history_; }
   std::size_t stepCount() const { return pass_->step_count(); }
   std::size_t step() const { return step_; }
-  /// Goes to a step. The time is proportional to the number of steps between.
+  /// Goes to a step. The time is proportional to the number of steps between the current one and `step`.
   void setStep(std::size_t step);
 
   /// The object at this step, as a frame for a panel.

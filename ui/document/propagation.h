@@ -14,7 +14,7 @@ namespace chainmail {
 /// Shows the last pass of every panel step by step.
 ///
 /// While it is open, the solvers record their passes. It follows the newest passes until the user goes to a step. Then
-/// it holds that pass, and the panels show the object at the step. A drag or a change of the object makes it follow
+/// it keeps that pass, and the panels show the object at this step. A drag or a change of the object makes it follow
 /// again.
 class Propagation : public QObject {
   Q_OBJECT

@@ -26,7 +26,7 @@ class Camera {
   bool framed() const { return framed_; }
   void orbit(QPointF pixels);
   void pan(QPointF pixels, QSizeF view);
-  /// Enlarges the object if factor > 1, or reduces it. The point under the cursor stays under it.
+  /// Enlarges the object if factor > 1, or reduces it. The point under the cursor stays there.
   void zoom(double factor, QPointF cursor, QSizeF view);
 
   /// Looks at the centre from a direction (degrees): yaw 0 and pitch 0 from +z, yaw -90 from +x, pitch 90 from +y.

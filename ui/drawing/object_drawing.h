@@ -68,8 +68,8 @@ class ObjectDrawing {
   /// `width` is the line width in logical pixels.
   virtual void drawInSpace(const Scene& scene, std::span<const QVector3D> positions, Shape shape, QColor colour,
                            float width = 1) = 0;
-  /// Draws segments, discs or rings, coloured by one value per position. In 3D, faces hide what is behind them. `width`
-  /// is the width of segments, or the diameter of discs and rings (logical pixels).
+  /// Draws segments, discs or rings, coloured by one value per position. In 3D, faces hide everything behind them.
+  /// `width` is the width of segments, or the diameter of discs and rings (logical pixels).
   virtual void drawValued(const Scene& scene, std::span<const QVector3D> positions, std::span<const float> values,
                           const ColourScale& scale, Shape shape, float width) = 0;
   /// Calls `draw` to paint text over everything else, in logical pixels.

@@ -20,7 +20,7 @@ namespace {
 // Lines with more indices than this are not smoothed. Smooth lines take about twice as long, and the difference would
 // not be visible.
 constexpr GLsizei mostIndicesSmoothed = 30'000;
-// More rings hide each other and cost time.
+// More rings would hide each other and take time.
 constexpr std::size_t mostRingsPainted = 50'000;
 // Valued shapes are drawn nearer to the eye by this fraction of the object's depth, so that faces next to them do not
 // hide parts of them.
@@ -34,7 +34,7 @@ int upload(QOpenGLBuffer& buffer, const std::vector<Datum>& data) {
   return int(data.size());
 }
 
-/// Sends the items from `first` to `end` into a buffer that already holds all of them.
+/// Sends the items from `first` to `end` into a buffer that already contains all of them.
 template <class Datum>
 void uploadPart(QOpenGLBuffer& buffer, const std::vector<Datum>& data, std::size_t first, std::size_t end) {
   buffer.bind();

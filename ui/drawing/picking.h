@@ -16,8 +16,8 @@ namespace chainmail {
 // those of the same frame, at the level with every element. They let a search skip clusters that are elsewhere in the
 // view.
 
-/// Returns the element nearest to a position in the view, at most `reach` logical pixels away. An element in front wins
-/// over one behind it.
+/// Returns the element nearest to a position in the view, at most `reach` logical pixels away. An element in front is
+/// preferred to one behind it.
 std::optional<ElementId> nearestElement(const Frame& frame, const ClusterBoxes& boxes, const Projection& projection,
                                         QPointF position, double reach,
                                         const std::function<bool(ElementId)>& shown = {});

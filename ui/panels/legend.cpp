@@ -83,7 +83,7 @@ void Legend::draw(QPainter& painter) const {
   }
 }
 
-/// Draws the colour of values that are too small to count.
+/// Draws the colour of values at or below the threshold.
 void Legend::drawNeutral(QPainter& painter, QRect& line) const {
   painter.fillRect(barIn(line, barHeight), colour_map::neutral);
   line.setLeft(line.left() + barHeight + gap);

@@ -26,7 +26,7 @@ class PinLayers : public QObject {
 
  private:
   struct Choice {
-    const ObjectSide* side;  // null: the boundary
+    const ObjectSide* side;  // null for the boundary
     QString name;            // for example 'bottom layer'
     QAction* action;
   };
