@@ -11,7 +11,8 @@ namespace {
 
 constexpr int restMilliseconds = 300;
 constexpr int progressMilliseconds = 200;
-// Fraction of the mean link length: a pin nearer to its rest position is at rest, apart from rounding.
+// Fraction of the mean link length. A pin that is nearer than this to its rest position counts as at rest, because of
+// rounding.
 constexpr double atRest = 1e-5;
 
 bool alike(const ElasticProblem& one, const ElasticProblem& other) {
@@ -142,8 +143,8 @@ std::string BackgroundReference::whyNot() const {
   return {};
 }
 
-/// Takes the positions of the pins from the first panel. All panels show the same ones, unless elements were pinned
-/// away from rest.
+/// Returns the problem for the current object; none before the first frame. The positions of the pins come from the
+/// first panel. The panels differ in them only if elements were pinned away from rest.
 std::optional<ElasticProblem> BackgroundReference::problem() const {
   const Frame* frame = document_.frame(0);
   if (frame == nullptr) {

@@ -14,7 +14,7 @@ namespace chainmail {
 /// pins, cuts and material comes to rest while the handle holds the element that was moved last.
 ///
 /// The computation runs in the background once the handle rests. It is cancelled when the handle moves, or when pins,
-/// cuts or material change. Nothing is computed unless it is wanted.
+/// cuts or material change. It computes nothing until setWanted(true) is called.
 class BackgroundReference : public QObject {
   Q_OBJECT
 
@@ -22,7 +22,7 @@ class BackgroundReference : public QObject {
   struct Answer {
     MeshPointer mesh;
     ReferenceSolution solution;
-    double rms = 0;      // of the displacements of the solution (mesh units)
+    double rms = 0;      // root mean square displacement of the solution (mesh units)
     double nothing = 0;  // relative error of an object in which only the handle and the pins move
     std::string fault;   // why there is no solution; empty if there is one
   };
@@ -30,9 +30,9 @@ class BackgroundReference : public QObject {
   explicit BackgroundReference(const Document& document);
 
   void setWanted(bool wanted);
-  /// The answer for the present object; null while there is none.
+  /// Returns the answer for the current object; null while there is none.
   const std::shared_ptr<const Answer>& answer() const { return answer_; }
-  /// Says in a few words why there is no answer.
+  /// Returns a short text that says why there is no answer.
   QString state() const;
 
  signals:
@@ -62,10 +62,10 @@ class BackgroundReference : public QObject {
   std::optional<Handle> handle_;
   std::shared_ptr<const Answer> answer_;
   QString why_;
-  QTimer delay_;                    // until the handle counts as resting
+  QTimer delay_;                    // runs until the handle counts as resting
   QTimer progress_;                 // refreshes the progress of the computation
   std::shared_ptr<Worker> worker_;  // used by one job at a time
-  Jobs jobs_;                       // last: its thread ends first
+  Jobs jobs_;                       // the last member: its thread must end before the others are destroyed
 };
 
 }  // namespace chainmail

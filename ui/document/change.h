@@ -12,8 +12,8 @@
 
 namespace chainmail {
 
-/// The object of a document without its positions. Cuts and pins change in place, so that a change costs its own size
-/// and not the size of the object.
+/// The object of a document without its positions. Cuts and pins change in place, so the time for a change depends on
+/// the size of the change, not of the object.
 struct DocumentObject {
   DocumentObject(MeshPointer shown, QString called)
       : mesh(std::move(shown)), name(std::move(called)), cuts(mesh), parts(mesh) {}
@@ -21,12 +21,12 @@ struct DocumentObject {
   MeshPointer mesh;
   QString name;
   Cuts cuts;
-  Parts parts;                  // of the object with these cuts
+  Parts parts;                  // connected parts of the object with these cuts
   std::vector<ElementId> pins;  // ascending
 };
 
-/// The values that undo brings back. Positions are not among them: each solver keeps its own. A copy copies pointers,
-/// not elements or links.
+/// The values that undo restores, except the positions: each solver stores its own. Copying this copies pointers, not
+/// elements or links.
 struct Contents {
   static constexpr int mostPanels = 4;
 
@@ -35,22 +35,22 @@ struct Contents {
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
   int panels = 0;
-  std::array<Algorithm, mostPanels> algorithms{};  // one per panel; of a removed panel the last one
+  std::array<Algorithm, mostPanels> algorithms{};  // one per panel; the last one of a removed panel
 };
 
-/// One step of undo, as data: Document::apply carries it out.
+/// One undo step, as data. Document::apply carries it out.
 ///
 /// To write an edit, start with Document::change(text), replace the values in `after`, and apply it. The document sends
-/// the solvers the commands for all values that differ, and emits their signals. Undo shows the values from before.
+/// the solvers the commands for all values that differ, and emits their signals. Undo restores the previous values.
 struct Change {
-  QString text;                        // in the undo list, for example "cut 3 links"
-  Contents after;                      // with the change done
-  int gesture = 0;                     // changes of one gesture (not 0) with the same text become one step of undo
+  QString text;                        // shown in the undo list, for example "cut 3 links"
+  Contents after;                      // the values after the change
+  int gesture = 0;                     // changes with the same gesture number (not 0) and text become one undo step
   std::vector<LinkId> cut;             // links that the change cuts
   std::vector<ElementId> pin, unpin;   // elements that the change pins and unpins, ascending
-  std::optional<QString> sessionFile;  // another session file; after that the previous one
-  std::function<void()> carryOut;      // sends the solvers what the values do not say; called once
-  bool followsTape = false;            // cuts, pins and softness become what the tape says
+  std::optional<QString> sessionFile;  // new session file; undo and redo exchange it with the current one
+  std::function<void()> carryOut;      // sends commands that do not follow from the values; called once
+  bool followsTape = false;            // cuts, pins and softness are taken from the recorded commands
 };
 
 }  // namespace chainmail

@@ -14,7 +14,7 @@
 namespace chainmail {
 namespace {
 
-// A step may keep all positions: 16 MB per panel at a million elements.
+// An undo step may store all positions: 16 MB per panel for a million elements.
 constexpr int undoSteps = 30;
 
 /// Replaces the values that differ between `from` and `to`, and the algorithms of these panels.
@@ -33,7 +33,7 @@ void replaceValues(Contents& present, const Contents& from, const Contents& to, 
   }
 }
 
-/// Emits the signals of these values.
+/// Emits the signals of the values that differ, and algorithmChanged for these panels.
 void emitSignals(Document& document, const Contents& from, const Contents& to, const std::vector<int>& panels) {
   if (from.object != to.object) {
     emit document.meshChanged();
@@ -54,12 +54,13 @@ void emitSignals(Document& document, const Contents& from, const Contents& to, c
 
 }  // namespace
 
-/// A change on the undo stack. The solvers keep the whole object from before the step. Undo and redo exchange that
-/// state with the present one, so that every position comes back bit for bit, also after drags and relaxation.
+/// A change on the undo stack. The solvers save the state of the object before the step. Undo and redo exchange the
+/// saved state with the current one. So every position is restored exactly (bit for bit), also after drags and
+/// relaxation.
 class Document::Edit : public QUndoCommand {
  public:
-  /// `state` names the kept state; none if the step will be merged into the previous one. `kept` is true if the solvers
-  /// keep it already.
+  /// `state` identifies the saved state; none if the step will be merged into the previous one. `kept` is true if the
+  /// solvers have saved it already.
   Edit(Document& document, Change change, std::optional<commands::StateId> state, bool kept = false)
       : QUndoCommand(change.text),
         document_(document),
@@ -117,7 +118,7 @@ class Document::Edit : public QUndoCommand {
   Change change_;
   std::optional<commands::StateId> state_;
   bool kept_;
-  bool done_ = false;  // was done once
+  bool done_ = false;  // true after the first redo()
 };
 
 Document::Document(MeshPointer mesh, const QString& name) {
@@ -132,12 +133,12 @@ Document::Document(MeshPointer mesh, const QString& name) {
 }
 
 Document::~Document() {
-  abandonMoves();                 // of all solvers before the first one is waited for
+  abandonMoves();                 // for all solvers, before the first one is destroyed and waits for its thread
   undoStack_.blockSignals(true);  // listeners may be deleted already
   undoStack_.clear();
 }
 
-// Edits: a change becomes a step of undo.
+// Edits: each change becomes one undo step.
 
 Change Document::change(const QString& text, int gesture) const {
   Change result;
@@ -154,7 +155,7 @@ void Document::apply(Change change) {
   undoStack_.push(new Edit(*this, std::move(change), state));
 }
 
-/// Returns a new state, or none if the step will be merged into the last one, which keeps the state from before.
+/// Returns the id of a new state; none if the step will be merged into the last one, which has a saved state already.
 std::optional<commands::StateId> Document::stateFor(int gesture, const QString& text) {
   const QUndoCommand* last = undoStack_.command(undoStack_.index() - 1);
   const bool merges = gesture != 0 && last != nullptr && last->id() == gesture && last->text() == text &&
@@ -162,12 +163,12 @@ std::optional<commands::StateId> Document::stateFor(int gesture, const QString& 
   return merges ? std::nullopt : std::optional(newState());
 }
 
-/// Posts what a change does the first time. Later, undo and redo restore kept states.
+/// Posts the commands of a change when it is done for the first time. Later, undo and redo restore saved states.
 void Document::carryOut(const Change& change, const Contents& before) {
   const Contents& after = change.after;
   const bool isOther = after.object != before.object;
   if (isOther) {
-    post(commands::ReplaceMesh{after.object->mesh});  // which keeps the global softness, and no other
+    post(commands::ReplaceMesh{after.object->mesh});  // keeps only the global softness
   }
   if (after.softness != before.softness && (!isOther || *after.softness != Softness{before.softness->global, {}})) {
     post(commands::SetSoftness{after.softness});
@@ -189,8 +190,9 @@ void Document::carryOut(const Change& change, const Contents& before) {
   }
 }
 
-/// Posts the settings that a kept state does not hold. If `neutral`, Natural Queue runs in place of an algorithm that
-/// may not work on the mesh that is still there; Exact works on any mesh and stores positions in its own way.
+/// Posts the settings that a saved state does not contain. The solvers still have the previous mesh if `neutral` is
+/// true. Then Natural Queue runs instead of an algorithm that may not work on that mesh. Exact is not replaced: it
+/// works on any mesh and stores positions in its own way.
 void Document::postSettings(const Contents& from, const Contents& to, bool neutral) {
   if (to.relaxation != from.relaxation) {
     post(to.relaxation);
@@ -206,8 +208,8 @@ void Document::postSettings(const Contents& from, const Contents& to, bool neutr
   }
 }
 
-/// The panels that are still there and need another algorithm. A change of the object sets all of them, because some
-/// algorithms do not work on every mesh.
+/// Returns the panels that still exist and need another algorithm. If the object changes, it checks all panels, because
+/// some algorithms do not work on every mesh.
 std::vector<int> Document::panelsToSwitch(const Contents& from, const Contents& to) const {
   std::vector<int> result;
   for (int panel = 0; panel < std::min({from.panels, to.panels, panels()}); ++panel) {
@@ -219,11 +221,11 @@ std::vector<int> Document::panelsToSwitch(const Contents& from, const Contents& 
   return result;
 }
 
-/// Shows the values of a step that was done or undone, and emits the signals of those that differ.
+/// Sets the contents to the values of a step that was done or undone, and emits the signals of values that differ.
 void Document::show(Change& change, const Contents& from, const Contents& to, bool done) {
   const std::vector<int> panels = panelsToSwitch(from, to);
   const bool isOther = from.object != to.object;
-  if (isOther) {  // first: listeners still ask for elements of the present mesh
+  if (isOther) {  // first, because listeners still read elements of the old mesh
     setHighlight({});
     select({});
   }
@@ -242,7 +244,7 @@ void Document::show(Change& change, const Contents& from, const Contents& to, bo
   }
 }
 
-/// Shows what a change does to parts of the object.
+/// Applies cuts and pins of a change to the contents, or reverts them if `done` is false.
 void Document::showParts(const Change& change, bool done) {
   if (!change.cut.empty()) {
     showCuts(change.cut, done);
@@ -358,7 +360,7 @@ void Document::setAlgorithm(int panel, Algorithm algorithm) {
     check(algorithm, *mesh());
   } catch (const Error& error) {
     emit refused(QString::fromStdString(error.what()));
-    emit algorithmChanged(panel);  // selectors show again which one runs
+    emit algorithmChanged(panel);  // so that selectors show the running algorithm again
     return;
   }
   if (this->algorithm(panel) != algorithm) {
@@ -424,13 +426,14 @@ void Document::restore(const std::shared_ptr<const Session>& session, const QStr
   apply(std::move(edit));
 }
 
-/// Takes the moves and the positions of a session, whose object the solvers have. A session without moves starts with
-/// the object at rest. The positions come last: then relaxation sleeps, and leaves every element where it is.
+/// Loads the moves and the positions of a session. The solvers already have its object. A session without moves gets
+/// recorded commands that start with the object at rest. The positions are posted last: relaxation sleeps after them,
+/// so that no element moves.
 void Document::placeSession(const std::shared_ptr<const Session>& session) {
   const std::vector<Command> object{commands::SetSoftness{session->softness}, commands::Cut{session->cuts},
                                     commands::Pin{session->pins}};
   const bool hasMoves = !session->moves.empty();
-  log_->flush();  // onto the tape that is replaced
+  log_->flush();  // to the tape that is replaced below
   log_->tape().load(hasMoves ? session->moves : object);
   log_->tape().go_to(hasMoves ? session->moves_done : object.size());
   for (int panel = 0; panel < panels(); ++panel) {
@@ -449,12 +452,12 @@ void Document::setSessionFile(const QString& file) {
   }
 }
 
-// The handle: its moves go straight to the solvers, and a drag becomes a step when it ends.
+// The handle: its moves go directly to the solvers, and a drag becomes an undo step when it ends.
 
 void Document::grab(ElementId element) {
   endDrag();
   if (isPinned(element)) {
-    log_->replay(commands::Grab{element});  // the solvers refuse it, and the tape stays as it is
+    log_->replay(commands::Grab{element});  // the solvers refuse it, and nothing is recorded
     return;
   }
   beginDrag(element, QStringLiteral("drag of element %1").arg(element));
@@ -495,7 +498,7 @@ void Document::release() {
   endDrag();
 }
 
-/// Makes the drag so far a step of undo; a press without a move is none.
+/// Ends the drag. It becomes an undo step if anything moved.
 void Document::endDrag() {
   if (const auto handle = std::exchange(handle_, {})) {
     if (handle->moved) {
@@ -518,7 +521,8 @@ void Document::post(const Command& command) {
   emit tapeChanged();
 }
 
-/// A solver has become idle. The newest move, which waited for the slowest solver, is sent as soon as all are idle.
+/// Called when a solver has become idle. Sends the newest move, which waits for the slowest solver, as soon as all are
+/// idle.
 void Document::receiveIdle() {
   idleAnnounced_ = false;
   if (log_->waits()) {
@@ -535,7 +539,7 @@ void Document::receiveIdle() {
 void Document::receiveFrame(int panel) {
   frameAnnounced_[std::size_t(panel)] = false;
   if (panel >= panels()) {
-    return;  // the panel was removed meanwhile
+    return;  // the panel was removed in the meantime
   }
   SolverThread& solver = *solvers_[std::size_t(panel)];
   frames_[std::size_t(panel)] = &solver.latest_frame();
@@ -545,7 +549,7 @@ void Document::receiveFrame(int panel) {
   emit frameReady(panel);
 }
 
-/// Emits a refusal once: every move of a drag is refused for the same reason.
+/// Emits each refusal only once, because every move of a drag is refused for the same reason.
 void Document::reportRefusal(int panel, const QString& sentence) {
   if (std::exchange(lastRefusal_[std::size_t(panel)], sentence) == sentence) {
     return;
@@ -617,7 +621,7 @@ void Document::recordPasses(bool on) {
   }
 }
 
-// Panels: a solver, an algorithm and a frame each.
+// Panels: each has a solver, an algorithm and a frame.
 
 void Document::addSolver(std::unique_ptr<SolverThread> solver) {
   log_->add(*solver);
@@ -647,7 +651,8 @@ void Document::removePanel() {
   }
 }
 
-/// Returns Exact first, because the others approximate it; then algorithms that give different results.
+/// Returns an algorithm that works on the mesh and that no panel runs yet. Exact comes first, because the others
+/// approximate it, then Enhanced. Returns Natural Queue if all are in use.
 Algorithm Document::unusedAlgorithm() const {
   std::vector<Algorithm> all{Algorithm::exact, Algorithm::enhanced};
   for (const auto& info : algorithms()) {
@@ -668,7 +673,7 @@ void Document::postAlgorithm(int panel, Algorithm algorithm) {
   log_->post_to(*solvers_[std::size_t(panel)], commands::SetAlgorithm{algorithm});
 }
 
-/// The solvers have switched to Natural Queue where an algorithm does not work on the new mesh: the panels follow.
+/// Sets Natural Queue for panels whose algorithm does not work on the new mesh. Their solvers have already switched.
 void Document::replaceUnfitAlgorithms() {
   QStringList where;
   QString from;

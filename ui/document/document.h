@@ -19,7 +19,8 @@ namespace chainmail {
 
 struct Session;
 
-/// What all panels highlight: the element under the cursor or in the handle, and the links that a stroke would cut.
+/// The parts of the object that all panels highlight: the element under the cursor or in the handle, and the links that
+/// a stroke would cut.
 struct Highlight {
   std::optional<ElementId> element;
   bool grabbed = false;
@@ -28,10 +29,11 @@ struct Highlight {
   bool operator==(const Highlight&) const = default;
 };
 
-/// The object, its parameters, their undo stack, and the solvers that deform the object side by side, one per panel.
+/// The object, its parameters, their undo stack, and one solver per panel that deforms the object.
 ///
-/// Every edit is a Change that goes through apply(): one step of undo, which changes the contents and all solvers.
-/// Moves of the handle go straight to the log that feeds all solvers; a drag becomes a step of undo when it ends.
+/// Every edit is a Change that is passed to apply(). It becomes one undo step, which changes the contents and all
+/// solvers. Moves of the handle go directly to the log that feeds all solvers. A drag becomes an undo step when it
+/// ends.
 class Document : public QObject {
   Q_OBJECT
 
@@ -44,93 +46,96 @@ class Document : public QObject {
   const MeshPointer& mesh() const { return contents_.object->mesh; }
   const QString& name() const { return contents_.object->name; }
   const Cuts& cuts() const { return contents_.object->cuts; }
-  /// Number of parts of the object that no uncut link joins.
+  /// Number of connected parts of the object. No uncut link joins two parts.
   std::uint32_t parts() const { return contents_.object->parts.count(); }
   /// The pinned elements, ascending.
   const std::vector<ElementId>& pins() const { return contents_.object->pins; }
   bool isPinned(ElementId element) const;
-  /// The global softness: of all links without a softness of their own.
+  /// The global softness. It applies to all links without a softness of their own.
   const LinkSoftness& softness() const { return contents_.softness->global; }
   const std::shared_ptr<const Softness>& wholeSoftness() const { return contents_.softness; }
   const commands::SetRelaxation& relaxation() const { return contents_.relaxation; }
   const ElasticOptions& elastic() const { return contents_.elastic; }
 
-  // Panels: a solver and an algorithm each.
+  // Panels: each has a solver and an algorithm.
 
   /// Number of panels, from fewestPanels to mostPanels.
   int panels() const { return int(solvers_.size()); }
-  /// Adds a panel. Its object, undo included, is that of the first panel; its algorithm is one that no panel runs yet.
+  /// Adds a panel. It copies the object of the first panel, including the states for undo, and runs an algorithm that
+  /// no other panel runs.
   void addPanel();
   /// Removes the last panel.
   void removePanel();
-  /// The algorithm of a panel; of a removed panel, the last one.
+  /// The algorithm of a panel. For a removed panel, its last one.
   Algorithm algorithm(int panel) const { return contents_.algorithms[std::size_t(panel)]; }
-  /// True where the panel's method has no answer because nothing pins the object.
+  /// True if the panel's method has no solution because no element is pinned.
   bool lacksPins(int panel) const;
-  /// The newest frame of a panel, valid until frameReady; null while the panel does not show the object yet.
+  /// The frame that a panel shows, valid until the next frameReady; null while the panel has none of the current
+  /// object.
   const Frame* frame(int panel) const;
-  /// Shows a frame in place of the panel's newest one, until called with null. The frame must stay alive meanwhile;
-  /// call this again after a change of the frame.
+  /// Shows `frame` instead of the panel's newest one; null shows the newest one again. The frame must stay alive until
+  /// then. Call this again after each change of the frame.
   void showInstead(int panel, const Frame* frame);
   /// Turns pass recording on or off, for all solvers.
   void recordPasses(bool on);
-  /// A panel's last pass, unless its number is `seen`; see SolverThread::last_pass.
+  /// Returns a panel's last pass; null if its number is `seen`, before the first pass, and while a pass is running.
   std::unique_ptr<RecordedPass> lastPass(int panel, std::uint64_t seen) const {
     return solvers_[std::size_t(panel)]->last_pass(seen);
   }
-  /// Calls `question` on the thread of a panel's solver, after everything posted before. It must not wait.
+  /// Calls `question` on the thread of a panel's solver, after all commands posted before. `question` must not block.
   void ask(int panel, SolverThread::Question question);
-  /// The positions of a panel's elements, after everything posted before.
+  /// Returns the positions of a panel's elements after all commands posted before.
   std::future<Snapshot> snapshot(int panel);
-  /// True when all solvers have carried out everything posted.
+  /// True while all solvers have carried out all posted commands.
   bool idle() const;
-  /// True when idle and all frames are up to date; never for long while relaxation runs.
+  /// True while idle() and all frames are up to date. While relaxation runs, this is true only for short moments.
   bool settled() const;
-  /// The window closes: waits up to `patience` for posted moves, then skips the rest.
+  /// Call this when the window closes. Waits up to `patience` for posted moves, then skips the rest.
   void abandonMoves(std::chrono::milliseconds patience = {});
 
-  // The handle; targets are in mesh units. From grab to release is one step of undo, if anything moved.
+  // The handle. Targets are in mesh units. A drag, from grab() to release(), becomes one undo step if anything moved.
 
   void grab(ElementId element);
   void drag(const Point& target);
   void release();
-  /// The element in the handle.
+  /// The grabbed element, if any.
   std::optional<ElementId> held() const { return handle_ ? handle_->element : std::nullopt; }
-  /// Grabs a control point of free-form deformation, in the panels that have it; release() releases it.
+  /// Grabs a control point in the panels that run free-form deformation. release() releases it.
   void grabControlPoint(std::uint32_t point);
   void dragControlPoint(const Point& target);
   /// The commands of the last drag of this mesh, without the release; empty if there was none.
   std::vector<Command> lastDrag() const { return tape().last_drag(); }
 
-  // The tape.
+  // The recorded commands of the object.
 
-  /// The commands that were carried out since the object was at rest, and the current position among them.
+  /// The commands carried out since the object was at rest, and the current position in them.
   const Tape& tape() const { return log_->tape(); }
   /// Clears the move history; positions stay.
   void forgetMoves();
-  /// Records the relaxation since the last pass; call it before the tape is saved.
+  /// Adds the relaxation since the last pass to the recorded commands. Call it before they are saved.
   void noteRelaxation();
-  /// Brings the object in all panels to its state after `position` commands of the tape, each panel by its own
-  /// algorithm. Turns relaxation off: its result is on the tape. Several calls in a row are one step of undo.
+  /// Brings the object in all panels to its state after the first `position` recorded commands. Each panel uses its own
+  /// algorithm. Turns relaxation off, because its steps are recorded. Several calls in a row become one undo step.
   void goTo(std::size_t position);
-  /// Replaces the tape with moves of this mesh, and brings the object to rest, uncut and unpinned. One step of undo.
+  /// Replaces the recorded commands with moves of this mesh, and resets the object: at rest, uncut and unpinned. One
+  /// undo step.
   void loadMoves(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text);
 
-  // Edits, one step of undo each.
+  // Edits. Each is one undo step.
 
   QUndoStack& undoStack() { return undoStack_; }
-  /// Ends the drag, which becomes a step of its own, and undoes the last step.
+  /// Undoes the last step. If a drag is in progress, it ends and becomes that step.
   void undo();
   void redo();
   /// True if there are changes since the session was opened or saved.
   bool isModified() const { return !undoStack_.isClean() || handle_.has_value(); }
-  /// A change that does nothing yet: its values are the current ones.
+  /// Returns a change that does nothing yet: its values are the current ones.
   Change change(const QString& text, int gesture = 0) const;
-  /// Carries out a change as one step of undo. All edits go through here.
+  /// Carries out a change as one undo step. All edits use this function.
   void apply(Change change);
 
   void setSoftness(const LinkSoftness& global, const QString& text, int gesture = 0);
-  /// Gives links a softness of their own, or none: then the global one applies to them again.
+  /// Sets the softness of these links. If `own` is empty, the global softness applies to them again.
   void setSoftnessOf(const std::vector<LinkId>& links, const std::optional<LinkSoftness>& own);
   /// Resets all links to the default softness, including links with a softness of their own.
   void resetSoftness();
@@ -138,40 +143,41 @@ class Document : public QObject {
   void setSoftnessAndRelaxation(const LinkSoftness& global, const commands::SetRelaxation& relaxation,
                                 const QString& text);
   void setElastic(const ElasticOptions& options, const QString& text, int gesture = 0);
-  /// Emits refused if the algorithm does not work on the mesh.
+  /// Sets the algorithm of a panel. Emits refused() if the algorithm does not work on the mesh.
   void setAlgorithm(int panel, Algorithm algorithm);
   void setPinned(const std::vector<ElementId>& elements, bool pinned);
   void cut(const std::vector<LinkId>& links);
   void resetObject();
-  /// `own` is the softness of links that have their own.
+  /// Replaces the object. `own` contains the softness of links that have their own.
   void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text,
                    std::map<LinkId, LinkSoftness> own = {});
-  /// Opens a session. Panels that the session does not have show the object of its first panel, by their own algorithm.
+  /// Opens a session. A panel that the session does not have shows the object of the session's first panel and keeps
+  /// its algorithm if possible.
   void restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text);
   /// The file of this session; empty if it has none yet.
   const QString& sessionFile() const { return sessionFile_; }
   void setSessionFile(const QString& file);
 
-  // What the panels highlight and select. No edits: the object stays the same.
+  // Highlight and selection. They do not change the object and are not undo steps.
 
   const Highlight& highlight() const { return highlight_; }
   void setHighlight(const Highlight& highlight);
-  /// Adds links to the highlighted ones, at a cost of these links only.
+  /// Adds links to the highlighted ones. The time depends only on the number of added links.
   void addToHighlight(std::span<const LinkId> links);
   const Selection& selection() const { return selection_; }
-  /// Elements must be ascending.
+  /// Selects these elements, which must be ascending.
   void select(std::vector<ElementId> elements);
 
  signals:
   void frameReady(int panel);
-  /// All solvers have carried out everything posted.
+  /// All solvers have carried out all posted commands.
   void becameIdle();
   /// The last panel and its frames are about to be removed.
   void panelLeaves(int panel);
   /// A panel was added or removed.
   void panelsChanged();
   void meshChanged();
-  /// These links were cut, or uncut.
+  /// These links were cut, or restored if `cut` is false.
   void cutsChanged(const std::vector<LinkId>& links, bool cut);
   void softnessChanged();
   void relaxationChanged();
@@ -181,20 +187,20 @@ class Document : public QObject {
   void pinsChanged();
   void selectionChanged();
   void lastDragChanged();
-  /// The tape is longer, or the object has another position on it.
+  /// The recorded commands, or the current position in them, have changed.
   void tapeChanged();
   void sessionFileChanged();
-  /// A command was refused; one sentence says why.
+  /// A command was refused; `sentence` gives the reason.
   void refused(const QString& sentence);
-  /// A panel has no answer; see lacksPins.
+  /// A panel has no solution; see lacksPins().
   void unpinned(int panel);
-  /// The document changed something by itself; one sentence says what.
+  /// The document changed something by itself; `sentence` says what.
   void noticed(const QString& sentence);
 
  private:
-  class Edit;  // of the undo stack
+  class Edit;  // a command of the undo stack
 
-  // How a change reaches the solvers and the contents.
+  // Apply changes to the solvers and the contents.
   std::optional<commands::StateId> stateFor(int gesture, const QString& text);
   void carryOut(const Change& change, const Contents& before);
   void postSettings(const Contents& from, const Contents& to, bool neutral);
@@ -207,7 +213,7 @@ class Document : public QObject {
   void replaceUnfitAlgorithms();
   void placeSession(const std::shared_ptr<const Session>& session);
 
-  // How commands reach the solvers, and frames come back.
+  // Send commands to the solvers, and receive their frames.
   void post(const Command& command);
   void receiveIdle();
   void receiveFrame(int panel);
@@ -237,30 +243,30 @@ class Document : public QObject {
   commands::StateId nextState_ = 1;
 
   struct Handle {
-    std::optional<ElementId> element;  // none while it holds a control point
+    std::optional<ElementId> element;  // none while a control point is grabbed
     std::uint32_t controlPoint = 0;
     QString text;                  // of the undo step
-    commands::StateId before = 0;  // the solvers keep this state during the drag
+    commands::StateId before = 0;  // state before the drag, which the solvers have saved
     bool moved = false;
   };
   std::optional<Handle> handle_;
-  std::array<QString, mostPanels> lastRefusal_;  // during the present drag or edit
+  std::array<QString, mostPanels> lastRefusal_;  // one per panel, during the current drag or edit
 
-  // States that the solvers keep along the tape, by position: a replay backwards starts at one of them.
+  // States that the solvers have saved, by position in the recorded commands. A replay backwards starts at one of them.
   std::map<std::size_t, commands::StateId> waypoints_;
   std::uint64_t waypointTimeline_ = 0;  // Tape::timeline() of the waypoints
-  bool replayed_ = false;               // the last thing that the solvers did is a replay
+  bool replayed_ = false;               // true if the solvers have done nothing since the last replay
   std::uint64_t relaxationNoted_ = 0;   // number of passes when relaxation was last noted
 
-  // The solver threads announce a frame, or that they are idle, at most once until it is received.
+  // True while an announcement of a solver thread (new frame, idle) waits in the event queue. Prevents a second one.
   std::array<std::atomic<bool>, mostPanels> frameAnnounced_{};
   std::atomic<bool> idleAnnounced_ = false;
   std::vector<std::unique_ptr<SolverThread>> solvers_;
   std::array<const Frame*, mostPanels> frames_{};
-  std::array<const Frame*, mostPanels> instead_{};  // null where the panel shows its own frame
+  std::array<const Frame*, mostPanels> instead_{};  // null if the panel shows its own frame
   bool recordsPasses_ = false;
   std::unique_ptr<CommandLog> log_;
-  QUndoStack undoStack_;  // last: its edits post to the log when they are deleted
+  QUndoStack undoStack_;  // the last member: its edits post to the log when they are deleted
 };
 
 }  // namespace chainmail

@@ -1,4 +1,4 @@
-// Replay: how a document goes back and forth on the tape of what was done to its object.
+// Replay: brings the object of a document to any position in its recorded commands.
 
 #include <algorithm>
 #include <iterator>
@@ -10,7 +10,7 @@ namespace chainmail {
 namespace {
 
 constexpr int travelGesture = std::numeric_limits<int>::max();
-// Waypoints: at most this many states, at least so many commands apart.
+// Waypoints: largest number of saved states, and smallest number of commands between two of them.
 constexpr std::size_t mostWaypoints = 16;
 constexpr std::size_t leastApart = 32;
 constexpr std::uint64_t mostSweepsNoted = 1'000'000;
@@ -41,8 +41,8 @@ void Document::noteRelaxation() {
   emit tapeChanged();
 }
 
-/// Ends sweeps of relaxation, which may run for hours: the object is about to change anyway. Waypoints are dropped,
-/// because they lack the rest of the sweeps.
+/// Stops sweeps of relaxation, which may run for hours. Call it before the object changes. Drops the waypoints, because
+/// they lack the skipped sweeps.
 void Document::endSweeps() {
   if (idle()) {
     return;
@@ -83,9 +83,9 @@ void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& move
   emit tapeChanged();
 }
 
-/// The solvers carry out the commands between the nearest known state and the position. The result of a replay may
-/// differ from that of the live moves, because of another algorithm or relaxation in idle time: only a replay can be
-/// continued forwards.
+/// Replays the commands from the nearest known state up to `position`. Another algorithm, or relaxation in idle time,
+/// may make the result of a replay differ from that of the live moves. So the current state counts as known only after
+/// a replay.
 void Document::travel(std::size_t position) {
   Tape& tape = log_->tape();
   if (waypointTimeline_ != tape.timeline()) {
@@ -106,7 +106,8 @@ void Document::travel(std::size_t position) {
   replayed_ = true;
 }
 
-/// Every tape begins with the object at rest, uncut, unpinned, with the default softness.
+/// Resets the object: at rest, uncut, unpinned, with the default softness. Recorded commands always start from this
+/// state.
 void Document::goToBeginning() {
   log_->replay(commands::Release{});
   log_->replay(commands::Uncut{cuts().links()});
@@ -115,7 +116,8 @@ void Document::goToBeginning() {
   log_->replay(commands::Reset{});
 }
 
-/// Keeps a waypoint, only between two drags: a state does not include the handle.
+/// Saves a waypoint if the previous one is far enough away. It does so only between two drags, because a state does not
+/// include the handle.
 void Document::keepWaypoint(std::size_t position) {
   const std::size_t apart = std::max(leastApart, tape().length() / mostWaypoints);
   const std::size_t last = waypoints_.empty() ? 0 : std::prev(waypoints_.end())->first;
@@ -132,7 +134,7 @@ void Document::dropWaypoints() {
   waypoints_.clear();
 }
 
-/// Brings cuts, pins and softness to what the tape says of the object.
+/// Sets cuts, pins and softness to their state at the current position in the recorded commands.
 void Document::showTape() {
   const Tape::Object object = tape().object();
   const std::vector<LinkId> cut = cuts().links();

@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int digits = 6;  // a position in single precision has about 7
+constexpr int digits = 6;  // significant digits; a position in single precision has about 7
 
 /// Calls `look` with each uncut link of an element.
 template <class Look>

@@ -7,7 +7,8 @@
 
 namespace chainmail {
 
-/// Data of single elements, and its text for the interface. The cost is that of the links of the element.
+/// Data of single elements, and its text for the interface. The time depends only on the number of links of the
+/// element.
 
 /// The range of the softness of the uncut links of an element.
 struct SoftnessRange {
@@ -16,17 +17,17 @@ struct SoftnessRange {
 };
 SoftnessRange softnessOf(const Document& document, ElementId element);
 
-/// Returns the position of an element in a panel (mesh units); at rest while the panel shows nothing.
+/// Returns the position of an element in a panel (mesh units); its rest position while the panel shows nothing.
 Point positionIn(const Document& document, int panel, ElementId element);
 /// Returns the largest violation of an element's links in a panel (rest lengths of the link).
 double violationIn(const Document& document, int panel, ElementId element);
 double violationOfLink(const Document& document, int panel, LinkId link);
 
-/// Returns the coordinates that the scene has: 'x 3, y 2.5'.
+/// Returns the coordinates of a point on the axes of the mesh as text, such as 'x 3, y 2.5'.
 QString coordinates(const Mesh& mesh, const Point& point, const QString& prefix = {});
-/// Returns a number with as many digits as the positions of a panel have.
+/// Returns a number as text, with 6 significant digits.
 QString figure(double value);
-/// Returns '0.8', or '0.8–0.9'.
+/// Returns a range as text, such as '0.8–0.9', or '0.8' if both ends are equal.
 QString range(double least, double most);
 
 }  // namespace chainmail

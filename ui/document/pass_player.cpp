@@ -5,7 +5,7 @@
 namespace chainmail {
 namespace {
 
-/// Returns a new series of frames: one per pass.
+/// Returns the number of a new series of frames. Each pass gets its own.
 std::uint64_t newSeries() {
   static std::uint64_t last = 0;  // the solvers use 0
   return ++last;

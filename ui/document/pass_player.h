@@ -11,17 +11,18 @@ namespace chainmail {
 class PassPlayer {
  public:
   static constexpr std::uint32_t never = no_element;
-  /// A longer pass has no waiting list: to compute it would block the window (0.3 s for this many steps).
+  /// Largest number of steps for which the waiting list is computed, which takes 0.3 s. A longer pass would block the
+  /// window.
   static constexpr std::size_t listedSteps = 300'000;
 
-  /// Starts at the end of the pass.
+  /// Takes a recorded pass; the current step is its last one.
   explicit PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& statistics);
 
   const RecordedPass& pass() const { return *pass_; }
   const WaitingHistory& history() const { return history_; }
   std::size_t stepCount() const { return pass_->step_count(); }
   std::size_t step() const { return step_; }
-  /// Takes time in proportion to the number of steps between.
+  /// Goes to a step. The time is proportional to the number of steps between the current one and `step`.
   void setStep(std::size_t step);
 
   /// The object at this step, as a frame for a panel.

@@ -53,7 +53,7 @@ void Propagation::setOpen(bool open) {
 void Propagation::forget() {
   letGo();
   follows_ = true;
-  chosen_ = std::min(chosen_, Document::fewestPanels - 1);  // another panel may be removed
+  chosen_ = std::min(chosen_, Document::fewestPanels - 1);  // other panels may be removed
   for (auto& player : players_) {
     player.reset();
   }
@@ -76,7 +76,7 @@ void Propagation::setFollows(bool follows) {
   emit changed();
 }
 
-/// The panels show their newest frames again.
+/// Stops the playback, so that the panels show their newest frames again.
 void Propagation::letGo() {
   clock_.stop();
   for (int panel = 0; panel < document_.panels(); ++panel) {
@@ -208,7 +208,7 @@ void Propagation::setPlays(bool plays) {
   emit changed();
 }
 
-/// Makes as many steps as the elapsed time asks for.
+/// Makes the steps that are due after the elapsed time.
 void Propagation::playOn() {
   due_ += double(sinceStep_.restart()) / 1000 * speed_;
   if (due_ < 1) {

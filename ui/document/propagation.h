@@ -14,7 +14,7 @@ namespace chainmail {
 /// Shows the last pass of every panel step by step.
 ///
 /// While it is open, the solvers record their passes. It follows the newest passes until the user goes to a step. Then
-/// it holds that pass, and the panels show the object at the step. A drag or a change of the object makes it follow
+/// it keeps that pass, and the panels show the object at this step. A drag or a change of the object makes it follow
 /// again.
 class Propagation : public QObject {
   Q_OBJECT
@@ -28,20 +28,20 @@ class Propagation : public QObject {
   bool follows() const { return follows_; }
   void setFollows(bool follows);
 
-  /// The pass of a panel; null while there is none of this object.
+  /// Returns the pass of a panel; null while there is none of the current object.
   const PassPlayer* player(int panel) const { return players_[std::size_t(panel)].get(); }
   bool hasPass() const;
   /// Number of steps of the longest pass.
   std::size_t stepCount() const;
 
-  /// True if all panels go to the same step, each at most to the end of its pass; else only the chosen panel does.
+  /// True if all panels go to the same step, each at most to the end of its pass; false if only the chosen panel does.
   bool together() const { return together_; }
   void setTogether(bool together);
   int chosen() const { return chosen_; }
   void choose(int panel);
-  /// Holds the pass, and goes to a step in the panel or in all panels.
+  /// Stops following and goes to a step, in this panel or, if together(), in all panels.
   void setStep(int panel, std::size_t step);
-  /// Moves by some steps, from the step of the chosen panel, or from the furthest of all.
+  /// Moves by `steps`, from the step of the chosen panel or, if together(), from the furthest step of all panels.
   void stepBy(std::ptrdiff_t steps);
   void goTo(std::size_t step) { setStep(chosen_, step); }
 
@@ -71,11 +71,11 @@ class Propagation : public QObject {
   bool follows_ = true;
   bool together_ = true;
   int chosen_ = 0;
-  QTimer fetch_;  // fetches passes at a rate that can be read
+  QTimer fetch_;  // limits how often passes are fetched
   QTimer clock_;  // runs during slow motion
   QElapsedTimer sinceStep_;
-  double speed_ = 5;
-  double due_ = 0;  // steps still to make, with a fraction
+  double speed_ = 5;  // steps per second
+  double due_ = 0;    // steps still to make, with a fraction
 };
 
 }  // namespace chainmail

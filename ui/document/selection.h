@@ -14,10 +14,10 @@ struct Selection {
   bool empty() const { return elements.empty(); }
 };
 
-/// What a stroke does with the previous selection.
+/// How a stroke changes the previous selection.
 enum class SelectionMode { replace, add, remove };
 
-/// Returns the selection after a stroke over the elements `hit`. All are ascending.
+/// Returns the selection after a stroke over the elements `hit`. All lists are ascending.
 std::vector<ElementId> combined(const std::vector<ElementId>& before, const std::vector<ElementId>& hit,
                                 SelectionMode mode);
 

@@ -15,19 +15,19 @@ SessionDraft::SessionDraft(Document& document, std::string look) {
   session_.ui = std::move(look);
   for (int panel = 0; panel < document.panels(); ++panel) {
     session_.panels.push_back({document.algorithm(panel), Precision::single_precision, {}});
-    placements_.push_back(document.snapshot(panel).share());
+    snapshots_.push_back(document.snapshot(panel).share());
   }
 }
 
 Session SessionDraft::finished(const Progress& progress) const {
   constexpr std::chrono::milliseconds patience(10);  // between two checks for cancellation
   Session result = session_;
-  for (std::size_t panel = 0; panel < placements_.size(); ++panel) {
-    while (placements_[panel].wait_for(patience) != std::future_status::ready) {
+  for (std::size_t panel = 0; panel < snapshots_.size(); ++panel) {
+    while (snapshots_[panel].wait_for(patience) != std::future_status::ready) {
       progress.report(0);
     }
     try {
-      result.panels[panel].placement = placements_[panel].get();
+      result.panels[panel].placement = snapshots_[panel].get();
     } catch (const std::future_error&) {
       if (panel == 0) {
         throw Cancelled();  // a session without panels must not overwrite a good one

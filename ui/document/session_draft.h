@@ -9,19 +9,19 @@
 namespace chainmail {
 
 /// A session that is being saved. The constructor copies pointers from the document; the solvers deliver the positions
-/// later, each after everything posted before. Copies of the draft share those.
+/// later, after all commands posted before. Copies of the draft share these positions.
 class SessionDraft {
  public:
-  /// `look` is the state of the window.
+  /// `look` is the state of the window as text.
   SessionDraft(Document& document, std::string look);
 
   const MeshPointer& mesh() const { return session_.mesh; }
-  /// Waits for the solvers; do not call it in the GUI thread. Throws Cancelled.
+  /// Returns the complete session. Waits for the solvers, so do not call it in the GUI thread. Throws Cancelled.
   Session finished(const Progress& progress) const;
 
  private:
   Session session_;
-  std::vector<std::shared_future<Snapshot>> placements_;
+  std::vector<std::shared_future<Snapshot>> snapshots_;
 };
 
 }  // namespace chainmail

@@ -21,7 +21,7 @@ void SteppedDrag::start(ElementId element, const Point& from, const Point& targe
   steps_ = steps;
   done_ = 0;
   shown_ = false;
-  document_.grab(element);  // which may end another drag, and with it this one: it runs from here on
+  document_.grab(element);  // first, because it may end another drag, and the new undo step would stop this one
   running_ = true;
   emit changed();
 }
@@ -36,8 +36,8 @@ void SteppedDrag::stop() {
   emit changed();
 }
 
-/// Makes the next step when all solvers have done the last one and the first panel has shown it. So no step is lost,
-/// and the frames set the pace.
+/// Makes the next step when all solvers have done the last one and the first panel has shown it. So every step is
+/// shown, and the frames set the pace.
 void SteppedDrag::step() {
   if (!running_) {
     return;

@@ -5,14 +5,14 @@
 namespace chainmail {
 
 /// Drags an element along a straight line in equal steps, with exact targets. Each step is one pass in every panel. A
-/// drag by the mouse, an undo or another mesh ends it.
+/// drag with the mouse, an undo or another mesh ends it.
 class SteppedDrag : public QObject {
   Q_OBJECT
 
  public:
   explicit SteppedDrag(Document& document);
 
-  /// Starts a drag from one point to another (mesh units); the last step is the target itself.
+  /// Starts a drag from one point to another (mesh units); the last step ends exactly at the target.
   void start(ElementId element, const Point& from, const Point& target, int steps);
   void stop();
   bool running() const { return running_; }

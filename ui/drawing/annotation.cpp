@@ -16,7 +16,8 @@ constexpr float boxOpacity = 0.8F;
 QRectF annotationBox(const Annotation& annotation, const QFontMetricsF& font, QSizeF view) {
   QRectF box = font.boundingRect(QRectF(0, 0, view.width(), view.height()), Qt::AlignLeft, annotation.words);
   box.adjust(-annotationPadding, -annotationPadding, annotationPadding, annotationPadding);
-  // The box moves along the upward normal of the line, half as far as it reaches in that direction.
+  // Moves the box along the upward normal of the line by half its extent in that direction, so that it does not cover
+  // the line.
   const QLineF line = annotation.line.length() > 0 ? annotation.line.normalVector().unitVector() : QLineF(0, 0, 0, -1);
   const QPointF normal = line.dy() > 0 ? QPointF(-line.dx(), -line.dy()) : QPointF(line.dx(), line.dy());
   const double across = (std::abs(normal.x()) * box.width() + std::abs(normal.y()) * box.height()) / 2;

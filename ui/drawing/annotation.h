@@ -21,6 +21,6 @@ QRectF annotationBox(const Annotation& annotation, const QFontMetricsF& font, QS
 /// Draws the ends of the line and the text, but not the line itself.
 void drawAnnotation(QPainter& painter, const Annotation& annotation, QColor ground, QSizeF view);
 inline constexpr double annotationPadding = 4;      // pixels between the text and the edge of its box
-inline constexpr double annotationEndDiameter = 9;  // pixels, of the rings at the ends of the line
+inline constexpr double annotationEndDiameter = 9;  // pixels, diameter of the rings at the ends of the line
 
 }  // namespace chainmail

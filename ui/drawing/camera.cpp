@@ -7,9 +7,9 @@ namespace chainmail {
 namespace {
 
 constexpr double fieldOfView = 35;  // degrees, vertical
-constexpr double fitMargin = 1.25;  // height of the view per height of an object that fits
+constexpr double fitMargin = 1.25;  // height of the view, divided by the height of the fitted object
 constexpr double degreesPerPixel = 0.4;
-constexpr double smallestHeight = 1e-5, largestHeight = 1e3;  // of the view, in radii of the object
+constexpr double smallestHeight = 1e-5, largestHeight = 1e3;  // visible height, in radii of the object
 
 double eyeDistance(double height) { return height / 2 / std::tan(fieldOfView / 2 * M_PI / 180); }
 

@@ -12,22 +12,24 @@ namespace chainmail {
 
 inline QVector3D asVector(const Point& point) { return {float(point.x()), float(point.y()), float(point.z())}; }
 
-/// The camera of a view: it looks straight at the plane in 1D and 2D, and orbits a centre in 3D, in perspective or with
-/// parallel projection. Lengths are in mesh units, positions in the view in logical pixels from its top left.
+/// The camera of a view. In 1D and 2D, it looks straight at the plane. In 3D, it orbits a centre, with perspective or
+/// parallel projection. Lengths are in mesh units. Positions in the view are in logical pixels from its top left
+/// corner.
 class Camera {
  public:
   /// Shows the whole box: straight at the plane of the given axes, or obliquely from above if there are three of them.
   void fit(const std::array<Point, 2>& box, std::span<const int> axes, QSizeF view);
   /// Shows the whole box from the current side.
   void frame(const std::array<Point, 2>& box, QSizeF view);
-  /// True if the camera was neither panned nor zoomed since then: a view that is resized may frame the box again.
+  /// True if the camera was neither panned nor zoomed since fit() or frame(). A resized view may then frame the box
+  /// again.
   bool framed() const { return framed_; }
   void orbit(QPointF pixels);
   void pan(QPointF pixels, QSizeF view);
-  /// Enlarges the object (factor > 1) about the position under the cursor.
+  /// Enlarges the object if factor > 1, or reduces it. The point under the cursor stays there.
   void zoom(double factor, QPointF cursor, QSizeF view);
 
-  /// Looks at the centre from the side given by angles (degrees): 0, 0 is from +z, yaw -90 from +x, pitch 90 from +y.
+  /// Looks at the centre from a direction (degrees): yaw 0 and pitch 0 from +z, yaw -90 from +x, pitch 90 from +y.
   void lookFrom(double yaw, double pitch);
   const QVector3D& centre() const { return centre_; }
   /// Moves this point to the middle of the view and makes it the centre of rotation.
@@ -37,7 +39,7 @@ class Camera {
   bool parallel() const { return parallel_; }
 
   /// The state of the camera without the size of the object: centre and visible height (mesh units), and angles
-  /// (degrees), which only count in 3D.
+  /// (degrees), which are used only in 3D.
   struct Pose {
     QVector3D centre;
     double height = 2, yaw = 0, pitch = 0;
@@ -51,9 +53,10 @@ class Camera {
   QMatrix4x4 toClip(QSizeF view) const;
   /// Returns the mesh units per pixel in the plane through the centre.
   double unitsPerPixel(QSizeF view) const;
-  /// Returns the nearest and the furthest distance of the object from the eye, for fading with depth.
+  /// Returns the smallest and the largest distance of the object from the eye (mesh units), for fading with depth.
   std::array<double, 2> depthRange() const;
-  /// Returns the point under a position in the view, in the plane parallel to the view through `through`.
+  /// Returns the point in space under a position in the view. It lies in the plane that contains `through` and is
+  /// parallel to the view.
   QVector3D pointAt(QPointF position, const QVector3D& through, QSizeF view) const;
 
  private:
@@ -61,7 +64,7 @@ class Camera {
   double radius_ = 1;  // of the object (mesh units)
   double height_ = 2;  // visible height in the plane through the centre (mesh units)
   double yaw_ = 0;     // degrees
-  double pitch_ = 0;
+  double pitch_ = 0;   // degrees
   bool spatial_ = false;
   bool parallel_ = false;
   bool framed_ = false;

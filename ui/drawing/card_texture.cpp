@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-/// Keeps every n-th texel along each axis, so that the size is at most `most`.
+/// Returns a smaller texture with every n-th texel along each axis, so that no axis has more than `most` texels.
 Texture reduced(const Texture& texture, std::uint32_t most) {
   const std::uint32_t step = (*std::max_element(texture.size.begin(), texture.size.end()) + most - 1) / most;
   Texture result = texture;
@@ -56,7 +56,7 @@ CardTexture::CardTexture(const Texture& texture) : target_(texture.size[2] == 1 
   currentGl().glBindTexture(target_, number_);
   const bool fits = *std::max_element(texture.size.begin(), texture.size.end()) <= std::uint32_t(most);
   fits ? sendTexture(target_, texture) : sendTexture(target_, reduced(texture, std::uint32_t(most)));
-  currentGl().glGenerateMipmap(target_);  // no grain if the picture is shown small
+  currentGl().glGenerateMipmap(target_);  // prevents grain if the picture is drawn small
   currentGl().glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   currentGl().glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (const GLenum along : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {

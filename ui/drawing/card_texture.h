@@ -25,10 +25,10 @@ class CardTexture {
   GLuint number_ = 0;
 };
 
-/// Sends the texture of a mesh to the graphics card once for all painters. The last of them frees it.
+/// Sends the texture of a mesh to the graphics card once for all painters. The last painter frees it.
 class CardTextures {
  public:
-  /// Requires the context to be current.
+  /// Returns the texture on the graphics card; sends it on first use. Requires the context to be current.
   std::shared_ptr<CardTexture> of(const std::shared_ptr<const Texture>& texture);
 
  private:

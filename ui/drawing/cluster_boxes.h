@@ -8,10 +8,11 @@
 
 namespace chainmail {
 
-/// Bounding boxes of a level's clusters in the newest frame. An update costs only the clusters that changed.
+/// Bounding boxes of a level's clusters in the newest frame. An update computes only the boxes of clusters that
+/// changed.
 class ClusterBoxes {
  public:
-  /// Lowest and highest coordinates, for the axes that the mesh has.
+  /// Lowest and highest coordinates on the axes of the mesh.
   struct Box {
     std::array<float, 3> lowest{}, highest{};
   };
@@ -26,7 +27,7 @@ class ClusterBoxes {
   bool isOutdated(std::size_t cluster, const Frame& frame) const;
 
   MeshLevelPointer level_;
-  std::uint64_t seen_ = 0;  // number of the frame of the boxes
+  std::uint64_t seen_ = 0;  // number of the frame that the boxes belong to
   std::uint64_t series_ = 0;
   std::vector<Box> boxes_;
 };

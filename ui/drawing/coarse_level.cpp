@@ -5,7 +5,7 @@
 namespace chainmail {
 namespace {
 
-/// Returns 0, step, 2 step, …, and the last row.
+/// Returns the rows 0, step, 2 · step, …, and the last row.
 std::vector<ElementId> everyStepth(ElementId size, unsigned step) {
   std::vector<ElementId> rows;
   for (ElementId i = 0; i + 1 < size; i += step) {
@@ -15,7 +15,7 @@ std::vector<ElementId> everyStepth(ElementId size, unsigned step) {
   return rows;
 }
 
-/// Adds a coarse link if links connect it all the way.
+/// Adds a coarse link that replaces `steps` links in a row, if all of them exist.
 void addRow(MeshLevel& level, ElementId from, ElementId stride, ElementId steps) {
   const auto before = level.paths.items.size();
   for (ElementId i = 0; i < steps; ++i) {
@@ -30,7 +30,8 @@ void addRow(MeshLevel& level, ElementId from, ElementId stride, ElementId steps)
   level.coarseLinks.push_back({from, from + steps * stride});
 }
 
-/// Adds the faces whose corners have three different representatives. Coarse links must be sorted by first element.
+/// Adds a coarse face for each finer face whose corners have three different representatives. Coarse links must be
+/// sorted by first element.
 template <class Representative>
 void addFaces(MeshLevel& level, std::span<const MeshLevel::Face> finer, Representative representative) {
   for (const auto& [a, b, c] : finer) {
@@ -69,7 +70,7 @@ struct Representatives {
   std::vector<std::uint32_t> by;  // none for elements that represent themselves
 };
 
-/// The links of a level by element: number and other end of each.
+/// The links of each element of a level. visit() passes the number and the other end of each link.
 struct LinksByElement {
   explicit LinksByElement(const MeshLevel& level) : links(level.links) {
     const std::size_t count = level.links.size();
@@ -110,8 +111,8 @@ struct Path {
   std::uint32_t length;  // in links of the finer level
 };
 
-/// Finds the paths over the links of one element, and keeps the shortest one to each end. `pathTo` holds the index in
-/// `paths` for each end.
+/// Finds the paths over the links of one element, and keeps the shortest path to each end. `pathTo` contains the index
+/// in `paths` for each end.
 void findPaths(ElementId member, const LinksByElement& linksOf, const Representatives& representative,
                std::vector<Path>& paths, std::vector<std::uint32_t>& pathTo) {
   const ElementId from = representative.of[member];

@@ -12,9 +12,9 @@ struct ColourValues {
   MeshPointer mesh;
   bool ofLinks = true;
   std::vector<float> values;
-  /// Range of the values that count (cut links do not); lowest is above highest if none counts.
+  /// Range of the values, without those of cut links. `lowest` is greater than `highest` if there are no values.
   float lowest = 0, highest = 0;
-  /// Differs between any two sets of values; 0 before there are any.
+  /// Unique number of this set of values; 0 before the first set.
   std::uint64_t number = 0;
 };
 
@@ -22,9 +22,9 @@ struct ColourValues {
 struct ColourScale {
   float lowest = 0, highest = -1;
   float threshold = -1;    // -1: no value is neutral
-  bool diverging = false;  // for a difference: 0 is in the middle
+  bool diverging = false;  // true for differences: 0 is in the middle of the map
 
-  /// True if there are values: painting a panel starts their computation.
+  /// True if there are values. They are computed after a panel is painted for the first time.
   bool known() const { return lowest <= highest; }
   bool operator==(const ColourScale&) const = default;
 };

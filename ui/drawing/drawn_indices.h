@@ -7,28 +7,28 @@
 
 namespace chainmail {
 
-// The links and faces that are drawn, as ids of elements for the graphics card.
+// The links and faces to draw, as ids of elements for the graphics card.
 
-/// Links of a level that are drawn: their numbers, and the two ends of each.
+/// The links to draw: their numbers, and the two ends of each.
 struct DrawnLinks {
   std::vector<std::uint32_t> numbers;
   std::vector<ElementId> ends;
 };
 
-/// Returns the links of some clusters that are not cut.
+/// Returns the uncut links of these clusters.
 DrawnLinks drawnLinks(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& clusters);
 
-/// Returns three corners per face of some clusters, without faces that have a cut side.
+/// Returns the corners of the faces of these clusters, three per face. Leaves out faces with a cut side.
 std::vector<ElementId> drawnFaces(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& clusters);
 
-/// Returns the visible links of a volume: those on its surface, and those that are part of no cell.
+/// Returns the visible links of a volume: links on its surface, and uncut links that belong to no cell.
 DrawnLinks surfaceLinks(const Surface& surface, const Cuts& cuts);
 
-/// Returns the corners of the triangles of the surface, and of the mesh's own triangles that are on no cell and have no
-/// cut side.
+/// Returns the corners of the triangles of the surface, and of the mesh's own triangles that belong to no cell and have
+/// no cut side.
 std::vector<ElementId> surfaceFaces(const Surface& surface, const Cuts& cuts);
 
-/// Returns all elements, or about `atMost` of them, evenly distributed.
+/// Returns all elements if there are at most `atMost`; otherwise about that many, evenly distributed.
 std::vector<ElementId> thinned(const std::vector<ElementId>& elements, std::size_t atMost);
 
 }  // namespace chainmail

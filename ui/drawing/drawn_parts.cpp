@@ -10,8 +10,8 @@
 namespace chainmail {
 namespace {
 
-// An object with more links and faces than this is drawn more coarsely if its links are shorter than `fewestPixels` or
-// if too many of them are in the view. It is drawn cluster by cluster.
+// Largest number of links and faces of an object that is always drawn completely. A larger object is drawn by clusters.
+// It is drawn more coarsely if its links are shorter than `fewestPixels`, or if more shapes than this are in the view.
 constexpr std::size_t mostShapes = 60'000;
 constexpr double fewestPixels = 3;  // per link
 constexpr unsigned coarsestStep = 64;
@@ -95,7 +95,8 @@ bool DrawnParts::hidesSurface(std::size_t links, double pixelsPerUnit) const {
          mesh_->mean_link_length * pixelsPerUnit < fewestPixels * double(links) / double(mostShapes);
 }
 
-/// Chooses the finest step at which links are distinguishable and not too many are in the view, as in a volume.
+/// Chooses the finest step at which links are distinguishable and not too many of them are in the view. A volume may
+/// have too many even if they are long.
 void DrawnParts::chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit) {
   step_ = 1;
   const double pixels = mesh_->mean_link_length * pixelsPerUnit;
@@ -115,7 +116,7 @@ void DrawnParts::chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerU
   }
 }
 
-/// Returns the share of the clusters that may be visible.
+/// Returns the fraction of the clusters that may be visible.
 double DrawnParts::shareInView(const ObjectDrawing::Scene& scene) {
   const auto whole = levels_->at(mesh_, 1);
   const auto seen = visibleClusters(scene, whole, wholeBoxes_);

@@ -7,13 +7,13 @@
 
 namespace chainmail {
 
-/// Chooses how finely an object is drawn, and which of its links and faces: those that the view can show.
+/// Chooses how finely an object is drawn, and selects the links and faces that the view can show.
 class DrawnParts {
  public:
-  /// `levels` of the mesh may be shared.
+  /// `levels` may be shared with other painters of the same mesh.
   explicit DrawnParts(std::shared_ptr<MeshLevels> levels) : levels_(std::move(levels)) {}
 
-  /// Frame and cuts must stay valid until the next call; cutsChanged must follow a change of the cuts.
+  /// Frame and cuts must stay valid until the next call. Call cutsChanged() after each change of the cuts.
   void setFrame(const Frame& frame, const Cuts& cuts);
   void cutsChanged() { outdated_ = sectionOutdated_ = true; }
   void forget() {
@@ -21,8 +21,8 @@ class DrawnParts {
     outdated_ = sectionOutdated_ = true;
   }
 
-  /// Returns true if links() or faces() changed since the last call. The cost depends on what is drawn, not on the size
-  /// of the mesh.
+  /// Returns true if links() or faces() changed since the last call. The time depends on the number of drawn shapes,
+  /// not on the size of the mesh.
   bool choose(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint, double pixelsPerUnit);
 
   /// Returns 1 if every link is drawn, k if about k links in a row are drawn as one.
@@ -32,18 +32,19 @@ class DrawnParts {
   DrawnLinks links() const;
   /// Returns three corners per face.
   std::vector<ElementId> faces() const;
-  /// Returns the section that closes a volume, or null.
+  /// Returns the section that closes a volume; null if there is none.
   const Section* section() const;
   /// Returns true if the face of the section changed since the last call.
   bool takeSectionChange() { return std::exchange(sectionOutdated_, false); }
   const Surface& surface() const { return levels_->surface(mesh_, *cuts_); }
   MeshLevels& levels() { return *levels_; }
-  /// Returns a value per link; for a coarse link, the value of largest magnitude of the links that it replaces.
+  /// Returns one value per link. A coarse link gets the value with the largest magnitude among the links that it
+  /// replaces.
   std::vector<float> valuesOf(const std::vector<std::uint32_t>& links, const ColourValues& values) const;
 
  private:
-  /// Which parts of the object are drawn, and whether they are those of a volume's surface. A surface is always drawn
-  /// in full, because it is far smaller than the volume.
+  /// The parts of the object that are drawn. If `ofSurface`, they are the surface of a volume. A surface is always
+  /// drawn completely, because it is far smaller than the volume.
   struct Parts {
     bool faces = true, links = true, ofSurface = false, tooFine = false;
     bool operator==(const Parts&) const = default;

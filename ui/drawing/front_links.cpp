@@ -7,13 +7,15 @@
 namespace chainmail {
 namespace {
 
-// Rounding error of depths, which are between -1 and 1: what is on a face is not behind it.
+// Rounding error of depths, which are between -1 and 1. With it, a point on a face does not count as behind the face.
 constexpr double depthRounding = 1e-6;
-// Mean link lengths. In an object without faces, the nearest element within this distance is the front layer, and links
-// this far behind it are the next layer. A grid has an element within 0.71 of every position.
+// In mean link lengths. In an object without faces, the nearest element within this distance belongs to the front
+// layer. Links that are further behind it than this belong to the next layer. In a grid, every position has an element
+// within 0.71.
 constexpr double layerThickness = 0.75;
 
-/// A position in the view with a depth that is linear along straight lines there and grows away from the eye.
+/// A position in the view, with a depth that grows with the distance from the eye and is linear along straight lines in
+/// the view.
 struct Spot {
   QPointF at;
   double depth = 0;
@@ -27,7 +29,7 @@ Spot spotOf(const Projection::Place& place) { return {{place.x, place.y}, double
 
 double crossProduct(QPointF a, QPointF b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Returns the share of the way between a link's ends (0 to 1) at which the stroke crosses it.
+/// Returns the point where the stroke crosses a link, as a fraction of the way from `a` to `b` (0 to 1).
 double shareAt(QLineF stroke, QPointF a, QPointF b) {
   const QPointF along = stroke.p2() - stroke.p1();
   const double before = crossProduct(along, a - stroke.p1()), after = crossProduct(along, b - stroke.p1());
@@ -60,7 +62,7 @@ struct SeenFace {
   std::array<Spot, 3> spots;
 
   bool has(ElementId element) const { return std::ranges::find(corners, element) != corners.end(); }
-  /// True if the face covers this spot and is nearer.
+  /// True if the face covers this spot and is nearer to the eye.
   bool hides(const Spot& spot) const {
     const auto& [a, b, c] = spots;
     const double all = crossProduct(b.at - a.at, c.at - a.at);
@@ -91,7 +93,8 @@ std::vector<SeenFace> facesAt(const Frame& frame, const Projection& projection, 
   return seen;
 }
 
-/// Returns where the faces of each cluster may appear. They extend to the clusters that it reaches.
+/// Returns, for each cluster, the part of the view where its faces may appear. Faces extend to the clusters that the
+/// cluster reaches.
 std::vector<ViewBounds> faceBounds(const ClusterBoxes& boxes, const Projection& projection) {
   const MeshLevel& level = boxes.level();
   std::vector<ViewBounds> own(level.clusterCount());
@@ -110,11 +113,11 @@ std::vector<ViewBounds> faceBounds(const ClusterBoxes& boxes, const Projection& 
   return bounds;
 }
 
-/// Where a link crosses a stroke, and at which depth (pixels).
+/// The point where a link crosses a stroke, and its depth (pixels).
 struct Crossing {
   QPointF at;
   double depth = 0;
-  double radius = 0;  // of the neighbourhood that is searched
+  double radius = 0;  // of the neighbourhood to search
 };
 
 Crossing crossingOf(const Frame& frame, const Projection& projection, QLineF stroke, LinkId link) {

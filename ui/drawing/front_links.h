@@ -9,23 +9,25 @@
 
 namespace chainmail {
 
-// Finds the links of the front layer that a stroke crosses: those that are visible, and not those behind them.
+// Functions that find the links of the front layer that a stroke crosses: the visible links, without the links behind
+// them.
 
 using Face = std::array<ElementId, 3>;
 
-/// Returns the triangles of the mesh without a cut side that may appear in a part of the view (logical pixels).
+/// Returns the triangles of the mesh that have no cut side and may appear in `part` of the view (logical pixels).
 std::vector<Face> wholeFaces(const Frame& frame, const ClusterBoxes& boxes, const Cuts& cuts,
                              const Projection& projection, QRectF part);
 
 /// Appends the faces of a volume's surface.
 void appendFaces(const Surface& surface, std::vector<Face>& faces);
 
-/// Returns the crossed links that no face hides where they cross the stroke. A face does not hide its own sides.
+/// Returns the crossed links that no face hides at the point where they cross the stroke. A face does not hide its own
+/// sides.
 std::vector<LinkId> unhiddenLinks(const Frame& frame, const Projection& projection, QLineF stroke,
                                   std::span<const LinkId> crossed, std::span<const Face> faces);
 
-/// Returns the same for an object without faces: the links that are, where they cross the stroke, less than a mean link
-/// length behind the nearest element around there.
+/// Returns the same for an object without faces. At the crossing, these links are less than 0.75 mean link lengths
+/// behind the nearest element near the crossing.
 std::vector<LinkId> nearestLinks(const Frame& frame, const ClusterBoxes& boxes, const Projection& projection,
                                  QLineF stroke, std::span<const LinkId> crossed);
 

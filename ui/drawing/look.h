@@ -6,11 +6,11 @@
 
 namespace chainmail {
 
-/// Which parts of an object are drawn. The faces of a volume are its outer surface; if they are drawn, only the links
-/// on that surface are.
+/// The parts of an object that are drawn. The faces of a volume are its outer surface. If they are drawn, only the
+/// links on that surface are drawn.
 struct Look {
   bool faces = true, links = true;
-  /// Everything that is in front of this plane at rest is hidden. The face of the section closes a volume there.
+  /// Hides everything that is in front of this plane at rest. The face of the section closes a volume there.
   std::optional<SectionPlane> section = {};
 
   bool operator==(const Look&) const = default;

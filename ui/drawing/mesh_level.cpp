@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t clusterElements = 256;  // approximately
 constexpr unsigned keyBits = 10;              // per axis
 
-/// Spreads ten bits with two free bits between neighbours.
+/// Returns ten bits with two zero bits between neighbours.
 std::uint32_t spread(std::uint32_t bits) {
   bits = (bits | bits << 16) & 0x030000ff;
   bits = (bits | bits << 8) & 0x0300f00f;
@@ -36,7 +36,7 @@ std::vector<std::uint32_t> curveKeys(const Mesh& mesh, const std::vector<Element
   return keys;
 }
 
-/// Sorts the elements by their keys: a radix sort, ten bits per pass from the lowest.
+/// Sorts the elements by their keys with a radix sort: ten bits per pass, lowest bits first.
 std::vector<ElementId> sortedAlongCurve(const Mesh& mesh, std::vector<ElementId> elements) {
   auto keys = curveKeys(mesh, elements);
   for (unsigned shift = 0; shift < 3 * keyBits; shift += keyBits) {
@@ -54,7 +54,7 @@ std::vector<ElementId> sortedAlongCurve(const Mesh& mesh, std::vector<ElementId>
   return elements;
 }
 
-/// The clusters of a lattice are bricks, with as many rows along each axis as fill a cluster approximately.
+/// The clusters of a lattice: bricks with about `clusterElements` elements each.
 struct Bricks {
   Bricks(const Mesh& mesh, unsigned step) : size(mesh.lattice->size) {
     const auto axes = std::count_if(size.begin(), size.end(), [](auto one) { return one > 1; });
@@ -88,7 +88,7 @@ Groups clustersOf(const MeshLevel& level) {
   return clusters;
 }
 
-/// Finds the clusters that each cluster reaches, and sorts its links by them.
+/// Finds the clusters that the links and faces of each cluster lead to, and sorts its links by these clusters.
 void findReached(MeshLevel& level, const std::vector<std::uint32_t>& clusterOf) {
   std::vector<std::uint32_t> slotOf(level.clusterCount()), seenBy(level.clusterCount(), MeshLevel::none), ends, sorted;
   for (std::uint32_t cluster = 0; cluster < level.clusterCount(); ++cluster) {
@@ -124,7 +124,7 @@ void findReached(MeshLevel& level, const std::vector<std::uint32_t>& clusterOf) 
   level.reachedLinks.push_back(std::uint32_t(level.links.size()));
 }
 
-/// Returns the blocks that contain each cluster's elements.
+/// Returns, for each cluster, the blocks of Frame::changed that contain its elements.
 Groups blocksOf(const MeshLevel& level) {
   Groups result;
   std::vector<std::uint32_t> seenBy(level.mesh->element_count() / Frame::block_elements + 1, MeshLevel::none);

@@ -11,7 +11,7 @@
 
 namespace chainmail {
 
-/// Numbers in consecutive groups.
+/// Numbers in groups, stored one group after the other.
 struct Groups {
   std::vector<std::uint32_t> first{0};  // index of the first item of each group, and the end
   std::vector<std::uint32_t> items;
@@ -59,8 +59,8 @@ struct MeshLevel {
   Groups clusters;      // of elements
   Groups clusterLinks;  // each link is in the cluster of its first element
   Groups clusterFaces;
-  Groups reached;  // the clusters that a cluster's links and faces lead to; may include the cluster
-  std::vector<std::uint32_t> reachedLinks;  // indices in clusterLinks of the first links to each reached one
+  Groups reached;  // the clusters that a cluster's links and faces lead to; may include the cluster itself
+  std::vector<std::uint32_t> reachedLinks;  // index in clusterLinks of the first link to each reached cluster
   Groups clusterBlocks;                     // the blocks of Frame::changed that contain a cluster's elements
 
   // Only for steps above 1.
@@ -88,7 +88,7 @@ using MeshLevelPointer = std::shared_ptr<const MeshLevel>;
 /// Returns the level with every element, link and face.
 MeshLevelPointer wholeLevel(const MeshPointer& mesh);
 
-/// Computes the clusters from the elements (in any order), the links and the faces.
+/// Computes the clusters of a level from its elements (in any order), links and faces.
 void makeClusters(MeshLevel& level);
 
 }  // namespace chainmail

@@ -9,26 +9,26 @@
 
 namespace chainmail {
 
-/// What the painters of one mesh share, created on first use: its levels of detail, and its outer surface and section
-/// under the cuts that all panels have in common.
+/// The data that all painters of one mesh share, created on first use: its levels of detail, outer surface and section.
+/// All panels have the same cuts.
 class MeshLevels {
  public:
-  /// Returns the next coarser step: powers of two, and on a lattice one step between each two of them.
+  /// Returns the next coarser step. Steps are powers of two; a lattice has one more step between two powers.
   static unsigned after(unsigned step, const Mesh& mesh);
   /// Sets the finest level of the next mesh, which a job has computed.
   void await(MeshLevelPointer whole) { next_ = std::move(whole); }
   MeshLevelPointer at(const MeshPointer& mesh, unsigned step);
 
-  /// Returns the surface of the mesh's cells; waits if it is still being computed. It starts with these cuts, and
-  /// showCuts updates it.
+  /// Returns the surface of the mesh's cells; waits if it is still being computed. A new surface has these cuts;
+  /// showCuts() updates it later.
   const Surface& surface(const MeshPointer& mesh, const Cuts& cuts);
-  /// Returns true if surface() would not wait. If not, SurfaceMaker::made follows.
+  /// Returns true if surface() would not wait. Otherwise SurfaceMaker::made is emitted when the surface is ready.
   bool hasSurface(const MeshPointer& mesh);
   SurfaceMaker& maker() { return maker_; }
   void showCuts(const std::vector<LinkId>& links, bool cut);
   /// Returns the section of the mesh's cells.
   const Section& section(const MeshPointer& mesh, const Cuts& cuts, const SectionPlane& plane);
-  /// Drops surface and section. To be called when the mesh, or all cuts, were replaced.
+  /// Drops surface and section. Call this after the mesh, or all cuts, were replaced.
   void forgetSurface();
   CardTextures& textures() { return textures_; }
 

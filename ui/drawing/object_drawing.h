@@ -19,7 +19,7 @@ class QPainter;
 
 namespace chainmail {
 
-/// Draws frames of an object, and marks over it. ObjectPainter draws on the screen, VectorPainter for print.
+/// Draws the frames of an object, and marks over it. ObjectPainter draws on the screen, VectorPainter for print.
 class ObjectDrawing {
  public:
   struct Scene {
@@ -47,13 +47,13 @@ class ObjectDrawing {
   ObjectDrawing& operator=(const ObjectDrawing&) = delete;
   virtual ~ObjectDrawing() = default;
 
-  /// Takes the frame over, once per paint. Frame and cuts must stay valid until the next call; cuts may change if the
-  /// drawing is notified.
+  /// Sets the frame to draw; called once per paint. Frame and cuts must stay valid until the next call. The cuts may
+  /// change if the drawing is notified.
   virtual void setFrame(const Frame& frame, const Cuts& cuts) = 0;
 
-  /// Draws the object. `pixelsPerUnit` (logical pixels per mesh unit) decides how finely.
+  /// Draws the object. `pixelsPerUnit` (logical pixels per mesh unit) determines the level of detail.
   virtual void drawObject(const Scene& scene, const Paint& paint, double pixelsPerUnit) = 0;
-  /// Blends everything that `draw` draws, as a whole, over the picture. At opacity 0, `draw` is not called.
+  /// Blends the drawing of `draw` as one layer over the picture. At opacity 0, `draw` is not called.
   virtual void drawSeeThrough(const Scene& scene, double opacity, const std::function<void()>& draw) = 0;
   /// Draws marks at elements; `diameter` is in logical pixels.
   virtual void drawElements(const Scene& scene, std::span<const ElementId> elements, QColor colour, float diameter,
@@ -65,14 +65,14 @@ class ObjectDrawing {
   /// Draws a line through positions in the view (logical pixels).
   virtual void drawStroke(const Scene& scene, std::span<const QPointF> positions, QColor colour) = 0;
   /// Draws segments (pairs of ends) or triangles over everything else. Positions are in mesh units on all three axes,
-  /// `width` of lines in logical pixels.
+  /// `width` is the line width in logical pixels.
   virtual void drawInSpace(const Scene& scene, std::span<const QVector3D> positions, Shape shape, QColor colour,
                            float width = 1) = 0;
-  /// Draws segments, discs or rings, coloured by one value per position. In 3D, faces hide what is behind them. `width`
-  /// is also the diameter of discs and rings.
+  /// Draws segments, discs or rings, coloured by one value per position. In 3D, faces hide everything behind them.
+  /// `width` is the width of segments, or the diameter of discs and rings (logical pixels).
   virtual void drawValued(const Scene& scene, std::span<const QVector3D> positions, std::span<const float> values,
                           const ColourScale& scale, Shape shape, float width) = 0;
-  /// Lets `draw` paint text over everything else, in logical pixels.
+  /// Calls `draw` to paint text over everything else, in logical pixels.
   virtual void drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) = 0;
 
   // Common to all drawings (logical pixels).
@@ -83,15 +83,16 @@ class ObjectDrawing {
 
   /// Returns true if every element gets a mark: there are few, and they are far enough apart.
   static bool marksElements(const Mesh& mesh, double pixelsPerUnit);
-  /// Returns the colour of fully lit faces. It is only a hint in a plane; in 3D, faces hide what is behind them. Next
-  /// to the colour map, faces are grey.
+  /// Returns the colour of fully lit faces. Next to links, faces in a plane are almost transparent; in 3D, faces hide
+  /// everything behind them. Faces are grey if the colour map colours the object.
   static QColor faceColour(const Mesh& mesh, const Paint& paint);
   /// Returns the colour of the fully lit face of a section, which differs from the object's faces.
   static QColor sectionColour(const Mesh& mesh, const Paint& paint);
-  /// Returns the brightness of a face that is seen from the side, as a share of its colour.
+  /// Returns the brightness of a face that is seen edge-on, as a fraction of its full brightness.
   static float darkestFace(const Look& look);
-  /// True if faces show a picture, or sections the slices of a volume.
+  /// True if faces show a picture.
   static bool showsPicture(const Mesh& mesh) { return mesh.texture != nullptr && mesh.texture->size[2] == 1; }
+  /// True if sections show the slices of a volume.
   static bool showsSlices(const Mesh& mesh) { return mesh.texture != nullptr && mesh.texture->size[2] > 1; }
 
  protected:
@@ -99,7 +100,7 @@ class ObjectDrawing {
     return paint.values != nullptr && paint.values->mesh.get() == mesh;
   }
   static QColor ownColour(const Mesh& mesh, const Paint& paint);
-  /// True if the values of the elements colour the faces. Links must be hidden for that.
+  /// True if the values of the elements colour the faces. This requires that links are hidden.
   static bool facesByValues(const Mesh* mesh, const Paint& paint) {
     return valuesFit(mesh, paint) && !paint.values->ofLinks && !paint.look.links && !showsPicture(*mesh);
   }

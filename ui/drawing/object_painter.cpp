@@ -1,4 +1,4 @@
-// In this order: set-up, frames, shader state, the object, marks and shapes over it.
+// The order of this file: set-up, frames, shader state, the object, marks and shapes over it.
 
 #include "drawing/object_painter.h"
 
@@ -17,11 +17,13 @@
 namespace chainmail {
 namespace {
 
-// Smooth lines cost about twice as much. With more indices than this, nobody sees the difference.
+// Lines with more indices than this are not smoothed. Smooth lines take about twice as long, and the difference would
+// not be visible.
 constexpr GLsizei mostIndicesSmoothed = 30'000;
-// More rings hide each other and cost time.
+// More rings would hide each other and take time.
 constexpr std::size_t mostRingsPainted = 50'000;
-// Valued shapes are drawn nearer by this share of the object's depth, so that faces next to them do not cut them.
+// Valued shapes are drawn nearer to the eye by this fraction of the object's depth, so that faces next to them do not
+// hide parts of them.
 constexpr float valuedLift = 0.04F;
 
 /// Sends data to the graphics card; returns the number of items.
@@ -32,7 +34,7 @@ int upload(QOpenGLBuffer& buffer, const std::vector<Datum>& data) {
   return int(data.size());
 }
 
-/// Sends the items from `first` to `end` into a buffer that already holds all of them.
+/// Sends the items from `first` to `end` into a buffer that already contains all of them.
 template <class Datum>
 void uploadPart(QOpenGLBuffer& buffer, const std::vector<Datum>& data, std::size_t first, std::size_t end) {
   buffer.bind();
@@ -54,13 +56,14 @@ void buildProgram(QOpenGLShaderProgram& program, const std::array<int, 2>& varia
 
 QVector4D rgbaOf(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
 
-/// Unit of scaled rest positions: the longest side of the mesh's box (mesh units).
+/// Returns the unit of scaled rest positions: the longest side of the mesh's box (mesh units).
 double restUnit(const Mesh& mesh) {
   const double longest = (mesh.box[1] - mesh.box[0]).maxCoeff();
   return longest > 0 ? longest : 1;
 }
 
-/// Scales a rest position to at most 1, from the lowest corner of the box: floats are exact enough for any origin.
+/// Returns a rest position relative to the lowest corner of the mesh's box, scaled to at most 1. So floats are precise
+/// enough, wherever the mesh lies.
 QVector3D scaledRest(const Mesh& mesh, const Point& rest) {
   const Point scaled = (rest - mesh.box[0]) / restUnit(mesh);
   return {float(scaled.x()), float(scaled.y()), float(scaled.z())};
@@ -74,7 +77,8 @@ std::vector<QVector3D> allScaledRests(const Mesh& mesh) {
   return positions;
 }
 
-/// Returns a plane whose product with (scaled rest position, 1) is negative in front of the section.
+/// Returns the plane of the section as a vector. Its dot product with (scaled rest position, 1) is negative in front of
+/// the section.
 QVector4D sectionVector(const Mesh& mesh, const SectionPlane& plane) {
   const auto sign = plane.flipped ? 1.0F : -1.0F;
   QVector4D vector;
@@ -83,7 +87,7 @@ QVector4D sectionVector(const Mesh& mesh, const SectionPlane& plane) {
   return vector;
 }
 
-/// Returns the projection to the same positions in the view, a little nearer to the eye.
+/// Returns a projection to the same positions in the view, but a little nearer to the eye.
 QMatrix4x4 liftedClip(const ObjectDrawing::Scene& scene) {
   if (scene.fog.y() <= scene.fog.x()) {
     return scene.toClip;
@@ -175,7 +179,7 @@ void ObjectPainter::uploadPositions(const Frame& frame) {
 
 // Shader state
 
-/// Makes the bound buffer the positions of the next draw call.
+/// Prepares the next draw call, which takes its positions from the bound buffer.
 void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dimension, int colouredBy) {
   glEnable(GL_PROGRAM_POINT_SIZE);
   glEnable(GL_BLEND);
@@ -190,7 +194,7 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
   program_->setUniformValue("background", rgbaOf(scene.background));
   program_->setUniformValue("fog", scene.fog);
   program_->setUniformValue("darkest", darkestFace(look_));
-  program_->setUniformValue("section", QVector4D(0, 0, 0, 1));  // clips nothing, even if the driver clips always
+  program_->setUniformValue("section", QVector4D(0, 0, 0, 1));  // clips nothing, even if the driver always clips
   vertexArray_.bind();
   program_->enableAttributeArray(0);
   program_->setAttributeBuffer(0, GL_FLOAT, 0, dimension);
@@ -240,7 +244,7 @@ void ObjectPainter::useMap(const ColourScale& scale) {
   program_->setUniformValue("neutral", QColor(colour_map::neutral));
 }
 
-/// Adds rest positions to the program in use if a section or a picture needs them, and switches the section on.
+/// Passes rest positions to the program in use if a section or a picture needs them, and turns the section on.
 void ObjectPainter::useRest(const Look& look) {
   const bool pictured = showsPicture(*mesh_);
   if (!look.section && !pictured) {
@@ -259,7 +263,7 @@ void ObjectPainter::useRest(const Look& look) {
   }
 }
 
-/// Binds the mesh's texture for the program in use; the first use sends it.
+/// Binds the mesh's texture for the program in use. Sends it to the graphics card on first use.
 void ObjectPainter::useTexture() {
   const Texture& texture = *mesh_->texture;
   if (texture_ == nullptr) {
@@ -331,7 +335,7 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-/// Draws the face of the section. A new frame costs only the points of this face.
+/// Draws the face of the section. For a new frame, it sends only the points of this face.
 void ObjectPainter::drawCap(const Scene& scene, const Paint& paint) {
   const Section* section = parts_.section();
   if (section == nullptr) {

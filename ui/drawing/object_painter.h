@@ -12,8 +12,8 @@
 namespace chainmail {
 
 /// Draws with OpenGL. It owns the buffers on the graphics card and sends only changes: the blocks of positions that
-/// moved, and the links and faces that the camera sees, as finely as it can show them. All calls but cutsChanged
-/// require the context to be current.
+/// moved, and the links and faces that the camera sees, as finely as it can show them. All functions except
+/// cutsChanged() require the context to be current.
 class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
  public:
   /// `levels` of the mesh may be shared with other painters.
@@ -25,7 +25,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   /// Frees the memory that drawSeeThrough uses until its next call.
   void freeSeeThrough() { seeThrough_.destroy(); }
 
-  /// To be called after links were cut or joined again.
+  /// Call this after links were cut or restored.
   void cutsChanged() { parts_.cutsChanged(); }
 
   void setFrame(const Frame& frame, const Cuts& cuts) override;
@@ -71,7 +71,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour, int shading,
                float diameter);
 
-  // The shaders, compiled for every pair of their SHADING and COLOURED_BY that is used.
+  // The shaders, compiled for each pair of SHADING and COLOURED_BY that is used.
   static constexpr std::array<std::array<int, 2>, 11> variants{
       {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 0}, {2, 0}, {2, 1}, {3, 0}, {4, 0}, {4, 1}}};
   std::array<QOpenGLShaderProgram, variants.size()> programs_;
@@ -88,7 +88,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   QOpenGLBuffer cap_{QOpenGLBuffer::IndexBuffer};  // the face of a section, which has points of its own
   QOpenGLBuffer capPositions_{QOpenGLBuffer::VertexBuffer}, capRest_{QOpenGLBuffer::VertexBuffer};
   std::shared_ptr<CardTexture> texture_;
-  GLuint valuesTexture_ = 0;  // values_ as the fragment shader reads it
+  GLuint valuesTexture_ = 0;  // values_ as a texture, for the fragment shader
   SeeThrough seeThrough_;
   DrawnParts parts_;
   MeshPointer mesh_;
@@ -96,7 +96,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   std::uint64_t frameNumber_ = 0, frameSeries_ = 0;
   std::vector<std::uint32_t> drawnLinks_;  // the numbers of the links in links_
   GLsizei faceIndices_ = 0, selectedIndices_ = 0, capIndices_ = 0;
-  bool capMoved_ = true;  // capPositions_ is older than the newest frame
+  bool capMoved_ = true;  // true if capPositions_ is older than the newest frame
   Look look_;             // of the object that is being drawn
   std::uint64_t valuesNumber_ = 0;
 };

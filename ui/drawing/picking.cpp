@@ -7,16 +7,17 @@
 namespace chainmail {
 namespace {
 
-// A pixel of depth weighs this much against a pixel of distance from the cursor.
+// Weight of a pixel of depth, relative to a pixel of distance from the cursor.
 constexpr float depthWeight = 0.15F;
 
-/// Returns twice the signed area of the triangle of line and point: the sign tells the side of the line.
+/// Returns twice the signed area of the triangle of line and point. The sign says on which side of the line the point
+/// is.
 double side(QLineF line, QPointF point) {
   return line.dx() * (point.y() - line.y1()) - line.dy() * (point.x() - line.x1());
 }
 
-/// True if two segments have a point in common. The bounds are compared first: most segments are far apart, and two
-/// segments on one line differ only in their bounds.
+/// True if two segments have a point in common. Compares the bounds first, because most segments are far apart, and
+/// because only the bounds separate two segments on one line.
 bool segmentsCross(QLineF a, QLineF b) {
   const auto apart = [](double p, double q, double r, double s) {
     return std::max(p, q) < std::min(r, s) || std::max(r, s) < std::min(p, q);
@@ -27,7 +28,8 @@ bool segmentsCross(QLineF a, QLineF b) {
   return side(a, b.p1()) * side(a, b.p2()) <= 0 && side(b, a.p1()) * side(b, a.p2()) <= 0 && !a.isNull() && !b.isNull();
 }
 
-/// Returns where links between two clusters may appear: anywhere if they extend from in front of the eye to behind it.
+/// Returns the part of the view where links between two clusters may appear: everywhere if they extend from in front of
+/// the eye to behind it.
 ViewBounds united(ViewBounds a, const ViewBounds& b) {
   if (a.empty() != b.empty()) {
     return ViewBounds::everywhere();
@@ -63,7 +65,7 @@ std::optional<ElementId> nearestElement(const Frame& frame, const ClusterBoxes& 
         continue;
       }
       const float score = std::hypot(dx, dy) + depthWeight * projection.depth(at);
-      // Of two equal ones the lower id wins, whatever the order of the clusters.
+      // Of two equal scores, the lower id wins, so that the order of the clusters has no effect.
       if (!best || score < bestScore || (score == bestScore && e < *best)) {
         best = e;
         bestScore = score;
@@ -118,7 +120,7 @@ std::vector<std::uint32_t> clustersSeen(const ClusterBoxes& boxes, const Project
 std::vector<LinkId> crossedLinks(const Frame& frame, const ClusterBoxes& boxes, const Cuts& cuts,
                                  const Projection& projection, QLineF stroke) {
   const MeshLevel& level = boxes.level();
-  // Memory for all elements, of which only those in clusters near the stroke are filled in.
+  // Has room for all elements. Only elements in clusters near the stroke are filled in.
   const auto places = std::make_unique_for_overwrite<Projection::Place[]>(level.mesh->element_count());
   std::vector<bool> placed(level.clusterCount());
   const auto projectCluster = [&](std::size_t cluster) {

@@ -12,17 +12,18 @@
 
 namespace chainmail {
 
-// Searches in a view. `shown` filters the elements; without it, all count. The boxes belong to the same frame, at the
-// level with every element, so that clusters elsewhere in the view are skipped.
+// Functions that search in a view. `shown` filters the elements; without it, all elements count. The boxes must be
+// those of the same frame, at the level with every element. They let a search skip clusters that are elsewhere in the
+// view.
 
-/// Returns the element nearest to a position in the view, at most `reach` pixels away. An element in front wins over
-/// one behind it.
+/// Returns the element nearest to a position in the view, at most `reach` logical pixels away. An element in front is
+/// preferred to one behind it.
 std::optional<ElementId> nearestElement(const Frame& frame, const ClusterBoxes& boxes, const Projection& projection,
                                         QPointF position, double reach,
                                         const std::function<bool(ElementId)>& shown = {});
 
-/// Returns the elements, ascending, at whose positions in the view `inside` is true, including hidden ones. It is
-/// called for positions in `bounds`.
+/// Returns the elements for whose position in the view `inside` returns true, ascending. They include elements hidden
+/// by others. `bounds` must contain all positions for which `inside` returns true.
 std::vector<ElementId> elementsWhere(const Frame& frame, const ClusterBoxes& boxes, const Projection& projection,
                                      QRectF bounds, const std::function<bool(QPointF)>& inside,
                                      const std::function<bool(ElementId)>& shown = {});
@@ -30,11 +31,11 @@ std::vector<ElementId> elementsWhere(const Frame& frame, const ClusterBoxes& box
 /// Returns the distance of a position from a segment, which may be a point (pixels).
 double distanceFrom(QLineF segment, QPointF position);
 
-/// Returns the uncut links, ascending, that a stroke crosses in the view.
+/// Returns the uncut links that a stroke crosses in the view, ascending.
 std::vector<LinkId> crossedLinks(const Frame& frame, const ClusterBoxes& boxes, const Cuts& cuts,
                                  const Projection& projection, QLineF stroke);
 
-/// Returns the clusters of a level with elements, links or faces that may be visible.
+/// Returns the clusters of a level whose elements, links or faces may be visible.
 std::vector<std::uint32_t> clustersSeen(const ClusterBoxes& boxes, const Projection& projection);
 
 }  // namespace chainmail

@@ -6,10 +6,12 @@
 namespace chainmail {
 namespace {
 
-// Bound on the rounding error of a sum of four products in single precision, as a share of the sum of magnitudes.
+// Upper bound of the rounding error of a sum of four products in single precision, as a fraction of the sum of their
+// magnitudes.
 constexpr double projectionRounding = 8 * std::numeric_limits<float>::epsilon();
 
-// The view extends from -1 to 1; the rest allows for the width of lines and marks, and for rounding.
+// The view extends from -1 to 1 in clip coordinates. The margin allows for the width of lines and marks, and for
+// rounding.
 constexpr double viewEdge = 1.05;
 
 }  // namespace
@@ -40,7 +42,7 @@ bool ViewBounds::meets(const QRectF& rectangle) const {
                        top > rectangle.bottom());
 }
 
-/// False if all corners are on one side of the line, or if the bounds of the segment are elsewhere.
+/// Returns false if the bounds of the segment are elsewhere, or if all corners are on one side of its line.
 bool ViewBounds::meets(const QLineF& segment) const {
   if (!meets(QRectF(segment.p1(), segment.p2()).normalized())) {
     return false;
@@ -101,7 +103,8 @@ unsigned Projection::beyond(const ClusterBoxes::Box& box) const {
   return sides;
 }
 
-/// The projection of a convex body in front of the eye is within the bounds of its projected corners.
+/// Uses only the corners: the projection of a convex body in front of the eye is within the bounds of its projected
+/// corners.
 ViewBounds Projection::bounds(const ClusterBoxes::Box& box) const {
   const float* m = matrix_.constData();
   std::array<double, 4> size{};  // sum of the magnitudes of the terms of each row
@@ -127,7 +130,7 @@ ViewBounds Projection::bounds(const ClusterBoxes::Box& box) const {
   if (!(nearest > 4 * ofDistance)) {
     return ViewBounds::everywhere();
   }
-  // A position is x / w. Its error is that of x, and that of w times the position.
+  // A position is x / w. Its error has two parts: the error of x, and the error of w times the position.
   const double spanX = 1 + std::max(std::abs(result.left), std::abs(result.right)) / view_.width();
   const double spanY = 1 + std::max(std::abs(result.top), std::abs(result.bottom)) / view_.height();
   const double offX = 2 * (projectionRounding * size[0] + ofDistance * 2 * spanX) / nearest * view_.width();

@@ -9,10 +9,11 @@
 
 namespace chainmail {
 
-/// Returns the matrix from the coordinates that the mesh has (1 to 3) to all three of space; the others are constant.
+/// Returns the matrix that maps the coordinates on the axes of the mesh (1 to 3) to all three coordinates of space. The
+/// other coordinates are constant.
 QMatrix4x4 placement(const Mesh& mesh);
 
-/// Bounds of something in a view (logical pixels).
+/// A rectangle in a view (logical pixels); empty by default.
 struct ViewBounds {
   double left = std::numeric_limits<double>::max(), top = left;
   double right = std::numeric_limits<double>::lowest(), bottom = right;
@@ -38,19 +39,19 @@ class Projection {
     float z;         // of the clip space
     bool visible() const { return distance > 0; }
   };
-  /// `carried` points to the coordinates that the mesh has.
+  /// Projects a point. `carried` points to its coordinates on the axes of the mesh.
   Place operator()(const float* carried) const;
-  /// Returns the depth in pixels, which grows away from the eye.
+  /// Returns the depth in pixels, which grows with the distance from the eye.
   float depth(const Place& place) const;
-  /// Returns the number of pixels per mesh unit there, across the view and in depth.
+  /// Returns the number of pixels per mesh unit at this place, across the view and in depth.
   float pixelsPerUnit(const Place& place) const {
     return pixelsPerZ_ != 0 ? pixelsPerDepth_ : pixelsPerDepth_ / place.distance;
   }
-  /// Returns the sides of the view, as bits, beyond which the whole box is. Anything between two boxes is beyond the
-  /// sides that they have in common, even if one of them is behind the eye.
+  /// Returns one bit per side of the view, set if the whole box is beyond that side. Anything between two boxes is
+  /// beyond the sides that are set for both, even if one of the boxes is behind the eye.
   unsigned beyond(const ClusterBoxes::Box& box) const;
-  /// Returns where the contents of a box appear, rounding included: nowhere if the box is behind the eye, everywhere if
-  /// a part of it is.
+  /// Returns the part of the view where the contents of a box may appear, with a margin for rounding: empty if the box
+  /// is behind the eye, everywhere() if only a part of it is.
   ViewBounds bounds(const ClusterBoxes::Box& box) const;
 
  private:

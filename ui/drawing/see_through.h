@@ -9,8 +9,8 @@ class QOpenGLFramebufferObject;
 
 namespace chainmail {
 
-/// Draws into an empty picture and blends it as a whole over the current one: the object hides its own back, and shows
-/// what is behind it. All calls require the context to be current.
+/// Draws an object see-through: draws it into an empty picture, and blends this picture as one layer over the current
+/// one. So the object hides its own back, but not the objects behind it. All calls require the context to be current.
 class SeeThrough {
  public:
   SeeThrough();

@@ -45,7 +45,7 @@ void SurfaceMaker::begin(const MeshPointer& mesh) {
     try {
       promise.set_value(makeSurface(mesh, Progress(*job_)));
       emit made();
-    } catch (...) {  // cancelled, or out of memory: take() throws it
+    } catch (...) {  // cancelled, or out of memory: take() throws the exception
       promise.set_exception(std::current_exception());
     }
   });

@@ -9,8 +9,8 @@
 
 namespace chainmail {
 
-/// Computes the surfaces of uncut meshes: those of small meshes at once, those of large ones on a thread of its own, so
-/// that the window stays responsive.
+/// Computes the surfaces of uncut meshes. Surfaces of small meshes are computed at once, those of large meshes on a
+/// separate thread, so that the window stays responsive.
 class SurfaceMaker : public QObject {
   Q_OBJECT
 

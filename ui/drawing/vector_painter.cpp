@@ -1,4 +1,4 @@
-// In this order: frames, pieces, the object, marks and shapes over it, output.
+// The order of this file: frames, pieces, the object, marks and shapes over it, output.
 
 #include "drawing/vector_painter.h"
 
@@ -13,15 +13,15 @@
 namespace chainmail {
 namespace {
 
-constexpr float mostFaded = 0.75F;               // the same as on the screen: fading with depth is never complete
-constexpr float liftOfLines = 0.5F;              // mean link lengths: links and marks of a surface lie before its faces
-constexpr float ringHole = 0.64F;                // of its diameter
-constexpr double softEdge = 0.5;                 // pixels: on the screen, marks fade inside their edges
-constexpr int shadesOfALink = 8;                 // at most, if the values at its ends differ
-constexpr float seamWidth = 0.4F;                // pixels: closes the gaps between faces
-constexpr std::size_t mostRingsPrinted = 5'000;  // more hide each other
+constexpr float mostFaded = 0.75F;   // largest fading with depth, the same as on the screen
+constexpr float liftOfLines = 0.5F;  // mean link lengths; draws links and marks of a surface in front of its faces
+constexpr float ringHole = 0.64F;    // diameter of the hole, as a fraction of the ring's diameter
+constexpr double softEdge = 0.5;     // pixels; on the screen, marks fade inside their edges
+constexpr int shadesOfALink = 8;     // largest number, if the values at its ends differ
+constexpr float seamWidth = 0.4F;    // pixels; closes the gaps between faces
+constexpr std::size_t mostRingsPrinted = 5'000;  // more rings would hide each other
 
-/// Returns the mean of a few texels in a triangle, given by its rest positions.
+/// Returns the mean colour of a few texels in a triangle. `corners` are its rest positions.
 QColor texelsOf(const Texture& texture, const std::array<Point, 3>& corners) {
   std::array<int, 4> sum{};
   int count = 0;
@@ -93,7 +93,8 @@ QColor VectorPainter::faded(const Scene& scene, const QColor& colour, float dist
                           mixed(colour.blueF(), ground.blueF()), colour.alphaF());
 }
 
-/// Adds a piece, but nothing behind the eye or outside the view: some programs that show drawings cannot clip.
+/// Adds a piece, without its parts outside the view, because some programs that show vector graphics cannot clip. Skips
+/// a piece that is behind the eye.
 void VectorPainter::add(const Scene& scene, std::span<const QVector3D> positions, const QColor& colour, float width,
                         Mark mark, float lift) {
   Piece piece{{}, int(positions.size()), -lift, colour, width, mark};
@@ -119,7 +120,7 @@ void VectorPainter::add(const Scene& scene, std::span<const QVector3D> positions
 
 void VectorPainter::addClipped(Piece piece, const QRectF& view) {
   const QPointF from = piece.corners[0], way = piece.corners[1] - from;
-  double first = 0, last = 1;                         // the visible part of the line, as shares of it
+  double first = 0, last = 1;                         // the visible part of the line, as fractions of it
   const auto keep = [&](double along, double room) {  // clips to along * share <= room
     if (along > 0) {
       last = std::min(last, room / along);
@@ -267,7 +268,7 @@ void VectorPainter::addLinks(const Scene& scene, const Paint& paint) {
   }
 }
 
-/// Adds a link in pieces of one colour each. Their number grows with the difference in value of the ends.
+/// Adds a link in pieces of one colour each. Their number grows with the difference between the values at its ends.
 void VectorPainter::addLink(const Scene& scene, const std::array<QVector3D, 2>& ends,
                             const std::array<float, 2>& values, const ColourScale& scale, float width) {
   const float range = scale.highest - scale.lowest;

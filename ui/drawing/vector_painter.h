@@ -7,11 +7,10 @@
 
 namespace chainmail {
 
-/// Draws vector graphics, for print. Without a depth buffer, it sorts marks, lines and faces from the back to the
-/// front.
+/// Draws vector graphics, for print. It has no depth buffer, so it sorts marks, lines and faces from back to front.
 class VectorPainter : public ObjectDrawing {
  public:
-  /// `levels` of the mesh may be shared.
+  /// `levels` may be shared with other painters of the same mesh.
   VectorPainter(QPainter& painter, std::shared_ptr<MeshLevels> levels);
   ~VectorPainter() override;
 
@@ -31,7 +30,7 @@ class VectorPainter : public ObjectDrawing {
   void drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) override;
 
  private:
-  /// Where a point in space appears in the view, and its distance from the eye.
+  /// The position of a point in the view, and its distance from the eye (mesh units).
   struct Seen {
     QPointF at;
     float distance = 0;
@@ -43,7 +42,7 @@ class VectorPainter : public ObjectDrawing {
     int count = 1;
     float distance = 0;
     QColor colour;
-    float width = 1;  // of a line, or the diameter of a mark
+    float width = 1;  // width of a line, or diameter of a mark (logical pixels)
     Mark mark = Mark::disc;
   };
 
@@ -56,7 +55,8 @@ class VectorPainter : public ObjectDrawing {
   void addFaceClipped(Piece piece, const QRectF& view);
   /// Returns how far an element is in front of the section at rest (mesh units); 0 without a section.
   double beforeSection(ElementId element, const Look& look) const;
-  /// Returns the part of a line that the section leaves, as two shares of it, or the corners of the part of a face.
+  /// Returns the part of a line that the section does not hide, as two fractions of the line, or the corners of that
+  /// part of a face.
   std::array<float, 2> shown(ElementId from, ElementId to, const Look& look) const;
   std::vector<QVector3D> shown(std::span<const ElementId> corners, const Look& look) const;
   static QColor lit(const Scene& scene, std::span<const QVector3D> positions, const QColor& colour, const Look& look);
@@ -66,7 +66,7 @@ class VectorPainter : public ObjectDrawing {
   void addLink(const Scene& scene, const std::array<QVector3D, 2>& ends, const std::array<float, 2>& values,
                const ColourScale& scale, float width);
   void addElements(const Scene& scene, const Paint& paint);
-  /// Draws all pieces that were added, from the back to the front.
+  /// Draws all pieces that were added, from back to front.
   void flush();
   void draw(const Piece& piece);
 

@@ -20,7 +20,7 @@ ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), ac
   }
   connect(this, &QComboBox::activated, this, [this] {
     colouring_.setMode(ColourMode(currentData().toInt()));
-    clearFocus();  // shortcuts work again
+    clearFocus();  // so that shortcuts work again
   });
   connect(&colouring, &Colouring::modeChanged, this, &ColourSelector::showMode);
   showMode();

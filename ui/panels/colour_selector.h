@@ -7,7 +7,7 @@
 
 namespace chainmail {
 
-/// 'Colour by', for all panels: a selector for the tool bar, and the same choices as actions for a menu.
+/// The 'Colour by' setting of all panels: a selector for the tool bar, and the same choices as actions for a menu.
 class ColourSelector : public QComboBox {
   Q_OBJECT
 

@@ -1,4 +1,4 @@
-// In this order: modes, changes that make values outdated, computing in slices, single values, scales, titles.
+// The order of this file: modes, changes that make values outdated, computing in slices, single values, scales, titles.
 
 #include "panels/colouring.h"
 
@@ -16,9 +16,9 @@ namespace chainmail {
 namespace {
 
 constexpr int sliceIntervalMilliseconds = 16;
-constexpr int sliceMilliseconds = 4;  // per panel and interval: drawing and dragging need the rest of the time
+constexpr int sliceMilliseconds = 4;  // per panel and interval; drawing and dragging need the rest of the time
 constexpr std::size_t valuesPerClockCheck = 4096;
-// The same as in the figures below the panels: smaller violations are rounding.
+// In rest lengths, as in the figures below the panels. Smaller violations are rounding errors.
 constexpr float violationThreshold = 1e-4F;
 
 constexpr std::array modeInfos{
@@ -111,7 +111,7 @@ void Colouring::receiveFrame(int panel) {
   }
 }
 
-/// Values against an older reference solution are not shown any longer.
+/// Drops values that were computed with an older reference solution.
 void Colouring::followSolution() {
   if (mode_ == ColourMode::physicsError) {
     startOver();
@@ -155,8 +155,8 @@ const ColourValues* Colouring::follow(int panel) {
   return work.shown.number != 0 ? &work.shown : nullptr;
 }
 
-/// Copies everything that the values depend on. Returns false while a panel has no frame of the object yet, or while
-/// there is no reference solution.
+/// Starts to compute the values of a panel: copies everything that they depend on. Returns false while a required frame
+/// or the reference solution is missing.
 bool Colouring::start(int panel) {
   Work& work = works_[panel];
   work.others = comparedWith(panel);
@@ -307,7 +307,8 @@ float Colouring::distance(const Work& work, int panel, int other, ElementId elem
   return mesh.mean_link_length > 0 ? float(std::sqrt(squared) / mesh.mean_link_length) : 0;
 }
 
-/// Distance of an element from its position in the reference solution, as a share of the displacement of the handle.
+/// Returns the distance of an element from its position in the reference solution, as a fraction of the handle's
+/// displacement.
 float Colouring::physicsError(const Work& work, int panel, ElementId element) const {
   const Mesh& mesh = *work.building.mesh;
   double squared = 0;
@@ -343,7 +344,7 @@ void Colouring::updateScales() {
   }
 }
 
-/// Widens the range of the values as the mode requires.
+/// Returns `scale` with the range and threshold that the mode requires.
 ColourScale Colouring::finished(ColourScale scale) const {
   if (mode_ == ColourMode::violation) {
     scale.lowest = scale.threshold = violationThreshold;
@@ -380,8 +381,8 @@ QString Colouring::title(int panel) const {
   return QStringLiteral("%1 (%2)").arg(what, text(mode.unit));
 }
 
-/// The relative error divides by the RMS displacement of the reference solution, so it is about 1 for an object that
-/// does not move.
+/// Returns the errors of a panel as text. The relative error is divided by the RMS displacement of the reference
+/// solution, so it is about 1 for an object that does not move.
 QString Colouring::errorText(const Work& work) const {
   const BackgroundReference::Answer& answer = *solution_.answer();
   const QLocale locale;

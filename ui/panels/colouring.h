@@ -26,8 +26,8 @@ const ColourModeInfo& info(ColourMode mode);
 /// True if the values of a panel also depend on another panel's object.
 bool comparesPanels(ColourMode mode);
 
-/// Computes the values that colour the objects of the panels: only for panels that are painted, only after a change,
-/// and in slices, so that the colours of a large mesh lag behind and the window does not.
+/// Computes the values that colour the objects of the panels. It computes only for panels that are painted, only after
+/// a change, and in short time slices. So the colours of a large mesh may lag behind, but the window stays responsive.
 class Colouring : public QObject {
   Q_OBJECT
 
@@ -36,16 +36,15 @@ class Colouring : public QObject {
 
   ColourMode mode() const { return mode_; }
   void setMode(ColourMode mode);
-  /// The panel that modes which compare panels use as reference. It is itself compared with the panel that differs
-  /// most.
+  /// The reference panel of modes that compare panels. This panel itself is compared with the panel that differs most.
   int reference() const { return reference_; }
   void setReference(int panel);
   /// True if all panels share one scale, so that a colour means the same value in each.
   bool sharesScale() const { return sharesScale_; }
   void setSharesScale(bool shares);
 
-  /// To be called when a panel is painted. Returns the values of its newest frame, or those of a slightly older frame
-  /// while the new ones are computed. Returns null in plain mode and before there are any values.
+  /// Call this when a panel is painted. Returns the values of its newest frame, or those of a slightly older frame
+  /// while the new ones are computed. Returns null in plain mode and before the first values are ready.
   const ColourValues* follow(int panel);
   /// Drops the values of a panel that is no longer painted. They no longer count for the shared scale.
   void forget(int panel);
@@ -73,11 +72,11 @@ class Colouring : public QObject {
     std::size_t next = 0;
     ColourValues building, shown;
     std::vector<int> others;  // the panels that it is compared with
-    // Copied when the work begins, because frames, softness and the reference solution may change meanwhile.
+    // Copied when the work begins, because frames, softness and the reference solution may change during the work.
     std::array<Copy, Document::mostPanels> copies;
     std::shared_ptr<const Softness> softness;
     std::shared_ptr<const BackgroundReference::Answer> solution;
-    double squares = 0, rms = 0;  // of the values being computed, and of those shown
+    double squares = 0, rms = 0;  // sum of squares of the values being computed, and RMS of those shown
   };
 
   void receiveFrame(int panel);

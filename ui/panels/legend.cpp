@@ -10,7 +10,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int legendMargin = 8;  // pixels, the same as of the other lines of a panel
+constexpr int legendMargin = 8;  // pixels, the same as in the other lines of a panel
 constexpr int gap = 6;           // pixels between the bar and its numbers
 constexpr int barHeight = 10;
 constexpr int widestBar = 280;
@@ -83,7 +83,7 @@ void Legend::draw(QPainter& painter) const {
   }
 }
 
-/// Draws the colour of values that are too small to count.
+/// Draws the colour of values at or below the threshold.
 void Legend::drawNeutral(QPainter& painter, QRect& line) const {
   painter.fillRect(barIn(line, barHeight), colour_map::neutral);
   line.setLeft(line.left() + barHeight + gap);

@@ -18,7 +18,7 @@ class Legend : public QWidget {
   void follow(const Colouring& colouring, int panel);
   /// Shows the colours of an overlay instead.
   void show(const OverlayLegend& legend);
-  /// Draws the legend with the painter's pen and font, in its own width.
+  /// Draws the legend with the painter's pen and font, in the width of this widget.
   void draw(QPainter& painter) const;
   /// The texts of the legend; the numbers are empty while there are no values.
   QString title() const { return title_; }

@@ -36,7 +36,7 @@ class Overlay {
   Overlay& operator=(const Overlay&) = delete;
   virtual ~Overlay() = default;
 
-  /// Returns how the object of a panel is coloured; without a value, the overlay does not change it.
+  /// Returns the colours of a panel's object; no value if the overlay does not change them.
   virtual std::optional<ObjectDrawing::Paint> paint(int /*panel*/) const { return std::nullopt; }
   virtual void draw(const Canvas& canvas) = 0;
   /// Returns lines with texts, drawn over everything else.

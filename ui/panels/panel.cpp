@@ -1,4 +1,4 @@
-// In this order: construction, figures, state line, drawing for print.
+// The order of this file: construction, figures, state line, drawing for print.
 
 #include "panels/panel.h"
 
@@ -105,7 +105,7 @@ void Panel::showStatistics() {
   }
 }
 
-/// Uses a shorter text if the panel is narrow.
+/// Shows the figures of the last pass. Uses a shorter text if the panel is narrow.
 void Panel::showFigures(const Statistics& statistics) {
   const QString help = QStringLiteral(
       "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is "
@@ -118,7 +118,7 @@ void Panel::showFigures(const Statistics& statistics) {
   }
 }
 
-/// If the solver reports a problem, the remark replaces the violation.
+/// Returns the figures as HTML. If the solver reports a problem, its remark replaces the violation.
 QString Panel::describe(const Statistics& statistics, bool briefly) const {
   return describePass(statistics, briefly) + QStringLiteral("<br>") +
          (statistics.remark.empty() ? describeViolation(statistics, briefly) : describeRemark(statistics));

@@ -10,7 +10,7 @@
 
 namespace chainmail {
 
-/// One side of the comparison: the head with the algorithm, the legend, the view, and the figures of the last pass.
+/// One panel of the comparison: the head with the algorithm, the legend, the view, and the figures of the last pass.
 class Panel : public QFrame {
   Q_OBJECT
 
@@ -49,7 +49,7 @@ class Panel : public QFrame {
   View* view_;
   PanelHead* head_;
   Legend* legend_;
-  QTimer refresh_;  // limits the figures to a rate that can be read
+  QTimer refresh_;  // limits how often the figures change, so that they can be read
 };
 
 }  // namespace chainmail

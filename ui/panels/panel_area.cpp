@@ -42,7 +42,7 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
     column_->addWidget(row);
   }
   refit_.setSingleShot(true);
-  refit_.setInterval(0);  // after all views have their sizes
+  refit_.setInterval(0);  // runs after all views have their sizes
   connect(&refit_, &QTimer::timeout, this, &PanelArea::fitAgain);
   for (const auto& [moved, other] : {std::pair(rows_[0], rows_[1]), std::pair(rows_[1], rows_[0])}) {
     connect(moved, &QSplitter::splitterMoved, this, [this, moved = moved, other = other] {
@@ -158,8 +158,8 @@ void PanelArea::setSection(const std::optional<SectionPlane>& section) {
   setLook(look_);
 }
 
-/// Returns the panels, hidden and wide ones first: linked views fit the narrowest one last, and what it shows whole,
-/// all do.
+/// Returns the panels, hidden and wide ones first. Linked views share one camera, which must fit the narrowest view
+/// last: if that view shows the whole object, all views do.
 std::vector<Panel*> PanelArea::byAspect() const {
   auto all = panels_;
   const auto hidden =
@@ -174,7 +174,7 @@ void PanelArea::fit() {
   }
 }
 
-/// Does nothing while the user drags: the object must stay under the cursor.
+/// Fits the views again after a resize. Does nothing during a drag, because the object must stay under the cursor.
 void PanelArea::fitAgain() {
   if (document_.highlight().grabbed) {
     return;

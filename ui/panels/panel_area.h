@@ -18,8 +18,8 @@ class Overlay;
 class Panel;
 class Tool;
 
-/// The panels, side by side: up to two in a row, up to two rows of the same height. A panel keeps its number wherever
-/// it is. Hidden panels keep running.
+/// The panels, in up to two rows of the same height with up to two panels each. A panel keeps its number when it moves.
+/// Hidden panels keep running.
 class PanelArea : public QWidget {
   Q_OBJECT
 
@@ -36,20 +36,19 @@ class PanelArea : public QWidget {
   void setHeadActions(const QList<QAction*>& actions);
   /// Repaints all panels after an overlay has changed.
   void refresh();
-  /// Sets which parts of the object all panels draw; the section is set apart.
+  /// Sets the parts of the object that all panels draw. Ignores the section of `look`, which setSection() sets.
   void setLook(const Look& look);
   void setSection(const std::optional<SectionPlane>& section);
   /// Shows the whole rest shape in every panel.
   void fit();
 
   bool isShown(int panel) const { return shown_[std::size_t(panel)]; }
-  /// At least one panel stays visible.
+  /// Shows or hides a panel. At least one panel stays visible.
   void setShown(int panel, bool shown);
-  /// The only visible panel, if a panel is shown alone. Without a value, setAlone shows all panels again that were not
-  /// hidden.
+  /// The panel that is shown alone, if any. Without a value, setAlone() shows all panels again, except hidden ones.
   std::optional<int> alone() const { return alone_; }
   void setAlone(std::optional<int> panel);
-  /// Moves each panel to the position of the previous one: two panels swap sides.
+  /// Moves each panel to the position of the previous one. Two panels swap sides.
   void rotatePanels();
   /// The visible panels, in the order of their positions.
   std::vector<int> inSight() const;

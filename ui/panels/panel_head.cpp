@@ -14,7 +14,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int smallestSelector = 90;  // pixels: in a narrow panel, the name is shortened
+constexpr int smallestSelector = 90;  // pixels; in a narrow panel, the name is shortened
 
 }  // namespace
 

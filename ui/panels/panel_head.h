@@ -13,8 +13,8 @@ namespace chainmail {
 
 class View;
 
-/// The line above a panel's view: colour and letter, the selector of the algorithm, the state of the object, and the
-/// buttons that arrange the panel. A double-click next to them shows only this panel, or all panels again.
+/// The line above a panel's view: colour and letter, the algorithm selector, the state of the object, and the buttons
+/// that arrange the panel. A double-click next to them shows only this panel, or all panels again.
 class PanelHead : public QWidget {
   Q_OBJECT
 
@@ -23,9 +23,9 @@ class PanelHead : public QWidget {
 
   QComboBox& selector() { return *selector_; }
   void showState(const QString& state);
-  /// Shows whether the panel is the only one.
+  /// Shows on the button whether the panel is shown alone.
   void showAlone(bool alone);
-  /// Adds buttons for actions. A button is visible if its action is enabled and showActions is on.
+  /// Adds buttons for actions. A button is visible if its action is enabled and showActions(true) was called.
   void setActions(const QList<QAction*>& actions);
   void showActions(bool shown);
 

@@ -7,8 +7,8 @@ namespace chainmail {
 
 class Colouring;
 
-/// Switches for what the panels share: the camera, the range of the colours, and the marks of elements. All are on at
-/// first.
+/// Switches that link the panels: the camera, the range of the colours, and the marks of elements. All are on by
+/// default.
 class PanelLinks : public QObject {
   Q_OBJECT
 
@@ -22,7 +22,7 @@ class PanelLinks : public QObject {
   /// True if all panels mark the element under the cursor and the selection.
   bool marks() const { return marks_->isChecked(); }
 
-  /// The panel that the mouse was in last. It shows the marks if they are not linked.
+  /// The panel that last contained the mouse. If the marks are not linked, only this panel shows them.
   int pointed() const { return pointed_; }
   void point(int panel) { pointed_ = panel; }
 

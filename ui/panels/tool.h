@@ -19,23 +19,24 @@ class Tool {
   virtual QString hint() const = 0;
   virtual QCursor cursor() const = 0;
 
-  /// Positions are in logical pixels from the top left of the view. `hover` is a move without a button.
+  /// Positions are in logical pixels from the top left of the view. hover() is a move without a pressed button.
   virtual void hover(View& view, QPointF position) = 0;
   virtual void press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) = 0;
   virtual void move(View& view, QPointF position) = 0;
   virtual void release(View& view, QPointF position) = 0;
   /// The cursor has left the view.
   virtual void leave(View& /*view*/) {}
-  /// True if single clicks have an effect: then a double click is two clicks and does not move the camera.
+  /// True if single clicks have an effect. Then a double click counts as two clicks and does not move the camera.
   virtual bool clicks() const { return false; }
   /// True during a stroke or a drag.
   virtual bool busy() const = 0;
-  /// Abandons the current stroke or drag without a trace. Esc, another tool and undo call it.
+  /// Ends the current stroke, which then has no effect, or the current drag. Called by Esc, by undo, and when another
+  /// tool is chosen.
   virtual void cancel() = 0;
   /// Handles Esc, also without a current stroke or drag.
   virtual void escape() { cancel(); }
 
-  /// Returns a line to draw in the view that the tool is used in (logical pixels).
+  /// Returns a line to draw in `view` (logical pixels); empty if the tool is not used in it.
   virtual std::span<const QPointF> stroke(const View& view) const = 0;
 };
 

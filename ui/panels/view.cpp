@@ -1,4 +1,4 @@
-// In this order: construction, tools and overlays, camera, search, mouse, keyboard, painting, pictures.
+// The order of this file: construction, tools and overlays, camera, search, mouse, keyboard, painting, pictures.
 
 #include "panels/view.h"
 
@@ -20,7 +20,7 @@
 namespace chainmail {
 namespace {
 
-constexpr double elementReach = 14;  // pixels from the cursor within which an element is found
+constexpr double elementReach = 14;  // pixels, largest distance from the cursor at which an element is found
 constexpr int hoverMilliseconds = 16;
 constexpr double zoomPerNotch = 1.2;
 constexpr float pinSize = 13;           // pixels
@@ -51,7 +51,7 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
       painter_(levels_),
       hover_(this) {
   setMouseTracking(true);
-  setFocusPolicy(Qt::StrongFocus);  // a click takes the keyboard from an input field
+  setFocusPolicy(Qt::StrongFocus);  // a click takes the keyboard focus from an input field
   setMinimumSize(160, 90);
   hover_.setSingleShot(true);
   hover_.setInterval(hoverMilliseconds);
@@ -66,7 +66,7 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
 void View::listen() {
   connect(&document_, &Document::frameReady, this, [this](int ready) {
     if (ready == panel_ || ready == ghost_.of) {
-      update();  // the paint takes the frame over
+      update();  // the paint takes the newest frame
     }
   });
   connect(&document_, &Document::highlightChanged, this, qOverload<>(&View::update));
@@ -213,7 +213,7 @@ void View::zoom(double factor, QPointF about) {
   announceCamera();
 }
 
-// Search: what is at a position in the view, and where things appear
+// Search: elements and links at a position in the view, and positions of elements in the view
 
 const ClusterBoxes& View::boxes(const Frame& frame) const {
   boxes_.follow(levels_->at(frame.mesh, 1), frame);
@@ -340,7 +340,8 @@ void View::moveCamera(QPointF travel, Qt::MouseButtons buttons) {
   }
 }
 
-/// The second press of a double click moves the point under the cursor to the centre of the view; it grabs nothing.
+/// The second press of a double click moves the point under the cursor to the centre of the view. It does not grab an
+/// element.
 void View::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || (tool_ != nullptr && tool_->clicks())) {
     mousePressEvent(event);
@@ -373,7 +374,7 @@ void View::wheelEvent(QWheelEvent* event) {
   zoom(std::pow(zoomPerNotch, event->angleDelta().y() / 120.0), event->position());
 }
 
-// Keyboard: a frame shows the focus, but not after a click
+// Keyboard: a frame shows the focus, except after a click
 
 void View::focusInEvent(QFocusEvent* event) {
   QOpenGLWidget::focusInEvent(event);
@@ -471,7 +472,7 @@ ObjectDrawing::Scene View::scene(double pixelRatio, const QColor& ground) const 
   return scene;
 }
 
-/// Draws everything but the frame of the focus. The panel must have a frame.
+/// Draws everything except the frame of the keyboard focus. The panel must have a frame.
 void View::draw(const Easel& on) {
   takeFrames(on);
   drawObjects(on);
@@ -485,7 +486,8 @@ void View::draw(const Easel& on) {
 
 const Frame* View::ghostFrame() const { return ghost_.of ? document_.frame(*ghost_.of) : nullptr; }
 
-/// The painters take over the newest frames; a painter sends to the graphics card only what changed since the last one.
+/// Passes the newest frames to the painters. A painter sends only the changes since its last frame to the graphics
+/// card.
 void View::takeFrames(const Easel& on) {
   on.own.setFrame(*document_.frame(panel_), document_.cuts());
   if (on.ghost != nullptr) {
@@ -507,7 +509,8 @@ void View::drawObjects(const Easel& on) {
                            [&] { on.ghost->drawObject(on.scene, ghostPaint, pixelsPerUnit); });
 }
 
-/// Links that are coloured by a value are drawn even if links are hidden.
+/// Returns the colours and the parts of the object to draw. Links that are coloured by a value are drawn even if links
+/// are hidden.
 ObjectDrawing::Paint View::objectPaint() {
   auto paint = colouredPaint();
   paint.look = look_;
@@ -515,7 +518,8 @@ ObjectDrawing::Paint View::objectPaint() {
   return paint;
 }
 
-/// An overlay colours the object, or its values do, or else its panel.
+/// Returns the colours of the object: those of the first overlay that has colours, otherwise those of the values,
+/// otherwise the colour of the panel.
 ObjectDrawing::Paint View::colouredPaint() {
   for (const Overlay* overlay : overlays_) {
     if (const auto paint = overlay->paint(panel_)) {
@@ -526,8 +530,8 @@ ObjectDrawing::Paint View::colouredPaint() {
   return {colour_, values, colouring_.scale(panel_)};
 }
 
-/// Draws the selection, the highlight, the pins and the tool's stroke. Pins come late, so that the cursor's mark does
-/// not hide them.
+/// Draws the selection, the highlight, the pins and the tool's stroke. Pins are drawn after the highlight, so that the
+/// cursor's mark does not hide them.
 void View::drawMarks(const Easel& on) {
   const auto& in = on.scene;
   if (links_.marks() || selectedHere_) {

@@ -29,28 +29,31 @@ struct Ghost {
   bool operator==(const Ghost&) const = default;
 };
 
-/// Draws the object of one panel and passes the left mouse button to the active tool. It knows no rule of the model.
+/// Draws the object of one panel and passes the left mouse button to the active tool. It contains no rules of the
+/// model.
 ///
-/// A new frame, another highlight or another camera only schedules a paint. The paint hands the newest frame to the
-/// painter, once. Everything else (the search under the cursor, readouts, figures) reads the document's frame.
+/// A new frame, another highlight or another camera only schedules a paint. The paint passes the newest frame to the
+/// painter once. Everything else (the search under the cursor, readouts, figures) reads the document's frame.
 class View : public QOpenGLWidget {
   Q_OBJECT
 
  public:
-  /// The panels share the camera, unless they are unlinked, and the levels of detail of the mesh.
+  /// Panels share `camera` while their cameras are linked. They always share `levels`, the levels of detail of the
+  /// mesh.
   View(Document& document, Colouring& colouring, PanelLinks& links, int panel, std::shared_ptr<Camera> camera,
        std::shared_ptr<MeshLevels> levels);
   ~View() override;
 
   int panel() const { return panel_; }
   void setTool(Tool* tool);
-  /// Draws an overlay over the object, after the overlays that were added before. Changing it requires update().
+  /// Draws an overlay over the object, after the overlays that were added before. Call update() after each change of
+  /// the overlay.
   void addOverlay(Overlay& overlay) { overlays_.push_back(&overlay); }
   /// The notes of the overlays on this panel.
   QStringList notes() const;
   /// The legend of the first overlay that has one for this panel.
   std::optional<OverlayLegend> overlayLegend() const;
-  /// Sets which parts of the object are drawn.
+  /// Sets the parts of the object that are drawn.
   void setLook(const Look& look);
   void setGhost(const Ghost& ghost);
   const Ghost& ghost() const { return ghost_; }
@@ -72,23 +75,25 @@ class View : public QOpenGLWidget {
   void lookFrom(double yaw, double pitch);
   void setParallel(bool parallel);
 
-  // For tools and overlays. Positions in the view are in logical pixels from its top left.
+  // For tools and overlays. Positions in the view are in logical pixels from its top left corner.
   /// Returns the element at a position in the view, if there is one.
   std::optional<ElementId> elementAt(QPointF position) const;
   std::vector<LinkId> linksCrossing(QLineF stroke) const;
   /// Returns the crossed links of the front layer; in a plane, all crossed links.
   std::vector<LinkId> frontLinksCrossing(QLineF stroke) const;
-  /// Returns the elements at whose positions in the view `inside` is true. It is called for positions in `bounds`.
+  /// Returns the elements for whose position in the view `inside` returns true. `bounds` must contain all these
+  /// positions.
   std::vector<ElementId> elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const;
   /// Returns the position of an element in the newest frame (mesh units).
   Point position(ElementId element) const;
-  /// Returns the point under a position in the view, in the plane parallel to the view through `through`.
+  /// Returns the point in space under a position in the view. It lies in the plane that contains `through` and is
+  /// parallel to the view.
   QVector3D pointAt(QPointF position, const Point& through) const;
-  /// Returns where an element or a point (mesh units) appears in the view.
+  /// Returns the position in the view of an element or of a point (mesh units).
   QPointF placeOf(ElementId element) const;
   QPointF placeOf(const Point& point) const;
 
-  /// Returns a picture with `pixelRatio` device pixels per logical pixel, painted anew so that lines are sharp. A
+  /// Returns a picture with `pixelRatio` device pixels per logical pixel, painted again so that lines are sharp. A
   /// transparent picture has no background. The frame of the keyboard focus is not part of it. Throws Error if the
   /// picture is larger than the graphics card can draw.
   QImage picture(double pixelRatio, bool transparent);
@@ -132,7 +137,7 @@ class View : public QOpenGLWidget {
   void updateHover();
   void announceCamera();
 
-  /// Returns a filter for the elements that the section leaves; empty without a section.
+  /// Returns a filter for the elements that the section does not hide; empty without a section.
   std::function<bool(ElementId)> shown() const;
   const ClusterBoxes& boxes(const Frame& frame) const;
   Projection projection() const;
@@ -174,9 +179,9 @@ class View : public QOpenGLWidget {
   QPointF cursor_;
   bool fitPending_ = true;
   bool painterReady_ = false;
-  bool focusFramed_ = false;       // the focus came by the keyboard
-  bool selectionOutdated_ = true;  // on the graphics card
-  bool selectedHere_ = true;       // the selection was made in this view, or in none
+  bool focusFramed_ = false;       // true if the focus came from the keyboard
+  bool selectionOutdated_ = true;  // true if the graphics card has an older selection
+  bool selectedHere_ = true;       // true if the selection was made in this view, or in no view
 };
 
 }  // namespace chainmail

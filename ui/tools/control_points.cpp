@@ -12,8 +12,8 @@ namespace chainmail {
 namespace {
 
 constexpr double pointReach = 10;                     // pixels
-constexpr float pointSize = 7, markedPointSize = 12;  // pixels: a square's side
-constexpr float rim = 1.5F;                           // pixels: the background around a square
+constexpr float pointSize = 7, markedPointSize = 12;  // pixels, side of a square
+constexpr float rim = 1.5F;                           // pixels of background around a square
 constexpr float latticeWidth = 1.2F;
 
 Point controlPointOf(const Frame& frame, std::uint32_t point) {
@@ -38,7 +38,7 @@ std::vector<QVector3D> controlPointsOf(const Frame& frame) {
   return positions;
 }
 
-/// Adds a square around a point, of two triangles parallel to the screen.
+/// Adds a square around a point: two triangles parallel to the screen. `side` is in logical pixels.
 void addSquare(const Overlay::Canvas& canvas, const QVector3D& at, float side, std::vector<QVector3D>& corners) {
   const float half = side / 2 * float(canvas.unitsPerPixel);
   const QVector3D right = canvas.scene.toView.row(0).toVector3D().normalized() * half;
@@ -108,8 +108,8 @@ void ControlPoints::draw(const Canvas& canvas) {
   }
 }
 
-/// Draws lines between neighbours along each axis; the first axis has the index that changes fastest. A frame may be
-/// older than the present lattice: then only its points are drawn.
+/// Draws lines between neighbours along each axis. The index along the first axis changes fastest. Draws no lines if
+/// the frame is older than the current lattice.
 void ControlPoints::drawLattice(const Canvas& canvas, const std::vector<QVector3D>& positions) const {
   const Mesh& mesh = *canvas.frame.mesh;
   std::vector<std::size_t> counts;

@@ -16,17 +16,17 @@ class ControlPoints : public QObject, public Overlay {
  public:
   explicit ControlPoints(const Document& document) : document_(document) {}
 
-  /// Names a control point of a panel.
+  /// Identifies a control point of a panel.
   struct PointId {
     int panel = 0;
     std::uint32_t point = 0;
     bool operator==(const PointId&) const = default;
   };
-  /// Returns the nearest control point within 10 pixels of a place in a view.
+  /// Returns the nearest control point within 10 logical pixels of a position in a view.
   std::optional<PointId> at(const View& view, QPointF place) const;
-  /// Returns its position (mesh units).
+  /// Returns the position of a control point (mesh units).
   Point position(const PointId& id) const;
-  /// Marks the point under the cursor, or in the handle.
+  /// Marks the point under the cursor. `held` is true if the user has grabbed it.
   void mark(const std::optional<PointId>& id, bool held = false);
 
   void draw(const Canvas& canvas) override;

@@ -16,35 +16,35 @@ QString CutTool::hint() const {
       "Left: draw a stroke, release to cut the links it crosses in all panels  ·  Esc: cancel  ·  Ctrl+Z: undo");
 }
 
-void CutTool::hover(View& /*view*/, QPointF /*place*/) { document_.setHighlight({}); }
+void CutTool::hover(View& /*view*/, QPointF /*position*/) { document_.setHighlight({}); }
 
-void CutTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modifiers*/) {
+void CutTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
   at_ = &view;
-  stroke_ = {place};
+  stroke_ = {position};
   crossed_.clear();
   document_.setHighlight({});
 }
 
-void CutTool::move(View& view, QPointF place) {
+void CutTool::move(View& view, QPointF position) {
   if (at_ != &view) {
     return;
   }
-  const QLineF segment(stroke_.back(), place);
+  const QLineF segment(stroke_.back(), position);
   if (segment.length() < shortestSegment) {
     return;
   }
-  stroke_.push_back(place);
+  stroke_.push_back(position);
   auto crossed = frontOnly_ ? view.frontLinksCrossing(segment) : view.linksCrossing(segment);
   std::erase_if(crossed, [this](LinkId link) { return !crossed_.insert(link).second; });
   document_.addToHighlight(crossed);
   view.update();
 }
 
-void CutTool::release(View& view, QPointF place) {
+void CutTool::release(View& view, QPointF position) {
   if (at_ != &view) {
     return;
   }
-  move(view, place);
+  move(view, position);
   const std::vector<LinkId> links(crossed_.begin(), crossed_.end());
   cancel();
   document_.cut(links);

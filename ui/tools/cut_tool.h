@@ -8,8 +8,8 @@
 
 namespace chainmail {
 
-/// Draws a stroke and highlights the links that it crosses; release cuts them in all panels. The stroke cuts through
-/// the whole object, or only its front layer.
+/// Draws a stroke and highlights the links that it crosses. Releasing the button cuts them in all panels. The stroke
+/// cuts through the whole object, or only its front layer.
 class CutTool : public Tool {
  public:
   explicit CutTool(Document& document) : document_(document) {}
@@ -20,10 +20,10 @@ class CutTool : public Tool {
   QString hint() const override;
   QCursor cursor() const override { return Qt::CrossCursor; }
 
-  void hover(View& view, QPointF place) override;
-  void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
-  void move(View& view, QPointF place) override;
-  void release(View& view, QPointF place) override;
+  void hover(View& view, QPointF position) override;
+  void press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
+  void move(View& view, QPointF position) override;
+  void release(View& view, QPointF position) override;
   bool busy() const override { return at_ != nullptr; }
   void cancel() override;
   std::span<const QPointF> stroke(const View& view) const override;
@@ -31,9 +31,9 @@ class CutTool : public Tool {
  private:
   Document& document_;
   bool frontOnly_ = false;
-  const View* at_ = nullptr;  // the view of the stroke; null when there is none
+  const View* at_ = nullptr;  // the view of the stroke; null if there is none
   std::vector<QPointF> stroke_;
-  std::set<LinkId> crossed_;  // by the stroke so far
+  std::set<LinkId> crossed_;  // links that the stroke has crossed so far
 };
 
 }  // namespace chainmail

@@ -9,13 +9,13 @@ QString DragTool::hint() const {
       "Left: drag an element, in all panels  ·  Right: orbit (3D)  ·  Middle: pan  ·  Wheel: zoom  ·  F: fit");
 }
 
-void DragTool::hover(View& view, QPointF place) {
+void DragTool::hover(View& view, QPointF position) {
   if (busy()) {
-    cancel();  // no button is down: the release went elsewhere, for example to a dialog
+    cancel();  // no button is pressed: another widget, for example a dialog, received the release
   }
-  const auto point = controlPoints_.at(view, place);
+  const auto point = controlPoints_.at(view, position);
   controlPoints_.mark(point);
-  document_.setHighlight({point ? std::nullopt : view.elementAt(place), false, {}});
+  document_.setHighlight({point ? std::nullopt : view.elementAt(position), false, {}});
 }
 
 void DragTool::leave(View& /*view*/) {
@@ -24,46 +24,46 @@ void DragTool::leave(View& /*view*/) {
   }
 }
 
-bool DragTool::pressOnPoint(View& view, QPointF place) {
-  point_ = controlPoints_.at(view, place);
+bool DragTool::pressOnPoint(View& view, QPointF position) {
+  point_ = controlPoints_.at(view, position);
   if (point_) {
     start_ = controlPoints_.position(*point_);
-    grip_ = view.pointAt(place, start_);
+    grip_ = view.pointAt(position, start_);
     controlPoints_.mark(point_, true);
     document_.grabControlPoint(point_->point);
   }
   return point_.has_value();
 }
 
-void DragTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modifiers*/) {
-  const auto element = view.elementAt(place);
-  if (pressOnPoint(view, place) || !element) {
+void DragTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
+  const auto element = view.elementAt(position);
+  if (pressOnPoint(view, position) || !element) {
     return;
   }
   if (document_.isPinned(*element)) {
-    document_.grab(*element);  // is refused, and the message says why
+    document_.grab(*element);  // the document refuses it, and a message gives the reason
     return;
   }
   grabbed_ = element;
   start_ = view.position(*element);
-  grip_ = view.pointAt(place, start_);
+  grip_ = view.pointAt(position, start_);
   document_.setHighlight({element, true, {}});
   document_.grab(*element);
 }
 
-void DragTool::move(View& view, QPointF place) {
+void DragTool::move(View& view, QPointF position) {
   if (!busy()) {
     return;
   }
-  const QVector3D travel = view.pointAt(place, start_) - grip_;
+  const QVector3D travel = view.pointAt(position, start_) - grip_;
   const Point target = start_ + Point(travel.x(), travel.y(), travel.z());
   grabbed_ ? document_.drag(target) : document_.dragControlPoint(target);
 }
 
-void DragTool::release(View& view, QPointF place) {
+void DragTool::release(View& view, QPointF position) {
   if (busy()) {
     cancel();
-    hover(view, place);
+    hover(view, position);
   }
 }
 

@@ -19,24 +19,24 @@ class DragTool : public Tool {
   QString hint() const override;
   QCursor cursor() const override { return Qt::ArrowCursor; }
 
-  void hover(View& view, QPointF place) override;
-  void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
-  void move(View& view, QPointF place) override;
-  void release(View& view, QPointF place) override;
+  void hover(View& view, QPointF position) override;
+  void press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
+  void move(View& view, QPointF position) override;
+  void release(View& view, QPointF position) override;
   void leave(View& view) override;
   bool busy() const override { return grabbed_ || point_; }
   void cancel() override;
   std::span<const QPointF> stroke(const View&) const override { return {}; }
 
  private:
-  bool pressOnPoint(View& view, QPointF place);
+  bool pressOnPoint(View& view, QPointF position);
 
   Document& document_;
   ControlPoints& controlPoints_;
   std::optional<ElementId> grabbed_;
   std::optional<ControlPoints::PointId> point_;
-  Point start_ = Point::Zero();  // position when it was grabbed (mesh units)
-  QVector3D grip_;               // position of the cursor then, in the same plane
+  Point start_ = Point::Zero();  // position of the element or control point when it was grabbed (mesh units)
+  QVector3D grip_;               // position of the cursor at that moment, in the same plane (mesh units)
 };
 
 }  // namespace chainmail

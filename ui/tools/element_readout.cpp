@@ -17,7 +17,7 @@ ElementReadout::ElementReadout(const Document& document, const Measurement& meas
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   refresh_.setSingleShot(true);
   refresh_.setInterval(refreshMilliseconds);
-  connect(&refresh_, &QTimer::timeout, this, &ElementReadout::showWhatIs);
+  connect(&refresh_, &QTimer::timeout, this, &ElementReadout::updateText);
   const auto later = [this] {
     if (!refresh_.isActive() && (document_.highlight().element || measurement_.from())) {
       refresh_.start();
@@ -26,16 +26,16 @@ ElementReadout::ElementReadout(const Document& document, const Measurement& meas
   connect(&document, &Document::frameReady, this, later);
   connect(&document, &Document::softnessChanged, this, later);
   connect(&document, &Document::cutsChanged, this, later);
-  connect(&document, &Document::highlightChanged, this, &ElementReadout::showWhatIs);
-  connect(&measurement, &Measurement::changed, this, &ElementReadout::showWhatIs);
+  connect(&document, &Document::highlightChanged, this, &ElementReadout::updateText);
+  connect(&measurement, &Measurement::changed, this, &ElementReadout::updateText);
 }
 
 void ElementReadout::setHint(const QString& hint) {
   hint_ = hint;
-  showWhatIs();
+  updateText();
 }
 
-void ElementReadout::showWhatIs() {
+void ElementReadout::updateText() {
   const auto& element = document_.highlight().element;
   // At an end of the measured distance, the distance is more useful.
   const bool measured = element && (element == measurement_.from() || element == measurement_.to());

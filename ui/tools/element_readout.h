@@ -8,8 +8,8 @@
 
 namespace chainmail {
 
-/// The text in the status bar: data of the element under the cursor, else the measured distance, else the hint of the
-/// tool. It does nothing while neither the mouse nor the object moves.
+/// The text in the status bar: data of the element under the cursor, otherwise the measured distance, otherwise the
+/// hint of the tool. It does nothing while neither the mouse nor the object moves.
 class ElementReadout : public QLabel {
   Q_OBJECT
 
@@ -20,14 +20,14 @@ class ElementReadout : public QLabel {
   void setHint(const QString& hint);
 
  private:
-  void showWhatIs();
+  void updateText();
   QString describe(ElementId element) const;
 
   const Document& document_;
   const Measurement& measurement_;
   std::function<int()> hovered_;
   QString hint_;
-  QTimer refresh_;  // limits changes to a rate that can be read
+  QTimer refresh_;  // limits how often the text changes, so that it can be read
 };
 
 }  // namespace chainmail

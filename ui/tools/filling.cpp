@@ -9,15 +9,15 @@
 namespace chainmail {
 namespace {
 
-// Range of the edge length, from 1/3 to 3 of the surface's mean link length, on a logarithmic slider. Much shorter
-// edges would take minutes.
+// Range of the edge length on a logarithmic slider: from 1/3 to 3 times the mean link length of the surface. Much
+// shorter edges would take minutes.
 constexpr double widest = 3;
 constexpr int sliderSteps = 200;  // on either side of the middle
 
-// More would take minutes, and are too many for dragging.
+// Largest number of elements. More would take minutes, and would be too many for dragging.
 constexpr double mostElements = 2e6;
 
-/// Rounds to two digits.
+/// Returns a number rounded to two significant digits.
 double roughly(double number) {
   const double unit = std::pow(10, std::floor(std::log10(number)) - 1);
   return unit * std::round(number / unit);

@@ -9,16 +9,16 @@ QString MeasureTool::hint() const {
       "Left: click one element, then another: their distance now and at rest (mesh units)  ·  Esc: clear");
 }
 
-void MeasureTool::hover(View& view, QPointF place) {
-  const auto element = view.elementAt(place);
+void MeasureTool::hover(View& view, QPointF position) {
+  const auto element = view.elementAt(position);
   document_.setHighlight({element, false, {}});
   if (busy()) {
     measurement_.lead(element);
   }
 }
 
-void MeasureTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modifiers*/) {
-  const auto element = view.elementAt(place);
+void MeasureTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
+  const auto element = view.elementAt(position);
   if (!element) {
     measurement_.clear();
   } else if (!busy()) {
@@ -28,7 +28,7 @@ void MeasureTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modif
   }
 }
 
-/// A measured distance stays while another tool drags the elements.
+/// Clears an incomplete measurement. A complete one stays while another tool drags the elements.
 void MeasureTool::cancel() {
   if (busy()) {
     measurement_.clear();

@@ -14,10 +14,10 @@ class MeasureTool : public Tool {
   QString hint() const override;
   QCursor cursor() const override { return Qt::CrossCursor; }
 
-  void hover(View& view, QPointF place) override;
-  void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
+  void hover(View& view, QPointF position) override;
+  void press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
   void move(View&, QPointF) override {}
-  void release(View& view, QPointF place) override { hover(view, place); }
+  void release(View& view, QPointF position) override { hover(view, position); }
   bool clicks() const override { return true; }
   bool busy() const override { return measurement_.from() && !measurement_.complete(); }
   void cancel() override;

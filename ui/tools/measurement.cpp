@@ -8,8 +8,8 @@
 namespace chainmail {
 namespace {
 
-/// Returns 'rest 3, × 1.07'; without the ratio if the distance is 0 at rest.
-QString besideRest(const Measurement::Figures& figures) {
+/// Returns a text such as 'rest 3, × 1.07'; without the ratio if the distance at rest is 0.
+QString restText(const Measurement::Figures& figures) {
   const QString rest = QStringLiteral("rest %1").arg(figure(figures.rest));
   return figures.rest > 0 ? QStringLiteral("%1, × %2").arg(rest, QLocale().toString(figures.now / figures.rest, 'f', 3))
                           : rest;
@@ -73,7 +73,7 @@ std::vector<Annotation> Measurement::annotations(const View& view) const {
   const Figures of = figures(view.panel());
   return {{QLineF(begin, view.placeOf(*to_)),
            QStringLiteral("%1 (%2)\n%3")
-               .arg(figure(of.now), besideRest(of), coordinates(*document_.mesh(), of.apart, QStringLiteral("d")))}};
+               .arg(figure(of.now), restText(of), coordinates(*document_.mesh(), of.apart, QStringLiteral("d")))}};
 }
 
 }  // namespace chainmail

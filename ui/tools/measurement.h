@@ -5,7 +5,7 @@
 
 namespace chainmail {
 
-/// The distance between two elements in every panel; it follows the elements when they move.
+/// The distance between two elements in every panel. It follows the elements when they move.
 class Measurement : public QObject, public Overlay {
   Q_OBJECT
 
@@ -14,19 +14,19 @@ class Measurement : public QObject, public Overlay {
 
   const std::optional<ElementId>& from() const { return from_; }
   const std::optional<ElementId>& to() const { return to_; }
-  /// True when both ends are chosen; before, `to` is the element under the cursor.
+  /// True if both ends are chosen. Until then, to() is the element under the cursor.
   bool complete() const { return complete_; }
   void begin(ElementId from);
   void lead(std::optional<ElementId> to);
   void end(ElementId to);
   void clear();
 
-  /// In mesh units.
+  /// The distance in a panel (mesh units).
   struct Figures {
     Point apart;  // vector from the first element to the second
     double now, rest;
   };
-  /// Both ends must be chosen.
+  /// Requires that from() and to() have values.
   Figures figures(int panel) const;
   /// Returns the figures of all panels in one line; empty if nothing is measured.
   QString sentence() const;

@@ -14,7 +14,7 @@ PinBar::PinBar(Document& document, PinLayers& layers)
   addChoices();
   connect(this, &AskBar::agreed, this, [this] { layers_.pin(layers_.foot()); });
   connect(&document, &Document::unpinned, this, &PinBar::await);
-  // The end of a drag is an undo step.
+  // The end of a drag adds an undo step.
   connect(&document.undoStack(), &QUndoStack::indexChanged, this, &PinBar::offer);
   connect(&document, &Document::pinsChanged, this, &PinBar::follow);
   connect(&document, &Document::meshChanged, this, &PinBar::follow);
@@ -43,7 +43,7 @@ void PinBar::addChoices() {
   byHand_ = byHand;
 }
 
-/// Asks when the drag ends: the bar must not move the panels during a drag.
+/// Asks when the drag ends, because the bar must not move the panels during a drag.
 void PinBar::await(int panel) {
   panel_ = panel;
   awaits_ = !asked_;

@@ -6,8 +6,8 @@
 
 namespace chainmail {
 
-/// Offers to pin the object if a panel has no static answer because nothing is pinned. It asks when the drag has ended,
-/// and asks again only after a change of an algorithm, the object or the pins.
+/// Offers to pin the object if a panel has no solution because no element is pinned. It asks when the drag has ended.
+/// It asks again only after a change of an algorithm, the object or the pins.
 class PinBar : public AskBar {
   Q_OBJECT
 
@@ -26,7 +26,7 @@ class PinBar : public AskBar {
 
   Document& document_;
   PinLayers& layers_;
-  int panel_ = 0;        // the panel without an answer
+  int panel_ = 0;        // the panel without a solution
   bool awaits_ = false;  // waits for the end of the drag
   bool asked_ = false;
   QWidget* byHand_ = nullptr;

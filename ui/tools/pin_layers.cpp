@@ -9,7 +9,7 @@
 namespace chainmail {
 namespace {
 
-// In larger meshes, counting the boundary would delay the menu.
+// Largest number of elements for which the menu shows counts. In larger meshes, counting would delay the menu.
 constexpr ElementId mostCounted = 100'000;
 
 bool carries(const Mesh& mesh, const ObjectSide& side) {
@@ -53,7 +53,7 @@ const ObjectSide& PinLayers::foot() const {
 void PinLayers::pin(const ObjectSide& side) { pin(elements(&side)); }
 void PinLayers::pinBoundary() { pin(elements(nullptr)); }
 
-/// Returns the elements that are not pinned yet.
+/// Returns the unpinned elements of a side, or of the boundary if `side` is null.
 std::vector<ElementId> PinLayers::elements(const ObjectSide* side) const {
   const auto all = side == nullptr ? boundary(*document_.mesh()) : layer(*document_.mesh(), *side);
   std::vector<ElementId> free;
@@ -87,7 +87,7 @@ void PinLayers::show(const Choice& choice, std::optional<std::size_t> count) con
   words[0] = words[0].toUpper();
   words.insert(0, QLatin1Char('&'));
   if (choice.side != nullptr && choice.side->name == "back") {
-    words = QStringLiteral("Bac&k layer");  // the bottom layer has the b
+    words = QStringLiteral("Bac&k layer");  // the bottom layer uses the key B
   } else if (choice.side == nullptr) {
     words = QStringLiteral("Bound&ary");
   }

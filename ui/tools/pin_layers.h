@@ -10,23 +10,23 @@
 
 namespace chainmail {
 
-/// Pins a whole layer of the object at its present positions: the layer at one side of the object, or the boundary.
+/// Pins a whole layer of the object at its current positions: the layer at one side of the object, or the boundary.
 class PinLayers : public QObject {
   Q_OBJECT
 
  public:
   PinLayers(Document& document, QWidget* parent);
 
-  /// The menu of all layers, with the number of elements that each pins.
+  /// The menu of all layers. Each entry shows the number of elements that it pins.
   QMenu& menu() { return *menu_; }
-  /// Returns the bottom side; the left one for a scene without y.
+  /// Returns the bottom side, or the left side if the scene has no y axis.
   const ObjectSide& foot() const;
   void pin(const ObjectSide& side);
   void pinBoundary();
 
  private:
   struct Choice {
-    const ObjectSide* side;  // null: the boundary
+    const ObjectSide* side;  // null for the boundary
     QString name;            // for example 'bottom layer'
     QAction* action;
   };

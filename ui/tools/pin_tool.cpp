@@ -8,10 +8,10 @@ QString PinTool::hint() const {
   return QStringLiteral("Left: pin or unpin an element  ·  Object > Unpin all  ·  Ctrl+Z: undo");
 }
 
-void PinTool::hover(View& view, QPointF place) { document_.setHighlight({view.elementAt(place), false, {}}); }
+void PinTool::hover(View& view, QPointF position) { document_.setHighlight({view.elementAt(position), false, {}}); }
 
-void PinTool::press(View& view, QPointF place, Qt::KeyboardModifiers /*modifiers*/) {
-  if (const auto element = view.elementAt(place)) {
+void PinTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
+  if (const auto element = view.elementAt(position)) {
     document_.setPinned({*element}, !document_.isPinned(*element));
   }
 }

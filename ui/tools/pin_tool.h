@@ -5,7 +5,7 @@
 
 namespace chainmail {
 
-/// Pins the element under the cursor at its present position, or unpins it.
+/// Pins the element under the cursor at its current position, or unpins it.
 class PinTool : public Tool {
  public:
   explicit PinTool(Document& document) : document_(document) {}
@@ -14,10 +14,10 @@ class PinTool : public Tool {
   QString hint() const override;
   QCursor cursor() const override { return Qt::PointingHandCursor; }
 
-  void hover(View& view, QPointF place) override;
-  void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
+  void hover(View& view, QPointF position) override;
+  void press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
   void move(View&, QPointF) override {}
-  void release(View& view, QPointF place) override { hover(view, place); }
+  void release(View& view, QPointF position) override { hover(view, position); }
   bool clicks() const override { return true; }
   bool busy() const override { return false; }
   void cancel() override { document_.setHighlight({}); }

@@ -11,18 +11,18 @@
 namespace chainmail {
 namespace {
 
-// More steps hide each other and take time: then only every n-th step is drawn.
+// More steps would hide each other and take time. In a longer pass, only every n-th step is drawn.
 constexpr std::size_t stepsDrawn = 10'000;
 constexpr std::size_t waitingDrawn = 2'000;
 constexpr float arrowWidth = 1.8F, currentWidth = 3.5F;  // pixels
 constexpr double shareOfLink = 0.42, smallestDisc = 3, largestDisc = 13;
-constexpr float currentRing = 11, grabbedSize = 13;  // pixels: added to a disc; absolute
+constexpr float currentRing = 11, grabbedSize = 13;  // pixels; the ring is that much larger than a disc
 constexpr float headPixels = 8;
 constexpr float headWidth = 0.45F;    // fraction of the head length, to either side
 constexpr float largestHead = 0.35F;  // fraction of the arrow length
 constexpr float smallestArrow = 2;    // pixels between the gaps; shorter arrows have no gaps
 
-/// Returns n, where every n-th step is drawn.
+/// Returns n if every n-th step is drawn.
 std::size_t drawnEvery(const PassPlayer& player) { return 1 + player.step() / (stepsDrawn + 1); }
 
 float discSize(const Overlay::Canvas& canvas) {
@@ -43,14 +43,14 @@ QVector3D elementPosition(const Frame& frame, ElementId element) {
 /// move has no head.
 class SponsorArrows {
  public:
-  /// `gap` (logical pixels across) stays free around the marked elements.
+  /// `gap` is the diameter of the free space around each element (logical pixels).
   SponsorArrows(const Overlay::Canvas& canvas, float gap)
       : frame_(canvas.frame),
         toEye_(canvas.scene.toView.row(2).toVector3D().normalized()),
         gap_(gap / 2 * float(canvas.unitsPerPixel)),
         head_(headPixels * float(canvas.unitsPerPixel)) {}
 
-  /// Adds the arrow of a step, if it has a sponsor; its value is the step.
+  /// Adds the arrow of a step, if it has a sponsor. The value of the arrow is the step.
   void add(const TraceRow& row, std::size_t step) {
     if (row.sponsor == no_element) {
       return;

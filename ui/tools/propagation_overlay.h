@@ -17,7 +17,7 @@ class PropagationOverlay : public Overlay {
   void draw(const Canvas& canvas) override;
   QString note(int panel) const override;
   std::optional<OverlayLegend> legend(int panel) const override;
-  /// The colour scale, the same for all panels: from the first step to the last one of the longest pass.
+  /// The colour scale, which is the same for all panels: from the first step to the last step of the longest pass.
   ColourScale scale() const;
 
  private:

@@ -9,7 +9,7 @@
 namespace chainmail {
 namespace {
 
-constexpr double smallestRectangle = 4;  // pixels: a smaller one is a click
+constexpr double smallestRectangle = 4;  // pixels; a smaller rectangle counts as a click
 constexpr int circleCorners = 48;
 
 SelectionMode modeOf(Qt::KeyboardModifiers modifiers) {
@@ -32,63 +32,63 @@ void SelectTool::setShape(Shape shape) {
   shape_ = shape;
 }
 
-void SelectTool::hover(View& view, QPointF place) {
+void SelectTool::hover(View& view, QPointF position) {
   if (pressed_) {
-    cancel();  // no button is down: the release went elsewhere
+    cancel();  // no button is pressed: another widget received the release
   }
   document_.setHighlight({});
   at_ = &view;
   const bool shown = !outline_.empty();
   outline_.clear();
   if (shape_ == Shape::brush) {
-    outline(place);
+    outline(position);
   }
   if (shown || !outline_.empty()) {
     view.update();
   }
 }
 
-void SelectTool::press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) {
+void SelectTool::press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) {
   at_ = &view;
   pressed_ = true;
   mode_ = modeOf(modifiers);
-  start_ = last_ = place;
+  start_ = last_ = position;
   mesh_ = document_.mesh();
   before_ = document_.selection().elements;
   hit_.clear();
   if (shape_ == Shape::brush) {
-    brush(view, QLineF(place, place));
+    brush(view, QLineF(position, position));
   }
 }
 
-void SelectTool::move(View& view, QPointF place) {
+void SelectTool::move(View& view, QPointF position) {
   if (!pressed_ || at_ != &view) {
     return;
   }
   if (shape_ == Shape::brush) {
-    brush(view, QLineF(last_, place));
+    brush(view, QLineF(last_, position));
   }
-  last_ = place;
-  outline(place);
+  last_ = position;
+  outline(position);
   view.update();
 }
 
-void SelectTool::release(View& view, QPointF place) {
+void SelectTool::release(View& view, QPointF position) {
   if (!pressed_ || at_ != &view) {
     return;
   }
-  move(view, place);
+  move(view, position);
   if (shape_ == Shape::rectangle) {
-    const QRectF rectangle = QRectF(start_, place).normalized();
+    const QRectF rectangle = QRectF(start_, position).normalized();
     if (std::max(rectangle.width(), rectangle.height()) >= smallestRectangle) {
       hit_ = view.elementsWhere(rectangle, [&rectangle](QPointF at) { return rectangle.contains(at); });
-    } else if (const auto element = view.elementAt(place)) {
+    } else if (const auto element = view.elementAt(position)) {
       hit_ = {*element};
     }
     document_.select(combined(before_, hit_, mode_));
   }
   pressed_ = false;
-  hover(view, place);
+  hover(view, position);
 }
 
 /// Selects during the stroke, so that the user sees the result.
@@ -100,15 +100,15 @@ void SelectTool::brush(View& view, QLineF along) {
   document_.select(combined(before_, hit_, mode_));
 }
 
-void SelectTool::outline(QPointF place) {
+void SelectTool::outline(QPointF position) {
   outline_.clear();
   if (shape_ == Shape::rectangle) {
-    outline_ = {start_, {place.x(), start_.y()}, place, {start_.x(), place.y()}, start_};
+    outline_ = {start_, {position.x(), start_.y()}, position, {start_.x(), position.y()}, start_};
     return;
   }
   for (int i = 0; i <= circleCorners; ++i) {
     const double angle = 2 * M_PI * i / circleCorners;
-    outline_.push_back(place + radius_ * QPointF(std::cos(angle), std::sin(angle)));
+    outline_.push_back(position + radius_ * QPointF(std::cos(angle), std::sin(angle)));
   }
 }
 

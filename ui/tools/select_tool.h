@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// Selects all elements in a rectangle or under the strokes of a brush, including hidden ones.
+/// Selects all elements in a rectangle or under the strokes of a brush, including elements that others hide.
 class SelectTool : public Tool {
  public:
   enum class Shape { rectangle, brush };
@@ -25,10 +25,10 @@ class SelectTool : public Tool {
   QString hint() const override;
   QCursor cursor() const override { return Qt::CrossCursor; }
 
-  void hover(View& view, QPointF place) override;
-  void press(View& view, QPointF place, Qt::KeyboardModifiers modifiers) override;
-  void move(View& view, QPointF place) override;
-  void release(View& view, QPointF place) override;
+  void hover(View& view, QPointF position) override;
+  void press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
+  void move(View& view, QPointF position) override;
+  void release(View& view, QPointF position) override;
   bool busy() const override { return pressed_; }
   void cancel() override;
   void escape() override;
@@ -37,7 +37,7 @@ class SelectTool : public Tool {
 
  private:
   void brush(View& view, QLineF along);
-  void outline(QPointF place);
+  void outline(QPointF position);
 
   Document& document_;
   Shape shape_ = Shape::rectangle;
@@ -46,8 +46,8 @@ class SelectTool : public Tool {
   bool pressed_ = false;
   SelectionMode mode_ = SelectionMode::replace;
   QPointF start_, last_;
-  MeshPointer mesh_;               // when the stroke started
-  std::vector<ElementId> before_;  // selected when the stroke started
+  MeshPointer mesh_;               // the mesh when the stroke started
+  std::vector<ElementId> before_;  // the selection when the stroke started
   std::vector<ElementId> hit_;
   std::vector<QPointF> outline_;
 };

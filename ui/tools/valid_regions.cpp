@@ -9,7 +9,7 @@
 namespace chainmail {
 namespace {
 
-// More boxes hide each other and take time.
+// Largest numbers of elements and regions. More boxes would hide each other and take time.
 constexpr std::size_t elementsShown = 8;
 constexpr std::size_t regionsOfEach = 200;
 constexpr double faceOpacity = 0.1;
@@ -38,7 +38,7 @@ ValidRegions::ValidRegions(const Document& document)
 }
 
 void ValidRegions::fill(QMenu& menu) {
-  shown_->setParent(&menu);  // where all actions of the window are found
+  shown_->setParent(&menu);  // so that a search for all actions of the window finds it
   menu.addAction(shown_);
 }
 
@@ -81,8 +81,8 @@ void ValidRegions::draw(const Canvas& canvas) {
   }
 }
 
-/// Draws a region. Lines and marks show whether the neighbour is inside, not only colours. A line joins a neighbour
-/// outside to the nearest point inside.
+/// Draws a region. Not only the colour shows whether the neighbour is inside, but also the line style and a mark. A
+/// line joins a neighbour that is outside to the nearest point inside.
 void ValidRegions::draw(const Canvas& canvas, const NeighbourRegion& region) const {
   const QColor colour = region.inside ? colours::inside : colours::outside;
   const RegionShape shape(region, canvas.scene.toView, canvas.frame.mesh->space_dimension, canvas.unitsPerPixel);

@@ -12,8 +12,8 @@ class QMenu;
 
 namespace chainmail {
 
-/// The debugging view (Dean 2004, 5.3): draws the valid regions of the neighbours of the element under the cursor or in
-/// the handle, else of the selected elements if they are few.
+/// The debugging view (Dean 2004, 5.3). Draws the valid regions of the neighbours of the element under the cursor or in
+/// the handle. Without such an element, it uses the selected elements if they are few.
 class ValidRegions : public QObject, public Overlay {
   Q_OBJECT
 
