@@ -65,7 +65,8 @@ class SizeTestDock : public QDockWidget {
   QProgressBar* progress_;
   QPointer<SizeTestStage> stage_;  // a closing window deletes the stage together with the panels
   std::unique_ptr<WindowRest> rest_;
-  // Enabled while a test runs; made only once, because a window that hides visits each child it had.
+  // Enabled while a test runs. It is not deleted after a test: Qt visits all children of a window that hides, also a
+  // child that is deleted meanwhile.
   QShortcut* escape_;
   QElapsedTimer sinceShown_;  // since progress was last shown
 };
