@@ -1,4 +1,4 @@
-// Bullet's soft body beside ChainMail on a task that both solve: bench_bullet RESULTS.
+// Compares Bullet's soft body with ChainMail on a task that both solve: bench_bullet RESULTS.
 
 #include <BulletSoftBody/btSoftBody.h>
 
@@ -21,12 +21,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int frames = 60;                // per second
-constexpr int frames_of_the_drag = 60;    // then the handle is held
-constexpr int most_frames = 60 * frames;  // until it counts as not settled
-constexpr double settled_step = 1e-5;     // largest step of an element in a frame, in spacings
+constexpr int frames_of_the_drag = 60;    // after them, the handle is held
+constexpr int most_frames = 60 * frames;  // after them, the object counts as not settled
+constexpr double settled_step = 1e-5;     // largest movement of an element in a frame, in spacings
 
-/// A cloth in the plane, its bottom side pinned. The handle is the element in the middle of the top side; it goes up
-/// by a tenth of the height and to the side by as much.
+/// A cloth in the plane with a pinned bottom side. The handle is the element in the middle of the top side. It moves up
+/// and to the side by a tenth of the height each.
 struct Task {
   explicit Task(std::uint32_t side) : scene("cloth" + std::to_string(side)), handle(side * (side - 1) + side / 2) {
     for (ElementId e = 0; e < side; ++e) {
@@ -43,7 +43,7 @@ struct Task {
   Point displacement;
 };
 
-/// An object that is dragged, whatever moves it.
+/// A dragged object, for any method that moves it.
 class Dragged {
  public:
   virtual ~Dragged() = default;
@@ -69,8 +69,8 @@ class BySolver : public Dragged {
   std::unique_ptr<Solver> solver_;
 };
 
-/// Bullet's own helpers put links in random order. In the mesh's order, one iteration passes the pull of the handle on
-/// through the whole object and one iteration per frame blows up.
+/// Returns the links in random order, as Bullet's own helpers do. In the mesh's order, one iteration spreads the pull
+/// of the handle through the whole object, and one iteration per frame is unstable.
 std::vector<LinkId> link_order(const Mesh& mesh) {
   std::vector<LinkId> order(mesh.link_count());
   std::iota(order.begin(), order.end(), LinkId{0});
@@ -79,8 +79,8 @@ std::vector<LinkId> link_order(const Mesh& mesh) {
   return order;
 }
 
-/// Links of full stiffness, equal masses, some damping so that the object comes to rest, no gravity, no air and no
-/// contacts. The handle and the pins have no mass, as Bullet's users hold a node.
+/// Links of full stiffness, equal masses, and some damping so that the object comes to rest; no gravity, air or
+/// contacts. The handle and the pins have no mass, which is how users of Bullet hold a node.
 class ByBullet : public Dragged {
  public:
   ByBullet(const Task& task, int iterations) : handle_(int(task.handle)) {
@@ -110,7 +110,7 @@ class ByBullet : public Dragged {
   void frame(const Point& handle) override {
     body_->m_nodes[handle_].m_x = vector(handle);
     body_->m_nodes[handle_].m_v.setZero();
-    // What btSoftRigidDynamicsWorld does in a step, without the rigid bodies that are not there.
+    // The same steps as in btSoftRigidDynamicsWorld, without rigid bodies.
     body_->predictMotion(btScalar(1.0 / frames));
     body_->solveConstraints();
     body_->integrateMotion();
@@ -129,7 +129,7 @@ class ByBullet : public Dragged {
   std::unique_ptr<btSoftBody> body_;
 };
 
-/// Nothing but the handle moves.
+/// An object in which only the handle moves.
 class ByNothing : public Dragged {
  public:
   explicit ByNothing(const Task& task) : task_(task), at_(task.target(0)) {}
@@ -164,11 +164,11 @@ std::vector<Point> positions(const Task& task, const Dragged& object) {
 }
 
 struct Settled {
-  std::vector<double> ms;  // of each frame
+  std::vector<double> ms;  // per frame
   int frames = 0;          // until it came to rest, or most_frames
 };
 
-/// The drag, and then frames with the handle held until no element moves by more than settled_step.
+/// Runs the drag, then frames with the handle held, until no element moves by more than settled_step.
 Settled settle(const Task& task, Dragged& object) {
   Settled result;
   auto before = positions(task, object);
@@ -188,9 +188,10 @@ Settled settle(const Task& task, Dragged& object) {
   return result;
 }
 
-/// Displacements from rest beside those of the reference solution.
+/// Displacements from rest, compared with those of the reference solution.
 struct Shape {
-  double follow = 0;    // mean over all elements of the displacement along the handle's, over the handle's
+  // Mean over all elements of the displacement along the handle's direction, divided by the handle's displacement.
+  double follow = 0;
   double relative = 0;  // RMS(u - reference) / RMS(reference)
 };
 
@@ -205,7 +206,7 @@ Shape shape(const Task& task, const std::vector<Point>& positions, const std::ve
   return {follow, std::sqrt(apart / square)};
 }
 
-/// Where a neo-Hookean solid on the same cells comes to rest (displacements).
+/// Returns the displacements of a neo-Hookean solid on the same cells, at rest after the drag.
 std::vector<Point> reference_solution(const Task& task) {
   ElasticProblem problem;
   problem.mesh = task.scene.mesh;
@@ -220,7 +221,8 @@ std::vector<Point> reference_solution(const Task& task) {
   return all;
 }
 
-/// Each contestant by itself: what it keeps from frame to frame stays in the caches, as in its users' programs.
+/// Runs the contestants one after another, so that the data of each stays in the caches from frame to frame, as in real
+/// programs.
 void run_task(std::uint32_t side, Results& results) {
   const Task task(side);
   const auto reference = reference_solution(task);

@@ -1,6 +1,6 @@
-// The time of a pass, over all meshes and drags: bench_passes [FILTER…], where a filter is a part of
-// DRAG/MESH/ALGORITHM, as whole_body/grid1024 or local or /exact; a row is measured where all filters fit.
-// natural-queue-bytes-once and exact-bytes-once are what memory alone takes for a later whole-body pass.
+// Prints the time of a pass for all meshes and drags: bench_passes [FILTER…]. A filter is a part of
+// DRAG/MESH/ALGORITHM, such as whole_body/grid1024, local or /exact. A row is measured if all filters match.
+// natural-queue-bytes-once and exact-bytes-once are the times that memory alone needs for a later whole-body pass.
 
 #include <algorithm>
 #include <optional>

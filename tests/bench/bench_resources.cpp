@@ -1,5 +1,5 @@
-// What passes need beside time: memory of a scene as the window holds it, allocations, and what two panels on two
-// cores take from each other: bench_resources RESULTS.
+// Measures resources of passes other than time: memory of a scene as the window holds it, allocations, and how much two
+// panels on two cores slow each other down: bench_resources RESULTS.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,7 +25,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// What `measure` says in a copy of this process.
+/// Runs `measure` in a copy of this process and returns its result.
 double in_a_child(const std::function<double()>& measure) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) {
@@ -47,7 +47,8 @@ double in_a_child(const std::function<double()>& measure) {
   return value;
 }
 
-/// As the document has two of them: both deform the mesh, and both frames are looked at.
+/// Returns the bytes per element of two solver threads, as in the document: both deform the mesh, and both frames are
+/// read.
 double bytes_per_element() {
   const double before = resident_bytes();
   const Scene scene("grid1024");
@@ -71,7 +72,7 @@ double bytes_per_element() {
   return (resident_bytes() - before) / scene.mesh->element_count();
 }
 
-/// Over all algorithms and both drags, the most that a pass took, on average, once warmed up.
+/// Returns the mean number of allocations per pass after the warm-up; the maximum over all algorithms and both drags.
 double allocations_per_pass() {
   constexpr int passes = 64;
   const Scene scene("grid64");
@@ -92,7 +93,7 @@ double allocations_per_pass() {
   return most;
 }
 
-/// Passes a second of these, each on a thread of its own, all at the same time.
+/// Returns the passes per second of each contestant. All run at the same time, each on its own thread.
 std::vector<double> speeds(const std::vector<Contestant*>& at_once) {
   std::vector<double> speed(at_once.size());
   std::barrier start(static_cast<std::ptrdiff_t>(at_once.size()));
@@ -114,7 +115,7 @@ std::vector<double> speeds(const std::vector<Contestant*>& at_once) {
   return speed;
 }
 
-/// The speed of the slower panel beside the other, over its speed alone.
+/// Returns the speed of the slower of two panels that run at the same time, divided by its speed alone.
 double two_panels() {
   const Scene scene("grid512");
   Contestant left = dragged(scene, names::natural_queue, Drag::whole_body);
@@ -130,7 +131,7 @@ double two_panels() {
   return std::min(median(together[0]) / median(alone[0]), median(together[1]) / median(alone[1]));
 }
 
-/// What a mesh and a solver past its first passes have resident.
+/// Returns the resident bytes of a mesh and a solver after its first passes.
 double scene_bytes(const char* mesh) {
   const double before = resident_bytes();
   const Scene scene(mesh);
@@ -147,7 +148,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "bench_resources: name the file of results, as in: bench_resources build/bench.json\n");
     return 2;
   }
-  // In a process of its own each: a heap that nothing else has used.
+  // Each runs in a separate process, because its heap must be unused.
   const double bytes = in_a_child(bytes_per_element);
   const double plane = in_a_child([] { return scene_bytes("grid1024"); });
   const double space = in_a_child([] { return scene_bytes("grid1024_3d"); });

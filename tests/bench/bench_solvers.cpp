@@ -1,4 +1,4 @@
-// What passes take, each figure a ratio within one run: bench_solvers RESULTS (README.md says what each is).
+// Measures times of passes. Each figure is a ratio within one run (see README.md): bench_solvers RESULTS.
 
 #include <algorithm>
 #include <cstdio>
@@ -13,10 +13,10 @@ using names::exact;
 using names::natural_queue;
 using names::without_replay;
 
-/// The time per moved element of one over that of another.
+/// Returns the time per moved element of one run divided by that of another.
 double over(const Run& one, const Run& other) { return one.ns_per_moved() / other.ns_per_moved(); }
 
-/// The textbook version and the literal one of the thesis over the solver.
+/// Compares the textbook version and the version of the thesis with the solver.
 void against_textbook(Results& results) {
   const Scene scene("grid64");
   const auto runs =
@@ -28,7 +28,7 @@ void against_textbook(Results& results) {
   results.add("/vs_2004", over(of(runs, names::of_2004), of(runs, natural_queue)));
 }
 
-/// Later passes over the time to touch their own bytes once.
+/// Compares later passes with the time to touch their bytes once.
 void against_memory(Results& results) {
   for (const std::string mesh : {"grid1024", "block100"}) {
     const Scene scene(mesh);
@@ -55,7 +55,8 @@ void growth(Results& results) {
   }
 }
 
-/// Exact over Natural Queue, the worst of these meshes: first pass over first pass, later passes over later passes.
+/// Compares Exact with Natural Queue: first pass with first pass, and later passes with later passes. The result is the
+/// worst of these meshes.
 void exact_over(Results& results, const std::string& key, Drag drag, const std::vector<std::string>& meshes) {
   double first = 0, later = 0;
   for (const std::string& mesh : meshes) {
@@ -70,7 +71,7 @@ void exact_over(Results& results, const std::string& key, Drag drag, const std::
   results.add("/exact_over_nq/later/" + key, later);
 }
 
-/// A scene in the plane beside the same one in space.
+/// Compares a scene in the plane with the same scene in 3D space.
 void plane(Results& results) {
   const Scene flat("grid1024"), in_space("grid1024_3d");
   const auto runs =
@@ -79,7 +80,7 @@ void plane(Results& results) {
   results.add("/plane/time", over(of(runs, natural_queue, flat.name), of(runs, natural_queue, in_space.name)));
 }
 
-/// Drags as a user makes them, from rest each, with the default softness: every pass counts, the first included.
+/// Measures drags as a user makes them: each from rest, with the default softness. Every pass counts, also the first.
 void hand_like(Results& results) {
   const Scene scene("grid1024");
   for (const auto& [algorithm, key] : {std::pair(natural_queue, "natural_queue"), std::pair(exact, "exact")}) {
@@ -91,7 +92,7 @@ void hand_like(Results& results) {
   }
 }
 
-/// What stands in the table alone: local drags on the other meshes, and what Generalized takes.
+/// Measures rows that only the table shows: local drags on the other meshes, and the times of Generalized.
 void others(Results& results) {
   for (const char* mesh : {"cloth512", "block100", "jittered_tetra60"}) {
     const Scene scene(mesh);

@@ -1,4 +1,4 @@
-// Shows results as a table beside their limits: bench_table RESULTS [--markdown].
+// Shows results and their limits as a table: bench_table RESULTS [--markdown].
 
 #include <cmath>
 #include <cstdio>
@@ -23,11 +23,11 @@ struct Row {
   Limit limit = Limit::none;
   double bound = 0;
 
-  /// A limit is met where the quartile on its side meets it.
+  /// True if the quartile on the side of the limit meets it.
   bool met() const { return limit == Limit::none || (limit == Limit::at_most ? upper <= bound : lower >= bound); }
 };
 
-/// A figure of "ratios", where it was measured.
+/// A figure of "ratios". It is shown only if it was measured.
 struct Figure {
   const char* what;
   const char* place;  // a JSON pointer
@@ -97,13 +97,13 @@ std::string limit(const Row& row) {
   return row.limit == Limit::none ? "" : (row.limit == Limit::at_most ? "≤ " : "≥ ") + number(row.bound);
 }
 
-/// Cells in columns, or as Markdown: the first row is the head.
+/// Prints cells in columns or as Markdown. The first row is the header.
 void print(const std::vector<std::vector<std::string>>& table, bool markdown) {
   for (std::size_t i = 0; i < table.size(); ++i) {
     std::string line = markdown ? "|" : "";
     for (std::size_t k = 0; k < table[i].size(); ++k) {
       const std::string& cell = table[i][k];
-      // As wide as it looks: of a letter's bytes in UTF-8 the first alone counts.
+      // Counts characters, not bytes: only the first byte of each UTF-8 character counts.
       std::size_t width = 0;
       for (const char byte : cell) {
         width += (static_cast<unsigned char>(byte) & 0xC0) != 0x80 ? 1 : 0;

@@ -1,4 +1,4 @@
-// What the window takes, in the real window at a million elements: bench_window RESULTS, on a display.
+// Measures the real window with a million elements: bench_window RESULTS. It needs a display.
 
 #include <QDir>
 #include <QElapsedTimer>
@@ -30,11 +30,11 @@
 namespace chainmail::bench {
 namespace {
 
-constexpr int handMilliseconds = 16;
+constexpr int moveMilliseconds = 16;
 constexpr int dragMilliseconds = 5000;
 constexpr int idleMilliseconds = 5000;
 constexpr int patienceMilliseconds = 120'000;
-constexpr int restMilliseconds = 300;  // what runs in the background ends
+constexpr int restMilliseconds = 300;  // after this time, work in the background has ended
 
 MeteredApplication& application() { return *static_cast<MeteredApplication*>(qApp); }
 
@@ -44,7 +44,7 @@ void run(int milliseconds) {
   loop.exec();
 }
 
-/// Waits, with the window alive, for what may be done at once or by another thread; returns the time (ms).
+/// Runs the event loop until `done` returns true; returns the time on `clock` (ms).
 double until(const QElapsedTimer& clock, const char* what, const std::function<bool()>& done) {
   while (!done()) {
     if (clock.elapsed() > patienceMilliseconds) {
@@ -55,7 +55,7 @@ double until(const QElapsedTimer& clock, const char* what, const std::function<b
   return double(clock.nsecsElapsed()) * 1e-6;
 }
 
-/// Both panels' views were drawn with the mesh that the document holds.
+/// Waits until both views are drawn with the document's mesh; returns the time on `clock` (ms).
 double untilShown(MainWindow& window, const QElapsedTimer& clock, ElementId elements) {
   Document& document = window.document();
   until(clock, "the object in both panels", [&] {
@@ -78,7 +78,7 @@ struct FrameMilliseconds {
   double own = 0, painting = 0;
 };
 
-/// The processor time of the GUI thread per drawn frame of a local drag, and apart from it that of painting: the
+/// Returns the processor time of the GUI thread per drawn frame of a local drag, without painting and for painting. The
 /// default tool moves the middle element on a circle of 2.5 spacings, 60 moves per second.
 FrameMilliseconds guiMilliseconds(MainWindow& window) {
   View& view = window.panel(0).view();
@@ -88,13 +88,13 @@ FrameMilliseconds guiMilliseconds(MainWindow& window) {
   const double spacing = QLineF(centre, view.placeOf(middle + 100)).length() / 100;
   send(view, QEvent::MouseButtonPress, centre);
   int step = 0;
-  QTimer hand;
-  hand.setTimerType(Qt::PreciseTimer);
-  hand.callOnTimeout([&] {
+  QTimer mouse;
+  mouse.setTimerType(Qt::PreciseTimer);
+  mouse.callOnTimeout([&] {
     const double angle = 2 * std::numbers::pi * ++step / 32;
     send(view, QEvent::MouseMove, centre + 2.5 * spacing * QPointF(std::cos(angle), std::sin(angle)));
   });
-  hand.start(handMilliseconds);
+  mouse.start(moveMilliseconds);
   run(1000);  // the first frames upload everything
   MeteredApplication& app = application();
   const double cpu = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID), drawing = app.drawingMilliseconds;
@@ -103,7 +103,7 @@ FrameMilliseconds guiMilliseconds(MainWindow& window) {
   const int drawn = app.framesDrawn - frames;
   const double drew = app.drawingMilliseconds - drawing;
   const double own = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID) - cpu - drew;
-  hand.stop();
+  mouse.stop();
   const auto* frame = window.document().frame(0);
   std::printf("local drag: %d frames and %d moves in %d s, %llu moved; GUI thread %.3f ms a frame, drawing %.1f ms\n",
               drawn, step - steps, dragMilliseconds / 1000,
@@ -113,8 +113,8 @@ FrameMilliseconds guiMilliseconds(MainWindow& window) {
   return {own / drawn, drew / drawn};
 }
 
-/// The time from a mouse event to the picture that shows it on the screen (ms): the median over the pictures of a local
-/// drag, with a move every 7 ms, as mice report them. A picture shows the newest move whose place its element has.
+/// Returns the median time from a mouse event to the picture that shows it on the screen (ms). During a local drag, the
+/// mouse moves every 7 ms, as real mice report. A picture shows the newest move whose position the element has.
 double latencyMilliseconds(MainWindow& window) {
   constexpr int mouseMilliseconds = 7, places = 64;
   View& view = window.panel(0).view();
@@ -162,7 +162,7 @@ double latencyMilliseconds(MainWindow& window) {
   return latencies[latencies.size() / 2];
 }
 
-/// The share of a core that the whole process takes while nobody does anything.
+/// Returns the share of a core that the whole process uses while there is no input.
 double idleShare() {
   const double before = cpu_milliseconds(CLOCK_PROCESS_CPUTIME_ID);
   const int painted = application().viewPaints;
@@ -201,8 +201,8 @@ double openMilliseconds(MainWindow& window, const QString& path, ElementId eleme
   return ms;
 }
 
-/// From the start of a process to the first picture of both panels' sample object, as workbench starts. The parent
-/// gives its clock's time.
+/// Returns the time from the start of a process to the first picture of the sample object in both panels (ms). The
+/// process starts as workbench does. The parent passes its clock's time.
 double firstFrameMilliseconds() {
   QProcess child;
   timespec now{};
@@ -220,7 +220,7 @@ double firstFrameMilliseconds() {
   return ms;
 }
 
-/// That process.
+/// Runs that process and prints the time (ms).
 int showFirstFrame(const char* startNanoseconds) {
   const auto sample = sampleRecipe();
   MainWindow window(generate(sample), recipeName(sample));
@@ -236,7 +236,7 @@ int showFirstFrame(const char* startNanoseconds) {
     }
   };
   for (int panel = 0; panel < Document::fewestPanels; ++panel) {
-    // Tells that the screen has what was painted.
+    // Qt emits frameSwapped when the screen shows the painted frame.
     QObject::connect(&window.panel(panel).view(), &QOpenGLWidget::frameSwapped, &window, look);
   }
   window.show();
@@ -258,7 +258,7 @@ void measure(Results& results) {
   until(clock, "the solvers to end", [&] { return window.document().idle(); });
   results.add("/window/latency_ms", latencyMilliseconds(window));
   until(clock, "the solvers to end", [&] { return window.document().idle(); });
-  run(2000);  // the figures at rest come a moment later
+  run(2000);  // the figures at rest are updated a moment later
   results.add("/window/idle_cpu", idleShare());
   const QTemporaryDir folder;
   const QString path = folder.filePath(QStringLiteral("million.obj"));

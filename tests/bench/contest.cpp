@@ -10,10 +10,10 @@
 namespace chainmail::bench {
 namespace {
 
-// In a process; tests/run bench starts several.
+// Per process; tests/run bench starts several processes.
 constexpr int repetitions = 3;
 
-/// Keeps the time of each repetition, by contestant (ms a pass).
+/// Stores the time of each repetition, by contestant (ms per pass).
 class Collector : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context& /*context*/) override { return true; }
@@ -28,7 +28,7 @@ class Collector : public benchmark::BenchmarkReporter {
   std::map<std::string, std::vector<double>> times;
 };
 
-/// Google Benchmark takes its settings as arguments, once.
+/// Passes the settings to Google Benchmark, which takes them once, as arguments.
 void initialize() {
   static const bool done = [] {
     std::string program = "bench", interleave = "--benchmark_enable_random_interleaving=true";

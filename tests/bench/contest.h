@@ -10,30 +10,30 @@
 
 namespace chainmail::bench {
 
-/// One of those that are compared: `pass` makes the next move and says how many elements moved.
+/// One of the compared algorithms. `pass` makes the next move and returns how many elements moved.
 struct Contestant {
   std::string drag, mesh, algorithm;
   std::uint64_t elements = 0;
-  int passes = 1;  // a repetition
+  int passes = 1;  // per repetition
   std::function<std::uint64_t()> pass;
 };
 
-/// A time that was measured.
+/// The measured time of a contestant.
 struct Run {
   std::string drag, mesh, algorithm;
   std::uint64_t elements = 0;
-  double moved = 0;  // elements, a pass
-  double ms = 0;     // a pass; median over the repetitions of this process
+  double moved = 0;  // mean number of elements per pass
+  double ms = 0;     // per pass; median over the repetitions of this process
 
   double ns_per_moved() const { return moved > 0 ? 1e6 * ms / moved : 0; }
 };
 
-/// Google Benchmark times the contestants in one process and thread. A repetition is a number of passes, and
-/// the repetitions come in random order: what else the machine does, and how warm it is, falls on all alike.
-/// Says each result on a line.
+/// Lets Google Benchmark time the contestants in one process and thread. A repetition is a number of passes. The
+/// repetitions run in random order, so that other load and the temperature of the machine affect all contestants alike.
+/// Prints one line per result.
 std::vector<Run> run(const std::vector<Contestant>& contest);
 
-/// Of these, the run of one algorithm, on one mesh where it ran on several.
+/// Returns the run of an algorithm; if it ran on several meshes, also name the mesh.
 const Run& of(const std::vector<Run>& runs, const std::string& algorithm, const std::string& mesh = {});
 
 inline double median(std::vector<double> values) { return spread_of(std::move(values)).median; }

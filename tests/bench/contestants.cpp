@@ -16,7 +16,7 @@
 namespace chainmail::bench {
 namespace {
 
-/// A hand on its round.
+/// The handle on its closed path.
 struct Round {
   Hand hand;
   std::size_t next = 0;
@@ -39,14 +39,16 @@ std::unique_ptr<Solver> make(const MeshPointer& mesh, const std::string& algorit
   return make_solver(mesh, which, Precision::single_precision);
 }
 
-/// Two rounds of a local drag; of a whole body, whose passes are all alike, less.
+/// Returns the number of warm-up passes: two rounds of a local drag. A whole-body drag needs fewer, because its passes
+/// are all alike.
 std::size_t warm_up(Drag drag, const Hand& hand) { return drag == Drag::local ? 2 * hand.targets.size() : 4; }
 
 int passes(Drag drag, std::uint64_t elements) {
   return drag == Drag::local ? 1024 : std::clamp(2'000'000 / int(elements), 2, 400);
 }
 
-/// Generalized passes some elements by that stand within their regions about the sponsor it came from.
+/// Throws if fewer than 95 % of the elements moved. Generalized does not move all: some are already in their valid
+/// regions.
 void check_whole(std::uint64_t moved, const Mesh& mesh) {
   if (double(moved) < 0.95 * mesh.element_count()) {
     throw std::logic_error("a whole-body drag moved " + std::to_string(moved) + " elements of " +
@@ -54,7 +56,7 @@ void check_whole(std::uint64_t moved, const Mesh& mesh) {
   }
 }
 
-/// Moves a solver and the textbook version through the same drag.
+/// Throws if the solver and the textbook version differ after the same drag.
 void check_textbook(const MeshPointer& mesh, Textbook<float, 2>& textbook) {
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
   solver->set_softness({stiff, {}});
@@ -99,7 +101,7 @@ Contestant dragged(const Scene& scene, const std::string& algorithm, Drag drag) 
   const auto round = std::make_shared<Round>(Round{hand(drag, *scene.mesh)});
   const auto pass = [solver, round, drag, mesh = scene.mesh, anew = is_without_memory(algorithm)] {
     if (anew) {
-      solver->cut({});  // other links, as far as it knows: what the last pass learnt is forgotten
+      solver->cut({});  // the solver assumes other links and forgets all data of the last pass
     }
     const std::uint64_t moved = solver->move(round->hand.element, round->step()).moved;
     if (drag != Drag::local) {

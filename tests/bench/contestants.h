@@ -5,49 +5,49 @@
 
 namespace chainmail::bench {
 
-/// The algorithms as they are measured. Those not named here go by their name on the command line.
+/// Names of the measured variants. All other algorithms have their names on the command line.
 namespace names {
 inline const std::string natural_queue = "natural-queue";
-/// Every pass worked out anew, whatever the pass before did.
+/// Computes every pass anew, without a replay of the previous pass.
 inline const std::string without_replay = "natural-queue-without-replay";
 inline const std::string exact = "exact";
-/// The first pass of a drag, which has to find the regions about the hand.
+/// The first pass of a drag, which has to find the regions about the handle.
 inline const std::string exact_anew = "exact-first-pass";
-/// Stream the bytes that a later whole-body pass of the algorithm touches, each once.
+/// Touches all bytes that a later whole-body pass of the algorithm touches, each once.
 inline const std::string natural_queue_bytes = "natural-queue-bytes-once";
 inline const std::string exact_bytes = "exact-bytes-once";
-/// Natural Queue literally as the thesis describes it: tests/reference.
+/// Natural Queue exactly as the thesis describes it (tests/reference).
 inline const std::string of_2004 = "natural-queue-2004";
-/// Natural Queue on arrays: textbook.h.
+/// Natural Queue on arrays (textbook.h).
 inline const std::string textbook = "natural-queue-textbook";
 }  // namespace names
 
-/// A mesh under its name.
+/// A mesh and its name.
 struct Scene {
   explicit Scene(const std::string& of) : name(of), mesh(make_mesh(of)) {}
   std::string name;
   MeshPointer mesh;
 };
 
-/// A solver in float, as the window runs it, in this drag, past its first passes. That a whole-body drag moves fewer
-/// than 95 % of the elements is an error.
+/// Returns a solver in float, as the window runs it, that has already made its first passes of this drag. A pass throws
+/// if a whole-body drag moves fewer than 95 % of the elements.
 Contestant dragged(const Scene& scene, const std::string& algorithm, Drag drag);
 
-/// The literal version (thesis 4.2: lists, and a search through a list wherever something is looked up).
+/// Returns the version of the thesis (4.2: all data is in lists, which are searched from the front).
 Contestant dragged_as_2004(const Scene& scene);
 
-/// The textbook version, in float. That it does not answer a drag as the solver does, bit for bit, is an error.
+/// Returns the textbook version, in float. Throws if its positions after a drag differ from the solver's in any bit.
 Contestant dragged_by_textbook(const Scene& scene);
 
-/// The time that memory alone takes to touch the bytes of a pass once; `algorithm` is one of names::…_bytes. Each pass
-/// streams another copy, and all copies together are as large as what a solver holds: the caches hold of it what they
-/// would hold after a pass.
+/// Returns a contestant that only touches the bytes of a pass once; `algorithm` is one of names::…_bytes. Each pass
+/// streams another copy. Together the copies are as large as the data of a solver, so that the caches contain the same
+/// share of them as after a pass.
 Contestant streamed(const Scene& scene, const std::string& algorithm);
 
-/// What the passes of some hand-like drags took (report/run/scripted_drags.h), all with the default softness.
+/// Times of the passes of some hand-like drags (report/run/scripted_drags.h), with the default softness.
 struct HandLike {
-  double ns_per_moved = 0;  // over all passes
-  double median_ms = 0;     // of a pass
+  double ns_per_moved = 0;  // mean over all passes
+  double median_ms = 0;     // per pass
   double worst_ms = 0;
 };
 HandLike hand_like_drags(const Scene& scene, const std::string& algorithm);

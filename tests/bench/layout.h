@@ -7,9 +7,9 @@
 
 namespace chainmail::bench {
 
-/// What the solver holds, in float: the one place in the benchmarks that knows it.
+// The size of a solver's data, in float. No other file of the benchmarks depends on its layout.
 
-/// The bytes that a whole-body pass touches, each counted once.
+/// Number of bytes that a whole-body pass touches, each counted once.
 struct PassBytes {
   std::size_t updated = 0;  // read and written
   std::size_t read = 0;
@@ -25,23 +25,24 @@ inline std::size_t region_bytes(const Mesh& mesh) {
   return mesh.space_dimension == 2 ? sizeof(Region<float, 2>) : sizeof(Region<float, 3>);
 }
 
-/// A later pass of Natural Queue replays the pass before: it reads a step for each element and updates its position.
-/// Where each link has a region of its own, it also reads one region for each element.
+/// Returns the bytes of a later pass of Natural Queue. It replays the previous pass: reads a step per element and
+/// updates the element's position. If each link has its own region, it also reads one region per element.
 inline PassBytes replay_bytes(const Mesh& mesh) {
   const std::size_t regions = mesh.entry_shape.empty() ? mesh.element_count() * region_bytes(mesh) : 0;
   return {place_bytes(mesh), mesh.element_count() * sizeof(Step) + regions, 0};
 }
 
-/// A later pass of Exact reads the id of each element and its region about the handle, updates its position and writes
-/// its id into the list of those that moved.
+/// Returns the bytes of a later pass of Exact. It reads the id of each element and its region about the handle, updates
+/// its position and writes its id into the list of moved elements.
 inline PassBytes exact_bytes(const Mesh& mesh) {
   const std::size_t ids = mesh.element_count() * sizeof(ElementId);
   return {place_bytes(mesh), ids + mesh.element_count() * region_bytes(mesh), ids};
 }
 
-/// All that a solver holds of an object: positions, stamps, steps, regions, rest positions and the neighbour table.
+/// Returns the bytes of all data that a solver stores for an object: positions, stamps, steps, regions, rest positions
+/// and the neighbour table.
 inline std::size_t held_bytes(const Mesh& mesh) {
-  // With one softness: a region for each rest vector and its number for each entry; else a region for each entry.
+  // With one softness: one region per rest vector, and its number per entry. Otherwise one region per entry.
   const std::size_t regions = mesh.entry_shape.empty()
                                   ? mesh.neighbours.size() * region_bytes(mesh)
                                   : mesh.shapes.size() / std::size_t(mesh.space_dimension) * region_bytes(mesh) +

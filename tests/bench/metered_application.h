@@ -9,9 +9,10 @@
 
 namespace chainmail::bench {
 
-/// Sees every event that Qt delivers, and keeps apart what drawing takes: an update of the window (UpdateRequest),
-/// in which Qt paints the widgets, has each view draw, and puts all together, and what the window system asks
-/// for (Expose). What else the thread does is the GUI's own work: input, frames received, timers, figures.
+/// Sees every event that Qt delivers, and measures the time for drawing apart from the rest. Drawing is an update of
+/// the window (UpdateRequest), in which Qt paints the widgets, the views draw and the picture is composed, and a
+/// request of the window system (Expose). The remaining time is the GUI's own work: input, received frames, timers,
+/// figures.
 class MeteredApplication : public QApplication {
  public:
   using QApplication::QApplication;
@@ -36,8 +37,8 @@ class MeteredApplication : public QApplication {
     return handled;
   }
 
-  double drawingMilliseconds = 0;  // of this thread's processor time
-  int framesDrawn = 0;             // updates of the window in which at least one view was drawn
+  double drawingMilliseconds = 0;  // processor time of this thread
+  int framesDrawn = 0;             // updates of the window that drew at least one view
   int viewPaints = 0;
   QSet<const QObject*> viewsPainted;
 

@@ -8,16 +8,17 @@
 
 namespace chainmail::bench {
 
-/// What this process has used, as the kernel counts it.
+// Resources that this process has used, as counted by the kernel.
 
-/// Processor time so far: CLOCK_THREAD_CPUTIME_ID of this thread, CLOCK_PROCESS_CPUTIME_ID of all (ms).
+/// Returns the processor time so far (ms): CLOCK_THREAD_CPUTIME_ID is for this thread, CLOCK_PROCESS_CPUTIME_ID for all
+/// threads.
 inline double cpu_milliseconds(clockid_t clock) {
   timespec now{};
   clock_gettime(clock, &now);
   return 1e3 * double(now.tv_sec) + 1e-6 * double(now.tv_nsec);
 }
 
-/// The number that stands behind a name such as `VmRSS:` in /proc/…/status.
+/// Returns the number after a name such as `VmRSS:` in /proc/…/status.
 inline double from_status(const std::filesystem::path& status, const std::string& name) {
   std::ifstream in(status);
   for (std::string word; in >> word;) {
@@ -28,10 +29,10 @@ inline double from_status(const std::filesystem::path& status, const std::string
   return 0;
 }
 
-/// Bytes that are in memory now.
+/// Returns the resident bytes of the process.
 inline double resident_bytes() { return 1024 * from_status("/proc/self/status", "VmRSS:"); }
 
-/// How often its threads went to sleep, and so woke up.
+/// Returns how often the threads of this process have gone to sleep. Each time, they also woke up.
 inline double wake_ups() {
   double sum = 0;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {

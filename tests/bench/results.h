@@ -8,8 +8,8 @@
 
 namespace chainmail::bench {
 
-/// build/bench.json, to which each program of tests/run bench adds its part. Each program runs several times, and each
-/// run adds its values to the earlier ones:
+/// The file build/bench.json, to which each program of tests/run bench adds its part. Each program runs several times,
+/// and each run adds its values to the earlier ones:
 ///
 ///     {"machine": …,
 ///      "runs": [{"name", "mesh", "algorithm", "elements", "moved", "ms", "ms_quartiles", "ns_per_moved"}],
@@ -18,18 +18,18 @@ namespace chainmail::bench {
 /// `ms`, `ns_per_moved` and the numbers in `ratios` are medians over the runs.
 class Results {
  public:
-  /// With what other programs, and earlier runs, wrote there before.
+  /// Reads the results that other programs and earlier runs wrote to this file.
   explicit Results(std::string path);
 
-  /// Each timing, named after its drag.
+  /// Adds each timing, named after its drag.
   void add(const std::vector<Run>& runs);
-  /// A figure of this run; `place` is a JSON pointer into "ratios".
+  /// Adds a figure of this run. `place` is a JSON pointer into "ratios".
   void add(const std::string& place, double value);
   const nlohmann::json& all() const { return all_; }
   void write() const;
 
  private:
-  /// Adds a value to the samples of `key`; returns how all of them spread.
+  /// Adds a value to the samples of `key`. Returns the spread of all samples.
   TimeSpread sample(const std::string& key, double value);
 
   std::string path_;

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int steps_of_a_round = 32;
 
-/// Off its place on the axes along which it has neighbours on both sides: the outline stays.
+/// Returns the mesh with random offsets on the axes along which an element has neighbours on both sides; the outline
+/// stays.
 MeshPointer jittered(const Mesh& mesh) {
   std::mt19937_64 random(5);
   const auto [low, high] = bounds(mesh);
@@ -52,7 +53,7 @@ bool solid(const Mesh& mesh) {
   return ((high - low).array() > 0).all();
 }
 
-/// Where the hand is on its round, about the element's rest position.
+/// Returns the position of the handle on its circle, relative to the element's rest position.
 Point on_circle(const Mesh& mesh, double radius, double angle) {
   Point at(std::cos(angle), std::sin(angle), 0);
   if (solid(mesh)) {

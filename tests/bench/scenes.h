@@ -7,33 +7,31 @@
 
 namespace chainmail::bench {
 
-/// The meshes that are measured. Called `grid1024` (kind and side), `jittered_…` where each interior
-/// coordinate is off its place by up to 0.3 spacings, and `…_3d` where a plane is given a third coordinate.
-/// Made anew at each call.
+/// Makes a measured mesh. The name is kind and side, as in `grid1024`. `jittered_…`: each interior coordinate is moved
+/// by up to 0.3 spacings. `…_3d`: a plane mesh gets a third coordinate. Every call makes a new mesh.
 MeshPointer make_mesh(const std::string& name);
 
-/// Stiff links: the whole body follows every move.
+/// Stiff links, so that the whole body follows every move.
 inline constexpr LinkSoftness stiff{0.999, 1.001, 0.0005};
-/// Each link as stiff as any other, up to 200 times: it gives 1e-4 to 2e-2, log-uniform.
+/// Returns a different softness for each link: a slack of 1e-4 to 2e-2 of the rest length, log-uniform.
 Softness mixed_softness(const Mesh& mesh);
 
 enum class Drag { local, whole_body, whole_body_mixed };
 std::string name(Drag drag);
 Softness softness(Drag drag, const Mesh& mesh);
 
-/// The hand: an element, and where it goes, on a closed path, so that passes may be repeated at will.
+/// The handle: an element and its targets. The path is closed, so that passes can be repeated any number of times.
 struct Hand {
   ElementId element = 0;
   std::vector<Point> targets;
 };
 
-/// The drags, the same for all algorithms. Both go round a circle about the element's rest position, in 3D a
-/// tilted one, so that every axis changes its direction twice a round.
+/// Returns the handle of a drag. The drags are the same for all algorithms. The handle moves on a circle about the rest
+/// position of its element, in 3D on a tilted one, so that every axis changes its direction twice per round.
 ///
-/// Local: the middle element, softness as it is by default, a radius at which some hundred elements move a pass.
-/// Whole-body: the first corner, on a circle a quarter as wide as the object; each of its 32 steps (2.5 % of the
-/// width: the hand is round in half a second) is beyond what all links give together, so all elements move
-/// in every pass.
+/// Local: the middle element, default softness, and a radius at which some hundred elements move in each pass.
+/// Whole-body: the first corner, on a circle with a diameter of a quarter of the object's width. Each of the 32 moves
+/// of a round (2.5 % of the width) is larger than the slack of all links together, so all elements move in every pass.
 Hand hand(Drag drag, const Mesh& mesh);
 
 }  // namespace chainmail::bench

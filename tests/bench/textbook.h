@@ -9,8 +9,8 @@
 
 namespace chainmail::bench {
 
-/// Natural Queue ChainMail (Dean 2004, 4.1) as a textbook would have it: elements, neighbours and valid regions in
-/// arrays, candidates in a first-in first-out queue, a mark for each updated element. Nothing is kept from pass to
+/// Natural Queue ChainMail (Dean 2004, 4.1) as a textbook would write it: elements, neighbours and valid regions in
+/// arrays, candidates in a first-in first-out queue, and a mark for each updated element. No data is kept from pass to
 /// pass.
 template <class Scalar, int Dimension>
 class Textbook {
@@ -25,7 +25,7 @@ class Textbook {
     }
   }
 
-  /// Returns how many elements moved, without the grabbed one.
+  /// Returns how many elements moved, without the grabbed element.
   std::uint64_t move(ElementId grabbed, const Point& target) {
     ++pass_;
     queue_.clear();
@@ -77,7 +77,7 @@ class Textbook {
 
   MeshPointer mesh_;
   std::vector<std::array<Scalar, Dimension>> positions_;
-  std::vector<Region<Scalar, Dimension>> regions_;  // of each entry of the neighbour table
+  std::vector<Region<Scalar, Dimension>> regions_;  // for each entry of the neighbour table
   std::vector<std::uint32_t> updated_;              // the last pass that updated the element
   std::vector<Candidate> queue_;
   std::uint32_t pass_ = 0;

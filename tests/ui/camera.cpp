@@ -1,4 +1,4 @@
-// Where things appear, and what lies under a place of the view.
+// Tests the positions of points in the view, and the points under a position of the view.
 
 #include "drawing/camera.h"
 
@@ -83,7 +83,7 @@ class CameraTest : public QObject {
     const QPointF place(411, 93);
     const QVector3D point = camera.pointAt(place, {1, 2, 0}, view);
     const QVector3D device = (camera.toClip(view) * camera.toView()).map(point);
-    // Half a pixel: the matrices are in float.
+    // Tolerance of half a pixel, because the matrices are in float.
     QVERIFY(std::abs((device.x() + 1) / 2 * 640 - place.x()) < 0.5);
     QVERIFY(std::abs((1 - device.y()) / 2 * 480 - place.y()) < 0.5);
   }

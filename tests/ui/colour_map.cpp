@@ -1,4 +1,4 @@
-// The colour map: its ends, its lightness, and what stands for links where elements are drawn.
+// Tests the colour map: its ends, its lightness, and the colours of differences.
 
 #include "drawing/colour_map.h"
 
@@ -19,7 +19,7 @@ double linear(int channel) {
   return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
 }
 
-/// CIE 1976 lightness, 0 to 100.
+/// Returns the CIE 1976 lightness, 0 to 100.
 double lightness(QColor colour) {
   const double y = 0.2126 * linear(colour.red()) + 0.7152 * linear(colour.green()) + 0.0722 * linear(colour.blue());
   return y > 216.0 / 24389 ? 116 * std::cbrt(y) - 16 : y * 24389 / 27;
@@ -41,7 +41,7 @@ class ColourMap : public QObject {
       QVERIFY(is(colour_map::at(1, ground), stops.back()));
       QVERIFY(is(colour_map::at(-3, ground), stops.front()));
       QVERIFY(is(colour_map::at(7, ground), stops.back()));
-      QVERIFY(is(colour_map::at(0.4, ground), stops[2]));  // the third of six
+      QVERIFY(is(colour_map::at(0.4, ground), stops[2]));  // the third of six colours
     }
   }
 
@@ -57,15 +57,15 @@ class ColourMap : public QObject {
     }
   }
 
-  /// Both sides of a difference leave the ground alike, and blue never stands for the side above 0.
+  /// Both sides of a difference have the same contrast to the ground, and blue is always the side below 0.
   void differencesStandOutBothWays() {
     for (const Ground ground : {Ground::dark, Ground::light}) {
       const auto at = [&](double share) { return colour_map::at(share, colour_map::differenceStops(ground)); };
       double before = lightness(colours::background.on(ground));
-      for (const double off : {0.1, 0.3, 0.5}) {  // between these it is linear
+      for (const double off : {0.1, 0.3, 0.5}) {  // the colours between these are linear
         const QColor below = at(0.5 - off), above = at(0.5 + off);
         QVERIFY(below.blue() > below.red() && above.red() > above.blue());
-        QVERIFY(std::abs(lightness(below) - lightness(above)) < 5);  // neither side looks larger
+        QVERIFY(std::abs(lightness(below) - lightness(above)) < 5);  // neither side seems larger
         QVERIFY((lightness(below) - before) * (ground == Ground::dark ? 1 : -1) > 10);
         before = lightness(below);
       }

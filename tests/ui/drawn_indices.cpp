@@ -1,4 +1,4 @@
-// What is drawn of a mesh, finely and coarsely.
+// Tests which links and faces of a mesh are drawn, in full detail and coarsely.
 
 #include "drawing/drawn_indices.h"
 
@@ -21,7 +21,7 @@ std::vector<std::uint32_t> allClusters(const MeshLevel& level) {
   return clusters;
 }
 
-/// The ends of the links that are drawn, as they come.
+/// Returns the ends of the drawn links, in the order of drawing.
 std::vector<ElementId> ends(const MeshLevelPointer& level, const Cuts& cuts) {
   return drawnLinks(*level, cuts, allClusters(*level)).ends;
 }
@@ -30,7 +30,7 @@ std::size_t faceCount(const MeshLevelPointer& level, const Cuts& cuts) {
   return drawnFaces(*level, cuts, allClusters(*level)).size() / 3;
 }
 
-/// Whether two elements hang together by links that are drawn.
+/// True if drawn links connect two elements.
 bool joined(const MeshLevelPointer& level, const Cuts& cuts, ElementId from, ElementId to) {
   const auto links = ends(level, cuts);
   std::set<ElementId> found{from};
@@ -45,7 +45,7 @@ bool joined(const MeshLevelPointer& level, const Cuts& cuts, ElementId from, Ele
   return found.count(to) != 0;
 }
 
-/// A cloth whose file says nothing of a lattice, with its elements in no order.
+/// Returns a cloth without a lattice, with its elements in random order.
 MeshPointer plainCloth(ElementId width, ElementId height) {
   const auto cloth = generate({MeshKind::cloth, {width, height, 1}, 1, {}});
   std::vector<ElementId> place(cloth->element_count());
@@ -77,7 +77,7 @@ class DrawnIndices : public QObject {
     Cuts cuts(mesh);
     QCOMPARE(ends(level, cuts).size(), 2U * 9);
     QCOMPARE(faceCount(level, cuts), 4U);
-    cuts.cut(*find_link(*mesh, 1, 4));  // the middle upright, in two triangles
+    cuts.cut(*find_link(*mesh, 1, 4));  // the middle vertical link, which is a side of two triangles
     QCOMPARE(ends(level, cuts).size(), 2U * 8);
     QCOMPARE(faceCount(level, cuts), 2U);
   }
@@ -123,7 +123,8 @@ class DrawnIndices : public QObject {
     Cuts cuts(mesh);
     const auto level = coarseLattice(mesh, 4);  // columns 0 4 8 9, rows 0 4 6
     QCOMPARE(faceCount(level, cuts), 2U * 3 * 2);
-    cuts.cut(*find_link(*mesh, 4 + 10, 4 + 20));  // in the side from (4, 0) to (4, 4), of a face left and one right
+    // In the side from (4, 0) to (4, 4), which a face on the left and one on the right share.
+    cuts.cut(*find_link(*mesh, 4 + 10, 4 + 20));
     QCOMPARE(faceCount(level, cuts), 2U * 3 * 2 - 2);
   }
 

@@ -1,4 +1,4 @@
-// What a stroke crosses in the front layer alone.
+// Tests which links of the front layer a stroke crosses.
 
 #include "drawing/front_links.h"
 
@@ -11,7 +11,7 @@ using namespace chainmail;
 
 namespace {
 
-/// Seen from +z or somewhat beside it, by parallel rays.
+/// An object seen with parallel rays, from +z or at an angle.
 struct Front : Scene {
   explicit Front(const MeshPointer& mesh, double yaw = 0, double pitch = 0) : Scene(mesh), cuts(mesh) {
     camera.setParallel(true);
@@ -24,7 +24,7 @@ struct Front : Scene {
   std::vector<LinkId> unhidden() const {
     return unhidden(wholeFaces(frame, boxes, cuts, projection(), QRectF(stroke.p1(), stroke.p2()).normalized()));
   }
-  /// Of the links crossed, those whose ends both stand where `holds` says.
+  /// Returns the crossed links with both ends at positions for which `holds` is true.
   template <class Holds>
   std::vector<LinkId> crossedWhere(Holds holds) const {
     std::vector<LinkId> links;
@@ -38,10 +38,10 @@ struct Front : Scene {
   }
 
   Cuts cuts;
-  QLineF stroke{330, 310, 480, 290};  // about the middle of the view
+  QLineF stroke{330, 310, 480, 290};  // near the middle of the view
 };
 
-/// Two sheets of triangles, the second three behind the first; both fill the middle of the view.
+/// Returns two sheets of triangles, the second 3 units behind the first. Both fill the middle of the view.
 MeshPointer twoSheets() {
   MeshParts parts;
   const auto sheet = test::make_mesh(MeshKind::cloth, {6, 6, 1}, 3);
@@ -80,7 +80,7 @@ class FrontLinks : public QObject {
       const auto [a, b] = scene.frame.mesh->links[link];
       if (projection.depth(plain::placeOf(scene.frame, projection, a)) < middle &&
           projection.depth(plain::placeOf(scene.frame, projection, b)) < middle) {
-        near.push_back(link);  // the stroke ends well before the outline
+        near.push_back(link);  // by depth only, because the stroke ends well inside the outline
       }
     }
     QVERIFY(near.size() > 4 && near.size() < scene.crossedHere().size());
@@ -94,7 +94,7 @@ class FrontLinks : public QObject {
     QVERIFY(!first.empty() && !second.empty());
     QCOMPARE(scene.unhidden(), first);
     for (const LinkId link : first) {
-      scene.cuts.cut(link);  // and with them the faces
+      scene.cuts.cut(link);  // the faces go with the links
     }
     QCOMPARE(scene.unhidden(), second);
   }
@@ -112,7 +112,7 @@ class FrontLinks : public QObject {
     for (const LinkId link : front) {
       scene.cuts.cut(link);
     }
-    // The cut shows what was inside: a second stroke goes deeper.
+    // The cut uncovers the inside, so a second stroke cuts deeper.
     const auto deeper = scene.unhidden(facesOf(Surface(table, scene.cuts)));
     QVERIFY(!deeper.empty());
     QVERIFY(deeper.size() < scene.crossedHere().size());

@@ -1,4 +1,4 @@
-// Makes the pictures of README.md: the target `pictures`.
+// Makes the pictures of README.md for the target `pictures`.
 
 #include "io/file_actions.h"
 #include "io/samples.h"
@@ -11,7 +11,7 @@ namespace {
 constexpr QSize size{1600, 900};
 constexpr ElementId width = 24;  // elements per row of the sample
 
-/// The window with the sample of a cloth.
+/// The window with the sample 'cloth'.
 struct Cloth : Workbench {
   Cloth() {
     window.resize(size);
@@ -21,7 +21,7 @@ struct Cloth : Workbench {
     choose(1, "Natural Queue ChainMail");
   }
 
-  /// Drags an element in so many passes.
+  /// Drags an element by `by`, in this number of passes.
   void drag(ElementId element, const Point& by, int passes) {
     const Point from = document().mesh()->rest_position(element);
     document().grab(element);
@@ -33,10 +33,10 @@ struct Cloth : Workbench {
     settleFigures();
   }
 
-  bool save(const QString& path) { return window.grab().save(path, nullptr, 0); }  // compressed most
+  bool save(const QString& path) { return window.grab().save(path, nullptr, 0); }  // highest compression
 };
 
-/// One drag, with the violation of each link in colour.
+/// Saves a picture of a drag that shows the violation of each link in colour.
 bool saveViolation(const QString& path) {
   Cloth bench;
   bench.document().setPinned({10 * width}, true);
@@ -45,7 +45,7 @@ bool saveViolation(const QString& path) {
   return bench.save(path);
 }
 
-/// A pass, stopped on its way.
+/// Saves a picture of a pass that is not complete yet.
 bool savePropagation(const QString& path) {
   constexpr int back = 150;
   Cloth bench;
@@ -63,12 +63,12 @@ bool savePropagation(const QString& path) {
 
 }  // namespace
 
-/// Takes the resources' folder.
+/// Takes the path of the resources folder.
 int main(int argc, char** argv) {
   prepareApplication();
   const QTemporaryDir settings;
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
-  qputenv("XDG_DATA_HOME", settings.path().toUtf8());  // nothing of the user's
+  qputenv("XDG_DATA_HOME", settings.path().toUtf8());  // so that the user's files are not used
   QApplication application(argc, argv);
   remember(Theme::dark);
   styleApplication();

@@ -1,4 +1,4 @@
-// Makes the thumbnails of the samples: the target `thumbnails`.
+// Makes the thumbnails of the samples for the target `thumbnails`.
 
 #include <QImage>
 #include <QPainter>
@@ -12,8 +12,8 @@ using namespace chainmail;
 
 namespace {
 
-constexpr QSize thumbnail{104, 78};  // device pixels, two to a logical one
-constexpr QSize drawn{200, 150};     // links that are a pixel wide there are seen in the thumbnail
+constexpr QSize thumbnail{104, 78};  // device pixels, two per logical pixel
+constexpr QSize drawn{200, 150};     // small enough that links of one pixel are still visible in the thumbnail
 
 QImage pictureOf(const QString& path) {
   if (isPicture(path)) {
@@ -23,7 +23,7 @@ QImage pictureOf(const QString& path) {
   bench.window.findChild<FileActions*>()->openSample(path);
   bench.settle();
   if (const Mesh& mesh = *bench.document().mesh(); mesh.texture || !mesh.tetrahedra.empty()) {
-    bench.trigger("section");  // what is inside tells it from a surface
+    bench.trigger("section");  // shows that the object is solid
   }
   View& view = bench.view(0);
   view.setFixedSize(drawn);
@@ -32,7 +32,7 @@ QImage pictureOf(const QString& path) {
   return view.picture(1, true);
 }
 
-/// The part of a picture that something is drawn in.
+/// Returns the part of a picture that contains something.
 QRect drawnPart(const QImage& picture) {
   QRect part;
   for (int y = 0; y < picture.height(); ++y) {
@@ -45,7 +45,7 @@ QRect drawnPart(const QImage& picture) {
   return part;
 }
 
-/// As large as it goes, in the middle.
+/// Returns the drawn part, scaled to the size of a thumbnail and centred.
 QImage framed(const QImage& picture) {
   QImage result(thumbnail, QImage::Format_ARGB32_Premultiplied);
   result.fill(Qt::transparent);
@@ -58,7 +58,7 @@ QImage framed(const QImage& picture) {
 
 }  // namespace
 
-/// Takes the resources' folder.
+/// Takes the path of the resources folder.
 int main(int argc, char** argv) {
   prepareApplication();
   const QTemporaryDir settings;

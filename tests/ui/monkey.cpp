@@ -10,7 +10,7 @@ namespace chainmail {
 
 Monkey::Monkey(Workbench& bench, const QString& folder, unsigned seed, const Witness& witness)
     : bench_(bench), folder_(folder), seed_(seed), witness_(witness) {
-  bench_.window.resize(640, 400);  // less to paint: more gets done
+  bench_.window.resize(640, 400);  // a small window takes less time to paint, so more events fit in
   QObject::connect(&popups_, &QTimer::timeout, &bench_.window, [] {
     if (QWidget* popup = QApplication::activePopupWidget()) {
       popup->close();
@@ -68,14 +68,14 @@ void Monkey::send(QWidget& widget, QEvent::Type type, QPointF place, Qt::MouseBu
   QApplication::sendEvent(&widget, &event);
 }
 
-/// From an element to anywhere; now and then given up, undone in its middle, or never released.
+/// Drags from an element to random positions. Sometimes it cancels the stroke, undoes in the middle, or never releases.
 void Monkey::stroke() {
   View& view = anyView();
   const auto element = ElementId(below(bench_.document().mesh()->element_count()));
   const auto held = once(4) ? Qt::ShiftModifier : once(8) ? Qt::ControlModifier : Qt::NoModifier;
   say(QStringLiteral("stroke in %1 from element %2").arg(view.objectName()).arg(element));
   send(view, QEvent::MouseButtonPress, once(6) ? anywhere(view) : view.placeOf(element), Qt::LeftButton, held);
-  const QPointer<View> still = &view;  // a session that is opened meanwhile may have fewer panels
+  const QPointer<View> still = &view;  // a session that opens meanwhile may have fewer panels
   for (std::size_t i = below(6); i > 0 && still; --i) {
     send(view, QEvent::MouseMove, anywhere(view), Qt::LeftButton, held);
     if (once(25)) {
@@ -106,7 +106,7 @@ void Monkey::hover() {
   say(QStringLiteral("hover over %1").arg(view.objectName()));
   send(view, QEvent::MouseMove, anywhere(view), Qt::NoButton);
   if (once(3)) {
-    // What is below the cursor is looked for in idle time.
+    // The element below the cursor is searched in idle time.
     (void)QTest::qWaitFor([this] { return !bench_.refreshes(Workbench::shortly); }, 100);
   } else if (once(3)) {
     QEvent leave(QEvent::Leave);
@@ -133,13 +133,13 @@ void Monkey::doubleClick() {
   }
 }
 
-/// Whatever is there: a list, a table, a tab, a plot, a handle, a dock's title.
+/// Clicks on any widget: a list, a table, a tab, a plot, a handle, the title of a dock.
 void Monkey::clickAnywhere() {
   const QPointF at = anywhere(bench_.window);
   QWidget* there = bench_.window.childAt(at.toPoint());
   if (there == nullptr || qobject_cast<QAbstractButton*>(there) != nullptr) {
     say(QStringLiteral("nothing to click at"));
-    return;  // buttons have an event of their own
+    return;  // buttons have a separate event
   }
   say(QStringLiteral("click at %1 '%2'").arg(QLatin1String(there->metaObject()->className()), there->objectName()));
   const QPointF place = there->mapFrom(&bench_.window, at);
@@ -161,7 +161,7 @@ bool Monkey::isLeftAlone(const QKeySequence& keys) const {
   });
 }
 
-/// No digits: typed into a mesh's size they cost time and find nothing.
+/// Presses no digits: in the size of a mesh, they would only take time.
 void Monkey::pressKey() {
   static constexpr std::array others{Qt::Key_Escape,   Qt::Key_Tab,   Qt::Key_Backtab, Qt::Key_Left,     Qt::Key_Right,
                                      Qt::Key_Up,       Qt::Key_Down,  Qt::Key_Return,  Qt::Key_Space,    Qt::Key_Delete,

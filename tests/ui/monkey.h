@@ -10,23 +10,23 @@
 
 namespace chainmail {
 
-/// A user who knows every control and no restraint. Each event has dice of its own: the same seed does the same, and
-/// an event does not depend on how many numbers those before it took.
+/// A simulated user who uses every control, in any order. Each event has its own random numbers: the same seed gives
+/// the same events, and an event does not depend on how many random numbers earlier events used.
 class Monkey {
  public:
   struct Left {
     const char* action;
     const char* why;
   };
-  /// The actions that it keeps its hands off.
+  /// Returns the actions that it never triggers.
   static std::span<const Left> leftAlone();
 
-  /// The folder is the monkey's own.
+  /// `folder` must be for the monkey only.
   Monkey(Workbench& bench, const QString& folder, unsigned seed, const Witness& witness);
 
-  /// The next event.
+  /// Performs the next event.
   void act();
-  /// Lets go, and ends what goes on by itself: a test, a report, a film, what is played, relaxation.
+  /// Releases the handle and ends what still runs: size test, report, film, playback, relaxation.
   void rest();
 
  private:
@@ -54,7 +54,7 @@ class Monkey {
   void send(QWidget& widget, QEvent::Type type, QPointF place, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
   bool isLeftAlone(const QKeySequence& keys) const;
 
-  // monkey_controls.cpp: what has a name
+  // monkey_controls.cpp: widgets and actions with names
   void triggerAction();
   void chooseTool();
   void goBackAndForth();
@@ -71,7 +71,7 @@ class Monkey {
   template <class Widget, class Suits>
   Widget* any(const Suits& suits);
 
-  // monkey_files.cpp: meshes, sessions, moves and films, good and bad
+  // monkey_files.cpp: valid and invalid meshes, sessions, moves and films
   void build();
   void openSomething();
   void saveSomething();
@@ -85,8 +85,8 @@ class Monkey {
   const Witness& witness_;
   std::mt19937_64 random_;
   std::size_t event_ = 0;
-  std::size_t testEnds_ = 0;  // at which event the size test is cancelled, while one runs
-  QTimer popups_;             // closes menus and dialogs, which wait for an answer
+  std::size_t testEnds_ = 0;  // event that cancels the running size test
+  QTimer popups_;             // closes menus and dialogs, which would wait for an answer
 };
 
 }  // namespace chainmail

@@ -1,4 +1,4 @@
-// What a monkey does with what has a name: actions, buttons, fields, docks.
+// Events for widgets with names: actions, buttons, fields, docks.
 
 #include <QAbstractButton>
 #include <QAbstractSpinBox>
@@ -43,7 +43,7 @@ bool isLeft(const QAction& action) {
   return std::ranges::any_of(left, [&](const auto& one) { return action.objectName() == QLatin1String(one.action); });
 }
 
-/// What tells a widget from the others, from run to run.
+/// Returns a name that is unique for a widget and the same in each run.
 QString nameOf(const QWidget& widget) {
   QString name = widget.objectName().isEmpty() ? QLatin1String(widget.metaObject()->className()) : widget.objectName();
   if (const auto* button = qobject_cast<const QAbstractButton*>(&widget)) {
@@ -58,8 +58,8 @@ QString nameOf(const QWidget& widget) {
 
 std::span<const Monkey::Left> Monkey::leftAlone() { return left; }
 
-/// One that a user could reach now. The names decide which, so that one more or less in sight does not change the
-/// choice of another.
+/// Returns a random widget that a user could reach now. The choice depends on names only, so that one visible widget
+/// more or less does not change other choices.
 template <class Widget, class Suits>
 Widget* Monkey::any(const Suits& suits) {
   Widget* chosen = nullptr;
@@ -117,7 +117,8 @@ void Monkey::goBackAndForth() {
   }
 }
 
-/// Not those that ask for a file, as the dots in their text say, nor those that begin with fields of any size.
+/// Leaves out buttons that ask for a file (their text ends in an ellipsis), and buttons that start something with
+/// fields of any size.
 void Monkey::pressButton() {
   auto* button = any<QAbstractButton>([](const QAbstractButton& one) {
     const auto* tool = qobject_cast<const QToolButton*>(&one);
@@ -131,7 +132,7 @@ void Monkey::pressButton() {
   }
 }
 
-/// Near its least value, where a large one would only take long.
+/// Chooses a value near the minimum, because large values would only take long.
 void Monkey::turnSpin() {
   auto* field = any<QAbstractSpinBox>([](const QAbstractSpinBox& one) { return !one.isReadOnly(); });
   const std::size_t drawn = below(13);
@@ -145,7 +146,7 @@ void Monkey::turnSpin() {
   }
 }
 
-/// At once, or by its handle.
+/// Sets a value directly, or by moving the slider's handle.
 void Monkey::pullSlider() {
   auto* slider = any<QSlider>([](const QSlider& one) { return one.maximum() > one.minimum(); });
   if (slider == nullptr) {
@@ -242,9 +243,9 @@ void Monkey::rest() {
     play->trigger();
   }
   if (auto* show = bench_.window.findChild<QAction*>(QStringLiteral("showPropagation")); show->isChecked()) {
-    show->trigger();  // a pass that is looked at hides where the object is
+    show->trigger();  // while a pass is shown, the views do not show the current positions
   }
-  bench_.trigger("toolDrag");  // lets go
+  bench_.trigger("toolDrag");  // releases the handle
   bench_.settle();
   commands::SetRelaxation off = bench_.document().relaxation();
   off.on = false;

@@ -1,4 +1,4 @@
-// What a monkey builds, opens and saves.
+// Events that build, open and save.
 
 #include <QDropEvent>
 #include <QFile>
@@ -24,7 +24,7 @@ void Monkey::build() {
   click("buildMesh");
 }
 
-/// It may not be there yet, or be something else than its name says.
+/// Returns a path. The file may not exist yet, or its content may not fit its name.
 QString Monkey::anyPath() {
   static constexpr std::array names{"any.obj",     "any.dat",      "any.chainmail",     "other.chainmail",
                                     "garbage.obj", "garbage.dat",  "garbage.chainmail", "moves.json",
@@ -82,7 +82,7 @@ void Monkey::saveSomething() {
   }
 }
 
-/// A file that was good once, with holes, or nothing but noise.
+/// Writes a valid file with errors in it, or noise.
 void Monkey::writeGarbage() {
   static constexpr std::array ends{"obj", "dat", "chainmail"};
   const QString end = QLatin1String(ends[below(ends.size())]);

@@ -1,4 +1,4 @@
-// Which element lies under the cursor, and which links a stroke crosses.
+// Tests which element is under the cursor, and which links a stroke crosses.
 
 #include "drawing/picking.h"
 
@@ -14,7 +14,7 @@ using namespace chainmail;
 
 namespace {
 
-/// Elements scattered in space, or along a plane, in no order, linked without regard to where they are.
+/// Returns elements at random positions in space or in a plane, with links between random elements.
 MeshPointer disorder(std::mt19937_64& random, ElementId count) {
   MeshParts parts;
   std::uniform_real_distribution<double> along(-20, 20);
@@ -47,7 +47,7 @@ MeshPointer randomMesh(std::mt19937_64& random) {
   }
 }
 
-/// As a hand does: some elements near each other by id move, and now and then all of them.
+/// Moves some elements with similar ids, as a drag does, or sometimes all elements.
 void deform(Scene& scene, std::mt19937_64& random) {
   const ElementId count = scene.frame.mesh->element_count();
   const bool all = random() % 4 == 0;
@@ -70,7 +70,7 @@ void moveCamera(Scene& scene, std::mt19937_64& random) {
   scene.camera.pan({pixels(random), pixels(random)}, scene.view);
 }
 
-/// A place on a link, from one end at 0 to the other at 1.
+/// Returns a position on a link. `share` is 0 at one end and 1 at the other.
 Projection::Place along(const Scene& scene, const MeshLevel::Link& link, float share) {
   const int dimension = scene.frame.mesh->space_dimension;
   std::array<float, 3> at{};
@@ -90,7 +90,7 @@ class Picking : public QObject {
   void allElementsInAShape() {
     const Scene scene({MeshKind::block, {3, 3, 3}, 1, {}});
     const auto all = scene.elementsIn(QRectF(0, 0, 800, 600));
-    QCOMPARE(all.size(), 27U);  // those behind others too
+    QCOMPARE(all.size(), 27U);  // also the elements behind others
     const QPointF at = scene.place(13);
     QCOMPARE(scene.elementsIn(QRectF(at - QPointF(1, 1), at + QPointF(1, 1))), std::vector<ElementId>{13});
   }
@@ -111,7 +111,7 @@ class Picking : public QObject {
   }
 
   void theOneInFrontIsPreferred() {
-    // Seen straight from the front, the elements of a column along z nearly cover each other.
+    // Seen from the front, the elements of a column along z nearly cover each other.
     Scene scene({MeshKind::block, {2, 2, 9}, 1, {}});
     scene.camera.orbit({30 / 0.4, -25 / 0.4});
     const ElementId front = 4 * 8;
@@ -121,7 +121,7 @@ class Picking : public QObject {
   void aStrokeCrossesWhatLiesUnderIt() {
     const Scene scene({MeshKind::grid, {5, 4, 1}, 1, {}});
     const QPointF half = (scene.place(6) - scene.place(0)) / 2;
-    // From the middle of the first square to the middle of the one above: across one link.
+    // From the middle of the first square to the middle of the square above, across one link.
     const QLineF stroke(scene.place(0) + half, scene.place(5) + half);
     const auto link = find_link(*scene.frame.mesh, 5, 6);
     const Cuts none(scene.frame.mesh);
@@ -130,7 +130,7 @@ class Picking : public QObject {
     cut.cut(*link);
     QVERIFY(scene.crossed(cut, stroke).empty());
     QVERIFY(scene.crossed(none, QLineF(1, 1, 9, 1)).empty());
-    // In line with the first row, and beside it.
+    // In line with the first row, and next to it.
     const double y = scene.place(0).y();
     QVERIFY(scene.crossed(none, QLineF(0, y, scene.place(0).x() - 5, y)).empty());
   }
@@ -158,7 +158,7 @@ class Picking : public QObject {
     QVERIFY(test::check_property("clusters that are passed over hold nothing of the answer", holds));
   }
 
-  /// Boxes of every element, and of coarse links, which reach further.
+  /// Uses boxes of every element, and of coarse links, which are larger.
   void nothingThatIsSeenIsPassedOver() {
     const auto holds = [] {
       std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());

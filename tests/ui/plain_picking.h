@@ -5,7 +5,8 @@
 
 #include "drawing/picking.h"
 
-/// Picking as one would write it first, looking at every element and link: what the fast one must agree with.
+/// The simplest implementation of picking, which looks at every element and link. The fast one must give the same
+/// results.
 namespace chainmail::plain {
 
 inline Projection::Place placeOf(const Frame& frame, const Projection& projection, ElementId e) {
@@ -42,7 +43,8 @@ inline std::vector<ElementId> elementsIn(const Frame& frame, const Projection& p
   return found;
 }
 
-/// By Qt's own intersection, which is undecided about parallel and touching segments alone.
+/// Returns the links that the stroke crosses, found with Qt's own intersection. Only parallel and touching segments may
+/// give another result.
 inline std::vector<LinkId> crossedLinks(const Frame& frame, const Cuts& cuts, const Projection& projection,
                                         QLineF stroke) {
   std::vector<LinkId> crossed;

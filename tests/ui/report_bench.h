@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// The window with the dock open, and short runs.
+/// The window with the Report dock open; runs are short.
 struct ReportBench : Workbench {
   explicit ReportBench(const MeshPointer& mesh = generate({MeshKind::grid, {9, 7, 1}, 1, {}})) : Workbench(mesh) {
     trigger("showReport");
@@ -36,7 +36,7 @@ struct ReportBench : Workbench {
     QVERIFY(!find<QPushButton>("reportCancel")->isEnabled());
     QCOMPARE(progress(), QStringLiteral("ready"));
   }
-  /// A run that would last for minutes, well under way.
+  /// Starts a run that would take minutes, and waits until it makes progress.
   void runForLong() {
     effort(60);
     click("reportRun");
@@ -56,7 +56,7 @@ struct ReportBench : Workbench {
   }
 };
 
-// Of the table.
+// Columns of the table.
 constexpr int msColumn = 1, violationColumn = 4, exactColumn = 7;
 
 }  // namespace chainmail

@@ -1,4 +1,4 @@
-// What a selection holds after a stroke, and which links lie inside it.
+// Tests which elements and links are selected after a stroke.
 
 #include "document/selection.h"
 

@@ -14,7 +14,7 @@ inline void drag(Document& document, ElementId element, const Point& by) {
   document.release();
 }
 
-/// A bit of everything that a session holds.
+/// Changes everything that a session stores.
 inline void work(Workbench& bench) {
   Document& document = bench.document();
   document.setAlgorithm(0, Algorithm::exact);

@@ -22,7 +22,7 @@
 
 namespace chainmail {
 
-/// Settings of a solver that are no part of the object.
+/// Settings of a solver that are not part of the object.
 struct SolverSettings {
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
@@ -30,7 +30,7 @@ struct SolverSettings {
   bool operator==(const SolverSettings&) const = default;
 };
 
-/// A real workbench for a test, with settings of its own.
+/// A real workbench for a test.
 struct Workbench {
   explicit Workbench(const MeshPointer& mesh = generate({MeshKind::grid, {9, 7, 1}, 1, {}}))
       : window(mesh, QStringLiteral("sample")) {
@@ -43,10 +43,9 @@ struct Workbench {
   Document& document() { return window.document(); }
   View& view(int panel) { return window.panel(panel).view(); }
 
-  /// Waits until what runs in the background is done, all solvers have done all that was asked and their frames were
-  /// drawn.
+  /// Waits until background jobs are done, all solvers have executed all commands, and their frames are drawn.
   void settle() {
-    QCoreApplication::processEvents();  // what was asked for may begin there
+    QCoreApplication::processEvents();  // pending requests may start a job
     QTRY_VERIFY(!window.jobs().running());
     QTRY_VERIFY(document().idle());
     QTRY_VERIFY(showsTheObject());
@@ -57,7 +56,7 @@ struct Workbench {
     } while (refreshes(shortly));
   }
 
-  /// The same, and until figures, legends and colours, which follow at a rate that can be read, show it too.
+  /// Like settle(), but also waits for figures, legends and colours, which are updated less often.
   void settleFigures() {
     do {
       settle();
@@ -66,7 +65,7 @@ struct Workbench {
     } while (refreshes(readably));
   }
 
-  /// Whether every panel has a frame of the object.
+  /// True if every panel has a frame of the object.
   bool showsTheObject() {
     int frames = 0;
     for (int panel = 0; panel < document().panels(); ++panel) {
@@ -75,20 +74,20 @@ struct Workbench {
     return frames == document().panels();
   }
 
-  /// Waits until the panels show what their solvers have done; while relaxation goes on, a state after that.
+  /// Waits until the panels show the results of their solvers. While relaxation runs, waits for a later state.
   void awaitFrames() {
     std::vector<int> frames(Document::mostPanels, 0);
     QObject context;
     QObject::connect(&document(), &Document::frameReady, &context, [&](int panel) { ++frames[std::size_t(panel)]; });
     const auto seen = [&] {
-      // The first one may have been on its way before.
+      // The first frame may have been under way before.
       return document().settled() ||
              std::all_of(frames.begin(), frames.begin() + document().panels(), [](int count) { return count >= 2; });
     };
     QTRY_VERIFY(seen());
   }
 
-  /// Draws the views that are in sight once more: what was to be drawn before was drawn then.
+  /// Draws the visible views again. Afterwards, all earlier requests to draw are done.
   void awaitPaint() {
     QPointer<View> seen;
     for (int panel = 0; panel < document().panels(); ++panel) {
@@ -105,7 +104,7 @@ struct Workbench {
     QTRY_VERIFY(!swapped.isEmpty() || seen.isNull() || seen->visibleRegion().isEmpty());
   }
 
-  /// Whether something will be brought up to date within so many milliseconds.
+  /// True if a widget will be updated within this time.
   bool refreshes(int milliseconds) {
     const auto waits = [milliseconds](const QTimer* timer) {
       return timer->isActive() && timer->isSingleShot() && timer->interval() <= milliseconds;
@@ -118,7 +117,7 @@ struct Workbench {
   }
 
   Point position(int panel, ElementId element) { return view(panel).position(element); }
-  /// What a panel's solver computes with, as it says itself.
+  /// Returns the settings that a panel's solver uses, as reported by the solver.
   SolverSettings settings(int panel) {
     std::promise<SolverSettings> settings;
     document().ask(panel, [&settings](const Simulation& simulation) {
@@ -128,7 +127,7 @@ struct Workbench {
   }
   QPoint place(int panel, ElementId element) { return view(panel).placeOf(element).toPoint(); }
 
-  /// Moves with the left button down, in steps as a hand does; `release` ends the stroke.
+  /// Moves the mouse with the left button pressed, in small steps like a user; `release` ends the stroke.
   void stroke(int panel, const QList<QPoint>& places, bool release = true, Qt::KeyboardModifiers modifiers = {}) {
     View& at = view(panel);
     QTest::mousePress(&at, Qt::LeftButton, modifiers, places.first());
@@ -138,7 +137,7 @@ struct Workbench {
                          at.mapToGlobal(QPointF(places[i - 1] + (places[i] - places[i - 1]) * step / 5)), Qt::NoButton,
                          Qt::LeftButton, modifiers);
         QApplication::sendEvent(&at, &move);
-        // A hand is slower than the solvers, as a rule.
+        // A user is usually slower than the solvers.
         (void)QTest::qWaitFor([this] { return document().idle(); }, patience);
       }
     }
@@ -148,14 +147,14 @@ struct Workbench {
     }
   }
 
-  /// So far that every element of the grid moves.
+  /// Drags so far that every element of the grid moves.
   void dragFar() {
     const QPoint from = place(0, 31);
     stroke(0, {from, from + QPoint(170, -170), from + QPoint(-60, -100)});
-    document().setHighlight({});  // whose mark hides what is below
+    document().setHighlight({});  // the mark would hide the colours below it
   }
 
-  /// Opens the menu of a panel's ghost button, as a click does, and chooses by the text.
+  /// Opens the menu of a panel's ghost button, as a click does, and chooses the item whose text starts with `begin`.
   void chooseGhost(int panel, const QString& begin) {
     auto* menu = window.panel(panel).findChild<QMenu*>();
     emit menu->aboutToShow();
@@ -177,7 +176,7 @@ struct Workbench {
     settle();
   }
 
-  /// As a user does: by its label in the panel's selector.
+  /// Chooses an algorithm by its label in the panel's selector, as a user does.
   void choose(int panel, const char* label) {
     auto& selector = window.panel(panel).selector();
     selector.setCurrentIndex(selector.findText(QLatin1String(label)));
@@ -185,8 +184,8 @@ struct Workbench {
     settle();
   }
 
-  /// How near the picture comes to a colour within a few pixels of a place: 0 is the colour itself, in steps of the
-  /// channel that is furthest off.
+  /// Returns the distance from a colour to the nearest colour within a few pixels of a place: the largest difference of
+  /// a channel; 0 is the same colour.
   int distanceFromColour(int panel, QPointF at, QColor colour) {
     const QImage picture = view(panel).grabFramebuffer();
     const QPoint centre = (at * view(panel).devicePixelRatioF()).toPoint();
@@ -208,22 +207,22 @@ struct Workbench {
     return window.findChild<Widget*>(QLatin1String(name));
   }
 
-  static constexpr int shortly = 50, readably = 100;  // milliseconds from a change to what shows it
-  static constexpr int patience = 200;                // milliseconds that a hand waits for the solvers
+  static constexpr int shortly = 50, readably = 100;  // milliseconds from a change to its display
+  static constexpr int patience = 200;  // milliseconds that a stroke waits for the solvers after each step
 
   MainWindow window;
   bool shown = false;
 };
 
-/// Runs a test class in an application set up as the workbench is; an unexpected warning fails it.
+/// Runs a test class in an application that is set up like the workbench. An unexpected warning fails the test.
 template <class Test, class... Arguments>
 int runWindowTest(int argc, char** argv, const Arguments&... arguments) {
   prepareApplication();
   QTemporaryDir settings;
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
-  qputenv("XDG_DATA_HOME", settings.path().toUtf8());  // nothing of the user's
+  qputenv("XDG_DATA_HOME", settings.path().toUtf8());  // so that the user's files are not used
   QApplication application(argc, argv);
-  remember(Theme::dark);  // whatever the desktop looks like
+  remember(Theme::dark);  // independent of the desktop's theme
   styleApplication();
   if (const QString why = whyNoWindow(); !why.isEmpty()) {
     qCritical("%s", qPrintable(why));
@@ -233,7 +232,7 @@ int runWindowTest(int argc, char** argv, const Arguments&... arguments) {
   return QTest::qExec(&test, argc, argv);
 }
 
-/// To be called in init(): from here to the end of the test function a Qt warning is a failure.
+/// Makes every Qt warning a failure until the test function ends. Call it in init().
 inline void failOnWarnings() { QTest::failOnWarning(QRegularExpression(QStringLiteral(".*"))); }
 
 }  // namespace chainmail

@@ -1,4 +1,4 @@
-// The panels' algorithms in a real window: which may be chosen, and what they say of themselves.
+// Tests the choice of algorithms in a real window, and the texts that describe them.
 
 #include <QLabel>
 #include <QStandardItemModel>
@@ -59,7 +59,7 @@ class WindowAlgorithm : public QObject {
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("panel A now runs Natural Queue ChainMail")));
     bench.document().undoStack().undo();
     bench.settle();
-    // What the selector says is what runs, whichever mesh is there.
+    // The selector shows the algorithm that runs, for any mesh.
     QCOMPARE(bench.document().frame(0)->statistics.algorithm, bench.document().algorithm(0));
   }
 
@@ -94,7 +94,7 @@ class WindowAlgorithm : public QObject {
     QVERIFY(!bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("taut")));
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
     bench.settle();
-    // The hand goes back to where the chain is slack.
+    // Move the handle back to a position where the chain is slack.
     const QPoint there = bench.place(1, 4);
     bench.stroke(1, {there, there - QPoint(link / 2, 0)});
     QTRY_VERIFY(!state->toolTip().contains(QStringLiteral("taut")));

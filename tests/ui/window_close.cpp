@@ -1,4 +1,4 @@
-// A window closes within two seconds, whatever it is at, and what was to be saved is saved.
+// Tests that a window closes within two seconds, whatever it does at that time, and that unsaved work is stored.
 
 #include <QDir>
 #include <QDoubleSpinBox>
@@ -37,14 +37,14 @@ MeshPointer solid(std::uint32_t width, std::uint32_t height) {
   return generate({MeshKind::tetra, {width, height, height}, 1, {}});
 }
 
-/// A drag of a corner, which the solvers have not answered yet when this returns.
+/// Drags a corner. The solvers have not finished the move when this returns.
 void pull(Document& document) {
   const ElementId corner = document.mesh()->element_count() - 1;
   document.grab(corner);
   document.drag(document.mesh()->rest_position(corner) + Point(3, 2, 0));
 }
 
-/// Sweeps that would go on for hours, as a file of moves may ask for them, under way.
+/// Starts sweeps that would run for hours; a file of recorded moves may contain such a command.
 void relaxForHours(Workbench& bench) {
   const std::vector<Command> moves{commands::Grab{0}, commands::Drag{Point(-900, -700, 0)}, commands::Release{},
                                    commands::Relax{1'000'000, 1, RelaxationScheme::mean}};
@@ -55,7 +55,7 @@ void relaxForHours(Workbench& bench) {
   QVERIFY(!bench.document().idle());
 }
 
-/// A method of elasticity that prepares, in the first panel.
+/// Returns a function that starts the preparation of an elastic method in the first panel.
 Begin prepares(Algorithm algorithm) {
   return [algorithm](Workbench& bench) {
     bench.document().setPinned(layer(*bench.document().mesh(), *find_side("left")), true);
@@ -112,7 +112,7 @@ void fills(Workbench& bench) {
   QTRY_VERIFY(bench.window.jobs().running());
 }
 
-/// Thousands of moves of a large object that were asked for at once.
+/// Starts thousands of moves of a large object.
 void goesToTheEnd(Workbench& bench) {
   std::vector<Command> moves{commands::Grab{0}};
   for (int i = 0; i < 5000; ++i) {
@@ -132,7 +132,7 @@ void plays(Workbench& bench) {
   QTRY_VERIFY(bench.document().tape().position() < bench.document().tape().length());
 }
 
-/// Exact ChainMail, which has to look for the regions of all elements, twice about each new hand.
+/// Starts Exact ChainMail, which has to search for the regions of all elements for each new handle.
 void takesALongPass(Workbench& bench) {
   bench.document().setPinned({0, 5, 777}, true);
   bench.document().setAlgorithm(0, Algorithm::exact);
@@ -159,7 +159,7 @@ class WindowClose : public QObject {
     QTest::addColumn<MeshPointer>("mesh");
     QTest::addColumn<Begin>("begin");
     const MeshPointer small = grid(20), large = grid(400);
-    const MeshPointer finite = solid(20, 17);  // nearly as large as neo-Hookean FEM takes
+    const MeshPointer finite = solid(20, 17);  // nearly the largest object for neo-Hookean FEM
     const auto row = [](const char* name, const MeshPointer& mesh, Begin begin) {
       QTest::newRow(name) << mesh << std::move(begin);
     };
@@ -205,7 +205,7 @@ class WindowClose : public QObject {
     QVERIFY(QDir(folder_.path()).entryList({QStringLiteral("*.png")}).isEmpty());
   }
 
-  /// The window goes at once, and what it was saving is there when it is gone.
+  /// The window closes at once. The file that it was saving is complete after the window is deleted.
   void saving() {
     auto bench = std::make_unique<Workbench>(grid(500));
     bench->window.findChild<FileActions*>()->savePath(path("saved.obj"));
@@ -217,7 +217,7 @@ class WindowClose : public QObject {
     QCOMPARE(read_mesh(path("saved.obj").toStdString())->element_count(), 250'000U);
   }
 
-  /// The work is offered at the next start, as far as the solvers had come.
+  /// The work is offered at the next start, with the positions that the solvers had reached.
   void whatIsUnsavedIsKeptThoughASolverWouldGoOnForHours() {
     auto bench = std::make_unique<Workbench>(grid(150));
     bench->window.sessions().protect();
@@ -234,16 +234,16 @@ class WindowClose : public QObject {
     QVERIFY(Autosave::isClosed(files.first()));
     const Session session = read_session(kept.filePath(files.first()).toStdString());
     QCOMPARE(session.mesh->element_count(), 22'500U);
-    QVERIFY(!session.panels.front().placement.runs.empty());  // the drag was done
+    QVERIFY(!session.panels.front().placement.runs.empty());  // the drag is stored
     QVERIFY(QFile::remove(kept.filePath(files.first())));
   }
 
-  /// A pass that nothing can stop goes on after the window has gone; then what was done is written.
+  /// A pass that cannot be stopped continues after the window is closed. Then the work is written.
   void whatIsUnsavedIsKeptThoughAPassCannotBeGivenUp() {
     auto bench = std::make_unique<Workbench>(grid(400));
     bench->window.sessions().protect();
     takesALongPass(*bench);
-    for (int i = 0; i < 8; ++i) {  // each hand needs regions of its own
+    for (int i = 0; i < 8; ++i) {  // each handle needs its own regions
       bench->document().release();
       pull(bench->document());
     }
@@ -258,7 +258,7 @@ class WindowClose : public QObject {
     QVERIFY(QFile::remove(kept.filePath(files.first())));
   }
 
-  /// Nobody waits for hours to take sweeps back.
+  /// Undo stops and reverts a long relaxation at once.
   void sweepsAreTakenBackAtOnce() {
     Workbench bench(grid(150));
     relaxForHours(bench);

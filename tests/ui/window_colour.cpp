@@ -1,4 +1,4 @@
-// Colour modes and their legends, in a real window.
+// Tests colour modes and their legends in a real window.
 
 #include <QComboBox>
 #include <QLocale>
@@ -12,7 +12,7 @@ using namespace chainmail;
 
 namespace {
 
-constexpr int alike = 45;  // of 255: a line one pixel wide is blended with what lies behind it
+constexpr int alike = 45;  // of 255: a line of one pixel is blended with the background
 
 void colourBy(Workbench& bench, const char* name) {
   bench.trigger(name);
@@ -87,7 +87,7 @@ class WindowColour : public QObject {
     QFETCH(double, global);
     Workbench bench;
     bench.document().setSoftnessOf({*find_link(*bench.document().mesh(), 30, 31)}, LinkSoftness{0.2, 2.5, 0.7});
-    // A cut before it in the order of links: each colour stays with its own link.
+    // A cut of an earlier link: each colour must stay with its own link.
     bench.document().cut({*find_link(*bench.document().mesh(), 0, 1)});
     colourBy(bench, mode);
     for (int p = 0; p < 2; ++p) {
@@ -121,7 +121,7 @@ class WindowColour : public QObject {
     colourBy(bench, "colourBy-violation");
     QVERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("live")));
     QVERIFY(bench.distanceFromColour(0, middleOf(bench, 0, 31, 32), colour_map::neutral) < alike);  // at rest
-    bench.document().setPinned({40}, true);  // a link that the sequential algorithms tear at
+    bench.document().setPinned({40}, true);  // the sequential algorithms violate a link next to this pin
     bench.dragFar();
     double largest = 0;
     std::array<LinkId, 2> worst{};
@@ -153,7 +153,7 @@ class WindowColour : public QObject {
     double largest = 0;
     ElementId furthest = 0;
     for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
-      const double apart = (bench.position(0, e) - bench.position(1, e)).norm();  // links are of length 1
+      const double apart = (bench.position(0, e) - bench.position(1, e)).norm();  // all links have length 1
       furthest = apart > largest ? e : furthest;
       largest = std::max(largest, apart);
     }
@@ -161,7 +161,8 @@ class WindowColour : public QObject {
     for (int p = 0; p < 2; ++p) {
       QTRY_COMPARE(bench.window.panel(p).legend().highest(), shown(largest));
       QVERIFY(bench.distanceFromColour(p, bench.place(p, furthest), colour_map::at(1)) < alike);
-      QVERIFY(bench.distanceFromColour(p, bench.place(p, 31), colour_map::at(0)) < alike);  // in the hand in both
+      // Both panels have it at the handle.
+      QVERIFY(bench.distanceFromColour(p, bench.place(p, 31), colour_map::at(0)) < alike);
     }
   }
 

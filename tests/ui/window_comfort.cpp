@@ -1,4 +1,4 @@
-// What makes the window pleasant to be in: themes, icons, messages.
+// Tests themes, icons, messages and hints in a real window.
 
 #include <QPushButton>
 #include <QTest>
@@ -18,7 +18,7 @@ using colours::Ground;
 
 namespace {
 
-/// Relative luminance (WCAG 2.1).
+/// Returns the relative luminance (WCAG 2.1).
 double luminance(const QColor& colour) {
   const auto linear = [](double share) {
     return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
@@ -31,7 +31,7 @@ double contrast(const QColor& one, const QColor& other) {
   return (high + 0.05) / (low + 0.05);
 }
 
-constexpr double ofText = 4.5, ofMarks = 3;  // what WCAG 2.1 asks for at level AA (1.4.3, 1.4.11)
+constexpr double ofText = 4.5, ofMarks = 3;  // contrast ratios for level AA of WCAG 2.1 (1.4.3, 1.4.11)
 
 }  // namespace
 
@@ -60,7 +60,7 @@ class WindowComfort : public QObject {
         QVERIFY2(contrast(palette.color(text), palette.color(behind)) >= ofText,
                  qPrintable(QStringLiteral("%1 on %2").arg(palette.color(text).name(), palette.color(behind).name())));
       }
-      // Panels' figures are written in their colours.
+      // The figures of a panel have the panel's colour.
       for (const QColor colour :
            {QColor(colours::left), QColor(colours::right), QColor(colours::third), QColor(colours::fourth)}) {
         QVERIFY(contrast(colour, palette.color(QPalette::Window)) >= ofText);
@@ -97,7 +97,7 @@ class WindowComfort : public QObject {
 
   void systemsLookIsFollowedWhereItIsKnown() {
     remember(Theme::system);
-    QCOMPARE(rememberedGround(), Ground::dark);  // unknown
+    QCOMPARE(rememberedGround(), Ground::dark);  // no theme of the system is known yet
     rememberSystem(Ground::light);
     QCOMPARE(rememberedGround(), Ground::light);
     remember(Theme::dark);
@@ -118,7 +118,7 @@ class WindowComfort : public QObject {
     }
     QVERIFY(icon("no such icon").isNull());
     const QIcon any = icon("fit");
-    QVERIFY(any.pixmap(QSize(0, 16)).isNull());  // squeezed out of a narrow dock
+    QVERIFY(any.pixmap(QSize(0, 16)).isNull());  // no space in a narrow dock
     const QImage dark = any.pixmap(QSize(16, 16), 1.0).toImage();
     applyGround(Ground::light);
     QVERIFY(any.pixmap(QSize(16, 16), 1.0).toImage() != dark);
@@ -130,7 +130,7 @@ class WindowComfort : public QObject {
     bar.note(QStringLiteral("first"));
     bar.say(QStringLiteral("second"));
     bar.warn(QStringLiteral("third"));
-    bar.say(QStringLiteral("second"));  // again: the newest, but no fourth
+    bar.say(QStringLiteral("second"));  // a repeated message becomes the newest and is not counted again
     QCOMPARE(bar.count(), 3);
     QCOMPARE(bar.sentence(), QStringLiteral("second"));
     QCOMPARE(bar.severity(), Severity::error);
@@ -187,17 +187,17 @@ class WindowComfort : public QObject {
     auto* hints = bench.find<QWidget>("hints");
     QVERIFY(hints->isVisible());
     const QRect ofView(bench.view(0).mapToGlobal(QPoint()), bench.view(0).size());
-    QVERIFY(!QRect(hints->mapToGlobal(QPoint()), hints->size()).intersects(ofView));  // they cover nothing
+    QVERIFY(!QRect(hints->mapToGlobal(QPoint()), hints->size()).intersects(ofView));  // the hints cover no view
     QTRY_VERIFY(bench.position(0, moved) != rest[0] && bench.position(1, moved) != rest[1]);
     QTest::mousePress(&bench.view(0), Qt::LeftButton, {}, {3, 3});
-    QCOMPARE(bench.position(0, moved), rest[0]);  // when the press is acted on, not some time later
+    QCOMPARE(bench.position(0, moved), rest[0]);  // at the moment of the press, not later
     QCOMPARE(bench.position(1, moved), rest[1]);
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, {3, 3});
     bench.settle();
     QCOMPARE(bench.position(0, moved), rest[0]);
     QCOMPARE(bench.document().undoStack().count(), 0);
     QVERIFY(bench.document().lastDrag().empty());
-    QVERIFY(hints->isVisible());  // there is more to read
+    QVERIFY(hints->isVisible());  // the user may still read them
     QTest::mouseClick(bench.find<QPushButton>("hintsDone"), Qt::LeftButton);
     QVERIFY(!hints->isVisible());
     bench.trigger("showHints");
@@ -225,7 +225,7 @@ class WindowComfort : public QObject {
     QCOMPARE(second.position(0, moved), rest);
   }
 
-  // Run at several scales, too: see CMakeLists.txt.
+  // Also runs at several scales (CMakeLists.txt).
   void noWordIsCutOffAndIconsHaveTheScreensPixels() {
     Workbench bench;
     bench.window.messages().say(QStringLiteral("a sentence"));

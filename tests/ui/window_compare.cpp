@@ -1,4 +1,4 @@
-// What sets the panels against each other, in a real window: links, ghosts, places, and who is compared with whom.
+// Tests comparisons of panels in a real window: linked marks, ghosts, distances, and the choice of the reference panel.
 
 #include <QLabel>
 #include <QSlider>
@@ -16,7 +16,7 @@ using namespace chainmail;
 
 namespace {
 
-constexpr int alike = 45;  // of 255: a line one pixel wide is blended with what lies behind it
+constexpr int alike = 45;  // of 255: a line of one pixel is blended with the background
 
 void hover(Workbench& bench, int panel, ElementId element) {
   View& view = bench.view(panel);
@@ -27,7 +27,7 @@ void hover(Workbench& bench, int panel, ElementId element) {
   bench.settle();
 }
 
-/// How far the picture at an element is from the colour of the mark under the cursor.
+/// Returns the distance of the colour at an element from the colour of the mark under the cursor.
 int fromMark(Workbench& bench, int panel, ElementId element) {
   return bench.distanceFromColour(panel, bench.view(panel).placeOf(element), colours::marked);
 }
@@ -37,7 +37,7 @@ QPointF middleOf(Workbench& bench, int panel, LinkId link) {
   return (bench.view(panel).placeOf(ends[0]) + bench.view(panel).placeOf(ends[1])) / 2;
 }
 
-/// Of the places along a link the one nearest to the colour: others may be covered by other links.
+/// Returns the smallest distance from a colour along a link, because other links may cover parts of it.
 int alongFromColour(Workbench& bench, int panel, LinkId link, QColor colour) {
   const auto& ends = bench.document().mesh()->links[link];
   const QPointF from = bench.view(panel).placeOf(ends[0]), way = bench.view(panel).placeOf(ends[1]) - from;
@@ -82,7 +82,7 @@ class WindowCompare : public QObject {
 
   void eachPanelMayHaveItsOwnRange() {
     Workbench bench;
-    bench.choose(1, "Exact ChainMail");  // it violates nothing
+    bench.choose(1, "Exact ChainMail");  // it has no violation
     bench.document().setPinned({40}, true);
     bench.dragFar();
     bench.trigger("colourBy-violation");
@@ -132,7 +132,7 @@ class WindowCompare : public QObject {
     bench.document().setPinned({40}, true);
     bench.dragFar();
     const QImage own = bench.view(0).grabFramebuffer();
-    LinkId apart = 0;  // where the panels differ most
+    LinkId apart = 0;  // the link at which the panels differ most
     for (LinkId link = 0; link < bench.document().mesh()->link_count(); ++link) {
       const auto between = [&](LinkId one) {
         const QPointF d = middleOf(bench, 0, one) - middleOf(bench, 1, one);
@@ -140,7 +140,7 @@ class WindowCompare : public QObject {
       };
       apart = between(link) > between(apart) ? link : apart;
     }
-    const QPointF theirs = middleOf(bench, 1, apart);  // the cameras are linked: it is there in panel A too
+    const QPointF theirs = middleOf(bench, 1, apart);  // the cameras are linked, so it is the same position in panel A
     QVERIFY(bench.distanceFromColour(0, theirs, colours::right) > 2 * alike);
     bench.chooseGhost(0, QStringLiteral("Panel B"));
     QTRY_VERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("ghost of B, 50 %")));
@@ -149,10 +149,10 @@ class WindowCompare : public QObject {
     auto* slider = bench.window.panel(0).findChild<QSlider*>(QStringLiteral("ghostBlend0"));
     slider->setValue(slider->maximum());
     bench.settle();
-    // Only theirs: as that panel draws it, but for the marks that are this panel's.
+    // Only the ghost is visible, as its own panel draws it; only the marks are those of this panel.
     const int shown = bench.distanceFromColour(0, theirs, colours::right);
     QVERIFY(shown < faint);
-    // A line that slants is smoothed and has less than its colour, there as here.
+    // A slanted line is smoothed and has a weaker colour, in both views.
     QVERIFY(shown < bench.distanceFromColour(1, theirs, colours::right) + alike);
     slider->setValue(0);
     bench.settle();
@@ -178,7 +178,7 @@ class WindowCompare : public QObject {
     QVERIFY(!bench.view(1).ghost().of);
     bench.settle();
     const QImage without = bench.view(0).grabFramebuffer();
-    bench.trigger("ghosts");  // what they held of the graphics card is made again
+    bench.trigger("ghosts");  // uploads the ghosts to the graphics card again
     bench.settle();
     QVERIFY(bench.view(0).grabFramebuffer() != without);
   }

@@ -1,4 +1,4 @@
-// The cut tool in a real window.
+// Tests the cut tool in a real window.
 
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -9,7 +9,7 @@ using namespace chainmail;
 
 namespace {
 
-/// A stroke straight down between the fourth and the fifth column of a 9 x 7 grid.
+/// Returns a vertical stroke between the fourth and the fifth column of a 9 x 7 grid.
 QList<QPoint> strokeBetweenColumns(Workbench& bench) {
   const QPoint top = (bench.place(0, 57) + bench.place(0, 58)) / 2;
   const QPoint bottom = (bench.place(0, 3) + bench.place(0, 4)) / 2;
@@ -29,7 +29,7 @@ class WindowCut : public QObject {
     bench.trigger("toolCut");
     const auto places = strokeBetweenColumns(bench);
     bench.stroke(0, places, false);
-    QCOMPARE(bench.document().highlight().links.size(), 7U);  // one a row
+    QCOMPARE(bench.document().highlight().links.size(), 7U);  // one per row
     QCOMPARE(bench.document().cuts().count(), 0U);
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, places.last());
     bench.settle();
@@ -40,7 +40,8 @@ class WindowCut : public QObject {
     }
     QVERIFY(bench.document().highlight().links.empty());
 
-    // The halves are apart, as both panels and the Mesh dock say: dragging one leaves the other where it is.
+    // The object now has two parts: both panels and the Mesh dock show this, and dragging one part does not move the
+    // other.
     for (const char* label : {"state0", "state1", "meshDescription"}) {
       QTRY_VERIFY(bench.find<QLabel>(label)->text().contains(QStringLiteral("2 parts")));
     }
@@ -85,11 +86,11 @@ class WindowCut : public QObject {
     bench.trigger("toolDrag");
     const QPoint from = bench.place(0, 35);
     bench.stroke(0, {from, from + QPoint(250, 0)});
-    QVERIFY(bench.position(1, 30) != bench.document().mesh()->rest_position(30));  // whole again
+    QVERIFY(bench.position(1, 30) != bench.document().mesh()->rest_position(30));  // the object is whole again
   }
 
-  /// A large mesh, of which a part is in view: what a drag, a cut and its undo sent to the graphics card, bit by bit,
-  /// gives the picture that all of it gives.
+  /// A part of a large mesh is in view. Partial uploads to the graphics card for a drag, a cut and its undo must give
+  /// the same picture as a complete upload.
   void aPicturePatchedIsThePictureDrawnAnew() {
     Workbench bench(generate({MeshKind::cloth, {260, 250, 1}, 1, {}}));
     bench.document().setSoftness({0.2, 2, 0.5}, QStringLiteral("soft"));
@@ -120,7 +121,7 @@ class WindowCut : public QObject {
     bench.document().replaceMesh(generate({MeshKind::line, {5, 1, 1}, 1, {}}), QStringLiteral("other"),
                                  QStringLiteral("build"));
     bench.settle();
-    bench.document().undoStack().undo();  // back, and all is sent again
+    bench.document().undoStack().undo();  // everything is uploaded again
     *view.camera() = near;
     QCOMPARE(picture(), patched);
   }
@@ -143,7 +144,7 @@ class WindowCut : public QObject {
     const QPoint from = bench.place(0, 700);
     bench.stroke(0, {from + QPoint(-50, 3), from + QPoint(50, 3)}, false);
     QVERIFY(!bench.document().highlight().links.empty());
-    bench.document().undoStack().undo();  // back to the small mesh, which has no such links
+    bench.document().undoStack().undo();  // the small mesh has no such links
     QVERIFY(bench.document().highlight().links.empty());
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
     bench.settle();

@@ -1,4 +1,4 @@
-// Every control of the docks, in a real window.
+// Tests every control of the docks in a real window.
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -79,10 +79,10 @@ class WindowDocks : public QObject {
       bench.settle();
     };
     enter("99");
-    QVERIFY(bench.document().selection().empty());  // not the last one instead
+    QVERIFY(bench.document().selection().empty());  // it does not select the last element instead
     enter("7");
     QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{7});
-    enter("63");  // one beyond the last
+    enter("63");  // the first id beyond the last
     const auto answered = [&] {
       return bench.find<QLabel>("elementState")->text().contains(QStringLiteral("from 0 to 62"));
     };
@@ -92,7 +92,7 @@ class WindowDocks : public QObject {
     Document& document = bench.document();
     const auto shown = [&] { return bench.find<QTableWidget>("elementPositions")->item(1, 1)->text(); };
     const QString before = shown();
-    document.grab(7);  // the frames of a drag refresh the dock; the answer stays
+    document.grab(7);  // the frames of a drag refresh the dock, but the message stays
     document.drag(document.mesh()->rest_position(7) + Point(0.5, 0, 0));
     document.release();
     QTRY_VERIFY(shown() != before);
@@ -238,7 +238,7 @@ class WindowDocks : public QObject {
     bench.stroke(0, {from, from + QPoint(150, -150)}, false);
     QTRY_VERIFY(bench.document().frame(1)->statistics.sweeps > 0);
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from + QPoint(150, -150));
-    // Sleeps by itself, at the latest 10 s after the last pass.
+    // Relaxation stops by itself, at most 10 s after the last pass.
     QTRY_VERIFY_WITH_TIMEOUT(
         !bench.document().frame(0)->statistics.relaxing && !bench.document().frame(1)->statistics.relaxing, 12'000);
     on->click();
@@ -278,7 +278,7 @@ class WindowDocks : public QObject {
       QCoreApplication::processEvents();
     }
     QVERIFY(shown());
-    // A still scene paints nothing.
+    // Nothing is painted while nothing moves.
     QTRY_COMPARE(bench.find<QLabel>("painted0")->text(), QStringLiteral("idle"));
     QTRY_COMPARE(bench.find<QLabel>("painted1")->text(), QStringLiteral("idle"));
   }

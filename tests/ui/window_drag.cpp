@@ -1,4 +1,4 @@
-// Dragging in a real window: what a hand does in one panel happens in both.
+// Tests dragging in a real window: a drag in one panel moves the object in both.
 
 #include <QWheelEvent>
 #include <future>
@@ -37,7 +37,7 @@ class WindowDrag : public QObject {
     bench.settle();
     QVERIFY(bench.document().highlight().grabbed);
     for (int p = 0; p < 2; ++p) {
-      // The element keeps its place under the hand; a pixel for the rounding of mouse places.
+      // The element stays under the cursor, up to the rounding of mouse positions.
       QVERIFY((bench.place(p, element) - to).manhattanLength() <= 2);
       QVERIFY(bench.document().frame(p)->statistics.passes > 0);
     }
@@ -61,7 +61,7 @@ class WindowDrag : public QObject {
       document.drag(Point(4, 3 + 0.1 * i, 0));
       QCOMPARE(document.tape().length(), recorded + 1);
     }
-    // While a solver is busy only the newest move waits.
+    // While a solver is busy, only the newest move waits.
     finish();
     std::promise<void> busy;
     document.ask(1, [end = busy.get_future().share()](const Simulation&) { end.wait(); });
@@ -126,10 +126,10 @@ class WindowDrag : public QObject {
     QVERIFY((bench.place(1, 0) - before).manhattanLength() > 20);  // the cameras are linked
   }
 
-  /// The side that is near turns with the hand, as if it were held there.
+  /// The near side turns with the mouse, as if the user held it.
   void theObjectTurnsTheWayTheMouseGoes() {
     Workbench bench(generate({MeshKind::tetra, {5, 5, 5}, 1, {}}));
-    constexpr ElementId near = 12 + 4 * 25;  // in the middle of the front
+    constexpr ElementId near = 12 + 4 * 25;  // the middle of the front
     const auto turn = [&](QPoint by) {
       bench.trigger("viewFront");
       const QPoint before = bench.place(0, near);
@@ -160,9 +160,9 @@ class WindowDrag : public QObject {
     };
     const double before = link();
     const QPoint under = bench.place(0, 31);
-    wheel(240);  // away from the user: two notches
+    wheel(240);  // away from the user: two wheel steps
     QVERIFY(link() > 1.3 * before);
-    QVERIFY((bench.place(0, 31) - under).manhattanLength() <= 2);  // what is under the cursor stays there
+    QVERIFY((bench.place(0, 31) - under).manhattanLength() <= 2);  // the point under the cursor stays there
     wheel(-240);
     QVERIFY(std::abs(link() - before) < 0.1);
   }
@@ -193,7 +193,7 @@ class WindowDrag : public QObject {
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(120, -200)});
     for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
-      QCOMPARE(bench.position(0, e), bench.position(1, e));  // Spiral ends where Natural Queue does
+      QCOMPARE(bench.position(0, e), bench.position(1, e));  // Spiral and Natural Queue have the same result
     }
   }
 

@@ -1,5 +1,5 @@
-// Exact work in a real window: what is under the cursor in figures, looks along the axes, distances, and elements that
-// are picked and moved by numbers.
+// Tests exact work in a real window: figures of the element under the cursor, views along the axes, distances, and
+// elements that are selected and moved by numbers.
 
 #include <QComboBox>
 #include <QLabel>
@@ -22,7 +22,7 @@ MeshPointer block() { return generate({MeshKind::tetra, {4, 4, 4}, 1, {}}); }
 
 QString readout(Workbench& bench) { return bench.find<QLabel>("readout")->text(); }
 
-/// The events of a double click, as a display sends them.
+/// Sends the events of a double click, as a display sends them.
 void doubleClick(View& view, QPoint place) {
   QTest::mouseClick(&view, Qt::LeftButton, {}, place);
   QTest::mouseDClick(&view, Qt::LeftButton, {}, place);
@@ -67,7 +67,7 @@ class WindowExact : public QObject {
     QTRY_COMPARE(bench.document().highlight().element, std::optional<ElementId>(middle));
     const QString text = readout(bench);
     QVERIFY2(text.contains(QStringLiteral("Element 31")), qPrintable(text));
-    QVERIFY2(text.contains(QStringLiteral("x 4, y 3")), qPrintable(text));  // and no z: the scene carries none
+    QVERIFY2(text.contains(QStringLiteral("x 4, y 3")), qPrintable(text));  // no z, because the scene is in 2D
     QVERIFY2(!text.contains(QStringLiteral(", z ")), qPrintable(text));
     QVERIFY2(text.contains(QStringLiteral("compression 0.5–0.8, stretch 1.2–1.5, shear 0.1")), qPrintable(text));
     // The panel under the cursor comes first.
@@ -89,7 +89,7 @@ class WindowExact : public QObject {
 
   void looksAlongTheAxes_data() {
     QTest::addColumn<QString>("action");
-    QTest::addColumn<int>("deep");    // the axis looked along
+    QTest::addColumn<int>("deep");    // the axis along the line of sight
     QTest::addColumn<int>("across");  // the axis that runs to the right, with its sign
     QTest::addColumn<int>("sign");
     QTest::newRow("front") << "viewFront" << 2 << 0 << 1;
@@ -110,7 +110,7 @@ class WindowExact : public QObject {
     const std::array strides{1U, 4U, 16U};
     for (int p = 0; p < 2; ++p) {
       const QPointF at = bench.view(p).placeOf(21);
-      // By parallel rays, what is further along the line of sight appears at the same place.
+      // With parallel rays, a farther element on the line of sight appears at the same position.
       QVERIFY((bench.view(p).placeOf(21 + strides[std::size_t(deep)]) - at).manhattanLength() < 0.1);
       const QPointF beside = bench.view(p).placeOf(21 + strides[std::size_t(across)]) - at;
       QVERIFY(beside.x() * sign > 20);
@@ -122,7 +122,7 @@ class WindowExact : public QObject {
     Workbench bench(block());
     bench.trigger("parallelRays");
     bench.trigger("viewFront");
-    const QPointF at = bench.view(0).placeOf(5);  // 21, 37 and 53 are at the same place, nearer to the eye
+    const QPointF at = bench.view(0).placeOf(5);  // 21, 37 and 53 are at the same position, nearer to the viewer
     QCOMPARE(bench.view(0).elementAt(at), std::optional<ElementId>(53));
     bench.trigger("viewBack");
     QCOMPARE(bench.view(0).elementAt(bench.view(0).placeOf(5)), std::optional<ElementId>(5));
@@ -139,7 +139,7 @@ class WindowExact : public QObject {
   void aDoubleClickRecentresAndLeavesNoDragBehind() {
     for (const auto& mesh : {generate({MeshKind::grid, {9, 7, 1}, 1, {}}), block()}) {
       Workbench bench(mesh);
-      const ElementId element = *bench.view(0).elementAt(bench.place(0, 5));  // itself, or one before it
+      const ElementId element = *bench.view(0).elementAt(bench.place(0, 5));  // element 5, or one in front of it
       doubleClick(bench.view(0), bench.place(0, element));
       const QPointF middleOfView(bench.view(0).width() / 2.0, bench.view(0).height() / 2.0);
       for (int p = 0; p < 2; ++p) {
@@ -162,7 +162,7 @@ class WindowExact : public QObject {
     bench.trigger("toolPin");
     const QPoint at = bench.place(0, middle);
     doubleClick(bench.view(0), at);
-    QVERIFY(bench.document().pins().empty());  // pinned, and unpinned
+    QVERIFY(bench.document().pins().empty());  // the first click pinned, the second unpinned
     QCOMPARE(bench.place(0, middle), at);
   }
 
@@ -175,7 +175,7 @@ class WindowExact : public QObject {
     QVERIFY2(readout(bench).contains(QStringLiteral("From element 27 to 31, at rest 4")), qPrintable(readout(bench)));
     QVERIFY(readout(bench).contains(QStringLiteral("(× 1.000; dx 4, dy 0)")));
     const QPointF along = (bench.view(1).placeOf(28) + bench.view(1).placeOf(29)) / 2;
-    QVERIFY(bench.distanceFromColour(1, along, colours::marked) < 20);  // a line, in the other panel too
+    QVERIFY(bench.distanceFromColour(1, along, colours::marked) < 20);  // a line, also in the other panel
 
     bench.trigger("toolDrag");
     bench.document().setPinned({27}, true);
@@ -189,7 +189,7 @@ class WindowExact : public QObject {
     QVERIFY(readout(bench).contains(QStringLiteral("Left: drag an element")));
   }
 
-  /// What is measured, and where an element stands, is told of every panel by itself.
+  /// The measured distance and the position of an element are shown for each panel.
   void eachPanelHasItsOwnFigures() {
     Workbench bench;
     bench.choose(1, "Exact ChainMail");
@@ -238,7 +238,7 @@ class WindowExact : public QObject {
     QCOMPARE(positions->columnCount(), 3);
     QCOMPARE(positions->item(2, 1)->text(), QStringLiteral("4"));
     QCOMPARE(bench.find<QTableWidget>("elementNeighbours")->rowCount(), 4);
-    // A selection made elsewhere shows too, where it is one element.
+    // A selection from elsewhere is also shown if it is one element.
     bench.document().select({0});
     QCOMPARE(id->value(), 0);
     QCOMPARE(bench.find<QTableWidget>("elementNeighbours")->rowCount(), 2);
@@ -257,9 +257,9 @@ class WindowExact : public QObject {
       QCOMPARE(bench.position(p, middle), Point(4.25, -2.5, 0));
       QCOMPARE(bench.document().frame(p)->statistics.passes, 4U);
     }
-    std::vector<Command> drag = bench.document().tape().commands();  // recorded as the hand's own
+    std::vector<Command> drag = bench.document().tape().commands();  // recorded like a drag with the mouse
     QCOMPARE(drag.size(), 6U);
-    drag.pop_back();  // it lets go
+    drag.pop_back();  // the Release command
     QCOMPARE(std::get<commands::Grab>(drag.front()).element, middle);
     QCOMPARE(std::get<commands::Drag>(drag.back()).target, Point(4.25, -2.5, 0));
     QCOMPARE(std::get<commands::Drag>(drag[2]).target, Point(4.125, 0.25, 0));

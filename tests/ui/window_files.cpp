@@ -1,4 +1,4 @@
-// Opening and saving in a real window.
+// Tests opening and saving in a real window.
 
 #include <QDropEvent>
 #include <QFile>
@@ -34,7 +34,7 @@ class WindowFiles : public QObject {
     bench.open(folder_.filePath(QStringLiteral("not there.obj")));
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("not there.obj")));
     bench.open(write("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-    QCOMPARE(bench.window.messages().count(), 1);  // what was wrong with the others is over
+    QCOMPARE(bench.window.messages().count(), 1);  // the messages about the earlier files are gone
     QCOMPARE(bench.window.messages().sentence(),
              QStringLiteral("good.obj: 3 elements, 3 links, 1 triangle, 1 part, 1 × 1 units"));
     QCOMPARE(bench.document().mesh()->element_count(), 3U);
@@ -111,7 +111,7 @@ class WindowFiles : public QObject {
     bench.dragFar();
     constexpr ElementId element = 22;
     const std::array shown{bench.position(0, element), bench.position(1, element)};
-    QVERIFY(shown[0] != shown[1]);  // two algorithms, two answers
+    QVERIFY(shown[0] != shown[1]);  // two algorithms have two results
     for (int panel = 0; panel < 2; ++panel) {
       files(bench).saveShapePath(panel, folder_.filePath(QStringLiteral("panel%1.obj").arg(panel)));
       bench.settle();
@@ -130,7 +130,7 @@ class WindowFiles : public QObject {
     bench.open(first);
     bench.open(second);
     QCOMPARE(recent(), (QStringList{second, first}));
-    bench.open(first);  // again: it moves, and is no third
+    bench.open(first);  // the file moves to the front and is not added again
     QCOMPARE(recent(), (QStringList{first, second}));
   }
 
@@ -140,7 +140,7 @@ class WindowFiles : public QObject {
     files(bench).saveShapePath(0, path);
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("shape.dat: ")));
     QVERIFY(!QFile::exists(path));
-    files(bench).savePath(path);  // what succeeds takes the old message away
+    files(bench).savePath(path);  // a success removes the old message
     bench.settle();
     QVERIFY(!bench.window.messages().isVisible());
   }
@@ -176,7 +176,7 @@ class WindowFiles : public QObject {
       const bool restored = QLatin1String(button) == QLatin1String("restoreWork");
       QCOMPARE(again.document().isPinned(3), restored);
       QCOMPARE(again.position(0, 31) == moved, restored);
-      QVERIFY(again.window.close());  // what was restored is unsaved still; what was discarded is gone
+      QVERIFY(again.window.close());  // restored work is still unsaved; discarded work is deleted
     }
     Workbench last;
     last.window.sessions().protect();

@@ -1,4 +1,4 @@
-// The gallery of samples in a real window.
+// Tests the gallery of samples in a real window.
 
 #include <QLabel>
 #include <QToolButton>
@@ -33,8 +33,8 @@ class WindowGallery : public QObject {
     button->click();
     bench.settle();
     QVERIFY2(!bench.window.messages().isVisible(), qPrintable(bench.window.messages().sentence()));
-    QCOMPARE(bench.document().mesh()->element_count(), sample.elements);  // as its tooltip says
-    QVERIFY(bench.document().sessionFile().isEmpty());                    // nobody's own, to be saved over
+    QCOMPARE(bench.document().mesh()->element_count(), sample.elements);  // the number in its tool tip
+    QVERIFY(bench.document().sessionFile().isEmpty());                    // a sample must not be overwritten
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("open ") + QString::fromUtf8(sample.file));
     bench.trigger("undo");
     bench.settle();

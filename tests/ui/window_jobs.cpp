@@ -1,4 +1,4 @@
-// Work in the background of a real window: progress, cancelling, and who gives way to whom.
+// Tests background jobs in a real window: progress, cancelling, and which job replaces or refuses another.
 
 #include <QFile>
 #include <QLabel>
@@ -16,7 +16,7 @@ using namespace chainmail;
 
 namespace {
 
-/// Work that goes as far as a gate and waits there until the test opens it or the job is cancelled.
+/// A job that waits at a gate until the test opens it or the job is cancelled.
 class Gate {
  public:
   Jobs::Work work(MeshPointer mesh, Document& document) {
@@ -114,7 +114,7 @@ class WindowJobs : public QObject {
     Gate gate;
     Workbench bench;
     load(bench, gate);
-    bench.find<QPushButton>("buildMesh")->click();  // while the gate is closed
+    bench.find<QPushButton>("buildMesh")->click();  // while the first job waits
     QVERIFY(bench.window.jobs().text().startsWith(QStringLiteral("Building")));
     bench.settle();
     QVERIFY(bench.document().undoStack().undoText().startsWith(QStringLiteral("build")));
@@ -131,7 +131,7 @@ class WindowJobs : public QObject {
     QCOMPARE(bench.window.jobs().text(), QStringLiteral("Saving a.obj"));
     gate.open();
     bench.settle();
-    QCOMPARE(bench.document().undoStack().count(), 1);  // it came to its end
+    QCOMPARE(bench.document().undoStack().count(), 1);  // the save job finished
   }
 
   void savingDoesNotEndAnOpening() {
@@ -148,7 +148,7 @@ class WindowJobs : public QObject {
   }
 
   void closingGivesAnOpeningUp() {
-    Gate gate;  // never opened: the end would not come
+    Gate gate;  // never opened, so the job would not end by itself
     Workbench bench;
     load(bench, gate);
     QTRY_VERIFY(gate.reached());

@@ -1,4 +1,4 @@
-// Everything can be reached, named and done by keyboard; keys can be changed.
+// Tests that everything can be reached and done by keyboard and has a name, and that keys can be changed.
 
 #include <QAbstractButton>
 #include <QAbstractItemView>
@@ -20,7 +20,7 @@ using namespace chainmail;
 
 namespace {
 
-/// All menus, the menu bar's own first; that of recent files holds no actions of the window.
+/// Returns all menus, first the menu bar's own. The menu of recent files has no actions of the window.
 QList<QList<QAction*>> menusOf(const QMainWindow& window) {
   QList<QList<QAction*>> menus{window.menuBar()->actions()};
   for (qsizetype i = 0; i < menus.size(); ++i) {
@@ -38,7 +38,7 @@ QChar mnemonicOf(const QAction& action) {
   return at < 0 ? QChar() : action.text().at(at + 1).toLower();
 }
 
-/// What a control is called, to one who does not see it.
+/// Returns the name of a control for a screen reader.
 QString nameOf(const QWidget& control, const QWidget& window) {
   if (!control.accessibleName().isEmpty()) {
     return control.accessibleName();
@@ -55,7 +55,7 @@ QString nameOf(const QWidget& control, const QWidget& window) {
 }
 
 bool isControl(const QWidget& widget) {
-  // Parts of a control, of a dock's title bar, and of Qt's own menus and bars, have names by Qt.
+  // Qt names the parts of a control, of a dock's title bar, and of its own menus and bars.
   const QWidget* parent = widget.parentWidget();
   const bool part =
       qobject_cast<const QAbstractSpinBox*>(parent) != nullptr || qobject_cast<const QComboBox*>(parent) != nullptr ||
@@ -143,13 +143,13 @@ class WindowKeyboard : public QObject {
   }
 
   void keysMoveTheCameraOfTheViewThatHasThem() {
-    Workbench bench;  // in a plane: arrows shift
+    Workbench bench;  // an object in 2D: arrow keys pan
     bench.view(1).setFocus(Qt::TabFocusReason);
     const auto middle = [&bench] { return bench.view(1).placeOf(ElementId(31)); };
     const QPointF before = middle();
     QTest::keyClick(&bench.view(1), Qt::Key_Right);
     QVERIFY(middle().x() > before.x());
-    QVERIFY(std::abs(middle().y() - before.y()) < 0.01);  // single precision of places
+    QVERIFY(std::abs(middle().y() - before.y()) < 0.01);  // positions are in single precision
     QTest::keyClick(&bench.view(1), Qt::Key_Left);
     QVERIFY((middle() - before).manhattanLength() < 0.01);
     const int across = bench.place(1, 8).x() - bench.place(1, 0).x();
@@ -180,7 +180,7 @@ class WindowKeyboard : public QObject {
       search(bench, QStringLiteral("reset view"));
       QCOMPARE(visibleRows(*list), 1);
       keys->setFocus();
-      QTest::keyClick(keys, Qt::Key_K);  // that of Cut
+      QTest::keyClick(keys, Qt::Key_K);  // the key of Cut
       QCOMPARE(fit->shortcut(), QKeySequence(Qt::Key_F));
       QVERIFY2(answer->text().startsWith(QStringLiteral("K belongs to 'Edit › Cut'")), qPrintable(answer->text()));
       QTest::keyClick(keys, Qt::Key_J, Qt::ControlModifier);
@@ -222,7 +222,7 @@ class WindowKeyboard : public QObject {
     bench.window.addAction(late);
     openList(bench);
     QCOMPARE(late->shortcut(), QKeySequence(Qt::Key_K));
-    QVERIFY(bench.find<QAction>("toolCut")->shortcut().isEmpty());  // the user's word counts for more
+    QVERIFY(bench.find<QAction>("toolCut")->shortcut().isEmpty());  // the user's key has priority
   }
 
  private:

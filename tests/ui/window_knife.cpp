@@ -1,4 +1,4 @@
-// The knife in space, in a real window: through the whole object, or its front layer only.
+// Tests the cut tool on objects in 3D, in a real window: through the whole object, or only its front layer.
 
 #include <QToolButton>
 
@@ -9,7 +9,7 @@ using namespace chainmail;
 
 namespace {
 
-/// Links both of whose ends are on the side of the centre that is turned to the eye, or on the other.
+/// True if both ends of a link are nearer to the viewer than the centre.
 bool isNear(Workbench& bench, LinkId link) {
   const auto depth = [&bench](const Point& at) {
     const Camera& camera = *bench.view(0).camera();
@@ -23,7 +23,7 @@ bool isNear(Workbench& bench, LinkId link) {
 
 QList<QPoint> strokeAcross(Workbench& bench) {
   const QPoint middle = bench.view(0).placeOf(Point::Zero()).toPoint();
-  return {middle + QPoint(-60, 6), middle + QPoint(60, -6)};  // well within the outline
+  return {middle + QPoint(-60, 6), middle + QPoint(60, -6)};  // well inside the outline
 }
 
 std::vector<LinkId> cutBy(Workbench& bench) {
@@ -72,7 +72,7 @@ class WindowKnife : public QObject {
     QVERIFY(first > 0);
     bench.stroke(0, across);
     const auto second = bench.document().cuts().count();
-    QVERIFY(second > first);  // what the first has laid open
+    QVERIFY(second > first);  // the links that the first cut uncovered
     bench.trigger("cutFrontOnly");
     bench.stroke(0, across);
     QVERIFY(bench.document().cuts().count() > second);

@@ -1,4 +1,4 @@
-// Sizes, docking, cameras and what is remembered, in a real window.
+// Tests sizes, docking, cameras and stored layouts in a real window.
 
 #include <QDockWidget>
 #include <QLabel>
@@ -12,13 +12,13 @@ using namespace chainmail;
 
 namespace {
 
-/// A window of its own, which counts how often it was painted.
+/// Another window, which counts how often it is painted.
 struct OtherWindow : QWidget {
   OtherWindow() {
     show();
     (void)QTest::qWaitForWindowExposed(this);
   }
-  /// Is painted so many times, one after the other.
+  /// Paints it this number of times, one after another.
   void paint(int times) {
     for (const int before = painted; painted < before + times;) {
       const int seen = painted;
@@ -31,7 +31,7 @@ struct OtherWindow : QWidget {
   int painted = 0;
 };
 
-/// Whether something in the window will act by itself in a second.
+/// True if a timer of the window will fire within a second.
 bool isTimed(Workbench& bench) {
   const auto timers = bench.window.findChildren<QTimer*>();
   return std::ranges::any_of(timers, [](const QTimer* one) { return one->isActive() && one->interval() < 1000; });
@@ -72,7 +72,7 @@ class WindowLayout : public QObject {
       return double(bench.place(0, 62).x() - bench.place(0, 0).x()) / bench.view(0).width();
     };
     const double before = share();
-    bench.window.resize(1000, 860);  // narrow views: a camera that stays would cut the object off
+    bench.window.resize(1000, 860);  // narrow views: with an unchanged camera, the object would not fit
     bench.settle();
     QVERIFY(shownWhole(0) && shownWhole(1));
     bench.trigger("addPanel");
@@ -81,7 +81,7 @@ class WindowLayout : public QObject {
     for (int panel = 0; panel < 4; ++panel) {
       QVERIFY(shownWhole(panel));
     }
-    QVERIFY(share() > before / 2);  // and no smaller than there is room for
+    QVERIFY(share() > before / 2);  // and it uses the available space
     bench.view(0).zoom(4);
     const double height = bench.view(0).camera()->pose().height;
     bench.window.resize(1500, 860);
@@ -99,7 +99,7 @@ class WindowLayout : public QObject {
     bench.trigger("addPanel");
     bench.window.resize(1366, 768);
     for (const char* show : {"showReport", "showPropagation", "showElement", "showPropagation"}) {
-      bench.trigger(show);  // the last one while it is behind
+      bench.trigger(show);  // the last one when it is behind another tab
       bench.settle();
       QCOMPARE(bench.window.size(), QSize(1366, 768));
     }
@@ -163,7 +163,7 @@ class WindowLayout : public QObject {
     const auto across = [&bench](int panel) {
       return bench.view(panel).placeOf(ElementId(62)) - bench.view(panel).placeOf(ElementId(0));
     };
-    QVERIFY((across(1) - across(0)).manhattanLength() < 0.01);  // single precision of places
+    QVERIFY((across(1) - across(0)).manhattanLength() < 0.01);  // positions are in single precision
   }
 
   void theMiddleButtonPans() {
@@ -175,7 +175,7 @@ class WindowLayout : public QObject {
                      Qt::MiddleButton, Qt::NoModifier);
     QApplication::sendEvent(&view, &move);
     QTest::mouseRelease(&view, Qt::MiddleButton, {}, QPoint(130, 90));
-    QVERIFY(((bench.place(0, 0) - before) - QPoint(30, -10)).manhattanLength() <= 2);  // rounding of places
+    QVERIFY(((bench.place(0, 0) - before) - QPoint(30, -10)).manhattanLength() <= 2);  // rounding of mouse positions
   }
 
   void theLayoutIsRemembered() {
@@ -195,19 +195,19 @@ class WindowLayout : public QObject {
     bench.document().drag(bench.position(0, 10) + Point(0.5, 0, 0));
     bench.document().release();
     bench.settle();
-    for (const char* rate : {"painted0", "painted1"}) {  // they count the last second
+    for (const char* rate : {"painted0", "painted1"}) {  // they count the frames of the last second
       QTRY_COMPARE(bench.find<QLabel>(rate)->text(), QStringLiteral("idle"));
     }
-    // The last frames show how far the links of the whole object are off.
+    // The last frames have the violation of the whole object.
     for (int panel = 0; panel < 2; ++panel) {
       QTRY_VERIFY(bench.document().frame(panel)->statistics.violation_of_whole_mesh);
     }
     bench.settleFigures();
-    QTRY_VERIFY(!isTimed(bench));  // nothing is left that would begin to paint
+    QTRY_VERIFY(!isTimed(bench));  // no timer is left that could start painting
     OtherWindow other;
     const QSignalSpy left(&bench.view(0), &QOpenGLWidget::aboutToCompose);
     const QSignalSpy right(&bench.view(1), &QOpenGLWidget::aboutToCompose);
-    other.paint(5);  // whatever was asked to be painted before was painted by then
+    other.paint(5);  // all earlier requests to paint are done by then
     QCOMPARE(left.count() + right.count(), 0);
     QVERIFY(!isTimed(bench));
   }

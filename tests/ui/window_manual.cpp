@@ -1,4 +1,4 @@
-// The manual in a real window, and the links of all pages that people read.
+// Tests the manual in a real window, and the links of all pages for users.
 
 #include <QDesktopServices>
 #include <QDir>
@@ -28,14 +28,14 @@ QString textOf(const QString& file) {
   return page.open(QIODevice::ReadOnly) ? QString::fromUtf8(page.readAll()) : QString();
 }
 
-/// Markdown without its code, where brackets and # mean something else.
+/// Returns Markdown without its code, in which brackets and # have other meanings.
 QString withoutCode(QString text) {
   static const QRegularExpression fenced(QStringLiteral("```.*?```"), QRegularExpression::DotMatchesEverythingOption);
   static const QRegularExpression indented(QStringLiteral("^ {4}.*$"), QRegularExpression::MultilineOption);
   return text.remove(fenced).remove(indented);
 }
 
-/// Targets of all links and pictures of a file.
+/// Returns the targets of all links and pictures of a file.
 QStringList linksOf(const QString& file) {
   static const QRegularExpression link(QStringLiteral(R"(\]\(([^)\s]+)\))"));
   static const QRegularExpression inlineCode(QStringLiteral("`[^`\n]*`"));
@@ -47,7 +47,7 @@ QStringList linksOf(const QString& file) {
   return targets;
 }
 
-/// The anchors of a page's headings.
+/// Returns the anchors of a page's headings.
 QStringList anchorsOf(const QString& file) {
   static const QRegularExpression heading(QStringLiteral("^#+ (.*)$"), QRegularExpression::MultilineOption);
   static const QRegularExpression dropped(QStringLiteral("[^\\w\\- ]"), QRegularExpression::UseUnicodePropertiesOption);
@@ -60,7 +60,7 @@ QStringList anchorsOf(const QString& file) {
 
 bool isExternal(const QString& target) { return target.contains(QStringLiteral("://")); }
 
-/// Why a link of a file leads nowhere; empty if it leads somewhere.
+/// Returns the reason why a link of a file is broken; empty if it works.
 QString fault(const QString& file, const QString& target) {
   const QString anchor = target.section(QLatin1Char('#'), 1);
   const QString path = target.section(QLatin1Char('#'), 0, 0);
@@ -78,7 +78,7 @@ QStringList pagesInSource() {
   return QDir(root + QLatin1Char('/') + manual).entryList({QStringLiteral("*.md")}, QDir::Files, QDir::Name);
 }
 
-/// A manual as Help > Manual opens it.
+/// The manual, opened with Help > Manual.
 struct Manual : Workbench {
   Manual() {
     trigger("showManual");
@@ -130,7 +130,7 @@ struct Manual : Workbench {
   bool active = false;
 };
 
-/// Stands for the browser that external links open in.
+/// Replaces the browser in which external links open.
 class Browser : public QObject {
   Q_OBJECT
 
@@ -193,7 +193,7 @@ class WindowManual : public QObject {
     QVERIFY(!fault(manual + "index.md", QStringLiteral("#files-from-others")).isEmpty());
   }
 
-  /// What the window shows must be compiled in, pictures too.
+  /// All that the window shows must be compiled in, also pictures.
   void everyLinkOfAPageIsInTheWindow() {
     for (const QString& page : ManualWindow::pages()) {
       QCOMPARE(textOf(manual + page).isEmpty(), false);
@@ -211,7 +211,7 @@ class WindowManual : public QObject {
     QCOMPARE(bench.listed(), ManualWindow::pages().front());
     QVERIFY(bench.page->toPlainText().startsWith(QStringLiteral("ChainMail manual")));
     bench.manual->open(QStringLiteral("speed.md"));
-    bench.trigger("showManual");  // the same window, and the page that it showed
+    bench.trigger("showManual");  // the same window, still with that page
     QCOMPARE(bench.window.findChildren<ManualWindow*>().size(), qsizetype{1});
     QCOMPARE(bench.file(), QStringLiteral("speed.md"));
   }
@@ -266,7 +266,7 @@ class WindowManual : public QObject {
     QVERIFY(bench.page->verticalScrollBar()->value() > 0);
     const auto* answer = bench.manual->findChild<QLabel*>(QStringLiteral("manualAnswer"));
     const int only = bench.page->textCursor().position();
-    QTest::keyClick(bench.search, Qt::Key_Return);  // the first one again
+    QTest::keyClick(bench.search, Qt::Key_Return);  // goes to the first match again
     QVERIFY(answer->text().isEmpty());
     QCOMPARE(bench.page->textCursor().position(), only);
     bench.search->setText(QStringLiteral("panel"));
@@ -294,7 +294,7 @@ class WindowManual : public QObject {
     QCOMPARE(bench.page->font().pointSizeF(), before);
   }
 
-  /// Neither a table nor a picture is wider than the page, where a window is as small as it starts.
+  /// No table or picture is wider than the page, even in a window with the initial size.
   void nothingIsCutOff() {
     Manual bench;
     for (const QString& page : ManualWindow::pages()) {

@@ -1,5 +1,5 @@
-// Anything a user can do in a real window, in any order: for the address sanitizer first of all. Its events are
-// counted, not timed. CHAINMAIL_MONKEY_EVENTS and CHAINMAIL_MONKEY_SEED in the environment ask for others.
+// Tests random user input in a real window, in any order, mainly for the address sanitizer. A run has a fixed number of
+// events. The environment variables CHAINMAIL_MONKEY_EVENTS and CHAINMAIL_MONKEY_SEED set their number and the seed.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ int asked(const char* variable, int otherwise) {
   return is ? value : otherwise;
 }
 
-/// All that undo gives back.
+/// The state that undo restores.
 struct State {
   MeshPointer mesh;
   QString name;
@@ -29,7 +29,7 @@ struct State {
   std::vector<ElementId> pins;
   Softness softness;
   std::array<Algorithm, Document::fewestPanels> algorithms;
-  std::array<std::vector<float>, Document::fewestPanels> positions;  // of the panels that always stay
+  std::array<std::vector<float>, Document::fewestPanels> positions;  // of the panels that cannot be removed
 
   static State of(const Document& document) {
     State state{
@@ -78,7 +78,7 @@ class WindowMonkey : public QObject {
     Workbench bench;
     Monkey monkey(bench, folder.path(), unsigned(asked("CHAINMAIL_MONKEY_SEED", 1)), witness_);
     State begin = State::of(bench.document());
-    bool complete = true;  // the history goes back to the beginning
+    bool complete = true;  // true while the undo list goes back to the beginning
     for (int event = 1; event <= events; ++event) {
       monkey.act();
       QVERIFY(!QTest::currentTestFailed());
@@ -154,7 +154,7 @@ class WindowMonkey : public QObject {
 };
 
 int main(int argc, char** argv) {
-  qputenv("QTEST_FUNCTION_TIMEOUT", "100000000");  // who looks on knows when it stands still
+  qputenv("QTEST_FUNCTION_TIMEOUT", "100000000");  // the witness notices if the test hangs
   return Witness::watch([&](const Witness& witness) { return runWindowTest<WindowMonkey>(argc, argv, witness); });
 }
 #include "window_monkey.moc"

@@ -1,4 +1,4 @@
-// Files that people have, in a real window: what is said of them, volumes of voxels, surfaces that are filled.
+// Tests files of users in a real window: the texts about them, voxel volumes, and filled surfaces.
 
 #include <sys/stat.h>
 
@@ -99,7 +99,7 @@ class WindowOpen : public QObject {
     QCOMPARE(bench.document().mesh()->element_count(), 24U);
     QCOMPARE(bench.document().mesh()->hexahedra.size(), std::size_t{6});
     const auto stiff = bench.document().wholeSoftness()->links;
-    QVERIFY(!stiff.empty());  // about the voxel of 1000
+    QVERIFY(!stiff.empty());  // the links at the voxel of value 1000
     bench.trigger("undo");
     bench.settle();
     QCOMPARE(bench.document().mesh(), before);
@@ -124,7 +124,7 @@ class WindowOpen : public QObject {
   void aClosedSurfaceIsFilled() {
     Workbench bench;
     auto* fill = bench.window.findChild<QAction*>(QStringLiteral("fillSurface"));
-    QVERIFY(!fill->isEnabled());  // a plane grid
+    QVERIFY(!fill->isEnabled());  // disabled for a plane grid
     bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
     QVERIFY(fill->isEnabled());
     fill->trigger();

@@ -1,4 +1,4 @@
-// Panels are swapped, added, taken away and shown alone, in a real window.
+// Tests panels in a real window: swapping, adding, removing, and showing one alone.
 
 #include <QToolButton>
 
@@ -27,7 +27,7 @@ class WindowPanels : public QObject {
     QVERIFY(bench.window.panel(1).mapToGlobal(QPoint()).x() < bench.window.panel(0).mapToGlobal(QPoint()).x());
     QCOMPARE(bench.position(0, 40), before);
     QCOMPARE(bench.document().algorithm(0), Algorithm::generalized);
-    const QPoint from = bench.place(1, 31);  // the hand works where it is seen
+    const QPoint from = bench.place(1, 31);  // a drag works where the panel is shown
     bench.stroke(1, {from, from + QPoint(40, 40)});
     QVERIFY(bench.position(0, 40) != before || bench.document().frame(0)->statistics.last_pass.moved > 0);
     bench.trigger("swapPanels");
@@ -50,15 +50,15 @@ class WindowPanels : public QObject {
     QCOMPARE(document.algorithm(3), Algorithm::enhanced);
     QVERIFY(!bench.find<QAction>("addPanel")->isEnabled());
     for (ElementId e = 0; e < document.mesh()->element_count(); ++e) {
-      // Exact holds displacements from rest, rounded to floats.
+      // Exact stores displacements from rest, rounded to floats.
       QVERIFY((bench.position(2, e) - bench.position(0, e)).norm() < 1e-5);
       QCOMPARE(bench.position(3, e), bench.position(0, e));
-      // One camera, whatever the views' sizes: places are apart alike.
+      // The panels have one camera, so distances are equal relative to the height of the view.
       const auto place = [&](int panel, ElementId one) { return bench.view(panel).placeOf(one); };
       const QPointF off = (place(3, e) - place(3, 0)) * bench.view(0).height() / bench.view(3).height();
       QVERIFY((off - (place(0, e) - place(0, 0))).manhattanLength() < 0.1);
     }
-    // Under the same hand, and back with it: also through what was done before they came.
+    // New panels follow the same drags and undo steps, also steps from before they were added.
     const QPoint from = bench.place(3, 12);
     bench.stroke(3, {from, from + QPoint(40, 30)});
     for (int p = 0; p < 4; ++p) {
@@ -92,7 +92,7 @@ class WindowPanels : public QObject {
     bench.trigger("compareWithD");
     bench.dragFar();
     QTRY_VERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("from D")));
-    QTest::mouseClick(&bench.window.panel(3).head(), Qt::LeftButton);  // nothing: the buttons are beside
+    QTest::mouseClick(&bench.window.panel(3).head(), Qt::LeftButton);  // no effect: the buttons are elsewhere
     QVERIFY(bench.find<QToolButton>("removeButton3")->isVisible());
     QVERIFY(!bench.find<QToolButton>("removeButton2")->isVisible());
     QTest::mouseClick(bench.find<QToolButton>("removeButton3"), Qt::LeftButton);
@@ -114,11 +114,11 @@ class WindowPanels : public QObject {
     bench.trigger("addPanel");
     bench.trigger("colourBy-distance");
     bench.dragFar();
-    bench.trigger("linkColours");  // the panels' own ranges
+    bench.trigger("linkColours");  // the panels then have separate ranges
     const auto furthest = [&](int a, int b) {
       double largest = 0;
       for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
-        largest = std::max(largest, (bench.position(a, e) - bench.position(b, e)).norm());  // links are of length 1
+        largest = std::max(largest, (bench.position(a, e) - bench.position(b, e)).norm());  // all links have length 1
       }
       return QLocale().toString(largest, 'g', 3);
     };
@@ -141,19 +141,19 @@ class WindowPanels : public QObject {
     QVERIFY(bench.find<QAction>("showAloneB")->isChecked());
     const QPoint from = bench.place(1, 31);
     bench.stroke(1, {from, from + QPoint(60, 40)});
-    QVERIFY(bench.document().frame(0)->statistics.passes > 0);  // out of sight, and as far as the other
+    QVERIFY(bench.document().frame(0)->statistics.passes > 0);  // the hidden panel has also computed the drag
     QTest::mouseClick(bench.find<QToolButton>("aloneButton1"), Qt::LeftButton);
     bench.settle();
     QVERIFY(a.isVisible() && b.isVisible());
     QVERIFY(std::abs(a.width() - b.width()) <= 1);
     bench.trigger("showPanelA");
     QVERIFY(!a.isVisible());
-    QVERIFY(!bench.find<QAction>("showPanelB")->isEnabled());  // the last one stays
+    QVERIFY(!bench.find<QAction>("showPanelB")->isEnabled());  // the last visible panel cannot be hidden
     bench.trigger("showPanelA");
     QVERIFY(a.isVisible());
   }
 
-  /// A step of a panel that is gone changes nothing any more, and those before it are still undone.
+  /// An undo step of a removed panel has no effect, and undo of the steps before it still works.
   void stepsOfAPanelThatIsGoneAreUndone() {
     Workbench bench;
     bench.document().setPinned({3}, true);
@@ -180,7 +180,7 @@ class WindowPanels : public QObject {
   void onePanelMayGoWhileItIsSaved() {
     Workbench bench;
     bench.trigger("addPanel");
-    // To take it up keeps the solvers: the panel is gone before it has said where its elements stand.
+    // The draft shares the solvers, and the panel is removed before its solver has reported its positions.
     bench.document().replaceMesh(generate({MeshKind::grid, {400, 400, 1}, 1, {}}), QStringLiteral("large"),
                                  QStringLiteral("build"));
     const SessionDraft draft(bench.document(), {});

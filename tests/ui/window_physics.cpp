@@ -1,5 +1,4 @@
-// The methods that ChainMail is compared with, in a real window: which are offered, what holds the object, and what
-// they go by.
+// Tests the elastic methods in a real window: which are available, which pins they need, and their settings.
 
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -30,7 +29,7 @@ void dragOne(Workbench& bench) {
   bench.stroke(0, {from, from + QPoint(60, -40)});
 }
 
-/// Opens a menu as a click does, so that it counts.
+/// Opens a menu as a click does, so that its items are updated.
 void open(Workbench& bench, const char* menu) { emit bench.find<QMenu>(menu)->aboutToShow(); }
 
 QString words(Workbench& bench, const char* action) {
@@ -48,7 +47,7 @@ class WindowPhysics : public QObject {
   void methodsAreOfferedBelowTheFamilyWhereTheyWork() {
     Workbench bench(gridInAPlane());
     auto& selector = bench.window.panel(0).selector();
-    QCOMPARE(selector.count(), int(every_algorithm().size()) + 1);  // and a line between
+    QCOMPARE(selector.count(), int(every_algorithm().size()) + 1);  // and a separator
     QVERIFY(item(bench, 0, "Linear FEM").isEnabled());
     QVERIFY(!item(bench, 0, "BEM").isEnabled());
     QVERIFY(item(bench, 0, "BEM").toolTip().contains(QStringLiteral("closed surfaces")));
@@ -69,7 +68,7 @@ class WindowPhysics : public QObject {
     bench.trigger("pinBottom");
     QCOMPARE(bench.document().pins(), (std::vector<ElementId>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
     QVERIFY(bench.find<QLabel>("physicsPins")->text().contains(QStringLiteral("<b>9</b> of 63")));
-    bench.trigger("pinLeft");  // the corner is pinned already
+    bench.trigger("pinLeft");  // the corner already has a pin
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("pin 6 elements"));
     open(bench, "pinLayers");
     QVERIFY(!bench.find<QAction>("pinLeft")->isEnabled());
@@ -106,7 +105,7 @@ class WindowPhysics : public QObject {
     QVERIFY(bench.find<QLabel>("pinsAbout")->text().contains(QStringLiteral("so Linear FEM has no solution")));
     QVERIFY(!bench.window.messages().isVisible());
     QTRY_VERIFY(bench.find<QLabel>("state1")->toolTip().contains(QStringLiteral("nothing pinned: no solution")));
-    // The other panel went on.
+    // The other panel still follows the drag.
     QVERIFY(bench.position(0, 31) != bench.document().mesh()->rest_position(31));
     bench.find<QPushButton>("pinsCancel")->click();
     dragOne(bench);
@@ -127,8 +126,8 @@ class WindowPhysics : public QObject {
     dragOne(bench);
     QVERIFY(!bench.window.messages().isVisible());
     const Mesh& mesh = *bench.document().mesh();
-    QVERIFY((bench.position(1, 31) - bench.position(0, 31)).norm() < 1e-5);  // in the hand in both
-    // All but those pinned follow, the further from the hand the less.
+    QVERIFY((bench.position(1, 31) - bench.position(0, 31)).norm() < 1e-5);  // both panels have it at the handle
+    // All unpinned elements follow. The farther from the handle, the less they move.
     const auto way = [&](ElementId e) { return (bench.position(1, e) - mesh.rest_position(e)).norm(); };
     QCOMPARE(way(4), 0.0);
     QVERIFY(way(60) > 0 && way(13) > 0 && way(13) < way(22) && way(22) < way(31));
@@ -143,8 +142,8 @@ class WindowPhysics : public QObject {
     bench.choose(0, "Neo-Hookean FEM");
     bench.trigger("pinLeft");
     bench.document().grab(22);
-    bench.document().drag(Point(-6, 1, 1));  // through the wall that holds it
-    // Newton tries many a load step: seconds where a sanitizer watches.
+    bench.document().drag(Point(-6, 1, 1));  // through the pinned wall
+    // Newton's method tries many load steps, which takes seconds with a sanitizer.
     QTRY_VERIFY_WITH_TIMEOUT(bench.document().idle(), 60'000);
     bench.settle();
     auto* figures = bench.find<QLabel>("statistics0");
@@ -174,7 +173,7 @@ class WindowPhysics : public QObject {
     QCOMPARE(frame.control_points.size(), std::size_t{2 * 4 * 4});
     QVERIFY(bench.document().frame(0)->control_points.empty());
     const Mesh& mesh = *bench.document().mesh();
-    // The first one is the lowest corner, as element 0 is: the point wins.
+    // Control point 0 and element 0 are at the same position; the control point has priority.
     const QPoint from = bench.place(1, 0);
     QTest::mouseMove(&bench.view(1), from + QPoint(30, 30));
     QTest::mouseMove(&bench.view(1), from);
@@ -182,9 +181,9 @@ class WindowPhysics : public QObject {
     QVERIFY(!bench.document().highlight().element);
     bench.stroke(1, {from, from + QPoint(-50, 30)});
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("move of control point 0"));
-    QVERIFY((bench.position(1, 0) - mesh.rest_position(0)).norm() > 0.1);  // the corner follows its point all the way
-    QVERIFY(bench.position(1, 62) == mesh.rest_position(62));              // the other corner follows others
-    QVERIFY(bench.position(0, 0) == mesh.rest_position(0));                // other panels have no such point
+    QVERIFY((bench.position(1, 0) - mesh.rest_position(0)).norm() > 0.1);  // the corner moves with its control point
+    QVERIFY(bench.position(1, 62) == mesh.rest_position(62));  // the opposite corner belongs to other points
+    QVERIFY(bench.position(0, 0) == mesh.rest_position(0));    // other panels have no control points
     const float moved = bench.document().frame(1)->control_points[0];
     QVERIFY(moved < 0);
     bench.document().undo();
@@ -193,7 +192,8 @@ class WindowPhysics : public QObject {
     QVERIFY(std::abs(bench.document().frame(1)->control_points[0]) < 1e-5F);
     bench.document().redo();
     bench.settle();
-    QVERIFY(std::abs(bench.document().frame(1)->control_points[0] - moved) < 1e-3F);  // fitted to where elements stand
+    // Fitted to the positions of the elements.
+    QVERIFY(std::abs(bench.document().frame(1)->control_points[0] - moved) < 1e-3F);
   }
 
   void theLatticeIsAsItWasChosen() {
@@ -203,7 +203,7 @@ class WindowPhysics : public QObject {
     bench.find<QSpinBox>("latticeZ")->setValue(2);
     bench.settle();
     QTRY_COMPARE(bench.document().frame(0)->control_points.size(), std::size_t{3 * 32});
-    bench.view(0).grabFramebuffer();  // drawn without a word
+    bench.view(0).grabFramebuffer();  // drawn without a warning
   }
 
   void theErrorAgainstPhysicsIsRelativeAndInHandleWays() {
@@ -219,23 +219,24 @@ class WindowPhysics : public QObject {
     QTRY_VERIFY(title(1).contains(QStringLiteral("RMS")) &&
                 title(1).endsWith(QStringLiteral(" (of the handle's displacement)")));
     QVERIFY(title(1).contains(QStringLiteral("on the same cells")));
-    // The same error, over what the reference moves and over what the handle moves; and that of an object at rest.
+    // The title has the error relative to the displacements of the reference solution and of the handle, and the error
+    // of an object at rest.
     const auto figureAfter = [&](int panel, const QString& word) {
       const QString after = title(panel).section(word, 1);
       return QLocale().toDouble(after.section(QRegularExpression(QStringLiteral("[,;() ]")), 0, 0));
     };
     QTRY_VERIFY(title(0).contains(QStringLiteral("relative ")));
-    QVERIFY(figureAfter(0, QStringLiteral("relative error ")) < 1e-4);  // the reference itself
+    QVERIFY(figureAfter(0, QStringLiteral("relative error ")) < 1e-4);  // this panel runs the reference method
     const double nothing = figureAfter(1, QStringLiteral("nothing moves: "));
     QVERIFY2(nothing > 0.5 && nothing < 1, qPrintable(title(1)));
     QVERIFY(figureAfter(1, QStringLiteral("relative error ")) > figureAfter(1, QStringLiteral("RMS ")));
     const auto highest = [&](int panel) { return QLocale().toDouble(bench.window.panel(panel).legend().highest()); };
     QTRY_VERIFY(!bench.window.panel(1).legend().highest().isEmpty());
     bench.window.colouring().setSharesScale(false);
-    QTRY_VERIFY(highest(0) < 1e-4);  // the reference solution itself, up to the tolerance of Newton and floats
+    QTRY_VERIFY(highest(0) < 1e-4);  // the reference solution, up to the tolerance of Newton's method and of floats
     QVERIFY(highest(1) > 0.05 && highest(1) < 2);
     QCOMPARE(bench.window.panel(1).legend().lowest(), QStringLiteral("0"));
-    bench.document().setPinned({62}, true);  // another reference solution: no colours of the last one
+    bench.document().setPinned({62}, true);  // another reference solution: the old colours are invalid
     QVERIFY(!bench.window.colouring().title(0).contains(QStringLiteral("displacement")));
     QVERIFY(bench.window.colouring().follow(0) == nullptr);
     QTRY_VERIFY(title(0).contains(QStringLiteral("displacement")));
@@ -257,7 +258,7 @@ class WindowPhysics : public QObject {
     start->click();
     QVERIFY(bench.window.jobs().running());
     QTest::keyClick(&bench.window, Qt::Key_Escape);
-    QVERIFY(!bench.window.jobs().running());  // cancelled, and nothing has changed
+    QVERIFY(!bench.window.jobs().running());  // cancelled without a change
     QCOMPARE(bench.document().undoStack().count(), steps);
     start->click();
     QTRY_VERIFY_WITH_TIMEOUT(!bench.window.jobs().running(), 60'000);

@@ -1,4 +1,4 @@
-// Pictures of the window and its parts, copied and saved, in a real window.
+// Tests pictures of the window and its parts, copied and saved, in a real window.
 
 #include <QClipboard>
 #include <QPainter>
@@ -20,7 +20,7 @@ QImage plain(const QImage& image) {
   return same;
 }
 
-/// The share of the pixels in which two pictures differ by more than what a renderer rounds.
+/// Returns the share of the pixels in which two pictures differ by more than rounding.
 double difference(const QImage& one, const QImage& other) {
   constexpr int rounded = 40;
   int different = 0;
@@ -34,7 +34,7 @@ double difference(const QImage& one, const QImage& other) {
   return double(different) / (double(one.width()) * one.height());
 }
 
-/// How much of a picture is not its ground.
+/// Returns the share of a picture that is not ground.
 double drawn(const QImage& picture, QRgb ground) {
   QImage empty(picture.size(), QImage::Format_RGB32);
   empty.fill(ground);
@@ -69,10 +69,10 @@ class WindowPictures : public QObject {
     bench.dragFar();
     const QImage one = plain(pictureOf(bench.window)), two = plain(pictureOf(bench.window, 2));
     QCOMPARE(two.size(), 2 * one.size());
-    // Thin lines fall otherwise between pixels; what is elsewhere would differ at least twice as much.
+    // Thin lines fall differently between pixels. Objects at other positions would differ at least twice as much.
     const QImage again = two.scaled(one.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
     QVERIFY2(difference(one, again) < 0.03, qPrintable(QString::number(difference(one, again))));
-    // Drawn anew: enlarged pixels come in equal pairs.
+    // It is drawn again: in an enlarged picture, pixels would come in equal pairs.
     const QRect view(bench.view(0).mapTo(&bench.window, QPoint()) * 2, bench.view(0).size() * 2);
     const QImage enlarged = one.scaled(two.size(), Qt::IgnoreAspectRatio, Qt::FastTransformation);
     QVERIFY(difference(two.copy(view), enlarged.copy(view)) > 0.005);
@@ -87,7 +87,7 @@ class WindowPictures : public QObject {
     laidOver.fill(QColor(colours::background));
     QPainter(&laidOver).drawImage(QRect(QPoint(), laidOver.size()), clear);
     QVERIFY(drawn(plain(opaque), QColor(colours::background).rgb()) > 0.02);
-    // Depth fades into the ground that is there, or lets through the one laid under: the same within rounding.
+    // Depth is blended with the ground, or shows the ground below: both are the same, up to rounding.
     QVERIFY2(difference(laidOver, plain(opaque)) < 0.002,
              qPrintable(QString::number(difference(laidOver, plain(opaque)))));
   }
@@ -107,7 +107,7 @@ class WindowPictures : public QObject {
     bench.trigger("pictureOfPanelC");
     bench.trigger("removePanel");
     bench.settle();
-    QVERIFY(bench.find<QAction>("pictureOfWindow")->isChecked());  // there is no C
+    QVERIFY(bench.find<QAction>("pictureOfWindow")->isChecked());  // panel C does not exist any more
     QVERIFY(!bench.find<QAction>("pictureOfObjectC")->isVisible());
   }
 
@@ -181,7 +181,8 @@ class WindowPictures : public QObject {
     const double apart = difference(screen, again);
     applyGround(colours::Ground::dark);
     QVERIFY(ofScreen > 0.005);
-    // Edges are smoothed otherwise, and nothing else: as much of the picture, were the lines elsewhere.
+    // Only the smoothing of edges differs. If lines were elsewhere, the difference would be as large as the drawn
+    // share.
     QVERIFY2(apart < ofScreen / 2, qPrintable(QStringLiteral("%1 of %2").arg(apart).arg(ofScreen)));
   }
 
@@ -194,7 +195,7 @@ class WindowPictures : public QObject {
     bench.settle();
     QSvgRenderer svg(path);
     QVERIFY(svg.isValid());
-    // Half a line's width, and how an SVG rounds, on each side.
+    // A margin for half the width of a line and for the rounding of SVG numbers.
     const QRectF view = QRectF(bench.view(0).rect()).adjusted(-1, -1, 1, 1);
     QImage wider(bench.view(0).size() + QSize(200, 200), QImage::Format_RGB32);
     wider.fill(Qt::white);
@@ -226,7 +227,7 @@ class WindowPictures : public QObject {
     for (const char* word : {"Generalized ChainMail", "Natural Queue ChainMail", "violation of", "links checked"}) {
       QVERIFY2(text.contains(QLatin1String(word)), word);
     }
-    QVERIFY(!text.contains(QStringLiteral("<image")));  // lines, no pixels
+    QVERIFY(!text.contains(QStringLiteral("<image")));  // lines, not pixels
     QFile document(pdf);
     QVERIFY(document.open(QIODevice::ReadOnly));
     QVERIFY(document.read(5) == "%PDF-");

@@ -1,4 +1,4 @@
-// The pin tool in a real window.
+// Tests the pin tool in a real window.
 
 #include <QLabel>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr ElementId pinned = 31, dragged = 33;  // in the middle row of 9 x 7
 
-/// Far enough for every element of the grid to move.
+/// Drags so far that every element of the grid would move.
 void dragFar(Workbench& bench) {
   const QPoint from = bench.place(0, dragged);
   bench.stroke(0, {from, from + QPoint(60, -220)});
@@ -42,13 +42,13 @@ class WindowPin : public QObject {
     }
     QVERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("1 pinned")));
 
-    QTest::keyClick(&bench.window, Qt::Key_Z, Qt::ControlModifier);  // the drag
+    QTest::keyClick(&bench.window, Qt::Key_Z, Qt::ControlModifier);  // undoes the drag, then the pin
     QTest::keyClick(&bench.window, Qt::Key_Z, Qt::ControlModifier);
     QVERIFY(bench.document().pins().empty());
     bench.trigger("resetObject");
     bench.settle();
     dragFar(bench);
-    QVERIFY(bench.position(1, pinned) != rest);  // it was the pin that held it
+    QVERIFY(bench.position(1, pinned) != rest);  // without the pin, the element moves
   }
 
   void whatTheCursorIsAtStaysLitAfterAnEdit() {
@@ -112,7 +112,7 @@ class WindowPin : public QObject {
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from + QPoint(80, -80));
     bench.settle();
     QCOMPARE(bench.document().frame(0)->statistics.passes, 0U);
-    dragFar(bench);  // the next drag is as any other
+    dragFar(bench);  // the next drag works normally
     QVERIFY(bench.document().frame(0)->statistics.passes > 0);
   }
 

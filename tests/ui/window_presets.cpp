@@ -1,4 +1,4 @@
-// Presets of softness, in a real window.
+// Tests presets of softness in a real window.
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -25,7 +25,7 @@ struct PresetBench : Workbench {
   }
   void set(const char* spin, double value) { find<QDoubleSpinBox>(spin)->setValue(value); }
   bool enabled(const char* action) { return find<QAction>(action)->isEnabled(); }
-  /// Types a name into the field that an action opens.
+  /// Opens the name field with an action and types a name.
   void name(const char* action, const char* typed) {
     trigger(action);
     auto* line = find<QLineEdit>("presetName");
@@ -101,7 +101,7 @@ class WindowPresets : public QObject {
       QVERIFY(!bench.has("wet clay"));
       bench.pick("Jelly");
     }
-    PresetBench bench;  // the next start
+    PresetBench bench;  // the next start of the program
     bench.pick("dry clay");
     QCOMPARE(bench.document().softness().stretch, 1.25);
     bench.trigger("deletePreset");
@@ -116,7 +116,7 @@ class WindowPresets : public QObject {
     bench.set("stretchSpin", 1.25);
     bench.name("savePreset", "clay");
     bench.trigger("renamePreset");
-    bench.trigger("undo");  // a click on the tool bar leaves the keys where they are
+    bench.trigger("undo");  // a click on the tool bar does not move the keyboard focus
     QCOMPARE(bench.shown(), QStringLiteral("Standard"));
     auto* line = bench.find<QLineEdit>("presetName");
     QVERIFY(line->isVisible());
@@ -140,7 +140,7 @@ class WindowPresets : public QObject {
     bench.set("stretchSpin", 1.25);
     bench.name("savePreset", "Jelly");
     QVERIFY(bench.window.messages().isVisible());
-    QVERIFY(bench.find<QLineEdit>("presetName")->isVisible());  // to be mended
+    QVERIFY(bench.find<QLineEdit>("presetName")->isVisible());  // so that the user can correct the name
     QTest::keyClick(bench.find<QLineEdit>("presetName"), Qt::Key_Escape);
     QVERIFY(bench.field().isVisible());
     QCOMPARE(bench.shown(), QStringLiteral("Custom"));
@@ -163,13 +163,13 @@ class WindowPresets : public QObject {
     bench.set("shearSpin", 0.375);
     bench.name("savePreset", "wool");
     bench.row().exportPath(path);
-    bench.row().importPath(path);  // nothing new
+    bench.row().importPath(path);  // adds nothing new
     QVERIFY(!bench.has("felt (2)"));
     bench.trigger("deletePreset");
     bench.pick("felt");
     bench.trigger("deletePreset");
     bench.set("stretchSpin", 2.5);
-    bench.name("savePreset", "felt");  // another one of that name
+    bench.name("savePreset", "felt");  // another preset with that name
     bench.row().importPath(path);
     QVERIFY(bench.has("felt") && bench.has("felt (2)"));
     bench.pick("wool");

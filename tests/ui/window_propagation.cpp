@@ -1,4 +1,4 @@
-// Passes looked at step by step, in a real window.
+// Tests passes in single steps in a real window.
 
 #include <QAction>
 #include <QCheckBox>
@@ -17,9 +17,9 @@ using namespace chainmail;
 namespace {
 
 constexpr ElementId middle = 31;  // of 9 x 7
-constexpr int alike = 60;         // of 255: a line one or two pixels wide is blended with what lies behind it
+constexpr int alike = 60;         // of 255: a line of one or two pixels is blended with the background
 
-/// With the dock open, one far drag that moves every element of the sample in most algorithms.
+/// Opens the dock and makes one far drag, which moves every element of the sample in most algorithms.
 void openAndDrag(Workbench& bench, const Point& by = Point(4, 3, 0)) {
   QTest::keyClick(&bench.window, Qt::Key_O);
   QTRY_VERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
@@ -62,14 +62,14 @@ class WindowPropagation : public QObject {
     const int steps = slider(bench, 1).maximum();
     QCOMPARE(quint64(steps), bench.document().frame(1)->statistics.last_pass.checked);
     QCOMPARE(slider(bench, 1).value(), steps);
-    bench.trigger("passFirst");  // nothing has followed the hand yet
+    bench.trigger("passFirst");  // no element has followed the handle yet
     for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
       const Point rest = bench.document().mesh()->rest_position(e);
       QVERIFY(bench.position(1, e) == (e == middle ? Point(rest + Point(4, 3, 0)) : rest));
     }
     QTest::keyClick(&bench.window, Qt::Key_Period);
     QCOMPARE(slider(bench, 1).value(), 1);
-    // Natural Queue takes the lowest neighbour of the hand first: the one below.
+    // Natural Queue first takes the handle's neighbour with the lowest id, which is below it.
     QVERIFY(bench.position(1, middle - 9) == after[middle - 9]);
     QVERIFY(bench.position(1, middle - 1) == bench.document().mesh()->rest_position(middle - 1));
     QTest::keyClick(&bench.window, Qt::Key_Comma);
@@ -94,7 +94,7 @@ class WindowPropagation : public QObject {
     QCOMPARE(row(4), QStringLiteral("13waits"));
     QCOMPARE(list(bench, 1).rowCount(), 1 + 6 + 1);
     QVERIFY(bench.find<QLabel>("propagationState1")->text().contains(QStringLiteral("<b>6</b> waiting")));
-    // Generalized takes the last listed first, and lets those in that have been updated.
+    // Generalized takes the last candidate of the list first, and admits candidates that are updated already.
     QCOMPARE(cell(bench, 0, 0, 0), QStringLiteral("40"));
     bench.trigger("passForward");
     bool drops = false;
@@ -126,7 +126,7 @@ class WindowPropagation : public QObject {
     QTRY_COMPARE(bench.window.panel(1).legend().highest(), QLocale().toString(double(most), 'g', 3));
     QVERIFY(bench.distanceFromColour(1, bench.place(1, 22), colour_map::at(0)) < alike);
     QVERIFY(bench.distanceFromColour(1, bench.place(1, 4), colour_map::at(0)) > alike);
-    bench.trigger("showPropagation");  // closed: as if it had never been
+    bench.trigger("showPropagation");  // closing the dock restores the normal views
     bench.document().resetObject();
     bench.settle();
     QTRY_VERIFY(!bench.window.panel(1).legend().isVisible());
@@ -220,7 +220,7 @@ class WindowPropagation : public QObject {
       slider(bench, 1).setValue(step);
       bench.view(1).grabFramebuffer();
     }
-    QVERIFY(clock.elapsed() < 5 * 2000);  // some 100 ms each; the limit is for a machine with much else to do
+    QVERIFY(clock.elapsed() < 5 * 2000);  // about 100 ms each; the limit allows for a busy machine
   }
 };
 

@@ -1,4 +1,4 @@
-// The frame rate over time, in a real window.
+// Tests the frame rate over time in a real window.
 
 #include <QComboBox>
 #include <QDeadlineTimer>
@@ -32,7 +32,7 @@ struct RateBench : Workbench {
     }
     stroke(0, there);
   }
-  /// The dock reads its figures five times per second while there are passes.
+  /// Drags until `met` returns true. The dock reads its figures five times per second while there are passes.
   bool shakeUntil(const std::function<bool()>& met) {
     for (const QDeadlineTimer limit(20'000); !met() && !limit.hasExpired();) {
       shake();
@@ -51,7 +51,7 @@ struct RateBench : Workbench {
     field->setCurrentIndex(field->findData(data));
     emit field->activated(field->currentIndex());
   }
-  /// The points of a panel's lines.
+  /// Returns the points of a panel's lines.
   QPolygonF points(std::size_t panel) {
     QPolygonF all;
     for (const report::PlotCurve& curve : plot().panels.front().curves) {
@@ -113,7 +113,7 @@ class WindowRate : public QObject {
     QVERIFY(pointsIn(lines) <= 500);
     QVERIFY(lines[0].contains(QPointF(17'777 / 60.0, 40)) && lines[0].contains(QPointF(20'001 / 60.0, 0.001)));
     QVERIFY(std::ranges::is_sorted(lines[0], {}, &QPointF::x));
-    // Few samples are all drawn.
+    // A small number of samples is drawn completely.
     samples.resize(300);
     QCOMPARE(pointsIn(curve(samples, 0, 10, 500)), std::size_t{300});
   }
@@ -121,12 +121,12 @@ class WindowRate : public QObject {
   void aLineBreaksOffWhereNothingHappened() {
     const std::vector<RateSample> samples{sampleAt(1, 5), sampleAt(1.5, 6), sampleAt(4, 7), sampleAt(7.1, 2400)};
     const auto lines = curve(samples, 0, 10, 100);
-    // The last pass began 0.7 s after the one before ended.
+    // The last pass started 0.7 s after the previous one ended.
     QCOMPARE(lines.size(), std::size_t{2});
     QCOMPARE(lines[0], (QPolygonF{{1, 5}, {1.5, 6}}));
     QCOMPARE(lines[1], (QPolygonF{{4, 7}, {7.1, 2400}}));
     QVERIFY(curve({}, 0, 10, 100).empty());
-    // However often it breaks off, there are no more points than asked for.
+    // With many gaps, there are still no more points than requested.
     std::vector<RateSample> sparse;
     for (int i = 0; i < 3000; ++i) {
       sparse.push_back(sampleAt(0.2 * i + (i / 5) * 1.2, i));
@@ -139,7 +139,7 @@ class WindowRate : public QObject {
     for (int i = 0; i <= 4000; ++i) {
       history.add(sampleAt(i, 1));
     }
-    QVERIFY(history.samples().size() <= 1300);  // twice as many at most: old ones go in large pieces
+    QVERIFY(history.samples().size() <= 1300);  // at most twice as many: many old samples are removed at once
     QCOMPARE(history.since(3900).size(), std::size_t{102});
     QCOMPARE(history.since(3900).front().time, 3899.0);
   }
@@ -156,7 +156,7 @@ class WindowRate : public QObject {
     QCOMPARE(rows.size(), 5);
     const auto isOf = [&](int row, const char* time, const char* panel, const char* ms) {
       const QList<QByteArray> fields = rows[row].split(',');
-      return fields[0] == time && fields[1] == panel && fields[5] == ms;  // milliseconds, as the head says
+      return fields[0] == time && fields[1] == panel && fields[5] == ms;  // in milliseconds, as in the header
     };
     QVERIFY(isOf(1, "1", "A", "0.5") && isOf(2, "2", "B", "8"));
     QVERIFY(isOf(3, "3", "A", "0.25") && isOf(4, "4", "B", "16"));
@@ -211,7 +211,7 @@ class WindowRate : public QObject {
     const auto isRead = [&] { return std::ranges::any_of(readings, &QTimer::isActive); };
     QTRY_VERIFY(!isRead());
     bench.settleFigures();
-    QTRY_VERIFY(!isRead());  // nor does a last frame begin it anew
+    QTRY_VERIFY(!isRead());  // nor does a last frame start the timer again
     const auto before = bench.points(0);
     const double to = bench.end();
     bench.settle();
@@ -250,7 +250,7 @@ class WindowRate : public QObject {
       QVERIFY(fields[0].toDouble() >= time);
       time = fields[0].toDouble();
       found = found || (fields[1] == "A" && fields[2] == "generalized" && fields[5].toDouble() == ms);
-      // The painted rate is there always, the solver's where there was a pass.
+      // The painted rate is always present; times of the solver only if there was a pass.
       QVERIFY(!fields[3].isEmpty());
       QCOMPARE(fields[4].isEmpty(), fields[5].isEmpty());
     }
@@ -273,7 +273,7 @@ class WindowRate : public QObject {
           pixels += picture.pixelColor(x, y) == colours::ofPanel(panel).on(colours::Ground::light) ? 1 : 0;
         }
       }
-      QVERIFY(pixels > 100);  // the line of the legend alone is longer
+      QVERIFY(pixels > 100);  // the line in the legend alone would be longer
     }
     bench.dock().savePicturePath(folder.filePath(QStringLiteral("rates.pdf")));
     QVERIFY(bytesOf(folder.filePath(QStringLiteral("rates.pdf"))).startsWith("%PDF-"));
@@ -292,7 +292,7 @@ class WindowRate : public QObject {
     }
     QVERIFY2(readings.contains(QString::fromStdString(plot.plot().series[0].label + ": " + report::figure(ms) + " ms")),
              qPrintable(readings.join(QLatin1Char('|'))));
-    QVERIFY(plot.readingAt(QPointF(0, 0)).isEmpty());  // beside the axes
+    QVERIFY(plot.readingAt(QPointF(0, 0)).isEmpty());  // outside the axes
   }
 };
 

@@ -1,4 +1,4 @@
-// What a crash leaves of the work in a window, and what becomes of it.
+// Tests the work that a crash or a closed window leaves, and its recovery.
 
 #include <QAction>
 #include <QComboBox>
@@ -27,32 +27,32 @@ QStringList autosaved() { return QDir(Autosave::folder()).entryList({QStringLite
 
 QString inFolder(const char* name) { return QDir(Autosave::folder()).filePath(QLatin1String(name)); }
 
-/// The work that lies on the disk, as the next start would find it; none where there is not exactly one.
+/// Returns the work on the disk as the next start would find it; empty unless there is exactly one file.
 std::optional<Session> workOnDisk() {
   const QStringList files = autosaved();
   try {
     return files.size() == 1 ? std::optional(read_session(inFolder(qPrintable(files.first())).toStdString()))
                              : std::nullopt;
   } catch (const Error&) {
-    return std::nullopt;  // it was just taken away
+    return std::nullopt;  // removed at this moment
   }
 }
 
-/// A file in the folder of kept work, last written so many seconds ago.
+/// Writes a file into the folder of saved work, with this age in seconds.
 void put(const char* name, const QByteArray& text, int secondsAgo) {
   QFile file(inFolder(name));
   QVERIFY(file.open(QIODevice::ReadWrite | QIODevice::Truncate) && file.write(text) == text.size() && file.flush());
   QVERIFY(file.setFileTime(QDateTime::currentDateTime().addSecs(-secondsAgo), QFileDevice::FileModificationTime));
 }
 
-/// A session as it is written: two are the same where these are.
+/// Returns the text of a session. Two sessions are equal if their texts are.
 std::string written(const Session& session) {
   std::ostringstream text;
   write_session(text, session);
   return text.str();
 }
 
-/// A workbench whose work is kept safe, with a clock that a test turns on.
+/// A workbench with automatic saving. The test starts its timer.
 struct SafeBench : Workbench {
   SafeBench() { protect(); }
   explicit SafeBench(const MeshPointer& mesh) : Workbench(mesh) { protect(); }
@@ -63,29 +63,30 @@ struct SafeBench : Workbench {
   }
   RecoveryBar& bar() { return window.sessions().recoveryBar(); }
 
-  /// Whether the next start would find exactly what there is here.
+  /// True if the next start would find exactly the current work.
   bool isSafe() {
     const auto onDisk = workOnDisk();
     return onDisk && written(*onDisk) == written(sessionOf(*this));
   }
-  /// Waits until what was done is on the disk and nothing more is on its way there.
+  /// Waits until the current work is on the disk and no more writing is pending.
   void save() {
     for (int panel = 0; panel < document().panels(); ++panel) {
-      QTRY_VERIFY(document().frame(panel)->statistics.violation_of_whole_mesh);  // the last frame for a while
+      // No frame follows this one for some time.
+      QTRY_VERIFY(document().frame(panel)->statistics.violation_of_whole_mesh);
     }
     do {
       settle();
       timer->start(0);
       QTRY_VERIFY(!timer->isActive());
       QTRY_VERIFY(isSafe());
-      settle();  // and the window knows that it was written
+      settle();  // the window also knows that it is written
     } while (timer->isActive());
   }
 
   QTimer* timer = nullptr;
 };
 
-/// Works, says what there is when it is on the disk, and goes on until it is killed.
+/// Changes an object, writes the expected session to a file, and runs until it is killed.
 int crashingProgram(int argc, char** argv) {
   prepareApplication();
   QTemporaryDir settings;
@@ -138,14 +139,14 @@ class WindowRecovery : public QObject {
     QCOMPARE(bench.document().sessionFile(), QStringLiteral("/somewhere/mine.chainmail"));
     QVERIFY(bench.window.isWindowModified());
     QVERIFY(!bench.window.sessions().recoveryBar().isVisible());
-    QCOMPARE(autosaved().size(), 1);  // this window's own: safe from the first moment
+    QCOMPARE(autosaved().size(), 1);  // the file of this window, which is protected from the start
     {
-      Workbench second;  // what a running window holds is nobody else's
+      Workbench second;  // another window must not offer the work of a running one
       second.window.sessions().protect();
       QVERIFY(!second.window.sessions().recoveryBar().isVisible());
     }
     QCOMPARE(autosaved().size(), 1);
-    bench.window.close();  // and still unsaved
+    bench.window.close();  // without saving
     QTRY_VERIFY(autosaved().size() == 1 && Autosave::isClosed(autosaved().first()));
     const QString kept = QDir(Autosave::folder()).filePath(autosaved().first());
     QVERIFY(QFile::remove(kept));
@@ -161,7 +162,7 @@ class WindowRecovery : public QObject {
     }
     Workbench again;
     again.window.sessions().protect();
-    for (const ElementId pinned : {4U, 3U}) {  // the newest first
+    for (const ElementId pinned : {4U, 3U}) {  // the newest work first
       again.find<QPushButton>("restoreWork")->click();
       again.settle();
       QCOMPARE(again.document().pins(), std::vector<ElementId>{pinned});
@@ -179,7 +180,8 @@ class WindowRecovery : public QObject {
     bench.window.sessions().protect();
     auto& bar = bench.window.sessions().recoveryBar();
     QVERIFY(bar.isVisible());
-    bench.find<QPushButton>("restoreWork")->click();  // damaged: a sentence, and it may still be discarded
+    // The file is damaged: a message, and the user can still discard it.
+    bench.find<QPushButton>("restoreWork")->click();
     bench.settle();
     QVERIFY(bench.window.messages().isVisible() && bar.isVisible());
     QCOMPARE(bench.document().mesh(), before);
@@ -195,11 +197,11 @@ class WindowRecovery : public QObject {
     SafeBench bench;
     bench.timer->start(0);
     QTRY_VERIFY(!bench.timer->isActive());
-    QCOMPARE(autosaved().size(), 0);  // nothing was done
+    QCOMPARE(autosaved().size(), 0);  // because nothing was changed
     bench.document().setPinned({3}, true);
     QVERIFY(bench.timer->isActive());
     bench.save();
-    QVERIFY(!bench.timer->isActive());  // a still scene costs nothing
+    QVERIFY(!bench.timer->isActive());  // nothing runs while nothing changes
     QCOMPARE(workOnDisk()->pins, std::vector<ElementId>{3});
     bench.window.sessions().savePath(path);
     bench.settle();
@@ -207,7 +209,7 @@ class WindowRecovery : public QObject {
     QTRY_COMPARE(autosaved().size(), 0);
   }
 
-  /// Every kind of edit by itself, after the work was saved: most of them move nothing.
+  /// Tests every kind of edit, each after saving. Most of them move no element.
   void everyKindOfEditIsOnTheDiskWithinFiveSeconds() {
     SafeBench bench(generate({MeshKind::tetra, {4, 3, 3}, 1, {}}));
     Document& document = bench.document();
@@ -276,7 +278,7 @@ class WindowRecovery : public QObject {
     for (const auto& [name, edit] : edits) {
       QTRY_VERIFY2(!bench.timer->isActive(), name);
       const std::string before = written(sessionOf(bench));
-      bench.timer->setInterval(4000);  // the longest that it waits by itself
+      bench.timer->setInterval(4000);  // the longest waiting time
       edit();
       QTRY_VERIFY2(bench.timer->isActive(), name);
       QVERIFY2(bench.timer->remainingTime() <= 4500, name);
@@ -300,7 +302,7 @@ class WindowRecovery : public QObject {
     SafeBench bench;
     bench.document().setPinned({3}, true);
     bench.settle();
-    // Called after the writing has begun, and before the window can know of its end.
+    // Runs after the writing has started and before the window can know of its end.
     QObject once;
     connect(bench.timer, &QTimer::timeout, &once, [&] {
       bench.document().setPinned({4}, true);
@@ -315,7 +317,7 @@ class WindowRecovery : public QObject {
     QCOMPARE(workOnDisk()->pins, (std::vector<ElementId>{3, 4}));
   }
 
-  /// Of closed windows' work the newest five are kept.
+  /// The newest five files of closed windows are kept.
   void theOldestOfClosedWindowsWorkMakesRoom() {
     int age = 600;  // seconds
     for (const char* name : {"oldest", "second", "third", "fourth", "fifth"}) {
@@ -339,11 +341,11 @@ class WindowRecovery : public QObject {
     QVERIFY(!again.bar().isVisible());
   }
 
-  /// While another window lives, nothing of it is offered or taken away, saved already or not.
+  /// While another window runs, its work is not offered or removed, even before its first save.
   void whatAnotherWindowIsWritingIsLeftAlone() {
-    put(".chainmail-1.tmp", "half", 60);    // of a program that is at it
-    put(".chainmail-2.tmp", "half", 3600);  // of one that crashed
-    SafeBench living;                       // it has nothing on the disk yet
+    put(".chainmail-1.tmp", "half", 60);    // from a running program
+    put(".chainmail-2.tmp", "half", 3600);  // from a crash
+    SafeBench living;                       // has no file on the disk yet
     QVERIFY(!anotherIsOfferedSomething());
     QVERIFY(QFile::exists(inFolder(".chainmail-1.tmp")));
     QVERIFY(!QFile::exists(inFolder(".chainmail-2.tmp")));

@@ -1,4 +1,4 @@
-// The valid regions about an element, in a real window.
+// Tests the valid regions about an element in a real window.
 
 #include <QAction>
 #include <QLabel>
@@ -12,7 +12,7 @@ using namespace chainmail;
 namespace {
 
 constexpr ElementId middle = 31;  // of 9 x 7
-constexpr int alike = 60;         // of 255: a line one or two pixels wide is blended with what lies behind it
+constexpr int alike = 60;         // of 255: a line of one or two pixels is blended with the background
 
 }  // namespace
 
@@ -55,7 +55,7 @@ class WindowRegions : public QObject {
       const auto pinned =
           std::find_if(regions.begin(), regions.end(), [](auto& r) { return r.neighbour == middle + 1; });
       QVERIFY(!pinned->inside);
-      // The line that joins it to its region.
+      // The line that connects it to its region.
       const Point half = (pinned->at + pinned->nearest) / 2;
       QVERIFY(bench.distanceFromColour(p, bench.view(p).placeOf(half), colours::outside) < alike);
     }
@@ -81,12 +81,12 @@ class WindowRegions : public QObject {
     Workbench bench;
     bench.trigger("showValidRegions");
     bench.document().setHighlight({middle, false, {}});
-    const Point edge = Point(5.2, 2.9, 0);  // a corner with the softness that all have
+    const Point edge = Point(5.2, 2.9, 0);  // a corner of the region for the global softness
     QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(edge), colours::inside) < alike);
     bench.document().setSoftnessOf({*find_link(*bench.document().mesh(), middle, middle + 1)},
                                    LinkSoftness{1, 1.5, 0.3});
     bench.settle();
-    bench.document().setHighlight({middle, false, {}});  // the cursor of the display may be over the window
+    bench.document().setHighlight({middle, false, {}});  // again, because the cursor may be over the window
     QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(edge), colours::inside) > alike);
     QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(Point(5.5, 2.7, 0)), colours::inside) < alike);
   }

@@ -1,4 +1,4 @@
-// Record and replay in a real window: what the hand did is a script, on a slider, as pictures.
+// Tests recording and replay in a real window: moves are a script, can be reached with a slider, and give pictures.
 
 #include <QFile>
 #include <QLabel>
@@ -25,7 +25,7 @@ using Shapes = std::vector<std::vector<float>>;
 
 Shapes shapes(Workbench& bench) { return {bench.document().frame(0)->positions, bench.document().frame(1)->positions}; }
 
-/// Two drags with a cut and a pin between.
+/// Makes two drags with a cut and pins in between.
 void work(Workbench& bench) {
   const QPoint from = bench.place(0, 31);
   bench.stroke(0, {from, from + QPoint(110, -140)});
@@ -36,7 +36,7 @@ void work(Workbench& bench) {
   bench.stroke(1, {corner, corner + QPoint(60, -90)});
 }
 
-/// Goes to an end of what was done.
+/// Goes to the beginning or end of the recorded commands.
 void go(Workbench& bench, const char* action) {
   bench.trigger(action);
   const bool first = QLatin1String(action) == QLatin1String("replayFirst");
@@ -44,14 +44,14 @@ void go(Workbench& bench, const char* action) {
   bench.settle();
 }
 
-/// Two drags of few moves, each far enough to be seen, with a cut between.
+/// Makes three drags of few moves, each far enough to be visible, with a cut in between.
 void workInFewMoves(Workbench& bench) {
   Document& document = bench.document();
   const auto drag = [&](ElementId element, std::initializer_list<Point> ways) {
     document.grab(element);
     for (const Point& way : ways) {
       document.drag(document.mesh()->rest_position(element) + way);
-      bench.settle();  // each is a move of its own
+      bench.settle();  // so that each is a separate move
     }
     document.release();
   };
@@ -61,8 +61,8 @@ void workInFewMoves(Workbench& bench) {
   bench.settle();
 }
 
-/// What a film is made of: the panels, in even numbers of pixels. The figures below the views are left out, since they
-/// hold times.
+/// The content of a film: the panels, with even numbers of pixels. The figures below the views are left out, because
+/// they contain times.
 struct Scene {
   explicit Scene(Workbench& bench) : area(*bench.window.findChild<PanelArea*>()) {
     for (int panel = 0; panel < bench.document().panels(); ++panel) {
@@ -96,7 +96,7 @@ struct Scene {
   QSize size;
 };
 
-/// What the panels show before the first move, after each, and at the end.
+/// Returns the content of the panels before the first move, after each move, and at the end.
 std::vector<QImage> shownAfterEachMove(Workbench& bench) {
   const Scene scene(bench);
   const Tape& tape = bench.document().tape();
@@ -117,7 +117,7 @@ std::vector<QImage> shownAfterEachMove(Workbench& bench) {
   return pictures;
 }
 
-/// The mean difference of two pictures, in steps of a channel.
+/// Returns the mean difference of two pictures, in levels of a channel.
 double apart(const QImage& one, const QImage& other) {
   double sum = 0;
   for (int y = 0; y < one.height(); ++y) {
@@ -131,7 +131,7 @@ double apart(const QImage& one, const QImage& other) {
 
 ReplayDock* dock(Workbench& bench) { return bench.find<ReplayDock>("replayDock"); }
 
-/// What a simulation makes of a script, by the algorithm of a panel.
+/// Returns the positions after a simulation has executed the commands with an algorithm.
 std::vector<float> run(const std::vector<Command>& moves, const MeshPointer& mesh, Algorithm algorithm) {
   Simulation simulation(mesh, algorithm, Precision::single_precision);
   for (const Command& move : moves) {
@@ -142,7 +142,7 @@ std::vector<float> run(const std::vector<Command>& moves, const MeshPointer& mes
   return positions;
 }
 
-/// A script of one long drag.
+/// Writes a script of one long drag.
 void writeDrags(const QString& path, int drags) {
   QFile file(path);
   QVERIFY(file.open(QIODevice::WriteOnly));
@@ -182,7 +182,8 @@ class WindowReplay : public QObject {
     QCOMPARE(bench.document().pins(), std::vector<ElementId>{0});
   }
 
-  /// Any place is the same whichever way it is come to, and all the way there and back is one step of undo.
+  /// A position in the recorded commands gives the same result however it is reached, and moving the slider is one undo
+  /// step in all.
   void aSliderGoesThereAndBack() {
     Workbench bench;
     // A busy machine samples a stroke less often.
@@ -193,7 +194,7 @@ class WindowReplay : public QObject {
     const Shapes live = shapes(bench);
     const int steps = bench.document().undoStack().count();
     const auto length = bench.document().tape().length();
-    QVERIFY(length > 64);  // states are kept on the way
+    QVERIFY(length > 64);  // snapshots are saved on the way
     auto* slider = bench.find<QSlider>("replaySlider");
     QTRY_COMPARE(slider->maximum(), int(length));
     std::map<std::size_t, Shapes> seen;
@@ -212,7 +213,7 @@ class WindowReplay : public QObject {
     QVERIFY(shapes(bench) == live);
   }
 
-  /// The states that are kept on the way must not lie within a drag: they do not know what the hand holds.
+  /// Snapshots on the way must not be within a drag, because they do not store the handle.
   void anyPlaceOfALongDragIsReachedFromAnywhere() {
     Workbench bench;
     std::vector<Command> moves;
@@ -256,7 +257,7 @@ class WindowReplay : public QObject {
     QVERIFY(shapes(bench) == live);
   }
 
-  /// Forward and back it stops after the same moves, and says after which.
+  /// Steps forward and back stop after the same moves, and the label shows the number of the move.
   void stepsGoFromMoveToMoveBothWays() {
     Workbench bench;
     workInFewMoves(bench);
@@ -280,7 +281,7 @@ class WindowReplay : public QObject {
       onward.push_back(tape.position());
       seen.push_back(shapes(bench));
     }
-    go("replayForward");  // to where the hand has let go
+    go("replayForward");  // to the end of the last drag
     QCOMPARE(tape.position(), length);
     for (std::size_t moves = 5; moves-- > 0;) {
       go("replayBack");
@@ -338,7 +339,7 @@ class WindowReplay : public QObject {
     QSignalSpy frames(&bench.document(), &Document::frameReady);
     dock(bench)->openMoves(path);
     QVERIFY(bench.window.jobs().running());
-    // The hand drags on meanwhile, and the panels follow.
+    // Meanwhile the user drags, and the panels follow.
     bench.document().grab(31);
     bench.document().drag(Point(4, 9, 0));
     QVERIFY(frames.wait());
@@ -360,7 +361,7 @@ class WindowReplay : public QObject {
     const QString path = folder.filePath(QStringLiteral("large.json"));
     writeDrags(path, 200'000);
     dock(bench)->openMoves(path);
-    QTRY_VERIFY(bench.window.jobs().share() > 0.1);  // it has begun
+    QTRY_VERIFY(bench.window.jobs().share() > 0.1);  // the job has started
     QTest::mouseClick(bench.find<QToolButton>("jobCancel"), Qt::LeftButton);
     QVERIFY(!bench.window.jobs().running());
     bench.settle();
@@ -369,7 +370,7 @@ class WindowReplay : public QObject {
     QVERIFY(!bench.window.messages().isVisible());
   }
 
-  /// The moves were checked for a mesh that is gone.
+  /// The moves were checked for a mesh that is replaced meanwhile.
   void movesThatWereReadForAnotherObjectAreNotTaken() {
     Workbench bench;
     QTemporaryDir folder;
@@ -402,7 +403,7 @@ class WindowReplay : public QObject {
     work(bench);
     QTRY_VERIFY_WITH_TIMEOUT(!bench.document().frame(0)->statistics.relaxing, 15'000);
     go(bench, "replayFirst");
-    QVERIFY(!bench.document().relaxation().on);  // what it did is on the tape
+    QVERIFY(!bench.document().relaxation().on);  // the effects of relaxation are in the recorded commands
     go(bench, "replayLast");
     const Shapes once = shapes(bench);
     go(bench, "replayFirst");
@@ -432,7 +433,7 @@ class WindowReplay : public QObject {
       moves += std::holds_alternative<commands::Drag>(bench.document().tape().at(i)) ? 1 : 0;
     }
     const QStringList pictures = QDir(folder.path()).entryList({QStringLiteral("*.png")}, QDir::Files, QDir::Name);
-    // One before the first move, one after each, and one where the hand let go last.
+    // One picture before the first move, one after each move, and one after the last release.
     QCOMPARE(pictures.size(), moves + 2);
     const QImage first(folder.filePath(pictures.first())), last(folder.filePath(pictures.last()));
     QVERIFY(!first.isNull() && first != last);
@@ -446,7 +447,7 @@ class WindowReplay : public QObject {
     const std::vector<QImage> shown = shownAfterEachMove(bench);
     QCOMPARE(shown.size(), std::size_t{7});
     for (std::size_t i = 1; i <= 5; ++i) {
-      QVERIFY(shown[i] != shown[i - 1]);  // a picture that comes too early or too late is seen
+      QVERIFY(shown[i] != shown[i - 1]);  // so that a picture that is too early or too late is noticed
     }
     const QTemporaryDir folder;
     QSignalSpy saved(dock(bench), &ReplayDock::saved);
@@ -486,7 +487,7 @@ class WindowReplay : public QObject {
       const QImage picture(folder.filePath(names[qsizetype(i)]));
       QCOMPARE(picture.size(), scene.size);
       const QImage views = scene.views_of(picture);
-      // A codec loses something, but no other move looks more like it.
+      // A codec loses details, but no other move is more similar.
       const double own = apart(views, shown[i]);
       for (const QImage& other : shown) {
         QVERIFY2(other == shown[i] || own < apart(views, other), qPrintable(names[qsizetype(i)]));

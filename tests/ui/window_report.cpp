@@ -1,4 +1,4 @@
-// What the report dock shows and saves, in a real window.
+// Tests the contents of the Report dock and its files in a real window.
 
 #include <QClipboard>
 #include <QDir>
@@ -70,13 +70,13 @@ class WindowReport : public QObject {
     const double zero = bench.plot().positionOf(1, 0).y();
     int above = 0;
     for (const report::PlotMark& one : bench.marks()) {
-      // What rounding leaves counts as 0, as in the report's files.
+      // Errors from rounding count as 0, as in the report's files.
       const QString name = QString::fromStdString(bench.plot().plot().series[one.series].label);
       const bool isZero = bench.cell(name, exactColumn).toDouble() < 1e-12;
       QCOMPARE(bench.plot().positionOf(one.x, one.y).y() == zero, isZero);
       above += isZero ? 0 : 1;
     }
-    QVERIFY(above > 0);  // Generalized goes elsewhere
+    QVERIFY(above > 0);  // Generalized has another result
     bench.choose("reportError", 0);
     QCOMPARE(bench.marks().size(), std::size_t{6});
   }
@@ -84,7 +84,7 @@ class WindowReport : public QObject {
   void pointingAtAMarkReadsIt() {
     ReportBench bench;
     bench.choose("reportSweeps", 0);
-    QVERIFY(bench.plot().readingAt({10, 10}).isEmpty());  // there is no plot yet
+    QVERIFY(bench.plot().readingAt({10, 10}).isEmpty());  // before the first run
     bench.run();
     for (const report::PlotMark& one : bench.marks()) {
       const QPointF there = bench.plot().positionOf(one.x, one.y);
@@ -165,7 +165,7 @@ class WindowReport : public QObject {
     ReportBench bench;
     bench.run();
     QTemporaryDir folder;
-    QVERIFY(QDir(folder.path()).mkdir(QStringLiteral("report.csv")));  // in the way
+    QVERIFY(QDir(folder.path()).mkdir(QStringLiteral("report.csv")));  // a folder with the name of a file
     bench.results().saveTo(folder.path());
     QVERIFY(bench.window.messages().isVisible());
     QVERIFY(QDir(folder.path()).entryList(QDir::Files | QDir::Hidden).isEmpty());

@@ -1,4 +1,4 @@
-// The runs of the report dock in a real window: what is compared, cancelling, and edits meanwhile.
+// Tests the runs of the Report dock in a real window: the compared object, cancelling, and edits during a run.
 
 #include <QElapsedTimer>
 
@@ -16,10 +16,9 @@ class WindowReportRun : public QObject {
     QSettings().clear();
   }
 
-  // Passes over so large an object take longer than a tenth of a second, and between passes alone the thread looks
-  // at its stop token. What is measured is what the window does: it waits for no thread, takes a lock that is held
-  // for an assignment alone, and is ready before the click's handler returns; so it is quick however busy the
-  // machine is.
+  // Passes over such a large object take longer than 0.1 s, and the thread checks its stop token only between passes.
+  // The test measures the window: it waits for no thread, takes a lock that is held only for an assignment, and is
+  // ready before the click handler returns. So it is fast even on a busy machine.
   void cancelAnswersAtOnce() {
     ReportBench bench;
     bench.click("reportRun");
@@ -47,7 +46,7 @@ class WindowReportRun : public QObject {
     bench.find<QPushButton>("reportCancel")->click();
     bench.isReady();
     QTRY_VERIFY(!bench.thread().atWork());  // the run would take minutes
-    QCoreApplication::sendPostedEvents();   // the thread has ended: all that it had to tell is there
+    QCoreApplication::sendPostedEvents();   // the thread has ended, so all its messages are queued
     bench.isReady();
     QVERIFY(bench.find<QLabel>("reportEmpty")->isVisible());
   }
@@ -80,12 +79,12 @@ class WindowReportRun : public QObject {
     };
     const QPoint from = bench.place(0, 31), to = from + QPoint(70, -60);
     bench.stroke(0, {from});
-    QVERIFY(!enabled());  // a press without a move is no drag
+    QVERIFY(!enabled());  // a press without a move is not a drag
     bench.stroke(0, {from, to});
     QVERIFY(enabled());
     const std::vector<Command> commands = bench.document().lastDrag();
     QCOMPARE(std::get<commands::Grab>(commands.front()).element, ElementId(31));
-    // The panels hold floats.
+    // The panels store floats.
     QVERIFY((std::get<commands::Drag>(commands.back()).target - bench.position(1, 31)).norm() < 1e-5);
     drags->setCurrentIndex(1);
     bench.run();
@@ -136,7 +135,7 @@ class WindowReportRun : public QObject {
     bench.document().undoStack().redo();
     QVERIFY(bench.thread().running());
     QTRY_VERIFY_WITH_TIMEOUT(!bench.thread().running(), 60'000);
-    // The result is that of the object that was there, and says so.
+    // The result is for the object from the start of the run, and the heading says so.
     QVERIFY(bench.find<QLabel>("reportHeading")->text().startsWith(QStringLiteral("sample, 63 elements")));
     QCOMPARE(bench.table().rowCount(), 12);
   }

@@ -1,4 +1,4 @@
-// What goes with the material, in a real window: sections of it, and what is pictured on it.
+// Tests sections, and textures on the object, in a real window. Both move with the material.
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -16,12 +16,12 @@ namespace {
 constexpr std::uint32_t width = 15, height = 9, depth = 5;
 constexpr ElementId middle = 7 + width * 4;  // of a layer
 
-/// Seen from the front, its near side at z = 4 fills the middle of the view.
+/// Returns a block. Seen from the front, its near side (z = 4) fills the middle of the view.
 MeshPointer tetraBlock() { return generate({MeshKind::tetra, {width, height, depth}, 1, {}}); }
 
 ElementId inLayer(std::uint32_t z, ElementId element = middle) { return element + width * height * z; }
 
-/// With half of it taken away, seen from that side.
+/// The block with a section through its middle, seen from the open side.
 struct SectionBench : Workbench {
   explicit SectionBench(const MeshPointer& mesh = tetraBlock()) : Workbench(mesh) {
     trigger("viewFront");
@@ -41,7 +41,7 @@ struct SectionBench : Workbench {
   }
 };
 
-/// As it is drawn for print, on the same pixels.
+/// Returns the view as it is drawn for print, with the same number of pixels.
 QImage inLines(View& view) {
   QImage image(view.size(), QImage::Format_RGB32);
   QPainter painter(&image);
@@ -53,7 +53,7 @@ int apart(const QColor& a, const QColor& b) {
   return std::max({std::abs(a.red() - b.red()), std::abs(a.green() - b.green()), std::abs(a.blue() - b.blue())});
 }
 
-/// Four squares of colour: below red and green, above blue and white.
+/// Returns a texture of four squares: red and green below, blue and white above.
 std::shared_ptr<Texture> fourSquares(double size) {
   auto texture = std::make_shared<Texture>();
   texture->size = {64, 64, 1};
@@ -69,8 +69,8 @@ std::shared_ptr<Texture> fourSquares(double size) {
 }
 const QColor lowLeft(255, 0, 0), lowRight(0, 255, 0), highLeft(0, 0, 255), highRight(255, 255, 255);
 
-/// 5 × 5 colours, each unlike its neighbours, over a box that is larger than a sheet from 0 to 8 by 1 on every side: a
-/// texel is two mesh units wide, and the middles of those inside the sheet are at 2, 4 and 6.
+/// Returns a colour of a texture of 5 × 5 texels with different neighbours. Its box is larger than a sheet from 0 to 8,
+/// by 1 on each side: a texel is 2 mesh units wide, and the centres of the texels inside the sheet are at 2, 4 and 6.
 QColor ofTexel(int x, int y) { return {40 + 50 * x, 40 + 50 * y, (x + y) % 2 == 0 ? 60 : 200}; }
 std::shared_ptr<Texture> colouredSquares() {
   auto texture = std::make_shared<Texture>();
@@ -99,7 +99,7 @@ MeshPointer picturedSheet(const std::shared_ptr<Texture>& texture = fourSquares(
   return build_mesh(std::move(parts));
 }
 
-/// Dark below the middle of x, light above.
+/// Returns a block that is dark below the middle of x and light above.
 MeshPointer slicedVolume() {
   const auto block = tetraBlock();
   MeshParts parts;
@@ -119,7 +119,8 @@ MeshPointer slicedVolume() {
   return build_mesh(std::move(parts));
 }
 
-/// Of 4 × 2 × 2 voxels, each 4 × 5 × 3 mesh units large, about a block that their box surpasses by 1 on every side.
+/// Returns a block with 4 × 2 × 2 voxels of 4 × 5 × 3 mesh units each. The voxels' box is larger than the block, by 1
+/// on each side.
 MeshPointer volumeOf(const std::function<int(int, int, int)>& grey) {
   const auto block = tetraBlock();
   MeshParts parts;
@@ -140,7 +141,7 @@ MeshPointer volumeOf(const std::function<int(int, int, int)>& grey) {
 }
 Point middleOfVoxel(int x, int y, int z) { return {1 + 4.0 * x, 1.5 + 5.0 * y, 0.5 + 3.0 * z}; }
 
-/// A section across z through the middle of a layer of voxels, on the screen and as it is drawn for print.
+/// A section across z through the middle of a layer of voxels, on the screen and as drawn for print.
 struct Slice {
   Slice(const MeshPointer& volume, int layer) : bench(volume) {
     bench.trigger("section");
@@ -171,11 +172,11 @@ class WindowSection : public QObject {
     bench.trigger("section");
     QVERIFY(bench.find<SectionDock>("sectionDock")->isVisible());
     bench.settle();
-    // The panels are smaller now that the dock is there.
+    // The panels are smaller now, because the dock is open.
     const QImage open = bench.picture();
     const QPoint now = bench.place(0, inLayer(2));
     QVERIFY(open.pixelColor(now).lightnessF() > 1.2 * whole.pixelColor(at).lightnessF());
-    bench.find<QSlider>("sectionSlider")->setValue(1000);  // behind the plane lies all
+    bench.find<QSlider>("sectionSlider")->setValue(1000);  // the whole object is behind the plane
     const QImage closed = bench.picture();
     QVERIFY(closed.pixelColor(now) != open.pixelColor(now));
     bench.trigger("section");
@@ -197,7 +198,7 @@ class WindowSection : public QObject {
 
   void whatIsNotSeenIsNotPicked() {
     SectionBench bench;
-    bench.trigger("viewRight");  // along x: every layer shows
+    bench.trigger("viewRight");  // along x: every layer is visible
     bench.settle();
     const QPointF front = bench.view(0).placeOf(inLayer(4, width - 1 + width * 4));
     QCOMPARE(bench.view(0).elementAt(front), std::optional(inLayer(4, width - 1 + width * 4)));
@@ -235,7 +236,7 @@ class WindowSection : public QObject {
     QVERIFY(apart(bench.colourAt(bench.place(0, inLayer(2))), face) > 10);
     bench.document().undoStack().undo();
     QCOMPARE(bench.colourAt(bench.place(0, inLayer(2))), face);
-    // Far to the side, where there was nothing, and still open.
+    // Far to the side, where nothing was before, and still open.
     bench.document().setSoftness({1, 1, 0}, QStringLiteral("rigid"));
     bench.document().grab(inLayer(2));
     bench.document().drag(mesh.rest_position(inLayer(2)) + Point(0, 3, 0));
@@ -249,7 +250,7 @@ class WindowSection : public QObject {
     const QImage screen = bench.picture(), print = inLines(bench.view(0));
     for (const Point& place : {Point(7.3, 4.4, 2), Point(2.3, 2.6, 2), Point(12.4, 6.7, 2)}) {
       QVERIFY(apart(bench.colourIn(screen, place), bench.colourIn(print, place)) <=
-              6);  // fog by the face, not the pixel
+              6);  // in print, fog has one colour per face
     }
   }
 
@@ -297,7 +298,7 @@ class WindowSection : public QObject {
   void aPictureLiesOnItsSheetAndIsWarpedWithIt() {
     Workbench bench(picturedSheet());
     const auto holds = [&](const QImage& image) {
-      // Places inside the squares' outermost links, wherever those are now.
+      // Positions inside the outermost links of the squares, at their current positions.
       const auto colour = [&](ElementId e) { return image.pixelColor(bench.place(0, e) + QPoint(2, 1)); };
       return apart(colour(1 + 9), lowLeft) <= 3 && apart(colour(7 + 9), lowRight) <= 3 &&
              apart(colour(1 + 9 * 7), highLeft) <= 3 && apart(colour(7 + 9 * 7), highRight) <= 3;
@@ -326,7 +327,7 @@ class WindowSection : public QObject {
                   lowLeft) <= 3);
   }
 
-  /// Not half a texel aside, and as large as its box says.
+  /// Each texel is at its position, with an error of less than half a texel, and has the size that its box defines.
   void everyTexelOfAPictureIsSeenWhereItLies() {
     Workbench bench(picturedSheet(colouredSquares()));
     bench.settle();
@@ -338,10 +339,10 @@ class WindowSection : public QObject {
     for (int x = 1; x <= 3; ++x) {
       for (int y = 1; y <= 3; ++y) {
         const QByteArray texel = QByteArray::number(x) + ", " + QByteArray::number(y);
-        // Between its middle and a neighbour's the screen shows something of both.
+        // Between the centres of two texels, the screen shows a mixture of both.
         const QPointF middle(2.0 * x, 2.0 * y);
         QVERIFY2(apart(seen(screen, middle.x() + 0.04, middle.y() + 0.02), ofTexel(x, y)) <= 5, texel);
-        // Print has a colour a triangle, each of which lies in one texel.
+        // Print has one colour per triangle, and each triangle is inside one texel.
         for (const auto& [dx, dy] : {std::pair(-0.7, -0.8), std::pair(0.8, 0.7), std::pair(-0.7, 0.8)}) {
           QVERIFY2(apart(seen(print, middle.x() + dx, middle.y() + dy), ofTexel(x, y)) <= 1, texel);
         }
@@ -349,7 +350,7 @@ class WindowSection : public QObject {
     }
   }
 
-  /// The same of voxels. How bright a place is depends on depth, too: it is set against volumes of one grey.
+  /// The same test for voxels. The brightness also depends on the depth, so it is compared with volumes of one grey.
   void everyVoxelIsSeenWhereItLies_data() {
     QTest::addColumn<int>("layer");
     QTest::newRow("lower layer") << 0;
@@ -371,7 +372,7 @@ class WindowSection : public QObject {
         const QByteArray voxel = QByteArray::number(x) + ", " + QByteArray::number(y);
         const Point middle = middleOfVoxel(x, y, layer);
         QVERIFY2(isSeen(&Slice::screen, middle, grey(x, y, layer)), voxel);
-        // On both sides of it, as near to the next voxel as its triangles go.
+        // On both sides of the centre, as near to the next voxel as the triangles allow.
         for (const double dx : {-1.6, 1.6}) {
           const Point place = middle + Point(dx, 0.2, 0);
           if (place.x() > 0 && place.x() < width - 1) {
@@ -389,7 +390,7 @@ class WindowSection : public QObject {
     const auto grey = [&](const QImage& image, double x) { return bench.colourIn(image, Point(x, 4.4, 2)); };
     for (const QImage& image : {screen, print}) {
       QVERIFY(grey(image, 3.4).saturation() < 30 && grey(image, 11.4).saturation() < 30);
-      QVERIFY(grey(image, 11.4).lightness() > grey(image, 3.4).lightness() + 60);  // fog takes something of both
+      QVERIFY(grey(image, 11.4).lightness() > grey(image, 3.4).lightness() + 60);  // fog reduces the difference
     }
     QVERIFY(apart(grey(screen, 3.4), grey(print, 3.4)) <= 6 && apart(grey(screen, 11.4), grey(print, 11.4)) <= 6);
   }

@@ -1,4 +1,4 @@
-// The select tool and the softness of selected links, in a real window.
+// Tests the select tool and the softness of selected links in a real window.
 
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -15,11 +15,11 @@ using namespace chainmail;
 
 namespace {
 
-/// Nine elements, three by three, and the twelve links between them.
+/// Nine elements (three by three) with twelve links between them.
 const std::vector<ElementId> square{10, 11, 12, 19, 20, 21, 28, 29, 30};
 constexpr std::size_t squareLinks = 12;
 
-/// A rectangle that reaches a little beyond two elements.
+/// Selects with a rectangle that is slightly larger than the area between two elements.
 void selectBetween(Workbench& bench, ElementId a, ElementId b, Qt::KeyboardModifiers modifiers = {}) {
   const QPoint from = bench.place(0, a), to = bench.place(0, b);
   const QPoint beyond(to.x() >= from.x() ? 6 : -6, to.y() >= from.y() ? 6 : -6);
@@ -48,7 +48,7 @@ class WindowSelect : public QObject {
     selectBetween(bench, 10, 30);
     QCOMPARE(bench.document().selection().elements, square);
     QCOMPARE(bench.document().selection().links.size(), squareLinks);
-    selectBetween(bench, 62, 52);  // from the other corner; what was selected goes
+    selectBetween(bench, 62, 52);  // from the other corner; replaces the first selection
     QCOMPARE(bench.document().selection().elements, (std::vector<ElementId>{52, 53, 61, 62}));
     QVERIFY(!bench.document().undoStack().canUndo());
   }
@@ -100,10 +100,10 @@ class WindowSelect : public QObject {
     bench.find<QSpinBox>("brushRadius")->setValue(10);
     bench.stroke(0, {bench.place(0, 9), bench.place(0, 17)}, false);
     const std::vector<ElementId> row{9, 10, 11, 12, 13, 14, 15, 16, 17};
-    QCOMPARE(bench.document().selection().elements, row);  // already during the stroke
+    QCOMPARE(bench.document().selection().elements, row);  // also during the stroke
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, bench.place(0, 17));
     QCOMPARE(bench.document().selection().elements, row);
-    // A brush that reaches the rows beside it.
+    // A brush that reaches the neighbouring rows.
     const int link = bench.place(0, 10).x() - bench.place(0, 9).x();
     bench.find<QSpinBox>("brushRadius")->setValue(link * 11 / 10);
     bench.stroke(0, {bench.place(0, 9), bench.place(0, 17)});
@@ -133,7 +133,7 @@ class WindowSelect : public QObject {
     QVERIFY(!bench.document().selection().empty());
     bench.find<QToolButton>("selectBrush")->click();
     bench.stroke(0, {bench.place(0, 45), bench.place(0, 53)}, false);
-    bench.document().undoStack().undo();  // a mesh without those elements
+    bench.document().undoStack().undo();  // the other mesh does not have those elements
     QVERIFY(bench.document().selection().empty());
     bench.settle();
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, QPoint(4, 4));
@@ -146,7 +146,7 @@ class WindowSelect : public QObject {
     bench.document().select({31});
     bench.settle();
     for (int p = 0; p < 2; ++p) {
-      const QPointF ring = QPointF(bench.place(p, 31)) + QPointF(4, 4);  // off the lines of the grid
+      const QPointF ring = QPointF(bench.place(p, 31)) + QPointF(4, 4);  // next to the lines of the grid
       QVERIFY(bench.distanceFromColour(p, ring, colours::selected) < 40);
     }
     bench.document().select({});
@@ -195,7 +195,7 @@ class WindowSelect : public QObject {
     QCOMPARE(spin->value(), 0.8);
     bench.document().select({10, 11, 12});
     QCOMPARE(spin->value(), 0.3);
-    bench.document().select({9, 10, 11});  // one link of each kind
+    bench.document().select({9, 10, 11});  // links with and without their own softness
     QCOMPARE(spin->value(), 0.8);
     QVERIFY(bench.find<QLabel>("selectedDescription")->text().contains(QStringLiteral("differs")));
   }
@@ -205,7 +205,7 @@ class WindowSelect : public QObject {
     bench.document().select({10, 11, 12});
     auto* spin = bench.find<QDoubleSpinBox>("selected-compressionSpin");
     bench.document().setSoftness({0.4, 1.2, 0.1}, QStringLiteral("compression"));
-    QCOMPARE(spin->value(), 0.4);  // they have none of their own
+    QCOMPARE(spin->value(), 0.4);  // these links have no softness of their own
     bench.document().undo();
     QCOMPARE(spin->value(), 0.8);
     bench.document().setSoftnessOf(bench.document().selection().links, LinkSoftness{0.6, 1.2, 0.1});

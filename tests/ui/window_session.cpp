@@ -1,4 +1,4 @@
-// Sessions in a real window: saved, opened, dropped, and what a crash leaves.
+// Tests sessions in a real window: saving, opening, and dropping files.
 
 #include <QDropEvent>
 #include <QFile>
@@ -40,13 +40,13 @@ class WindowSession : public QObject {
     QCOMPARE(bench.window.colouring().mode(), ColourMode::violation);
     QCOMPARE(bench.view(0).camera()->pose().height, pose.height);
     QCOMPARE(bench.view(0).camera()->pose().centre, pose.centre);
-    // What the panels show is the object that was opened.
+    // The panels show the opened object.
     for (int panel = 0; panel < bench.document().panels(); ++panel) {
       QVERIFY(bench.position(panel, 50) != bench.document().mesh()->rest_position(50));
     }
   }
 
-  /// The docks show the session's settings; the next drag goes by the solvers'.
+  /// The docks show the settings of the session. The solvers must use the same settings in the next drag.
   void theSolversTakeTheSettingsOfASession() {
     const QString path = folder_.filePath(QStringLiteral("settings.chainmail"));
     const SolverSettings saved{{true, 0.5, RelaxationScheme::link}, {{2, 0.4}, {3, 4, 5}}};
@@ -76,7 +76,7 @@ class WindowSession : public QObject {
     }
   }
 
-  /// Whatever the next window's own cameras, they are turned, shifted and brought as near as they were.
+  /// The cameras are restored in direction, position and distance, whatever the cameras of the next window are.
   void everyPanelIsLookedAtAsBefore() {
     const QString path = folder_.filePath(QStringLiteral("cameras.chainmail"));
     const auto block = generate({MeshKind::tetra, {5, 4, 3}, 1, {}});
@@ -115,7 +115,7 @@ class WindowSession : public QObject {
     QVERIFY(poses[0].yaw != poses[1].yaw && poses[1].yaw != poses[2].yaw);
   }
 
-  /// Where nobody has moved it, it shows the whole object in a window of any size, from the side that was chosen.
+  /// A camera that was turned but not moved shows the whole object, from the chosen side, in a window of any size.
   void aCameraThatWasOnlyTurnedFitsTheNextWindow() {
     const QString path = folder_.filePath(QStringLiteral("turned.chainmail"));
     {
@@ -138,7 +138,7 @@ class WindowSession : public QObject {
     const QString path = folder_.filePath(QStringLiteral("moves.chainmail"));
     Workbench bench(cloth());
     work(bench);
-    bench.document().undo();  // the last drag lies ahead
+    bench.document().undo();  // the last drag is then undone and can be redone
     bench.settle();
     bench.window.sessions().savePath(path);
     bench.settle();
@@ -154,7 +154,8 @@ class WindowSession : public QObject {
     QCOMPARE(document.tape().position(), saved.moves_done);
     document.goTo(0);
     again.settle();
-    QVERIFY((again.position(0, 50) - document.mesh()->rest_position(50)).norm() < 1e-6);  // floats of some units
+    // The positions are floats of a few units.
+    QVERIFY((again.position(0, 50) - document.mesh()->rest_position(50)).norm() < 1e-6);
     QVERIFY(document.cuts().links().empty() && document.pins().empty());
     document.goTo(saved.moves_done);
     again.settle();
@@ -207,7 +208,7 @@ class WindowSession : public QObject {
     QVERIFY(bench.window.windowTitle().startsWith(QStringLiteral("c.chainmail[*]")));
     drag(bench.document(), 31, {1, 0, 0});
     QVERIFY(bench.window.isWindowModified());
-    QTest::keyClick(&bench.window, Qt::Key_S, Qt::ControlModifier);  // to the same file, unasked
+    QTest::keyClick(&bench.window, Qt::Key_S, Qt::ControlModifier);  // saves to the same file, without asking
     bench.settle();
     QVERIFY(!bench.window.isWindowModified());
     bench.document().undo();

@@ -1,4 +1,4 @@
-// Pictures as sheets in a real window: opened, warped, saved.
+// Tests pictures as sheets in a real window: opening, warping, saving.
 
 #include <QDropEvent>
 #include <QFile>
@@ -41,7 +41,7 @@ class WindowSheet : public QObject {
     QCOMPARE(mesh.element_count(), 13U * 9U);
     QCOMPARE(mesh.rest_position(13 * 9 - 1), Point(120, 80, 0));
     QCOMPARE(mesh.texture->size, (std::array<std::uint32_t, 3>{120, 80, 1}));
-    // The first texel is the lowest: the picture's last row.
+    // The first texel is at the bottom left: the last row of the picture.
     const QImage image(picture("a.png"));
     const QColor lowest = image.pixelColor(0, 79);
     QCOMPARE(int(mesh.texture->texels[0]), lowest.red());
@@ -52,7 +52,7 @@ class WindowSheet : public QObject {
     QCOMPARE(bench.document().mesh(), before);
   }
 
-  /// From the file to the screen, none is half a pixel aside.
+  /// Pixels are at their exact positions on the screen, with an error of less than half a pixel.
   void everyPixelIsSeenInItsPlace() {
     QImage image(4, 3, QImage::Format_RGB888);
     for (int y = 0; y < 3; ++y) {
@@ -70,7 +70,7 @@ class WindowSheet : public QObject {
       for (int x = 0; x < 4; ++x) {
         const QPointF place = bench.view(0).placeOf(Point(x + 0.5, 3 - (y + 0.5), 0));
         const QColor colour = seen.pixelColor(place.toPoint()), own = image.pixelColor(x, y);
-        // Half a pixel aside would be 30 off at least.
+        // An offset of half a pixel would give a difference of at least 30.
         const int apart = std::max({std::abs(colour.red() - own.red()), std::abs(colour.green() - own.green()),
                                     std::abs(colour.blue() - own.blue())});
         QVERIFY2(apart <= 8,
@@ -111,7 +111,7 @@ class WindowSheet : public QObject {
       return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
     };
     QByteArray huge = all("a.png");
-    // Its head says 65,536 × 65,536 pixels, and its sum is right.
+    // Its header says 65,536 × 65,536 pixels, and has a valid checksum.
     huge.replace(16, 17, QByteArray::fromHex("00010000000100000802000000") + QByteArray::fromHex("e3e6a7b4"));
     QTest::newRow("nothing in it") << QByteArray() << QStringLiteral("none.png")
                                    << QStringLiteral("it is not a picture");
@@ -134,7 +134,7 @@ class WindowSheet : public QObject {
     file.close();
     bench.open(path);
     if (sheets(bench).bar().isVisible()) {
-      bench.find<QPushButton>("sheetAgree")->click();  // its head was whole
+      bench.find<QPushButton>("sheetAgree")->click();  // its header was valid
       bench.settle();
     }
     QVERIFY2(bench.window.messages().sentence().contains(said), qPrintable(bench.window.messages().sentence()));
@@ -146,7 +146,7 @@ class WindowSheet : public QObject {
     QFile file(picture("c.jpg"));
     QVERIFY(file.open(QIODevice::ReadOnly));
     QByteArray bytes = file.readAll();
-    // After the mark of its beginning: an Exif block of one entry, orientation 6, a quarter to the right.
+    // After the start marker: an Exif block with one entry, orientation 6 (a quarter turn to the right).
     bytes.insert(2, QByteArray::fromHex("ffe1002245786966000049492a000800000001001201030001000000060000000000"
                                         "0000"));
     QFile turned(folder_.filePath(QStringLiteral("turned.jpg")));
@@ -157,13 +157,13 @@ class WindowSheet : public QObject {
     QVERIFY(bench.find<QLabel>("sheetAbout")->text().contains(QStringLiteral("80 × 120 pixels")));
     openSheet(bench, turned.fileName(), 5);
     QCOMPARE(bench.document().mesh()->texture->size, (std::array<std::uint32_t, 3>{80, 120, 1}));
-    // What was at its lower left is at the upper left: the last of its rows upward.
+    // The lower left pixel is now at the upper left, in the last row of texels.
     const auto& texels = bench.document().mesh()->texture->texels;
     const QColor was = QImage(picture("c.jpg")).pixelColor(0, 79);
     QVERIFY(std::abs(int(texels[std::size_t{4} * 80 * 119 + 1]) - was.green()) < 12);  // JPEG is not exact
   }
 
-  /// Undeformed it comes back as it was; dragged, what is pinned stays and the rest is elsewhere.
+  /// Without a drag, the saved picture is the original. After a drag, pinned parts stay and the rest moves.
   void theWarpedPictureIsSaved() {
     Workbench bench;
     QVERIFY(!bench.find<QAction>("saveWarpedA")->isEnabled());
@@ -183,7 +183,7 @@ class WindowSheet : public QObject {
     bench.stroke(0, {from, from + QPoint(60, 30)});
     QVERIFY(bench.position(1, 13 * 4 + 6) != bench.document().mesh()->rest_position(13 * 4 + 6));
     const QImage dragged = warped(bench, 1, "dragged.png");
-    QCOMPARE(dragged.size(), image.size());  // the border holds it
+    QCOMPARE(dragged.size(), image.size());  // the object stays inside the border
     QVERIFY(dragged != image);
     for (const QPoint corner : {QPoint(0, 0), QPoint(119, 0), QPoint(0, 79), QPoint(119, 79)}) {
       QCOMPARE(dragged.pixelColor(corner), image.pixelColor(corner));
@@ -207,7 +207,7 @@ class WindowSheet : public QObject {
     bench.settle();
     bench.document().goTo(bench.document().tape().length());
     bench.settle();
-    QCOMPARE(warped(bench, 0, "again.png"), second);  // by the same algorithm the same
+    QCOMPARE(warped(bench, 0, "again.png"), second);  // the same algorithm gives the same picture
   }
 
   void aCutIsAHoleAndTheFrameIsChosen() {
@@ -255,7 +255,7 @@ class WindowSheet : public QObject {
  private:
   static Sheets& sheets(Workbench& bench) { return bench.window.findChild<FileActions*>()->sheets(); }
 
-  /// A colourful one of 120 × 80 pixels, made once.
+  /// Returns the path of a colourful picture of 120 × 80 pixels. Makes it once.
   QString picture(const char* name) const {
     const QString path = folder_.filePath(QLatin1String(name));
     if (!QFile::exists(path)) {

@@ -1,4 +1,4 @@
-// The size test, live, in a real window.
+// Tests the size test in a real window.
 
 #include <QClipboard>
 #include <QDoubleSpinBox>
@@ -59,7 +59,7 @@ class WindowSizeTest : public QObject {
     options.first = 16;
     options.largest = 2500;
     QCOMPARE(widthsOf(options), (std::vector<std::uint32_t>{16, 23, 33, 47}));
-    options.growth = 0;  // as the ramp on the command line
+    options.growth = 0;  // the sizes of the ramp on the command line
     for (std::size_t i = 1; i < widthsOf(options).size(); ++i) {
       QCOMPARE(widthsOf(options)[i], report::next_width(widthsOf(options)[i - 1]));
     }
@@ -89,12 +89,12 @@ class WindowSizeTest : public QObject {
     }
     bench.begin();
     QVERIFY(bench.stage()->isVisible() && !bench.view(0).isVisible());
-    QTRY_VERIFY_WITH_TIMEOUT(bench.table().rowCount() == 1, 30'000);  // it grows live
+    QTRY_VERIFY_WITH_TIMEOUT(bench.table().rowCount() == 1, 30'000);  // the table grows during the test
     QVERIFY(bench.dock().running());
     QVERIFY(bench.verdicts().contains(QStringLiteral("so far")));
     bench.end();
 
-    // 4, 6 and 8 elements a side, all in real time within a second.
+    // 4, 6 and 8 elements per side, all in real time, because the limit is a second.
     QCOMPARE(bench.table().rowCount(), 3);
     QCOMPARE(bench.table().columnCount(), 2 + contestants * columnsOfAPanel);
     QCOMPARE(bench.cell(2, 0), QStringLiteral("8×8"));
@@ -118,13 +118,14 @@ class WindowSizeTest : public QObject {
       QCOMPARE(bench.position(0, i), before[2 * i]);
       QCOMPARE(bench.position(1, i), before[2 * i + 1]);
     }
-    QTRY_VERIFY(bench.stage() == nullptr);  // and nothing of the test is left
+    QTRY_VERIFY(bench.stage() == nullptr);  // nothing of the test is left
     checkTheTableLeavesTheWindow(bench);
   }
 
   void whoMissesTheBudgetTwiceIsOut() {
     SizeBench bench;
-    bench.budget(0.001);  // no pass and its answer on 8x8 elements, on no machine: 1 µs is some 100 elements
+    // Too short for a pass of any panel: in 1 µs, a pass moves about 100 elements.
+    bench.budget(0.001);
     bench.find<QSpinBox>("sizeTestFirst")->setValue(60);
     bench.find<QSpinBox>("sizeTestLargest")->setValue(1'000'000);
     bench.begin();
@@ -133,7 +134,8 @@ class WindowSizeTest : public QObject {
     for (int panel = 0; panel < contestants; ++panel) {
       const int column = 2 + panel * columnsOfAPanel;
       QCOMPARE(bench.cell(0, column + 3), QStringLiteral("no"));
-      QVERIFY(!bench.table().item(0, column + 1)->toolTip().isEmpty());  // it says that these are fresh drags
+      // The tool tip says that these are separate drags.
+      QVERIFY(!bench.table().item(0, column + 1)->toolTip().isEmpty());
     }
     QCOMPARE(bench.verdicts().count(QStringLiteral("never in real time")), contestants);
   }
@@ -153,7 +155,7 @@ class WindowSizeTest : public QObject {
     QVERIFY2(clock.elapsed() < 1000, qPrintable(QString::number(clock.elapsed())));
     QTRY_VERIFY_WITH_TIMEOUT(bench.stage() == nullptr, 10'000);
     bench.settle();
-    bench.begin();  // and once more
+    bench.begin();  // a second test can start
     QVERIFY(bench.dock().running());
     QTest::mouseClick(bench.find<QPushButton>("sizeTestCancel"), Qt::LeftButton);
     QVERIFY(!bench.dock().running());
@@ -164,7 +166,7 @@ class WindowSizeTest : public QObject {
     bench.dock().show();
     bench.begin();
     QTRY_VERIFY(bench.stage() != nullptr && bench.stage()->isVisible());
-    QVERIFY(bench.dock().running());  // the window may close in the middle of a test
+    QVERIFY(bench.dock().running());  // the window closes during the test
   }
 
   void nothingElseActsMeanwhile() {
@@ -210,7 +212,7 @@ class WindowSizeTest : public QObject {
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QList<QByteArray> rows = file.readAll().trimmed().split('\n');
     QCOMPARE(rows.size(), 1 + 3 * contestants);
-    QVERIFY(rows[1].startsWith("4,16,24,A,generalized,30,"));  // 30 moves, the drag that warms up left out
+    QVERIFY(rows[1].startsWith("4,16,24,A,generalized,30,"));  // 30 moves, without the warm-up drag
     for (const QByteArray& row : rows) {
       QCOMPARE(row.count(','), rows[0].count(','));
     }

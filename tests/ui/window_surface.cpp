@@ -1,4 +1,4 @@
-// What is shown of a volume, in a real window: its outer surface, its links, and what a cut opens.
+// Tests the display of volumes in a real window: outer surface, links, and what a cut uncovers.
 
 #include "common/colours.h"
 #include "io/sessions.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr ElementId middleOfTheFront = 7 + 15 * 3 + 15 * 9 * 4;  // of the block below
 
-/// Seen from the front, its near side fills the middle of the view.
+/// Returns a block. Seen from the front, its near side fills the middle of the view.
 MeshPointer tetraBlock() { return generate({MeshKind::tetra, {15, 9, 5}, 1, {}}); }
 
 bool isGround(QRgb pixel) {
@@ -19,7 +19,7 @@ bool isGround(QRgb pixel) {
                    std::abs(qBlue(pixel) - ground.blue())}) < 6;
 }
 
-/// The share of the pixels about an element that show the ground.
+/// Returns the share of the pixels around an element that show the ground.
 double groundAbout(Workbench& bench, ElementId element, int reach = 60) {
   bench.settle();
   const QImage picture = bench.view(0).grabFramebuffer();
@@ -38,7 +38,7 @@ QImage picture(Workbench& bench) {
   return bench.view(0).grabFramebuffer();
 }
 
-/// Every link of an element: the cells about it are gone.
+/// Cuts every link of an element, which removes the cells around it.
 void cutOut(Workbench& bench, ElementId element) {
   const Mesh& mesh = *bench.document().mesh();
   const auto* row = mesh.entry_link.data();
@@ -67,7 +67,7 @@ class WindowSurface : public QObject {
     const QImage surface = picture(bench);
     QVERIFY(surface != both);
     bench.trigger("showLinks");
-    QVERIFY(groundAbout(bench, middleOfTheFront) > 0.2);  // between links a square of about 20 pixels is empty
+    QVERIFY(groundAbout(bench, middleOfTheFront) > 0.2);  // between links, squares of about 20 pixels are empty
     bench.trigger("showSurface");
     QCOMPARE(picture(bench), surface);
   }
@@ -78,7 +78,7 @@ class WindowSurface : public QObject {
     bench.trigger("showSurface");
     const QImage whole = picture(bench);
     const QPoint at = bench.place(0, middleOfTheFront);
-    // The front is flat and evenly lit: about one of its elements there is one colour.
+    // The front is flat and evenly lit, so an area around one of its elements has one colour.
     const QRect about(at - QPoint(8, 8), QSize(16, 16));
     const QRgb face = whole.pixel(at + QPoint(5, 2));
     const auto ofTheFace = [&](const QImage& now) {
@@ -93,13 +93,13 @@ class WindowSurface : public QObject {
     QVERIFY(ofTheFace(whole) > 0.95);
     cutOut(bench, middleOfTheFront);
     const QImage open = picture(bench);
-    QVERIFY(ofTheFace(open) < 0.5);                           // slanted sides inside take the light otherwise
-    QVERIFY(groundAbout(bench, middleOfTheFront, 8) < 0.01);  // and close the view to what lies behind
+    QVERIFY(ofTheFace(open) < 0.5);                           // slanted sides inside have another brightness
+    QVERIFY(groundAbout(bench, middleOfTheFront, 8) < 0.01);  // and they cover everything behind them
     bench.document().undoStack().undo();
     QCOMPARE(picture(bench), whole);
     bench.document().undoStack().redo();
     QCOMPARE(picture(bench), open);
-    // As it is drawn anew, without having seen the cut happen.
+    // The same picture if the object is drawn again after the cut.
     bench.document().replaceMesh(tetraBlock(), QStringLiteral("other"), QStringLiteral("build"));
     bench.settle();
     bench.document().undoStack().undo();
@@ -114,7 +114,8 @@ class WindowSurface : public QObject {
     const ElementId front = 30 + 60 * 15 + 60 * 30 * 11;
     QTRY_COMPARE(groundAbout(bench, front), 0.0);
     QVERIFY(!bench.view(0).leavesLinksOut());
-    // It is given up where the mesh goes before it is there, and comes with the mesh again, with its cuts.
+    // If the mesh is replaced before its surface is ready, the surface is dropped. It returns with the mesh and its
+    // cuts.
     cutOut(bench, front);
     const QImage open = picture(bench);
     bench.document().replaceMesh(generate({MeshKind::tetra, {50, 30, 14}, 1, {}}), QStringLiteral("other"),
@@ -139,14 +140,14 @@ class WindowSurface : public QObject {
   }
 
   void linksThatWouldHideTheSurfaceWaitForANearerLook() {
-    Workbench bench(generate({MeshKind::tetra, {140, 140, 3}, 1, {}}));  // some 120,000 links in sight
+    Workbench bench(generate({MeshKind::tetra, {140, 140, 3}, 1, {}}));  // about 120,000 visible links
     bench.trigger("viewFront");
     QTRY_VERIFY(bench.view(0).leavesLinksOut());
     bench.view(0).zoom(8);
     QTRY_VERIFY(!bench.view(0).leavesLinksOut());
     bench.view(0).zoom(1.0 / 8);
     QTRY_VERIFY(bench.view(0).leavesLinksOut());
-    bench.trigger("colourBy-shear");  // links are what is to be seen
+    bench.trigger("colourBy-shear");  // this colour mode needs the links
     QTRY_VERIFY(!bench.view(0).leavesLinksOut());
   }
 
@@ -178,7 +179,7 @@ class WindowSurface : public QObject {
     }
     Workbench again(tetraBlock());
     QVERIFY(again.find<QAction>("showSurface")->isChecked());
-    // A picture on a sheet is a matter of its own: links would cover it.
+    // Sheets with a picture have a separate choice, because links would cover the picture.
     again.trigger("showLinks");
     MeshParts parts;
     parts.rest = {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(0, 1, 0)};

@@ -1,4 +1,4 @@
-// Undo in a real window: whatever changed the object or its parameters comes back, positions to the bit.
+// Tests undo in a real window: every change of the object or its parameters is reverted, with bit-identical positions.
 
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -11,7 +11,7 @@ using namespace chainmail;
 
 namespace {
 
-/// All that undo must give back.
+/// The state that undo must restore.
 struct Picture {
   explicit Picture(Workbench& bench) : softness(*bench.document().wholeSoftness()) {
     Document& document = bench.document();
@@ -35,7 +35,7 @@ struct Picture {
   commands::SetRelaxation relaxation;
 };
 
-/// A drag whose end is not where it began.
+/// Makes a drag that ends at another position.
 void drag(Workbench& bench, ElementId element, QPoint by, bool release = true) {
   const QPoint from = bench.place(0, element);
   bench.stroke(0, {from, from + by}, release);
@@ -117,7 +117,7 @@ class WindowUndo : public QObject {
     row("the lattice", {}, {ElasticOptions().material, {2, 4, 3}});
   }
 
-  /// The docks show the document's settings; the next drag goes by the solvers'.
+  /// The docks show the settings of the document. The solvers must use the same settings in the next drag.
   void undoGivesTheSolversTheirSettingsBack() {
     QFETCH(SolverSettings, after);
     Workbench bench;
@@ -158,7 +158,7 @@ class WindowUndo : public QObject {
   }
 
   void undoOfADragGivesEveryPositionBackAtAnyRate_data() {
-    QTest::addColumn<int>("every");  // the solvers answer every so many moves before the next one comes
+    QTest::addColumn<int>("every");  // number of moves after which the test waits for the solvers
     for (const int every : {1, 3, 100}) {
       QTest::newRow(qPrintable(QStringLiteral("every %1").arg(every))) << every;
     }
@@ -171,7 +171,7 @@ class WindowUndo : public QObject {
     drag(bench, 10, QPoint(-60, 60));
     const auto positions = [&] { return std::pair(document.snapshot(0).get().held, document.snapshot(1).get().held); };
     const auto before = positions();
-    for (const bool released : {true, false}) {  // undo also ends a drag
+    for (const bool released : {true, false}) {  // undo also ends an unfinished drag
       document.grab(31);
       for (int i = 1; i <= 12; ++i) {
         document.drag(document.mesh()->rest_position(31) + Point(0.3 * i, 0.4 * i, 0));
@@ -197,8 +197,7 @@ class WindowUndo : public QObject {
     }
   }
 
-  /// Nothing of the drag that was undone may come up in the next one: no control points, no last answer of an
-  /// iteration.
+  /// The undone drag must not affect the next one: no control points and no last result of an iteration remain.
   void aDragAfterAnUndoIsThatOfAFreshObject() {
     QFETCH(Algorithm, algorithm);
     const bool rectangular = algorithm == Algorithm::chainmail_3d;
@@ -272,7 +271,7 @@ class WindowUndo : public QObject {
     Document& document = bench.document();
     for (const double stretch : {1.15, 1.1, 1.05, 1.0}) {
       document.setSoftness({0.8, stretch, 0.1}, QStringLiteral("stretch"), 7);
-      bench.settle();  // each is worked out
+      bench.settle();  // so that each value is computed
     }
     for (const double step : {0.9, 0.7, 0.5}) {
       document.setRelaxation({false, step, RelaxationScheme::mean}, 8);
@@ -280,7 +279,7 @@ class WindowUndo : public QObject {
     bench.settle();
     QCOMPARE(document.undoStack().count(), 3);
     const Picture after(bench);
-    QVERIFY(after.positions != before.positions);  // the dock acts live
+    QVERIFY(after.positions != before.positions);  // the object follows while the user changes the value
     document.undo();
     document.undo();
     bench.settle();
@@ -319,8 +318,8 @@ class WindowUndo : public QObject {
     bench.settle();
   }
 
-  /// Every step is called what it was, in the list and in the menu, on its way back and forth; and a click on it leads
-  /// to what there was after it.
+  /// Every undo step keeps its name in the list and the menu, for undo and redo. A click on a step restores the state
+  /// after it.
   void theUndoListSaysWhatWasDone() {
     Workbench bench;
     Document& document = bench.document();

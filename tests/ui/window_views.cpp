@@ -1,4 +1,4 @@
-// What the views show, compared with pictures that were looked at: tests/ui/pictures.
+// Compares the views with reference pictures that a person has checked: tests/ui/pictures.
 
 #include <QDir>
 #include <QFileInfo>
@@ -10,14 +10,14 @@ using namespace chainmail;
 
 namespace {
 
-// Renderers round differently, a line a little further to one side: pixels may differ this much (of 255), and this
-// share of them more.
+// Renderers round differently, for example the position of a line. Pixels may differ by `mostApart` (of 255), and a
+// share of `mostDifferent` may differ by more.
 constexpr int mostApart = 48;
 constexpr double mostDifferent = 0.002;
 
 constexpr QSize viewSize(280, 210);  // logical pixels
 
-/// Pixels that differ, marked on a picture of the same size.
+/// Returns the share of the pixels that differ, and the picture with these pixels marked.
 std::pair<double, QImage> compared(const QImage& now, const QImage& looked) {
   QImage marked = now;
   int different = 0;
@@ -35,8 +35,8 @@ std::pair<double, QImage> compared(const QImage& now, const QImage& looked) {
   return {double(different) / (double(now.width()) * now.height()), marked};
 }
 
-/// Empty where the picture is as it was when it was looked at; else what is wrong. One that is missing is saved, to be
-/// looked at.
+/// Returns an empty string if the picture is the same as the reference picture, else a description of the difference.
+/// Saves a missing reference picture, which a person then checks.
 QString differs(const QImage& picture, const QString& name) {
   const QImage now = picture.convertToFormat(QImage::Format_RGB32);
   const QString path = QDir(QStringLiteral(PICTURES)).filePath(name + QStringLiteral(".png"));
@@ -64,13 +64,13 @@ QString differs(const QImage& picture, const QString& name) {
       .arg(path, here);
 }
 
-/// A view of a size of its own, whatever the window's: there is nothing about it in a picture.
+/// Compares a view of a fixed size, independent of the window's size.
 QString differs(Workbench& bench, int panel, const QString& name) {
   for (int each = 0; each < bench.document().panels(); ++each) {
-    bench.view(each).setFixedSize(viewSize);  // they share a camera
+    bench.view(each).setFixedSize(viewSize);  // the views share a camera
   }
   bench.trigger("fitView");
-  bench.view(panel).zoom(0.6);  // it is the rest shape that fits
+  bench.view(panel).zoom(0.6);  // space for the deformed object; only the rest shape fits
   bench.settleFigures();
   bench.document().setHighlight({});
   return differs(pictureOf(bench.view(panel)), name);
@@ -86,7 +86,7 @@ MeshPointer make(int object) {
   return generate(recipes[std::size_t(object)]);
 }
 
-/// A cleft from above, half through, beside the element that is dragged.
+/// Returns the links of a cut from above, through half of the object, next to the dragged element.
 std::vector<LinkId> cleft(const Mesh& mesh) {
   std::vector<LinkId> links;
   for (LinkId link = 0; link < mesh.link_count(); ++link) {
@@ -148,7 +148,7 @@ class WindowViews : public QObject {
       bench.trigger(action.toUtf8().constData());
     }
     bench.settle();
-    // By numbers, not by the mouse: a view's size must not matter.
+    // Drags with coordinates instead of the mouse, so that the size of the view has no influence.
     const ElementId grabbed = object == volume || object == whole ? 40 : 31;
     const Point from = bench.document().mesh()->rest_position(grabbed);
     bench.document().grab(grabbed);

@@ -12,11 +12,11 @@
 
 namespace chainmail {
 
-/// Looks on while a test does many things in a process of its own, and remembers the last of them: whatever becomes of
-/// that process, a crash, a sanitizer's verdict or standing still, they are told.
+/// Runs a test with many events in a separate process and remembers the last events. If that process crashes, hangs or
+/// is ended by a sanitizer, the witness prints them.
 class Witness {
  public:
-  /// Calls `test` in another process; what it returns, or 1 where it came to no such end.
+  /// Calls `test` in another process. Returns its result, or 1 if the process did not end normally.
   template <class Test>
   static int watch(const Test& test) {
     int ends[2];
@@ -26,7 +26,7 @@ class Witness {
     }
     const pid_t child = fork();
     if (child == 0) {
-      prctl(PR_SET_PDEATHSIG, SIGKILL);  // whoever ends the one ends the other
+      prctl(PR_SET_PDEATHSIG, SIGKILL);  // if one process ends, the other ends too
       close(ends[0]);
       return test(Witness(ends[1]));
     }
@@ -35,7 +35,7 @@ class Witness {
     return witness.look(child);
   }
 
-  /// To be called before each thing is done.
+  /// Call it before each event.
   void tell(const std::string& line) const {
     const std::string whole = line + '\n';
     if (write(end_, whole.data(), whole.size()) < 0) {
@@ -44,14 +44,14 @@ class Witness {
   }
 
  private:
-  static constexpr int patience = 120'000;  // milliseconds from one thing to the next
+  static constexpr int patience = 120'000;  // milliseconds from one event to the next
   static constexpr std::size_t remembered = 25;
 
   explicit Witness(int end) : end_(end) {}
 
   int look(pid_t child) {
-    const bool stands = !listen();
-    if (stands) {
+    const bool hangs = !listen();
+    if (hangs) {
       kill(child, SIGABRT);
     }
     int status = 0;
@@ -59,15 +59,15 @@ class Witness {
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
       return 0;
     }
-    std::fprintf(stderr, "%s. What was done last, the newest at the end:\n",
-                 stands ? "It stood still for two minutes" : "It ended badly");
+    std::fprintf(stderr, "%s. The last events, the newest at the end:\n",
+                 hangs ? "No event for two minutes" : "The test ended with an error");
     for (const std::string& line : lines_) {
       std::fprintf(stderr, "  %s\n", line.c_str());
     }
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
   }
 
-  /// To the end of what is told; false where nothing is told for too long.
+  /// Reads until the end of the pipe. Returns false if no event arrives for too long.
   bool listen() {
     pollfd waits{end_, POLLIN, 0};
     std::string text;

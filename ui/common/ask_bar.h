@@ -8,7 +8,7 @@ class QPushButton;
 
 namespace chainmail {
 
-/// A bar above the panels that asks for the inputs of a job before it starts. Enter agrees, Escape cancels.
+/// A bar above the panels that asks for the inputs of a job before it starts. Enter confirms, Escape cancels.
 class AskBar : public QFrame {
   Q_OBJECT
 
@@ -23,11 +23,11 @@ class AskBar : public QFrame {
   void addField(const QString& label, QWidget* field);
   /// Shows the bar with a text, and gives the keyboard focus to `field`.
   void ask(const QString& about, QWidget* field);
-  /// Adds another answer next to its button; call it after all fields were added.
+  /// Adds another answer next to its button. Call it after all fields are added.
   void addAnswer(QPushButton* answer);
   /// Sets the text of its button.
   void setAgree(const QString& text);
-  /// Shows the expected result of the present inputs. The button is disabled unless it is possible.
+  /// Shows the expected result of the current inputs. Disables the button if `possible` is false.
   void showResult(const QString& result, bool possible = true);
 
   bool event(QEvent* event) override;

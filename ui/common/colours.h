@@ -6,17 +6,17 @@
 
 class QWidget;
 
-/// All colours that are not in the palette. Colour-blind users can distinguish the marks (Okabe and Ito 2008) on either
-/// ground. The contrast to the ground is at least 3 for marks (WCAG 2.1, 1.4.11) and 4.5 for text.
+/// All colours that are not in the palette. Colour-blind users can distinguish the marks (Okabe and Ito 2008) on both
+/// grounds. The contrast to the ground is at least 3 for marks (WCAG 2.1, 1.4.11) and 4.5 for text.
 namespace chainmail::colours {
 
 /// The background of text and marks.
 enum class Ground { dark, light };
 
-/// Returns the ground of the application's present palette.
+/// Returns the ground of the application's current palette.
 Ground ground();
 
-/// Sets the ground, whatever the palette, as long as this object lives: for pictures that are printed.
+/// Overrides the ground while this object exists, whatever the palette is; used for printed pictures.
 class OnGround {
  public:
   explicit OnGround(Ground ground);
@@ -25,8 +25,8 @@ class OnGround {
   OnGround& operator=(const OnGround&) = delete;
 };
 
-/// A colour for either ground. It converts to the QColor of the present ground. Store a Colour and not the QColor, or
-/// convert again when the theme changes (followTheme).
+/// A colour with a variant for each ground. It converts to the QColor of the current ground. Store the Colour and not
+/// the QColor, or convert again when the theme changes (followTheme).
 class Colour {
  public:
   constexpr Colour(QRgb onDark, QRgb onLight) : onDark_(onDark), onLight_(onLight) {}
@@ -37,7 +37,7 @@ class Colour {
   QRgb onDark_, onLight_;
 };
 
-// In the views.
+// Views.
 inline constexpr Colour background(0xff15191f, 0xfff8f9fb);
 inline constexpr Colour left(0xffe69f00, 0xff9c4a00);
 inline constexpr Colour right(0xff56b4e9, 0xff0068a8);
@@ -51,7 +51,7 @@ inline constexpr Colour lit(0xfff05030, 0xffcc2200);
 inline constexpr Colour inside(0xff2fc49b, 0xff00754f);  // a valid region
 inline constexpr Colour outside(0xfff07a30, 0xffb84800);
 
-// In the message bar: its background and its sign. Its text has the colour of the palette.
+// The message bar: background and sign. Its text has the colour of the palette.
 inline constexpr Colour infoGround(0xff1d3a52, 0xffdcecf8);
 inline constexpr Colour warningGround(0xff4a3a12, 0xfffbeec4);
 inline constexpr Colour errorGround(0xff5a2a1e, 0xfffbdcd4);
@@ -59,16 +59,17 @@ inline constexpr Colour infoSign(0xff8ccbf2, 0xff0068a8);
 inline constexpr Colour warningSign(0xfff0c84a, 0xff7a5800);
 inline constexpr Colour errorSign(0xffff9a80, 0xffb32000);
 
-// Of checked tool buttons.
+// Checked tool buttons.
 inline constexpr Colour checked(0xff1f5f8b, 0xffb8dcf2);
 inline constexpr Colour checkedEdge(0xff3f93cb, 0xff4a90c0);
 
-/// Returns the colour with more contrast to the ground, for one item among others of that colour.
+/// Returns a variant of the colour with more contrast to the ground, which highlights one item among others of that
+/// colour.
 QColor stronger(const QColor& colour);
-/// Returns the colour with little contrast to the ground, for the faces between links of that colour.
+/// Returns a variant with little contrast to the ground, for the faces between links of that colour.
 QColor faint(const QColor& colour);
 
-/// The same with more contrast: `solid` for faces without links, `bright` for faces that a section cuts open.
+/// Like faint(), with more contrast: `solid` is for faces without links, `bright` for faces that a section cuts open.
 QColor solid(const QColor& colour);
 QColor bright(const QColor& colour);
 
@@ -79,7 +80,7 @@ inline constexpr Colour ofPanel(int panel) { return std::array{left, right, thir
 
 namespace chainmail {
 
-/// Calls `apply` now, and after each change of the theme as long as the widget lives.
+/// Calls `apply` now and after each change of the theme, while the widget exists.
 void followTheme(QWidget& widget, std::function<void()> apply);
 
 }  // namespace chainmail

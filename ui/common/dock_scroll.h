@@ -6,8 +6,8 @@
 
 namespace chainmail {
 
-/// The content of a dock, which scrolls in a low window: docks must not make the window taller than the screen. It
-/// takes the size of its content if there is room, and its scroll bar never covers the content.
+/// The content of a dock, which scrolls in a low window, because docks must not make the window taller than the screen.
+/// It has the size of its content if there is room. Its scroll bar never covers the content.
 class DockScroll : public QScrollArea {
   Q_OBJECT
 

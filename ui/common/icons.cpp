@@ -14,7 +14,7 @@
 namespace chainmail {
 namespace {
 
-constexpr double drawingSide = 16;  // of the square of a drawing
+constexpr double drawingSide = 16;  // side of a drawing's square, in its units
 constexpr double lineWidth = 1.4;
 
 /// Adds one command of a drawing to a path. A test reads all drawings, so the numbers need no check here.
@@ -95,7 +95,7 @@ class DrawnIcon : public QIconEngine {
   QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
     QPixmap picture(size);
     if (picture.isNull()) {
-      return picture;  // of an empty size: there is nothing to paint on
+      return picture;  // empty: there is nothing to paint on
     }
     picture.fill(Qt::transparent);
     QPainter painter(&picture);

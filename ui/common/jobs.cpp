@@ -35,7 +35,8 @@ void Jobs::start(Kind kind, const QString& text, Work work) {
   current_->kind = kind;
   current_->text = text.toStdString();
   thread_ = std::thread([this, job = current_, work = std::move(work), before = std::move(thread_)]() mutable {
-    // One job at a time: two would slow each other down. This thread waits, not the window.
+    // Only one job runs at a time: two would slow each other down. This thread waits for the previous one; the window
+    // does not wait.
     if (before.joinable()) {
       before.join();
     }

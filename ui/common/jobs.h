@@ -9,10 +9,10 @@
 
 namespace chainmail {
 
-/// Runs the long jobs of a window on a thread of their own, one at a time: opening, building, saving.
+/// Runs the long jobs of a window (opening, building, saving) on a separate thread, one at a time.
 ///
-/// The window never waits for that thread. A cancelled job is over at once for the window; its thread ends when it next
-/// reports progress, and its result is dropped. Only the destructor waits.
+/// The window never waits for that thread. A cancelled job ends at once for the window. Its thread ends when it next
+/// reports progress, and its result is dropped. Only the destructor waits for the thread.
 class Jobs : public QObject {
   Q_OBJECT
 
@@ -26,22 +26,22 @@ class Jobs : public QObject {
   Jobs() = default;
   ~Jobs() override;
 
-  /// Starts a job. A load job replaces a running load job, as its result would. If either of the two saves, the new job
-  /// is refused with a sentence, so that no work is lost.
+  /// Starts a job. A load job cancels a running load job. If the new or the running job is a save job, the new
+  /// job is refused and failed() is emitted, so that no work is lost.
   void start(Kind kind, const QString& text, Work work);
   void cancel();
-  /// The window closes: cancels a load job; a save job still ends.
+  /// Call this when the window closes. Cancels a load job; a save job still finishes.
   void close();
 
   bool running() const { return current_ != nullptr; }
-  /// The text of the running job, and the share that is done, from 0 to 1.
+  /// Text of the running job, and the completed share, from 0 to 1.
   const QString& text() const { return text_; }
   double share() const;
 
  signals:
-  /// A job has started or ended.
+  /// Emitted when a job starts or ends.
   void changed();
-  /// A job failed; one sentence says why.
+  /// Emitted when a job fails; `sentence` says why.
   void failed(const QString& sentence);
 
  private:
@@ -52,7 +52,7 @@ class Jobs : public QObject {
 
   QString text_;
   std::shared_ptr<Job> current_;  // shared with its thread
-  std::thread thread_;            // of the newest job; it waits for the threads before
+  std::thread thread_;            // thread of the newest job; it waits for the earlier threads
 };
 
 }  // namespace chainmail

@@ -5,7 +5,7 @@
 
 namespace chainmail {
 
-/// Returns the name of a panel, which is numbered from 0: A, B, C, …
+/// Returns the name of a panel: A, B, C, … Panels are numbered from 0.
 inline QString panelName(int panel) { return QChar(u'A' + panel); }
 
 }  // namespace chainmail

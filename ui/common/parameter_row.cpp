@@ -15,7 +15,7 @@ constexpr int sliderSteps = 1000;
 constexpr double largestInField = 1e6;
 constexpr int gesturePauseMilliseconds = 700;
 
-/// Returns a new number of a gesture; unique in the program, so that two rows never share one.
+/// Returns a new gesture number. Numbers are unique in the program, so that two rows never share one.
 int nextGesture() {
   static int last = 0;
   return ++last;
@@ -34,7 +34,7 @@ ParameterRow::ParameterRow(const Parameter& parameter, const QString& prefix)
   slider_->setPageStep(sliderSteps / 20);
   spin_->setKeyboardTracking(false);
   spin_->setDecimals(parameter.decimals);
-  // A number nearer to a limit that is not accepted itself would be shown as that limit.
+  // The range ends one digit inside a limit that is itself not accepted: nearer numbers would be shown as that limit.
   const double digit = std::pow(10, -parameter.decimals);
   const double least = parameter.lowest > 0 ? std::max(parameter.lowest, digit) : 0;
   const double most = std::floor(std::min(parameter.highest, largestInField) / digit) * digit;

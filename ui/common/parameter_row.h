@@ -11,7 +11,7 @@
 
 namespace chainmail {
 
-/// Minimum width of docks (pixels), so that changing figures do not move the panels.
+/// Minimum width of docks (pixels), so that figures that change do not move the panels.
 inline constexpr int dockWidth = 230;
 
 /// A row for one parameter: its name, a slider, a spin box, and a button that resets it to the default.
@@ -28,7 +28,8 @@ class ParameterRow : public QWidget {
   void show(double value);
 
  signals:
-  /// Changes of one gesture (a drag of the slider, a run of wheel notches) carry the same number.
+  /// Emitted when the user changes the value. All changes of one gesture (a drag of the slider, a series of wheel
+  /// steps) have the same `gesture` number.
   void changed(double value, int gesture);
 
  private:

@@ -14,8 +14,8 @@ namespace chainmail {
 namespace {
 
 // Logical pixels.
-constexpr double markUnit = 4.6;  // looks are drawn about (0, 0) in units of this
-constexpr double markSide = 3.2;  // of the square that holds a look, in its units
+constexpr double markUnit = 4.6;  // unit of a look, which is drawn about (0, 0)
+constexpr double markSide = 3.2;  // side of a look's square, in its units
 constexpr double curveWidth = 1.4;
 constexpr double keyWidth = 22, betweenKeys = 16, betweenLabels = 5;
 
@@ -23,7 +23,7 @@ constexpr QSizeF pdfPage{160, 90};     // mm
 constexpr QSizeF savedSize{640, 360};  // logical pixels
 constexpr double savedPixelRatio = 3;
 
-constexpr double leastContrast = 3;  // of marks with the background (WCAG 2.1, 1.4.11)
+constexpr double leastContrast = 3;  // contrast of marks with the background (WCAG 2.1, 1.4.11)
 
 double luminanceOf(const QColor& colour) {
   const auto linear = [](double channel) {
@@ -43,7 +43,7 @@ QColor mixed(const QColor& one, const QColor& other, double share) {
                           mix(one.blueF(), other.blueF()));
 }
 
-/// Returns the colour of a look, moved toward that of the text until it can be seen on the background.
+/// Returns the colour of a look, mixed with the text colour until it has enough contrast to the background.
 QColor lookColour(std::size_t look, const QPalette& palette) {
   const QColor ink = palette.color(QPalette::WindowText), ground = palette.color(QPalette::Window);
   const QString name = text(report::look_at(look).colour);
@@ -104,7 +104,7 @@ void PlotPainting::layOut(const QRectF& area, const QFontMetricsF& metrics) {
   layOutLabels(area, metrics);
 }
 
-/// Leaves out the labels for which there is no room between their neighbours; the ends come first.
+/// Leaves out labels that do not fit between their neighbours. Labels at the ends have priority.
 void PlotPainting::layOutLabels(const QRectF& area, const QFontMetricsF& metrics) {
   labels_.clear();
   const double line = metrics.height();
@@ -237,7 +237,7 @@ void PlotPainting::paintMarks(QPainter& painter) const {
   }
 }
 
-/// The key of a series of lines is a short line, that of marks is the mark.
+/// Paints the key of a series: a short line for lines, the mark for marks.
 void PlotPainting::paintKey(QPainter& painter, std::size_t series, QPointF centre) const {
   const report::PlotSeries& one = plot_.series[series];
   if (one.colour.empty()) {
@@ -309,7 +309,7 @@ QPixmap plotMark(Algorithm algorithm, bool hollow, int size, double devicePixelR
 
 namespace {
 
-/// Paints the plot and its legend on paper, in an area of `savedSize`.
+/// Paints the plot and its legend on paper; the area has the size `savedSize`.
 void paintPage(QPainter& painter, const report::Plot& plot) {
   QFont font;
   font.setPixelSize(13);

@@ -14,16 +14,17 @@ class PlotPainting {
  public:
   PlotPainting(const report::Plot& plot, const QPalette& palette);
 
-  /// Lays the axes out in an area, for the font of a paint device. To be called before the functions below.
+  /// Lays out the axes in an area, for the font of a paint device. Call it before the functions below.
   void layOut(const QRectF& area, const QFontMetricsF& metrics);
   void paint(QPainter& painter) const;
   /// The area between the axes.
   const QRectF& inner() const { return inner_; }
   QPointF positionOf(double x, double y) const;
 
-  /// Paints the title and, in as many lines as needed, the keys of the series. Returns the lower end.
+  /// Paints the title and the keys of the series, in as many lines as needed. Returns the y coordinate of the lower
+  /// edge.
   double paintHeading(QPainter& painter, const QRectF& area) const;
-  /// Paints the keys of the series and the notes below each other.
+  /// Paints the keys of the series and the notes, one below the other.
   void paintLegend(QPainter& painter, const QRectF& area) const;
   QSizeF legendSize(const QFontMetricsF& metrics) const;
 
@@ -48,13 +49,13 @@ class PlotPainting {
   QPalette palette_;
   report::PlotAxes axes_;
   QRectF inner_;
-  std::vector<Label> labels_;  // of ticks, and the titles of the axes
+  std::vector<Label> labels_;  // labels of the ticks, and titles of the axes
 };
 
 /// Returns the mark of an algorithm as a square picture of `size` logical pixels.
 QPixmap plotMark(Algorithm algorithm, bool hollow, int size, double devicePixelRatio, const QPalette& palette);
 
-/// Writes a plot with its legend, dark on white: as PDF if the path ends so, else as PNG. Throws Error if the file
+/// Writes a plot with its legend, dark on white: as PDF if the path ends in .pdf, else as PNG. Throws Error if the file
 /// cannot be written.
 void savePlot(const report::Plot& plot, const QString& path);
 

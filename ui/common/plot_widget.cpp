@@ -12,8 +12,8 @@
 namespace chainmail {
 namespace {
 
-constexpr double reach = 6;       // logical pixels from the pointer within which a line is read
-constexpr double markReach = 10;  // and within which a mark is read
+constexpr double reach = 6;       // logical pixels from the pointer; lines within this distance are read
+constexpr double markReach = 10;  // logical pixels from the pointer; marks within this distance are read
 
 /// Returns the point of a series of lines that is nearest to `x`, up to a distance.
 std::optional<std::array<double, 2>> nearestPoint(const report::PlotPanel& panel, std::size_t series, double x,
@@ -34,7 +34,7 @@ QString valueWithUnit(double value, const report::PlotAxis& axis) {
   return (text(report::figure(value)) + QLatin1Char(' ') + text(axis.unit)).trimmed();
 }
 
-/// As rich text, which a tool tip wraps.
+/// Shows the reading as rich text, because tool tips wrap only rich text.
 void showReading(const QPoint& position, const QString& reading, QWidget* widget) {
   QToolTip::showText(position, Qt::convertFromPlainText(reading, Qt::WhiteSpaceNormal), widget);
 }
@@ -93,7 +93,7 @@ QString PlotWidget::markReading(QPointF position) {
   return nearest == nullptr ? QString() : text(nearest->title);
 }
 
-/// One line for each series, under the value of x. Lines are read on linear axes only.
+/// Returns the value of x and, below it, one line of text per series. Lines are read on linear axes only.
 QString PlotWidget::curveReading(QPointF position) {
   const QRectF inner = painting().inner();
   if (!plot_.x.linear || !plot_.x.ends || !inner.contains(position)) {
@@ -121,7 +121,7 @@ void PlotWidget::mouseMoveEvent(QMouseEvent* event) {
   reading.isEmpty() ? QToolTip::hideText() : showReading(event->globalPosition().toPoint(), reading, this);
 }
 
-/// The widget's own tool tip is shown where there is no value.
+/// Shows the reading as tool tip. If there is none, the widget's own tool tip is shown.
 bool PlotWidget::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     const auto* help = dynamic_cast<QHelpEvent*>(event);

@@ -19,10 +19,10 @@ class PlotWidget : public QWidget {
   const report::Plot& plot() const { return plot_; }
   QSize sizeHint() const override { return {200, 110}; }
   QSize minimumSizeHint() const override { return {120, 90}; }
-  /// Position of a value in the widget.
+  /// Returns the position of a value in the widget.
   QPointF positionOf(double x, double y);
-  /// Returns the values near a position, in words: those of the nearest mark, or those of each line at that x. Empty if
-  /// there are none.
+  /// Returns the values near a position as text: those of the nearest mark, or those of each line at that x. Returns an
+  /// empty string if there are none.
   QString readingAt(QPointF position);
 
  protected:
@@ -38,11 +38,11 @@ class PlotWidget : public QWidget {
 
   report::Plot plot_;
   QString emptyText_;
-  std::optional<PlotPainting> painting_;  // of the present plot and palette
+  std::optional<PlotPainting> painting_;  // for the current plot and palette
   QString shownReading_;
 };
 
-/// Shows what the marks and lines of a plot stand for.
+/// The legend of a plot: what its marks and lines stand for.
 class PlotLegend : public QWidget {
   Q_OBJECT
 

@@ -93,7 +93,7 @@ void applyGround(Ground ground) {
   boxes.setColor(QPalette::Base, boxGround.on(ground));
   boxes.setColor(QPalette::Window, boxEdge.on(ground));
   QApplication::setPalette(boxes, "QCheckBox");
-  // Check boxes in lists have the ground of the text there.
+  // In lists, the edge of check boxes has the Window colour; their background is that of the text.
   QPalette lists = paletteOn(ground);
   lists.setColor(QPalette::Window, listBoxEdge.on(ground));
   QApplication::setPalette(lists, "QListWidget");

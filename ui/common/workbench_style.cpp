@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-constexpr double buttonRadius = 3;  // pixels, of a button's corners
+constexpr double buttonRadius = 3;  // pixels, at a button's corners
 
 }  // namespace
 

@@ -16,7 +16,8 @@ class WorkbenchStyle : public QProxyStyle {
   WorkbenchStyle();
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override;
-  /// Combo boxes open lists: drawn as menus, they would have the ground that makes check boxes in menus visible.
+  /// Makes combo boxes open lists. Drawn as menus, they would get the background that menus need for visible check
+  /// boxes.
   int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                 QStyleHintReturn* answer) const override;
 };

@@ -64,7 +64,7 @@ void CalibrationBox::arrange() {
   column->addWidget(keep_);
 }
 
-/// A disabled button explains why.
+/// Enables or disables the start button. While it is disabled, its tool tip explains why.
 void CalibrationBox::adapt() {
   const QString why = whyNot();
   start_->setEnabled(why.isEmpty());

@@ -19,7 +19,7 @@ class CalibrationBox : public QWidget {
   CalibrationBox(Document& document, Jobs& jobs);
 
  signals:
-  /// The user wants to save the present softness as a preset.
+  /// Emitted when the user wants to save the current softness as a preset.
   void presetRequested();
 
  private:

@@ -139,7 +139,7 @@ void ElementDock::adaptToMesh() {
   const Mesh& mesh = *document_.mesh();
   {
     const QSignalBlocker quiet(id_);
-    id_->setRange(0, std::numeric_limits<int>::max());  // ids beyond the last one show a message
+    id_->setRange(0, std::numeric_limits<int>::max());  // for ids beyond the last one, the dock shows a message
     id_->setSuffix(QStringLiteral(" (0 to %1)").arg(mesh.element_count() - 1));
   }
   QStringList columns{QString()};

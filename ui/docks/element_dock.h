@@ -36,7 +36,7 @@ class ElementDock : public QDockWidget {
 
   Document& document_;
   std::optional<ElementId> element_;
-  std::optional<int> missing_;  // the id last typed, while it is none of the mesh's
+  std::optional<int> missing_;  // the last typed id, if the mesh has no such element
   IdBox* id_;
   QLabel* state_;
   QTableWidget* positions_;
@@ -44,7 +44,7 @@ class ElementDock : public QDockWidget {
   QPushButton* pin_;
   QPushButton* cut_;
   ElementMove* move_;
-  QTimer refresh_;  // limits the rate of updates; none while the dock is hidden
+  QTimer refresh_;  // limits the rate of updates; stopped while the dock is hidden
 };
 
 }  // namespace chainmail

@@ -25,7 +25,7 @@ class ElementMove : public QWidget {
   void arrange();
   void adapt();
   void go();
-  /// Returns the three numbers; empty if one of them is not a number.
+  /// Returns the three typed numbers; empty if one of them is not a number.
   std::optional<Point> typed() const;
   bool relative() const { return how_->currentIndex() == 1; }
 

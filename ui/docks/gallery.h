@@ -12,7 +12,7 @@ class Gallery : public QScrollArea {
   Q_OBJECT
 
  public:
-  /// Shows the samples in this folder. An empty string: there is no folder.
+  /// Shows the samples in `folder`. An empty string means that there is no such folder.
   explicit Gallery(const QString& folder);
 
  signals:

@@ -15,7 +15,7 @@
 namespace chainmail {
 namespace {
 
-/// The largest size along an axis, by the number of sizes of a kind.
+/// Largest size along an axis, for kinds with one, two and three sizes.
 constexpr std::array largestSize{1'000'000, 1024, 100};
 constexpr std::array axisNames{"W", "H", "D"};
 

@@ -34,7 +34,7 @@ class MeshDock : public QDockWidget {
  signals:
   void openRequested();
   void saveRequested();
-  /// The user has chosen a sample.
+  /// Emitted when the user chooses a sample.
   void sampleRequested(const QString& path);
 
  private:

@@ -141,7 +141,7 @@ void PresetRow::showChosen() {
   adaptActions();
 }
 
-/// Disabled actions explain why.
+/// Enables and disables the actions. The tool tip of a disabled action explains why.
 void PresetRow::adaptActions() {
   const SoftnessPreset* one = chosen();
   const auto allow = [](QAction* action, bool allowed, const QString& why) {
@@ -176,7 +176,7 @@ void PresetRow::choose(int index) {
   showChosen();
 }
 
-/// Replaces the list by a field for the name until Enter or Esc.
+/// Replaces the list by a field for the name, until the user presses Enter or Esc.
 void PresetRow::ask(Naming naming, const QString& name) {
   naming_ = naming;
   name_->setText(name);
@@ -221,7 +221,7 @@ void PresetRow::rename() {
 void PresetRow::remove() {
   const std::string name = chosen()->name;
   store_.remove(name);
-  endNaming();  // in case it was being renamed
+  endNaming();  // in case the user was renaming it
   fill();
   emit noted(QStringLiteral("Deleted preset '%1'").arg(QString::fromStdString(name)));
 }

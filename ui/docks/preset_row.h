@@ -14,8 +14,8 @@
 
 namespace chainmail {
 
-/// The preset of the softness of all links: shows and chooses it; saves, renames, deletes, imports and exports the
-/// user's presets.
+/// The preset of the softness of all links. Shows and chooses a preset; saves, renames, deletes, imports and exports
+/// the user's presets.
 class PresetRow : public QWidget {
   Q_OBJECT
 
@@ -24,15 +24,15 @@ class PresetRow : public QWidget {
 
   /// Returns the actions on presets, for a menu of the window.
   QMenu& menu() { return *menu_; }
-  /// Asks for a name to save the present values under.
+  /// Asks for a name and saves the current values under it.
   void save() { save_->trigger(); }
   void importPath(const QString& path);
   void exportPath(const QString& path);
 
  signals:
-  /// Something failed; the sentence says why and what to do.
+  /// Emitted when something fails; `sentence` says why and what to do.
   void failed(const QString& sentence);
-  /// Something was done that is not visible in the dock.
+  /// Emitted after a change that is not visible in the dock.
   void noted(const QString& sentence);
 
  protected:
@@ -58,15 +58,15 @@ class PresetRow : public QWidget {
   void remove();
   void import();
   void exportAll();
-  /// Runs `act` and reports an Error. Returns true if it succeeded.
+  /// Runs `act` and reports an Error if it throws one. Returns true if it succeeded.
   bool attempt(const std::function<void()>& act);
 
   Document& document_;
   PresetStore store_;
   std::vector<SoftnessPreset> all_;  // in the order of the field: the built-in ones first
-  std::string last_;                 // the name chosen last, which is shown if several presets have equal values
+  std::string last_;                 // the last chosen name, shown if several presets have equal values
   Naming naming_ = Naming::none;
-  std::string renamed_;  // the preset to rename; another one may be chosen meanwhile
+  std::string renamed_;  // the preset to rename; the user may choose another one meanwhile
   QStackedLayout* fields_;
   QComboBox* field_;
   QLineEdit* name_;

@@ -23,7 +23,7 @@ class SectionDock : public QDockWidget {
   explicit SectionDock(const Document& document);
   void fill(QMenu& menu);
 
-  /// Returns the plane; none if the section is off or the object is in 2D.
+  /// Returns the plane; empty if the section is off or the object is in 2D.
   std::optional<SectionPlane> plane() const;
   /// Returns the settings for a session.
   QJsonObject toJson() const;

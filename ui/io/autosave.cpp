@@ -17,7 +17,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Longest time from a change to its file: the wait, and at worst two writes.
+// Longest time from a change to the written file: the wait and, at worst, two writes.
 constexpr milliseconds mostBehind(4500), shortestWait(500), longestWait(4000);
 
 constexpr QLatin1String closedEnding(".closed.chainmail");
@@ -47,7 +47,7 @@ QString Autosave::folder() {
 
 struct Autosave::Writing {
   JobState job;
-  // The thread writes it before `done`; the window reads it after.
+  // The thread writes it before it sets `done`; the window reads it after that.
   std::string error;
   std::atomic<bool> done = false;
 };
@@ -114,7 +114,7 @@ void Autosave::listen() {
   look_.follow(*this, [this] { noticeChange(); });
 }
 
-/// Called for every frame, so it must be cheap.
+/// Runs for every frame, so it must be cheap.
 void Autosave::noticeChange() {
   if (closed_) {
     return;

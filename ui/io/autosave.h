@@ -19,20 +19,20 @@ struct LookAccess {
   std::function<std::string()> read;
   /// Parts that the look lacks stay unchanged.
   std::function<void(const std::string& look)> set;
-  /// Calls `changed` after a change of what `read` returns, as long as `context` lives.
+  /// Calls `changed` whenever the result of `read` changes, while `context` exists.
   std::function<void(QObject& context, const std::function<void()>& changed)> follow;
 };
 
 /// Saves unsaved work in the background, at most 4.5 s after a change. The file is written completely or not at all. A
-/// lock next to it shows whether the program still runs or has crashed. The file is removed once the work is saved. The
-/// window's look is part of the file, but a change of the look alone is not saved.
+/// lock next to it shows whether the program still runs or has crashed. The file is removed once the user has saved the
+/// work. The window's look is part of the file, but a change of the look alone is not saved.
 class Autosave : public QObject {
   Q_OBJECT
 
  public:
-  /// Returns the folder for the files of all running programs of a user; makes it if it is missing.
+  /// Returns the folder for the files of all running programs of a user. Creates it if it does not exist.
   static QString folder();
-  /// Returns the path of the lock of a file.
+  /// Returns the path of a file's lock.
   static QString lockOf(const QString& path) { return path + QStringLiteral(".lock"); }
   /// True for a file from a window that was closed, false for one from a crash.
   static bool isClosed(const QString& path);
@@ -49,7 +49,7 @@ class Autosave : public QObject {
   void adopt(const QString& path);
 
  signals:
-  /// Saving failed; the sentence says why.
+  /// Emitted when saving fails; `sentence` says why.
   void failed(const QString& sentence);
 
  private:
@@ -57,7 +57,7 @@ class Autosave : public QObject {
   /// Identifies a state of the work.
   struct Mark {
     std::uint64_t steps = 0;             // number of edits, undos and redos
-    std::vector<std::uint64_t> changed;  // per panel: the last frame that changed a position
+    std::vector<std::uint64_t> changed;  // per panel: number of the last frame that changed a position
     std::string look;                    // cameras, colours, docks
 
     bool operator==(const Mark&) const = default;
@@ -78,11 +78,11 @@ class Autosave : public QObject {
   QTimer timer_;
   std::uint64_t steps_ = 0;
   Mark saved_;
-  bool changed_ = false;  // during writing
+  bool changed_ = false;  // true if the work changed during writing
   bool broken_ = false;
   bool closed_ = false;  // the window is closed: later changes are not saved
   std::chrono::steady_clock::time_point begun_;
-  std::shared_ptr<Writing> writing_;  // null while nothing is written; shared with the thread
+  std::shared_ptr<Writing> writing_;  // null while nothing is being written; shared with the thread
   std::jthread thread_;
 };
 

@@ -36,7 +36,7 @@ QString asText(std::string_view text) { return QString::fromUtf8(text.data(), qs
 
 QStringList endingsOf(const MeshFormat& format) { return asText(format.endings).split(QLatin1Char(' ')); }
 
-/// Returns one filter per format for a dialog that saves. Formats without positions need a lattice.
+/// Returns one filter per format for a save dialog. Formats without positions need a lattice.
 QStringList saveFilters(FormatUse use, bool lattice = false) {
   QStringList filters;
   for (const MeshFormat& format : mesh_formats()) {
@@ -257,7 +257,8 @@ void FileActions::saveShapePath(int panel, const QString& path) {
   }
 }
 
-/// Writes the present object, even if it changes during writing; without a shape, at rest.
+/// Writes the object in its current state, even if it changes during writing. If `shape` is null, writes the rest
+/// positions.
 void FileActions::write(const QString& path, const std::shared_ptr<const Frame>& shape) {
   jobs_.start(
       Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),

@@ -32,20 +32,20 @@ class FileActions : public QObject {
   /// Saves the session to its file; asks for one if there is none yet.
   void saveSession();
   void saveSessionAs();
-  /// Opens a session, by its ending, or a mesh, volume or picture, by content. The first object of a window is not an
-  /// undo step.
+  /// Opens a session (recognized by its extension), or a mesh, volume or picture (recognized by content). The first
+  /// object of a window is not an undo step.
   void openPath(const QString& path, bool first = false);
   /// Opens a sample with default options, without asking.
   void openSample(const QString& path);
   void save();
-  /// Saves the object at rest, without cut links, in the format of the ending.
+  /// Saves the object at rest, without cut links, in the format of the extension.
   void savePath(const QString& path);
-  /// Saves the positions that a panel shows, in a format with positions.
+  /// Saves the positions that a panel shows, in a format that stores positions.
   void saveShapePath(int panel, const QString& path);
 
  signals:
   void failed(const QString& sentence);
-  /// Describes the opened object in a sentence.
+  /// Emitted with a sentence that describes the opened object.
   void noted(const QString& sentence);
   void saved(const QString& path);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int pollMilliseconds = 4;
 constexpr int mostWaiting = 4;                   // pictures not encoded yet
-constexpr qint64 mostUnsent = 64 * 1024 * 1024;  // bytes not taken by ffmpeg yet
+constexpr qint64 mostUnsent = 64 * 1024 * 1024;  // bytes that ffmpeg has not read yet
 
 QString ffmpegPath() { return QStandardPaths::findExecutable(QStringLiteral("ffmpeg")); }
 
@@ -71,7 +71,7 @@ void Film::begin(const QString& path) {
   wait_.start();
 }
 
-/// Takes a picture once the panels show the move, then starts the next move.
+/// Takes a picture when the panels show the move, then starts the next move.
 void Film::takeNext() {
   const bool behind = video_ ? ffmpeg_.bytesToWrite() > mostUnsent : waiting_ >= mostWaiting;
   if (!document_.settled() || behind) {
@@ -137,7 +137,7 @@ void Film::finish() {
   }
 }
 
-/// Moves all pictures into the folder, over those of an earlier film.
+/// Moves all pictures into the folder. Replaces the pictures of an earlier film.
 void Film::finishPictures() {
   for (std::size_t number = 1; number <= positions_.size() && !unwritten_; ++number) {
     const QString name = pictureName(number), target = QDir(path_).filePath(name);
@@ -190,7 +190,7 @@ void Film::fail(const QString& sentence) {
   emit failed(sentence);
 }
 
-/// Ends the film and moves the object back to its position on the tape.
+/// Ends the film and goes back to the position in the recorded commands from before the film.
 void Film::end() {
   running_ = false;
   wait_.stop();

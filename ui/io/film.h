@@ -14,8 +14,8 @@
 
 namespace chainmail {
 
-/// Plays all moves on the tape and takes a picture of the panels after each: numbered PNG files in a folder, or a video
-/// if ffmpeg is installed. The window stays usable; an incomplete film is deleted.
+/// Plays all recorded moves and takes a picture of the panels after each move. Writes numbered PNG files into a folder,
+/// or a video if ffmpeg is installed. The window stays usable. An incomplete film is deleted.
 class Film : public QObject {
   Q_OBJECT
 
@@ -28,12 +28,12 @@ class Film : public QObject {
   static bool canMakeVideos();
 
   bool running() const { return running_; }
-  /// Starts a film: pictures if the path is a folder, else a video in the format of its ending.
+  /// Starts a film: pictures if the path is a folder, else a video in the format of its extension.
   void begin(const QString& path);
   void cancel();
 
  signals:
-  /// The film has started or ended.
+  /// Emitted when a film starts or ends.
   void changed();
   void progressed(int done, int pictures);
   void saved(const QString& path);
@@ -58,14 +58,14 @@ class Film : public QObject {
   bool running_ = false;
   bool video_ = false;
   QString path_;
-  std::vector<std::size_t> positions_;  // on the tape, per picture
+  std::vector<std::size_t> positions_;  // position in the recorded commands, per picture
   std::size_t next_ = 0;
   QSize size_;
-  std::size_t before_ = 0;                 // position on the tape before the film
+  std::size_t before_ = 0;                 // position in the recorded commands before the film
   std::unique_ptr<QTemporaryDir> folder_;  // for the unfinished film
   QThreadPool encoders_;
   std::atomic<int> waiting_ = 0;         // pictures not encoded yet
-  std::atomic<bool> unwritten_ = false;  // a picture could not be written
+  std::atomic<bool> unwritten_ = false;  // true if a picture could not be written
   QProcess ffmpeg_;
 };
 

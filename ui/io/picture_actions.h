@@ -12,8 +12,8 @@ class QActionGroup;
 
 namespace chainmail {
 
-/// The File menu's Picture submenu: subject, scale and background of pictures; copies them, or saves them as PNG, SVG
-/// or PDF. The choices are stored.
+/// The Picture submenu of the File menu: subject, scale and background of pictures. Copies pictures, or saves them as
+/// PNG, SVG or PDF. The choices are stored.
 class PictureActions : public QObject {
   Q_OBJECT
 
@@ -21,14 +21,14 @@ class PictureActions : public QObject {
   PictureActions(QWidget& window, Document& document, PanelArea& area, Jobs& jobs);
 
   void fill(QMenu& menu);
-  /// Saves PNG, SVG or PDF by the ending. The picture shows the present state, even if the object changes before it is
-  /// written.
+  /// Saves PNG, SVG or PDF, by the extension. The picture shows the current state, even if the object changes before
+  /// the file is written.
   void savePath(const QString& path);
   void copy();
 
  signals:
   void failed(const QString& sentence);
-  /// A note for the status bar.
+  /// Emitted with a note for the status bar.
   void noted(const QString& sentence);
   void saved(const QString& path);
 
@@ -37,7 +37,7 @@ class PictureActions : public QObject {
   struct Subject {
     QAction* action;
     What what;
-    int panel;  // for panel and object
+    int panel;  // for What::panel and What::object only
   };
 
   void fillSubjects(QMenu& menu);

@@ -50,8 +50,8 @@ QSize sizeOf(const QImageReader& reader) {
   return (reader.transformation() & QImageIOHandler::TransformationRotate90) != 0 ? size.transposed() : size;
 }
 
-/// True for a JPEG that ends early, which Qt decodes with a grey rest: the end marker is missing after the last scan.
-/// Neither marker appears within a scan.
+/// True for a truncated JPEG: the end marker is missing after the last scan. Qt decodes it and fills the rest with
+/// grey. The two markers never appear within a scan.
 bool endsEarly(const QString& path) {
   QFile file(path);
   const qint64 size = file.open(QIODevice::ReadOnly) ? file.size() : 0;

@@ -11,7 +11,7 @@ namespace chainmail {
 
 /// Pictures in PNG and JPEG files. All functions can run on any thread.
 
-/// True if the ending or the content of a file is that of a PNG or JPEG.
+/// True if the extension or the content of a file is that of a PNG or JPEG.
 bool isPicture(const QString& path);
 
 /// Returns the size of a picture in pixels, with the rotation that the camera stored; reads only the header. Throws
@@ -21,8 +21,8 @@ QSize pictureSize(const QString& path);
 /// Reads a picture with four channels, the bottom row first. Throws Error if it is damaged, and Cancelled.
 Texture readPictureFile(const QString& path, const Progress& progress = {});
 
-/// Writes a PNG or JPEG, by the ending of the path, completely or not at all. JPEG has no transparency: the background
-/// becomes white. Throws Error, and Cancelled.
+/// Writes a PNG or JPEG, by the extension of the path, completely or not at all. JPEG has no transparency, so the
+/// background becomes white. Throws Error, and Cancelled.
 void writePictureFile(const QString& path, const Texture& picture, const Progress& progress = {});
 
 }  // namespace chainmail

@@ -18,7 +18,7 @@ namespace {
 constexpr int dotsPerInch = 96;  // logical pixels
 constexpr double pointsPerPixel = 72.0 / dotsPerInch;
 
-/// Returns the region of a widget inside `root` that is covered by siblings above it or its parents, in the coordinates
+/// Returns the region of a widget inside `root` that siblings above it or above its parents cover, in the coordinates
 /// of the widget.
 QRegion coveredBy(const QWidget& widget, const QWidget& root) {
   QRegion covered;
@@ -99,7 +99,7 @@ QImage pictureOf(QWidget& widget, double scale, bool transparent) {
   widget.render(&image, {}, {},
                 transparent ? QWidget::DrawChildren : QWidget::DrawChildren | QWidget::DrawWindowBackground);
   if (scale == 1 && !transparent) {
-    return image;  // the views are as on the screen
+    return image;  // the picture already shows the views
   }
   QPainter painter(&image);
   painter.setCompositionMode(QPainter::CompositionMode_Source);

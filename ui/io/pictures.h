@@ -17,7 +17,7 @@ class View;
 /// memory or the graphics card.
 QImage pictureOf(QWidget& widget, double scale = 1, bool transparent = false);
 
-/// A vector drawing for print. Its size is that on the screen, in logical pixels.
+/// A vector drawing for print. Its size is the size on the screen, in logical pixels.
 struct Drawing {
   QPicture picture;
   QSize size;
@@ -30,8 +30,8 @@ Drawing drawingOf(View& view, bool transparent);
 
 /// True if a path ends in .svg or .pdf.
 bool isDrawing(const QString& path);
-/// Writes a PNG, or a drawing as SVG or PDF by the ending of the path, completely or not at all, on any thread. Throws
-/// Error.
+/// Writes a PNG, or a drawing as SVG or PDF, by the extension of the path, completely or not at all. Can run on any
+/// thread. Throws Error.
 void writePicture(const QString& path, const QImage& image);
 void writeDrawing(const QString& path, const Drawing& drawing);
 

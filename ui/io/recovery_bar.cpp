@@ -19,7 +19,7 @@ QPushButton* makeButton(const QString& text, const char* name, const QString& he
   return button;
 }
 
-/// Removes unfinished files and locks that crashes have left. A running program finishes a file within seconds.
+/// Removes unfinished files and locks from crashes. A running program finishes a file within seconds.
 void removeLeftovers(const QDir& folder) {
   const QDateTime old = QDateTime::currentDateTime().addSecs(-600);
   for (const QFileInfo& file : folder.entryInfoList({QStringLiteral("*.tmp")}, QDir::Files | QDir::Hidden)) {

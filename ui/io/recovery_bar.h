@@ -19,7 +19,7 @@ class RecoveryBar : public QFrame {
 
   /// Finds files that no running program has locked, and offers them.
   void offer();
-  /// The offered file was restored and belongs to another owner now.
+  /// Call this when the offered file is restored: it belongs to another owner now.
   void taken();
 
  signals:

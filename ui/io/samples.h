@@ -11,13 +11,14 @@ struct Sample {
   const char* file;
   const char* title;  // one or two words below the thumbnail
   const char* what;
-  unsigned elements;  // for a picture: of a sheet of the default size
+  unsigned elements;  // number of elements; for a picture, of a sheet with the default size
 };
 
 /// Returns all samples, in the order of the gallery.
 std::span<const Sample> samples();
 
-/// Returns the folder of the samples: installed with the program, or in its source tree; empty if there is none.
+/// Returns the folder of the samples: installed with the program, or in its source tree. Returns an empty string if
+/// there is none.
 QString samplesFolder();
 
 /// True if a file is in that folder. Such files are not overwritten and not listed as recent.

@@ -96,7 +96,7 @@ void Sheets::save(int panel) {
   }
 }
 
-/// Saves the sheet in its present state, even if it changes before the picture is written.
+/// Saves the sheet in its current state, even if it changes before the picture is written.
 void Sheets::saveWarpedPath(int panel, const QString& path) {
   const Frame* frame = document_.frame(panel);
   if (frame == nullptr || !is_sheet(*frame->mesh)) {

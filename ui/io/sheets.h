@@ -23,7 +23,7 @@ class Sheets : public QObject {
   /// Asks for the number of elements, then opens the picture: as one undo step, or as the first object of the window.
   void openPath(const QString& path, bool first = false);
   void open(const QString& path, int across, bool first = false);
-  /// Saves the picture as warped in a panel, as PNG or JPEG.
+  /// Saves the picture, warped as in a panel, as PNG or JPEG.
   void saveWarpedPath(int panel, const QString& path);
 
  signals:

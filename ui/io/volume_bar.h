@@ -21,10 +21,10 @@ struct OpenedVolume {
 
   Volume volume;
   double standardThreshold = 0;
-  std::vector<std::uint64_t> atLeast;  // per step of density: number of voxels of it or more
+  std::vector<std::uint64_t> atLeast;  // number of voxels with at least this density, per density step
 };
 
-/// Asks for the lowest density of voxels in the object, and for the number of voxels per element.
+/// Asks for the lowest density of voxels in the object and for the number of voxels per element.
 class VolumeBar : public AskBar {
   Q_OBJECT
 
@@ -37,7 +37,7 @@ class VolumeBar : public AskBar {
  private:
   void makeFields();
   void describe();
-  /// Converts between densities and positions of the slider.
+  /// Convert between densities and positions of the slider.
   int toSlider(double density) const;
   double fromSlider(int position) const;
 

@@ -12,7 +12,7 @@ struct OpenedVolume;
 struct VoxelBlock;
 class VolumeBar;
 
-/// Reads volumes of voxels in the background and makes objects of them with the options of their bar.
+/// Reads voxel volumes in the background and makes objects of them with the options of their bar.
 class Volumes : public QObject {
   Q_OBJECT
 
@@ -20,8 +20,8 @@ class Volumes : public QObject {
   Volumes(Document& document, Jobs& jobs);
 
   VolumeBar& bar() { return *bar_; }
-  /// Reads a volume; runs in the thread of a job. The result, run in the window, asks for the options. The object
-  /// becomes one undo step, or the first object of the window.
+  /// Reads a volume in the thread of a job. The returned function runs in the window and asks for the options. The
+  /// object becomes one undo step, or the first object of the window.
   Jobs::Finish read(const QString& path, bool first, const Progress& progress);
   /// Reads a volume and makes the object with the default options, without asking.
   Jobs::Finish readAsOffered(const QString& path, const Progress& progress);

@@ -13,7 +13,7 @@ namespace chainmail {
 namespace {
 
 constexpr double turnPixels = 25, panPixels = 40;  // mouse travel per key press
-constexpr double zoomStep = 1.2;                   // the factor of one notch of the wheel
+constexpr double zoomStep = 1.2;                   // zoom factor of one wheel step
 
 struct Direction {
   const char* name;
@@ -79,7 +79,7 @@ void CameraActions::add(const char* name, const QString& text, const char* iconN
   auto* action = new QAction(icon(iconName), text, this);
   action->setObjectName(QLatin1String(name));
   action->setShortcuts(keys);
-  action->setShortcutContext(Qt::WidgetShortcut);  // lists and fields use the same keys
+  action->setShortcutContext(Qt::WidgetShortcut);  // because lists and fields use the same keys
   action->setStatusTip(tip);
   connect(action, &QAction::triggered, this, [this, act] {
     if (View* view = focusedView()) {

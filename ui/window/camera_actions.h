@@ -13,19 +13,19 @@ class Document;
 class PanelArea;
 class Panel;
 
-/// The View menu's camera actions: turn, pan and zoom by keyboard; views along the axes; perspective or parallel
+/// The camera actions of the View menu: turn, pan and zoom by keyboard; views along the axes; perspective or parallel
 /// projection.
 ///
-/// The keys that turn, pan and zoom act on the view that has the keyboard focus, as they move the cursor in lists and
-/// fields elsewhere. Views along the axes and the projection act on all panels and need an object in 3D space.
+/// The keys that turn, pan and zoom work in the view that has the keyboard focus, because the same keys move the cursor
+/// in lists and fields. Views along the axes and the projection act on all panels and need an object in 3D space.
 class CameraActions : public QObject {
   Q_OBJECT
 
  public:
   CameraActions(QObject* parent, const Document& document, PanelArea& area);
-  /// Adds the submenu that turns, pans and zooms.
+  /// Adds the submenu with the actions that turn, pan and zoom.
   void fillMoves(QMenu& menu) const;
-  /// Adds the submenu of views along the axes, and the projection.
+  /// Adds the submenu with the views along the axes and the projection.
   void fillSides(QMenu& menu);
 
  private:
@@ -40,7 +40,7 @@ class CameraActions : public QObject {
   const Document& document_;
   PanelArea& area_;
   std::vector<QAction*> moves_;
-  std::vector<QAction*> sides_;  // with the projection: these need a third dimension
+  std::vector<QAction*> sides_;  // views along the axes and projection: they need a third dimension
   std::vector<View*> views_;
 };
 

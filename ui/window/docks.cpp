@@ -33,7 +33,7 @@ namespace {
 // Heights in pixels: the table of selected links fits on a screen with 900 pixels.
 const QList<int> stiffnessAndRateHeights{400, 270};
 
-/// Reports what a dock could not do, and the files that it saved.
+/// Reports the errors of a dock and the files that it saves.
 template <typename Dock>
 Dock* connectFiles(Dock* dock, const DockParts& parts) {
   QObject::connect(dock, &Dock::failed, &parts.messages, &MessageBar::say);
@@ -279,7 +279,7 @@ void raiseWhenShown(QDockWidget& dock) {
 std::span<const DockEntry> dockEntries() { return entries; }
 
 Docks::Docks(const DockParts& parts) : window_(parts.window) {
-  window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);  // the right column needs the height
+  window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);  // gives the right column the full height
   for (const DockEntry& entry : entries) {
     add(entry, parts);
   }
@@ -291,7 +291,7 @@ void Docks::add(const DockEntry& entry, const DockParts& parts) {
   describe(entry, *dock);
   if (entry.inViewMenu) {
     parts.viewMenu.insertAction(parts.viewMenu.actions().value(end),
-                                dock->toggleViewAction());  // before the dock's own
+                                dock->toggleViewAction());  // before the dock's own actions
   }
   place(entry, *dock);
   docks_.push_back(dock);

@@ -24,7 +24,7 @@ class Propagation;
 class PropagationOverlay;
 class SelectTool;
 
-/// The parts of the window that docks use.
+/// The parts of the window that the docks use.
 struct DockParts {
   QMainWindow& window;
   Document& document;
@@ -41,14 +41,14 @@ struct DockParts {
   QMenu& editMenu;
   QMenu& objectMenu;
   QMenu& viewMenu;
-  QMenu& showMenu;  // within the View menu
+  QMenu& showMenu;  // a submenu of the View menu
   std::function<void(const QString&)> showStatus;
 };
 
-/// A dock as the window needs it. The table of all docks is in docks.cpp.
+/// An entry of the table of all docks, which is in docks.cpp.
 struct DockEntry {
-  const char* id;      // object name: names the dock in stored layouts, so it must not change
-  const char* action;  // object name of the action that shows the dock: names it in stored shortcuts
+  const char* id;      // object name: identifies the dock in stored layouts, so it must not change
+  const char* action;  // object name of the action that shows the dock: identifies it in stored shortcuts
   const char* title;
   const char* menuText = nullptr;  // null: the title
   const char* tooltip;             // what the dock shows or does
@@ -56,13 +56,13 @@ struct DockEntry {
   QKeySequence key = {};
   bool inViewMenu = false;  // the action is also an entry of the View menu, not only of the Docks menu
   Qt::DockWidgetArea area;
-  const char* tabbedWith = nullptr;  // id of an earlier entry, whose place the dock shares
-  bool visible = true;               // at the first start
+  const char* tabbedWith = nullptr;  // id of an earlier entry; both docks share a place as tabs
+  bool visible = true;               // visible at the first start
   /// Makes the dock, connects it and adds its own actions to the menus. `made` holds the docks of earlier entries.
   QDockWidget* (*make)(const DockParts& parts, const Docks& made);
 };
 
-/// All docks, in the order in which they are made and listed.
+/// Returns the entries of all docks, in the order in which they are made and listed.
 std::span<const DockEntry> dockEntries();
 
 /// The docks of a window.

@@ -9,7 +9,7 @@ namespace chainmail {
 namespace {
 
 constexpr int moveMilliseconds = 16;  // between two moves
-constexpr double longest = 40;        // seconds until it stops by itself
+constexpr double longest = 40;        // seconds until the example stops without user input
 constexpr double swing = 5.2;         // seconds per period, horizontal
 constexpr double rise = 3.4;          // seconds per period, vertical
 constexpr double beginning = 2;       // seconds until the full amplitude
@@ -47,7 +47,7 @@ void ExampleDrag::start() {
     return;
   }
   const Mesh& mesh = *document_.mesh();
-  element_ = mesh.element_count() * 4 / 5;  // off the centre, so that near and far elements move differently
+  element_ = mesh.element_count() * 4 / 5;  // away from the centre, so that near and far elements move differently
   from_ = mesh.rest_position(element_);
   reach_ = reachInLinks * mesh.mean_link_length;
   QCoreApplication::instance()->installEventFilter(this);
@@ -79,7 +79,7 @@ void ExampleDrag::stop() {
   document_.undoStack().clear();
   document_.forgetMoves();
   document_.setHighlight({});
-  // The press that ended the example acts on the object at rest.
+  // The press that ends the example must find the object at rest.
   QElapsedTimer waited;
   waited.start();
   while (!showsRest() && waited.elapsed() < restPatience) {

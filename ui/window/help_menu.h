@@ -23,7 +23,7 @@ class HelpMenu : public QObject {
   /// Shows an example and hints on the first start.
   void welcome();
   void dismissHints() { hints_->hide(); }
-  /// Returns the hints; the window places and owns them.
+  /// Returns the hints. The window places and owns them.
   QWidget& hints() { return *hints_; }
 
  private:

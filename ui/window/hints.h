@@ -4,7 +4,7 @@
 
 namespace chainmail {
 
-/// Three short hints for the first start, below the views, which they do not cover.
+/// Three short hints for the first start. They are below the views and do not cover them.
 class Hints : public QFrame {
   Q_OBJECT
 

@@ -7,7 +7,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int showAfterMilliseconds = 200;  // shorter jobs show nothing
+constexpr int showAfterMilliseconds = 200;  // jobs that take less time show nothing
 constexpr int refreshMilliseconds = 100;
 constexpr int textWidth = 260, shareWidth = 160, barHeight = 14;  // pixels
 constexpr int percent = 100;

@@ -48,8 +48,8 @@ constexpr int layoutVersion = 5;  // raise it after changes to the docks: layout
 constexpr int statusMilliseconds = 4000;
 constexpr std::chrono::milliseconds lastMovePatience(500);  // for the last move of the handle when the window closes
 
-/// Shows the step to be undone or redone in the menu and the tool tip. The button's text stays short, so the tool bar
-/// keeps its width.
+/// Shows the name of an undo step in the text of the menu item and in its tool tip. The text of the tool bar button
+/// stays short, so that the tool bar keeps its width.
 void showStep(QAction& action, const QString& verb, const QString& step) {
   action.setText(step.isEmpty() ? QStringLiteral("&%1").arg(verb) : QStringLiteral("&%1 %2").arg(verb, step));
   action.setIconText(verb);
@@ -110,7 +110,7 @@ MainWindow::~MainWindow() {
     field->clearFocus();  // takes the last input while the document exists
   }
   sessions_->close();
-  hide();  // docks report that they hide while their receivers exist
+  hide();  // while the receivers of the docks' signals exist
   // The panels use the document until they are deleted.
   delete takeCentralWidget();
 }

@@ -57,7 +57,7 @@ class MainWindow : public QMainWindow {
   /// Restores a saved layout. Ignores layouts of another version.
   void takeLayout(const QByteArray& layout);
   /// Opens a session, mesh, volume or picture in the background: as one undo step, or as the first object of the
-  /// window. A file with an error shows a message and changes nothing.
+  /// window. If the file has an error, shows a message and changes nothing.
   void openFile(const QString& path, bool first = false);
   /// Shows an example and hints on the first start. Called if the window starts without a file.
   void welcome();

@@ -36,13 +36,13 @@ constexpr std::array files{"index.md",   "tour.md",         "algorithms.md", "ha
 
 QUrl urlOf(const QString& page) { return QStringLiteral("qrc:/manual/") + page; }
 
-/// The first heading of a page.
+/// Returns the first heading of a page.
 QString titleOf(const QString& page) {
   QFile file(QStringLiteral(":/manual/") + page);
   return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readLine()).mid(2).trimmed() : page;
 }
 
-/// The anchor of a heading, as code hosts make it: "Files from others" is files-from-others.
+/// Returns the anchor of a heading in the form that code hosts use: "Files from others" gives files-from-others.
 QString anchorOf(const QString& heading) {
   QString anchor;
   for (const QChar one : heading.toLower()) {
@@ -55,7 +55,7 @@ QString anchorOf(const QString& heading) {
   return anchor;
 }
 
-/// A page of the manual. Headings are anchors, tables have lines, and pictures are as wide as the page.
+/// A page of the manual. Headings are anchors, tables have grid lines, and pictures have the width of the page.
 class Page : public QTextBrowser {
  public:
   Page() {
@@ -64,7 +64,7 @@ class Page : public QTextBrowser {
     document()->setDocumentMargin(pageMargin);
   }
 
-  /// Loads the page again, as a change of its width or its colours requires, at the same position.
+  /// Loads the page again at the same position, after a change of its width or colours.
   void renew() {
     const int position = verticalScrollBar()->value();
     reload();
@@ -126,7 +126,7 @@ class Page : public QTextBrowser {
     return block.isValid() && block.blockFormat().hasProperty(QTextFormat::BlockCodeLanguage);
   }
 
-  /// A line with a picture is as high as the picture.
+  /// True if a line contains a picture. Such a line is as high as the picture.
   static bool hasPicture(const QTextBlock& block) { return block.text().contains(QChar::ObjectReplacementCharacter); }
 
   static void makeAnchor(const QTextBlock& block) {
@@ -141,7 +141,7 @@ class Page : public QTextBrowser {
     cursor.mergeBlockFormat(space);
   }
 
-  /// Each line of code is a block of its own.
+  /// Gives a line of code its background and margins. Each line is a separate block.
   void markCode(const QTextBlock& line) {
     QTextBlockFormat format;
     format.setBackground(palette().alternateBase());
@@ -151,7 +151,7 @@ class Page : public QTextBrowser {
     QTextCursor(line).mergeBlockFormat(format);
   }
 
-  /// Undoes a habit of Qt's Markdown reader: empty cells at the end of a row become one with the cell before them.
+  /// Splits merged cells: Qt's Markdown reader merges empty cells at the end of a row with the cell before them.
   static void splitCells(QTextTable& table) {
     for (int row = 0; row < table.rows(); ++row) {
       for (int column = 0; column < table.columns(); ++column) {
@@ -183,7 +183,7 @@ class Page : public QTextBrowser {
     }
   }
 
-  bool pictures_ = false;  // true once a page had one
+  bool pictures_ = false;  // true after a page with pictures was shown
 };
 
 QToolButton* makeButton(const char* name, const char* picture, const QString& tip) {
@@ -305,14 +305,14 @@ void ManualWindow::addKeys() {
   add(Qt::Key_Escape, search_, [this] { page_->setFocus(); });
 }
 
-/// Marks the page in the list, however it was reached.
+/// Selects the current page in the list, also if it was opened by a link.
 void ManualWindow::showCurrent(const QUrl& url) {
   const QSignalBlocker block(list_);
   list_->setCurrentRow(int(pages().indexOf(url.fileName())));
   search_->clear();
 }
 
-/// Searches while the words are typed: from the present match, so that it stays as long as it suits.
+/// Searches while the user types. The search starts at the current match, so that it stays while it still matches.
 void ManualWindow::search(const QString& words) {
   QTextCursor from = page_->textCursor();
   from.setPosition(from.selectionStart());
@@ -323,7 +323,7 @@ void ManualWindow::search(const QString& words) {
   }
 }
 
-/// Shows the next match, or the first one after the last.
+/// Shows the next match. After the last match, continues with the first one.
 void ManualWindow::searchOn(QTextDocument::FindFlags direction) {
   const QTextCursor before = page_->textCursor();
   bool found = page_->find(search_->text(), direction);

@@ -12,17 +12,17 @@ class QToolButton;
 
 namespace chainmail {
 
-/// The manual in a window of its own: its pages at the left, the chosen one at the right. The pages are the Markdown
-/// files of resources/manual, which are compiled in.
+/// The manual in a separate window: the list of pages on the left, the chosen page on the right. The pages are the
+/// Markdown files of resources/manual, which are compiled in.
 class ManualWindow : public QWidget {
   Q_OBJECT
 
  public:
   explicit ManualWindow(QWidget* parent);
 
-  /// File names of all pages, in the order of the list.
+  /// Returns the file names of all pages, in the order of the list.
   static QStringList pages();
-  /// Shows a page, and a heading of it if the name ends with an anchor, as in "tour.md#cut".
+  /// Shows a page. If the name ends with an anchor, as in "tour.md#cut", scrolls to that heading.
   void open(const QString& page);
 
  private:
@@ -40,7 +40,7 @@ class ManualWindow : public QWidget {
   QToolButton* back_;
   QToolButton* forward_;
   QLineEdit* search_;
-  QLabel* answer_;  // of the search
+  QLabel* answer_;  // result of the search
 };
 
 }  // namespace chainmail

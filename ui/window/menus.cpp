@@ -91,7 +91,7 @@ QChar mnemonicOf(const QString& text) {
   return at < 0 || at + 1 >= text.size() ? QChar() : text[at + 1].toLower();
 }
 
-/// Returns the index of a letter that no other item uses, the first letter of a word if possible; -1 without one.
+/// Returns the index of a letter that no other item uses, if possible the first letter of a word; -1 if there is none.
 qsizetype freeLetter(const QString& text, const QSet<QChar>& taken) {
   for (const bool first : {true, false}) {
     for (qsizetype i = 0; i < text.size(); ++i) {

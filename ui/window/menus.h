@@ -4,8 +4,8 @@ class QMenuBar;
 
 namespace chainmail {
 
-/// Completes menus once all actions are in them: adds icons, and a mnemonic for every item, unique in its menu, so that
-/// Alt and letters reach all items. Icons and mnemonics that are already set stay.
+/// Completes menus after all actions are added: adds icons, and a mnemonic for every item, unique in its menu, so that
+/// all items can be reached with Alt and letters. Keeps icons and mnemonics that are already set.
 void completeMenus(const QMenuBar& bar);
 
 }  // namespace chainmail

@@ -63,7 +63,7 @@ MessageBar::MessageBar()
 
 void MessageBar::add(Severity severity, const QString& sentence) {
   const Message message{severity, sentence};
-  std::erase(messages_, message);  // a repeated message becomes the newest one
+  std::erase(messages_, message);  // a repeated message becomes the newest
   messages_.push_back(message);
   if (messages_.size() > mostMessages) {
     messages_.erase(messages_.begin());
@@ -88,7 +88,7 @@ void MessageBar::clear() {
 
 void MessageBar::hideEvent(QHideEvent* event) {
   QFrame::hideEvent(event);
-  if (isHidden()) {  // hidden itself, not with the window
+  if (isHidden()) {  // false if only the window is hidden
     messages_.clear();
   }
 }

@@ -10,8 +10,8 @@ namespace chainmail {
 
 enum class Severity { info, warning, error };
 
-/// Shows in one sentence what happened and what to do. The bar shows the newest message; older ones wait until it is
-/// dismissed.
+/// Shows messages: one sentence that says what happened and what to do. The bar shows the newest message. Older
+/// messages appear when the newer ones are dismissed.
 class MessageBar : public QFrame {
   Q_OBJECT
 
@@ -24,9 +24,9 @@ class MessageBar : public QFrame {
   void warn(const QString& sentence) { add(Severity::warning, sentence); }
   /// Shows a note.
   void note(const QString& sentence) { add(Severity::info, sentence); }
-  /// Removes the shown message; the bar shows the one before it.
+  /// Removes the shown message. The bar then shows the previous one.
   void dismiss();
-  /// Removes all messages, as hiding the bar does.
+  /// Removes all messages. Hiding the bar also does this.
   void clear();
 
   /// Returns the shown message; empty if there is none.

@@ -64,7 +64,7 @@ QAction* PanelActions::add(const QString& name, const QString& text, const QKeyS
   return action;
 }
 
-/// Makes the actions that exist once per panel.
+/// Makes the actions that exist for each panel.
 void PanelActions::makeOnes(int panel) {
   const QString name = panelName(panel);
   const auto key = Qt::Key(Qt::Key_1 + panel);
@@ -115,7 +115,7 @@ void PanelActions::fill(QToolBar& bar) {
   qobject_cast<QToolButton*>(bar.widgetForAction(compared_))->setPopupMode(QToolButton::InstantPopup);
 }
 
-/// Disabled actions explain why.
+/// Enables and disables the actions. The tool tip of a disabled action explains why.
 void PanelActions::refreshCount() {
   const auto say = [](QAction* action, bool enabled, const QString& help) {
     action->setEnabled(enabled);

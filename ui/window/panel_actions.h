@@ -38,12 +38,12 @@ class PanelActions : public QObject {
   Document& document_;
   Colouring& colouring_;
   QMenu* compare_;
-  QAction* compared_;  // in the tool bar: shows the chosen panel
+  QAction* compared_;  // tool bar button that shows the chosen panel
   QAction* add_;
   QAction* remove_;
   QAction* swap_;
   QAction* ghosts_;
-  QList<QAction*> show_, alone_, reference_;  // by panel
+  QList<QAction*> show_, alone_, reference_;  // one action per panel
 };
 
 }  // namespace chainmail

@@ -144,7 +144,7 @@ void Shortcuts::set(QAction& action, const QList<QKeySequence>& keys) {
   showKeys(action);
 }
 
-/// Shows the keys in the tool tip, for buttons of the tool bar.
+/// Shows the keys of an action in its tool tip, which tool bar buttons show.
 void Shortcuts::showKeys(QAction& action) {
   if (tipsOurs_.contains(action.objectName())) {
     const QString keys = action.shortcut().toString(QKeySequence::NativeText);

@@ -9,8 +9,8 @@ class QMainWindow;
 
 namespace chainmail {
 
-/// The keyboard shortcuts of all named actions of a window: the defaults, and the user's, which are stored in the
-/// settings under the object names of the actions.
+/// The keyboard shortcuts of all named actions of a window: the defaults and the user's own. The settings store the
+/// latter under the object names of the actions.
 class Shortcuts : public QObject {
   Q_OBJECT
 
@@ -30,8 +30,8 @@ class Shortcuts : public QObject {
   QString place(const QAction& action) const;
 
   QKeySequence standard(const QAction& action) const;
-  /// Gives an action other keys, or none. If the keys belong to another action, changes nothing and returns a sentence
-  /// that says so; else returns an empty string.
+  /// Gives an action other keys, or none. Returns an empty string if it succeeds. If the keys belong to another action,
+  /// changes nothing and returns a sentence that says so.
   QString assign(QAction& action, const QKeySequence& keys);
   QString reset(QAction& action) { return assign(action, standard(action)); }
   void resetAll();
@@ -46,8 +46,8 @@ class Shortcuts : public QObject {
   QAction* owner(const QKeySequence& keys, const QAction& but) const;
 
   QMainWindow& window_;
-  QMap<QString, QList<QKeySequence>> standard_;  // by object name
-  QSet<QString> tipsOurs_;                       // actions whose tool tips are made here
+  QMap<QString, QList<QKeySequence>> standard_;  // default keys, by object name
+  QSet<QString> tipsOurs_;                       // actions whose tool tips this class makes
 };
 
 /// Returns the text of an action without its mnemonic and ellipsis.

@@ -110,7 +110,8 @@ void ShortcutsDialog::showEvent(QShowEvent* event) {
   QDialog::showEvent(event);
 }
 
-/// In the search field, arrow keys move to the list. The field for keys takes all keys except Tab and Esc.
+/// In the search field, the arrow keys and Enter move the focus to the list. In the field for keys, Esc does this, and
+/// all other keys except Tab become the new shortcut.
 bool ShortcutsDialog::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() != QEvent::KeyPress) {
     return QDialog::eventFilter(watched, event);

@@ -9,8 +9,8 @@
 
 namespace chainmail {
 
-/// The View menu's choice of what all panels show of the object: links, surface, or both. The choice is stored; sheets
-/// with a picture have a stored choice of their own, because links would cover the picture.
+/// The View menu's choice of what all panels show of the object: links, surface, or both. The choice is stored. Sheets
+/// with a picture have a separate stored choice, because links would cover the picture.
 class ShowMenu : public QObject {
   Q_OBJECT
 
@@ -19,11 +19,11 @@ class ShowMenu : public QObject {
   void fill(QMenu& menu);
 
   Look look() const;
-  /// The submenu; it exists after fill().
+  /// Returns the submenu, which exists after fill().
   QMenu& menu() const { return *menu_; }
   /// Returns the name of the choice for this kind of object, as sessions store it.
   QString chosen() const;
-  /// Ignores unknown names.
+  /// Chooses by name. Ignores unknown names.
   void choose(const QString& name);
 
  signals:

@@ -4,13 +4,13 @@
 
 namespace chainmail {
 
-/// Sets attributes that must be set before the application object is made: OpenGL, shared contexts, settings.
+/// Sets what must be set before the application object exists: OpenGL, shared contexts, settings.
 void prepareApplication();
 
-/// Sets icon, style and palette after the application object is made.
+/// Sets icon, style and palette. Call it after the application object is made.
 void styleApplication();
 
-/// Returns why the workbench cannot draw on this platform; empty if it can.
+/// Returns the reason why the workbench cannot draw on this platform; empty if it can.
 QString whyNoWindow();
 
 }  // namespace chainmail

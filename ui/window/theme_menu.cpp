@@ -10,7 +10,7 @@
 namespace chainmail {
 namespace {
 
-// The XDG desktop portal with the settings of the desktop.
+// The XDG desktop portal, which gives access to the settings of the desktop.
 constexpr QLatin1String service("org.freedesktop.portal.Desktop");
 constexpr QLatin1String path("/org/freedesktop/portal/desktop");
 constexpr QLatin1String interface("org.freedesktop.portal.Settings");
@@ -41,7 +41,7 @@ void ThemeMenu::fill(QMenu& menu) {
   add("themeLight", QStringLiteral("&Light"), Theme::light, QStringLiteral("Dark text on a light background"));
   system_ = add("themeSystem", QStringLiteral("Follow &system"), Theme::system,
                 QStringLiteral("Follows the theme of the desktop"));
-  system_->setEnabled(false);  // until the desktop has replied
+  system_->setEnabled(false);  // until the desktop replies
   system_->setToolTip(unknownTip());
   if (rememberedTheme() == Theme::system && rememberedGround() == colours::Ground::dark) {
     dark->setChecked(true);
@@ -56,7 +56,7 @@ void ThemeMenu::choose(Theme theme) {
 
 void ThemeMenu::askSystem() {
   if (qEnvironmentVariableIsEmpty("DBUS_SESSION_BUS_ADDRESS")) {
-    return;  // a request would start a bus
+    return;  // a request would start a D-Bus daemon
   }
   auto bus = QDBusConnection::sessionBus();
   bus.connect(service, path, interface, QStringLiteral("SettingChanged"), this,
@@ -68,7 +68,7 @@ void ThemeMenu::askSystem() {
     const QDBusPendingReply<QDBusVariant> reply = *answer;
     answer->deleteLater();
     if (!reply.isError()) {
-      // 'Read' wraps its reply twice.
+      // 'Read' wraps its reply in two variants.
       const QVariant outer = reply.value().variant();
       const bool wrapped = outer.canConvert<QDBusVariant>();
       heardOfSystem((wrapped ? outer.value<QDBusVariant>().variant() : outer).toUInt());

@@ -10,7 +10,7 @@ class QDBusVariant;
 
 namespace chainmail {
 
-/// The View menu's choice of theme: dark, light, or the desktop's. It reads the desktop's theme from the XDG settings
+/// The View menu's choice of theme: dark, light, or the desktop's. Reads the desktop's theme from the XDG settings
 /// portal, if there is one, and follows its changes.
 class ThemeMenu : public QObject {
   Q_OBJECT

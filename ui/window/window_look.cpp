@@ -26,7 +26,8 @@ QJsonObject toJson(const Camera::Pose& pose) {
           {QStringLiteral("framed"), pose.framed}};
 }
 
-/// Keeps the present pose where the JSON lacks a value. JSON has no NaN, but numbers that are infinite as float.
+/// Returns the pose in the JSON. Missing values stay as in `present`, and so do coordinates of the centre that are
+/// infinite as float. JSON has no NaN.
 Camera::Pose poseOf(const QJsonObject& json, const Camera::Pose& present) {
   const auto number = [&](const char* key, double otherwise) { return json[QLatin1String(key)].toDouble(otherwise); };
   Camera::Pose pose{present.centre,
@@ -50,7 +51,7 @@ void takeCameras(MainWindow& window, const QJsonObject& look) {
   for (int panel = 0; panel < std::min(int(cameras.size()), window.document().panels()); ++panel) {
     View& view = window.panel(panel).view();
     view.camera()->setPose(poseOf(cameras[panel].toObject(), view.camera()->pose()));
-    view.fitAgain();  // the saved window may have had another size
+    view.fitAgain();  // the window of the saved look may have had another size
     emit view.cameraChanged();
     view.update();
   }

@@ -15,7 +15,7 @@ std::string lookOf(MainWindow& window);
 /// Restores a look. Parts that the JSON lacks stay unchanged.
 void takeLook(MainWindow& window, const std::string& look);
 
-/// Calls `changed` after a change of what lookOf returns, as long as `context` lives.
+/// Calls `changed` whenever the result of lookOf() changes, while `context` exists.
 void followLook(MainWindow& window, QObject& context, const std::function<void()>& changed);
 
 }  // namespace chainmail

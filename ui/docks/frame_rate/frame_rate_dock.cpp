@@ -24,7 +24,7 @@ constexpr int refreshMilliseconds = 200;
 QString quantityKey() { return QStringLiteral("rateQuantity"); }
 QString spanKey() { return QStringLiteral("rateSeconds"); }
 
-/// Ticks every quarter of the period, labelled with the seconds before its end.
+/// Returns a tick for every quarter of the period, labelled with the seconds before its end.
 std::vector<report::LabelledValue> timeTicks(double from, double to) {
   constexpr int intervals = 4;
   std::vector<report::LabelledValue> ticks;
@@ -156,7 +156,7 @@ void FrameRateDock::receive(int panel) {
   }
 }
 
-/// Returns the present figures of a panel.
+/// Returns the current figures of a panel.
 RateSample FrameRateDock::read(int panel) {
   RateSample sample;
   sample.time = now();
@@ -176,7 +176,7 @@ RateSample FrameRateDock::read(int panel) {
   return sample;
 }
 
-/// Painting may continue or end without a new frame of the solver, so the figures are also read on a timer.
+/// Reads the figures on a timer, because painting may continue or end without a new frame of the solver.
 void FrameRateDock::refresh() {
   bool busy = false;
   for (int panel = 0; panel < int(panels_.size()); ++panel) {

@@ -16,8 +16,8 @@ namespace chainmail {
 
 class Panel;
 
-/// Shows the speed of each panel, as figures and over time: painted frames per second, and the time of a pass. They
-/// differ because drawing may limit the painted rate. Reads and draws only while something happens.
+/// Shows the speed of each panel as figures and over time: painted frames per second, and the time of a pass (ms). They
+/// differ because drawing may limit the painted rate. The dock reads and draws only while something happens.
 class FrameRateDock : public QDockWidget {
   Q_OBJECT
 
@@ -25,10 +25,10 @@ class FrameRateDock : public QDockWidget {
   /// Largest number of points to draw, for all panels together.
   static constexpr std::size_t drawnPoints = 2000;
 
-  /// `panels` are the present panels of the document.
+  /// `panels` are the current panels of the document.
   FrameRateDock(Document& document, const std::vector<Panel*>& panels);
 
-  /// Actions of the dock, for a menu of the window.
+  /// Returns the actions of the dock, for a menu of the window.
   QMenu& menu() { return *menu_; }
   /// Writes all samples as CSV.
   void saveTablePath(const QString& path);
@@ -65,7 +65,7 @@ class FrameRateDock : public QDockWidget {
   QMenu* menu_;
   QAction* pause_ = nullptr;
   QElapsedTimer clock_;
-  double shownTo_ = 0;  // s on the clock: the end of the plot, which stays while nothing happens
+  double shownTo_ = 0;  // end of the plot (s since the window was opened); stays while nothing happens
   QTimer timer_;
 };
 

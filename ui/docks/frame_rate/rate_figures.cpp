@@ -12,7 +12,7 @@ namespace chainmail {
 namespace {
 
 constexpr int rateColumns = 4;
-constexpr std::array rateWidths{58, 62, 44, 44};  // logical pixels, for the heads and for 1,000,000
+constexpr std::array rateWidths{58, 62, 44, 44};  // logical pixels; wide enough for the headers and for 1,000,000
 
 }  // namespace
 
@@ -46,7 +46,7 @@ void RateFigures::addHead(QGridLayout& grid) {
   add(3, QStringLiteral("worst"), QStringLiteral("Longest pass of the last second (ms)"));
 }
 
-/// The name of the panel is on a line of its own, because the four figures need the width.
+/// Adds the row of a panel. The panel's name has its own line, because the four figures need the width.
 void RateFigures::addRow(QGridLayout& grid) {
   const int panel = int(rows_.size());
   const auto figure = [&](const char* name, const QString& meaning) {

@@ -12,13 +12,13 @@ class QGridLayout;
 
 namespace chainmail {
 
-/// Shows the newest figures of each panel, with its colour and algorithm: painted frames, and times of the solver.
+/// Shows the newest figures of each panel, with its colour and algorithm: painted rate and times of the solver.
 class RateFigures : public QWidget {
   Q_OBJECT
 
  public:
   explicit RateFigures(const Document& document);
-  /// Shows a sample. The figures of passes stay if the sample has none.
+  /// Shows a sample. If the sample has no figures of passes, the earlier ones stay.
   void show(int panel, const RateSample& sample);
 
  private:

@@ -26,10 +26,10 @@ constexpr std::array quantities{
                  "Root mean square over the links; while dragging, over those that the last pass touched",
                  [](const RateSample& one) { return one.violationRms; }}};
 
-// A gap of more than this (s), besides the time of the next pass, ends a line.
+// A longer gap (s) between samples ends a line. The time of the next pass does not count.
 constexpr double longestGap = 1;
 
-/// The lowest and the highest point of a piece of time.
+/// The lowest and the highest point of a time interval.
 class RatePiece {
  public:
   bool holds(std::int64_t number) const { return number_ == number; }
@@ -54,7 +54,7 @@ class RatePiece {
   QPointF lowest_, highest_;
 };
 
-/// Makes lines through all points, or through the extremes of pieces of time of some length (s; 0: all points).
+/// Makes lines through all points (length 0), or through the extremes of intervals of a length (s).
 class RateLines {
  public:
   explicit RateLines(double length) : length_(length) {}
@@ -122,7 +122,7 @@ std::span<const RateQuantity> rateQuantities() { return quantities; }
 
 void RateHistory::add(const RateSample& sample) {
   const auto old = [&](const RateSample& one) { return one.time < sample.time - kept; };
-  // In large pieces, so that each sample is moved about once.
+  // Removes many samples at once, so that each sample is moved about once.
   if (samples_.size() > 1 && old(samples_[samples_.size() / 2])) {
     samples_.erase(samples_.begin(), std::ranges::partition_point(samples_, old));
   }
@@ -139,11 +139,11 @@ std::span<const RateSample> RateHistory::since(double time) const {
 
 std::vector<QPolygonF> curveOf(std::span<const RateSample> samples, const RateQuantity& quantity, double from,
                                double to, std::size_t points) {
-  // A piece gives two points at most, and one more piece begins before the first whole one.
+  // An interval gives at most two points, and one more interval begins before the first complete one.
   const std::size_t pairs = points / 2;
   const double pieces = std::max(1.0, double(pairs) - 1);
   const double length = samples.size() > points ? (to - from) / pieces : 0;
-  const double gap = std::max(longestGap, length);  // no piece is part of two lines
+  const double gap = std::max(longestGap, length);  // so that no interval is part of two lines
   RateLines lines(length);
   std::optional<double> last;
   for (const RateSample& sample : samples) {

@@ -12,7 +12,7 @@
 
 namespace chainmail {
 
-/// The figures of a panel at a moment. A missing figure is NaN.
+/// The figures of a panel at one time. A missing figure is NaN.
 struct RateSample {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -21,7 +21,7 @@ struct RateSample {
   double ms = none;                                 // of the last pass, if there was one since the last sample
   double medianMs = none, worstMs = none;           // of the passes of the last second
   double violationMax = none, violationRms = none;  // rest lengths
-  bool ofWholeMesh = false;  // true if the violation is of all links, false if of those that the last pass touched
+  bool ofWholeMesh = false;  // true if the violation is of all links, false if of the links that the last pass touched
   Algorithm algorithm = Algorithm::natural_queue;
 
   /// Returns the rate of the algorithm without drawing: 1 over the median time of a pass.
@@ -35,7 +35,7 @@ struct RateQuantity {
 };
 std::span<const RateQuantity> rateQuantities();
 
-/// The samples of a panel over the last minutes, by time.
+/// The samples of a panel over the last minutes, in order of time.
 class RateHistory {
  public:
   /// Age at which samples are dropped (s).
@@ -44,22 +44,22 @@ class RateHistory {
   void add(const RateSample& sample);
   void clear() { samples_.clear(); }
   const std::vector<RateSample>& samples() const { return samples_; }
-  /// Returns the samples from a moment on, and the last one before it, where a line begins.
+  /// Returns the samples from `time` (s) on, and the one before them, where the plotted line begins.
   std::span<const RateSample> since(double time) const;
 
  private:
   std::vector<RateSample> samples_;
 };
 
-/// Returns the lines of a quantity over time (s, unit of the quantity), one for each period in which something
-/// happened.
+/// Returns the lines of a quantity over time (s, unit of the quantity), one line for each period of activity.
 ///
-/// Where there are more samples than `points` (at least 2), only the lowest and the highest of each piece of time stay,
-/// so that no spike is lost. The pieces are the same from call to call while `from` to `to` is as long.
+/// If there are more than `points` samples (at least 2), only the lowest and the highest sample of each time interval
+/// stay, so that no spike is lost. The intervals are the same from call to call while the difference of `to` and `from`
+/// is the same.
 std::vector<QPolygonF> curveOf(std::span<const RateSample> samples, const RateQuantity& quantity, double from,
                                double to, std::size_t points);
 
-/// Writes the samples of all panels by time, with all digits. A missing figure is an empty field.
+/// Writes the samples of all panels as CSV, sorted by time, with all digits. A missing figure is an empty field.
 void writeCsv(std::ostream& out, std::span<const RateHistory> panels);
 
 }  // namespace chainmail

@@ -160,7 +160,7 @@ void PropagationDock::refresh() {
   emit changed();
 }
 
-/// Disabled actions explain why.
+/// Enables and disables the actions. The tool tip of a disabled action explains why.
 void PropagationDock::refreshActions() {
   const bool ready = propagation_.isOpen() && propagation_.hasPass();
   const QString why = propagation_.isOpen() ? QStringLiteral("no pass yet: drag an element")

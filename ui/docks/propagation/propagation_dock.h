@@ -23,7 +23,7 @@ class PropagationDock : public QDockWidget {
   void fill(QMenu& menu);
 
  signals:
-  /// The panels must be redrawn.
+  /// Emitted when the panels must be redrawn.
   void changed();
 
  private:

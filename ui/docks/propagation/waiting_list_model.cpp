@@ -31,7 +31,7 @@ int WaitingListModel::rowCount(const QModelIndex& parent) const {
   return player_ == nullptr || parent.isValid() ? 0 : int(1 + waiting_.size() + player_->step());
 }
 
-/// The handle and each step of the trace count as taken.
+/// Returns the content of a row. The handle and each step of the trace count as taken.
 WaitingListModel::Row WaitingListModel::row(int row) const {
   const auto i = std::size_t(row);
   if (i >= 1 && i <= waiting_.size()) {

@@ -6,8 +6,9 @@
 
 namespace chainmail {
 
-/// A table of a pass at one step: first the candidate taken last, then the waiting candidates, the next one first, then
-/// the candidates taken before, the latest first. If the waiting list is not known, the steps to come replace it.
+/// A table of a pass at one step. The first row is the candidate taken last. Then come the waiting candidates, in the
+/// order in which they will be taken, then the candidates taken before, the latest first. If the waiting list is
+/// unknown, the remaining steps of the pass replace it.
 class WaitingListModel : public QAbstractTableModel {
   Q_OBJECT
 

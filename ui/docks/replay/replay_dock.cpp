@@ -167,7 +167,7 @@ std::size_t ReplayDock::previousMove() const {
   return 0;
 }
 
-/// Goes to a position of the tape, or stores it as the next one while the solvers are busy.
+/// Goes to a position in the recorded commands. While the solvers are busy, stores it as the next position.
 void ReplayDock::goTo(std::size_t position) {
   if (document_.idle()) {
     wanted_.reset();

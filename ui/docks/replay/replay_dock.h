@@ -17,19 +17,19 @@ class QToolButton;
 
 namespace chainmail {
 
-/// All commands since the object was opened, on a slider: steps back and forth, plays them move by move, and saves them
-/// as JSON, pictures or video.
+/// Shows all commands since the object was opened on a slider. Steps back and forth, plays them move by move, and saves
+/// them as JSON, pictures or video.
 class ReplayDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  /// Films show `scene`; `jobs` reads and writes moves.
+  /// Films show `scene`; `jobs` reads and writes recorded moves.
   ReplayDock(Document& document, QWidget& scene, Jobs& jobs);
 
-  /// The actions of the dock, for the menu bar.
+  /// Returns the actions of the dock, for the menu bar.
   QMenu& menu() { return *menu_; }
 
-  /// Both run in the background.
+  /// Open and save recorded moves in the background.
   void openMoves(const QString& path);
   void saveMoves(const QString& path);
   /// Films all moves: as pictures if the path is a folder, else as a video.
@@ -50,7 +50,8 @@ class ReplayDock : public QDockWidget {
   void scheduleShow();
   void showTape();
   QString describe() const;
-  /// Returns the position on the tape after the next move, or before the last one. A move ends with its pass.
+  /// Return the position in the recorded commands after the next move, and before the last one. A move ends with its
+  /// pass.
   std::size_t nextMove() const;
   std::size_t previousMove() const;
   void goTo(std::size_t position);
@@ -71,7 +72,7 @@ class ReplayDock : public QDockWidget {
   QWidget* filmBar_;
   QProgressBar* filmed_;
   QTimer playing_;
-  QTimer refresh_;                     // limits the rate of updates while the tape grows
+  QTimer refresh_;                     // limits the rate of updates while commands are recorded
   std::optional<std::size_t> wanted_;  // position to go to once the solvers are idle
 };
 

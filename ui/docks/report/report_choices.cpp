@@ -76,7 +76,7 @@ void ReportChoices::fillAlgorithms() {
     item->setCheckState(Qt::Checked);
   }
   followTheme(*this, [this] {
-    const QSignalBlocker block(algorithms_);  // the user has chosen nothing
+    const QSignalBlocker block(algorithms_);  // the user has changed nothing
     for (int row = 0; row < algorithms_->count(); ++row) {
       const auto algorithm = Algorithm(algorithms_->item(row)->data(Qt::UserRole).toInt());
       algorithms_->item(row)->setIcon(
@@ -106,7 +106,7 @@ void ReportChoices::fillRest() {
   connect(seconds_, &QDoubleSpinBox::editingFinished, seconds_, &QWidget::clearFocus);  // shortcuts work again
 }
 
-/// Disables the algorithms that do not work on the mesh; their tool tips give the reason.
+/// Disables the algorithms that do not work on the mesh. Their tool tips give the reason.
 void ReportChoices::adaptToMesh() {
   for (int row = 0; row < algorithms_->count(); ++row) {
     QListWidgetItem* item = algorithms_->item(row);

@@ -9,16 +9,16 @@
 
 namespace chainmail {
 
-/// Choices for a comparison: drags, algorithms, sweeps, precision and time.
+/// Choices for a comparison: drags, algorithms, sweeps, precision and time limit.
 class ReportChoices : public QWidget {
   Q_OBJECT
 
  public:
   explicit ReportChoices(Document& document);
 
-  /// Returns a run on the present object of the document.
+  /// Returns the chosen run, for the current object of the document.
   ReportThread::Order order() const;
-  /// True if an algorithm is chosen.
+  /// True if at least one algorithm is chosen.
   bool complete() const { return !chosen().empty(); }
 
  signals:

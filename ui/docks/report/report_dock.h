@@ -12,8 +12,8 @@
 
 namespace chainmail {
 
-/// Compares speed and error of the algorithms on the object of the window: choices, a run that can be cancelled,
-/// results.
+/// Compares speed and error of the algorithms on the object of the window. Shows the choices, a run that can be
+/// cancelled, and the results.
 class ReportDock : public QDockWidget {
   Q_OBJECT
 

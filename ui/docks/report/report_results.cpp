@@ -38,7 +38,7 @@ void saveReport(const std::filesystem::path& folder, const report::Comparison& c
   outputs.commit();
 }
 
-/// Returns each reason for a refusal once, with the names of the algorithms.
+/// Returns each reason for a refusal once, with the names of the refused algorithms.
 QString refusalsOf(const report::DragResult& drag) {
   QStringList sentences;
   QMap<QString, QStringList> refused;

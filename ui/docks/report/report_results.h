@@ -12,8 +12,8 @@ class PlotLegend;
 class PlotWidget;
 class ReportTable;
 
-/// Shows the results of a run: one drag as a plot and a table, and the algorithms that were refused with the reason.
-/// Saves the report and copies the table.
+/// Shows the results of a run: one drag as a plot and a table, and the refused algorithms with the reasons. Saves the
+/// report and copies the table.
 class ReportResults : public QWidget {
   Q_OBJECT
 

@@ -9,7 +9,7 @@ namespace chainmail {
 /// Returns the name of a contestant without "ChainMail", which all names have; "3D ChainMail" stays.
 QString shortName(std::string_view label);
 
-/// All figures of a drag, with one row for each contestant. A click on the head of a column sorts by it.
+/// All figures of a drag, with one row for each contestant. A click on a column header sorts by that column.
 class ReportTable : public QTableWidget {
   Q_OBJECT
 

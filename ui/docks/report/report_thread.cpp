@@ -32,7 +32,7 @@ void ReportThread::cancel() {
   thread_.request_stop();
   running_ = false;
   const std::scoped_lock lock(mutex_);
-  news_ = {};  // messages from before the request; the thread posts no more
+  news_ = {};  // drops messages from before the request; the thread posts no more
 }
 
 void ReportThread::run(Order& order, const std::stop_token& stop) {
@@ -53,7 +53,7 @@ void ReportThread::run(Order& order, const std::stop_token& stop) {
 
 void ReportThread::post(News news, const std::stop_token& stop) {
   const std::scoped_lock lock(mutex_);
-  // cancel() takes the same lock after its request, so no message of a cancelled run can follow it.
+  // cancel() requests the stop and then takes the same lock, so no message of a cancelled run can follow it.
   if (stop.stop_requested()) {
     return;
   }

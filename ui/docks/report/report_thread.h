@@ -11,10 +11,10 @@
 
 namespace chainmail {
 
-/// Compares algorithms on a thread of its own, one run at a time.
+/// Compares algorithms on a separate thread, one run at a time.
 ///
-/// Callers never wait for the thread. A cancelled run is over at once; its thread ends when it next checks the stop
-/// token, and its results are dropped. Only the destructor waits.
+/// Callers never wait for the thread. A cancelled run ends at once for the caller. Its thread ends when it next checks
+/// the stop token, and its results are dropped. Only the destructor waits for the thread.
 class ReportThread : public QObject {
   Q_OBJECT
 
@@ -23,14 +23,14 @@ class ReportThread : public QObject {
 
   struct Order {
     report::Case object;
-    bool generateDrags = false;  // the object has no drags; three are generated
+    bool generateDrags = false;  // true if the object has no drags: three are generated
     report::CompareOptions options;
   };
 
   explicit ReportThread(QObject* parent) : QObject(parent) {}
   ~ReportThread() override;
 
-  /// Cancels the present run first, if there is one.
+  /// Starts a run. Cancels the current run first, if there is one.
   void start(Order order);
   void cancel();
   bool running() const { return running_; }
@@ -40,7 +40,7 @@ class ReportThread : public QObject {
  signals:
   void progressed(double fraction, const QString& text);
   void finished(const chainmail::ReportThread::Result& result);
-  /// The run has failed, for the reason in this sentence.
+  /// Emitted when the run fails; `sentence` gives the reason.
   void failed(const QString& sentence);
 
  private:
@@ -62,7 +62,7 @@ class ReportThread : public QObject {
   std::mutex mutex_;                     // guards news_
   News news_;
 
-  std::jthread thread_;  // last, so that it ends before the members that it writes to
+  std::jthread thread_;  // last, so that the thread ends before the members that it writes to
 };
 
 }  // namespace chainmail

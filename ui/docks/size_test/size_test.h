@@ -13,14 +13,14 @@
 
 namespace chainmail {
 
-/// The ramp of core/report/run/ramp.h in the window (Dean 2004, chapter 6): square grids grow and are dragged by a
-/// script until no panel is in real time.
+/// Options of the ramp of core/report/run/ramp.h in the window (Dean 2004, chapter 6): square grids grow and are
+/// dragged by a script until no panel is in real time.
 struct SizeTestOptions {
   std::uint32_t first = 16;             // elements along a side
   double growth = std::numbers::sqrt2;  // factor of a side from size to size; 0: as in `chainmail ramp`
   std::uint64_t largest = 1'000'000;    // elements
-  double budget = 1.0 / 60;             // per pass, in seconds
-  int drags = 5;                        // at each size, besides one to warm up
+  double budget = 1.0 / 60;             // limit of real time per pass, in seconds
+  int drags = 5;                        // measured drags per size, after one warm-up drag
   int moves = 30;                       // per drag
   std::uint64_t seed = 1;               // of the drags
   LinkSoftness softness;
@@ -45,13 +45,13 @@ struct SizeTestRow {
   int painted = 0;  // frames per second
 };
 
-/// Returns what the rows of a panel say.
+/// Returns the verdict on a panel, from its rows.
 report::RampVerdict verdictOf(const SizeTestContestant& contestant, std::span<const SizeTestRow> rows);
-/// Returns a plot of the elements against the 99th percentile of the pass times, with one line for each panel. `budget`
-/// is in seconds.
+/// Returns a plot of the 99th percentile of the pass times over the number of elements, with one line for each panel.
+/// `budget` is in seconds.
 report::Plot plotOf(const std::vector<SizeTestContestant>& contestants, std::span<const SizeTestRow> rows,
                     double budget);
-/// Writes one row for each size and panel, with all digits.
+/// Writes one CSV row for each size and panel, with all digits.
 void writeCsv(std::ostream& out, std::span<const SizeTestRow> rows);
 
 }  // namespace chainmail

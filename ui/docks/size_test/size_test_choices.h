@@ -15,7 +15,7 @@ class SizeTestChoices : public QWidget {
 
  public:
   SizeTestChoices();
-  /// Returns the choices. The caller sets the softness.
+  /// Returns the chosen options. The caller sets the softness.
   SizeTestOptions options() const;
 
  private:

@@ -61,7 +61,7 @@ SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidge
   setWidget(content);
   // Closing the dock cancels the test.
   connect(toggleViewAction(), &QAction::toggled, this, [this](bool shown) { shown ? void() : cancel(); });
-  // An empty table shows the present panels.
+  // An empty table shows the current panels.
   connect(this, &QDockWidget::visibilityChanged, this, [this](bool seen) { seen ? followPanels() : void(); });
   for (const auto& changed : {&Document::panelsChanged, &Document::meshChanged}) {
     connect(&document, changed, this, &SizeTestDock::followPanels,
@@ -161,7 +161,7 @@ void SizeTestDock::cancel() {
   }
 }
 
-/// Shows the panels of the user at once. The stage is deleted when its solvers are idle.
+/// Shows the user's panels at once. The stage is deleted when its solvers are idle.
 void SizeTestDock::leave() {
   SizeTestStage* stage = std::exchange(stage_, nullptr).data();
   disconnect(stage, nullptr, this, nullptr);
@@ -174,7 +174,7 @@ void SizeTestDock::leave() {
   retire(stage);
 }
 
-/// A pass may take long, so this does not wait for it.
+/// Deletes the stage as soon as its solvers are idle. Does not wait, because a pass may take long.
 void SizeTestDock::retire(SizeTestStage* stage) {
   QTimer::singleShot(retireMilliseconds, stage,
                      [this, stage] { stage->idle() ? stage->deleteLater() : retire(stage); });

@@ -18,8 +18,9 @@
 
 namespace chainmail {
 
-/// The size test: grows a grid and drags it by a script in place of the panels, until no panel is in real time, and
-/// shows the results in a table. The object of the window does not change. While the test runs, nothing else works.
+/// The size test: grows a grid and drags it by a script until no panel is in real time, and shows the results in a
+/// table. While the test runs, its own panels replace those of the window, and the rest of the window is disabled. The
+/// object of the window does not change.
 class SizeTestDock : public QDockWidget {
   Q_OBJECT
 
@@ -62,9 +63,11 @@ class SizeTestDock : public QDockWidget {
   QPushButton* copy_;
   QPushButton* save_;
   QProgressBar* progress_;
-  QPointer<SizeTestStage> stage_;  // a closing window deletes it with the panels
+  QPointer<SizeTestStage> stage_;  // a closing window deletes the stage together with the panels
   std::unique_ptr<WindowRest> rest_;
-  QShortcut* escape_;         // enabled while a test runs; made once, because a hiding window visits each child it had
+  // Enabled while a test runs. It is not deleted after a test: Qt visits all children of a window that hides, also a
+  // child that is deleted meanwhile.
+  QShortcut* escape_;
   QElapsedTimer sinceShown_;  // since progress was last shown
 };
 

@@ -9,7 +9,7 @@
 namespace chainmail {
 namespace {
 
-// Slow drawing slows the drags down. After this time a size has enough drags, besides the warm-up.
+// Slow drawing slows the drags down. After this time, `fewestDrags` measured drags are enough for a size.
 constexpr qint64 enoughMilliseconds = 8000;
 constexpr std::size_t fewestDrags = 2;
 
@@ -32,7 +32,7 @@ SizeTestPanel::SizeTestPanel(const SizeTestContestant& contestant, const LinkSof
   arrange();
 }
 
-/// Looks like the panels that it replaces.
+/// Arranges the panel so that it looks like the panels that it replaces.
 void SizeTestPanel::arrange() {
   auto* swatch = new QLabel;
   swatch->setFixedSize(10, 10);
@@ -95,7 +95,7 @@ void SizeTestPanel::receive() {
 }
 
 void SizeTestPanel::record(const Statistics& statistics) {
-  if (drag_ > 0) {  // the first drag allocates the memory of the others
+  if (drag_ > 0) {  // the first drag is the warm-up, which allocates the memory
     passes_.ms.push_back(statistics.last_pass_ms);
     passes_.moved += statistics.last_pass.moved;
   }

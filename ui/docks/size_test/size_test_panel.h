@@ -15,8 +15,8 @@ namespace chainmail {
 
 /// One panel of the size test: a solver, its grid, and the scripted drags.
 ///
-/// The next move starts when the last one is answered and painted, at most 60 times per second. Every pass is measured,
-/// and no panel waits for another.
+/// The next move starts when the previous one is computed and painted, at most 60 times per second. Every pass is
+/// measured, and no panel waits for another.
 class SizeTestPanel : public QFrame {
   Q_OBJECT
 
@@ -24,7 +24,7 @@ class SizeTestPanel : public QFrame {
   SizeTestPanel(const SizeTestContestant& contestant, const LinkSoftness& softness, const MeshPointer& mesh,
                 std::shared_ptr<MeshLevels> levels);
 
-  /// Makes these drags, each from rest. The first one is a warm-up and is not measured.
+  /// Starts these drags, each from the rest positions. The first one is a warm-up and is not measured.
   void begin(const MeshPointer& mesh, std::vector<report::ScriptedDrag> drags);
   /// Ends the drags: the solver gets no more commands.
   void halt() { running_ = false; }
@@ -34,16 +34,16 @@ class SizeTestPanel : public QFrame {
 
   const SizeTestContestant& contestant() const { return contestant_; }
   const report::RampPasses& passes() const { return passes_; }
-  /// Frames painted in the last second of the drags.
+  /// Frames per second, painted in the last second of the drags.
   int painted() const { return painted_; }
-  /// Share of the moves that are made, from 0 to 1.
+  /// Completed share of the moves, from 0 to 1.
   double share() const;
   void say(const QString& state) { state_->setText(state); }
 
  signals:
-  /// Emitted when a move is answered.
+  /// Emitted when a move is computed.
   void moved();
-  /// Emitted when all drags are made.
+  /// Emitted when all drags are complete.
   void ended();
   void failed(const QString& sentence);
 
@@ -56,7 +56,7 @@ class SizeTestPanel : public QFrame {
   SizeTestContestant contestant_;
   MeshPointer mesh_;
   std::vector<report::ScriptedDrag> drags_;
-  std::size_t drag_ = 0, move_ = 0;  // the next one
+  std::size_t drag_ = 0, move_ = 0;  // index of the next drag and move
   bool running_ = false;
   bool moving_ = false;  // a pass is under way
   QElapsedTimer clock_;  // since the drags started
@@ -66,7 +66,7 @@ class SizeTestPanel : public QFrame {
   SizeTestView* view_;
   QLabel* state_;
   std::atomic<bool> announced_ = false;  // at most one queued call to receive() at a time
-  SolverThread solver_;                  // last, so that it ends before the members that its callback uses
+  SolverThread solver_;                  // last, so that the solver ends before the members that its callback uses
 };
 
 }  // namespace chainmail

@@ -14,7 +14,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int leading = 2;  // columns before those of the panels
+constexpr int leading = 2;  // number of columns before those of the panels
 constexpr std::array heads{"median\n(ms)", "99th perc.\n(ms)", "painted\n(frames/s)", "real\ntime"};
 constexpr std::array helps{"Median time of a pass in the solver (ms)",
                            "99th percentile of the pass times (ms): 99 % of the passes are at most this long. Real "

@@ -17,7 +17,7 @@ class SizeTestResults : public QWidget {
   /// Clears the results for these panels. `budget` is the limit of real time in seconds.
   void begin(const std::vector<SizeTestContestant>& contestants, double budget);
   void add(const SizeTestRow& row);
-  /// True while more results follow; the verdicts then say "so far".
+  /// Set it while more results follow: the verdicts then say "so far".
   void setGrowing(bool growing);
   const std::vector<SizeTestRow>& rows() const { return rows_; }
   QTableWidget& table() { return *table_; }

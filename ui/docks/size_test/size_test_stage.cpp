@@ -24,7 +24,7 @@ std::vector<Algorithm> algorithmsOf(const std::vector<SizeTestContestant>& conte
 SizeTestStage::SizeTestStage(const SizeTestOptions& options, const std::vector<SizeTestContestant>& contestants)
     : options_(options), race_(widthsOf(options), algorithmsOf(contestants), options.budget) {
   setObjectName(QStringLiteral("sizeTestStage"));
-  auto* grid = new QGridLayout(this);  // two in a row, as the panels
+  auto* grid = new QGridLayout(this);  // two panels per row, as in the window
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setSpacing(3);
   const MeshPointer none = generate(gridOf(2));
@@ -62,7 +62,7 @@ void SizeTestStage::stopFor(const QString& sentence) {
   }
 }
 
-/// Builds the next grid in the background: a large one takes longer than a frame.
+/// Builds the next grid in the background, because building a large one takes longer than a frame.
 void SizeTestStage::build() {
   if (race_.is_over()) {
     halt();

@@ -9,7 +9,7 @@
 
 namespace chainmail {
 
-/// Runs a size test in panels of its own, which replace the panels of the window while it runs.
+/// Runs a size test in its own panels, which replace the panels of the window while it runs.
 ///
 /// The order of events is that of report::RampRace. All panels that attempt a size make the same drags at the same
 /// time.
@@ -20,14 +20,14 @@ class SizeTestStage : public QWidget {
   SizeTestStage(const SizeTestOptions& options, const std::vector<SizeTestContestant>& contestants);
 
   void start();
-  /// Ends the test at once. No signal follows.
+  /// Ends the test at once. Emits no further signal.
   void halt();
-  /// True when no solver computes. Only then the destructor does not wait.
+  /// True when no solver computes. Only then does the destructor not wait.
   bool idle() const;
 
  signals:
   void measured(const chainmail::SizeTestRow& row);
-  /// Share of the sizes that are done, from 0 to 1, and the present size.
+  /// Emitted with the completed share of the sizes, from 0 to 1, and the current size.
   void progressed(double share, const QString& text);
   void ended();
   void failed(const QString& sentence);

@@ -21,9 +21,9 @@ SizeTestView::SizeTestView(std::shared_ptr<MeshLevels> levels, colours::Colour c
 
 SizeTestView::~SizeTestView() {
   if (context() != nullptr) {
-    disconnect(context(), nullptr, this, nullptr);  // the context must not call a deleted view
+    disconnect(context(), nullptr, this, nullptr);  // so that the context does not call a deleted view
   }
-  if (ready_) {  // else it was never shown
+  if (ready_) {  // false if the view was never shown
     makeCurrent();
     painter_.destroy();
     doneCurrent();

@@ -19,7 +19,7 @@ class SizeTestView : public QOpenGLWidget {
   SizeTestView(std::shared_ptr<MeshLevels> levels, colours::Colour colour);
   ~SizeTestView() override;
 
-  /// Shows a frame, which must not change until the next one is shown, and the handle.
+  /// Shows a frame and the handle. The frame must not change until the next call.
   void show(const Frame& frame, std::optional<ElementId> handle);
   FrameMeter& meter() { return meter_; }
 

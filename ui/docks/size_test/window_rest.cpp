@@ -17,7 +17,7 @@ WindowRest::WindowRest(QMainWindow& window, const QWidget& dock, const QStringLi
     rest(bar);
   }
   for (QAction* action : window.findChildren<QAction*>()) {
-    const bool ofMenu = action->menu() != nullptr;  // menus still open, so that the user can read their items
+    const bool ofMenu = action->menu() != nullptr;  // submenus still open, so that the user can read their items
     const bool showsDock = qobject_cast<QDockWidget*>(action->parent()) != nullptr;
     if (action->isEnabled() && !ofMenu && !showsDock && !actions.contains(action->objectName()) &&
         !dock.isAncestorOf(qobject_cast<QWidget*>(action->parent()))) {

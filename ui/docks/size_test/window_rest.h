@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// Disables a window except one dock and some actions, as long as this object lives; then enables it again.
+/// Disables a window, except one dock and some actions. The destructor enables it again.
 class WindowRest {
  public:
   WindowRest(QMainWindow& window, const QWidget& dock, const QStringList& actions);
