@@ -112,7 +112,7 @@ Targets read_targets(const DeformArguments& options) {
 
 DeformSummary summarize(Simulation& simulation, const Run& run) {
   const Mesh& mesh = simulation.mesh();
-  const auto positions = simulation.solver().positions();
+  const auto positions = simulation.body().positions();
   simulation.refresh_statistics(true);
   const Statistics& statistics = simulation.statistics();
   return {std::string(info(statistics.algorithm).name),
@@ -120,14 +120,14 @@ DeformSummary summarize(Simulation& simulation, const Run& run) {
           mesh.link_count(),
           run.passes,
           statistics.violation,
-          elastic_energy(mesh, simulation.solver().cuts(), positions),
+          elastic_energy(mesh, simulation.body().cuts(), positions),
           measure_displacement(mesh, positions)};
 }
 
 void write_positions(std::ostream& out, const std::string& path, const Simulation& simulation) {
   const Solver& solver = simulation.solver();
   write_mesh(out, positions_format(path),
-             {simulation.mesh(), solver.cuts(), solver.positions(), simulation.softness()});
+             {simulation.mesh(), solver.body().cuts(), solver.body().positions(), simulation.softness()});
 }
 
 void write_deformation(std::ostream& out, const AlgorithmInfo& algorithm, const DeformSummary& summary) {

@@ -147,7 +147,7 @@ Point Runner::target_of(const Act& act, const Point& start) const {
 }
 
 void Runner::move(const Act& act) {
-  const Point start = point_of(simulation_.mesh(), simulation_.solver().positions(), act.element);
+  const Point start = point_of(simulation_.mesh(), simulation_.body().positions(), act.element);
   const Point target = target_of(act, start);
   simulation_.apply(commands::Grab{act.element});
   for (std::uint32_t step = 1; step <= schedule_.steps; ++step) {
@@ -170,7 +170,7 @@ void Runner::pass(ElementId element, const Point& target) {
   run_.passes.push_back(
       {element, target, statistics.last_pass.checked, statistics.last_pass.moved, statistics.last_pass_ms});
   if (statistics.last_pass.stopped) {
-    run_.passes.back().stopped_at = point_of(simulation_.mesh(), simulation_.solver().positions(), element);
+    run_.passes.back().stopped_at = point_of(simulation_.mesh(), simulation_.body().positions(), element);
   }
   run_.passes.back().remark = statistics.remark;
   if (schedule_.trace) {

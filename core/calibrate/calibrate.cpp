@@ -80,7 +80,7 @@ class Bench {
     for (const ReferenceDrag& drag : drags) {
       runner_.run(drag.moves, sweeps, progress_.part(done, done));
       residuals.push_back(residual_of(
-          measure_physical_error(*object_.mesh, runner_.simulation().solver().positions(), drag.reference)));
+          measure_physical_error(*object_.mesh, runner_.simulation().body().positions(), drag.reference)));
     }
     return residuals;
   }
@@ -113,7 +113,7 @@ void look(Search search, Bench& bench, int sweeps, int evaluations, Trial& best)
 CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) {
   check(options.elastic);
   check(options.algorithm, *mesh);
-  if (elastic_method(options.algorithm)) {
+  if (!info(options.algorithm).uses_softness()) {
     throw Error("algorithm", "it has no softness to calibrate", "choose one of the ChainMail family");
   }
   if (options.drags < 1 || options.evaluations < 1) {

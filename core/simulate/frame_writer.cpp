@@ -45,7 +45,7 @@ void FrameWriter::fill(Frame& frame, ElementBlocks& pending, Simulation& simulat
   frame.changed.resize(changed_.size());
   pending.for_each_run([&](ElementId first, ElementId end) {
     const auto run = std::span(frame.positions).subspan(coordinates * first, coordinates * (end - first));
-    simulation.solver().copy_positions(first, run);
+    simulation.body().copy_positions(first, run);
     std::ranges::copy(blocks_of(changed_, first, end), blocks_of(frame.changed, first, end).begin());
   });
   pending.clear();

@@ -66,8 +66,8 @@ void PassRecorder::follow(const Simulation& simulation) {
 
 void PassRecorder::copy(const Simulation& simulation, ElementId first, ElementId end) {
   const auto coordinates = static_cast<std::size_t>(record_.mesh->space_dimension);
-  simulation.solver().copy_positions(
-      first, std::span(record_.before).subspan(coordinates * first, coordinates * (end - first)));
+  simulation.body().copy_positions(first,
+                                   std::span(record_.before).subspan(coordinates * first, coordinates * (end - first)));
 }
 
 void PassRecorder::end(Simulation& simulation) {
@@ -76,9 +76,9 @@ void PassRecorder::end(Simulation& simulation) {
     return;
   }
   if (!conditions_) {
-    const auto pins = simulation.solver().pins();
+    const auto pins = simulation.body().pins();
     conditions_ = std::make_shared<const PassConditions>(
-        PassConditions{simulation.solver().cuts(), {pins.begin(), pins.end()}, simulation.softness()});
+        PassConditions{simulation.body().cuts(), {pins.begin(), pins.end()}, simulation.body().shared_softness()});
   }
   const std::lock_guard lock(mutex_);
   if (on_ && record_.mesh == simulation.mesh_pointer()) {  // otherwise recording was turned off in the meantime
@@ -95,10 +95,10 @@ void PassRecorder::write(const Simulation& simulation) {
   std::swap(record_.trace, trace_);
   const auto coordinates = static_cast<std::size_t>(record_.mesh->space_dimension);
   record_.after.resize(coordinates * (record_.trace.size() + 1));
-  simulation.solver().copy_positions(record_.grabbed, std::span(record_.after).first(coordinates));
+  simulation.body().copy_positions(record_.grabbed, std::span(record_.after).first(coordinates));
   for (std::size_t row = 0; row < record_.trace.size(); ++row) {
-    simulation.solver().copy_positions(record_.trace[row].element,
-                                       std::span(record_.after).subspan(coordinates * (row + 1), coordinates));
+    simulation.body().copy_positions(record_.trace[row].element,
+                                     std::span(record_.after).subspan(coordinates * (row + 1), coordinates));
   }
 }
 

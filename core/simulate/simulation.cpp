@@ -157,7 +157,7 @@ void Simulation::refresh_statistics(bool whole_mesh) {
   statistics_.last_second = times_.summary(Clock::now());
   statistics_.violation_of_whole_mesh = false;
   if (last_moved_) {
-    statistics_.violation = touched_.measure(*mesh_, *softness_, solver_->cuts(), solver_->positions(),
+    statistics_.violation = touched_.measure(*mesh_, softness(), body().cuts(), body().positions(),
                                              {std::span(&*last_moved_, 1), solver_->moved()});
   } else {
     statistics_.violation = {};
@@ -168,7 +168,7 @@ bool Simulation::measure() {
   if (!measure_) {
     measure_.emplace();
   }
-  if (measure_->go_on(*mesh_, *softness_, solver_->cuts(), solver_->positions(), links_per_slice)) {
+  if (measure_->go_on(*mesh_, softness(), body().cuts(), body().positions(), links_per_slice)) {
     return true;
   }
   statistics_.last_second = times_.summary(Clock::now());
@@ -197,11 +197,11 @@ void Simulation::check_links(std::span<const LinkId> links) const {
 
 void Simulation::take_mesh(MeshPointer mesh) {
   const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
-  solver_ = make_solver(mesh, algorithm, precision_);  // may run out of memory: nothing has changed yet
+  auto solver = make_solver(mesh, algorithm, precision_);  // may run out of memory: nothing has changed yet
+  solver->body().set_elastic(elastic());
+  solver_ = std::move(solver);
   solver_->set_relaxation(relaxation_scheme_);
-  solver_->set_elastic(elastic_);
   solver_->set_progress(progress_);
-  softness_ = std::make_shared<const Softness>();  // default of a new solver
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
   away_ = changed_ = unkept_ = ElementBlocks(mesh_->element_count());
@@ -249,7 +249,7 @@ void Simulation::fall_asleep() {
 
 void Simulation::carry_out(const commands::Grab& command) {
   check_element(command.element);
-  if (std::ranges::binary_search(solver_->pins(), command.element)) {
+  if (std::ranges::binary_search(body().pins(), command.element)) {
     throw Error("element " + std::to_string(command.element), "it is pinned and may not move",
                 "unpin it, or grab another element");
   }
@@ -287,11 +287,10 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
 }
 
 /// Equal softness leaves all regions unchanged.
-void Simulation::set_softness(std::shared_ptr<const Softness> softness) {
-  if (softness != softness_ && *softness != *softness_) {
-    solver_->set_softness(*softness);
+void Simulation::set_softness(const std::shared_ptr<const Softness>& softness) {
+  if (softness != body().shared_softness() && *softness != this->softness()) {
+    solver_->body().set_softness(softness);
   }
-  softness_ = std::move(softness);
 }
 
 /// Answers a change under load, when links may now be violated: runs a pass about the handle, or the element that was
@@ -301,11 +300,11 @@ void Simulation::answer() {
     return;  // the object is at rest
   }
   const auto about = grabbed_ ? grabbed_ : last_moved_;
-  if (std::ranges::binary_search(solver_->pins(), *about)) {
+  if (std::ranges::binary_search(body().pins(), *about)) {
     return;
   }
   try {
-    pass(*about, point_of(*mesh_, solver_->positions(), *about));
+    pass(*about, point_of(*mesh_, body().positions(), *about));
   } catch (const Error&) {
     // The pins contradict each other now: the setting stays, and the next drag reports it.
   }
@@ -313,10 +312,9 @@ void Simulation::answer() {
 
 void Simulation::carry_out(const commands::SetElastic& command) {
   check(command.options);
-  if (command.options != elastic_) {
-    elastic_ = command.options;
-    solver_->set_elastic(elastic_);
-    if (elastic_method(algorithm_)) {
+  if (command.options != elastic()) {
+    solver_->body().set_elastic(command.options);
+    if (info(algorithm_).family() == Family::elastic) {
       answer();
     }
   }
@@ -368,13 +366,13 @@ void Simulation::carry_out(const commands::SetAlgorithm& command) {
 
 void Simulation::carry_out(const commands::Cut& command) {
   check_links(command.links);
-  solver_->cut(command.links);
+  solver_->body().cut(command.links);
   wake_ends(command.links);
 }
 
 void Simulation::carry_out(const commands::Uncut& command) {
   check_links(command.links);
-  solver_->uncut(command.links);
+  solver_->body().uncut(command.links);
   valid_ = false;  // the ends may have moved apart
   wake_ends(command.links);
 }
@@ -386,20 +384,20 @@ void Simulation::carry_out(const commands::Pin& command) {
       throw Error("element " + std::to_string(element), "it is grabbed", "release it, then pin it");
     }
   }
-  solver_->pin(command.elements);
+  solver_->body().pin(command.elements);
 }
 
 void Simulation::carry_out(const commands::Unpin& command) {
   for (const ElementId element : command.elements) {
     check_element(element);
   }
-  solver_->unpin(command.elements);
+  solver_->body().unpin(command.elements);
   solver_->wake(command.elements);
   wake({});
 }
 
 void Simulation::carry_out(const commands::Reset&) {
-  solver_->reset(away_);
+  solver_->body().reset(away_);
   changed_.insert(away_);
   unkept_.insert(away_);
   away_.clear();
@@ -413,9 +411,9 @@ void Simulation::carry_out(const commands::ReplaceMesh& command) {
   if (!command.mesh) {
     throw Error("replace mesh", "no mesh was given", "give a mesh");
   }
-  auto softness = std::make_shared<const Softness>(Softness{softness_->global, {}});
+  const auto softness = std::make_shared<const Softness>(Softness{this->softness().global, {}});
   take_mesh(command.mesh);
-  set_softness(std::move(softness));
+  set_softness(softness);
 }
 
 // Kept states, for undo and for going back and forth in what was recorded.
@@ -428,7 +426,7 @@ void Simulation::carry_out(const commands::DropState& command) { kept_.erase(com
 
 void Simulation::carry_out(const commands::SetPositions& command) {
   check(*command.snapshot, *mesh_, precision_);
-  solver_->restore(*command.snapshot, away_);
+  solver_->body().restore(*command.snapshot, away_);
   changed_.insert(away_);
   unkept_.insert(away_);
   away_.clear();
@@ -453,12 +451,12 @@ Simulation::State& Simulation::kept(commands::StateId state) {
   return found->second;
 }
 
-Handover Simulation::hand_over() { return {current_state(), kept_, relaxation(), elastic_, grabbed_, last_moved_}; }
+Handover Simulation::hand_over() { return {current_state(), kept_, relaxation(), elastic(), grabbed_, last_moved_}; }
 
 void Simulation::take(const Handover& handover, Algorithm algorithm) {
   measure_.reset();
   algorithm_ = algorithm;
-  elastic_ = handover.elastic;
+  solver_->body().set_elastic(handover.elastic);
   take_mesh(handover.object.mesh);
   take_state(handover.object);
   kept_ = handover.kept;
@@ -468,10 +466,10 @@ void Simulation::take(const Handover& handover, Algorithm algorithm) {
 }
 
 Simulation::State Simulation::current_state() {
-  solver_->keep_positions(unkept_, away_, last_kept_);
+  solver_->body().keep_positions(unkept_, away_, last_kept_);
   unkept_.clear();
-  const auto pins = solver_->pins();
-  return {mesh_, solver_->cuts().links(), {pins.begin(), pins.end()}, softness_, last_kept_, valid_};
+  const auto pins = body().pins();
+  return {mesh_, body().cuts().links(), {pins.begin(), pins.end()}, body().shared_softness(), last_kept_, valid_};
 }
 
 void Simulation::take_state(const State& state) {
@@ -480,9 +478,9 @@ void Simulation::take_state(const State& state) {
   }
   set_softness(state.softness);
   take_cuts(state.cuts);
-  if (!std::ranges::equal(state.pins, solver_->pins())) {
-    solver_->unpin(std::vector<ElementId>(solver_->pins().begin(), solver_->pins().end()));
-    solver_->pin(state.pins);
+  if (!std::ranges::equal(state.pins, body().pins())) {
+    solver_->body().unpin(std::vector<ElementId>(body().pins().begin(), body().pins().end()));
+    solver_->body().pin(state.pins);
   }
   take_positions(state.positions);
   valid_ = state.valid;
@@ -493,16 +491,16 @@ void Simulation::take_state(const State& state) {
 }
 
 void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
-  const std::vector<LinkId> present = solver_->cuts().links();
+  const std::vector<LinkId> present = body().cuts().links();
   std::vector<LinkId> excess, missing;
   std::ranges::set_difference(present, cuts, std::back_inserter(excess));
   std::ranges::set_difference(cuts, present, std::back_inserter(missing));
   // Calls only for changes: a method of elasticity prepares again after each call.
   if (!excess.empty()) {
-    solver_->uncut(excess);
+    solver_->body().uncut(excess);
   }
   if (!missing.empty()) {
-    solver_->cut(missing);
+    solver_->body().cut(missing);
   }
 }
 
@@ -518,7 +516,7 @@ void Simulation::take_positions(const PositionBlocks& positions) {
       away_.insert_block(block);
     }
   }
-  solver_->restore(positions, unkept_);
+  solver_->body().restore(positions, unkept_);
   changed_.insert(unkept_);
   last_kept_ = positions;
   unkept_.clear();

@@ -61,8 +61,9 @@ class Simulation {
   const Mesh& mesh() const { return *mesh_; }
   const MeshPointer& mesh_pointer() const { return mesh_; }
   const Solver& solver() const { return *solver_; }
-  const Softness& softness() const { return *softness_; }
-  const ElasticOptions& elastic() const { return elastic_; }
+  const Body& body() const { return solver_->body(); }
+  const Softness& softness() const { return body().softness(); }
+  const ElasticOptions& elastic() const { return body().elastic(); }
   commands::SetRelaxation relaxation() const { return {relaxation_on_, relaxation_step_, relaxation_scheme_}; }
   std::optional<ElementId> grabbed() const { return grabbed_; }
   /// Returns the control points of free-form deformation, and prepares it; empty for other algorithms, or if it has no
@@ -71,7 +72,7 @@ class Simulation {
   /// The element of the last pass.
   std::optional<ElementId> last_moved() const { return last_moved_; }
   /// Returns the positions, for SetPositions.
-  Snapshot snapshot() const { return solver_->snapshot(away_); }
+  Snapshot snapshot() const { return body().snapshot(away_); }
   /// The blocks in which a position may have changed since forget_changes().
   const ElementBlocks& changed() const { return changed_; }
   void forget_changes() { changed_.clear(); }
@@ -112,7 +113,7 @@ class Simulation {
   std::uint64_t sweep(double step, const Progress& progress);
   void answer();
   void forget_passes();
-  void set_softness(std::shared_ptr<const Softness> softness);
+  void set_softness(const std::shared_ptr<const Softness>& softness);
   void pass(ElementId element, const Point& target);
   template <class Move>
   void time_pass(Move move);
@@ -134,8 +135,6 @@ class Simulation {
   Algorithm algorithm_;
   Precision precision_;
   std::unique_ptr<Solver> solver_;
-  std::shared_ptr<const Softness> softness_ = std::make_shared<const Softness>();
-  ElasticOptions elastic_;
   ElementBlocks changed_;     // since they were last forgotten
   ElementBlocks away_;        // all elements outside these blocks are at rest
   PositionBlocks last_kept_;  // as positions were last kept or restored

@@ -5,7 +5,11 @@
 #include <vector>
 
 #include "mesh/error.h"
-#include "solve/list_algorithm.h"
+#include "solve/direction_lists.h"
+#include "solve/elastic_deformation.h"
+#include "solve/exact_method.h"
+#include "solve/follow_pass.h"
+#include "solve/list_method.h"
 
 namespace chainmail {
 namespace {
@@ -22,28 +26,32 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Li and Brodlie 2003; Dean 2004, 3.1",
        .summary = "candidates enter at the front of the list, all are admitted",
        .look = {"M-.9-.9H.9V.9H-.9Z", "#d55e00"},  // square
-       .list = &list_algorithm<FrontList>},
+       .make = make_list_method<FrontList>,
+       .history = follow_list<FrontList>},
       {.algorithm = Algorithm::spiral,
        .name = "spiral",
        .label = "Spiral",
        .source = "Dean 2004, 3.2",
        .summary = "candidates enter at the back of the list, all are admitted",
        .look = {"M0-1.2L1.15.85H-1.15Z", "#56b4e9"},  // triangle
-       .list = &list_algorithm<SpiralList>},
+       .make = make_list_method<SpiralList>,
+       .history = follow_list<SpiralList>},
       {.algorithm = Algorithm::natural_queue,
        .name = "natural-queue",
        .label = "Natural Queue ChainMail",
        .source = "Dean 2004, 4.1",
        .summary = "candidates enter at the back, only those not yet updated are admitted",
        .look = {"M-1 0A1 1 0 1 0 1 0A1 1 0 1 0-1 0Z", "#0072b2"},  // circle
-       .list = &natural_queue_algorithm},
+       .make = make_natural_queue,
+       .history = follow_natural_queue},
       {.algorithm = Algorithm::enhanced,
        .name = "enhanced",
        .label = "Enhanced ChainMail",
        .source = "Schill et al. 1998",
        .summary = "the candidate with the largest violation is taken first",
        .look = {"M0 1.2L1.15-.85H-1.15Z", "#009e73"},  // triangle on its tip
-       .list = &list_algorithm<EnhancedList>},
+       .make = make_list_method<EnhancedList>,
+       .history = follow_list<EnhancedList>},
       {.algorithm = Algorithm::chainmail_3d,
        .name = "original",
        .alias = "3d",
@@ -51,7 +59,8 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Frisken-Gibson 1997; Dean 2004, 2.1",
        .summary = "one list per direction, on grids and blocks only",
        .look = {"M-.4-1.1H.4V-.4H1.1V.4H.4V1.1H-.4V.4H-1.1V-.4H-.4Z", "#cc79a7"},  // cross
-       .list = &chainmail_3d_algorithm,
+       .make = make_list_method<DirectionLists>,
+       .history = follow_list<DirectionLists>,
        .needs_grid = true},
       {.algorithm = Algorithm::exact,
        .name = "exact",
@@ -59,6 +68,7 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "this project",
        .summary = "every element moves as little as any valid answer allows",
        .look = {"M0-1.4L1.1 0L0 1.4L-1.1 0Z", ""},  // diamond
+       .make = make_method<ExactMethod>,
        .holds_links = true,
        .from_rest = true},
       {.algorithm = Algorithm::linear_fem,
@@ -67,6 +77,7 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Bro-Nielsen and Cotin 1996",
        .summary = "linear elasticity on the cells, for small deformations",
        .look = {"M-1.2-.55H1.2V.55H-1.2Z", "#b8a400"},  // bar
+       .make = make_elastic_method<ElasticMethod::linear_fem>,
        .elastic = ElasticMethod::linear_fem,
        .needs_pins = true},
       {.algorithm = Algorithm::neo_hookean,
@@ -76,6 +87,7 @@ std::vector<AlgorithmInfo> make_table() {
        .summary = "nonlinear elasticity on the cells: the reference solution",
        .look = {"M0-1.4L.35-.45L1.33-.43L.56.17L.82 1.13L0 .58L-.82 1.13L-.56.17L-1.33-.43L-.35-.45Z",
                 "#e69f00"},  // star
+       .make = make_elastic_method<ElasticMethod::neo_hookean>,
        .elastic = ElasticMethod::neo_hookean,
        .needs_pins = true},
       {.algorithm = Algorithm::boundary_elements,
@@ -85,6 +97,7 @@ std::vector<AlgorithmInfo> make_table() {
        .summary = "linear elasticity on a closed surface of triangles",
        .look = {"M-1.1-.65L-.65-1.1L0-.45L.65-1.1L1.1-.65L.45 0L1.1.65L.65 1.1L0 .45L-.65 1.1L-1.1.65L-.45 0Z",
                 "#882255"},  // diagonal cross
+       .make = make_elastic_method<ElasticMethod::boundary>,
        .elastic = ElasticMethod::boundary,
        .needs_pins = true},
       {.algorithm = Algorithm::free_form,
@@ -93,6 +106,7 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Sederberg and Parry 1986; Hsu et al. 1992",
        .summary = "a lattice of control points deforms space",
        .look = {"M-.6-1.05H.6L1.2 0L.6 1.05H-.6L-1.2 0Z", "#5b4bb5"},  // hexagon
+       .make = make_elastic_method<ElasticMethod::free_form>,
        .elastic = ElasticMethod::free_form,
        .has_control_points = true},
   };
@@ -119,8 +133,6 @@ std::span<const AlgorithmInfo> every_algorithm() { return algorithm_table(); }
 const AlgorithmInfo& info(Algorithm algorithm) {
   return *std::ranges::find(algorithm_table(), algorithm, &AlgorithmInfo::algorithm);
 }
-
-std::optional<ElasticMethod> elastic_method(Algorithm algorithm) { return info(algorithm).elastic; }
 
 std::optional<Algorithm> find_algorithm(std::string_view name) {
   const auto all = every_algorithm();

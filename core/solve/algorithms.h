@@ -6,6 +6,7 @@
 
 #include "elastic/elastic.h"
 #include "mesh/mesh.h"
+#include "solve/method.h"
 
 namespace chainmail {
 
@@ -32,7 +33,8 @@ struct AlgorithmLook {
   std::string_view colour;  // empty: the colour of lines and text
 };
 
-struct ListAlgorithm;  // see solve/list_algorithm.h
+struct RecordedPass;   // see solve/recorded_pass.h
+class WaitingHistory;  // see solve/waiting_history.h
 
 /// One row of the algorithm table: everything that other code knows about an algorithm.
 struct AlgorithmInfo {
@@ -44,9 +46,10 @@ struct AlgorithmInfo {
   std::string_view summary;     // one sentence for help texts
   AlgorithmLook look;
 
-  // What answers a move: a waiting list, a method of elasticity or, without either, Exact ChainMail.
-  const ListAlgorithm* list = nullptr;
-  std::optional<ElasticMethod> elastic = {};
+  MakeMethod make;  // what answers a move
+  /// Finds the waiting list of a recorded pass at each of its steps; null if the algorithm has no list.
+  WaitingHistory (*history)(const RecordedPass& pass) = nullptr;
+  std::optional<ElasticMethod> elastic = {};  // of the methods of elasticity
 
   // What the object needs. Methods of elasticity also need cells or faces: see check(ElasticMethod, Mesh).
   bool needs_grid = false;  // links along the axes only
@@ -78,8 +81,6 @@ std::span<const AlgorithmInfo> elastic_algorithms();
 std::span<const AlgorithmInfo> every_algorithm();
 /// Returns the entry of an algorithm.
 const AlgorithmInfo& info(Algorithm algorithm);
-/// Returns the method of elasticity of an algorithm; none for the ChainMail family.
-std::optional<ElasticMethod> elastic_method(Algorithm algorithm);
 /// Returns the algorithm with this name or alias, if any.
 std::optional<Algorithm> find_algorithm(std::string_view name);
 

@@ -1,180 +1,162 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
+#include "elastic/material.h"
 #include "mesh/cuts.h"
+#include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
+#include "solve/positions.h"
 #include "solve/region_table.h"
+#include "solve/snapshot.h"
 #include "solve/softness.h"
 
 namespace chainmail {
 
-/// Position of an element (mesh units). In 3D it is padded, so that all axes are computed at once. Size in bytes for
-/// one, two and three dimensions: 4, 8, 16 in float; 8, 16, 32 in double.
-template <class Scalar, int Dimension>
-struct Position {
-  static constexpr int lanes = Dimension == 3 ? 4 : Dimension;
+/// Numbers that grow when a part of a body changes. A method that keeps something for its next move also keeps the
+/// revisions that it was made for, and compares them with the body's when it uses it.
+struct Revisions {
+  std::uint64_t cuts = 0;       // links were cut or restored
+  std::uint64_t restored = 0;   // cut links were restored
+  std::uint64_t softness = 0;   // softness changed
+  std::uint64_t pins = 0;       // elements were pinned or unpinned
+  std::uint64_t elastic = 0;    // options of elasticity changed
+  std::uint64_t positions = 0;  // positions were set, other than by a move or by relaxation
 
-  Scalar& operator[](int k) { return at[k]; }
-  const Scalar& operator[](int k) const { return at[k]; }
-  bool operator==(const Position& other) const {
-    bool equal = true;
-    for (int k = 0; k < Dimension; ++k) {
-      equal &= at[k] == other.at[k];
-    }
-    return equal;
-  }
-
-  alignas(lanes * sizeof(Scalar)) Scalar at[lanes];
+  bool operator==(const Revisions&) const = default;
 };
 
-/// Returns a position clamped into a region whose lower bounds are relative to `low`, and upper bounds to `high` (mesh
-/// units).
 template <class Scalar, int Dimension>
-Position<Scalar, Dimension> clamped(const Position<Scalar, Dimension>& position, const Scalar* low, const Scalar* high,
-                                    const Region<Scalar, Dimension>& region) {
-  Position<Scalar, Dimension> result = position;
-  for (int k = 0; k < Dimension; ++k) {
-    const Scalar lowest = low[k] + region.low[k];
-    const Scalar highest = high[k] + region.high[k];
-    result[k] = result[k] < lowest ? lowest : result[k];
-    result[k] = highest < result[k] ? highest : result[k];
-  }
-  return result;
-}
+class BodyView;
 
-/// Returns the distance of an element at `x` from its valid region about its sponsor at `about`, in rest lengths.
-/// Computed in double, like the metric. For a mesh without a mean link length the divisor does not affect the order.
-template <class Scalar, int Dimension>
-double candidate_violation(const Mesh& mesh, ElementId element, const Scalar* x, ElementId sponsor, const Scalar* about,
-                           const Region<Scalar, Dimension>& region) {
-  double outside = 0, length = 0;
-  for (int k = 0; k < Dimension; ++k) {
-    const Scalar low = about[k] + region.low[k];
-    const Scalar high = about[k] + region.high[k];
-    const double excess = x[k] < low ? double(low) - double(x[k]) : high < x[k] ? double(x[k]) - double(high) : 0;
-    const double rest =
-        mesh.rest[std::size_t{element} * Dimension + k] - mesh.rest[std::size_t{sponsor} * Dimension + k];
-    outside += excess * excess;
-    length += rest * rest;
-  }
-  if (outside == 0) {
-    return 0;
-  }
-  return std::sqrt(outside) / (length > 0 ? std::sqrt(length) : mesh.mean_link_length > 0 ? mesh.mean_link_length : 1);
-}
+/// The state of one object: mesh, positions, cuts, pins and softness. Each part that can change has a revision.
+///
+/// Positions are in one precision and as many axes as the space has. Bulk functions work on any body; a method that
+/// needs typed access asks for a view.
+class Body {
+ public:
+  Body(MeshPointer mesh, Precision precision);
 
-/// The state of one object, for one scalar and one space dimension.
-template <class Scalar_, int Dimension_>
-struct Body {
-  using Scalar = Scalar_;
-  static constexpr int Dimension = Dimension_;
+  const Mesh& mesh() const { return *mesh_; }
+  const MeshPointer& mesh_pointer() const { return mesh_; }
+  Precision precision() const { return precision_; }
+  const Revisions& revisions() const { return revisions_; }
 
-  explicit Body(MeshPointer of, bool held_from_rest = false)
-      : mesh(std::move(of)),
-        cuts(mesh),
-        positions(mesh->element_count()),
-        updates(mesh->element_count()),
-        from_rest(held_from_rest) {
-    reset_positions();
-    set_softness({});
-  }
+  const Cuts& cuts() const { return cuts_; }
+  void cut(std::span<const LinkId> links);
+  void uncut(std::span<const LinkId> links);
 
-  /// The origin of the stored position of an element, on axis k (mesh units).
-  double origin(ElementId element, int k) const {
-    return from_rest ? mesh->rest[std::size_t{element} * Dimension + k] : 0;
-  }
-  double absolute(ElementId element, int k) const {
-    const double held = double(positions[element][k]);
-    return from_rest ? origin(element, k) + held : held;  // 0 + −0 would be 0
-  }
-  void set_position(ElementId element, int k, double absolute_position) {
-    positions[element][k] = static_cast<Scalar>(absolute_position - origin(element, k));
-  }
+  /// The pinned elements, ascending. They stay where they are when they are pinned; to move one is an error.
+  std::span<const ElementId> pins() const { return pins_; }
+  bool is_pinned(ElementId element) const { return updates_[element] == always; }
+  void pin(std::span<const ElementId> elements);
+  void unpin(std::span<const ElementId> elements);
 
-  void reset_positions() {
-    for (ElementId e = 0; e < mesh->element_count(); ++e) {
-      for (int k = 0; k < Dimension; ++k) {
-        set_position(e, k, mesh->rest[std::size_t{e} * Dimension + k]);
-      }
-    }
-  }
+  const Softness& softness() const { return *softness_; }
+  const std::shared_ptr<const Softness>& shared_softness() const { return softness_; }
+  /// Sets the softness. If memory runs out, the old one stays.
+  void set_softness(std::shared_ptr<const Softness> softness);
+  void set_softness(const Softness& softness) { set_softness(std::make_shared<const Softness>(softness)); }
 
-  void set_softness(const Softness& softness) { regions.set(*mesh, softness, from_rest); }
+  /// Options of the methods of elasticity. The ChainMail family ignores them.
+  const ElasticOptions& elastic() const { return elastic_; }
+  void set_elastic(const ElasticOptions& options);
 
-  /// Stores positions as displacements from rest, and regions about rest vectors; or both absolute.
-  void hold_from_rest(bool displacements, const Softness& softness) {
-    if (displacements == from_rest) {
-      return;
-    }
-    for (ElementId e = 0; e < mesh->element_count(); ++e) {
-      for (int k = 0; k < Dimension; ++k) {
-        const double rest = mesh->rest[std::size_t{e} * Dimension + k];
-        Scalar& x = positions[e][k];
-        x = static_cast<Scalar>(displacements ? double(x) - rest : double(x) + rest);
-      }
-    }
-    from_rest = displacements;
-    set_softness(softness);
-  }
+  PositionView positions() const;
+  /// Writes the coordinates of the elements from `first` on into `out`, space_dimension per element (mesh units).
+  void copy_positions(ElementId first, std::span<float> out) const;
+  void copy_positions(ElementId first, std::span<double> out) const;
+  /// Writes the coordinates of all elements.
+  void copy_positions(std::span<float> out) const { copy_positions(0, out); }
+  void copy_positions(std::span<double> out) const { copy_positions(0, out); }
+  /// Sets all coordinates, in the order of copy_positions.
+  void set_positions(std::span<const double> in);
 
-  /// Begins a pass: only pinned elements count as updated.
-  void begin_pass() {
-    if (++pass == always) {
-      for (auto& update : updates) {
-        update = update == always ? always : 0;
-      }
-      pass = 1;
-    }
-  }
-  bool updated(ElementId element) const { return updates[element] >= pass; }
-  void mark_updated(ElementId element) { updates[element] = pass; }
+  /// True if all elements are known to be at rest.
+  bool is_at_rest() const { return is_at_rest_; }
+  /// Call this after a move or a step of relaxation.
+  void note_motion() { is_at_rest_ = false; }
+  /// Moves all elements to rest. Cuts, pins and softness stay.
+  void reset();
+  /// The same as reset(), but faster. No element outside these blocks may be away from rest.
+  void reset(const ElementBlocks& away);
 
-  bool pinned(ElementId element) const { return updates[element] == always; }
-  void set_pinned(ElementId element, bool is_pinned) {
-    pin_count += is_pinned ? 1 : 0;
-    pin_count -= pinned(element) ? 1 : 0;
-    updates[element] = is_pinned ? always : 0;
-  }
+  /// Returns the positions of these blocks. No other element may be away from rest.
+  Snapshot snapshot(const ElementBlocks& away) const;
+  /// Restores a snapshot: elements that it does not give move to rest. No element outside `away` may be away from rest
+  /// now. The snapshot must have passed check().
+  void restore(const Snapshot& snapshot, const ElementBlocks& away);
+  /// Updates these blocks of `kept`. No element outside `away` may be away from rest.
+  void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, PositionBlocks& kept) const;
+  /// Restores these blocks. All others must be as they were saved.
+  void restore(const PositionBlocks& kept, const ElementBlocks& blocks);
 
-  /// Returns the position of an element clamped into its valid region about its sponsor.
-  Position<Scalar, Dimension> clamped(ElementId element, ElementId sponsor, std::uint32_t region_id) const {
-    const Scalar* about = positions[sponsor].at;
-    return chainmail::clamped(positions[element], about, about, regions.at(region_id));
-  }
+  /// True if displacements from rest are stored, which keep their digits however far the object is from the origin;
+  /// false if positions are stored.
+  bool stores_displacements() const { return stores_displacements_; }
+  /// Stores displacements, or positions. This rounds, except at rest.
+  void store_displacements(bool displacements);
 
-  /// Clamps the candidate's element into its valid region about its sponsor. Returns true if it moved.
-  bool clamp(ElementId element, ElementId sponsor, EntryId entry) {
-    const auto position = clamped(element, sponsor, regions.id(entry));
-    const bool moved = position != positions[element];
-    positions[element] = position;
-    return moved;
-  }
+  /// Largest moves (mesh units): Exact ChainMail derives from them how far rounding may have moved the links. They
+  /// outlive a change of method.
+  struct Reach {
+    double since_rest = 0;   // the largest displacement or move since the object was at rest
+    double since_check = 0;  // the largest one since the links were last checked
+  };
+  Reach& reach() { return reach_; }
 
-  /// Returns the distance of the candidate's element from its valid region about its sponsor, in rest lengths.
-  double violation(ElementId element, ElementId sponsor, EntryId entry) const {
-    return candidate_violation(*mesh, element, positions[element].at, sponsor, positions[sponsor].at, regions[entry]);
-  }
+  /// Returns typed access. Scalar and Dimension must be those of precision() and of the mesh. The view is valid until
+  /// the body is changed by something else.
+  template <class Scalar, int Dimension>
+  BodyView<Scalar, Dimension> view();
 
-  /// Calls visit(neighbour, entry) for each neighbour whose link is not cut, in the file's order.
-  template <class Visit>
-  [[gnu::always_inline]] void for_each_neighbour(ElementId element, Visit visit) const {
-    chainmail::for_each_neighbour(*mesh, cuts, element, visit);
-  }
+  /// Calls use(view) with the view of this body's own type, and returns its result.
+  template <class Use>
+  decltype(auto) with_view(Use use);
+
+ private:
+  template <class Scalar, int Dimension>
+  friend class BodyView;
+
+  template <class Scalar_, int Dimension_>
+  struct Typed {
+    using Scalar = Scalar_;
+    static constexpr int Dimension = Dimension_;
+    std::vector<Position<Scalar, Dimension>> positions;
+    RegionTable<Scalar, Dimension> regions;
+  };
+  using AnyTyped = std::variant<Typed<float, 1>, Typed<float, 2>, Typed<float, 3>, Typed<double, 1>, Typed<double, 2>,
+                                Typed<double, 3>>;
 
   static constexpr std::uint32_t always = std::numeric_limits<std::uint32_t>::max();
 
-  MeshPointer mesh;
-  Cuts cuts;
-  std::vector<Position<Scalar, Dimension>> positions;
-  std::vector<std::uint32_t> updates;  // the last pass in which an element counted as updated; pinned: always
-  RegionTable<Scalar, Dimension> regions;
-  std::uint32_t pass = 1;
-  ElementId pin_count = 0;
-  bool from_rest = false;
+  static AnyTyped make_typed(Precision precision, int dimension);
+  std::uint32_t begin_pass();
+  void set_pins(std::vector<ElementId> pins);
+  template <class Out>
+  void copy(ElementId first, std::span<Out> out) const;
+  /// Call this after positions were set.
+  void note_positions_set(bool at_rest);
+
+  MeshPointer mesh_;
+  Precision precision_;
+  Cuts cuts_;
+  std::vector<ElementId> pins_;  // ascending
+  std::shared_ptr<const Softness> softness_;
+  ElasticOptions elastic_;
+  AnyTyped typed_;
+  std::vector<std::uint32_t> updates_;  // the last pass in which an element counted as updated; pinned: always
+  std::uint32_t pass_ = 1;
+  bool stores_displacements_ = false;
+  bool is_at_rest_ = true;
+  Reach reach_;
+  Revisions revisions_;
 };
 
 }  // namespace chainmail

@@ -18,17 +18,18 @@ namespace chainmail {
 template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
 class ExactPropagation {
  public:
-  using State = Body<Scalar, Dimension>;
+  using State = BodyView<Scalar, Dimension>;
   using Reach = HandleReach<Scalar, Dimension>;
 
   /// Moves the grabbed element to this displacement from rest. On axes on which pins stop it, it moves as far as they
   /// allow. The state must be valid. `moved` receives the elements that moved, without the grabbed one. `trace`, if
   /// given, receives the same elements, the largest move first, ties by id.
-  PassCount propagate(State& body, ElementId grabbed, const Scalar (&target)[Dimension], std::vector<ElementId>& moved,
+  PassCount propagate(State& body, ElementId grabbed, const Scalar* target, std::vector<ElementId>& moved,
                       Trace* trace) {
-    if (grabbed != grabbed_) {
+    const Conditions conditions{body.revisions().cuts, body.revisions().pins, body.revisions().softness, grabbed};
+    if (conditions != made_for_) {
       regions_.begin(body, grabbed);
-      grabbed_ = grabbed;
+      made_for_ = conditions;
     }
     Reach reach(body.positions[grabbed], target);
     const std::uint64_t visits_before = regions_.visits();
@@ -43,17 +44,21 @@ class ExactPropagation {
     return {moved.size(), moved.size(), stopped, regions_.visits() - visits_before};
   }
 
-  /// Call this when links, softness or pins have changed.
-  void forget() { grabbed_ = no_element; }
-
  private:
+  /// What the regions are valid for.
+  struct Conditions {
+    std::uint64_t cuts = 0, pins = 0, softness = 0;
+    ElementId grabbed = no_element;
+    bool operator==(const Conditions&) const = default;
+  };
+
   /// A drag that reached far and then moves little would still clamp all elements that it reached. So the regions are
   /// dropped after enough idle passes to pay for a new search.
   void drop_what_rests(std::size_t moved) {
     const std::size_t known = regions_.elements().size();
     idle_passes_ = moved < known / 4 ? idle_passes_ + 1 : 0;
     if (idle_passes_ == passes_of_a_search) {
-      forget();
+      made_for_ = {};
       idle_passes_ = 0;
     }
   }
@@ -124,7 +129,7 @@ class ExactPropagation {
   }
 
   HandleRegions<Scalar, Dimension, Schedule> regions_;
-  ElementId grabbed_ = no_element;
+  Conditions made_for_;
   int idle_passes_ = 0;  // passes in a row that moved few of the known elements
 };
 

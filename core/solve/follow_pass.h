@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "solve/body.h"
 #include "solve/propagate.h"
 #include "solve/waiting_history.h"
 
@@ -38,9 +37,13 @@ struct WaitingLog {
 template <class List>
 class LoggedList : public List {
  public:
-  explicit LoggedList(WaitingLog& log, double key = 0) : log_(&log), key_(key) {}
+  explicit LoggedList(WaitingLog& log) : log_(&log) {}
   void admit(Candidate candidate) {
-    log_->enter(candidate, key_);
+    if constexpr (requires { this->key(candidate); }) {
+      log_->enter(candidate, this->key(candidate));
+    } else {
+      log_->enter(candidate, 0);
+    }
     List::admit(candidate);
   }
   void admit(Candidate candidate, double violation) {
@@ -55,7 +58,6 @@ class LoggedList : public List {
 
  private:
   WaitingLog* log_;
-  double key_;
 };
 
 /// The object at the beginning of a recorded pass, as far as the loop needs it.
@@ -77,7 +79,7 @@ struct RecordedBody {
   }
   double violation(ElementId element, ElementId sponsor, EntryId entry) const {
     const auto region =
-        valid_region<float, Dimension>(*mesh, sponsor, element, pass.conditions->softness.of(mesh->entry_link[entry]));
+        valid_region<float, Dimension>(*mesh, sponsor, element, pass.conditions->softness->of(mesh->entry_link[entry]));
     return candidate_violation(*mesh, element, &positions[std::size_t{element} * Dimension], sponsor,
                                &positions[std::size_t{sponsor} * Dimension], region);
   }
@@ -94,11 +96,12 @@ struct RecordedBody {
 class RecordedOutcomes {
  public:
   RecordedOutcomes(const RecordedPass& pass, WaitingLog& log) : pass_(pass), log_(log) {}
-  void forget() {}
   template <class Body>
-  bool begin(Body& /*body*/, ElementId /*grabbed*/, std::vector<ElementId>& /*moved*/) {
+  bool begin(Body& /*body*/, ElementId /*grabbed*/) {
     return false;
   }
+  template <class Body>
+  void begin_anew(Body& /*body*/, ElementId /*grabbed*/) {}
 
   template <class Body>
   bool update(Body& body, Candidate candidate, std::vector<ElementId>& /*moved*/) {
@@ -154,16 +157,13 @@ WaitingHistory follow_pass(const RecordedPass& pass, TakingOrder order, Run run)
 
 /// The history of a pass by one waiting list.
 template <class List>
-WaitingHistory follow_one_list(const RecordedPass& pass) {
+WaitingHistory follow_list(const RecordedPass& pass) {
   return follow_pass(pass, List::order, [&](auto& body, RecordedOutcomes& outcomes, WaitingLog& log) {
     LoggedList<List> list(log);
     std::vector<ElementId> none;
     propagate(body, list, outcomes, pass.grabbed, none);
   });
 }
-
-/// The history of a pass by 3D ChainMail.
-WaitingHistory follow_directions(const RecordedPass& pass);
 
 /// The history of a pass by Natural Queue ChainMail.
 WaitingHistory follow_natural_queue(const RecordedPass& pass);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "solve/body.h"
+#include "solve/body_view.h"
 #include "solve/exact_schedule.h"
 #include "solve/trace.h"
 
@@ -18,7 +18,7 @@ template <class Scalar, int Dimension>
 struct HandleReach {
   static constexpr Scalar infinite = std::numeric_limits<Scalar>::infinity();
 
-  HandleReach(const Position<Scalar, Dimension>& from, const Scalar (&target)[Dimension]) {
+  HandleReach(const Position<Scalar, Dimension>& from, const Scalar* target) {
     for (int k = 0; k < Dimension; ++k) {
       start[k] = from[k];
       set(k, target[k]);
@@ -62,7 +62,7 @@ struct HandleReach {
 template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
 class HandleRegions {
  public:
-  using State = Body<Scalar, Dimension>;
+  using State = BodyView<Scalar, Dimension>;
   using Reach = HandleReach<Scalar, Dimension>;
   using Bounds = Region<Scalar, Dimension>;
 

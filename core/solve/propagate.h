@@ -9,27 +9,37 @@ namespace chainmail {
 /// The propagation that answers a move: one loop for all algorithms that differ in their waiting list only.
 ///
 /// The grabbed element is at its target already. `moved` receives the elements that moved, in order of update, without
-/// the grabbed one. `record`, a PassRecord or a substitute, receives the processed candidates. Each element is updated
-/// at most once (thesis 3.1 and 4.1; Li and Brodlie 2003).
+/// the grabbed one; it must be unchanged since the last pass. `record`, a PassRecord or a substitute, receives the
+/// processed candidates. Each element is updated at most once (thesis 3.1 and 4.1; Li and Brodlie 2003).
 template <class List, class Body, class Record>
 void propagate(Body& body, List& list, Record& record, ElementId grabbed, std::vector<ElementId>& moved) {
+  const auto admit = [&](Candidate candidate, ElementId neighbour) {
+    if constexpr (requires { List::by_violation; }) {
+      list.admit(candidate, body.violation(neighbour, candidate.sponsor, candidate.entry));
+    } else if constexpr (requires { list.admits(candidate); }) {
+      if (list.admits(candidate)) {
+        list.admit(candidate);
+      }
+    } else {
+      list.admit(candidate);
+    }
+  };
   const auto admit_neighbours = [&](ElementId sponsor) {
     body.for_each_neighbour(sponsor, [&](ElementId neighbour, EntryId entry) {
       if (List::admits_updated || !body.updated(neighbour)) {
-        if constexpr (requires { List::by_violation; }) {
-          list.admit({entry, sponsor}, body.violation(neighbour, sponsor, entry));
-        } else {
-          list.admit({entry, sponsor});
-        }
+        admit({entry, sponsor}, neighbour);
       }
     });
   };
   if constexpr (requires { List::by_violation; }) {
-    record.forget();  // the order of candidates depends on positions
-  }
-  if (record.begin(body, grabbed, moved)) {
+    record.begin_anew(body, grabbed);
+  } else if (record.begin(body, grabbed)) {
     return;
   }
+  if constexpr (requires { list.begin(*body.mesh); }) {
+    list.begin(*body.mesh);
+  }
+  moved.clear();
   body.begin_pass();
   body.mark_updated(grabbed);
   admit_neighbours(grabbed);

@@ -8,8 +8,8 @@
 
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
+#include "solve/algorithms.h"
 #include "solve/softness.h"
-#include "solve/solver.h"
 #include "solve/trace.h"
 
 namespace chainmail {
@@ -18,7 +18,7 @@ namespace chainmail {
 struct PassConditions {
   Cuts cuts;
   std::vector<ElementId> pins;  // ascending
-  Softness softness;
+  std::shared_ptr<const Softness> softness;
 };
 
 /// One pass that can be replayed step by step. An element is updated at most once per pass, so the positions of all

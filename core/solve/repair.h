@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesh/error.h"
-#include "solve/body.h"
+#include "solve/body_view.h"
 #include "solve/path_search.h"
 
 namespace chainmail {
@@ -22,7 +22,7 @@ namespace chainmail {
 template <class Scalar, int Dimension>
 class Repair {
  public:
-  using State = Body<Scalar, Dimension>;
+  using State = BodyView<Scalar, Dimension>;
 
   /// `reach`: the largest displacement or move that led to the state (mesh units).
   Repair(State& body, PathSearch& search, double reach) : body_(body), search_(search), reach_(reach) {}

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "solve/body.h"
+#include "solve/body_view.h"
 #include "solve/trace.h"
 #include "solve/waiting_list.h"
 
@@ -21,7 +22,6 @@ struct Step {
   static_assert(element_limit < moved_bit);
   ElementId element() const { return element_and_moved & ~moved_bit; }
   bool has_moved() const { return (element_and_moved & moved_bit) != 0; }
-  bool operator==(const Step&) const = default;
   void note(bool moved) { element_and_moved = element() | (moved ? moved_bit : 0); }
 };
 
@@ -35,7 +35,7 @@ inline constexpr std::size_t fetched_ahead = 64;
 /// pass, without its waiting list. And since the steps are known in advance, their positions are prefetched from
 /// memory.
 template <class Scalar, int Dimension>
-std::size_t replay(Body<Scalar, Dimension>& body, std::span<const Step> steps) {
+std::size_t replay(const BodyView<Scalar, Dimension>& body, std::span<const Step> steps) {
   auto* positions = body.positions.data();
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Step& later = steps[std::min(i + fetched_ahead, steps.size() - 1)];
@@ -52,68 +52,94 @@ std::size_t replay(Body<Scalar, Dimension>& body, std::span<const Step> steps) {
   return steps.size();
 }
 
-/// The steps of the last pass of a waiting list, for the next one. A pass is replayed after two equal passes in a row.
-/// From the first difference on, the list runs again, and the record only saves clamping.
+/// The processed candidates of the last pass, for the next pass of the same handle.
+///
+/// The next pass begins with a replay. Where that ends at a difference, an algorithm goes on from there (Natural Queue)
+/// or runs its list again, and the record saves clamping up to there. A replay that agrees for less than half of its
+/// steps has failed. After two failures in a row, some passes are not replayed: 1, then 2, 4, 8 and so on, until a
+/// replay succeeds.
 class PassRecord {
  public:
-  /// Replays a pass. Returns true if that was all of it. Otherwise the pass begins, and update() must be called for
-  /// each candidate.
-  template <class Body>
-  bool begin(Body& body, ElementId grabbed, std::vector<ElementId>& moved) {
-    agreed_ = trusts_ && grabbed == grabbed_ ? replay(body, std::span<const Step>(steps_)) : 0;
-    if (agreed_ > 0 && agreed_ == steps_.size()) {
+  /// Begins a pass. Returns true if a replay was all of it. Otherwise the pass must run, from the beginning or from
+  /// step agreed(), and end() must be called.
+  template <class View>
+  bool begin(View& body, ElementId grabbed) {
+    if (!steps_) {
+      steps_ = std::make_unique_for_overwrite<Step[]>(body.positions.size() + 1);  // unused pages take no memory
+    }
+    const Conditions conditions{body.revisions().cuts, body.revisions().pins, body.revisions().softness, grabbed};
+    const bool is_known = conditions == conditions_, tries = is_known && unused_ == 0;
+    agreed_ = tries ? replay(body, steps()) : 0;
+    if (agreed_ > 0 && agreed_ == count_) {
+      failures_ = 0;
       return true;
     }
-    trusts_ = grabbed == grabbed_;
-    grabbed_ = grabbed;
+    if (!is_known || (tries && 2 * agreed_ >= count_)) {
+      failures_ = unused_ = 0;
+    } else if (tries) {
+      failures_ = std::min(failures_ + 1, most_failures);
+      unused_ = failures_ < 2 ? 0 : 1 << (failures_ - 2);
+    } else {
+      --unused_;
+    }
+    conditions_ = conditions;
     next_ = 0;
-    moved.clear();
     return false;
   }
 
+  /// Begins a pass of an algorithm whose order of candidates depends on positions: it is never replayed.
+  template <class View>
+  void begin_anew(View& body, ElementId grabbed) {
+    conditions_ = {};
+    begin(body, grabbed);
+  }
+
+  /// Number of steps that agreed, if the pass is not all replayed. They have been carried out.
+  std::size_t agreed() const { return agreed_; }
+
   /// Processes a candidate whose element has not been updated: clamps the element into its valid region about its
   /// sponsor. Returns true if it moved. The element counts as updated in either case (thesis 3.1).
-  template <class Body>
-  bool update(Body& body, Candidate candidate, std::vector<ElementId>& moved) {
+  template <class View>
+  bool update(View& body, Candidate candidate, std::vector<ElementId>& moved) {
     const ElementId element = body.mesh->neighbours[candidate.entry];
     const bool has_moved =
         next_ < agreed_ ? steps_[next_].has_moved() : body.clamp(element, candidate.sponsor, candidate.entry);
     body.mark_updated(element);
-    note({element, candidate.sponsor, body.regions.id(candidate.entry)}, has_moved);
+    steps_[next_] = {element, candidate.sponsor, body.regions.id(candidate.entry)};
+    steps_[next_++].note(has_moved);
     if (has_moved) {
       moved.push_back(element);
     }
     return has_moved;
   }
 
-  void end() {
-    trusts_ = trusts_ && next_ == steps_.size();
-    steps_.resize(next_);
-  }
+  void end() { count_ = next_; }
 
-  std::span<const Step> steps() const { return steps_; }
+  /// The steps of the last pass.
+  std::span<const Step> steps() const { return {steps_.get(), count_}; }
 
-  /// Call this when the links, the pins, the regions or `moved` were changed by others.
-  void forget() { grabbed_ = no_element; }
+  /// For a pass whose queue is its record: the steps, with room for one more than there are elements; and the call at
+  /// the end of the pass.
+  Step* queue() { return steps_.get(); }
+  void end(std::size_t count) { count_ = count; }
 
  private:
-  void note(Step step, bool has_moved) {
-    step.note(has_moved);
-    if (next_ == steps_.size()) {
-      steps_.push_back(step);
-      trusts_ = false;
-    } else {
-      trusts_ = trusts_ && steps_[next_] == step;
-      steps_[next_] = step;
-    }
-    ++next_;
-  }
+  /// What a record is valid for.
+  struct Conditions {
+    std::uint64_t cuts = 0, pins = 0, softness = 0;
+    ElementId grabbed = no_element;
+    bool operator==(const Conditions&) const = default;
+  };
 
-  std::vector<Step> steps_;
+  static constexpr int most_failures = 8;  // at most 64 passes without a replay
+
+  std::unique_ptr<Step[]> steps_;
+  std::size_t count_ = 0;
   std::size_t next_ = 0;
   std::size_t agreed_ = 0;
-  ElementId grabbed_ = no_element;
-  bool trusts_ = false;  // the last two passes were equal
+  Conditions conditions_;
+  int failures_ = 0;  // replays in a row that failed
+  int unused_ = 0;    // number of coming passes that are not replayed
 };
 
 }  // namespace chainmail

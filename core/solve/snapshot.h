@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "solve/positions.h"
 
 namespace chainmail {
 
@@ -19,6 +20,9 @@ struct Snapshot {
 
   bool operator==(const Snapshot&) const = default;
 };
+
+/// Throws Error, with the reason, if a snapshot does not fit the mesh or has coordinates beyond position_limit.
+void check(const Snapshot& snapshot, const Mesh& mesh, Precision precision);
 
 /// Positions as a solver stores them, in shared blocks: what is saved at different times shares the blocks that did not
 /// change in between. The same solver, or another of the same mesh and precision, restores them to the bit.

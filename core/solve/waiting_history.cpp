@@ -2,15 +2,14 @@
 
 #include <algorithm>
 
-#include "solve/chainmail_3d.h"
+#include "solve/algorithms.h"
 #include "solve/follow_pass.h"
-#include "solve/list_algorithm.h"
 
 namespace chainmail {
 
 WaitingHistory::WaitingHistory(const RecordedPass& pass) {
-  if (const ListAlgorithm* list = info(pass.algorithm).list) {
-    *this = list->history(pass);
+  if (const auto history = info(pass.algorithm).history) {
+    *this = history(pass);
   }
 }
 
@@ -27,18 +26,6 @@ std::vector<std::uint32_t> WaitingHistory::at(std::size_t step) const {
     std::stable_sort(waiting.begin(), waiting.end(), [this](auto a, auto b) { return keys_[a] > keys_[b]; });
   }
   return waiting;
-}
-
-WaitingHistory follow_directions(const RecordedPass& pass) {
-  return follow_pass(pass, TakingOrder::by_key, [&](auto& body, RecordedOutcomes& outcomes, WaitingLog& log) {
-    using List = LoggedList<BackList>;
-
-    // The lists are emptied one after another, so the keys descend from list to list.
-    DirectionLists<List> lists(
-        {List(log, 0), List(log, -1), List(log, -2), List(log, -3), List(log, -4), List(log, -5)});
-    std::vector<ElementId> none;
-    lists.propagate(body, outcomes, pass.grabbed, none);
-  });
 }
 
 /// The queue is the trace of the pass: each element waits once, from the update of its sponsor until its own turn.

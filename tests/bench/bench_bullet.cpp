@@ -58,10 +58,10 @@ class BySolver : public Dragged {
       : mesh_(task.scene.mesh),
         handle_(task.handle),
         solver_(make_solver(mesh_, algorithm, Precision::double_precision)) {
-    solver_->pin(task.pins);
+    solver_->body().pin(task.pins);
   }
   void frame(const Point& handle) override { solver_->move(handle_, handle); }
-  Point position(ElementId element) const override { return point_of(*mesh_, solver_->positions(), element); }
+  Point position(ElementId element) const override { return point_of(*mesh_, solver_->body().positions(), element); }
 
  private:
   MeshPointer mesh_;

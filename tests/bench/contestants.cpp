@@ -59,14 +59,14 @@ void check_whole(std::uint64_t moved, const Mesh& mesh) {
 /// Throws if the solver and the textbook version differ after the same drag.
 void check_textbook(const MeshPointer& mesh, Textbook<float, 2>& textbook) {
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
-  solver->set_softness({stiff, {}});
+  solver->body().set_softness({stiff, {}});
   const Hand path = hand(Drag::whole_body, *mesh);
   for (const Point& target : path.targets) {
     solver->move(path.element, target);
     textbook.move(path.element, target);
   }
   std::vector<float> positions(std::size_t{mesh->element_count()} * 2);
-  solver->copy_positions(positions);
+  solver->body().copy_positions(positions);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (positions[i] != textbook.positions()[i / 2][i % 2]) {
       throw std::logic_error("the textbook version and the solver disagree at element " + std::to_string(i / 2));
@@ -97,11 +97,11 @@ struct Copy {
 
 Contestant dragged(const Scene& scene, const std::string& algorithm, Drag drag) {
   const std::shared_ptr<Solver> solver = make(scene.mesh, algorithm);
-  solver->set_softness(softness(drag, *scene.mesh));
+  solver->body().set_softness(softness(drag, *scene.mesh));
   const auto round = std::make_shared<Round>(Round{hand(drag, *scene.mesh)});
   const auto pass = [solver, round, drag, mesh = scene.mesh, anew = is_without_memory(algorithm)] {
     if (anew) {
-      solver->cut({});  // the solver assumes other links and forgets all data of the last pass
+      solver->body().cut({});  // the solver assumes other links and forgets all data of the last pass
     }
     const std::uint64_t moved = solver->move(round->hand.element, round->step()).moved;
     if (drag != Drag::local) {
@@ -164,7 +164,7 @@ HandLike hand_like_drags(const Scene& scene, const std::string& algorithm) {
   double sum = 0;
   std::uint64_t moved = 0;
   for (const report::ScriptedDrag& drag : report::scripted_drags(*scene.mesh, 2004, 6, 60)) {
-    solver->reset();
+    solver->body().reset();
     for (const Point& target : drag.targets) {
       const auto begin = Clock::now();
       moved += solver->move(drag.element, target).moved;

@@ -108,7 +108,7 @@ void OutputsCommandTest::positions_read_back_bit_for_bit() {
     QCOMPARE(outcome.code, 0);
     // The same move through the library.
     Simulation simulation(mesh, Algorithm::natural_queue, precision);
-    const auto at = simulation.solver().positions();
+    const auto at = simulation.body().positions();
     const Point target(at(14, 0) + 0.7, at(14, 1) + 0.3, 0);
     simulation.apply(Command(commands::Grab{14}));
     simulation.apply(Command(commands::Drag{target}));

@@ -87,7 +87,7 @@ inline float clamped_by_hand(const Player& player, std::size_t row, int k) {
     along[j == k ? 0 : next++] = mesh.rest[std::size_t{element} * mesh.space_dimension + j] -
                                  mesh.rest[std::size_t{sponsor} * mesh.space_dimension + j];
   }
-  const auto& softness = player.pass.conditions->softness.of(*find_link(mesh, element, sponsor));
+  const auto& softness = player.pass.conditions->softness->of(*find_link(mesh, element, sponsor));
   const auto region = valid_region<float, 3>(along, softness);
   const float low = player.at(sponsor, k) + region.low[0], high = player.at(sponsor, k) + region.high[0];
   return std::min(std::max(player.at(element, k), low), high);

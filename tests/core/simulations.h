@@ -41,7 +41,7 @@ struct SavedState {
   explicit SavedState(const Simulation& simulation)
       : mesh(simulation.mesh_pointer()),
         positions(positions_of(simulation)),
-        cuts(simulation.solver().cuts().links()),
+        cuts(simulation.body().cuts().links()),
         softness(simulation.softness()),
         grabbed(simulation.grabbed()),
         algorithm(simulation.statistics().algorithm),

@@ -34,7 +34,7 @@ inline MeshPointer make_mesh(MeshKind kind, std::array<std::uint32_t, 3> size, s
 /// Returns all coordinates that exist, element by element. Float converts to double exactly.
 inline std::vector<double> positions_of(const Solver& solver, const Mesh& mesh) {
   std::vector<double> positions(mesh.rest.size());
-  solver.copy_positions(std::span(positions));
+  solver.body().copy_positions(std::span(positions));
   return positions;
 }
 
@@ -47,7 +47,7 @@ inline bool same_bits(const std::vector<double>& a, const std::vector<double>& b
 inline Point position_of(const Solver& solver, const Mesh& mesh, ElementId element) {
   std::array<double, 3> carried{};
   for (int k = 0; k < mesh.space_dimension; ++k) {
-    carried[k] = solver.positions()(element, k);
+    carried[k] = solver.body().positions()(element, k);
   }
   return mesh.to_point(carried.data());
 }

@@ -62,8 +62,8 @@ class TestAllocations : public QObject {
     for (const Precision precision : precisions) {
       const auto solver = make_solver(mesh, Algorithm(algorithm), precision);
       QCOMPARE(taken_by_drag(*solver, *mesh, 12 * 24 + 12, 2), std::uint64_t{0});
-      solver->reset();
-      solver->set_softness({stiff, {}});
+      solver->body().reset();
+      solver->body().set_softness({stiff, {}});
       QCOMPARE(taken_by_drag(*solver, *mesh, 0, 6), std::uint64_t{0});
     }
   }

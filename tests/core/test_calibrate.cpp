@@ -173,7 +173,7 @@ void CalibrateTest::the_residuals_are_those_of_the_result() {
           simulation.relax(sweeps, 1);
         }
       }
-      return measure_physical_error(*sheet, simulation.solver().positions(), drag.reference);
+      return measure_physical_error(*sheet, simulation.body().positions(), drag.reference);
     };
     const auto drags = reference_drags(sheet, cuts, options, {}).fitted;
     for (std::size_t i = 0; i < drags.size(); ++i) {
@@ -244,7 +244,7 @@ void CalibrateTest::its_residuals_are_those_of_its_softness_and_sweeps() {
     const report::Case object{"", "", sheet, {}, options.pins, {softness, {}}, {}};
     report::Runner runner(object, options.algorithm, Precision::double_precision, {});
     runner.run(report::test::drag(*sheet, drag.element, way, 24), sweeps, Progress());
-    return measure_physical_error(*sheet, runner.simulation().solver().positions(),
+    return measure_physical_error(*sheet, runner.simulation().body().positions(),
                                   reference.at(drag.element, drag.target));
   };
   const auto same = [](const Residual& told, const PhysicalError& error) {

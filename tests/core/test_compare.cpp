@@ -174,7 +174,7 @@ void CompareTest::three_drags_reach_as_far_as_they_say() {
     }
     int count = 0;
     for (ElementId e = 0; e < grid->element_count(); ++e) {
-      count += point_of(*grid, simulation.solver().positions(), e) != grid->rest_position(e) ? 1 : 0;
+      count += point_of(*grid, simulation.body().positions(), e) != grid->rest_position(e) ? 1 : 0;
     }
     return count;
   };

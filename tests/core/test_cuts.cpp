@@ -89,10 +89,10 @@ void CutsTest::cut_and_uncut_is_the_identity() {
     const auto hands = *any_hands();
     RC_ASSERT(move_alike(*untouched, *mended, *mesh, hands));
     const auto links = draw_links(*mesh);
-    mended->cut(links);
-    RC_ASSERT(mended->cuts().count() > 0 || links.empty());
-    mended->uncut(links);
-    RC_ASSERT(mended->cuts().count() == 0u);
+    mended->body().cut(links);
+    RC_ASSERT(mended->body().cuts().count() > 0 || links.empty());
+    mended->body().uncut(links);
+    RC_ASSERT(mended->body().cuts().count() == 0u);
     RC_ASSERT(move_alike(*untouched, *mended, *mesh, hands));
   };
   QVERIFY(check_property("later moves give the same bits and the same trace", holds));
@@ -106,14 +106,14 @@ void CutsTest::a_cut_link_carries_nothing() {
     }
     const auto solver = make_solver(mesh, one.algorithm, Precision::double_precision);
     const LinkId middle = *find_link(*mesh, 1, 2);
-    solver->cut(std::span(&middle, 1));
+    solver->body().cut(std::span(&middle, 1));
     solver->move(0, Point(-5, 0, 0));
     // 1 follows 0 at a stretch of 1.2. 2 and 3 are now another part.
     QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-5, -3.8, 2, 3}));
-    solver->uncut(std::span(&middle, 1));
+    solver->body().uncut(std::span(&middle, 1));
     QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-5, -3.8, 2, 3}));
     solver->move(0, Point(-5, 0, 0));  // 1 is already valid, so nothing else moves
-    QCOMPARE(solver->positions()(2, 0), 2.0);
+    QCOMPARE(solver->body().positions()(2, 0), 2.0);
   }
 }
 
@@ -121,12 +121,12 @@ void CutsTest::disconnected_parts_do_not_move() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const auto solver = make_solver(mesh, *any_algorithm(), *any_precision());
-    solver->cut(draw_links(*mesh));
+    solver->body().cut(draw_links(*mesh));
     const auto hand = *any_hand(80);
     const auto before = positions_of(*solver, *mesh);
     move_by(*solver, *mesh, hand.of(*mesh), hand.by());
     const auto after = positions_of(*solver, *mesh);
-    const auto connected = connected_to(*mesh, solver->cuts(), hand.of(*mesh));
+    const auto connected = connected_to(*mesh, solver->body().cuts(), hand.of(*mesh));
     for (std::size_t i = 0; i < before.size(); ++i) {
       RC_ASSERT(connected[i / mesh->space_dimension] || before[i] == after[i]);
     }

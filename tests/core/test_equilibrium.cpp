@@ -38,13 +38,13 @@ std::unique_ptr<Solver> displaced(const MeshPointer& mesh, const std::vector<std
       positions[std::size_t{element} * mesh->space_dimension + k] += displacement[mesh->axes[k]];
     }
   }
-  solver->set_positions(positions);
+  solver->body().set_positions(positions);
   return solver;
 }
 
 Equilibrium solve(const Mesh& mesh, const Solver& solver, const std::vector<ElementId>& fixed,
                   const Softness& softness = wide, std::uint64_t limit = cholesky_limit) {
-  auto result = equilibrium(mesh, softness, solver.cuts(), fixed, solver.positions(), limit);
+  auto result = equilibrium(mesh, softness, solver.body().cuts(), fixed, solver.body().positions(), limit);
   if (!result) {
     throw std::runtime_error("there is no equilibrium");
   }
@@ -108,7 +108,7 @@ void EquilibriumTest::components_without_a_fixed_element_are_undefined() {
 void EquilibriumTest::cut_links_are_left_out() {
   const auto mesh = make_mesh(MeshKind::line, {7, 1, 1});
   const auto solver = displaced(mesh, {{6, {3, 0, 0}}});
-  solver->cut(std::array{LinkId{2}});  // 2-3
+  solver->body().cut(std::array{LinkId{2}});  // 2-3
   const auto result = solve(*mesh, *solver, {0, 6});
   for (ElementId e = 0; e < 7; ++e) {
     QVERIFY(std::abs(result.displacements[e] - (e < 3 ? 0 : 3)) < rounding);
@@ -120,9 +120,9 @@ void EquilibriumTest::cut_links_are_left_out() {
 void EquilibriumTest::without_fixed_elements_there_is_none() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
   const auto solver = displaced(mesh, {});
-  QVERIFY(!equilibrium(*mesh, wide, solver->cuts(), {}, solver->positions()));
+  QVERIFY(!equilibrium(*mesh, wide, solver->body().cuts(), {}, solver->body().positions()));
   const std::vector<ElementId> all{0, 1, 2};
-  QVERIFY(equilibrium(*mesh, wide, solver->cuts(), all, solver->positions())->displacements ==
+  QVERIFY(equilibrium(*mesh, wide, solver->body().cuts(), all, solver->body().positions())->displacements ==
           std::vector<double>(3, 0));
 }
 
@@ -173,7 +173,7 @@ void EquilibriumTest::relaxation_comes_to_it() {
 void EquilibriumTest::gradients_agree_with_cholesky() {
   const auto mesh = make_mesh(MeshKind::cloth, {40, 30, 1}, 3);
   const auto solver = displaced(mesh, {{0, {-3, 1, 2}}, {1199, {2, 5, -4}}, {600, {0, 0, 7}}, {77, {1, 1, 1}}});
-  solver->cut(std::array{LinkId{100}, LinkId{101}, LinkId{2000}});
+  solver->body().cut(std::array{LinkId{100}, LinkId{101}, LinkId{2000}});
   const auto direct = solve(*mesh, *solver, {0, 600, 1199});
   const auto iterated = solve(*mesh, *solver, {0, 600, 1199}, wide, 0);
   // The residual of 1e-12 times the condition number (about 1e4 here) times the deflection.

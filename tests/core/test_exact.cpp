@@ -123,9 +123,9 @@ void ExactTest::agrees_with_bellman_and_ford() {
     const auto precision = *any_precision();
     const auto solver = make_solver(mesh, Algorithm::exact, precision);
     const Softness softness = draw_softness(*mesh);
-    solver->set_softness(softness);
-    solver->cut(draw_links(*mesh));
-    const auto answer = oracle(mesh, softness, solver->cuts());
+    solver->body().set_softness(softness);
+    solver->body().cut(draw_links(*mesh));
+    const auto answer = oracle(mesh, softness, solver->body().cuts());
     for (const Hand& hand : *any_hands(40)) {
       const auto before = positions_of(*solver, *mesh);
       const ElementId element = hand.of(*mesh);
@@ -152,7 +152,7 @@ void ExactTest::links_hold() {
     const auto precision = *any_precision();
     const auto solver = make_solver(mesh, Algorithm::exact, precision);
     const Softness softness = draw_softness(*mesh);
-    solver->set_softness(softness);
+    solver->body().set_softness(softness);
     double size = 0;
     for (const Hand& hand : *any_hands(40)) {
       const auto before = positions_of(*solver, *mesh);
@@ -161,7 +161,7 @@ void ExactTest::links_hold() {
       size = std::max(size, largest_displacement(*mesh, after) + largest_step(before, after) + 1);
       for (LinkId link = 0; link < mesh->link_count(); ++link) {
         const double length = rest_length(*mesh, link) > 0 ? rest_length(*mesh, link) : mesh->mean_link_length;
-        const double outside = link_violation(*mesh, softness, solver->positions(), link) * length;
+        const double outside = link_violation(*mesh, softness, solver->body().positions(), link) * length;
         // 4 ulp per axis of the largest displacement or move, as derived.
         RC_ASSERT(outside <= std::sqrt(3) * 8 * half_ulp(precision) * size);
       }
@@ -190,7 +190,7 @@ void ExactTest::visits_are_bounded() {
     const Softness softness = draw_softness(*mesh);
     const auto hands = *any_hands(40);
     const auto solver = make_solver(mesh, Algorithm::exact, *any_precision());
-    solver->set_softness(softness);
+    solver->body().set_softness(softness);
     for (const Hand& hand : hands) {
       const PassCount count = move_by(*solver, *mesh, hand.of(*mesh), hand.by());
       const std::uint64_t elements = mesh->element_count();
@@ -205,7 +205,7 @@ void ExactTest::from_its_own_states_a_zero_move_moves_nothing() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const auto solver = make_solver(mesh, Algorithm::exact, *any_precision());
-    solver->set_softness(draw_softness(*mesh));
+    solver->body().set_softness(draw_softness(*mesh));
     for (const Hand& hand : *any_hands(40)) {
       move_by(*solver, *mesh, hand.of(*mesh), hand.by());
     }
@@ -222,7 +222,7 @@ void ExactTest::the_trace_names_the_binding_neighbour() {
   // equally, and the trace names the one with the lower id.
   const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
   const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
-  solver->set_softness({{0.75, 1.25, 0.25}, {}});
+  solver->body().set_softness({{0.75, 1.25, 0.25}, {}});
   Trace trace;
   move_by(*solver, *mesh, 4, Point(1, 0, 0), &trace);
   const std::vector<std::array<ElementId, 2>> expected{{1, 4}, {3, 4}, {5, 4}, {7, 4}, {0, 1}, {2, 1}, {6, 3}, {8, 5}};

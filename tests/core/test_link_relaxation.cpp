@@ -15,9 +15,9 @@ constexpr LinkSoftness wide{0, 100, 100};  // regions have no effect
 std::unique_ptr<Solver> stretched_chain(std::uint32_t length, const std::vector<double>& positions) {
   auto solver =
       make_solver(make_mesh(MeshKind::line, {length, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
-  solver->set_softness({wide, {}});
+  solver->body().set_softness({wide, {}});
   solver->set_relaxation(RelaxationScheme::link);
-  solver->set_positions(positions);
+  solver->body().set_positions(positions);
   std::vector<ElementId> all(length);
   std::iota(all.begin(), all.end(), ElementId{0});
   solver->wake(all);
@@ -89,7 +89,7 @@ void LinkRelaxationTest::a_free_chain_comes_to_rest_in_its_shape() {
 void LinkRelaxationTest::a_chain_between_pins_ends_near_even() {
   const auto solver = stretched_chain(5, {0, 1, 2, 3, 8});
   const std::vector<ElementId> ends{0, 4};
-  solver->pin(ends);
+  solver->body().pin(ends);
   for (int i = 0; i < 2000; ++i) {
     solver->relax(0.1, no_limit, {});
   }
@@ -107,17 +107,17 @@ void LinkRelaxationTest::valid_links_stay_valid() {
     const auto solver =
         make_solver(mesh, *rc::gen::element(Algorithm::natural_queue, Algorithm::exact), Precision::double_precision);
     const Softness softness = draw_softness(*mesh);
-    solver->set_softness(softness);
+    solver->body().set_softness(softness);
     solver->set_relaxation(RelaxationScheme::link);
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
-    solver->set_positions(random_valid_state(*mesh, softness, 0.9, random));
+    solver->body().set_positions(random_valid_state(*mesh, softness, 0.9, random));
     std::vector<ElementId> all(mesh->element_count());
     std::iota(all.begin(), all.end(), ElementId{0});
     solver->wake(all);
     for (int i = 0; i < 5; ++i) {
       solver->relax(*rc::gen::inRange(1, 101) / 100.0, no_limit, (*any_hand()).of(*mesh));
       // In rest lengths: only rounding.
-      RC_ASSERT(measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max <= 1e-9);
+      RC_ASSERT(measure_violation(*mesh, softness, solver->body().cuts(), solver->body().positions()).max <= 1e-9);
     }
   };
   QVERIFY(check_property("from a valid state relaxation by links keeps every link valid", holds));
@@ -135,7 +135,7 @@ void LinkRelaxationTest::displacements_relax_like_positions() {
     std::iota(all.begin(), all.end(), ElementId{0});
     for (Solver* solver : {absolute.get(), from_rest.get()}) {
       solver->set_relaxation(scheme);
-      solver->set_positions(state);
+      solver->body().set_positions(state);
       solver->wake(all);
       for (int i = 0; i < 5; ++i) {
         solver->relax(0.8, no_limit, 20);

@@ -28,7 +28,7 @@ namespace {
 std::unique_ptr<Solver> at(const MeshPointer& mesh, const std::vector<double>& positions,
                            Precision precision = Precision::double_precision) {
   auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
-  solver->set_positions(positions);
+  solver->body().set_positions(positions);
   return solver;
 }
 
@@ -38,11 +38,11 @@ void MeasuresTest::distance_by_hand() {
   const auto mesh = make_mesh(MeshKind::line, {4, 1, 1}, 2);
   const auto one = at(mesh, {0, 0, 1, 0, 2, 0, 3, 0});
   const auto other = at(mesh, {0, 0, 1, 0, 2, 0, 6, 4});  // the last one by (3, 4)
-  const Distance distance = measure_distance(*mesh, one->positions(), other->positions());
+  const Distance distance = measure_distance(*mesh, one->body().positions(), other->body().positions());
   QCOMPARE(distance.max, 5.0);
   QCOMPARE(distance.rms, 2.5);
-  QVERIFY(distance == measure_distance(*mesh, other->positions(), one->positions()));
-  QVERIFY(measure_distance(*mesh, one->positions(), one->positions()) == Distance{});
+  QVERIFY(distance == measure_distance(*mesh, other->body().positions(), one->body().positions()));
+  QVERIFY(measure_distance(*mesh, one->body().positions(), one->body().positions()) == Distance{});
 }
 
 void MeasuresTest::distance_is_in_mean_rest_lengths() {
@@ -71,8 +71,8 @@ void MeasuresTest::energy_ratio_is_none_at_0() {
 void MeasuresTest::largest_over_hand_by_hand() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1}, 2);
   const auto solver = at(mesh, {0, 2, 1, 0, 5, 4});  // the handle moved by 2, the last element by (3, 4)
-  QCOMPARE(largest_over_hand(*mesh, solver->positions(), 0).value(), 2.5);
-  QCOMPARE(largest_over_hand(*mesh, solver->positions(), 2).value(), 1.0);
+  QCOMPARE(largest_over_hand(*mesh, solver->body().positions(), 0).value(), 2.5);
+  QCOMPARE(largest_over_hand(*mesh, solver->body().positions(), 2).value(), 1.0);
 }
 
 void MeasuresTest::a_hand_that_is_back_gives_no_ratio() {

@@ -210,7 +210,7 @@ void MeshTest::an_element_alone_is_an_object() {
   const auto solver = make_solver(mesh, Algorithm::generalized, Precision::double_precision);
   const PassCount count = solver->move(0, Point(3, 0, 0));
   QCOMPARE(count.checked, std::uint64_t{0});
-  QCOMPARE(solver->positions()(0, 0), 3.0);
+  QCOMPARE(solver->body().positions()(0, 0), 3.0);
 }
 
 QTEST_APPLESS_MAIN(MeshTest)

@@ -36,8 +36,8 @@ struct ValidState {
         softness(draw_softness(*mesh)),
         solver(make_solver(mesh, *any_algorithm(), precision)) {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
-    solver->set_softness(softness);
-    solver->set_positions(random_valid_state(*mesh, softness, reach, random));
+    solver->body().set_softness(softness);
+    solver->body().set_positions(random_valid_state(*mesh, softness, reach, random));
   }
 
   MeshPointer mesh;
@@ -62,7 +62,7 @@ void MotionTest::at_rest_a_zero_move_moves_nothing() {
     const auto& mesh = draw_family().mesh;
     const auto solver = make_solver(mesh, *any_algorithm(), Precision::double_precision);
     // Any softness except rigid, because then the rest shape has no slack for rounding.
-    solver->set_softness({{*rc::gen::inRange(0, 100) / 100.0, *rc::gen::inRange(101, 300) / 100.0, 0.01}, {}});
+    solver->body().set_softness({{*rc::gen::inRange(0, 100) / 100.0, *rc::gen::inRange(101, 300) / 100.0, 0.01}, {}});
     const ElementId element = (*any_hand()).of(*mesh);
     const auto before = positions_of(*solver, *mesh);
     const PassCount count = move_by(*solver, *mesh, element, Point(0, 0, 0));
@@ -90,7 +90,7 @@ void MotionTest::after_a_drag_a_zero_move_anywhere_moves_nothing() {
   const auto holds = [] {
     const auto mesh = make_mesh(MeshKind::grid, {9, 7, 1});
     const auto solver = make_solver(mesh, Algorithm::natural_queue, *any_precision());
-    solver->set_softness({{0.75, 1.25, 0.125}, {}});
+    solver->body().set_softness({{0.75, 1.25, 0.125}, {}});
     for (const Hand& hand : *any_hands()) {
       move_by(*solver, *mesh, hand.of(*mesh), hand.by());
     }
@@ -129,7 +129,7 @@ void MotionTest::from_a_valid_state_nothing_outruns_the_hand() {
   // For any mesh, algorithm and cuts, a valid link passes on at most the step of its sponsor.
   const auto holds = [] {
     const ValidState state(0.9);
-    state.solver->cut(draw_links(*state.mesh));
+    state.solver->body().cut(draw_links(*state.mesh));
     const auto before = positions_of(*state.solver, *state.mesh);
     const auto hand = *any_hand();
     move_by(*state.solver, *state.mesh, hand.of(*state.mesh), hand.by());
@@ -148,7 +148,7 @@ void MotionTest::on_uncut_grids_natural_queue_never_outruns_the_hand() {
     const auto mesh = draw_grid();
     const auto precision = *any_precision();
     const auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
-    solver->set_softness({*any_link_softness(), {}});
+    solver->body().set_softness({*any_link_softness(), {}});
     double rounding = 0;  // an earlier pass leaves its rounding in the state
     for (const Hand& hand : *any_hands()) {
       const auto before = positions_of(*solver, *mesh);
@@ -169,11 +169,11 @@ void MotionTest::on_uncut_grids_natural_queue_stays_valid() {
     const auto mesh = draw_grid();
     const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
     const Softness softness{*any_link_softness(), {}};
-    solver->set_softness(softness);
+    solver->body().set_softness(softness);
     for (const Hand& hand : *any_hands()) {
       move_by(*solver, *mesh, hand.of(*mesh), hand.by());
       // Rounding in rest lengths: 1e-9 is far above it, and far below visible violations.
-      RC_ASSERT(measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max <= 1e-9);
+      RC_ASSERT(measure_violation(*mesh, softness, solver->body().cuts(), solver->body().positions()).max <= 1e-9);
     }
   };
   QVERIFY(check_property("on uncut grids Natural Queue leaves every link valid", holds));
@@ -214,7 +214,7 @@ void MotionTest::a_translated_object_deforms_alike() {
     const auto here = make_solver(grid, info.algorithm, Precision::single_precision);
     const auto there = make_solver(moved, info.algorithm, Precision::single_precision);
     for (Solver* solver : {here.get(), there.get()}) {
-      solver->set_softness({{0.75, 1.25, 0.125}, {}});
+      solver->body().set_softness({{0.75, 1.25, 0.125}, {}});
     }
     move_by(*here, *grid, 27, Point(3.5, -2.25, 0));
     move_by(*there, *moved, 27, Point(3.5, -2.25, 0));
@@ -229,7 +229,7 @@ void MotionTest::nothing_moves_on_an_axis_without_motion_in_1d() {
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
   move_by(*solver, *mesh, 4, Point(5, 0, 0));
   for (ElementId e = 0; e < 9; ++e) {
-    QCOMPARE(solver->positions()(e, 1), 0.0);
+    QCOMPARE(solver->body().positions()(e, 1), 0.0);
   }
 }
 

@@ -46,17 +46,17 @@ class SideBySide {
         algorithm_(algorithm),
         solver_(make_solver(mesh, algorithm, precision_of<Scalar>)),
         object_(mesh, factors_of(mesh, softness_)) {
-    solver_->set_softness(softness_);
+    solver_->body().set_softness(softness_);
   }
 
   void cut_or_uncut_a_link() {
     const LinkId link = random_() % mesh_->link_count();
     const auto [a, b] = mesh_->links[link];
-    if (solver_->cuts().is_cut(link)) {
-      solver_->uncut(std::span(&link, 1));
+    if (solver_->body().cuts().is_cut(link)) {
+      solver_->body().uncut(std::span(&link, 1));
       object_.uncut(a, b);
     } else {
-      solver_->cut(std::span(&link, 1));
+      solver_->body().cut(std::span(&link, 1));
       object_.cut(a, b);
     }
   }
@@ -78,7 +78,7 @@ class SideBySide {
   std::array<double, 3> random_target(ElementId element, double reach) {
     std::array<double, 3> target{};
     for (int k = 0; k < mesh_->space_dimension; ++k) {
-      target[k] = solver_->positions()(element, k) + uniform(random_, -reach, reach);
+      target[k] = solver_->body().positions()(element, k) + uniform(random_, -reach, reach);
     }
     return target;
   }
@@ -182,8 +182,8 @@ void OracleTest::spiral_ends_where_natural_queue_does() {
       const auto spiral = make_solver(family.mesh, Algorithm::spiral, precision);
       const auto queue = make_solver(family.mesh, Algorithm::natural_queue, precision);
       const Softness softness = mixed_softness(*family.mesh, random);
-      spiral->set_softness(softness);
-      queue->set_softness(softness);
+      spiral->body().set_softness(softness);
+      queue->body().set_softness(softness);
       for (int pass = 0; pass < 2 * passes; ++pass) {
         const ElementId element = random() % family.mesh->element_count();
         const Point target = position_of(*queue, *family.mesh, element) +

@@ -43,7 +43,7 @@ void PinsTest::pins_stay() {
     for (const ElementId pin : pins) {
       for (int k = 0; k < mesh->space_dimension; ++k) {
         const double rest = mesh->rest[std::size_t{pin} * mesh->space_dimension + k];
-        const double now = simulation.solver().positions()(pin, k);
+        const double now = simulation.body().positions()(pin, k);
         RC_ASSERT(now == rest || float(now) == float(rest));  // in the precision of the solver
       }
     }
@@ -60,13 +60,13 @@ void PinsTest::lists_go_round_a_pin() {
     }
     const auto solver = make_solver(mesh, one.algorithm, Precision::double_precision);
     const ElementId pin = 3;
-    solver->pin(std::span(&pin, 1));
+    solver->body().pin(std::span(&pin, 1));
     const PassCount count = solver->move(0, Point(-9, 0, 0));
     QCOMPARE(count.moved, std::uint64_t{2});
     QCOMPARE(count.checked, std::uint64_t{2});
-    QCOMPARE(solver->positions()(0, 0), -9.0);
-    QCOMPARE(solver->positions()(3, 0), 3.0);
-    QCOMPARE(solver->positions()(4, 0), 4.0);
+    QCOMPARE(solver->body().positions()(0, 0), -9.0);
+    QCOMPARE(solver->body().positions()(3, 0), 3.0);
+    QCOMPARE(solver->body().positions()(4, 0), 4.0);
   }
 }
 
@@ -75,13 +75,13 @@ void PinsTest::everything_pinned() {
   for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
     const auto solver = make_solver(mesh, one.algorithm, Precision::single_precision);
     for (ElementId e = 1; e < 16; ++e) {
-      solver->pin(std::span(&e, 1));
+      solver->body().pin(std::span(&e, 1));
     }
     solver->move(0, Point(-3, -3, 0));
     QCOMPARE(solver->moved().size(), std::size_t{0});
     // Exact keeps all links valid: the corner may move by the stretch of one link and the shear of the other, 0.1.
     const double reached = one.algorithm == Algorithm::exact ? -0.1 : -3;
-    QVERIFY(std::abs(solver->positions()(0, 0) - reached) < 1e-6);  // float
+    QVERIFY(std::abs(solver->body().positions()(0, 0) - reached) < 1e-6);  // float
   }
 }
 
@@ -90,27 +90,27 @@ void PinsTest::a_pinned_element_is_not_moved() {
   for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
     const auto solver = make_solver(mesh, one.algorithm, Precision::double_precision);
     const ElementId pin = 5;
-    solver->pin(std::span(&pin, 1));
+    solver->body().pin(std::span(&pin, 1));
     const std::string sentence = refusal([&] { solver->move(5, Point(2, 2, 0)); });
     QVERIFY2(sentence.starts_with("element 5: it is pinned"), sentence.c_str());
-    QCOMPARE(solver->positions()(5, 0), 1.0);
+    QCOMPARE(solver->body().positions()(5, 0), 1.0);
   }
 }
 
 void PinsTest::a_pin_is_taken_out_again() {
   const auto solver = pinned_chain(Precision::double_precision, {0, 4, 4});
-  QCOMPARE(solver->pins().size(), std::size_t{2});
+  QCOMPARE(solver->body().pins().size(), std::size_t{2});
   const std::vector<ElementId> both{4, 0, 7};
-  solver->unpin(both);
-  QVERIFY(solver->pins().empty());
+  solver->body().unpin(both);
+  QVERIFY(solver->body().pins().empty());
   QVERIFY(!solver->move(11, Point(50, 0, 0)).stopped);
-  QCOMPARE(solver->positions()(0, 0), 50 - 11 * 1.25);
+  QCOMPARE(solver->body().positions()(0, 0), 50 - 11 * 1.25);
 }
 
 void PinsTest::pins_come_back_with_undo() {
   Simulation simulation(make_mesh(MeshKind::line, {12, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
   const auto pins = [&] {
-    const auto now = simulation.solver().pins();
+    const auto now = simulation.body().pins();
     return std::vector<ElementId>(now.begin(), now.end());
   };
   carry_out(simulation, commands::Pin{{3, 1}});

@@ -40,7 +40,7 @@ Trace all_moved(const std::vector<std::array<ElementId, 2>>& element_and_sponsor
 /// Drags a rigid grid far, so that every candidate moves.
 Trace drag_rigid(const MeshPointer& mesh, Algorithm algorithm, ElementId element) {
   const auto solver = make_solver(mesh, algorithm, Precision::double_precision);
-  solver->set_softness({rigid, {}});
+  solver->body().set_softness({rigid, {}});
   Trace trace;
   move_by(*solver, *mesh, element, Point(8, 4, 0), &trace);
   return trace;
@@ -106,7 +106,7 @@ void PropagationTest::only_elements_that_moved_pass_it_on() {
   const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
   for (const AlgorithmInfo& one : algorithms()) {
     const auto solver = make_solver(mesh, one.algorithm, Precision::double_precision);
-    solver->set_softness({{0.875, 1.125, 0.25}, {}});
+    solver->body().set_softness({{0.875, 1.125, 0.25}, {}});
     Trace trace;
     const PassCount count = move_by(*solver, *mesh, 4, Point(-0.2, 0, 0), &trace);
     std::set<ElementId> moved(solver->moved().begin(), solver->moved().end());
@@ -124,7 +124,7 @@ void PropagationTest::a_chain_follows_link_by_link() {
   const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
   for (const AlgorithmInfo& one : algorithms()) {
     const auto solver = make_solver(mesh, one.algorithm, Precision::single_precision);
-    solver->set_softness({{0.75, 1.25, 0}, {}});
+    solver->body().set_softness({{0.75, 1.25, 0}, {}});
     const PassCount count = solver->move(0, Point(-2, 0, 0));
     const std::vector<double> expected{-2, -0.75, 0.5, 1.75, 3, 4.25, 5.5, 6.75, 8, 9, 10, 11};
     QCOMPARE(positions_of(*solver, *mesh), expected);
@@ -155,8 +155,8 @@ void PropagationTest::an_updated_elements_link_to_its_sponsor_is_valid() {
     const auto precision = *any_precision();
     const auto solver = make_solver(mesh, *any_algorithm(), precision);
     const Softness softness = draw_softness(*mesh);
-    solver->set_softness(softness);
-    solver->cut(draw_links(*mesh));
+    solver->body().set_softness(softness);
+    solver->body().cut(draw_links(*mesh));
     for (const Hand& hand : *any_hands()) {
       Trace trace;
       move_by(*solver, *mesh, hand.of(*mesh), hand.by(), &trace);
@@ -166,7 +166,8 @@ void PropagationTest::an_updated_elements_link_to_its_sponsor_is_valid() {
       const double largest = largest_coordinate(positions_of(*solver, *mesh)) + 10;
       for (const TraceRow& row : trace) {
         const LinkId link = *find_link(*mesh, row.element, row.sponsor);
-        const double outside = link_violation(*mesh, softness, solver->positions(), link) * rest_length(*mesh, link);
+        const double outside =
+            link_violation(*mesh, softness, solver->body().positions(), link) * rest_length(*mesh, link);
         RC_ASSERT(outside <= 4 * ulp * largest);
       }
     }
@@ -178,7 +179,7 @@ void PropagationTest::no_element_is_updated_twice() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const auto solver = make_solver(mesh, *any_algorithm(), *any_precision());
-    solver->set_softness(draw_softness(*mesh));
+    solver->body().set_softness(draw_softness(*mesh));
     for (const Hand& hand : *any_hands()) {
       Trace trace;
       move_by(*solver, *mesh, hand.of(*mesh), hand.by(), &trace);

@@ -42,8 +42,8 @@ void wake_all(Solver& solver, const Mesh& mesh) {
 std::vector<double> sweep_chain(const MeshPointer& mesh, const Softness& softness, const std::vector<double>& positions,
                                 double step, ElementId held) {
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
-  solver->set_softness(softness);
-  solver->set_positions(positions);
+  solver->body().set_softness(softness);
+  solver->body().set_positions(positions);
   wake_all(*solver, *mesh);
   solver->relax(step, no_limit, held);
   return positions_of(*solver, *mesh);
@@ -54,14 +54,16 @@ struct ActiveState {
   ActiveState() : mesh(draw_family().mesh), softness(draw_softness(*mesh)), step(*rc::gen::inRange(1, 101) / 100.0) {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
     solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
-    solver->set_softness(softness);
-    solver->set_positions(random_valid_state(*mesh, softness, 0.99, random));
+    solver->body().set_softness(softness);
+    solver->body().set_positions(random_valid_state(*mesh, softness, 0.99, random));
     wake_all(*solver, *mesh);
     held = *rc::gen::inRange<ElementId>(0, mesh->element_count());
   }
 
-  double violation() const { return measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max; }
-  double energy() const { return elastic_energy(*mesh, solver->cuts(), solver->positions()); }
+  double violation() const {
+    return measure_violation(*mesh, softness, solver->body().cuts(), solver->body().positions()).max;
+  }
+  double energy() const { return elastic_energy(*mesh, solver->body().cuts(), solver->body().positions()); }
 
   MeshPointer mesh;
   Softness softness;
@@ -112,8 +114,8 @@ void RelaxationTest::a_cut_link_does_not_pull() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
   const LinkId right = *find_link(*mesh, 1, 2);
-  solver->cut(std::span(&right, 1));
-  solver->set_positions(std::vector<double>{0, 1.25, 9});
+  solver->body().cut(std::span(&right, 1));
+  solver->body().set_positions(std::vector<double>{0, 1.25, 9});
   wake_all(*solver, *mesh);
   solver->relax(1, no_limit, 0);
   QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{0, 1, 9}));

@@ -36,7 +36,7 @@ void RepairTest::a_start_that_is_not_valid_is_repaired() {
       move_by(*solver, *mesh, hand.of(*mesh), hand.by());
     }
     const Softness softness = draw_softness(*mesh);
-    solver->set_softness(softness);
+    solver->body().set_softness(softness);
     solver->set_algorithm(Algorithm::exact);
     const auto hand = *any_hand();
     const auto before = positions_of(*solver, *mesh);
@@ -50,7 +50,8 @@ void RepairTest::a_start_that_is_not_valid_is_repaired() {
     // Rounding: once for each envelope's path, once for the mean of both, and once for the pass.
     const double size = 10 + largest_displacement(*mesh, after);
     for (LinkId link = 0; link < mesh->link_count(); ++link) {
-      const double outside = link_violation(*mesh, softness, solver->positions(), link) * rest_length(*mesh, link);
+      const double outside =
+          link_violation(*mesh, softness, solver->body().positions(), link) * rest_length(*mesh, link);
       RC_ASSERT(outside <= 64 * half_ulp(precision) * size);
     }
   };
@@ -63,7 +64,7 @@ void RepairTest::a_repair_leaves_what_is_valid() {
   for (const MeshFamily& family : families()) {
     const auto solver = make_solver(family.mesh, Algorithm::exact, Precision::double_precision);
     const auto state = random_valid_state(*family.mesh, {}, 0.5, random);
-    solver->set_positions(state);
+    solver->body().set_positions(state);
     const PassCount count = move_by(*solver, *family.mesh, 0, Point(0, 0, 0));
     QCOMPARE(count.moved, std::uint64_t{0});
     // Stored relative to rest and added again: an ulp of the coordinates.
@@ -76,22 +77,22 @@ void RepairTest::a_repair_halves_between_the_envelopes() {
   // They are 1.5 apart. The greatest valid answer below has 2 at 2.25, the least one above has 1 at 1.25.
   const auto chain = make_mesh(MeshKind::line, {3, 1, 1});
   const auto solver = make_solver(chain, Algorithm::exact, Precision::double_precision);
-  solver->set_softness({{0.75, 1.25, 0}, {}});
-  solver->set_positions(std::vector<double>{0, 1, 4});
+  solver->body().set_softness({{0.75, 1.25, 0}, {}});
+  solver->body().set_positions(std::vector<double>{0, 1, 4});
   solver->move(0, Point(0, 0, 0));
   QCOMPARE(positions_of(*solver, *chain), (std::vector<double>{0, 1.125, 2.375}));
   // Far from the handle there is no anchor: 10 and 11 are 2 apart, and 1.5 is the limit.
   const auto longer = make_mesh(MeshKind::line, {12, 1, 1});
   const auto free = make_solver(longer, Algorithm::exact, Precision::double_precision);
-  free->set_softness({{0.5, 1.5, 0}, {}});
+  free->body().set_softness({{0.5, 1.5, 0}, {}});
   auto state = longer->rest;
   state[11] = 12;
-  free->set_positions(state);
+  free->body().set_positions(state);
   free->move(0, Point(0, 0, 0));
   // Least: 11 moves down to 11.5. Greatest: 10 moves up to 10.5. The means are 11.75 and 10.25.
-  QCOMPARE(free->positions()(11, 0), 11.75);
-  QCOMPARE(free->positions()(10, 0), 10.25);
-  QCOMPARE(free->positions()(9, 0), 9.0);
+  QCOMPARE(free->body().positions()(11, 0), 11.75);
+  QCOMPARE(free->body().positions()(10, 0), 10.25);
+  QCOMPARE(free->body().positions()(9, 0), 9.0);
 }
 
 void RepairTest::states_from_outside_are_looked_at() {
@@ -100,23 +101,23 @@ void RepairTest::states_from_outside_are_looked_at() {
   all.insert_all();
   for (const bool kept : {false, true}) {
     const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
-    solver->set_positions(std::vector<double>{0, 5, 2, 3});
+    solver->body().set_positions(std::vector<double>{0, 5, 2, 3});
     PositionBlocks positions;
-    solver->keep_positions(all, all, positions);
-    solver->reset();
+    solver->body().keep_positions(all, all, positions);
+    solver->body().reset();
     solver->set_algorithm(Algorithm::exact);
-    kept ? solver->restore(positions, all) : solver->set_positions(std::vector<double>{0, 5, 2, 3});
+    kept ? solver->body().restore(positions, all) : solver->body().set_positions(std::vector<double>{0, 5, 2, 3});
     solver->move(0, Point(0, 0, 0));
-    QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()).max < 1e-12);
+    QVERIFY(measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions()).max < 1e-12);
   }
 }
 
 void RepairTest::a_repair_and_its_pass_count_once() {
   const auto mesh = make_mesh(MeshKind::line, {9, 1, 1});
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
-  solver->set_softness({{0.75, 1.3, 0}, {}});
+  solver->body().set_softness({{0.75, 1.3, 0}, {}});
   const ElementId pin = 0;
-  solver->pin(std::span(&pin, 1));
+  solver->body().pin(std::span(&pin, 1));
   solver->move(8, Point(27, 0, 0));
   solver->set_algorithm(Algorithm::exact);
   const auto before = positions_of(*solver, *mesh);
@@ -141,12 +142,12 @@ void RepairTest::a_repair_of_huge_displacements_stays_finite() {
     const double far = precision == Precision::single_precision ? 2e37 : 1e307;
     const auto solver = make_solver(mesh, Algorithm::exact, precision);
     const LinkId middle = *find_link(*mesh, 1, 2);
-    solver->cut(std::span(&middle, 1));
+    solver->body().cut(std::span(&middle, 1));
     solver->move(0, Point(far, 0, 0));
-    solver->uncut(std::span(&middle, 1));
+    solver->body().uncut(std::span(&middle, 1));
     solver->move(0, Point(5, 0, 0));
     solver->move(0, Point(4, 0, 0));
-    QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()).max < 1e-5);
+    QVERIFY(measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions()).max < 1e-5);
     QVERIFY_EXCEPTION_THROWN(solver->move(0, Point(100 * far, 0, 0)), Error);
   }
 }
@@ -159,7 +160,7 @@ void RepairTest::back_from_far_away_every_link_holds() {
   solver->move(210, Point(1e7, 1e7, 0));
   solver->move(210, Point(10, 10, 0));
   solver->move(210, Point(11, 10, 0));
-  QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()).max < 1e-4);
+  QVERIFY(measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions()).max < 1e-4);
 }
 
 void RepairTest::relaxation_that_moves_nothing_leaves_the_rest_shape() {
@@ -181,8 +182,8 @@ void RepairTest::what_exact_leaves_needs_no_repair() {
       const Point to = mesh->rest_position(20100) + Point(far, far / 3, 0);
       solver->move(20100, to);
       const LinkId corner = 0;
-      solver->cut(std::span(&corner, 1));
-      solver->uncut(std::span(&corner, 1));
+      solver->body().cut(std::span(&corner, 1));
+      solver->body().uncut(std::span(&corner, 1));
       QCOMPARE(solver->move(20100, to).moved, std::uint64_t{0});
     }
   }
@@ -196,23 +197,23 @@ void RepairTest::pins_on_what_exact_leaves_contradict_nobody() {
     const std::size_t front = solver->move(0, Point(-far, 0, 0)).moved;
     std::vector<ElementId> pins(10);
     std::iota(pins.begin(), pins.end(), ElementId(front - 11));
-    solver->pin(pins);
+    solver->body().pin(pins);
     for (const double to : {-0.9 * far, -far / 100, 0.01 - far / 100}) {
       solver->move(0, Point(to, 0, 0));  // throws if it finds a contradiction
     }
-    QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()).max < 1e-4);
+    QVERIFY(measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions()).max < 1e-4);
   }
 }
 
 void RepairTest::an_uncut_link_is_mended() {
   const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
   const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
-  solver->set_softness({{0.75, 1.25, 0}, {}});
+  solver->body().set_softness({{0.75, 1.25, 0}, {}});
   const LinkId middle = *find_link(*mesh, 1, 2);
-  solver->cut(std::span(&middle, 1));
+  solver->body().cut(std::span(&middle, 1));
   solver->move(0, Point(-5, 0, 0));
   QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-5, -3.75, 2, 3}));
-  solver->uncut(std::span(&middle, 1));
+  solver->body().uncut(std::span(&middle, 1));
   Trace trace;
   const PassCount count = solver->move(0, Point(-5, 0, 0), &trace);
   // 0 is held at −5. 1 is at most 1.25 further, as before, so it stays. The others must move.

@@ -24,20 +24,20 @@ class Drag {
     const ElementId element = which % mesh_->element_count();
     switch (event) {
       case Event::cut:
-        return solver_->cut(std::span(&link, 1));
+        return solver_->body().cut(std::span(&link, 1));
       case Event::uncut:
-        return solver_->uncut(std::span(&link, 1));
+        return solver_->body().uncut(std::span(&link, 1));
       case Event::pin:
-        return element == hand_ ? solver_->reset() : solver_->pin(std::span(&element, 1));
+        return element == hand_ ? solver_->body().reset() : solver_->body().pin(std::span(&element, 1));
       case Event::unpin:
-        return solver_->unpin(std::span(&element, 1));
+        return solver_->body().unpin(std::span(&element, 1));
       case Event::soften:
         softness_.global.stretch = 1 + which % 8 / 4.0;
-        return solver_->set_softness(softness_);
+        return solver_->body().set_softness(softness_);
       case Event::reset:
-        return solver_->reset();
+        return solver_->body().reset();
       case Event::other_hand:
-        hand_ = std::ranges::binary_search(solver_->pins(), element) ? hand_ : element;
+        hand_ = std::ranges::binary_search(solver_->body().pins(), element) ? hand_ : element;
         break;
       default:
         break;
@@ -48,10 +48,10 @@ class Drag {
  private:
   void move(const Point& target) {
     const auto fresh = make_solver(mesh_, algorithm_, precision_);
-    fresh->set_softness(softness_);
-    fresh->cut(solver_->cuts().links());
-    fresh->pin(solver_->pins());
-    fresh->set_positions(positions_of(*solver_, *mesh_));
+    fresh->body().set_softness(softness_);
+    fresh->body().cut(solver_->body().cuts().links());
+    fresh->body().pin(solver_->body().pins());
+    fresh->body().set_positions(positions_of(*solver_, *mesh_));
     Trace expected, trace;
     const PassCount of_fresh = fresh->move(hand_, target, &expected);
     const PassCount count = solver_->move(hand_, target, &trace);

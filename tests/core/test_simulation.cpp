@@ -115,7 +115,7 @@ void SimulationTest::the_algorithm_may_change_midway() {
   QVERIFY(same_bits(before, positions_of(simulation)));
   QVERIFY(simulation.statistics().algorithm == Algorithm::natural_queue);
   const auto solver = make_solver(simulation.mesh_pointer(), Algorithm::natural_queue, Precision::double_precision);
-  solver->set_positions(before);
+  solver->body().set_positions(before);
   drag_by(simulation, 7, Point(1, 1, 0));
   solver->move(7, position_of(simulation, 7));
   QVERIFY(same_bits(positions_of(*solver, simulation.mesh()), positions_of(simulation)));
@@ -125,9 +125,9 @@ void SimulationTest::cut_and_uncut() {
   auto simulation = grid_simulation();
   const auto before = positions_of(simulation);
   carry_out(simulation, commands::Cut{{3, 1, 4, 1}});
-  QCOMPARE(simulation.solver().cuts().links(), (std::vector<LinkId>{1, 3, 4}));
+  QCOMPARE(simulation.body().cuts().links(), (std::vector<LinkId>{1, 3, 4}));
   carry_out(simulation, commands::Uncut{{1, 4}});
-  QCOMPARE(simulation.solver().cuts().links(), (std::vector<LinkId>{3}));
+  QCOMPARE(simulation.body().cuts().links(), (std::vector<LinkId>{3}));
   QVERIFY(same_bits(before, positions_of(simulation)));
 }
 
@@ -139,7 +139,7 @@ void SimulationTest::reset_keeps_cuts_and_softness() {
   drag_by(simulation, 7, Point(4, 0, 0));
   carry_out(simulation, commands::Reset{});
   QVERIFY(positions_of(simulation) == simulation.mesh().rest);
-  QCOMPARE(simulation.solver().cuts().links(), (std::vector<LinkId>{5}));
+  QCOMPARE(simulation.body().cuts().links(), (std::vector<LinkId>{5}));
   QVERIFY(simulation.softness() == softness);
   QVERIFY(simulation.valid());
   carry_out(simulation, commands::Drag{Point(2, 2, 0)});  // the element is still grabbed
@@ -156,7 +156,7 @@ void SimulationTest::another_mesh_is_uncut_and_at_rest() {
   carry_out(simulation, commands::ReplaceMesh{tetra});
   QVERIFY(simulation.mesh_pointer() == tetra);
   QVERIFY(positions_of(simulation) == tetra->rest);
-  QVERIFY(simulation.solver().cuts().links().empty());
+  QVERIFY(simulation.body().cuts().links().empty());
   QVERIFY(simulation.softness() == (Softness{global, {}}));  // softness per link belongs to the old one
   QVERIFY(!simulation.grabbed());
   // The global softness also applies to the new mesh: the link along the drag stretches to 1.5.
@@ -172,13 +172,13 @@ void SimulationTest::relaxation_runs_in_idle_time_and_sleeps() {
   QVERIFY(positions_of(simulation) == simulation.mesh().rest);
   drag_by(simulation, 0, Point(-2, -1, 0));
   QVERIFY(simulation.statistics().relaxing);
-  const double before = elastic_energy(simulation.mesh(), simulation.solver().cuts(), simulation.solver().positions());
+  const double before = elastic_energy(simulation.mesh(), simulation.body().cuts(), simulation.body().positions());
   QVERIFY(simulation.step());
   QVERIFY(comes_to_rest(simulation));
   QVERIFY(!simulation.statistics().relaxing);
   QVERIFY(!simulation.step());
   QVERIFY(position_of(simulation, 0) == Point(-2, -1, 0));  // the handle stays
-  const double after = elastic_energy(simulation.mesh(), simulation.solver().cuts(), simulation.solver().positions());
+  const double after = elastic_energy(simulation.mesh(), simulation.body().cuts(), simulation.body().positions());
   QVERIFY(after < before / 10);
 }
 
@@ -291,8 +291,8 @@ void SimulationTest::idle_time_measures_in_slices() {
   QVERIFY(simulation.statistics().violation_of_whole_mesh);
   // Of the current positions, without results from before the command.
   QVERIFY(simulation.statistics().violation == measure_violation(simulation.mesh(), simulation.softness(),
-                                                                 simulation.solver().cuts(),
-                                                                 simulation.solver().positions()));
+                                                                 simulation.body().cuts(),
+                                                                 simulation.body().positions()));
 }
 
 void SimulationTest::valid_is_what_the_whole_mesh_says() {

@@ -48,7 +48,7 @@ void TautTest::a_taut_chain_stays_as_it_is() {
       QCOMPARE(count.moved, std::uint64_t{0});
     }
     QVERIFY(!solver->move(11, Point(12, 0, 0)).stopped);
-    QCOMPARE(solver->positions()(11, 0), 12.0);
+    QCOMPARE(solver->body().positions()(11, 0), 12.0);
   }
 }
 
@@ -57,12 +57,12 @@ void TautTest::the_hand_is_free_along_the_other_axis() {
   const auto mesh = make_mesh(MeshKind::grid, {5, 3, 1});
   const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
   const std::vector<ElementId> column{0, 5, 10};
-  solver->set_softness({{0.75, 1.25, 0.5}, {}});
-  solver->pin(column);
+  solver->body().set_softness({{0.75, 1.25, 0.5}, {}});
+  solver->body().pin(column);
   const PassCount count = solver->move(9, Point(50, 2, 0));
   QVERIFY(count.stopped);
-  QCOMPARE(solver->positions()(9, 0), 5.0);  // four links at a length of 1.25
-  QCOMPARE(solver->positions()(9, 1), 2.0);  // four links may lean by 0.5 each, so 1 is within reach
+  QCOMPARE(solver->body().positions()(9, 0), 5.0);  // four links at a length of 1.25
+  QCOMPARE(solver->body().positions()(9, 1), 2.0);  // four links may lean by 0.5 each, so 1 is within reach
 }
 
 void TautTest::exact_holds_every_link_between_pins() {
@@ -70,10 +70,10 @@ void TautTest::exact_holds_every_link_between_pins() {
     const auto& mesh = draw_family().mesh;
     const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
     const Softness softness = draw_softness(*mesh);
-    solver->set_softness(softness);
+    solver->body().set_softness(softness);
     const auto pins =
         *rc::gen::container<std::vector<ElementId>>(rc::gen::inRange<ElementId>(0, mesh->element_count()));
-    solver->pin(pins);
+    solver->body().pin(pins);
     for (const Hand& hand : *any_hands(80)) {
       const ElementId element = hand.of(*mesh);
       if (std::find(pins.begin(), pins.end(), element) != pins.end()) {
@@ -82,7 +82,7 @@ void TautTest::exact_holds_every_link_between_pins() {
       const Point target = position_of(*solver, *mesh, element) + hand.by();
       const PassCount count = solver->move(element, target);
       // In rest lengths. Rounding along a path of up to 60 links is far below visible violations.
-      RC_ASSERT(measure_violation(*mesh, softness, solver->cuts(), solver->positions()).max <= 1e-11);
+      RC_ASSERT(measure_violation(*mesh, softness, solver->body().cuts(), solver->body().positions()).max <= 1e-11);
       const Point off = position_of(*solver, *mesh, element) - target;
       for (int k = 0; k < mesh->space_dimension; ++k) {
         RC_ASSERT(count.stopped || std::abs(off[mesh->axes[k]]) <= 1e-12);
@@ -98,16 +98,16 @@ void TautTest::pins_that_contradict_are_named() {
     const auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
     solver->move(11, Point(13, 0, 0));
     const std::vector<ElementId> pins{2, 11};
-    solver->pin(pins);
-    solver->set_softness({{1, 1.01, 0}, {}});
+    solver->body().pin(pins);
+    solver->body().set_softness({{1, 1.01, 0}, {}});
     solver->set_algorithm(Algorithm::exact);
     const auto before = positions_of(*solver, *mesh);
     const std::string sentence = refusal([&] { solver->move(5, Point(6, 0, 0)); });
     QVERIFY2(sentence.starts_with("pins 2 and 11: they contradict each other"), sentence.c_str());
     QVERIFY(same_bits(before, positions_of(*solver, *mesh)));
-    solver->unpin(std::span(&pins[1], 1));
+    solver->body().unpin(std::span(&pins[1], 1));
     solver->move(5, Point(5.02, 0, 0));
-    QVERIFY(measure_violation(*mesh, {{1, 1.01, 0}, {}}, solver->cuts(), solver->positions()).max < 1e-5);
+    QVERIFY(measure_violation(*mesh, {{1, 1.01, 0}, {}}, solver->body().cuts(), solver->body().positions()).max < 1e-5);
   }
 }
 
@@ -116,10 +116,10 @@ void TautTest::the_pair_that_contradicts_is_named() {
   const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
   const std::vector<ElementId> first{0, 3, 8};
-  solver->pin(first);
+  solver->body().pin(first);
   solver->move(11, Point(15, 0, 0));
   const ElementId last = 11;
-  solver->pin(std::span(&last, 1));
+  solver->body().pin(std::span(&last, 1));
   solver->set_algorithm(Algorithm::exact);
   const auto before = positions_of(*solver, *mesh);
   const std::string sentence = refusal([&] { solver->move(5, Point(5, 0, 0)); });
@@ -134,17 +134,18 @@ void TautTest::rounding_is_no_contradiction() {
   for (const double far : {-1e3, 1e3}) {
     for (const Precision precision : precisions) {
       const auto solver = make_solver(mesh, Algorithm::exact, precision);
-      solver->set_softness({{0.9, 1.2, 0}, {}});
+      solver->body().set_softness({{0.9, 1.2, 0}, {}});
       const std::vector<ElementId> ends{0, 499};
-      solver->pin(std::span(ends).first(1));
+      solver->body().pin(std::span(ends).first(1));
       QVERIFY(solver->move(499, Point(far, 0, 0)).stopped);
-      solver->pin(std::span(ends).last(1));
+      solver->body().pin(std::span(ends).last(1));
       solver->set_algorithm(Algorithm::natural_queue);
       solver->set_algorithm(Algorithm::exact);
       solver->move(250, position_of(*solver, *mesh, 250) + Point(0.01, 0, 0));
       // Float: half an ulp of 60 for each of 500 links, divided by a link length of 0.1.
       const double rounding = precision == Precision::single_precision ? 500 * 2e-6 / 0.1 : 1e-10;
-      QVERIFY(measure_violation(*mesh, {{0.9, 1.2, 0}, {}}, solver->cuts(), solver->positions()).max <= rounding);
+      QVERIFY(measure_violation(*mesh, {{0.9, 1.2, 0}, {}}, solver->body().cuts(), solver->body().positions()).max <=
+              rounding);
     }
   }
 }

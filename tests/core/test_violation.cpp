@@ -35,7 +35,7 @@ constexpr double rounding = 1e-14;
 /// Returns a solver with given positions.
 std::unique_ptr<Solver> at(const MeshPointer& mesh, const std::vector<double>& positions) {
   auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
-  solver->set_positions(positions);
+  solver->body().set_positions(positions);
   return solver;
 }
 
@@ -46,29 +46,29 @@ bool close(double value, double expected) { return std::abs(value - expected) <=
 void ViolationTest::of_a_stretched_and_of_a_compressed_link() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
   const auto solver = at(mesh, {0, 1.5, 2});
-  QVERIFY(close(link_violation(*mesh, {}, solver->positions(), 0), 0.3));  // 1.5 − 1.2
-  QVERIFY(close(link_violation(*mesh, {}, solver->positions(), 1), 0.3));  // 0.8 − 0.5
-  QCOMPARE(link_violation(*mesh, {{0.5, 1.5, 0}, {}}, solver->positions(), 0), 0.0);
-  QVERIFY(close(link_violation(*mesh, {{}, {{1, {1, 1, 0}}}}, solver->positions(), 1), 0.5));
+  QVERIFY(close(link_violation(*mesh, {}, solver->body().positions(), 0), 0.3));  // 1.5 − 1.2
+  QVERIFY(close(link_violation(*mesh, {}, solver->body().positions(), 1), 0.3));  // 0.8 − 0.5
+  QCOMPARE(link_violation(*mesh, {{0.5, 1.5, 0}, {}}, solver->body().positions(), 0), 0.0);
+  QVERIFY(close(link_violation(*mesh, {{}, {{1, {1, 1, 0}}}}, solver->body().positions(), 1), 0.5));
 }
 
 void ViolationTest::is_the_norm_over_the_axes() {
   const auto mesh = make_mesh(MeshKind::line, {2, 1, 1}, 2);
   // 0.3 too far on x, 0.4 too far on y, where 0.1 is allowed.
   const auto solver = at(mesh, {0, 0, 1.5, -0.5});
-  QVERIFY(close(link_violation(*mesh, {}, solver->positions(), 0), 0.5));
+  QVERIFY(close(link_violation(*mesh, {}, solver->body().positions(), 0), 0.5));
 }
 
 void ViolationTest::is_in_rest_lengths_of_the_link() {
   const auto mesh = make_mesh(MeshKind::line, {2, 1, 1}, {}, 4);
   const auto solver = at(mesh, {0, 6.8});  // 4.8 is allowed
-  QVERIFY(close(link_violation(*mesh, {}, solver->positions(), 0), 0.5));
+  QVERIFY(close(link_violation(*mesh, {}, solver->body().positions(), 0), 0.5));
 }
 
 void ViolationTest::over_the_whole_mesh() {
   const auto mesh = make_mesh(MeshKind::line, {5, 1, 1});
   const auto solver = at(mesh, {0, 1.5, 2.5, 4.1, 5.1});  // violations 0.3, 0, 0.4, 0
-  const Violation violation = measure_violation(*mesh, {}, solver->cuts(), solver->positions());
+  const Violation violation = measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions());
   QCOMPARE(violation.links, std::uint64_t{4});
   QVERIFY(close(violation.max, 0.4));
   QVERIFY(close(violation.rms, std::sqrt((0.09 + 0.16) / 4)));
@@ -81,14 +81,14 @@ void ViolationTest::cut_links_do_not_count() {
   const auto mesh = make_mesh(MeshKind::line, {5, 1, 1});
   const auto solver = at(mesh, {0, 1.5, 2.5, 4.1, 5.1});
   const LinkId worst = 2;
-  solver->cut(std::span(&worst, 1));
-  const Violation violation = measure_violation(*mesh, {}, solver->cuts(), solver->positions());
+  solver->body().cut(std::span(&worst, 1));
+  const Violation violation = measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions());
   QCOMPARE(violation.links, std::uint64_t{3});
   QVERIFY(close(violation.max, 0.3));
   const LinkId rest[] = {0, 1, 3};
-  solver->cut(rest);
-  QVERIFY(measure_violation(*mesh, {}, solver->cuts(), solver->positions()) == Violation{});
-  QCOMPARE(elastic_energy(*mesh, solver->cuts(), solver->positions()), 0.0);
+  solver->body().cut(rest);
+  QVERIFY(measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions()) == Violation{});
+  QCOMPARE(elastic_energy(*mesh, solver->body().cuts(), solver->body().positions()), 0.0);
 }
 
 void ViolationTest::over_some_elements() {
@@ -96,21 +96,22 @@ void ViolationTest::over_some_elements() {
   const auto solver = at(mesh, {0, 1.5, 2.5, 4.1, 5.1});
   TouchedViolation touched;
   const ElementId some[] = {1, 4};  // links 0, 1 and 3
-  const Violation violation = touched.measure(*mesh, {}, solver->cuts(), solver->positions(), {some});
+  const Violation violation = touched.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), {some});
   QCOMPARE(violation.links, std::uint64_t{3});
   QVERIFY(close(violation.max, 0.3));
   // Links 0, 1, 2 and 3. Each counts once, however many of its ends are named.
   const ElementId one[] = {2}, others[] = {1, 2, 3};
-  const Violation once = touched.measure(*mesh, {}, solver->cuts(), solver->positions(), {one, others});
+  const Violation once = touched.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), {one, others});
   QCOMPARE(once.links, std::uint64_t{4});
   QVERIFY(close(once.max, 0.4));
   QVERIFY(close(once.rms, std::sqrt((0.09 + 0.16) / 4)));
   QCOMPARE(once.fraction, 0.5);
   // Earlier measurements do not matter, nor do cut links.
-  QVERIFY(touched.measure(*mesh, {}, solver->cuts(), solver->positions(), {some}) == violation);
+  QVERIFY(touched.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), {some}) == violation);
   const LinkId worst = 2;
-  solver->cut(std::span(&worst, 1));
-  QCOMPARE(touched.measure(*mesh, {}, solver->cuts(), solver->positions(), {others}).links, std::uint64_t{3});
+  solver->body().cut(std::span(&worst, 1));
+  QCOMPARE(touched.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), {others}).links,
+           std::uint64_t{3});
 }
 
 void ViolationTest::of_a_link_without_length() {
@@ -120,13 +121,13 @@ void ViolationTest::of_a_link_without_length() {
   parts.links = {{0, 1}, {1, 2}};
   const auto mesh = build_mesh(std::move(parts));
   const auto solver = at(mesh, {0, 0.5, 2.5});
-  QVERIFY(close(link_violation(*mesh, {}, solver->positions(), 0), 0.5));
+  QVERIFY(close(link_violation(*mesh, {}, solver->body().positions(), 0), 0.5));
 }
 
 void ViolationTest::counts_from_1e_4_on() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
   const auto solver = at(mesh, {0, 1.2 + 0.5e-4, 2.4 + 2e-4});  // beyond the limit by 0.5e-4 and by 1.5e-4
-  const Violation violation = measure_violation(*mesh, {}, solver->cuts(), solver->positions());
+  const Violation violation = measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions());
   QCOMPARE(violation.fraction, 0.5);
   QVERIFY(violation.max > 1.4e-4 && violation.max < 1.6e-4);
 }
@@ -135,7 +136,7 @@ void ViolationTest::energy_by_hand() {
   const auto line = make_mesh(MeshKind::line, {3, 1, 1}, 2);
   const auto solver = at(line, {0, 0, 1.5, 0.5, 2.5, 0.25});
   // Deflections (0.5, 0.5) and (0, −0.25).
-  QCOMPARE(elastic_energy(*line, solver->cuts(), solver->positions()), (0.25 + 0.25 + 0.0625) / 2);
+  QCOMPARE(elastic_energy(*line, solver->body().cuts(), solver->body().positions()), (0.25 + 0.25 + 0.0625) / 2);
   // Translated without deformation, it has no energy.
   const auto carried = at(line, {8, 4, 9, 4, 10, 4});
   QCOMPARE(elastic_energy(*line, carried->cuts(), carried->positions()), 0.0);
@@ -144,7 +145,7 @@ void ViolationTest::energy_by_hand() {
 void ViolationTest::displacement_by_hand() {
   const auto mesh = make_mesh(MeshKind::line, {4, 1, 1}, 2);
   const auto solver = at(mesh, {0, 0, 1, 0, 2, 0, 6, 4});  // the last one by (3, 4)
-  const Displacement displacement = measure_displacement(*mesh, solver->positions());
+  const Displacement displacement = measure_displacement(*mesh, solver->body().positions());
   QCOMPARE(displacement.max, 5.0);
   QCOMPARE(displacement.rms, 2.5);
 }
@@ -160,7 +161,7 @@ void ViolationTest::regions_of_neighbours_by_hand() {
   Cuts cuts(mesh);
   cuts.cut(*find_link(*mesh, 1, 4));
   const Softness softness{{0.75, 1.25, 0.125}, {{*find_link(*mesh, 1, 2), {0.5, 2, 0.25}}}};
-  const auto regions = neighbour_regions(*mesh, softness, cuts, solver->positions(), 1, 10);
+  const auto regions = neighbour_regions(*mesh, softness, cuts, solver->body().positions(), 1, 10);
   QCOMPARE(regions.size(), std::size_t{2});
   const NeighbourRegion &left = regions[0], &right = regions[1];
   QCOMPARE(left.neighbour, 0U);
@@ -169,7 +170,7 @@ void ViolationTest::regions_of_neighbours_by_hand() {
   QCOMPARE(right.neighbour, 2U);
   QVERIFY(right.low == Point(2, 0, 0) && right.high == Point(3.5, 0.5, 0));
   QVERIFY(right.inside && right.at == Point(2, 0, 0) && right.nearest == right.at);
-  QCOMPARE(neighbour_regions(*mesh, softness, cuts, solver->positions(), 1, 1).size(), std::size_t{1});
+  QCOMPARE(neighbour_regions(*mesh, softness, cuts, solver->body().positions(), 1, 1).size(), std::size_t{1});
 }
 
 void ViolationTest::regions_agree_with_the_violation() {
@@ -182,11 +183,11 @@ void ViolationTest::regions_agree_with_the_violation() {
     }
     const auto solver = at(family.mesh, positions);
     for (ElementId e = 0; e < mesh.element_count(); ++e) {
-      const auto regions = neighbour_regions(mesh, {}, Cuts(family.mesh), solver->positions(), e, 1000);
+      const auto regions = neighbour_regions(mesh, {}, Cuts(family.mesh), solver->body().positions(), e, 1000);
       QCOMPARE(regions.size(), mesh.neighbours_of(e).size());
       for (const NeighbourRegion& region : regions) {
         const double apart = (region.at - region.nearest).norm() / rest_length(mesh, region.link);
-        QVERIFY(std::abs(apart - link_violation(mesh, {}, solver->positions(), region.link)) < 1e-12);
+        QVERIFY(std::abs(apart - link_violation(mesh, {}, solver->body().positions(), region.link)) < 1e-12);
         QCOMPARE(region.inside, apart <= counts_as_violated);
       }
     }

@@ -37,7 +37,7 @@ inline bool wait_for_passes(SolverThread& solver, std::uint64_t passes) {
 /// Returns the positions in the precision of a float solver.
 inline std::vector<float> floats_of(const Simulation& simulation) {
   std::vector<float> positions(simulation.mesh().rest.size());
-  simulation.solver().copy_positions(std::span(positions));
+  simulation.body().copy_positions(std::span(positions));
   return positions;
 }
 

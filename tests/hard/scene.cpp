@@ -50,7 +50,7 @@ bool Scene::is_at(ElementId element, const Point& position, double ulps) const {
     const double rest = mesh.rest[std::size_t{element} * mesh.space_dimension + k];
     const double size = std::max(std::abs(there), std::abs(rest));
     const double rounding = ulps * std::max(epsilon(precision_) * size, smallest(precision_));
-    if (!(std::abs(simulation_.solver().positions()(element, k) - there) <= rounding)) {
+    if (!(std::abs(simulation_.body().positions()(element, k) - there) <= rounding)) {
       return false;
     }
   }

@@ -138,7 +138,7 @@ std::vector<float> run(const std::vector<Command>& moves, const MeshPointer& mes
     simulation.apply(move);
   }
   std::vector<float> positions(mesh->rest.size());
-  simulation.solver().copy_positions(positions);
+  simulation.body().copy_positions(positions);
   return positions;
 }
 

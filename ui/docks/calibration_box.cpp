@@ -93,7 +93,7 @@ QString CalibrationBox::whyNot() const {
 /// Returns the first algorithm of the ChainMail family in the panels; Exact if there is none.
 Algorithm CalibrationBox::algorithm() const {
   for (int panel = 0; panel < document_.panels(); ++panel) {
-    if (!elastic_method(document_.algorithm(panel))) {
+    if (info(document_.algorithm(panel)).uses_softness()) {
       return document_.algorithm(panel);
     }
   }

@@ -116,7 +116,7 @@ void Propagation::takePasses() {
     const Frame* frame = document_.frame(panel);
     auto pass = document_.lastPass(panel, player ? player->pass().number : 0);
     // Elastic methods solve for all elements at once: they have no steps.
-    const bool stepped = pass && !elastic_method(pass->algorithm);
+    const bool stepped = pass && info(pass->algorithm).has_steps();
     if (stepped && frame != nullptr && pass->mesh == frame->mesh && pass->algorithm == document_.algorithm(panel)) {
       player = std::make_unique<PassPlayer>(std::move(pass), frame->statistics);
       any = true;

@@ -126,7 +126,7 @@ QString Panel::describe(const Statistics& statistics, bool briefly) const {
 
 QString Panel::describePass(const Statistics& statistics, bool briefly) {
   const QLocale locale;
-  const bool solved = elastic_method(statistics.algorithm).has_value();
+  const bool solved = !info(statistics.algorithm).has_steps();
   const QString checked = solved    ? QStringLiteral("solved for <b>%2</b> elements")
                           : briefly ? QStringLiteral("<b>%2</b> checked")
                                     : QStringLiteral("<b>%2</b> links checked");

@@ -92,7 +92,7 @@ QDockWidget* makeSizeTest(const DockParts& parts, const Docks& /*made*/) {
   const auto contestants = [&document = parts.document, &area = parts.area] {
     std::vector<SizeTestContestant> inSight;
     for (const int panel : area.inSight()) {
-      if (!elastic_method(document.algorithm(panel))) {  // elastic methods are not real-time methods
+      if (info(document.algorithm(panel)).family() == Family::chainmail) {
         inSight.push_back({panel, document.algorithm(panel), colours::ofPanel(panel)});
       }
     }

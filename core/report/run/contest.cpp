@@ -85,7 +85,7 @@ class Contest::Participant {
   /// Prepares once for the object and all its handles.
   void prepare() {
     if (prepares(contestant_) && !preparing_) {
-      preparing_.emplace(object_, *elastic_method(*contestant_.algorithm));
+      preparing_.emplace(object_, *info(*contestant_.algorithm).elastic);
     }
   }
 
@@ -107,7 +107,7 @@ class Contest::Participant {
     entry_.refusal = simulation.statistics().remark;
     if (!stopped_ && entry_.refusal.empty()) {
       PhysicsMeasurement& measured = entry_.measurement.emplace();
-      measured.error = measure_physical_error(simulation.mesh(), simulation.solver().positions(), truth);
+      measured.error = measure_physical_error(simulation.mesh(), simulation.body().positions(), truth);
       if (preparing_) {
         measured.prepare = preparing_->of(handle);
       }

@@ -11,12 +11,12 @@ namespace {
 constexpr ElementId equilibrium_limit = 131'072;
 
 double energy_of(const Simulation& simulation) {
-  return elastic_energy(simulation.mesh(), simulation.solver().cuts(), simulation.solver().positions());
+  return elastic_energy(simulation.mesh(), simulation.body().cuts(), simulation.body().positions());
 }
 
 Distance between(const Runner& one, const Runner& other) {
-  return measure_distance(one.simulation().mesh(), one.simulation().solver().positions(),
-                          other.simulation().solver().positions());
+  return measure_distance(one.simulation().mesh(), one.simulation().body().positions(),
+                          other.simulation().body().positions());
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ References::References(const Case& object, const RecordedMoves& moves, const Com
 /// Finds the end of full relaxation, with the handle and the pins at the positions of Exact ChainMail.
 void References::find_equilibrium() {
   const Simulation& simulation = exact_->simulation();
-  const auto pins = simulation.solver().pins();
+  const auto pins = simulation.body().pins();
   std::vector<ElementId> fixed(pins.begin(), pins.end());
   if (exact_->handle()) {
     fixed.push_back(*exact_->handle());
@@ -49,8 +49,8 @@ void References::find_equilibrium() {
   JobState job;
   const std::stop_callback cancel(stop_, [&job] { job.cancelled = true; });
   try {
-    equilibrium_ = equilibrium(simulation.mesh(), simulation.softness(), simulation.solver().cuts(), fixed,
-                               simulation.solver().positions(), cholesky_limit, chainmail::Progress(job));
+    equilibrium_ = equilibrium(simulation.mesh(), simulation.softness(), simulation.body().cuts(), fixed,
+                               simulation.body().positions(), cholesky_limit, chainmail::Progress(job));
   } catch (const Cancelled&) {
     return;  // the result is not needed then
   }
@@ -64,9 +64,9 @@ void References::find_equilibrium() {
 
 Errors References::errors_of(const Runner& runner, const Contestant& contestant) {
   const Simulation& simulation = runner.simulation();
-  const PositionView positions = simulation.solver().positions();
+  const PositionView positions = simulation.body().positions();
   Errors errors;
-  errors.violation = measure_violation(simulation.mesh(), simulation.softness(), simulation.solver().cuts(), positions);
+  errors.violation = measure_violation(simulation.mesh(), simulation.softness(), simulation.body().cuts(), positions);
   if (exact_) {
     errors.to_exact = between(runner, *exact_);
     errors.energy_over_exact = energy_ratio(energy_of(simulation), energy_of_exact_);

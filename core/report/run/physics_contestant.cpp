@@ -36,14 +36,14 @@ std::string label(const PhysicsContestant& contestant) {
 }
 
 bool prepares(const PhysicsContestant& contestant) {
-  return contestant.algorithm && elastic_method(*contestant.algorithm);
+  return contestant.algorithm && info(*contestant.algorithm).elastic;
 }
 
 std::vector<PhysicsContestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps,
                                               const std::vector<Calibration>& calibrations) {
   std::vector<PhysicsContestant> contestants{{std::nullopt, 0}};
   for (const Algorithm algorithm : algorithms) {
-    if (elastic_method(algorithm)) {
+    if (info(algorithm).elastic) {
       contestants.push_back({algorithm, 0});
       continue;
     }

@@ -25,10 +25,10 @@ class RampSize {
     auto& solver = algorithm == Algorithm::exact ? exact_ : by_lists_;
     if (!solver) {
       solver = make_solver(mesh_, algorithm, options_.precision);
-      solver->set_softness({options_.softness, {}});
+      solver->body().set_softness({options_.softness, {}});
     }
     solver->set_algorithm(algorithm);
-    solver->reset();
+    solver->body().reset();
     return *solver;
   }
 

@@ -37,11 +37,11 @@ void Runner::go_to_rest() {
   if (simulation_.softness() != object_.softness) {
     simulation_.apply(commands::SetSoftness{object_.softness});
   }
-  if (auto cut = simulation_.solver().cuts().links(); cut != cuts_) {
+  if (auto cut = simulation_.body().cuts().links(); cut != cuts_) {
     simulation_.apply(commands::Uncut{std::move(cut)});
     simulation_.apply(commands::Cut{cuts_});
   }
-  if (const auto pinned = simulation_.solver().pins(); !std::ranges::equal(pinned, pins_)) {
+  if (const auto pinned = simulation_.body().pins(); !std::ranges::equal(pinned, pins_)) {
     simulation_.apply(commands::Unpin{{pinned.begin(), pinned.end()}});
     simulation_.apply(commands::Pin{pins_});
   }

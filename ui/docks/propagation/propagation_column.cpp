@@ -112,7 +112,7 @@ void PropagationColumn::refresh() {
   slider_->setRange(0, player != nullptr ? int(player->stepCount()) : 0);
   slider_->setPageStep(std::max(1, slider_->maximum() / 10));
   slider_->setValue(player != nullptr ? int(player->step()) : 0);
-  state_->setText(elastic_method(document_.algorithm(panel_))
+  state_->setText(!info(document_.algorithm(panel_)).has_steps()
                       ? QStringLiteral("No candidates: this method solves for all elements at once")
                   : player != nullptr ? describe(*player)
                                       : QStringLiteral("No pass yet: drag an element"));

@@ -1,0 +1,284 @@
+#include "solve/body.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "solve/body_view.h"
+
+namespace chainmail {
+namespace {
+
+std::vector<ElementId> sorted(std::span<const ElementId> elements) {
+  std::vector<ElementId> result(elements.begin(), elements.end());
+  std::ranges::sort(result);
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+ElementBlocks all_blocks(const Mesh& mesh) {
+  ElementBlocks all(mesh.element_count());
+  all.insert_all();
+  return all;
+}
+
+/// Moves a run of elements to rest.
+template <class View>
+void put_to_rest(const View& body, ElementId first, ElementId end) {
+  for (ElementId e = first; e < end; ++e) {
+    for (int k = 0; k < View::Dimension; ++k) {
+      body.set_position(e, k, body.mesh->rest[std::size_t{e} * View::Dimension + k]);
+    }
+  }
+}
+
+/// Returns what must be added to a stored coordinate in order to store it the other way. −0 changes no number.
+template <class View>
+double shift_of(const View& body, bool from_rest, ElementId element, int k) {
+  const double rest = body.mesh->rest[std::size_t{element} * View::Dimension + k];
+  return from_rest == body.from_rest ? -0.0 : from_rest ? rest : -rest;
+}
+
+template <class View>
+void restore_runs(const View& body, const Snapshot& snapshot) {
+  auto held = snapshot.held.begin();
+  for (std::size_t i = 0; i < snapshot.runs.size(); i += 2) {
+    for (ElementId e = snapshot.runs[i]; e < snapshot.runs[i + 1]; ++e) {
+      for (int k = 0; k < View::Dimension; ++k, ++held) {
+        body.positions[e][k] = static_cast<typename View::Scalar>(*held + shift_of(body, snapshot.from_rest, e, k));
+      }
+    }
+  }
+}
+
+/// Content of one block of PositionBlocks.
+template <class Scalar, int Dimension>
+using PositionBlock = std::array<Position<Scalar, Dimension>, ElementBlocks::block_elements>;
+
+/// Restores the positions of one block.
+template <class View, class Block>
+void restore_block(const View& body, const Block& positions, ElementId first, ElementId end, bool from_rest) {
+  for (ElementId e = first; e < end; ++e) {
+    body.positions[e] = positions[e - first];
+    for (int k = 0; k < View::Dimension && from_rest != body.from_rest; ++k) {
+      const double held = positions[e - first][k];
+      body.positions[e][k] = static_cast<typename View::Scalar>(held + shift_of(body, from_rest, e, k));
+    }
+  }
+}
+
+}  // namespace
+
+Body::AnyTyped Body::make_typed(Precision precision, int dimension) {
+  const bool single = precision == Precision::single_precision;
+  switch (dimension) {
+    case 1:
+      return single ? AnyTyped(Typed<float, 1>()) : Typed<double, 1>();
+    case 2:
+      return single ? AnyTyped(Typed<float, 2>()) : Typed<double, 2>();
+    default:
+      return single ? AnyTyped(Typed<float, 3>()) : Typed<double, 3>();
+  }
+}
+
+Body::Body(MeshPointer mesh, Precision precision)
+    : mesh_(std::move(mesh)),
+      precision_(precision),
+      cuts_(mesh_),
+      typed_(make_typed(precision, mesh_->space_dimension)),
+      updates_(mesh_->element_count()) {
+  std::visit([this](auto& typed) { typed.positions.resize(mesh_->element_count()); }, typed_);
+  with_view([this](const auto& view) { put_to_rest(view, 0, mesh_->element_count()); });
+  set_softness(Softness());
+}
+
+void Body::cut(std::span<const LinkId> links) {
+  for (const LinkId link : links) {
+    cuts_.cut(link);
+  }
+  ++revisions_.cuts;
+}
+
+void Body::uncut(std::span<const LinkId> links) {
+  for (const LinkId link : links) {
+    cuts_.uncut(link);
+  }
+  ++revisions_.cuts;
+  ++revisions_.restored;
+}
+
+void Body::pin(std::span<const ElementId> elements) {
+  std::vector<ElementId> all;
+  std::ranges::set_union(pins_, sorted(elements), std::back_inserter(all));
+  set_pins(std::move(all));
+}
+
+void Body::unpin(std::span<const ElementId> elements) {
+  std::vector<ElementId> left;
+  std::ranges::set_difference(pins_, sorted(elements), std::back_inserter(left));
+  set_pins(std::move(left));
+}
+
+void Body::set_pins(std::vector<ElementId> pins) {
+  for (const ElementId pin : pins_) {
+    updates_[pin] = 0;
+  }
+  pins_ = std::move(pins);
+  for (const ElementId pin : pins_) {
+    updates_[pin] = always;
+  }
+  ++revisions_.pins;
+}
+
+void Body::set_softness(std::shared_ptr<const Softness> softness) {
+  std::visit([&](auto& typed) { typed.regions.set(*mesh_, *softness, stores_displacements_); }, typed_);
+  softness_ = std::move(softness);
+  ++revisions_.softness;
+}
+
+void Body::set_elastic(const ElasticOptions& options) {
+  elastic_ = options;
+  ++revisions_.elastic;
+}
+
+PositionView Body::positions() const {
+  return std::visit(
+      [this](const auto& typed) {
+        return PositionView(typed.positions.data(), sizeof typed.positions[0], precision_,
+                            stores_displacements_ ? mesh_.get() : nullptr);
+      },
+      typed_);
+}
+
+template <class Out>
+void Body::copy(ElementId first, std::span<Out> out) const {
+  std::visit(
+      [&]<class Scalar, int Dimension>(const Typed<Scalar, Dimension>& typed) {
+        for (std::size_t i = 0; i < out.size() / Dimension; ++i) {
+          for (int k = 0; k < Dimension; ++k) {
+            const double stored = typed.positions[first + i][k];
+            const std::size_t at = (first + i) * Dimension + std::size_t(k);
+            out[i * Dimension + std::size_t(k)] =
+                static_cast<Out>(stores_displacements_ ? mesh_->rest[at] + stored : stored);
+          }
+        }
+      },
+      typed_);
+}
+
+void Body::copy_positions(ElementId first, std::span<float> out) const { copy(first, out); }
+void Body::copy_positions(ElementId first, std::span<double> out) const { copy(first, out); }
+
+void Body::set_positions(std::span<const double> in) {
+  with_view([in]<class View>(const View& view) {
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      view.set_position(static_cast<ElementId>(i / View::Dimension), int(i % View::Dimension), in[i]);
+    }
+  });
+  note_positions_set(false);
+}
+
+void Body::reset() { reset(all_blocks(*mesh_)); }
+
+void Body::reset(const ElementBlocks& away) {
+  with_view([&](const auto& view) {
+    away.for_each_run([&](ElementId first, ElementId end) { put_to_rest(view, first, end); });
+  });
+  note_positions_set(true);
+}
+
+Snapshot Body::snapshot(const ElementBlocks& away) const {
+  Snapshot result;
+  result.from_rest = stores_displacements_;
+  std::visit(
+      [&]<class Scalar, int Dimension>(const Typed<Scalar, Dimension>& typed) {
+        away.for_each_run([&](ElementId first, ElementId end) {
+          result.runs.insert(result.runs.end(), {first, end});
+          for (ElementId e = first; e < end; ++e) {
+            const Scalar* at = typed.positions[e].at;
+            result.held.insert(result.held.end(), at, at + Dimension);
+          }
+        });
+      },
+      typed_);
+  return result;
+}
+
+void Body::restore(const Snapshot& snapshot, const ElementBlocks& away) {
+  reset(away);
+  if (!snapshot.runs.empty()) {
+    with_view([&](const auto& view) { restore_runs(view, snapshot); });
+    note_positions_set(false);
+  }
+}
+
+void Body::keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, PositionBlocks& kept) const {
+  kept.blocks.resize(away.block_count());
+  kept.from_rest = stores_displacements_;
+  std::visit(
+      [&]<class Scalar, int Dimension>(const Typed<Scalar, Dimension>& typed) {
+        blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
+          kept.blocks[block].reset();
+          if (away.contains_block(block)) {
+            const auto positions = std::make_shared<PositionBlock<Scalar, Dimension>>();
+            std::copy(typed.positions.begin() + first, typed.positions.begin() + end, positions->begin());
+            kept.blocks[block] = positions;
+          }
+        });
+      },
+      typed_);
+}
+
+void Body::restore(const PositionBlocks& kept, const ElementBlocks& blocks) {
+  with_view([&]<class View>(const View& view) {
+    blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
+      using Block = PositionBlock<typename View::Scalar, View::Dimension>;
+      if (const auto* positions = static_cast<const Block*>(kept.blocks[block].get())) {
+        restore_block(view, *positions, first, end, kept.from_rest);
+      } else {
+        put_to_rest(view, first, end);
+      }
+    });
+  });
+  note_positions_set(std::ranges::none_of(kept.blocks, [](const auto& block) { return block != nullptr; }));
+}
+
+void Body::note_positions_set(bool at_rest) {
+  is_at_rest_ = at_rest;
+  ++revisions_.positions;
+}
+
+void Body::store_displacements(bool displacements) {
+  if (displacements == stores_displacements_) {
+    return;
+  }
+  std::visit(
+      [&]<class Scalar, int Dimension>(Typed<Scalar, Dimension>& typed) {
+        for (ElementId e = 0; e < mesh_->element_count(); ++e) {
+          for (int k = 0; k < Dimension; ++k) {
+            const double rest = mesh_->rest[std::size_t{e} * Dimension + std::size_t(k)];
+            Scalar& x = typed.positions[e][k];
+            x = static_cast<Scalar>(displacements ? double(x) - rest : double(x) + rest);
+          }
+        }
+        stores_displacements_ = displacements;
+        typed.regions.set(*mesh_, *softness_, displacements);
+      },
+      typed_);
+  if (is_at_rest_) {  // restores digits that absolute positions lost by rounding
+    with_view([this](const auto& view) { put_to_rest(view, 0, mesh_->element_count()); });
+  }
+}
+
+std::uint32_t Body::begin_pass() {
+  if (++pass_ == always) {
+    for (auto& update : updates_) {
+      update = update == always ? always : 0;
+    }
+    pass_ = 1;
+  }
+  return pass_;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "mesh/error.h"
+#include "solve/body.h"
+
+namespace chainmail {
+
+/// Returns the distance of an element at `x` from its valid region about its sponsor at `about`, in rest lengths.
+/// Computed in double, like the metric. For a mesh without a mean link length the divisor does not affect the order.
+template <class Scalar, int Dimension>
+double candidate_violation(const Mesh& mesh, ElementId element, const Scalar* x, ElementId sponsor, const Scalar* about,
+                           const Region<Scalar, Dimension>& region) {
+  double outside = 0, length = 0;
+  for (int k = 0; k < Dimension; ++k) {
+    const Scalar low = about[k] + region.low[k];
+    const Scalar high = about[k] + region.high[k];
+    const double excess = x[k] < low ? double(low) - double(x[k]) : high < x[k] ? double(x[k]) - double(high) : 0;
+    const double rest =
+        mesh.rest[std::size_t{element} * Dimension + k] - mesh.rest[std::size_t{sponsor} * Dimension + k];
+    outside += excess * excess;
+    length += rest * rest;
+  }
+  if (outside == 0) {
+    return 0;
+  }
+  return std::sqrt(outside) / (length > 0 ? std::sqrt(length) : mesh.mean_link_length > 0 ? mesh.mean_link_length : 1);
+}
+
+/// Typed access to a body for the loops of a pass, for one scalar and one space dimension. It is a handful of pointers:
+/// made for a pass, not kept.
+template <class Scalar_, int Dimension_>
+class BodyView {
+ public:
+  using Scalar = Scalar_;
+  static constexpr int Dimension = Dimension_;
+
+  explicit BodyView(Body& body)
+      : mesh(body.mesh_.get()),
+        cuts(body.cuts_),
+        positions(std::get<Body::Typed<Scalar, Dimension>>(body.typed_).positions),
+        regions(std::get<Body::Typed<Scalar, Dimension>>(body.typed_).regions),
+        updates(body.updates_),
+        pin_count(static_cast<ElementId>(body.pins_.size())),
+        from_rest(body.stores_displacements_),
+        pass(body.pass_),
+        body_(&body) {}
+
+  const Revisions& revisions() const { return body_->revisions(); }
+
+  /// The origin of the stored position of an element, on axis k (mesh units).
+  double origin(ElementId element, int k) const {
+    return from_rest ? mesh->rest[std::size_t{element} * Dimension + k] : 0;
+  }
+  double absolute(ElementId element, int k) const {
+    const double held = double(positions[element][k]);
+    return from_rest ? origin(element, k) + held : held;  // 0 + −0 would be 0
+  }
+  void set_position(ElementId element, int k, double absolute_position) const {
+    positions[element][k] = static_cast<Scalar>(absolute_position - origin(element, k));
+  }
+
+  /// Begins a pass: only pinned elements count as updated.
+  void begin_pass() { pass = body_->begin_pass(); }
+  bool updated(ElementId element) const { return updates[element] >= pass; }
+  void mark_updated(ElementId element) const { updates[element] = pass; }
+  bool pinned(ElementId element) const { return updates[element] == Body::always; }
+
+  /// Returns the position of an element clamped into its valid region about its sponsor.
+  Position<Scalar, Dimension> clamped(ElementId element, ElementId sponsor, std::uint32_t region_id) const {
+    const Scalar* about = positions[sponsor].at;
+    return chainmail::clamped(positions[element], about, about, regions.at(region_id));
+  }
+
+  /// Clamps the candidate's element into its valid region about its sponsor. Returns true if it moved.
+  bool clamp(ElementId element, ElementId sponsor, EntryId entry) const {
+    const auto position = clamped(element, sponsor, regions.id(entry));
+    const bool moved = position != positions[element];
+    positions[element] = position;
+    return moved;
+  }
+
+  /// Returns the distance of the candidate's element from its valid region about its sponsor, in rest lengths.
+  double violation(ElementId element, ElementId sponsor, EntryId entry) const {
+    return candidate_violation(*mesh, element, positions[element].at, sponsor, positions[sponsor].at, regions[entry]);
+  }
+
+  /// Calls visit(neighbour, entry) for each neighbour whose link is not cut, in the file's order.
+  template <class Visit>
+  [[gnu::always_inline]] void for_each_neighbour(ElementId element, Visit visit) const {
+    chainmail::for_each_neighbour(*mesh, cuts, element, visit);
+  }
+
+  const Mesh* mesh;
+  const Cuts& cuts;
+  std::span<Position<Scalar, Dimension>> positions;
+  const RegionTable<Scalar, Dimension>& regions;
+  std::span<std::uint32_t> updates;  // the last pass in which an element counted as updated
+  ElementId pin_count;
+  bool from_rest;  // displacements from rest are stored, not positions
+  std::uint32_t pass;
+
+ private:
+  Body* body_;
+};
+
+template <class Scalar, int Dimension>
+BodyView<Scalar, Dimension> Body::view() {
+  return BodyView<Scalar, Dimension>(*this);
+}
+
+template <class Use>
+decltype(auto) Body::with_view(Use use) {
+  return std::visit([&]<class T>(T&) -> decltype(auto) { return use(view<typename T::Scalar, T::Dimension>()); },
+                    typed_);
+}
+
+/// Returns the stored coordinates of a target for an element (mesh units). Throws Error if one is not a finite number
+/// of the scalar.
+template <class Scalar, int Dimension>
+Position<Scalar, Dimension> stored_target(const BodyView<Scalar, Dimension>& body, ElementId element,
+                                          const Point& target) {
+  static const Scalar limit = static_cast<Scalar>(
+      position_limit(sizeof(Scalar) == sizeof(float) ? Precision::single_precision : Precision::double_precision));
+  Position<Scalar, Dimension> next = body.positions[element];
+  for (int k = 0; k < Dimension; ++k) {
+    const double to = target[body.mesh->axes[std::size_t(k)]];
+    // A move to the position that was read must not move the element, even after rounding.
+    const bool stays = body.from_rest && to == body.absolute(element, k);
+    next[k] = stays ? next[k] : static_cast<Scalar>(to - body.origin(element, k));
+    if (!(std::abs(next[k]) <= limit)) {
+      throw Error("element " + std::to_string(element), "its target is out of the range of the precision",
+                  "use smaller coordinates, or compute in double");
+    }
+  }
+  return next;
+}
+
+}  // namespace chainmail

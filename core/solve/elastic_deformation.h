@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "elastic/elastic.h"
+#include "solve/method.h"
+
+namespace chainmail {
+
+/// Deforms a body with a method of elasticity. Keeps its preparation until links, pins or the material change.
+class ElasticDeformation final : public Method {
+ public:
+  explicit ElasticDeformation(ElasticMethod method) : method_(method) {}
+
+  PassCount move(Body& body, const HandleMove& handle, PassOutput output) override;
+  std::string remark() const override { return solver_ ? solver_->remark() : std::string(); }
+  std::span<const double> control_points(Body& body, const Progress& progress) override;
+  PassCount move_control_point(Body& body, std::size_t point, const Point& target, PassOutput output) override;
+
+ private:
+  /// What a preparation is valid for.
+  struct Conditions {
+    std::uint64_t cuts = 0, pins = 0, elastic = 0;
+    bool operator==(const Conditions&) const = default;
+  };
+
+  void prepare(const Body& body, const Progress& progress);
+  void take_positions(const Body& body);
+  PassCount take_answer(Body& body, ElementId grabbed, std::vector<ElementId>& moved) const;
+
+  ElasticMethod method_;
+  std::unique_ptr<ElasticSolver> solver_;
+  Conditions made_for_;
+  std::uint64_t positions_ = 0;  // revision of the positions that the solver knows
+  std::vector<double> pinned_;   // displacements of the pins that it was made for
+  ElementId held_ = no_element;
+};
+
+/// Makes the method of an entry of the algorithm table.
+template <ElasticMethod method>
+std::unique_ptr<Method> make_elastic_method(Precision /*precision*/, int /*dimension*/) {
+  return std::make_unique<ElasticDeformation>(method);
+}
+
+}  // namespace chainmail

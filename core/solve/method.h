@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/progress.h"
+#include "solve/body.h"
+#include "solve/trace.h"
+
+namespace chainmail {
+
+/// A move of the handle: an element and its target (mesh units, on the axes that exist).
+struct HandleMove {
+  ElementId element = 0;
+  Point target = Point::Zero();
+};
+
+/// What a pass reports besides its numbers.
+struct PassOutput {
+  /// The elements that the pass moved, in order of update, without the handle. Between passes, nothing but the method
+  /// changes it.
+  std::vector<ElementId>& moved;
+  Trace* trace = nullptr;  // if given, receives every processed candidate
+  Progress progress = {};  // of long preparations and solutions. When it throws Cancelled, nothing has moved
+};
+
+/// What answers a move of the handle on a body: one algorithm. It belongs to one body, and may keep what it can use
+/// again in the next move, with the revisions of the body that it was made for.
+class Method {
+ public:
+  virtual ~Method() = default;
+
+  /// Moves the handle to its target and answers: one pass. The element is not pinned. Throws Error if the target is not
+  /// a finite number of the body's precision, and if there is no answer; nothing has moved then.
+  virtual PassCount move(Body& body, const HandleMove& handle, PassOutput output) = 0;
+
+  /// Reason why the last pass did not reach its target or did not converge. Usually empty.
+  virtual std::string remark() const { return {}; }
+
+  /// Returns the current positions of control points that a user may drag, space_dimension coordinates each (mesh
+  /// units), and prepares them; empty for most methods.
+  virtual std::span<const double> control_points(Body& /*body*/, const Progress& /*progress*/) { return {}; }
+  /// Moves a control point to a target (mesh units): one pass without a handle.
+  virtual PassCount move_control_point(Body& /*body*/, std::size_t /*point*/, const Point& /*target*/,
+                                       PassOutput /*output*/) {
+    return {};
+  }
+};
+
+/// Makes a method for bodies of a precision and a space dimension.
+using MakeMethod = std::unique_ptr<Method> (*)(Precision precision, int dimension);
+
+/// Makes a method that is a template of the scalar and the space dimension.
+template <template <class Scalar, int Dimension> class Typed>
+std::unique_ptr<Method> make_method(Precision precision, int dimension) {
+  const auto make = [dimension]<class Scalar>(Scalar) -> std::unique_ptr<Method> {
+    switch (dimension) {
+      case 1:
+        return std::make_unique<Typed<Scalar, 1>>();
+      case 2:
+        return std::make_unique<Typed<Scalar, 2>>();
+      default:
+        return std::make_unique<Typed<Scalar, 3>>();
+    }
+  };
+  return precision == Precision::single_precision ? make(float{}) : make(double{});
+}
+
+}  // namespace chainmail
