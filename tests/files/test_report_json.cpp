@@ -9,7 +9,7 @@
 using namespace chainmail;
 using namespace chainmail::report;
 
-/// A comparison as JSON.
+/// Tests the JSON of a comparison.
 class ReportJsonTest : public QObject {
   Q_OBJECT
 
