@@ -12,8 +12,8 @@
 
 namespace chainmail::test {
 
-/// Value of RapidCheck's own variable that repeats an explored run. It must contain the number of successes too,
-/// because inputs grow with the share of them that is done.
+/// Returns the parameters of the explored inputs: those in RapidCheck's own variable RC_PARAMS, else a random seed. To
+/// repeat a run, the number of successes must be the same too, because inputs grow with the share of them that is done.
 inline rc::detail::TestParams explored_parameters() {
   static const rc::detail::TestParams once = [] {
     rc::detail::Configuration drawn;
@@ -21,7 +21,7 @@ inline rc::detail::TestParams explored_parameters() {
     drawn.testParams.maxSuccess = 100;
     const char* given = std::getenv("RC_PARAMS");
     const auto all = rc::detail::configFromString(given == nullptr ? "" : given, drawn);
-    // RapidCheck also reads the variable, and prints the seed.
+    // RapidCheck also reads the variable, and prints the seed that it finds there.
     setenv("RC_PARAMS", rc::detail::configToString(all).c_str(), 1);
     return all.testParams;
   }();

@@ -59,7 +59,7 @@ class DeformCommandTest : public QObject {
 };
 
 void DeformCommandTest::a_chain_follows() {
-  // Element 0 moves to -1. Element 1 may be 1.2 behind it, 2 another 1.2 behind 1; 3 is near enough to stay.
+  // Element 0 moves to -1. Each of the others stays at most 1.2 behind the one before.
   QCOMPARE(xs("--move 0:-1"), (QList<double>{-1, -1 + 1.2, -1 + 1.2 + 1.2, -1 + 1.2 + 1.2 + 1.2}));
   QCOMPARE(xs("--by 3:-0.5"), (QList<double>{0, 2.5 - 0.8 - 0.8, 2.5 - 0.8, 2.5}));
   const auto json = program_->json("out.json");

@@ -248,8 +248,8 @@ void MovesTest::a_key_that_stands_twice_is_refused() {
   QCOMPARE(error_of([&] { read(text.toStdString()); }), said);
 }
 
-/// A newer file may have commands that this program does not know. The error names its version, at any position in the
-/// file.
+/// The version is checked before the commands, at any position in the file: a newer file may have commands that this
+/// program does not know.
 void MovesTest::what_is_wrong_with_the_file_comes_before_its_commands() {
   QVERIFY(error_of([&] {
             read(R"({"commands": [{"do": "twist"}], "version": 2})");

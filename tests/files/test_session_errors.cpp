@@ -196,7 +196,7 @@ void SessionErrorsTest::wrong_members_are_refused() {
   QVERIFY2(error.startsWith("a.chainmail: " + said) && !error.contains('\n'), qPrintable(error));
 }
 
-/// A newer version is refused even if its members are not known.
+/// A newer version is reported before all other errors, because its members may have another meaning.
 void SessionErrorsTest::a_newer_version_is_named_before_all_else() {
   const auto error = read(R"({"format": "chainmail session", "version": 7, "mesh": [], "rest": "elsewhere"})");
   QCOMPARE(error, QString("a.chainmail: its version is 7, and this program knows 1 and older; "

@@ -45,7 +45,8 @@ bool is_mesh(const fs::path& path) {
   }
 }
 
-/// Returns the files that belong to a file: the other one of TetGen's pair, or the data file that a header names.
+/// Returns true if `other` belongs to `path`: it is the other file of TetGen's pair, or the data file that the header
+/// names.
 bool belongs_to(const fs::path& other, const fs::path& path, const std::string& head) {
   const auto ending = path.extension();
   return other != path &&
@@ -124,7 +125,7 @@ class Damage {
     return below(3) > 0 ? of_texts[below(of_texts.size())] : static_cast<char>(random_());
   }
 
-  /// Replaces a number of a text by a bad one. It is often near the beginning, where the counts are.
+  /// Replaces the first number after `place` by another one.
   static void replace_number(std::string& bytes, std::size_t place, const std::string& number) {
     const std::size_t first = bytes.find_first_of("0123456789", place);
     if (first != std::string::npos) {
