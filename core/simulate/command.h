@@ -87,17 +87,17 @@ struct SetPositions {
   std::shared_ptr<const Snapshot> snapshot;
 };
 
-/// Id of a state that a simulation keeps for undo.
+/// Id of a state that a simulation saves for undo.
 using StateId = std::uint64_t;
-/// Keeps the current object (mesh, cuts, pins, softness, positions) under an id.
+/// Saves the current object (mesh, cuts, pins, softness, positions) under an id.
 struct KeepState {
   StateId state = 0;
 };
-/// Restores the object from a kept state, which stays kept.
+/// Restores the object from a saved state. The state stays saved.
 struct RestoreState {
   StateId state = 0;
 };
-/// Drops a kept state.
+/// Drops a saved state.
 struct DropState {
   StateId state = 0;
 };

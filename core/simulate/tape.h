@@ -10,8 +10,8 @@ namespace chainmail {
 
 /// The recorded commands. They lead from an object at rest, without cuts and pins and with the default softness, to the
 /// current object. Settings of the solver (algorithm, relaxation) are not recorded.
-/// The tape follows saved states: undo moves back to the position at which the state was saved. Later commands stay on
-/// the tape until a new command replaces them.
+/// RestoreState moves the position back to where the state was saved. Later commands stay until a new command replaces
+/// them.
 class Tape {
  public:
   /// Records a command. Call this when the command is sent.

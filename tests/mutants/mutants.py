@@ -163,7 +163,7 @@ class Tests:
                     self.seconds[match.group(1)] = float(match.group(3))
 
     def related(self, path):
-        """Returns the tests for a file: those that include its header, then those of its room. Specific, fast ones first."""
+        """Returns the tests for a file, specific and fast ones first: those with its header, then those of its room."""
         header = re.sub(r"\.cpp$", ".h", path)
         words = set(re.findall(r"[a-z]+", pathlib.Path(path).stem))
         folders = ROOMS[room_of(path)]
