@@ -104,7 +104,7 @@ void ObjReader::read_line(std::string_view line) {
     }
   } else if (!word.empty() &&
              std::find(skipped_statements.begin(), skipped_statements.end(), word) == skipped_statements.end()) {
-    fail(line_, in_quotes(word) + " is not an OBJ statement", "elements are 'v x y z', links come from 'f' and 'l'");
+    fail(line_, in_quotes(word) + " is not an OBJ statement", "use 'v x y z' for elements, 'f' and 'l' for links");
   }
 }
 
@@ -179,7 +179,7 @@ void ObjReader::check_corners(bool is_face) const {
     twice = corners_.begin();
   }
   if (twice != corners_.end()) {
-    fail(line_, "vertex " + std::to_string(*twice + 1) + " is linked to itself", "name each corner once");
+    fail(line_, "vertex " + std::to_string(*twice + 1) + " is linked to itself", "use each corner once");
   }
 }
 
