@@ -53,8 +53,8 @@ void SessionErrorsTest::other_files_are_refused_data() {
   row("{\"format\": \"chainmail session\",\n", "a.chainmail:2: it ends too early; ");
   row("{} x", "a.chainmail:1: it is not JSON; ");
   row("{\"format\": NaN}", "a.chainmail:1: it is not JSON; ");
-  row("{\"format\": 1e999}", "a.chainmail: it contains a number that is too large ");
-  row("{\"rest\": [1e999]}", "a.chainmail: it contains a number that is too large ");
+  row("{\"format\": 1e999}", "a.chainmail: it holds a number that is too large ");
+  row("{\"rest\": [1e999]}", "a.chainmail: it holds a number that is too large ");
   row("[]", "a.chainmail: it is not a session; ");
   row("[[1], [2]]", "a.chainmail: it is not a session; ");
   row("null", "a.chainmail: it is not a session; ");
