@@ -2,7 +2,7 @@
 
 using namespace chainmail::test;
 
-/// `chainmail info`: what it says, and what it says of bad files.
+/// Tests `chainmail info`: its output, and its errors for bad files.
 class InfoCommandTest : public QObject {
   Q_OBJECT
 
