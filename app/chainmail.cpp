@@ -22,7 +22,7 @@ ExitCode complain(std::string_view message, ExitCode code) {
 
 int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit (ulimit -f) fails to be written, as on a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit (ulimit -f) then fails like one on a full disk
   try {
     chainmail::command_line::run(argc, argv);
     return done;

@@ -59,8 +59,8 @@ install_packages() {
   }
 }
 
-# configure PRESET OPTION…: configures build/PRESET unless it is configured with these options already.
-# An OPTION that begins with ? is used for a new build folder only.
+# configure PRESET OPTION…: configures build/PRESET, unless it is already configured with these options.
+# An OPTION that begins with ? applies only to a new build folder.
 configure() {
   local preset=$1 folder=$root/build/$1 wanted=$root$'\n' present='' option options=() fresh=()
   shift
@@ -71,7 +71,7 @@ configure() {
   if [[ -e $folder/build.ninja && $root/CMakePresets.json -ot $folder/configured ]]; then
     present=$(<"$folder/configured")
     [[ "$present " != "$wanted "* ]] || return 0
-    [[ $present == "$root"$'\n'* ]] || fresh=(--fresh) # the checkout was moved
+    [[ $present == "$root"$'\n'* ]] || fresh=(--fresh) # the checkout has moved to another folder
   fi
   mkdir -p "$folder"
   rm -f "$folder/configured"
@@ -91,5 +91,5 @@ build() {
   [[ -t 1 ]] || quiet=(-- --quiet)
   [[ -e $root/build/$preset/.ninja_log ]] || say "Building $preset, which takes a few minutes the first time"
   (cd "$root" && cmake --build --preset "$preset" "${targets[@]}" "${quiet[@]}") ||
-    fail "$preset could not be built; the compiler says why above"
+    fail "$preset could not be built; see the compiler's messages above"
 }

@@ -1,4 +1,4 @@
-// The workbench's window: reads arguments and opens it.
+// The workbench program: reads the arguments and opens the main window.
 
 #include <QApplication>
 #include <QCommandLineParser>
@@ -19,7 +19,7 @@ int fail(const QString& sentence) {
   return 2;
 }
 
-/// True if there is a display. Without one, Qt would end the process without a helpful message.
+/// Returns true if there is a display. Without one, Qt would end the process without a helpful message.
 bool has_display(int argc, char** argv) {
   const auto names_platform = [](const char* argument) { return std::string_view(argument) == "-platform"; };
   return !qEnvironmentVariableIsEmpty("DISPLAY") || !qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") ||
@@ -41,7 +41,7 @@ void describe(QCommandLineParser& parser) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit (ulimit -f) fails to be written, as on a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit (ulimit -f) then fails like one on a full disk
   if (!has_display(argc, argv)) {
     return fail(
         QStringLiteral("there is no display; start it in a desktop session, or use the command line program "
@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
     parser.process(application);
   }
   if (parser.positionalArguments().size() > 1) {
-    return fail(QStringLiteral("arguments: more than one file was given; name one file"));
+    return fail(QStringLiteral("arguments: more than one file was given; use one file"));
   }
   if (const QString why = chainmail::whyNoWindow(); !why.isEmpty()) {
     return fail(why);

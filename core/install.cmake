@@ -1,5 +1,5 @@
-# `cmake --install` and find_package(chainmail): the solver library alone, as chainmail::core. It needs
-# no file format and no window.
+# For `cmake --install` and find_package(chainmail): installs only the solver library, as chainmail::core, without file
+# formats and the window.
 include(CMakePackageConfigHelpers)
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chainmail)
 

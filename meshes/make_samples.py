@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Makes the samples of this folder that `chainmail generate` does not; see README.md.
+"""Makes the samples of this folder that `chainmail generate` cannot make; see README.md.
 
     meshes/make_samples.py [FOLDER]
 
-Python's standard library alone, and the program gmsh (4.8 or later) where the organ is to be filled. The same files come
-out each time; what gmsh makes depends on its version.
+Needs only Python's standard library, and the program gmsh (4.8 or later) to fill the organ. The result is the same each
+time, except for the output of gmsh, which depends on its version.
 """
 
 import gzip
@@ -20,10 +20,10 @@ import zlib
 from pathlib import Path
 
 
-# The organ: a bean-like closed surface, its triangles about one mesh unit wide.
+# The organ: a closed surface like a bean, with triangles about one mesh unit wide.
 
 def icosphere(frequency):
-    """Points on the unit sphere and triangles: an icosahedron's, each side split into so many parts."""
+    """Returns points on the unit sphere and triangles: an icosahedron with each edge split into `frequency` parts."""
     golden = (1 + math.sqrt(5)) / 2
     corners = [(-1, golden, 0), (1, golden, 0), (-1, -golden, 0), (1, -golden, 0), (0, -1, golden), (0, 1, golden),
                (0, -1, -golden), (0, 1, -golden), (golden, 0, -1), (golden, 0, 1), (-golden, 0, -1), (-golden, 0, 1)]
@@ -55,7 +55,7 @@ def unit(vector):
 
 
 def on_organ(direction):
-    """The point of the organ's surface that lies in a direction from its middle."""
+    """Returns the point of the organ's surface in a direction from its middle."""
     x, y, z = direction
     ellipsoid = 1 / math.sqrt((x / 14.3) ** 2 + (y / 9.1) ** 2 + (z / 6) ** 2)
     notch = 1 - 0.34 * math.exp(-((x / 0.42) ** 2 + ((y + 1) / 0.7) ** 2))  # where vessels enter
@@ -72,7 +72,7 @@ def organ():
         neighbours[a] |= {b, c}
         neighbours[b] |= {a, c}
         neighbours[c] |= {a, b}
-    for _ in range(60):  # evens the triangles out, along the surface
+    for _ in range(60):  # makes the triangles more even, along the surface
         points = [on_organ(unit([sum(points[n][k] for n in sorted(near)) / len(near) for k in range(3)]))
                   for near in neighbours]
     return [[round(x, 4) for x in point] for point in points], triangles
@@ -87,7 +87,7 @@ def write_obj(path, points, triangles):
 
 
 def write_filled(path, points, triangles):
-    """Has gmsh fill the surface with tetrahedra about as large as its triangles, and save these alone."""
+    """Fills the surface with gmsh. The tetrahedra are about as large as the triangles. Saves only the tetrahedra."""
     if not shutil.which("gmsh"):
         print("gmsh is not here: " + str(path) + " stays as it is")
         return
@@ -105,7 +105,7 @@ def write_filled(path, points, triangles):
         subprocess.run(["gmsh", "-3", "-format", "msh41", "-o", str(path), folder + "/organ.geo", "-v", "2"], check=True)
 
 
-# A block of tetrahedra whose inner elements stand a little off their lattice.
+# A block of tetrahedra with inner elements slightly displaced from their lattice.
 
 def write_jittered(path, size=(11, 9, 8), jitter=0.25):
     chance = random.Random(20)
@@ -113,7 +113,7 @@ def write_jittered(path, size=(11, 9, 8), jitter=0.25):
     points = [[x + (chance.uniform(-jitter, jitter) if 0 < x < n - 1 else 0) for x, n in zip(place, size)]
               for place in places]
     number = {place: i for i, place in enumerate(places)}
-    steps = [(0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2)]  # the axes in each order: Freudenthal
+    steps = [(0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2)]  # all orders of the axes (Freudenthal)
     cells = []
     for place in places:
         if all(x < n - 1 for x, n in zip(place, size)):
@@ -132,7 +132,7 @@ def write_jittered(path, size=(11, 9, 8), jitter=0.25):
         out.write(f"CELL_TYPES {len(cells)}\n" + "10\n" * len(cells))
 
 
-# A soft sheet with a stiff disc in it.
+# A soft sheet with a stiff disc inside.
 
 def write_inclusion(path, size=(32, 24), middle=(13.5, 11.5), radius=4.6):
     width, height = size
@@ -159,10 +159,10 @@ def write_inclusion(path, size=(32, 24), middle=(13.5, 11.5), radius=4.6):
         f'"panels": {json.dumps(panels)},\n"ui": {{"colour": "shear"}}}}\n', encoding="utf-8")
 
 
-# A picture: a face behind a grid, whose lines show how it is warped.
+# A picture: a face with a grid of lines, which show the warping.
 
 def picture_colour(x, y):
-    """Red, green and blue at a place of 400 x 300, y downward."""
+    """Returns red, green and blue at a position in 400 x 300 pixels, with y downward."""
     def disc(cx, cy, rx, ry):
         return ((x - cx) / rx) ** 2 + ((y - cy) / ry) ** 2 <= 1
 
@@ -205,10 +205,10 @@ def write_picture(path, width=400, height=300):
                      chunk(b"IDAT", zlib.compress(bytes(rows), 9)) + chunk(b"IEND", b""))
 
 
-# Volumes: a soft body that grows denser inward, with a hard core and a smaller lump.
+# Volumes: a soft body that is denser inside, with a hard core and a smaller lump.
 
 def density(x, y, z):
-    """From 0 to 255 at a place from -1 to 1 on each axis."""
+    """Returns the density, 0 to 255, at a position from -1 to 1 on each axis."""
     body = (x / 0.92) ** 2 + (y / 0.86) ** 2 + (z / 0.84) ** 2
     if body > 1:
         return 0
@@ -231,7 +231,7 @@ def write_nrrd(path, size=(32, 28, 26)):
 
 
 def write_mha(path, size=(26, 24, 12)):
-    """The same as a scanner has it: 16 bits with a sign, air below zero, slices two units apart."""
+    """Writes the same volume like a scanner: signed 16 bits, air below zero, slices two units apart."""
     head = (f"ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nCompressedData = False\n"
             f"ElementSpacing = 1 1 2\nDimSize = {' '.join(map(str, size))}\nElementType = MET_SHORT\n"
             "ElementDataFile = LOCAL\n")

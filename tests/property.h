@@ -12,8 +12,8 @@
 
 namespace chainmail::test {
 
-/// How an explored run is repeated: RapidCheck's own variable, whose numbers take the place of these. The number of
-/// successes belongs to it, as inputs grow with the share of them that is done.
+/// Returns the parameters of the explored inputs: those in RapidCheck's own variable RC_PARAMS, else a random seed. To
+/// repeat a run, the number of successes must be the same too, because inputs grow with the share of them that is done.
 inline rc::detail::TestParams explored_parameters() {
   static const rc::detail::TestParams once = [] {
     rc::detail::Configuration drawn;
@@ -21,16 +21,16 @@ inline rc::detail::TestParams explored_parameters() {
     drawn.testParams.maxSuccess = 100;
     const char* given = std::getenv("RC_PARAMS");
     const auto all = rc::detail::configFromString(given == nullptr ? "" : given, drawn);
-    // RapidCheck reads it as well, and prints the seed that it finds.
+    // RapidCheck also reads the variable, and prints the seed that it finds there.
     setenv("RC_PARAMS", rc::detail::configToString(all).c_str(), 1);
     return all.testParams;
   }();
   return once;
 }
 
-/// Checks a property, which asserts by RC_ASSERT, on random inputs: on the same 300 in every run, then on others, drawn
-/// anew for each run. The line above a result says how to repeat the drawn ones. To explore more of them, run a test
-/// with RC_PARAMS="max_success=10000".
+/// Checks a property, which uses RC_ASSERT, on random inputs: on the same 300 in every run, then on new ones in each
+/// run. The line above a result shows how to repeat the new ones. To explore more inputs, run a test with
+/// RC_PARAMS="max_success=10000".
 template <class Property>
 bool check_property(const std::string& sentence, const Property& property) {
   rc::detail::TestParams fixed;
@@ -39,7 +39,7 @@ bool check_property(const std::string& sentence, const Property& property) {
   const rc::detail::TestParams explored = explored_parameters();
   const std::string repeat = "explored inputs, repeated by RC_PARAMS=\"seed=" + std::to_string(explored.seed) +
                              " max_success=" + std::to_string(explored.maxSuccess) + "\"";
-  // RapidCheck's own listener says how to repeat a single input, which nothing here would read.
+  // RapidCheck's own listener prints how to repeat a single input, but our tests cannot do that.
   rc::detail::TestListenerAdapter silent;
   for (const auto& [parameters, inputs] :
        {std::pair(fixed, std::string("inputs of every run")), std::pair(explored, repeat)}) {

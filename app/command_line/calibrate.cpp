@@ -59,7 +59,7 @@ std::string read_name(const CalibrateArguments& options, const CalibrationOption
   return name;
 }
 
-/// Rows of residuals: relative, RMS and max.
+/// Writes rows of residuals: relative, RMS and max.
 void write_residuals(std::ostream& out, const TestedDrags& tested) {
   std::vector<std::vector<std::string>> rows{{"", "relative", "RMS", "max"}};
   const auto add = [&](const std::string& what, const Residual& residual) {

@@ -53,7 +53,7 @@ std::optional<std::string> value_of(const CLI::Option* option) {
     return std::nullopt;
   }
   if (values.size() > 1) {
-    throw Error(option->get_name(), "it was given " + std::to_string(values.size()) + " times", "give it once");
+    throw Error(option->get_name(), "it was given " + std::to_string(values.size()) + " times", "use it once");
   }
   return values.front();
 }
@@ -101,7 +101,7 @@ std::vector<std::string> words_of(const std::string& where, const std::string& l
     const std::size_t end = std::min(list.find(',', begin), list.size());
     const std::string word = list.substr(begin, end - begin);
     if (std::find(words.begin(), words.end(), word) != words.end()) {
-      throw Error(where, in_quotes(word) + " is given twice", "give each one once");
+      throw Error(where, in_quotes(word) + " is given twice", "write each one once");
     }
     words.push_back(word);
     begin = end + 1;
@@ -142,7 +142,7 @@ std::vector<Algorithm> algorithms_of(const CLI::Option* option, std::span<const 
     for (const std::string& word : words_of(option->get_name(), *list)) {
       chosen.push_back(algorithm_of(option->get_name(), word, offered));
       if (std::ranges::count(chosen, chosen.back()) > 1) {
-        throw Error(option->get_name(), in_quotes(word) + " is given twice", "give each algorithm once");
+        throw Error(option->get_name(), in_quotes(word) + " is given twice", "write each algorithm once");
       }
     }
   }
@@ -218,7 +218,8 @@ OpenedMesh open_mesh(const MeshOptions& options) {
 }
 
 Error at_option(const Error& error, const std::map<std::string, std::string>& options) {
-  // Errors of core name a value, like `size` or `space dimension 2`; the table has the name without the number.
+  // An error of core begins with the name of a value, like `size` or `space dimension 2`. The table has the name
+  // without the number.
   const std::string what = error.where().substr(0, error.where().find_last_not_of(" 0123456789") + 1);
   const auto option = options.find(what);
   return option == options.end() ? error : error.at(option->second + error.where().substr(what.size()));

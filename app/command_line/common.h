@@ -19,7 +19,7 @@ namespace chainmail::command_line {
 /// Parses the arguments and runs the command. Throws Error for bad usage and bad input.
 void run(int argc, char** argv);
 
-/// A subcommand: its parser, and the function that runs it.
+/// A subcommand: its parser and the function that runs it.
 struct Command {
   CLI::App* app;
   std::function<void()> run;
@@ -34,34 +34,35 @@ Command add_compare(CLI::App& root, const std::string& command_line);
 Command add_calibrate(CLI::App& root);
 Command add_ramp(CLI::App& root);
 
-/// Adds an option with one value, or a positional. Values are kept as text, so that all checks and messages are ours.
+/// Adds an option with one value, or a positional argument. Values are stored as text, so that our code does all checks
+/// and writes all messages.
 CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string& type, const std::string& help);
 /// Adds an option for a number of the parameter table, with its default in the help.
 CLI::Option* add_parameter(CLI::App& app, const Parameter& parameter);
 /// Returns the help of a parameter, with its default.
 std::string help_of(const Parameter& parameter);
 
-/// Returns the value of an option or positional, if given. Throws Error if it was given twice.
+/// Returns the value of an option or positional argument; none if it is missing. Throws Error if it was given twice.
 std::optional<std::string> value_of(const CLI::Option* option);
 
-/// Returns a finite number. `where` is its option, for the message.
+/// Returns the finite number in `text`. `where` is its option, for error messages.
 double parse_number_of(const std::string& where, std::string_view text);
 /// Returns the value of a parameter, or its default. Throws Error if it is out of range.
 double value_of(const CLI::Option* option, const Parameter& parameter);
-/// Returns the whole number of an option, or `standard`. Throws Error if it is below `lowest`.
+/// Returns the whole number of an option, or `standard` if the option is missing. Throws Error if it is below `lowest`.
 std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t standard);
 /// Throws Error, with the list of words, if the word is not one of them.
 void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words);
-/// Splits a list at its commas. Throws Error if a word comes twice.
+/// Splits a list at its commas. Throws Error if a word occurs twice.
 std::vector<std::string> words_of(const std::string& where, const std::string& list);
 
 /// Returns the names that the command line offers for these algorithms.
 std::vector<std::string> names_of(std::span<const AlgorithmInfo> offered);
 /// Returns a help text: one line per algorithm with its name and a sentence.
 std::string algorithms_help(std::span<const AlgorithmInfo> offered);
-/// Returns the algorithm with this name or alias. Throws Error, with the list of names, if it is not offered.
+/// Returns the algorithm with this name or alias. Throws Error, with the list of names, if it is not in `offered`.
 Algorithm algorithm_of(const std::string& where, const std::string& name, std::span<const AlgorithmInfo> offered);
-/// Returns the algorithms of a list parted by commas; none if the option was not given.
+/// Returns the algorithms of a list separated by commas; empty if the option is missing.
 std::vector<Algorithm> algorithms_of(const CLI::Option* option, std::span<const AlgorithmInfo> offered);
 
 std::optional<int> space_of(const CLI::Option* option);
@@ -80,15 +81,16 @@ struct MeshOptions {
 MeshOptions add_mesh_options(CLI::App& app);
 OpenedMesh open_mesh(const MeshOptions& options);
 
-/// Returns the error with the option in place of the value's name. `options` maps names of values to options.
+/// Returns the error with the name of an option instead of the name of a value. `options` maps names of values to
+/// options.
 Error at_option(const Error& error, const std::map<std::string, std::string>& options);
-/// Calls a function of core. Its errors name options instead of values: see at_option.
+/// Calls a function of core and converts its errors with at_option().
 template <class Make>
 auto in_options(const std::map<std::string, std::string>& options, Make make) {
   try {
     return make();
   } catch (const WriteFailure&) {
-    throw;  // keeps its exit status
+    throw;  // not converted, to keep its exit status
   } catch (const Error& error) {
     throw at_option(error, options);
   }

@@ -22,7 +22,7 @@ std::vector<int> read_sweeps(const CLI::Option* option, const std::string& usual
   return sweeps;
 }
 
-/// Returns the softness of a built-in preset, or of the only preset in a file.
+/// Returns the softness of a built-in preset, or of a file with one preset.
 LinkSoftness preset_of(const std::string& name) {
   for (const BuiltInPreset& preset : built_in_presets()) {
     if (preset.name == name) {

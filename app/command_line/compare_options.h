@@ -6,7 +6,7 @@
 
 namespace chainmail::command_line {
 
-/// The options of `compare`, for either reference.
+/// The options of `compare`, for both references.
 struct CompareArguments {
   CLI::Option *meshes = nullptr, *output = nullptr, *against = nullptr;
   CLI::Option *algorithms = nullptr, *relax = nullptr, *relaxation = nullptr, *relax_step = nullptr,
@@ -17,15 +17,16 @@ struct CompareArguments {
 };
 CompareArguments add_compare_arguments(CLI::App& app);
 
-/// Returns the settings of the comparison. `algorithms` are offered; `sweeps` is the default list of sweeps.
+/// Returns the settings of the comparison. `algorithms` are the allowed ones; `sweeps` is the default list of numbers
+/// of sweeps.
 report::CompareOptions contest_of(const CompareArguments& arguments, std::span<const AlgorithmInfo> algorithms,
                                   const std::string& sweeps);
-/// Returns the global softness: that of the preset, with the single options on top.
+/// Returns the global softness: that of the preset, where single options override its values.
 LinkSoftness softness_of(const CompareArguments& arguments);
 /// Reads a mesh as a case of the report: at rest, without drags.
 report::Case case_of(const std::string& file, const LinkSoftness& softness);
 
-/// The comparison with physics. Throws Error before anything is written.
+/// Runs the comparison with physics and writes the report. Throws Error before it writes anything.
 void compare_with_physics(const CompareArguments& arguments, const std::string& command_line);
 
 }  // namespace chainmail::command_line

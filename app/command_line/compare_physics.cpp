@@ -17,7 +17,7 @@
 namespace chainmail::command_line {
 namespace {
 
-// Single plots must be readable on a light and on a dark background.
+// Colour of lines and text. Single plots must be readable on light and dark backgrounds.
 constexpr const char* ink = "#808080";
 
 report::PhysicsOptions physics_options(const CompareArguments& arguments) {
@@ -25,7 +25,7 @@ report::PhysicsOptions physics_options(const CompareArguments& arguments) {
   const double seconds_per_drag = options.contest.seconds;
   options.contest = contest_of(arguments, every_algorithm(), "0,1,3,10,30,100");
   options.contest.seconds = seconds_per_drag;
-  std::ranges::sort(options.contest.sweeps);  // they form a curve
+  std::ranges::sort(options.contest.sweeps);  // in ascending order, because a curve connects them
   const std::string calibrated = value_of(arguments.calibrated).value_or("on");
   check_word("--calibrated", calibrated, {"on", "off"});
   if (calibrated == "on") {
@@ -48,7 +48,7 @@ std::vector<report::Case> physics_cases(const CompareArguments& arguments) {
   }
   if (arguments.meshes->count() == 0) {
     if (arguments.pins->count() > 0) {
-      throw Error("--pins", "the built-in objects have their own pins", "name a mesh, or leave out the option");
+      throw Error("--pins", "the built-in objects have their own pins", "add a mesh, or leave out the option");
     }
     return report::physics_cases({softness, {}}, elastic);
   }

@@ -12,7 +12,7 @@
 namespace chainmail::command_line {
 namespace {
 
-/// Prints flaws of the file as a note on standard error: the result may have other ids, or fewer elements.
+/// Prints the flaws of the file on standard error, because the result may have other ids or fewer elements.
 void say_flaws(const OpenedMesh& opened) {
   const std::string words = in_words(opened.flaws);
   if (!words.empty()) {
@@ -35,7 +35,7 @@ CLI::Option* add_target(CLI::App& app) {
   return add_value(app, "-o", "FILE", "output file: " + mesh_endings(FormatUse::write))->required();
 }
 
-/// Returns the length of the inner edges; the default is the mean edge of the surface.
+/// Returns the length of the inner edges (mesh units). The default is the mean edge length of the surface.
 double size_of(const CLI::Option* option, const Mesh& surface) {
   const auto text = value_of(option);
   return text ? parse_number_of("--edge", *text) : surface.mean_link_length;

@@ -27,10 +27,10 @@ struct DeformArguments {
   CLI::Option *positions, *trace, *json;
 };
 
-/// Files for the results.
+/// Output files for the results.
 struct Targets {
   std::optional<std::string> positions, trace, json;
-  std::vector<std::string> inputs;  // files that were read, which no result may replace
+  std::vector<std::string> inputs;  // input files, which no output may replace
   bool none() const { return !positions && !trace && !json; }
 };
 
@@ -40,7 +40,7 @@ constexpr const char* example =
     "  chainmail deform grid.dat --algorithm natural-queue --cut 30-31 --by 31:3,2 --steps 10 \\\n"
     "      --relax 20 --positions moved.csv --json -";
 
-/// Throws Error, with the option, if the algorithm does not work on the mesh.
+/// Throws Error, with the option, if the algorithm does not support the mesh.
 void check_algorithm(const DeformArguments& options, Algorithm algorithm, const Mesh& mesh) {
   try {
     check(algorithm, mesh);
@@ -87,7 +87,7 @@ std::vector<Act> read_acts(const DeformArguments& options) {
   return acts;
 }
 
-/// Positions on standard output are a CSV table.
+/// Returns the format of the positions. On standard output, it is a CSV table.
 const MeshFormat& positions_format(const std::string& path) {
   try {
     return mesh_format(path == "-" ? "standard_output.csv" : path, FormatUse::write_positions);

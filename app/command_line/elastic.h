@@ -10,16 +10,16 @@ struct ElasticArguments {
   CLI::Option *young = nullptr, *poisson = nullptr, *lattice = nullptr;
 };
 ElasticArguments add_elastic(CLI::App& app);
-/// Adds the options of the material only.
+/// Adds only the options of the material.
 ElasticArguments add_material(CLI::App& app);
 /// Throws Error, with the option, if a value is out of range.
 ElasticOptions elastic_of(const ElasticArguments& arguments);
 
 /// Returns the elements of `boundary` or of a layer, like `bottom`; nothing for any other word. Throws Error, with the
-/// option, if the object has no such elements.
+/// option, if the object has no boundary or layer with this name.
 std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, const std::string& word, const Mesh& mesh);
 /// Returns the elements of `--pins`, a layer or ids separated by commas, in ascending order. Throws Error if the option
-/// is missing; `object` is the object's name for the message.
+/// is missing; `object` is the object's name for error messages.
 std::vector<ElementId> pins_of(const CLI::Option* pins, const std::string& object, const Mesh& mesh);
 CLI::Option* add_pins(CLI::App& app);
 /// Returns all names of layers, separated by `|`.

@@ -19,7 +19,7 @@ std::string reason() { return std::generic_category().message(errno); }
 
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
   if (path_.empty()) {
-    throw Error("-o", "the folder's name is empty", "give a folder");
+    throw Error("-o", "the folder's name is empty", "use the name of a folder");
   }
   std::error_code error;
   fs::path there = path_;
@@ -27,7 +27,7 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
     there = there.has_parent_path() ? there.parent_path() : fs::path(".");
   }
   if (!fs::is_directory(there, error)) {
-    throw Error("-o", shown(there) + " is not a folder", "give a folder");
+    throw Error("-o", shown(there) + " is not a folder", "use the name of a folder");
   }
   errno = 0;
   if (access(there.c_str(), W_OK | X_OK) != 0) {
@@ -38,7 +38,7 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) {
-    fs::remove(*folder, ignored);  // fails, and keeps the folder, if others wrote into it
+    fs::remove(*folder, ignored);  // keeps the folder if another program wrote into it
   }
 }
 

@@ -5,10 +5,11 @@
 
 namespace chainmail::command_line {
 
-/// A folder for results. It is created if missing, and removed again if the results were not written.
+/// A folder for results. It is created if it is missing, and removed again if the results are not written.
 class OutputFolder {
  public:
-  /// Changes nothing yet. Throws Error if the folder cannot be created, before any long work begins.
+  /// Throws Error if the folder cannot be created, so that a wrong name is found before any long work. Does not create
+  /// it yet.
   explicit OutputFolder(std::filesystem::path path);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;

@@ -46,7 +46,7 @@ struct Watch::Line {
 
   std::mutex mutex;
   std::condition_variable_any over;
-  std::jthread thread;  // last: it uses the others
+  std::jthread thread;  // last member, because it uses the others
 };
 
 Watch::Watch(std::string text) {

@@ -11,7 +11,7 @@ namespace chainmail::command_line {
 /// A line of progress on standard error, if that is a terminal. The destructor clears it.
 class ProgressLine {
  public:
-  /// Nothing is shown before `delay` has passed.
+  /// Shows nothing until `delay` has passed.
   explicit ProgressLine(std::chrono::milliseconds delay = std::chrono::milliseconds(0));
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -42,7 +42,7 @@ class Watch {
   Watch& operator=(const Watch&) = delete;
   ~Watch();
 
-  /// For the job, which reports here.
+  /// Returns the progress object for the job.
   Progress progress() { return Progress(job_); }
 
  private:

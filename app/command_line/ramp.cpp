@@ -31,7 +31,7 @@ constexpr const char* ramp_footer =
 
 /// Returns the limit, or the number of elements that fit into half of the memory if that is less.
 std::uint64_t largest_for_memory(std::uint64_t limit) {
-  constexpr std::uint64_t bytes_per_element = 400;  // mesh and two solvers in double, with their lists
+  constexpr std::uint64_t bytes_per_element = 400;  // the mesh and two solvers in double, with their lists
   const auto memory =
       static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
   return std::min(limit, memory / 2 / bytes_per_element);
@@ -107,7 +107,7 @@ void ramp(const RampArguments& options) {
   if (std::none_of(targets.begin(), targets.end(), [](const Target& target) { return target.path == "-"; })) {
     targets.push_back({"-", [&](std::ostream& out) { write_text(out, result, machine); }});
   }
-  write(targets, true);  // fails now, not after minutes of work, if an output cannot be written
+  write(targets, true);  // if an output cannot be written, this fails before minutes of work
   {
     ProgressLine line;
     result =

@@ -6,7 +6,7 @@
 
 namespace chainmail::command_line {
 
-/// Returns machine, command line, current time and version, for a report.
+/// Returns the machine, command line, current time and program version for a report.
 report::Origin origin_of(const std::string& command_line);
 
 }  // namespace chainmail::command_line

@@ -24,7 +24,7 @@ const CLI::App& chosen(const CLI::App& root) {
   return commands.empty() ? root : *commands.front();
 }
 
-/// Turns an error of CLI11 into ours. Its text begins with the name of the option or positional.
+/// Converts an error of CLI11 to ours. Its text begins with the name of the option or positional argument.
 Error usage_error(const CLI::App& root, const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::string name = text.substr(0, text.find_first_of(": "));
@@ -38,7 +38,7 @@ Error usage_error(const CLI::App& root, const CLI::ParseError& error) {
   return {"arguments", text, hint};
 }
 
-/// Throws Error for the first argument that no option and no positional took.
+/// Throws Error for the first argument that belongs to no option and no positional argument.
 void refuse_extras(const CLI::App& root) {
   const CLI::App& app = chosen(root);
   for (const CLI::App* with_extras : {&root, &app}) {
@@ -54,7 +54,7 @@ void refuse_extras(const CLI::App& root) {
   }
 }
 
-/// Throws Error if the value of an option looks like an option: the value was forgotten.
+/// Throws Error if the value of an option is itself an option, because then the value is missing.
 void refuse_swallowed_options(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& value : option->results()) {

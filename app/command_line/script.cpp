@@ -14,7 +14,7 @@
 namespace chainmail::command_line {
 namespace {
 
-/// Counts the passes that are done on a progress line.
+/// Shows the number of finished passes on a progress line.
 class PassCount {
  public:
   explicit PassCount(std::uint64_t total) : total_(total) {}
@@ -33,7 +33,7 @@ class PassCount {
 ElementId parse_id(const std::string& where, std::string_view text) {
   const auto id = parse_count(text);
   if (!id) {
-    throw Error(where, in_quotes(text) + " is not an element's id", "ids are whole numbers from 0");
+    throw Error(where, in_quotes(text) + " is not an element's id", "use a whole number from 0");
   }
   return *id;
 }
@@ -46,7 +46,7 @@ std::vector<ElementId> pins_of(const Act& act, const Mesh& mesh) {
   const auto pins = pins_by_name(act.where, act.layer, mesh);
   if (!pins) {
     throw Error(act.where, in_quotes(act.layer) + " is not an element's id",
-                "ids are whole numbers from 0; or use " + pin_names());
+                "use a whole number from 0, or " + pin_names());
   }
   return *pins;
 }
@@ -54,7 +54,7 @@ std::vector<ElementId> pins_of(const Act& act, const Mesh& mesh) {
 void check_element(const Act& act, ElementId element, const Mesh& mesh) {
   if (element >= mesh.element_count()) {
     throw Error(act.where, "there is no element " + std::to_string(element),
-                "ids run from 0 to " + std::to_string(mesh.element_count() - 1));
+                "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
   }
 }
 
@@ -75,7 +75,7 @@ void check_axes(const Act& act, const Mesh& mesh) {
 void check_link(const Act& act, const Mesh& mesh) {
   check_element(act, act.other, mesh);
   if (!find_link(mesh, act.element, act.other)) {
-    throw Error(act.where, "these elements are not linked", "give the two ends of a link");
+    throw Error(act.where, "these elements are not linked", "use the ids of the two ends of a link");
   }
 }
 
@@ -153,7 +153,7 @@ void Runner::move(const Act& act) {
   for (std::uint32_t step = 1; step <= schedule_.steps; ++step) {
     Point between;
     for (int k = 0; k < 3; ++k) {
-      // std::lerp ends exactly at the target and does not overflow on the way.
+      // std::lerp ends exactly at the target, and does not overflow.
       between[k] = std::lerp(start[k], target[k], double(step) / schedule_.steps);
     }
     pass(act.element, between);

@@ -16,8 +16,8 @@ namespace {
 // Bounds of compression, stretch and shear. Beyond these, a link does not limit a drag of a fifth of the object.
 const std::vector<double> low{0, 1, 0}, high{1, 3, 2};
 constexpr std::array every_sweeps{0, 1, 3, 10, 30, 100};
-constexpr double share_everywhere = 0.6;     // of the evaluations; the others search about the best point
-constexpr double share_of_references = 0.2;  // of the progress
+constexpr double share_everywhere = 0.6;     // share of the evaluations; the others search near the best point
+constexpr double share_of_references = 0.2;  // share of the progress
 
 LinkSoftness softness_at(const std::vector<double>& x) { return {x[0], x[1], x[2]}; }
 std::vector<double> point_of(const LinkSoftness& softness) {
@@ -95,7 +95,7 @@ class Bench {
   Progress progress_;
 };
 
-/// Continues from the best result so far, with this number of sweeps.
+/// Continues the search from the best result so far, with this number of sweeps.
 void look(Search search, Bench& bench, int sweeps, int evaluations, Trial& best) {
   if (evaluations < 1) {
     return;
@@ -123,11 +123,11 @@ CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) 
   std::ranges::sort(options.pins);
   options.pins.erase(std::unique(options.pins.begin(), options.pins.end()), options.pins.end());
   if (options.pins.empty()) {
-    throw Error("pins", "nothing pins the object, so physics has no static answer", "pin some elements");
+    throw Error("pins", "nothing pins the object, so physics has no solution", "pin some elements");
   }
   if (options.pins.back() >= mesh->element_count()) {
     throw Error("pins", "there is no element " + std::to_string(options.pins.back()),
-                "ids go from 0 to " + std::to_string(mesh->element_count() - 1));
+                "use an id from 0 to " + std::to_string(mesh->element_count() - 1));
   }
   return options;
 }

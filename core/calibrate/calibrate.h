@@ -22,8 +22,8 @@ struct CalibrationOptions {
   Algorithm algorithm = Algorithm::natural_queue;  // of the ChainMail family
   std::uint64_t seed = 1;                          // random seed of the drags
   int drags = 4;
-  int held_out = 4;                  // drags only for testing, of other elements if possible
-  int evaluations = 200;             // of all drags
+  int held_out = 4;                  // number of drags that only test the result; they grab other elements if possible
+  int evaluations = 200;             // each evaluation runs all drags
   int most_sweeps = 100;             // largest number of sweeps tried, of 0, 1, 3, 10, 30 and 100
   std::vector<ElementId> not_these;  // elements that no drag grabs, in any order
   RelaxationScheme scheme = RelaxationScheme::mean;
@@ -31,7 +31,7 @@ struct CalibrationOptions {
 
 /// Distance of the elements from the reference solution at the end of a drag.
 struct Residual {
-  double rms = 0, max = 0;  // over the handle's displacement
+  double rms = 0, max = 0;  // divided by the handle's displacement
   double relative = 0;      // RMS divided by that of the reference's displacements; about 1 if nothing moves
 
   bool operator==(const Residual&) const = default;
@@ -47,7 +47,7 @@ struct CalibrationDrag {
   bool operator==(const CalibrationDrag&) const = default;
 };
 
-/// Drags, and their residuals together: means over the drags, and the largest of the maxima.
+/// Drags, and their residuals: the means over the drags, and the largest of the maxima.
 struct TestedDrags {
   std::vector<CalibrationDrag> drags;
   Residual before, after, nothing;  // default softness without sweeps; calibrated; if nothing moves
@@ -66,12 +66,12 @@ struct CalibrationResult {
   bool operator==(const CalibrationResult&) const = default;
 };
 
-/// Finds the softness, the same for all links, and the number of sweeps with the lowest mean relative error against
-/// neo-Hookean FEM on the same cells. Drags are of random elements, by `shortest_drag` to `farthest_drag` of the
-/// object's size. The result is the same for the same options.
+/// Finds one softness for all links and the number of sweeps that together have the lowest mean relative error against
+/// neo-Hookean FEM on the same cells. Each drag moves a random element by `shortest_drag` to `farthest_drag` of the
+/// object's size. The same options give the same result.
 ///
-/// Throws Error if nothing is pinned, a number is out of range, the object has no static answer, or no reference
-/// converges; and Cancelled.
+/// Throws Error if nothing is pinned, a number is out of range, the object has no static solution, or no reference
+/// converges. Throws Cancelled if it is cancelled.
 CalibrationResult calibrate(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& options,
                             const Progress& progress = {});
 

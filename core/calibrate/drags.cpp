@@ -12,8 +12,8 @@
 namespace chainmail {
 namespace {
 
-constexpr int moves = 24;                // of the handle, as in a comparison
-constexpr int draws_per_drag = 4;        // attempts before it is given up
+constexpr int moves = 24;                // number of moves of the handle in each drag, as in a comparison
+constexpr int draws_per_drag = 4;        // largest average number of attempts per drag
 constexpr double kept_from_pins = 0.25;  // share of the distance from the pins to the farthest element
 
 double squared_to_nearest(const Mesh& mesh, const std::vector<ElementId>& pins, ElementId element) {
@@ -24,7 +24,7 @@ double squared_to_nearest(const Mesh& mesh, const std::vector<ElementId>& pins, 
   return least;
 }
 
-/// Returns the elements that a handle can be: on the surface of a solid, and not close to the pins.
+/// Returns the elements that can be handles: they are not close to the pins and, in a solid, on its surface.
 std::vector<ElementId> handles(const Mesh& mesh, const std::vector<ElementId>& pins) {
   const std::vector<ElementId> elements = report::possible_handles(mesh);
   std::vector<double> distances(elements.size());
@@ -69,7 +69,7 @@ ReferenceDrag draw(const Mesh& mesh, const std::vector<ElementId>& free, std::mt
   return drag;
 }
 
-/// Returns the elements without some others; all of them if none would be left.
+/// Returns `elements` without `others`; all of `elements` if none would be left.
 std::vector<ElementId> without(const std::vector<ElementId>& elements, const std::vector<ElementId>& others) {
   std::vector<ElementId> left;
   std::ranges::copy_if(elements, std::back_inserter(left),

@@ -9,7 +9,7 @@
 namespace chainmail {
 namespace {
 
-/// State of the library's callback. That is C: no exception may pass through it.
+/// State of the library's callback. The library is written in C, so no exception may pass through it.
 struct Task {
   nlopt_opt optimizer = nullptr;
   const std::function<double(const std::vector<double>&)>& value;
@@ -41,7 +41,7 @@ double evaluate(unsigned count, const double* x, double* /*gradient*/, void* dat
 Optimum find_optimum(Search search, const std::vector<double>& low, const std::vector<double>& high,
                      const std::vector<double>& start, int evaluations,
                      const std::function<double(const std::vector<double>&)>& value) {
-  constexpr double first_step = 0.1;     // share of the range, for the search about a point
+  constexpr double first_step = 0.1;     // share of the range, for the search near a point
   constexpr double close_enough = 1e-4;  // relative tolerance of the variables
   const auto method = search == Search::everywhere ? NLOPT_GN_DIRECT_L : NLOPT_LN_SBPLX;
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimizer(
@@ -52,7 +52,7 @@ Optimum find_optimum(Search search, const std::vector<double>& low, const std::v
   Task task{optimizer.get(), value, {start, std::numeric_limits<double>::infinity()}, nullptr};
   std::vector<double> steps;
   for (std::size_t i = 0; i < start.size(); ++i) {
-    // Inward if the start is on its upper bound.
+    // Steps inward if the start is on its upper bound.
     const double step = first_step * (high[i] - low[i]);
     steps.push_back(start[i] + step > high[i] ? -step : step);
   }

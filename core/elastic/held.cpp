@@ -98,14 +98,14 @@ const char* remedy(const Mesh& mesh) {
 
 void check_pinned(const Mesh& mesh, std::span<const ElementId> pins) {
   if (pins.empty()) {
-    throw Error("object", "nothing pins it, so there is no static answer", remedy(mesh));
+    throw Error("object", "nothing pins it, so there is no solution", remedy(mesh));
   }
 }
 
 void check_part_held(const Mesh& mesh, ElementId part, const std::vector<ElementId>& pins) {
   if (!holds(mesh, pins)) {
     throw Error("the part of element " + std::to_string(part),
-                too_few(mesh.space_dimension) + ", so it has no static answer", remedy(mesh));
+                too_few(mesh.space_dimension) + ", so it has no solution", remedy(mesh));
   }
 }
 

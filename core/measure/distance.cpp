@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-// A hand that went and came back is off by its scalar's rounding: a ratio to that says nothing.
+// A handle that returned to its rest position is off by rounding errors: a ratio to them has no meaning.
 constexpr double counts_as_moved = 1e-4;
 
 /// Mean rest length, or mesh units where there is none.
@@ -38,15 +38,16 @@ std::optional<double> energy_ratio(double energy, double of_reference) {
   return of_reference > 0 ? std::optional(energy / of_reference) : std::nullopt;
 }
 
-std::optional<double> largest_over_hand(const Mesh& mesh, const PositionView& positions, ElementId hand) {
+std::optional<double> largest_over_handle(const Mesh& mesh, const PositionView& positions, ElementId handle) {
   double square = 0;
   for (int k = 0; k < mesh.space_dimension; ++k) {
-    const double moved = positions(hand, k) - mesh.rest[std::size_t{hand} * mesh.space_dimension + k];
+    const double moved = positions(handle, k) - mesh.rest[std::size_t{handle} * mesh.space_dimension + k];
     square += moved * moved;
   }
-  const double of_hand = std::sqrt(square);
-  return of_hand > counts_as_moved * unit_of(mesh) ? std::optional(measure_displacement(mesh, positions).max / of_hand)
-                                                   : std::nullopt;
+  const double of_handle = std::sqrt(square);
+  return of_handle > counts_as_moved * unit_of(mesh)
+             ? std::optional(measure_displacement(mesh, positions).max / of_handle)
+             : std::nullopt;
 }
 
 }  // namespace chainmail

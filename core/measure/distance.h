@@ -17,11 +17,11 @@ struct Distance {
 };
 Distance measure_distance(const Mesh& mesh, const PositionView& one, const PositionView& other);
 
-/// Returns the elastic energy divided by that of a reference; none if that is 0.
+/// Returns the elastic energy divided by that of a reference; none if the reference's energy is 0.
 std::optional<double> energy_ratio(double energy, double of_reference);
 
 /// Returns the largest displacement of any element divided by that of the handle's element; none if the handle is at
 /// rest, to 1e-4 mean rest lengths. Above 1, an element moved further than the handle.
-std::optional<double> largest_over_hand(const Mesh& mesh, const PositionView& positions, ElementId hand);
+std::optional<double> largest_over_handle(const Mesh& mesh, const PositionView& positions, ElementId handle);
 
 }  // namespace chainmail

@@ -11,16 +11,16 @@ namespace chainmail {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
-/// A row an unknown, a column an axis.
+/// One row per unknown, one column per axis.
 using Columns = Eigen::MatrixXd;
 
-// Of the residual over the right-hand side. The error in the positions is up to the condition number times
-// as large, about the number of elements: 1e-6 of the deflection for a million.
+// Limit of the residual's norm, divided by that of the right-hand side. The relative error of the positions can be
+// larger by the condition number, which is about the number of elements: 1e-6 for a million elements.
 constexpr double residual = 1e-12;
 
 constexpr Eigen::Index none = -1;
 
-/// The elements that uncut links join to one of these, and these.
+/// Returns, per element, true if it is one of `fixed` or if uncut links connect it to one.
 std::vector<bool> joined_to(const Mesh& mesh, const Cuts& cuts, std::span<const ElementId> fixed) {
   std::vector<bool> joined(mesh.element_count());
   std::vector<ElementId> open(fixed.begin(), fixed.end());
@@ -40,8 +40,9 @@ std::vector<bool> joined_to(const Mesh& mesh, const Cuts& cuts, std::span<const 
   return joined;
 }
 
-/// In displacements u the energy is ½ Σ |u_j − u_i|², least where each free element has the mean of its
-/// neighbours: a Laplacian over the free elements, the fixed ones on the right-hand side.
+/// The linear system of the equilibrium. In displacements u the energy is ½ Σ |u_j − u_i|². At its minimum, the
+/// displacement of each free element is the mean of its neighbours'. The matrix is the Laplacian of the free elements;
+/// the fixed elements are on the right-hand side.
 class System {
  public:
   System(const Mesh& mesh, const Cuts& cuts, std::span<const ElementId> fixed, Equilibrium& equilibrium)
@@ -60,7 +61,7 @@ class System {
 
   bool solve(std::uint64_t limit, const Progress& progress) {
     if (elements_.empty()) {
-      return true;  // and Eigen cannot compress a matrix without columns
+      return true;  // Eigen cannot compress a matrix without columns
     }
     build();
     return elements_.size() <= limit ? solve_directly(progress) : solve_by_gradients(progress);
@@ -86,7 +87,7 @@ class System {
     matrix_.makeCompressed();
   }
 
-  /// The matrix is symmetric: its lower half says all.
+  /// Writes only the lower half of the row: the matrix is symmetric.
   void add_row(Eigen::Index i) {
     int degree = 0;
     for_each_neighbour(mesh_, cuts_, elements_[i], [&](ElementId neighbour, EntryId) {
@@ -129,8 +130,8 @@ class System {
     return take(solution);
   }
 
-  /// Conjugate gradients along one axis, from `x` on. Eigen's own cannot be given up. Returns false where they do not
-  /// come to an end.
+  /// Runs conjugate gradients along one axis, starting from `x`. Eigen's own implementation cannot be cancelled.
+  /// Returns false if it does not converge.
   bool descend(const Eigen::IncompleteCholesky<double>& preconditioner, const Eigen::VectorXd& right,
                Eigen::VectorXd& x, const Progress& progress) const {
     const auto matrix = matrix_.selfadjointView<Eigen::Lower>();
@@ -171,8 +172,8 @@ class System {
   const Mesh& mesh_;
   const Cuts& cuts_;
   Equilibrium& equilibrium_;
-  std::vector<Eigen::Index> unknown_;  // of each element
-  std::vector<ElementId> elements_;    // of each unknown
+  std::vector<Eigen::Index> unknown_;  // index of the unknown of each element, or none
+  std::vector<ElementId> elements_;    // element of each unknown
   Matrix matrix_;
   Columns right_;
 };

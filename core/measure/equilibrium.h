@@ -16,14 +16,14 @@ namespace chainmail {
 /// The relaxed equilibrium: the minimum of the elastic energy ½ Σ |(x_j − x_i) − r_ij|² while some elements are fixed.
 /// Valid regions are ignored.
 struct Equilibrium {
-  /// Displacements from rest, element by element, space_dimension coordinates each (mesh units): so neither a far
-  /// origin nor a large object costs digits.
+  /// Displacements from rest, element by element, space_dimension coordinates each (mesh units). Unlike positions, they
+  /// lose no digits if the origin is far away or the object is large.
   std::vector<double> displacements;
-  /// True, per element, if its component, over the links that are not cut, contains a fixed element. Otherwise every
-  /// translation is equally good, and the element keeps its position.
+  /// True, per element, if uncut links connect it to a fixed element. Otherwise its position is not determined, and it
+  /// stays where it is.
   std::vector<bool> defined;
-  /// True if a link between such elements is outside its valid region. Then it is not a reference for relaxation, which
-  /// cannot reach it.
+  /// True if a link between connected elements violates its valid region. Relaxation cannot reach such an equilibrium,
+  /// so it is not a reference for relaxation.
   bool binds = false;
 
   /// The positions (mesh units); valid while this object and the mesh exist.

@@ -10,7 +10,7 @@
 
 namespace chainmail {
 
-/// The valid region of a neighbour about an element at its current position, and whether the neighbour is inside.
+/// The valid region that an element at its current position gives to a neighbour.
 struct NeighbourRegion {
   ElementId neighbour = 0;
   LinkId link = 0;
@@ -25,8 +25,8 @@ struct NeighbourRegion {
   bool inside = true;
 };
 
-/// Returns the valid regions of an element's neighbours, in their order, without cut links; at most `at_most`. Computed
-/// in double.
+/// Returns the valid regions of an element's neighbours, in their order, without those behind cut links; at most
+/// `at_most`. Computed in double.
 std::vector<NeighbourRegion> neighbour_regions(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                                                const PositionView& position, ElementId about, std::size_t at_most);
 

@@ -5,13 +5,13 @@
 namespace chainmail {
 namespace {
 
-// A hand sends 60 moves a second; this many bound the memory of a script that sends more.
+// A user sends 60 moves per second. This limits the memory if a script sends more.
 constexpr std::size_t entries_kept = 4096;
 
 }  // namespace
 
 PassTimes::PassTimes() {
-  entries_.reserve(2 * entries_kept + 2);  // as forget_before leaves it, and one more
+  entries_.reserve(2 * entries_kept + 2);  // the most entries that forget_before leaves, and one more
   milliseconds_.reserve(entries_kept);
 }
 

@@ -30,7 +30,7 @@ class PassTimes {
     Clock::time_point when;
     double milliseconds;
   };
-  // The entries from first_ on count. All memory is allocated at once: a pass allocates none.
+  // Entries before first_ are too old. All memory is allocated at once, so that a pass allocates none.
   std::vector<Entry> entries_;
   std::size_t first_ = 0;
   std::vector<double> milliseconds_;

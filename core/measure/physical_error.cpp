@@ -7,7 +7,7 @@
 namespace chainmail {
 namespace {
 
-/// Gathers squares of distances.
+/// Sum and maximum of squared distances.
 struct Squares {
   double sum = 0, largest = 0;
   std::uint64_t count = 0;

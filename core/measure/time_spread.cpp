@@ -6,7 +6,7 @@
 namespace chainmail {
 namespace {
 
-/// The value below which a share of the sorted times lies.
+/// Returns the value below which a share of the sorted times lies, interpolated.
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * double(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);

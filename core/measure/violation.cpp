@@ -78,7 +78,7 @@ Violation TouchedViolation::measure(const Mesh& mesh, const Softness& softness, 
         continue;
       }
       for (EntryId entry = mesh.first_entry[element]; entry < mesh.first_entry[element + 1]; ++entry) {
-        // A link to an element seen before was counted there.
+        // The link to a neighbour that was seen before is already counted.
         if (const LinkId link = mesh.entry_link[entry]; !seen_[mesh.neighbours[entry]] && !cuts.is_cut(link)) {
           sum.add(link_violation(mesh, softness, position, link));
         }

@@ -12,7 +12,7 @@
 
 namespace chainmail {
 
-/// A link counts as violated above this (rest lengths); below, it is rounding.
+/// Smallest violation that counts, in rest lengths of the link. Smaller ones are rounding errors.
 inline constexpr double counts_as_violated = 1e-4;
 
 /// Distance of links from their valid regions, in rest lengths of the link (for a link of zero length: in the mesh's
@@ -48,7 +48,7 @@ class ViolationSum {
 /// Measures the violation of the whole mesh in slices. The object must not change in between.
 class WholeViolation {
  public:
-  /// Measures this many more links. Returns true if there are more.
+  /// Measures the next `count` links. Returns true if more links remain.
   bool go_on(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position, LinkId count);
   Violation result() const { return sum_.result(); }
 
@@ -60,7 +60,7 @@ class WholeViolation {
 /// Measures the violation of the links of some elements, each link once.
 class TouchedViolation {
  public:
-  /// Takes time in proportion to the number of these links. Keeps one bit per element between calls.
+  /// Takes time in proportion to the number of links of `elements`. Keeps one bit per element between calls.
   Violation measure(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
                     std::initializer_list<std::span<const ElementId>> elements);
 

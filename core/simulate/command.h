@@ -14,7 +14,7 @@
 
 namespace chainmail {
 
-/// Everything that changes a simulation is a command. Commands are values: they can be logged, sent to several
+/// Commands: every change of a simulation is one. Commands are values: they can be recorded, sent to several
 /// simulations and replayed.
 namespace commands {
 
@@ -28,7 +28,7 @@ struct Drag {
 };
 /// Releases the grabbed element.
 struct Release {};
-/// Sets the softness. It is shared, so a slider's gesture on links with their own softness copies nothing.
+/// Sets the softness. It is shared, so that the command does not copy the softness of single links.
 struct SetSoftness {
   SetSoftness(std::shared_ptr<const Softness> set = std::make_shared<const Softness>()) : softness(std::move(set)) {}
   explicit SetSoftness(Softness set) : SetSoftness(std::make_shared<const Softness>(std::move(set))) {}
@@ -76,8 +76,8 @@ struct Unpin {
 };
 /// Moves all elements to rest. Cuts, pins and softness stay.
 struct Reset {};
-/// Replaces the object by another one at rest, without cuts and pins. If the algorithm does not work on it, Natural
-/// Queue is used. Softness per link is dropped; the global softness stays.
+/// Replaces the object by another one at rest, without cuts and pins. If the algorithm does not support the new mesh,
+/// Natural Queue replaces it. The softness of single links is dropped; the global softness stays.
 struct ReplaceMesh {
   MeshPointer mesh;
 };
@@ -87,17 +87,17 @@ struct SetPositions {
   std::shared_ptr<const Snapshot> snapshot;
 };
 
-/// Id of a state that a simulation keeps for undo.
+/// Id of a state that a simulation saves for undo.
 using StateId = std::uint64_t;
-/// Keeps the current object (mesh, cuts, pins, softness, positions) under an id.
+/// Saves the current object (mesh, cuts, pins, softness, positions) under an id.
 struct KeepState {
   StateId state = 0;
 };
-/// Restores the object from a kept state, which stays kept.
+/// Restores the object from a saved state. The state stays saved.
 struct RestoreState {
   StateId state = 0;
 };
-/// Drops a kept state.
+/// Drops a saved state.
 struct DropState {
   StateId state = 0;
 };

@@ -8,11 +8,10 @@
 
 namespace chainmail {
 
-/// The log that feeds all solvers: each receives the same commands in the same order.
-///
-/// Moves of the handle, and settings that change while a slider is dragged, are sampled: while a solver is busy, the
-/// last unsent command is replaced by the next one of its kind, for all solvers, so a slow solver never lags behind.
-/// All other commands are sent at once, after any waiting command. Belongs to one thread.
+/// Sends commands to all solvers: each receives the same commands in the same order.
+/// Moves of the handle, and settings that change while a slider is dragged, are sampled. While a solver is busy, the
+/// newest command of this kind waits and replaces the one that waited before, for all solvers. So a slow solver never
+/// lags behind. All other commands are sent at once, after any waiting command. Only one thread may use this object.
 class CommandLog {
  public:
   explicit CommandLog(std::vector<SolverThread*> solvers) : solvers_(std::move(solvers)) {}
@@ -20,15 +19,15 @@ class CommandLog {
   void post(const Command& command);
   /// Sends a command to one solver only, after any waiting command.
   void post_to(SolverThread& solver, const Command& command);
-  /// Sends a command to all solvers without recording it on the tape: it is there already, or must not be.
+  /// Sends a command to all solvers without recording it: it is already recorded, or must not be.
   void replay(const Command& command);
-  /// The tape of all commands that were sent.
+  /// Returns the recorded commands.
   Tape& tape() { return tape_; }
   const Tape& tape() const { return tape_; }
   /// Adds or removes a solver, after any waiting command.
   void add(SolverThread& solver);
   void remove(const SolverThread& solver);
-  /// Sends the waiting command. Call this before asking a solver directly.
+  /// Sends the waiting command. Call this before you use a solver directly.
   void flush();
   /// Sends the waiting command if every solver is idle. Call this after each post, and each time a solver becomes idle.
   void sample();

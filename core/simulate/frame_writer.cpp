@@ -6,7 +6,7 @@
 namespace chainmail {
 namespace {
 
-/// Returns the frame numbers of a run of blocks, given by its elements.
+/// Returns the frame numbers of the blocks that contain the elements from `first` to before `end`.
 std::span<std::uint64_t> blocks_of(std::vector<std::uint64_t>& stamps, ElementId first, ElementId end) {
   const std::size_t block = first / Frame::block_elements;
   return std::span(stamps).subspan(block, (end - 1) / Frame::block_elements - block + 1);

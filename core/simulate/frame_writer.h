@@ -23,7 +23,7 @@ class FrameWriter {
 
   TripleBuffer& frames_;
   std::uint64_t number_ = 0;
-  // Of the newest frame:
+  // State of the newest frame:
   MeshPointer mesh_;
   std::vector<std::uint64_t> changed_;
   /// For each frame of the buffer, the blocks of this mesh that changed since it was last filled.

@@ -20,11 +20,11 @@ struct ObjectState {
   bool valid = true;
 };
 
-/// The state of a simulation except its algorithm and statistics, from which another simulation can continue. A value
-/// that shares large constant data: it may be moved to another thread.
+/// The state of a simulation, without its algorithm and statistics, from which another simulation can continue. It is a
+/// value that shares large constant data, and may be moved to another thread.
 struct Handover {
   ObjectState object;
-  std::map<commands::StateId, ObjectState> kept;  // for undo
+  std::map<commands::StateId, ObjectState> kept;  // snapshots for undo
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
   std::optional<ElementId> grabbed;

@@ -6,12 +6,13 @@
 namespace chainmail {
 namespace {
 
-/// True if a command may be a pass and changes no other positions. A change of algorithm may first round all positions.
+/// Returns true if a command may be a pass and changes no positions outside the pass. (A change of algorithm may round
+/// all positions.)
 bool may_be_pass(const Command& command) {
   return std::holds_alternative<commands::Drag>(command) || std::holds_alternative<commands::SetSoftness>(command);
 }
 
-/// True if a command may change cuts, pins or softness.
+/// Returns true if a command may change cuts, pins or softness.
 bool changes_conditions(const Command& command) {
   return !std::holds_alternative<commands::Grab>(command) && !std::holds_alternative<commands::Drag>(command) &&
          !std::holds_alternative<commands::Release>(command);

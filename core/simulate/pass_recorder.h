@@ -11,16 +11,18 @@
 
 namespace chainmail {
 
-/// Keeps the last pass of a simulation for another thread. Costs nothing while it is off; while it is on, a copy of the
-/// positions, and of what each pass changed.
+/// Stores the last pass of a simulation for another thread. Costs nothing while it is off. While it is on, it copies
+/// the positions and the changes of each pass.
 class PassRecorder {
  public:
-  /// Turns recording on or off. Off drops the record. For the reading thread.
+  /// Turns recording on or off. Turning it off drops the record. Call this on the reading thread.
   void set_on(bool on);
-  /// Returns the last pass, unless its number is `seen`; none before the first pass and while a pass is running.
+  /// Returns the last pass; null if its number is `seen`, before the first pass and while a pass is running. Call this
+  /// on the reading thread.
   std::unique_ptr<RecordedPass> last(std::uint64_t seen) const;
 
-  /// For the thread of the simulation: call these around each command, and before changes of positions are forgotten.
+  /// Call these on the simulation's thread: begin() and end() around each command, and note_changes() before
+  /// Simulation::forget_changes().
   void begin(const Command& command, Simulation& simulation);
   void end(Simulation& simulation);
   void note_changes(const Simulation& simulation);
@@ -35,11 +37,11 @@ class PassRecorder {
   RecordedPass record_;       // `before` holds the positions at the beginning of the last pass
   bool is_whole_ = false;
 
-  // Used by the thread of the simulation only:
+  // Used only by the simulation's thread:
   bool runs_ = false;  // between begin and end of a command that may be a pass
   std::uint64_t passes_ = 0;
   Trace trace_;
-  ElementBlocks pending_;  // changed since record_.before was taken
+  ElementBlocks pending_;  // blocks that changed since record_.before was copied
   std::shared_ptr<const PassConditions> conditions_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 using Clock = PassTimes::Clock;
 
-// Relaxation sleeps when no step of a sweep exceeds this share of the mean rest length, or after this time.
+// Relaxation stops when no step of a sweep exceeds this share of the mean rest length, or after this time.
 constexpr double asleep_below = 1e-4;
 constexpr auto relaxation_time = std::chrono::seconds(10);
 // About 2 ms, so that commands never wait longer for a slice of relaxation.
@@ -197,7 +197,7 @@ void Simulation::check_links(std::span<const LinkId> links) const {
 
 void Simulation::take_mesh(MeshPointer mesh) {
   const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
-  auto solver = make_solver(mesh, algorithm, precision_);  // may run out of memory: nothing has changed yet
+  auto solver = make_solver(mesh, algorithm, precision_);  // may run out of memory, so it comes before any change
   solver->body().set_elastic(elastic());
   solver_ = std::move(solver);
   solver_->set_relaxation(relaxation_scheme_);
@@ -233,7 +233,7 @@ void Simulation::wake(std::span<const ElementId> elements) {
 }
 
 void Simulation::wake_ends(const std::vector<LinkId>& links) {
-  // Also if relaxation is off in idle time: sweeps may be requested.
+  // Needed even if relaxation in idle time is off, because sweeps may be requested.
   for (const LinkId link : links) {
     solver_->wake(mesh_->links[link]);
   }
@@ -293,11 +293,11 @@ void Simulation::set_softness(const std::shared_ptr<const Softness>& softness) {
   }
 }
 
-/// Answers a change under load, when links may now be violated: runs a pass about the handle, or the element that was
-/// moved last. From a valid state it moves nothing.
+/// Runs a pass after a change that may have violated links while the object is deformed. The pass starts at the handle,
+/// or at the element that was moved last. It moves nothing if all links are valid.
 void Simulation::answer() {
   if (!last_moved_) {
-    return;  // the object is at rest
+    return;  // no element has moved since rest
   }
   const auto about = grabbed_ ? grabbed_ : last_moved_;
   if (std::ranges::binary_search(body().pins(), *about)) {
@@ -306,7 +306,7 @@ void Simulation::answer() {
   try {
     pass(*about, point_of(*mesh_, body().positions(), *about));
   } catch (const Error&) {
-    // The pins contradict each other now: the setting stays, and the next drag reports it.
+    // The pins now contradict each other. The setting stays, and the next drag reports the error.
   }
 }
 
@@ -352,7 +352,7 @@ void Simulation::carry_out(const commands::SetAlgorithm& command) {
     return;
   }
   if (info(before).from_rest != info(algorithm_).from_rest && !away_.empty()) {
-    mark_all();  // the change between displacements and positions rounds every one
+    mark_all();  // converting between displacements and positions rounds all positions
   }
   statistics_.algorithm = algorithm_;
   forget_passes();
@@ -373,7 +373,7 @@ void Simulation::carry_out(const commands::Cut& command) {
 void Simulation::carry_out(const commands::Uncut& command) {
   check_links(command.links);
   solver_->body().uncut(command.links);
-  valid_ = false;  // the ends may have moved apart
+  valid_ = false;  // the ends may have moved too far apart while the link was cut
   wake_ends(command.links);
 }
 
@@ -409,14 +409,14 @@ void Simulation::carry_out(const commands::Reset&) {
 
 void Simulation::carry_out(const commands::ReplaceMesh& command) {
   if (!command.mesh) {
-    throw Error("replace mesh", "no mesh was given", "give a mesh");
+    throw Error("replace mesh", "the command contains no mesh", "use a command with a mesh");
   }
   const auto softness = std::make_shared<const Softness>(Softness{this->softness().global, {}});
   take_mesh(command.mesh);
   set_softness(softness);
 }
 
-// Kept states, for undo and for going back and forth in what was recorded.
+// Saved states, for undo and for replay of recorded commands.
 
 void Simulation::carry_out(const commands::KeepState& command) { kept_[command.state] = current_state(); }
 
@@ -446,7 +446,7 @@ void Simulation::carry_out(const commands::SetPositions& command) {
 Simulation::State& Simulation::kept(commands::StateId state) {
   const auto found = kept_.find(state);
   if (found == kept_.end()) {
-    throw Error("state " + std::to_string(state), "no such state is kept", "keep it first");
+    throw Error("state " + std::to_string(state), "this saved state does not exist", "save it first");
   }
   return found->second;
 }
@@ -495,7 +495,7 @@ void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
   std::vector<LinkId> excess, missing;
   std::ranges::set_difference(present, cuts, std::back_inserter(excess));
   std::ranges::set_difference(cuts, present, std::back_inserter(missing));
-  // Calls only for changes: a method of elasticity prepares again after each call.
+  // Makes only the calls that change something: a method of elasticity prepares again after each of them.
   if (!excess.empty()) {
     solver_->body().uncut(excess);
   }
@@ -504,7 +504,7 @@ void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
   }
 }
 
-/// Shared blocks of both states need no copy, unless a position in them has changed since.
+/// Copies only blocks that the two states do not share, or in which a position has changed since they were saved.
 void Simulation::take_positions(const PositionBlocks& positions) {
   last_kept_.blocks.resize(away_.block_count());
   away_.clear();
@@ -521,7 +521,7 @@ void Simulation::take_positions(const PositionBlocks& positions) {
   last_kept_ = positions;
   unkept_.clear();
   if (positions.from_rest != info(algorithm_).from_rest) {
-    unkept_ = away_;  // they are stored differently now, and rounded
+    unkept_ = away_;  // the positions have been converted and rounded
   }
 }
 

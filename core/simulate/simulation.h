@@ -27,32 +27,32 @@ struct Statistics {
   bool violation_of_whole_mesh = false;  // false: of the links that the last pass touched
   bool relaxing = false;
   std::uint64_t sweeps = 0;  // since the last pass
-  /// Reason why the last pass did not reach its target or did not converge. Usually empty.
+  /// Reason why the last pass did not reach its target or did not converge; usually empty.
   std::string remark;
 };
 
-/// An object in time: receives commands, provides positions and statistics. Uses no threads. Read apply() in
+/// Simulates one object: receives commands, and provides positions and statistics. Uses no threads. Read apply() in
 /// simulation.cpp first.
 class Simulation {
  public:
   Simulation(MeshPointer mesh, Algorithm algorithm, Precision precision);
 
   /// Carries out a command. Throws Error if the command does not fit the object (an element or link that does not
-  /// exist, softness out of range, a drag without a grab, a state that is not kept); nothing has changed then.
+  /// exist, softness out of range, a drag without a grab, a saved state that does not exist); then nothing changes.
   void apply(const Command& command);
   /// Runs a slice of relaxation of about 2 ms, for idle time. Returns true if there is more to do.
   bool step();
 
-  /// Returns everything except the algorithm and the statistics. Shares data with the kept states.
+  /// Returns everything except the algorithm and the statistics. Shares data with the saved states.
   Handover hand_over();
-  /// Continues from a handover with an algorithm, or with Natural Queue if that does not work on the mesh. Nothing
-  /// moves; a change between displacements and positions rounds positions like SetAlgorithm.
+  /// Continues from a handover with `algorithm`, or with Natural Queue if the algorithm does not support the mesh.
+  /// Nothing moves, but positions may be rounded as with SetAlgorithm.
   void take(const Handover& handover, Algorithm algorithm);
 
-  /// Sets the progress of long work, which throws Cancelled when cancelled. A cancelled pass of a method of elasticity
-  /// has moved nothing. Sweeps of relaxation end within some milliseconds and keep their positions.
+  /// Sets the progress of long work, which throws Cancelled when it is cancelled. A cancelled pass of a method of
+  /// elasticity moves nothing. Sweeps of relaxation end within some milliseconds and keep the positions reached.
   void set_progress(const Progress& progress);
-  /// `trace`, if set, receives every candidate that a pass processes.
+  /// Sets the trace that receives every candidate that a pass processes; null: none.
   void set_trace(Trace* trace) { trace_ = trace; }
   /// Runs sweeps of relaxation at once, with the scheme last set, even if relaxation is off: `count` of them, or until
   /// nothing moves.
@@ -66,10 +66,10 @@ class Simulation {
   const ElasticOptions& elastic() const { return body().elastic(); }
   commands::SetRelaxation relaxation() const { return {relaxation_on_, relaxation_step_, relaxation_scheme_}; }
   std::optional<ElementId> grabbed() const { return grabbed_; }
-  /// Returns the control points of free-form deformation, and prepares it; empty for other algorithms, or if it has no
-  /// answer.
+  /// Returns the control points of free-form deformation, and prepares it. Returns nothing for other algorithms, or if
+  /// it has no solution.
   std::span<const double> control_points();
-  /// The element of the last pass.
+  /// Returns the element that the last pass moved to its target.
   std::optional<ElementId> last_moved() const { return last_moved_; }
   /// Returns the positions, for SetPositions.
   Snapshot snapshot() const { return body().snapshot(away_); }
@@ -77,14 +77,14 @@ class Simulation {
   const ElementBlocks& changed() const { return changed_; }
   void forget_changes() { changed_.clear(); }
   const Statistics& statistics() const { return statistics_; }
-  /// True if no link is violated beyond rounding, as far as is known without checking the whole mesh.
+  /// Returns true if it is known, without a check of the whole mesh, that no link is violated beyond rounding.
   bool valid() const { return valid_; }
 
-  /// Updates the statistics that are too expensive for each pass: the times of the last second and the violation, of
+  /// Updates the statistics that are too expensive for each pass: the times of the last second, and the violation of
   /// the whole mesh or of the links that the last pass touched.
   void refresh_statistics(bool whole_mesh);
-  /// Runs a slice, of some milliseconds, of the same for the whole mesh, for idle time. A command or a step drops an
-  /// unfinished measurement. Returns true if there is more to do; the statistics are updated at the end.
+  /// Runs a slice, of some milliseconds, of the measurement of the whole mesh, for idle time. A command or a step drops
+  /// an unfinished measurement. Returns true if there is more to do. The statistics are updated at the end.
   bool measure();
 
  private:
@@ -135,17 +135,19 @@ class Simulation {
   Algorithm algorithm_;
   Precision precision_;
   std::unique_ptr<Solver> solver_;
-  ElementBlocks changed_;     // since they were last forgotten
+  std::shared_ptr<const Softness> softness_ = std::make_shared<const Softness>();
+  ElasticOptions elastic_;
+  ElementBlocks changed_;     // changed blocks since forget_changes()
   ElementBlocks away_;        // all elements outside these blocks are at rest
-  PositionBlocks last_kept_;  // as positions were last kept or restored
-  ElementBlocks unkept_;      // the blocks in which a position may have changed since
+  PositionBlocks last_kept_;  // positions that were last saved or restored
+  ElementBlocks unkept_;      // blocks in which a position may have changed since then
   std::optional<ElementId> grabbed_;
   std::optional<ElementId> last_moved_;  // the element of the last pass
   bool valid_ = true;
   bool relaxation_on_ = false;
   double relaxation_step_ = 1;
   RelaxationScheme relaxation_scheme_ = RelaxationScheme::mean;
-  bool woken_ = false;  // since the last sweep ended
+  bool woken_ = false;  // true if elements became active since the last sweep ended
   PassTimes::Clock::time_point relaxation_deadline_{};
   std::map<commands::StateId, State> kept_;
   PassTimes times_;

@@ -14,9 +14,9 @@ namespace {
 using Clock = PassTimes::Clock;
 
 constexpr auto frame_time = std::chrono::milliseconds(16);
-// Share of relaxation in each frame's time. The rest is for drawing and for the other panels.
+// Time for relaxation per frame. The rest is for drawing and for the other panels.
 constexpr auto relaxation_share = std::chrono::milliseconds(8);
-// Interval at which displayed figures change.
+// Interval between updates of the displayed figures.
 constexpr auto violation_time = std::chrono::milliseconds(250);
 
 using namespace commands;
@@ -26,13 +26,13 @@ bool is_one_of(const Command* command) {
   return command != nullptr && (std::holds_alternative<Kinds>(*command) || ...);
 }
 
-/// True if a task makes the rest of passes or sweeps before it useless.
+/// Returns true if a task makes unfinished passes or sweeps before it unnecessary.
 template <class Task>
 bool overrules(const Task& task) {
   return is_one_of<SetAlgorithm, ReplaceMesh>(std::get_if<Command>(&task));
 }
 
-/// True if a command only moves elements of the current object.
+/// Returns true if a command only moves elements of the current object.
 bool only_moves(const Command* command) {
   return is_one_of<Drag, MoveControlPoint, Relax, SetSoftness, SetElastic>(command);
 }
@@ -56,7 +56,7 @@ SolverThread::SolverThread(SolverThread& other, Algorithm algorithm, std::functi
                            std::function<void()> became_idle)
     : SolverThread(no_mesh(), Algorithm::natural_queue, std::move(frame_ready), std::move(became_idle)) {
   const auto promise = std::make_shared<std::promise<Handover>>();
-  // If the other solver ends first, the promise is broken, and nothing waits for it.
+  // If the other solver ends first, the promise is broken, so this task does not wait forever.
   add([taken = promise->get_future().share(), algorithm](Simulation& simulation) {
     simulation.take(taken.get(), algorithm);
   });
@@ -65,7 +65,7 @@ SolverThread::SolverThread(SolverThread& other, Algorithm algorithm, std::functi
 
 SolverThread::~SolverThread() {
   thread_.request_stop();
-  const std::lock_guard lock(mutex_);  // a task that begins after this sees it
+  const std::lock_guard lock(mutex_);  // tasks that begin later see the stop request
   work_.cancelled = true;
 }
 
@@ -125,11 +125,11 @@ void SolverThread::carry_out(const Task& task) {
   } catch (const Error& error) {
     refuse(error.what());
   } catch (const std::bad_alloc&) {
-    refuse("memory: there is not enough; use a smaller mesh");
+    refuse("memory: not enough memory; use a smaller mesh");
   } catch (const Cancelled&) {
-    // What comes next makes up for it.
+    // The next task replaces the result.
   } catch (const std::future_error&) {
-    // Whom it was to go on from is gone.
+    // The panel whose state this task should copy no longer exists.
   }
   if (command != nullptr) {
     recorder_.end(simulation_);
@@ -145,7 +145,7 @@ void SolverThread::finish_task() {
   }
 }
 
-/// With the lock held.
+/// Removes and returns the next task. The caller must hold the lock.
 SolverThread::Task SolverThread::take_task(const std::stop_token& stop) {
   Task task = std::move(tasks_.front());
   tasks_.pop_front();
@@ -182,7 +182,8 @@ void SolverThread::run(const std::stop_token& stop) {
   answer_questions(lock, stop);
 }
 
-/// A session that is saved while the window closes waits for the answers. Commands that move elements are dropped.
+/// Answers the remaining questions: a session that is saved while the window closes waits for them. Drops commands that
+/// move elements.
 void SolverThread::answer_questions(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
   abandoned_ = true;
   const auto last = std::find_if(tasks_.rbegin(), tasks_.rend(),
@@ -209,7 +210,7 @@ void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_toke
     const auto share = simulation_.statistics().relaxing ? relaxation_share : frame_time.zero();
     changed_.wait_until(lock, stop, last_frame_ + frame_time - share, has_command);
   } else if (!measured_ && !changed_.wait_for(lock, stop, violation_time, has_command) && !stop.stop_requested()) {
-    // No command came for a while: the object is at rest.
+    // No command came for a while, so the object does not move.
     lock.unlock();
     if (measure(stop)) {
       measured_ = true;
@@ -232,11 +233,11 @@ bool SolverThread::measure(const std::stop_token& stop) {
 /// Updates the statistics that are shown during a drag.
 void SolverThread::refresh_figures() {
   const auto now = Clock::now();
-  // A figure of the whole mesh must not be shown after elements have moved.
+  // The violation of the whole mesh is out of date after elements have moved.
   const bool outdated = simulation_.statistics().violation_of_whole_mesh;
   if (!simulation_.changed().empty() && (outdated || now >= next_violation_)) {
     simulation_.refresh_statistics(false);
-    // For a large mesh it costs more than a pass: use at most a tenth of the time.
+    // The measurement of a large mesh takes longer than a pass, so it gets at most a tenth of the time.
     next_violation_ = now + std::max<Clock::duration>(violation_time, 10 * (Clock::now() - now));
   }
 }

@@ -28,27 +28,27 @@ class SolverThread {
   /// empty object. Tasks posted here run after that.
   SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready,
                std::function<void()> became_idle = {});
-  /// Drops the commands that have not begun, and cancels a long pass.
+  /// Drops the commands that have not begun, and cancels the running one.
   ~SolverThread();
 
-  /// Appends a command to the queue. Another algorithm or object cancels long passes before it.
+  /// Appends a command to the queue. A command that sets another algorithm or object cancels long passes before it.
   void post(Command command);
-  /// Ends the sweeps of relaxation that were posted so far, which may take hours. Call this before the object is
+  /// Cancels the sweeps of relaxation that were posted so far; they may take hours. Call this before the object is
   /// replaced.
   void cut_sweeps();
-  /// Call this when the window closes: the running pass or sweep ends as soon as it can, posted ones are dropped, and
-  /// questions are answered for the object in that state.
+  /// Ends the running pass or sweep as soon as possible, and drops posted ones. Remaining questions are answered for
+  /// the object in that state. Call this when the window closes.
   void abandon();
   /// Calls `question` on the solver's thread, after everything posted before. It must not block. When the solver ends,
   /// it answers the remaining questions for the current object.
   void ask(Question question);
-  /// True if every posted command was carried out and every question was answered.
+  /// Returns true if all posted commands are done and all questions are answered.
   bool idle() const { return waiting() == 0; }
-  /// Number of commands and questions that are not done, including the running one.
+  /// Returns the number of commands and questions that are not done, including the running one.
   int waiting() const { return waiting_.load(std::memory_order_acquire); }
-  /// True when idle and all frames are up to date.
+  /// Returns true if idle and the newest frame is up to date.
   bool settled() const { return idle() && !unseen_.load(std::memory_order_acquire); }
-  /// The newest frame; for one reading thread.
+  /// Returns the newest frame. Only one thread may call this.
   const Frame& latest_frame() { return frames_.latest(); }
   /// Returns and clears the message of the last refused command, if any.
   std::string take_error();
@@ -75,7 +75,7 @@ class SolverThread {
   void refresh_figures();
   void publish();
 
-  JobState work_;  // of a long pass
+  JobState work_;  // state of a long pass
   Simulation simulation_;
   std::function<void()> frame_ready_, became_idle_;
   TripleBuffer frames_;
@@ -88,16 +88,16 @@ class SolverThread {
 
   std::atomic<bool> abandoned_ = false;
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the following members
   std::condition_variable_any changed_;
   std::deque<Task> tasks_;
   std::size_t posted_ = 0;      // number of tasks so far
-  std::size_t sweeps_cut_ = 0;  // the first tasks, in this number, may not continue sweeps
+  std::size_t sweeps_cut_ = 0;  // number of the first tasks whose sweeps are cancelled
   int overrulers_ = 0;          // number of waiting tasks that cancel long work before them
-  bool sweeping_ = false;       // the running task, or the last one, is sweeps of relaxation
+  bool sweeping_ = false;       // true if the running or the last task is sweeps of relaxation
   std::string error_;
 
-  std::atomic<int> waiting_ = 0;  // tasks added and not yet carried out
+  std::atomic<int> waiting_ = 0;  // number of tasks that are not done
 
   std::jthread thread_;  // last member: starts after all others exist, and ends first
 };

@@ -18,7 +18,8 @@ void Tape::note(const Command& command) {
   if (const auto* keep = std::get_if<KeepState>(&command)) {
     kept_[keep->state] = last();
   } else if (const auto* restore = std::get_if<RestoreState>(&command)) {
-    if (const auto kept = kept_.find(restore->state); kept != kept_.end()) {  // otherwise the solver refuses it
+    if (const auto kept = kept_.find(restore->state);
+        kept != kept_.end()) {  // otherwise the solver refuses the command
       return_to(kept->second);
     }
   } else if (const auto* drop = std::get_if<DropState>(&command)) {
@@ -49,7 +50,7 @@ void Tape::begin() {
   ++timeline_number_;
 }
 
-/// The global softness stays when the object is replaced.
+/// Begins the timeline of a new object, which keeps the global softness.
 void Tape::begin_mesh() {
   const LinkSoftness global = object().softness->global;
   begin();

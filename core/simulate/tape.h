@@ -8,36 +8,34 @@
 
 namespace chainmail {
 
-/// The commands that lead to the current object from rest, without cuts and pins and with the default softness.
-/// Settings of the solver (algorithm, relaxation) are not recorded.
-///
-/// The tape follows kept states: undo goes back to the position at which the state was kept. Later commands stay ahead,
-/// until another command replaces them.
+/// The recorded commands. They lead from an object at rest, without cuts and pins and with the default softness, to the
+/// current object. Settings of the solver (algorithm, relaxation) are not recorded.
+/// RestoreState moves the position back to where the state was saved. Later commands stay until a new command replaces
+/// them.
 class Tape {
  public:
-  /// Notes a command as it is sent.
+  /// Records a command. Call this when the command is sent.
   void note(const Command& command);
 
-  /// Number of commands, including those ahead of the current position.
+  /// Returns the number of commands, including those after the current position.
   std::size_t length() const { return timeline_.size(); }
   const Command& at(std::size_t i) const { return nodes_[timeline_[i]].command; }
-  /// Number of commands that have been carried out.
+  /// Returns the current position: the number of commands that the object has run.
   std::size_t position() const { return position_; }
-  /// Sets the position, after the object was brought there.
+  /// Sets the current position. Call this after the object was brought to that state.
   void go_to(std::size_t position) { position_ = position; }
-  /// Replaces all commands; none of them is carried out yet.
+  /// Replaces all commands and sets the position to 0.
   void load(const std::vector<Command>& commands);
   std::vector<Command> commands() const;
-  /// Number of drags, and so of passes, among the first `commands` commands.
+  /// Returns the number of passes (drags) among the first `commands` commands.
   std::size_t passes(std::size_t commands) const { return commands == 0 ? 0 : nodes_[timeline_[commands - 1]].passes; }
-  /// Returns the last grab before the current position that was followed by a drag, with its drags; empty if there is
-  /// none.
+  /// Returns the last grab before the current position that has drags, with these drags; empty if there is none.
   std::vector<Command> last_drag() const;
 
-  /// Changes when commands ahead of the object are replaced, or others are loaded.
+  /// Returns a number that changes when commands after the current position are replaced, or others are loaded.
   std::uint64_t timeline() const { return timeline_number_; }
 
-  /// The state of the object without positions; cuts and pins are ascending.
+  /// The state of the object without positions; cuts and pins are in ascending order.
   struct Object {
     std::vector<LinkId> cuts;
     std::vector<ElementId> pins;
@@ -47,13 +45,13 @@ class Tape {
   Object object() const;
 
  private:
-  using Node = std::uint32_t;  // into nodes_
+  using Node = std::uint32_t;  // index into nodes_
   static constexpr Node none = ~Node{0};
 
   struct Entry {
     Command command;
     Node before;               // previous command; none for the beginning of a timeline, which is not a command
-    std::uint32_t passes = 0;  // up to here
+    std::uint32_t passes = 0;  // number of passes up to this command
   };
 
   void add(const Command& command);
@@ -64,11 +62,11 @@ class Tape {
 
   // All commands ever recorded, undone or not: commands after an undo form a branch.
   std::vector<Entry> nodes_{{{}, none, 0}};
-  Node beginning_ = 0;          // of this object, or of the loaded commands
+  Node beginning_ = 0;          // node before the first command of this object, or of the loaded commands
   std::vector<Node> timeline_;  // the current branch
   std::size_t position_ = 0;
   std::uint64_t timeline_number_ = 0;
-  std::map<commands::StateId, Node> kept_;  // the last command before each state was kept
+  std::map<commands::StateId, Node> kept_;  // the last command before each state was saved
 };
 
 }  // namespace chainmail

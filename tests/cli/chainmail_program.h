@@ -10,17 +10,17 @@
 
 namespace chainmail::test {
 
-/// What a run of the program came to.
+/// The result of a run of the program.
 struct Outcome {
   int code = -1;
   QByteArray out;
   QByteArray error;
 };
 
-/// The program, run in a folder of its own.
+/// Runs the program in its own temporary folder.
 class Program {
  public:
-  /// `prepare` is called in the new process, before the program begins.
+  /// Runs the program. `prepare` is called in the new process before the program starts.
   Outcome run(const QStringList& arguments, const std::function<void()>& prepare = {}) const {
     QProcess process;
     process.setChildProcessModifier(prepare);
@@ -30,7 +30,7 @@ class Program {
     const bool ended = process.exitStatus() == QProcess::NormalExit && process.state() == QProcess::NotRunning;
     return {ended ? process.exitCode() : -1, process.readAllStandardOutput(), process.readAllStandardError()};
   }
-  /// The same from one line, parted at blanks.
+  /// Runs the program with the arguments in `line`, separated by spaces.
   Outcome run(const char* line) const { return run(QString(line).split(' ', Qt::SkipEmptyParts)); }
 
   QString path(const QString& name) const { return folder_.filePath(name); }
@@ -51,13 +51,13 @@ class Program {
   QTemporaryDir folder_;
 };
 
-/// One line on standard error that begins `chainmail: WHERE` and says what to do, and nothing else.
+/// Checks that standard error is one line that begins with `chainmail: WHERE` and says what to do.
 inline bool is_one_sentence(const Outcome& outcome) {
   return outcome.out.isEmpty() && outcome.error.startsWith("chainmail: ") && outcome.error.endsWith('\n') &&
          outcome.error.count('\n') == 1 && outcome.error.contains("; ");
 }
 
-/// Runs a line that is wrong: one sentence that names where comes of it, and no file is touched.
+/// Runs a wrong command line, and checks that it gives one sentence with the position of the error and changes no file.
 inline void check_refused(const Program& program, const char* line, const QString& where) {
   const auto before = program.files();
   const auto outcome = program.run(line);
@@ -67,7 +67,7 @@ inline void check_refused(const Program& program, const char* line, const QStrin
   QCOMPARE(program.files(), before);
 }
 
-/// The rows of a CSV below its header.
+/// Returns the rows of a CSV table without its header.
 inline QList<QList<QByteArray>> rows_of(const QByteArray& csv) {
   QList<QList<QByteArray>> rows;
   for (const QByteArray& line : csv.trimmed().split('\n')) {

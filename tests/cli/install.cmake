@@ -1,4 +1,4 @@
-# Installs a build afresh, and builds and runs a program of a user's against what was installed.
+# Installs a build into an empty folder. Then builds and runs a user's program with the installed library.
 #   cmake -DBUILD=… -DCONSUMER=… -DCONFIG=… -DFLAGS=… -DCOMPILER=… -DGENERATOR=… -P install.cmake
 set(prefix ${BUILD}/tests/install/prefix)
 set(work ${BUILD}/tests/install/consumer)
@@ -8,7 +8,7 @@ function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# The window is left out: it need not be built for this.
+# Leaves out the window, which this test does not need.
 foreach(component IN ITEMS core command_line)
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component ${component})
 endforeach()

@@ -4,7 +4,7 @@
 
 using namespace chainmail::test;
 
-/// `chainmail compare`: the three files, what is printed, and that it is all or nothing.
+/// Tests `chainmail compare`: its three files and its output. It writes all of them or none.
 class CompareCommandTest : public QObject {
   Q_OBJECT
 
@@ -33,7 +33,7 @@ class CompareCommandTest : public QObject {
     return QDir(program_->path("out")).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot);
   }
 
-  /// What report.json says; constant, so that it can be asked by names on and on.
+  /// Content of report.json. It is constant, so that lookups by name can be chained.
   const QJsonObject report(const QString& folder = "out") const { return program_->json(folder + "/report.json"); }
 
   std::unique_ptr<Program> program_;
@@ -76,7 +76,7 @@ void CompareCommandTest::options_are_taken() {
   QCOMPARE(options["relaxation"].toString(), QString("link"));
   QVERIFY(contestants("--algorithms exact --relax 0 --precision double")[0]["distance_to_exact"]["max"].toDouble() ==
           0);
-  // Links that cannot stretch carry everything along at once.
+  // Links that cannot stretch move all elements at once.
   const auto soft = contestants("--algorithms exact --relax 0")[0]["moved"].toInt();
   const auto stiff =
       contestants("--algorithms exact --relax 0 --stretch 1 --compression 1 --shear 0")[0]["moved"].toInt();
@@ -125,7 +125,7 @@ void CompareCommandTest::the_default_set_is_compared() {
   QVERIFY2(outcome.code == 0, outcome.error);
   const auto objects = report("deep/out")["objects"].toArray();
   QCOMPARE(objects.size(), 6);
-  // On the whole grid Natural Queue ChainMail violates nothing; on the sphere it does.
+  // Natural Queue ChainMail violates no link of the uncut grid, but it violates links of the sphere.
   QCOMPARE(objects[0]["drags"][1]["contestants"][0]["violation"]["fraction"].toDouble(-1), 0.0);
   QCOMPARE(objects[3]["name"].toString(), QString("sphere"));
   QVERIFY(objects[3]["drags"][1]["contestants"][0]["violation"]["max"].toDouble() > 0.1);
@@ -174,7 +174,7 @@ void CompareCommandTest::folders_that_cannot_be_are_refused() {
 }
 
 void CompareCommandTest::nothing_is_left_where_a_file_cannot_be_written() {
-  QVERIFY(QDir(program_->path("")).mkpath("out/report.csv"));  // a folder where a file shall go
+  QVERIFY(QDir(program_->path("")).mkpath("out/report.csv"));  // a folder at the path of an output file
   const auto outcome = program_->run("compare grid.dat" + QByteArray(short_run));
   QCOMPARE(outcome.code, 2);
   QVERIFY2(is_one_sentence(outcome), outcome.error);

@@ -6,7 +6,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// `chainmail convert` and `fill`: meshes in other formats, and surfaces as volumes.
+/// Tests `chainmail convert`, which writes other formats, and `chainmail fill`, which converts surfaces to volumes.
 class ConvertCommandTest : public QObject {
   Q_OBJECT
 
@@ -52,14 +52,15 @@ void ConvertCommandTest::a_volume_is_taken_as_asked() {
   const Program program;
   program.write("a.mha", volume);
   QCOMPARE(program.run("convert a.mha --threshold 20 --voxels 1 -o a.csv").code, 0);
-  QVERIFY(program.run("info a.mha --threshold 20").out.contains("read as"));  // at which threshold, and how finely
+  QVERIFY(program.run("info a.mha --threshold 20")
+              .out.contains("read as"));  // the threshold, and the number of voxels per element
   QCOMPARE(program.read("a.csv"), QByteArray("id,x,y,z\n0,1,0,0\n1,2,0,0\n2,3,0,0\n"));
   const auto stiff = program.run("deform a.mha --threshold 20 --algorithm exact --by 2:1 --positions b.csv");
   QCOMPARE(stiff.code, 0);
-  // The link of 30 and 40 is three quarters rigid (1.05), that of 20 and 30 one quarter (1.15).
+  // The link between densities 30 and 40 is three quarters rigid (1.05), the one between 20 and 30 one quarter (1.15).
   const auto rows = program.read("b.csv").split('\n');
   for (const auto& [row, x] : {std::pair(1, 1.8), {2, 2.95}, {3, 4.0}}) {
-    QVERIFY(std::abs(rows[row].split(',')[1].toDouble() - x) < 1e-12);  // sums of a few doubles
+    QVERIFY(std::abs(rows[row].split(',')[1].toDouble() - x) < 1e-12);  // rounding of sums of a few doubles
   }
 }
 

@@ -5,8 +5,8 @@
 
 using namespace chainmail::test;
 
-/// `chainmail deform`: acts in their order, steps, relaxation, precision. Figures by hand on a chain, on
-/// which a link of length 1 may be 0.8 to 1.2 long.
+/// Tests `chainmail deform`: order of acts, steps, relaxation, precision. Expected values are computed by hand for a
+/// chain whose links have length 1 and may be 0.8 to 1.2 long.
 class DeformCommandTest : public QObject {
   Q_OBJECT
 
@@ -34,7 +34,7 @@ class DeformCommandTest : public QObject {
   void acts_that_do_not_fit_are_refused();
 
  private:
-  /// The positions that a deformation ends in, by rows x, y, z.
+  /// Returns the final positions of a deformation, in rows x, y, z.
   QList<QList<double>> deform(const QByteArray& options, const char* mesh = "line.dat") {
     const auto outcome =
         program_->run("deform " + options + " --positions out.csv --json out.json " + QByteArray(mesh));
@@ -59,7 +59,7 @@ class DeformCommandTest : public QObject {
 };
 
 void DeformCommandTest::a_chain_follows() {
-  // Element 0 goes to -1: 1 may be 1.2 behind, so do 2 and 3, which is within reach.
+  // Element 0 moves to -1. Each of the others stays at most 1.2 behind the one before.
   QCOMPARE(xs("--move 0:-1"), (QList<double>{-1, -1 + 1.2, -1 + 1.2 + 1.2, -1 + 1.2 + 1.2 + 1.2}));
   QCOMPARE(xs("--by 3:-0.5"), (QList<double>{0, 2.5 - 0.8 - 0.8, 2.5 - 0.8, 2.5}));
   const auto json = program_->json("out.json");
@@ -67,7 +67,7 @@ void DeformCommandTest::a_chain_follows() {
   QCOMPARE(json["passes"][0]["moved"].toInt(), 2);
   QCOMPARE(json["passes"][0]["checked"].toInt(), 3);  // 0 is near enough to stay
   QVERIFY(json["violation"]["max"].toDouble() < 1e-12);
-  // The links, of rest length 1, are 0.9, 0.8 and 0.8 long.
+  // The links of rest length 1 are now 0.9, 0.8 and 0.8 long.
   QVERIFY(std::abs(json["energy"].toDouble() - (0.1 * 0.1 + 0.2 * 0.2 + 0.2 * 0.2) / 2) < 1e-12);
 }
 
@@ -84,7 +84,7 @@ void DeformCommandTest::every_algorithm_runs() {
   QCOMPARE(positions[12], (QList<double>{9, 7, 0}));
   const auto json = program_->json("out.json");
   QCOMPARE(json["algorithm"].toString(), name);
-  QCOMPARE(json["passes"][0]["checked"].toInt(), 19);  // far enough for everything to follow
+  QCOMPARE(json["passes"][0]["checked"].toInt(), 19);  // far enough that all elements follow
   QCOMPARE(json["passes"][0]["moved"].toInt(), 19);
 }
 
@@ -108,7 +108,7 @@ void DeformCommandTest::coordinates_left_out_stay() {
 
 void DeformCommandTest::coordinates_that_do_not_exist_must_be_0() {
   QCOMPARE(xs("--move 0:-1,0,0")[0], -1.0);
-  // A plane at z = 5: that is where its elements are.
+  // A plane at z = 5: its elements stay at z = 5.
   program_->write("plane.obj", "v 0 0 5\nv 1 0 5\nv 0 1 5\nf 1 2 3\n");
   for (const char* options : {"--move 0:1,1,5", "--move 0:1,1,0", "--by 0:1,1,0"}) {
     const auto positions = deform("--algorithm spiral " + QByteArray(options), "plane.obj");
@@ -132,16 +132,16 @@ void DeformCommandTest::steps_are_equal_and_end_at_the_target() {
 }
 
 void DeformCommandTest::relaxation_goes_to_the_equilibrium() {
-  // One sweep, in the order 1, 2, 3, each to the mean over its neighbours of their place less the rest
-  // vector: 1 between 0 at -0.3 and 2 at 2 goes to ((-0.3 + 1) + (2 - 1)) / 2, and so on.
+  // One sweep visits 1, 2, 3. Each moves to the mean, over its neighbours, of their position minus the rest vector to
+  // them: 1 between 0 at -0.3 and 2 at 2 moves to ((-0.3 + 1) + (2 - 1)) / 2, and so on.
   const double first = (-0.3 + 1 + 1) / 2;
   const auto once = xs("--move 0:-0.3 --relax 1");
   QVERIFY(std::abs(once[1] - first) < 1e-12);
   QVERIFY(std::abs(once[2] - (first + 1 + 2) / 2) < 1e-12);
   QVERIFY(std::abs(once[3] - (once[2] + 1)) < 1e-12);
-  // Half the way.
+  // With a step of 0.5, they move half of the way.
   QVERIFY(std::abs(xs("--move 0:-0.3 --relax 1 --relax-step 0.5")[1] - (0.9 + first) / 2) < 1e-12);
-  // At length the whole chain has moved by -0.3.
+  // Finally the whole chain has moved by -0.3.
   const auto at_rest = xs("--move 0:-0.3 --relax 1000 --relaxation mean");
   QCOMPARE(at_rest[0], -0.3);
   QVERIFY(std::abs(at_rest[3] - 2.7) < 1e-3);
@@ -151,7 +151,7 @@ void DeformCommandTest::a_script_is_carried_out_before_the_acts() {
   program_->write("moves.json", R"({"version": 1, "commands": [{"do": "cut", "links": [[2, 3]]},
     {"do": "grab", "element": 0}, {"do": "drag", "target": [-1, 0, 0]}, {"do": "release"},
     {"do": "relax", "sweeps": 0}]})");
-  // 1 and 2 follow 0 to 1.2 behind each other; 3 is cut off, and is moved by the act alone.
+  // 1 and 2 follow 0, each 1.2 behind the one before. 3 is cut off, and only its own act moves it.
   QCOMPARE(xs("--script moves.json --by 3:5"), (QList<double>{-1, -1 + 1.2, -1 + 1.2 + 1.2, 8}));
   QCOMPARE(program_->json("out.json")["passes"].toArray().size(), 2);
   program_->write("bad.json", R"({"version": 1, "commands": [{"do": "relax", "sweeps": -1}]})");
@@ -166,7 +166,7 @@ void DeformCommandTest::sweeps_are_interrupted_at_once_data() {
   QTest::newRow("of a script") << QByteArray("--script moves.json");
 }
 
-/// Ctrl+C ends a run that would go on for hours, and no output is begun.
+/// Ctrl+C ends a run that would take hours, and no output is written.
 void DeformCommandTest::sweeps_are_interrupted_at_once() {
   QFETCH(QByteArray, options);
   QCOMPARE(program_->run("generate grid 300x300 -o large.obj").code, 0);
@@ -177,7 +177,7 @@ void DeformCommandTest::sweeps_are_interrupted_at_once() {
   process.setWorkingDirectory(program_->path({}));
   process.start(QStringLiteral(CHAINMAIL_PROGRAM),
                 QString::fromUtf8("deform large.obj --algorithm natural-queue --json out.json " + options).split(' '));
-  QVERIFY(!process.waitForFinished(3000));  // it has read the mesh by then, and relaxes
+  QVERIFY(!process.waitForFinished(3000));  // by then it has read the mesh and relaxes
   QCOMPARE(::kill(pid_t(process.processId()), SIGINT), 0);
   QVERIFY(process.waitForFinished(2000));
   QCOMPARE(process.exitStatus(), QProcess::CrashExit);  // by the signal, as shells expect

@@ -3,8 +3,8 @@
 
 using namespace chainmail::test;
 
-/// `chainmail deform`: algorithms, pins, softness of single links, ways to relax. Figures by hand on a
-/// chain, on which a link of length 1 may be 0.8 to 1.2 long.
+/// Tests `chainmail deform`: algorithms, pins, softness of single links, relaxation schemes. Expected values are
+/// computed by hand for a chain whose links have length 1 and may be 0.8 to 1.2 long.
 class DeformModelTest : public QObject {
   Q_OBJECT
 
@@ -27,7 +27,7 @@ class DeformModelTest : public QObject {
   void what_does_not_fit_is_refused();
 
  private:
-  /// Where the chain's elements end, on x.
+  /// Returns the final x coordinates of the chain's elements.
   QList<double> xs(const QByteArray& options) {
     const auto outcome = program_->run("deform line.dat --positions out.csv --json out.json " + options);
     if (outcome.code != 0) {
@@ -40,7 +40,7 @@ class DeformModelTest : public QObject {
     return result;
   }
   static bool close(const QList<double>& a, const QList<double>& b) {
-    // Sums of a few decimals below 10: a few roundings.
+    // Rounding of sums of a few decimals below 10.
     return a.size() == b.size() &&
            std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::abs(x - y) < 1e-14; });
   }
@@ -57,7 +57,7 @@ void DeformModelTest::every_algorithm_runs_data() {
 
 void DeformModelTest::every_algorithm_runs() {
   QFETCH(QString, name);
-  // On a chain every order comes to the same.
+  // On a chain all orders give the same result.
   QVERIFY(close(xs("--move 0:-1 --algorithm " + name.toUtf8()), {-1, 0.2, 1.4, 2.6}));
   const auto json = program_->json("out.json");
   QCOMPARE(json["algorithm"].toString(), name);
@@ -67,7 +67,7 @@ void DeformModelTest::every_algorithm_runs() {
 
 void DeformModelTest::an_alias_writes_the_same() {
   QVERIFY(close(xs("--move 0:-1 --algorithm 3d"), {-1, 0.2, 1.4, 2.6}));
-  QCOMPARE(program_->json("out.json")["algorithm"].toString(), QString("original"));  // as scripts read it
+  QCOMPARE(program_->json("out.json")["algorithm"].toString(), QString("original"));  // the name that scripts expect
 }
 
 void DeformModelTest::original_takes_grids_alone() {
@@ -86,11 +86,11 @@ void DeformModelTest::the_trace_of_exact_names_who_binds() {
 }
 
 void DeformModelTest::pinned_elements_stay() {
-  // 1 stays, so the pass ends there.
+  // 1 stays, so the pass ends at 1.
   QCOMPARE(xs("--algorithm natural-queue --pin 1 --move 0:-5"), (QList<double>{-5, 1, 2, 3}));
   const auto json = program_->json("out.json");
   QCOMPARE(json["passes"][0]["moved"].toInt(), 0);
-  // Relaxed about both, the one between goes to their middle.
+  // Relaxation moves the element between both to their middle.
   QVERIFY(close(xs("--algorithm natural-queue --pin 2 --move 0:-0.3 --relax 100 --pin 3"), {-0.3, 0.85, 2, 3}));
 }
 
@@ -103,7 +103,7 @@ void DeformModelTest::a_hand_that_pins_stop() {
   const auto outcome = program_->run("deform line.dat --algorithm exact --pin 3 --move 0:-1 --move 0:0.5");
   QCOMPARE(outcome.code, 0);
   const auto lines = outcome.out.split('\n');
-  // Taut from 3 down: 3 - 3 * 1.2.
+  // The chain is taut from the pinned 3 on: 3 - 3 * 1.2.
   QVERIFY2(lines[1].startsWith("pass 0: ") && lines[1].endsWith(", stopped by pins at (-0.6, 0, 0)"), outcome.out);
   QVERIFY2(lines[2].startsWith("pass 1: ") && !lines[2].contains("stopped"), outcome.out);
   QVERIFY(close(xs("--algorithm exact --pin 3 --move 0:-1"), {-0.6, 0.6, 1.8, 3}));

@@ -2,7 +2,7 @@
 
 using namespace chainmail::test;
 
-/// `chainmail generate`: every kind, both formats.
+/// Tests `chainmail generate`: all kinds of meshes, both formats.
 class GenerateCommandTest : public QObject {
   Q_OBJECT
 
@@ -21,7 +21,7 @@ void GenerateCommandTest::kinds_data() {
   QTest::addColumn<int>("space");
   QTest::newRow("line 5") << 5 << 4 << 1;
   QTest::newRow("grid 4x3") << 12 << 17 << 2;
-  QTest::newRow("cloth 4x3") << 12 << 23 << 2;    // and 6 diagonals
+  QTest::newRow("cloth 4x3") << 12 << 23 << 2;    // 17 sides and 6 diagonals
   QTest::newRow("block 2x3x4") << 24 << 46 << 3;  // 12 + 16 + 18
   QTest::newRow("tetra 2x2x2") << 8 << 19 << 3;
 }

@@ -5,7 +5,7 @@
 
 using namespace chainmail::test;
 
-/// Files from outside that would harm: what the command line says of them, and that they leave no trace.
+/// Tests harmful files from outside: the command line refuses them with a message, and no output remains.
 class HostileFilesTest : public QObject {
   Q_OBJECT
 
@@ -89,12 +89,12 @@ void HostileFilesTest::what_is_no_file_is_refused_at_once() {
   program_->write("data.nhdr",
                   "NRRD0001\ntype: uchar\ndimension: 3\nsizes: 2 2 1\nencoding: raw\n"
                   "data file: pipe.raw\n");
-  const auto outcome = program_->run(line.toUtf8().constData());  // no status where it hangs
+  const auto outcome = program_->run(line.toUtf8().constData());  // a program that hangs gives no status
   QCOMPARE(outcome.code, 2);
   QVERIFY2(is_one_sentence(outcome) && QString::fromUtf8(outcome.error).contains(sentence), outcome.error);
 }
 
-/// The header of a volume may name data in its folder and beneath; elsewhere only where the user says so.
+/// The header of a volume may name data in its folder and below; other places need the user's permission.
 void HostileFilesTest::data_outside_need_to_be_allowed() {
   const QDir folder(program_->path("."));
   QVERIFY(folder.mkdir("outside") && folder.mkpath("volume/beneath"));
@@ -128,7 +128,7 @@ void HostileFilesTest::data_outside_need_to_be_allowed() {
 
 void HostileFilesTest::a_limit_of_file_size_is_as_a_full_disk_data() {
   QTest::addColumn<QString>("line");
-  QTest::addColumn<unsigned>("limit");  // bytes
+  QTest::addColumn<unsigned>("limit");  // file size limit (bytes)
   QTest::addColumn<QString>("file");
   QTest::newRow("generate") << "generate cloth 40x40 -o out.obj" << 4096U << "out.obj";
   QTest::newRow("deform") << "deform mesh.obj --algorithm exact --by 0:-1 --positions out.obj --json out.json" << 4096U

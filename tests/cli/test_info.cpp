@@ -2,7 +2,7 @@
 
 using namespace chainmail::test;
 
-/// `chainmail info`: what it says, and what it says of bad files.
+/// Tests `chainmail info`: its output, and its errors for bad files.
 class InfoCommandTest : public QObject {
   Q_OBJECT
 
@@ -63,7 +63,7 @@ void InfoCommandTest::bad_files_are_refused_data() {
   row("a.obj", "v 0 0 0\nf 1 2 3\n", "a.obj:2: there is no vertex 3; ");
   row("b.obj", QByteArray("\0\1\2", 3), "b.obj: it is not a text file; ");
   row("a.ply", "ply\n", "a.ply:2: its header does not end; ");
-  row("c.obj", "v 0 0 0\nv 1 2 nan\n", "c.obj:2: 'nan' is not a number");
+  row("c.obj", "v 0 0 0\nv 1 2 nan\n", "c.obj:2: 'nan' is not a valid coordinate");
 }
 
 void InfoCommandTest::bad_files_are_refused() {

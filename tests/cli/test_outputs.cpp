@@ -5,7 +5,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// What `chainmail deform` writes, and that it writes all of it or nothing.
+/// Tests the outputs of `chainmail deform`. It writes all of them or none.
 class OutputsCommandTest : public QObject {
   Q_OBJECT
 
@@ -87,7 +87,7 @@ void OutputsCommandTest::the_trace_has_a_row_for_each_candidate() {
   QList<int> checked(4, 0), moved(4, 0);
   for (const auto& row : rows_of(program_->read("a.csv"))) {
     const int pass = row[0].toInt();
-    QCOMPARE(row[1].toInt(), checked[pass]);  // the order, from 0
+    QCOMPARE(row[1].toInt(), checked[pass]);  // the order starts at 0
     ++checked[pass];
     moved[pass] += row[4].toInt();
     QVERIFY(row[2] != row[3]);
@@ -106,7 +106,7 @@ void OutputsCommandTest::positions_read_back_bit_for_bit() {
     const auto outcome = program_->run(
         "deform grid.dat --algorithm natural-queue --by 14:0.7,0.3 --relax 5 --positions a.csv --precision " + option);
     QCOMPARE(outcome.code, 0);
-    // The same move through the library.
+    // The same move with the library.
     Simulation simulation(mesh, Algorithm::natural_queue, precision);
     const auto at = simulation.body().positions();
     const Point target(at(14, 0) + 0.7, at(14, 1) + 0.3, 0);
@@ -129,7 +129,7 @@ void OutputsCommandTest::deformed_obj_holds_links_and_cuts() {
   program_->run("info a.obj --json a.json");
   const auto info = program_->json("a.json");
   QCOMPARE(info["links"].toInt(), 68);
-  QCOMPARE(info["triangles"].toInt(), 39);  // 40 less the one that had the link
+  QCOMPARE(info["triangles"].toInt(), 39);  // 40 minus the one with the cut link
   const auto rows = rows_of(program_->read("a.csv"));
   const auto lines = program_->read("a.obj").split('\n');
   for (int i = 0; i < rows.size(); ++i) {

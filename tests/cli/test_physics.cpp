@@ -4,7 +4,7 @@
 
 using namespace chainmail::test;
 
-/// `chainmail compare --against physics` and `chainmail calibrate`.
+/// Tests `chainmail compare --against physics` and `chainmail calibrate`.
 class PhysicsCommandTest : public QObject {
   Q_OBJECT
 
@@ -41,8 +41,8 @@ void PhysicsCommandTest::the_report_is_written() {
     }
     QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
   }
-  // Three drags of three handles and one with a cut; nothing moving, Exact without, with sweeps and calibrated, and the
-  // three methods of elasticity.
+  // Drags: three for each of three handles, and one with a cut. Contestants: the object that does not move, Exact
+  // without sweeps, with sweeps and calibrated, and the three methods of elasticity.
   QCOMPARE(rows_of(program_->read("out/report.csv")).size(), 10 * 7);
   const auto object = report()["objects"][0];
   QCOMPARE(object["pins"].toInt(), 5);
@@ -56,7 +56,7 @@ void PhysicsCommandTest::the_report_is_written() {
   QVERIFY(contestants[1]["error"]["rms"].toDouble() > 0.01);
   QVERIFY(contestants[1]["error"]["relative"].toDouble() > contestants[1]["error"]["rms"].toDouble());
   QVERIFY(contestants[3]["calibrated"]["stretch"].toDouble() >= 1);
-  QVERIFY(contestants[5]["error"]["max"].toDouble(1) < 1e-5);  // neo-Hookean FEM itself, held in float
+  QVERIFY(contestants[5]["error"]["max"].toDouble(1) < 1e-5);  // neo-Hookean FEM itself, with positions in float
   QVERIFY(contestants[5]["label"].toString().endsWith("on the same cells"));
   QVERIFY(contestants[4]["prepare_ms"].toDouble() > 0);
   QVERIFY(contestants[4]["factorize_ms"]["repetitions"].toInt() >= 1 &&
@@ -112,7 +112,7 @@ void PhysicsCommandTest::calibrates_and_saves_a_preset() {
   QVERIFY(held_out["residual"]["rms"].toDouble() > 0 && held_out["residual"]["max"].toDouble() > 0);
   QVERIFY(relative(held_out, "residual_nothing") > 0.6 && relative(held_out["drags"][0], "after") < 9);
   QVERIFY(outcome.out.contains("Drags not used by the search (4):\n"));
-  // The same again, and with the pins by their name.
+  // Runs the same again, and once with the pins by their name.
   const QByteArray first = program_->read("out.json");
   QCOMPARE(program_->run("calibrate cloth.obj --pins top --drags 2 --evaluations 30 --json out.json").code, 0);
   QCOMPARE(program_->read("out.json"), first);
@@ -135,7 +135,8 @@ void PhysicsCommandTest::a_preset_is_compared() {
   QCOMPARE(moved("--preset stiff.json"), 24 * 24);
   const int soft = moved("--preset Rubber");
   QVERIFY(soft > 0 && soft < 24 * 24);
-  QCOMPARE(moved("--preset Rubber --compression 1 --stretch 1 --shear 0"), 24 * 24);  // what is given goes before
+  QCOMPARE(moved("--preset Rubber --compression 1 --stretch 1 --shear 0"),
+           24 * 24);  // single options override the preset
 }
 
 void PhysicsCommandTest::wrong_usage_data() {

@@ -2,8 +2,8 @@
 
 using namespace chainmail::test;
 
-/// `chainmail ramp`: what it writes and what it refuses. The grids are tiny, and the budget is an hour, so
-/// that no machine is too slow.
+/// Tests `chainmail ramp`: its outputs and its errors. The grids are tiny and the budget is an hour, so that no machine
+/// is too slow.
 class RampCommandTest : public QObject {
   Q_OBJECT
 
@@ -118,7 +118,7 @@ void RampCommandTest::wrong_arguments() {
   QVERIFY2(is_one_sentence(outcome), outcome.error);
   QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where), outcome.error);
   QVERIFY(program_->files().isEmpty());
-  // Before the minutes that a ramp takes.
+  // The error must come before the ramp, which takes minutes.
   QVERIFY(timer.elapsed() < 5000);
 }
 

@@ -2,7 +2,7 @@
 
 using namespace chainmail::test;
 
-/// Help, version, and what is said of arguments that make no sense.
+/// Tests help, version, and the errors for wrong arguments.
 class UsageTest : public QObject {
   Q_OBJECT
 

@@ -342,7 +342,7 @@ void BoundaryElementsTest::wrong_surfaces_are_refused() {
 void BoundaryElementsTest::loose_parts_are_refused() {
   const auto ball = sphere(3);
   QCOMPARE(refused(ball, {}),
-           QString("object: nothing pins it, so there is no static answer; pin its bottom layer, or single elements"));
+           QString("object: nothing pins it, so there is no solution; pin its bottom layer, or single elements"));
   QVERIFY(refused(ball, {0, 1}).startsWith("the part of element 0: fewer than three pins"));
   const auto two = build_mesh(together(sphere_parts(3), sphere_parts(3), Point(3, 0, 0)));
   QVERIFY(refused(two, {0, 1, 2, 3})

@@ -49,7 +49,7 @@ void CompareTest::exact_is_at_no_distance_from_itself() {
   QVERIFY(errors.to_exact == Distance{});
   QCOMPARE(errors.energy_over_exact.value(), 1.0);
   QVERIFY(errors.violation.max < rounding);
-  QVERIFY(errors.largest_over_hand.value() <= 1 + rounding);
+  QVERIFY(errors.largest_over_handle.value() <= 1 + rounding);
   // Float is close to double, but not equal.
   QVERIFY(errors.float_to_double.max > 0 && errors.float_to_double.max < 1e-5);
 }
@@ -77,7 +77,7 @@ void CompareTest::errors_by_hand_on_a_chain() {
   QCOMPARE(measurement.moved, std::uint64_t{3});
   QCOMPARE(measurement.checked, std::uint64_t{3});
   QCOMPARE(measurement.errors.violation.links, std::uint64_t{3});
-  QCOMPARE(measurement.errors.largest_over_hand.value(), 1.0);
+  QCOMPARE(measurement.errors.largest_over_handle.value(), 1.0);
   QVERIFY(measurement.errors.to_exact->max < rounding);
 }
 

@@ -220,7 +220,7 @@ void ElasticSimulationTest::without_pins_nothing_moves() {
     bar.apply(commands::Grab{tip});
     try {
       bar.apply(commands::Drag{Point(5, 1, 0)});
-      QFAIL("it has no static answer");
+      QFAIL("it has no solution");
     } catch (const Error& error) {
       QVERIFY(QString::fromStdString(error.what()).contains("nothing pins it"));
     }

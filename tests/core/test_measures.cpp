@@ -17,7 +17,7 @@ class MeasuresTest : public QObject {
   void distance_is_in_mean_rest_lengths();
   void distance_between_precisions();
   void energy_ratio_is_none_at_0();
-  void largest_over_hand_by_hand();
+  void largest_over_handle_by_hand();
   void a_hand_that_is_back_gives_no_ratio();
   void spread_by_hand();
   void spread_of_few();
@@ -68,18 +68,18 @@ void MeasuresTest::energy_ratio_is_none_at_0() {
   QVERIFY(!energy_ratio(0, 0));
 }
 
-void MeasuresTest::largest_over_hand_by_hand() {
+void MeasuresTest::largest_over_handle_by_hand() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1}, 2);
   const auto solver = at(mesh, {0, 2, 1, 0, 5, 4});  // the handle moved by 2, the last element by (3, 4)
-  QCOMPARE(largest_over_hand(*mesh, solver->body().positions(), 0).value(), 2.5);
-  QCOMPARE(largest_over_hand(*mesh, solver->body().positions(), 2).value(), 1.0);
+  QCOMPARE(largest_over_handle(*mesh, solver->body().positions(), 0).value(), 2.5);
+  QCOMPARE(largest_over_handle(*mesh, solver->body().positions(), 2).value(), 1.0);
 }
 
 void MeasuresTest::a_hand_that_is_back_gives_no_ratio() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1}, {}, 0.1);
   // 1e-4 mean rest lengths are 1e-5 here.
-  QVERIFY(!largest_over_hand(*mesh, at(mesh, {0.9e-5, 0.1, 0.5})->positions(), 0));
-  QVERIFY(largest_over_hand(*mesh, at(mesh, {1.1e-5, 0.1, 0.5})->positions(), 0));
+  QVERIFY(!largest_over_handle(*mesh, at(mesh, {0.9e-5, 0.1, 0.5})->positions(), 0));
+  QVERIFY(largest_over_handle(*mesh, at(mesh, {1.1e-5, 0.1, 0.5})->positions(), 0));
 }
 
 void MeasuresTest::spread_by_hand() {

@@ -157,7 +157,7 @@ void PhysicsTest::half_the_way_is_half_the_relative_error() {
 void PhysicsTest::nothing_moving_takes_part_first() {
   for (const PhysicsObject& object : everything().objects) {
     for (const PhysicsDrag& one : object.drags) {
-      QVERIFY2(one.no_truth.empty(), one.no_truth.c_str());
+      QVERIFY2(one.no_reference.empty(), one.no_reference.c_str());
       const PhysicsEntry& first = one.entries.front();
       QCOMPARE(label(first.contestant), std::string("Nothing moves"));
       const PhysicalError& error = first.measurement.value().error;
@@ -291,7 +291,7 @@ void PhysicsTest::everyone_takes_part() {
   for (const PhysicsObject& object : everything().objects) {
     QCOMPARE(object.drags.size(), std::size_t{3 * 3 + 1});
     for (const PhysicsDrag& one : object.drags) {
-      QVERIFY2(one.no_truth.empty(), one.no_truth.c_str());
+      QVERIFY2(one.no_reference.empty(), one.no_reference.c_str());
       QCOMPARE(one.entries.size(), 1 + 3 * algorithms().size() + elastic_algorithms().size());
       for (const PhysicsEntry& entry : one.entries) {
         if (!entry.contestant.algorithm) {
@@ -373,7 +373,7 @@ void PhysicsTest::what_has_no_answer_is_refused_by_name() {
   };
   Case loose = pinned_sheet(25, {}, {});
   loose.pins.clear();
-  QVERIFY(sentence_of(loose).startsWith("sheet: nothing pins it, so physics has no static answer; "));
+  QVERIFY(sentence_of(loose).startsWith("sheet: nothing pins it, so physics has no solution; "));
   Case open = pinned_bar(24, {}, {});
   open.mesh = make_mesh(MeshKind::cloth, {4, 4, 1}, 3);  // it has no inside
   open.name = "hull";

@@ -14,7 +14,7 @@ inline std::string session_text(const Session& session) {
   return out.str();
 }
 
-/// Numbers that few digits do not hold: the ends of what floats are, and any bits between.
+/// Numbers that need many digits: the limits of float, and random bits between them.
 inline std::vector<double> odd_floats(std::size_t count, std::uint64_t seed) {
   std::vector<double> result{-0.0, 0.1F, 1.0F / 3, 1e-45F, -1.17549435e-38F, 2e37F, 16777217.0F, 9007199791611905.0F};
   std::mt19937_64 random(seed);
@@ -30,7 +30,7 @@ inline std::vector<double> odd_floats(std::size_t count, std::uint64_t seed) {
   return result;
 }
 
-/// An object with something of everything, on a mesh of 9 elements or more.
+/// Returns an object that uses all features, on a mesh of 9 elements or more.
 inline Session session_on(const MeshPointer& mesh) {
   Session session;
   session.name = "an \"object\" ∆\n";

@@ -20,7 +20,7 @@
 
 namespace chainmail::test {
 
-/// The sentence of the Error that a function throws; empty where it throws none.
+/// Returns the sentence of the Error that a function throws; empty if it throws none.
 inline QString error_of(const std::function<void()>& function) {
   try {
     function();
@@ -64,12 +64,12 @@ inline void put_file(const std::filesystem::path& path, const std::string& text)
   std::ofstream(path, std::ios::binary) << text;
 }
 
-/// How many entries a folder has, hidden ones too.
+/// Returns the number of entries of a folder, including hidden ones.
 inline std::ptrdiff_t files_in(const std::filesystem::path& folder) {
   return std::distance(std::filesystem::directory_iterator(folder), {});
 }
 
-/// Cancels a job that takes longer than it may, so that a test of it fails soon.
+/// Cancels a job that takes too long, so that its test fails soon.
 class Patience {
  public:
   explicit Patience(JobState& job, std::chrono::seconds most = std::chrono::seconds(20))

@@ -7,14 +7,14 @@ using namespace chainmail::test;
 
 namespace {
 
-// The thesis' example (Dean 2004, 4.3), its rows and neighbours in an order of our own.
+// The example of the thesis (Dean 2004, 4.3), with rows and neighbours in a different order.
 const std::string three_by_three =
     "8 2 7 5\n0 2 3 1\n1 3 4 2 0\n2 2 1 5\n"
     "3 3 0 4 6\n4 4 7 5 3 1\n5 3 2 4 8\n\n# a comment\n6 2 3 7 # another\n7 3 4 6 8\n";
 
 }  // namespace
 
-/// The thesis' format, in and out.
+/// Tests reading and writing of the format of the thesis.
 class DatTest : public QObject {
   Q_OBJECT
 
@@ -76,7 +76,7 @@ void DatTest::the_size_comes_from_option_comment_or_name() {
 void DatTest::only_the_exact_name_gives_a_size() {
   for (const char* name : {"my2x2.dat", "2x2b.dat", "2x2 (1).dat", "4.dat", "2x.dat", "0x4.dat", "2x2x1x1.dat"}) {
     const auto error = error_of([&] { dat("0 0\n1 0\n2 0\n3 0\n", name); });
-    QVERIFY2(error.contains("the size of its lattice is not known; give --size WxH[xD]"), qPrintable(error));
+    QVERIFY2(error.contains("the size of its lattice is not known; use --size WxH[xD]"), qPrintable(error));
   }
 }
 
@@ -97,7 +97,7 @@ void DatTest::other_line_ends_and_a_mark_are_read() {
 }
 
 void DatTest::links_may_be_added_and_removed_by_hand() {
-  // The diagonal 0-3 added, the links 0-1 and 0-2 removed.
+  // The diagonal 0-3 is added, and the links 0-1 and 0-2 are removed.
   const auto mesh = dat("# size 2 2\n0 1 3\n1 1 3\n2 1 3\n3 3 0 2 1\n");
   QCOMPARE(mesh->link_count(), 3U);
   QVERIFY(find_link(*mesh, 0, 3) && !find_link(*mesh, 0, 1));
@@ -139,11 +139,11 @@ void DatTest::the_file_reads_as_documented() {
 
 void DatTest::a_mesh_without_lattice_is_refused() {
   const auto mesh = obj("v 0 0 0\nv 1 0 0\nl 1 2\n");
-  QVERIFY(error_of([&] { dat_text(*mesh); }).contains("it holds only lattices"));
+  QVERIFY(error_of([&] { dat_text(*mesh); }).contains("the format can only store lattices"));
   const QTemporaryDir folder;
   const std::string path = folder.filePath("a.dat").toStdString();
   const auto error = error_of([&] { save_mesh(path, {*mesh, {}, rest_positions(*mesh), {}}); });
-  QVERIFY2(error.startsWith(QString::fromStdString(path) + ": a .dat file holds only lattices"), qPrintable(error));
+  QVERIFY2(error.startsWith(QString::fromStdString(path) + ": a .dat file can only store lattices"), qPrintable(error));
   QVERIFY(!std::filesystem::exists(path));
 }
 

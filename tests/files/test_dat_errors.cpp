@@ -5,7 +5,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// What is wrong in a .dat file is told with its line.
+/// Errors in a .dat file are reported with their line.
 class DatErrorsTest : public QObject {
   Q_OBJECT
 
@@ -27,12 +27,12 @@ void DatErrorsTest::wrong_files_data() {
       "mesh.dat:3: element 1 lists the neighbour 2, which is out of range; ");
   row("to itself", "# size 2\n0 1 0\n1 0\n", "mesh.dat:2: element 0 is linked to itself; ");
   row("double", "# size 2\n0 2 1 1\n1 2 0 0\n", "mesh.dat:2: element 0 lists the neighbour 1 twice; ");
-  row("count too large", "# size 2\n0 2 1\n1 1 0\n", "mesh.dat:2: the count says 2 neighbours, the row lists 1; ");
-  row("count too small", "# size 2\n0 0 1\n1 1 0\n", "mesh.dat:2: the count says 0 neighbours, the row lists 1; ");
+  row("count too large", "# size 2\n0 2 1\n1 1 0\n", "mesh.dat:2: the count says 2 neighbours, but the row lists 1; ");
+  row("count too small", "# size 2\n0 0 1\n1 1 0\n", "mesh.dat:2: the count says 0 neighbours, but the row lists 1; ");
   row("count huge", "# size 1\n0 4000000000 0\n", "mesh.dat:2: ");
   row("missing row", "# size 3\n0 0\n2 0\n", "mesh.dat:3: the file ends without a row for element 1 ");
   row("missing last row", "# size 3\n0 0\n1 0\n\n", "mesh.dat:4: the file ends without a row for element 2 ");
-  row("double row", "# size 2\n0 0\n1 0\n0 0\n", "mesh.dat:4: element 0 has a row in line 2; ");
+  row("double row", "# size 2\n0 0\n1 0\n0 0\n", "mesh.dat:4: element 0 already has a row in line 2; ");
   row("row beyond the size", "# size 2\n0 0\n1 0\n2 0\n", "mesh.dat:4: element 2 lies outside the size 2x1; ");
   row("id no number", "# size 1\nx 0\n", "mesh.dat:2: 'x' is not an element's id; ");
   row("id negative", "# size 1\n-1 0\n", "mesh.dat:2: '-1' is not an element's id; ");
@@ -41,7 +41,7 @@ void DatErrorsTest::wrong_files_data() {
   row("neighbour no number", "# size 2\n0 1 1,\n1 1 0\n", "mesh.dat:2: '1,' is not an element's id; ");
   row("count no number", "# size 1\n0 none\n", "mesh.dat:2: 'none' is not a count of neighbours; ");
   row("no count", "# size 1\n0\n", "mesh.dat:2: the row ends before the count; ");
-  row("no rows", "# size 1\n\n", "mesh.dat: it holds no rows; ");
+  row("no rows", "# size 1\n\n", "mesh.dat: it contains no rows; ");
   row("no size", "0 0\n", "mesh.dat: the size of its lattice is not known; ");
   row("size no number", "# size 2 x\n0 0\n", "mesh.dat:1: the size must be one to three whole numbers above 0; ");
   row("size of 0", "# size 0\n0 0\n", "mesh.dat:1: the size must be one to three whole numbers above 0; ");
@@ -71,19 +71,19 @@ void DatErrorsTest::wrong_files() {
 
 void DatErrorsTest::prose_is_no_statement() {
   QCOMPARE(dat("# size 1\n# size is one\n# spacing: none\n# space\n0 0\n")->element_count(), 1U);
-  QCOMPARE(dat("# size 1\n# size 1 1\n0 0\n")->element_count(), 1U);  // said twice, and the same
+  QCOMPARE(dat("# size 1\n# size 1 1\n0 0\n")->element_count(), 1U);  // the same size twice
 }
 
 void DatErrorsTest::options_that_do_not_fit() {
   ReadOptions options;
-  // A size that does not come from the file has no line.
+  // An error in a size that is not from the file has no line.
   QVERIFY(error_of([&] { dat("0 0\n", "99999x99999.dat"); }).startsWith("99999x99999.dat: the size 99999x99999 is "));
   options.size = {99'999, 99'999, 1};
   QVERIFY(error_of([&] { dat("# size 1\n0 0\n", "a.dat", options); }).startsWith("a.dat: the size 99999x99999 is "));
   options.size = {3, 3, 1};
   QVERIFY(error_of([&] {
             dat("0 0\n1 0\n", "a.dat", options);
-          }).startsWith("a.dat:2: the file ends without a row for element 2 (2 rows, and the size is 3x3); "));
+          }).startsWith("a.dat:2: the file ends without a row for element 2 (2 rows, but the size is 3x3); "));
   options.size = {2, 1, 1};
   options.space_dimension = 2;
   QCOMPARE(dat("0 1 1\n1 1 0\n", "a.dat", options)->space_dimension, 2);

@@ -9,7 +9,7 @@ using namespace chainmail::test;
 
 namespace {
 
-/// The octahedron of radius 3, with `faces` of its eight.
+/// Returns an octahedron of radius 3 with the first `faces` of its eight faces, as OBJ.
 std::string octahedron(int faces) {
   std::string text = "v 3 0 0\nv -3 0 0\nv 0 3 0\nv 0 -3 0\nv 0 0 3\nv 0 0 -3\n";
   const char* all[] = {"f 1 3 5\n", "f 3 2 5\n", "f 2 4 5\n", "f 4 1 5\n",
@@ -22,7 +22,7 @@ std::string octahedron(int faces) {
 
 }  // namespace
 
-/// Surfaces become volumes, or a sentence says where they are not closed.
+/// Closed surfaces are filled; for others, an error gives the position of the gap.
 class FillTest : public QObject {
   Q_OBJECT
 
@@ -47,7 +47,7 @@ void FillTest::a_closed_surface_becomes_a_volume() {
     QVERIFY(one > 0);
     volume += one;
   }
-  QVERIFY(std::abs(volume - 36) < 1e-9);  // 4/3 r³, sums of some hundred doubles
+  QVERIFY(std::abs(volume - 36) < 1e-9);  // volume 4/3 r³; rounding of sums of some hundred doubles
   for (ElementId e = 0; e < surface->element_count(); ++e) {
     QCOMPARE(filled->rest_position(e), surface->rest_position(e));
   }
@@ -68,7 +68,7 @@ void FillTest::surfaces_that_enclose_nothing_are_refused_data() {
                          << "surface: it has no faces, so it has no inside; ";
   QTest::newRow("three at a link") << QByteArray::fromStdString(octahedron(8) + "v 9 9 9\nf 1 3 7\n")
                                    << "surface: 3 faces meet at the link 0-2, near (3, 0, 0); ";
-  // Another octahedron, whose corner is within the first.
+  // A second octahedron, with one corner inside the first.
   std::string two = octahedron(8) + "v 8 0 0\nv 2 0 0\nv 5 3 0\nv 5 -3 0\nv 5 0 3\nv 5 0 -3\n";
   for (const char* face : {"f 7 9 11\n", "f 9 8 11\n", "f 8 10 11\n", "f 10 7 11\n", "f 9 7 12\n", "f 8 9 12\n",
                            "f 10 8 12\n", "f 7 10 12\n"}) {
@@ -84,8 +84,8 @@ void FillTest::surfaces_that_enclose_nothing_are_refused() {
   QVERIFY2(error.startsWith(sentence), qPrintable(error));
 }
 
-/// Edges of a hundredth in a volume of 36 are more than the limit of 20 million elements: hours of work, refused at
-/// once. Of a tenth they are fine.
+/// Edges of 0.01 in a volume of 36 need more elements than the limit of 20 million. This would take hours, and is
+/// refused at once. Edges of 0.1 are accepted.
 void FillTest::too_many_tetrahedra_are_refused_before_they_are_made() {
   JobState job;
   const Patience patience(job);

@@ -25,7 +25,7 @@ ImportedMesh sample() {
 
 }  // namespace
 
-/// What the import program hands over: as it was given, and never believed.
+/// Tests the data from the import program: they arrive unchanged, and damaged data are refused.
 class HandoverTest : public QObject {
   Q_OBJECT
 

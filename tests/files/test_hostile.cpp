@@ -6,7 +6,8 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Files that are none, and files that lie: a sentence each, no crash, no memory beyond the file's own size.
+/// Paths that are no files, and files with false content: each gives one error sentence, without a crash and without
+/// more memory than the file's own size.
 class HostileTest : public QObject {
   Q_OBJECT
 
@@ -38,8 +39,9 @@ void HostileTest::wrong_paths() {
   QVERIFY(error("none.dat").endsWith("none.dat: there is no such file; check the path"));
   QVERIFY(error("none").endsWith("none: there is no such file; check the path"));
   std::filesystem::create_directory(path("folder.dat"));
-  QVERIFY(error("folder.dat").endsWith("folder.dat: it is a folder; give a file"));
-  const QString known = "; open a mesh in one of these formats: " + QString::fromStdString(mesh_endings(FormatUse::read));
+  QVERIFY(error("folder.dat").endsWith("folder.dat: it is a folder; use a file"));
+  const QString known =
+      "; open a mesh in one of these formats: " + QString::fromStdString(mesh_endings(FormatUse::read));
   put_file(path("a.doc"), "text");
   QVERIFY(error("a.doc").endsWith("a.doc: the ending .doc is not known" + known));
   put_file(path("a"), "0 0");
@@ -52,8 +54,8 @@ void HostileTest::wrong_paths() {
 void HostileTest::files_that_hold_nothing() {
   QVERIFY(read("empty.dat", "").contains("empty.dat: it is empty; "));
   QVERIFY(read("empty.obj", "").contains("empty.obj: it is empty; "));
-  QVERIFY(read("blank.dat", "\n \n\t\n").contains("blank.dat: it holds no rows; "));
-  QVERIFY(read("blank.obj", "# nothing\n").contains("blank.obj: it holds no vertices; "));
+  QVERIFY(read("blank.dat", "\n \n\t\n").contains("blank.dat: it contains no rows; "));
+  QVERIFY(read("blank.obj", "# nothing\n").contains("blank.obj: it contains no vertices; "));
 }
 
 void HostileTest::rubbish_data() {
@@ -86,8 +88,8 @@ void HostileTest::huge_claims_take_no_memory() {
   QVERIFY(
       read("a.dat", "# size 2\n0 1 4294967295\n1 0\n").contains("a.dat:2: element 0 lists the neighbour 4294967295"));
   QVERIFY(read("a.obj", "v 0 0 0\nf 1 2 19999999\n").contains("a.obj:2: there is no vertex"));
-  // Subdivision tags state how many numbers follow.
-  QVERIFY(read("a.obj", "v 0 0 0\nt crease 2000000000/2000000000/0 1\n").contains("a.obj:2: 't' begins no"));
+  // Subdivision tags contain the number of values that follow.
+  QVERIFY(read("a.obj", "v 0 0 0\nt crease 2000000000/2000000000/0 1\n").contains("a.obj:2: 't' is not an OBJ"));
 }
 
 void HostileTest::truncated_files_are_refused_or_whole() {
@@ -123,7 +125,7 @@ void HostileTest::endings_are_known_in_any_case() {
 void HostileTest::names_need_not_be_utf8() {
   QCOMPARE(read("\xff\xfe.obj", "v 0 0 0\n"), QString());
   const auto error = read("\xff\n.obj", "x\n");
-  QVERIFY2(error.contains("\\xff\\x0a.obj:1: 'x' begins"), qPrintable(error));
+  QVERIFY2(error.contains("\\xff\\x0a.obj:1: 'x' is not an OBJ"), qPrintable(error));
 }
 
 QTEST_APPLESS_MAIN(HostileTest)

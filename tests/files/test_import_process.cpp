@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// An octahedron of radius 3. Filled with edges of 0.05 it keeps a processor busy for many seconds.
+/// Returns an octahedron of radius 3. Filling it with edges of 0.05 takes many seconds.
 constexpr const char* work = "0.05";
 void put_work(ImportInput& input) {
   ImportedMesh surface;
@@ -28,7 +28,7 @@ void put_work(ImportInput& input) {
   input.write("surface", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-/// The processes that this one has started: any thread of it.
+/// Returns the child processes of this process, started by any of its threads.
 std::vector<fs::path> started() {
   std::vector<fs::path> found;
   for (const auto& thread : fs::directory_iterator("/proc/self/task")) {
@@ -40,7 +40,7 @@ std::vector<fs::path> started() {
   return found;
 }
 
-/// A line of a process' status: the value behind `name`.
+/// Returns the value of `name` in the status file of a process.
 std::string status_of(const fs::path& process, const std::string& name) {
   std::ifstream lines(process / "status");
   for (std::string word; lines >> word;) {
@@ -52,7 +52,7 @@ std::string status_of(const fs::path& process, const std::string& name) {
   return {};
 }
 
-/// Where the descriptors of a process lead.
+/// Returns the targets of the file descriptors of a process.
 QStringList descriptors_of(const fs::path& process) {
   QStringList targets;
   std::error_code gone;
@@ -64,7 +64,7 @@ QStringList descriptors_of(const fs::path& process) {
 
 }  // namespace
 
-/// The program in which other people's readers run: what it may take, and what it gets to see.
+/// Tests the program in which third-party readers run: its limits, and the files it can access.
 class ImportProcessTest : public QObject {
   Q_OBJECT
 
@@ -102,7 +102,7 @@ void ImportProcessTest::it_may_take_so_much_time() {
   QCOMPARE(error, QString("ball.obj: reading it takes longer than 1 s; use a smaller file, or another format"));
 }
 
-/// A file of a few bytes may claim that gigabytes follow; the reader believes it.
+/// A file of a few bytes may state that it has gigabytes of data, and the reader trusts it.
 void ImportProcessTest::it_may_take_so_much_memory() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   QSKIP("a sanitizer takes more address space than any limit");
@@ -121,7 +121,7 @@ void ImportProcessTest::it_runs_in_the_sandbox_and_inherits_nothing() {
   const QTemporaryDir folder;
   const fs::path open_file = fs::path(folder.path().toStdString()) / "open";
   put_file(open_file, "text");
-  const int open_here = open(open_file.c_str(), O_RDWR);  // as a shell leaves some to its programs
+  const int open_here = open(open_file.c_str(), O_RDWR);  // some shells leave open descriptors to their programs
   QVERIFY(open_here >= 0);
   JobState job;
   const Patience patience(job);
@@ -150,7 +150,7 @@ void ImportProcessTest::it_runs_in_the_sandbox_and_inherits_nothing() {
   QVERIFY(environment.find("CHAINMAIL_TEST_SECRET") == std::string::npos);
 }
 
-/// Whatever its path leads to by the time a library opens it.
+/// The reader gets the file that was opened first, even if its path leads to another file when a library opens it.
 void ImportProcessTest::the_file_that_was_opened_is_read() {
   const QTemporaryDir folder;
   const fs::path path = fs::path(folder.path().toStdString()) / "a.off";

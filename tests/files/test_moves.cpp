@@ -9,7 +9,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Recorded moves as JSON. The grid of 3x2 has the links 0-1, 0-3, 1-2, 1-4, 2-5, 3-4, 4-5, in this order.
+/// Tests recorded moves as JSON. The grid of 3x2 has the links 0-1, 0-3, 1-2, 1-4, 2-5, 3-4, 4-5, in this order.
 class MovesTest : public QObject {
   Q_OBJECT
 
@@ -70,13 +70,13 @@ void MovesTest::commands_are_read() {
   QCOMPARE(std::get<commands::Unpin>(moves[6]).elements, std::vector<ElementId>{3});
   QVERIFY(std::holds_alternative<commands::Reset>(moves[7]));
   QVERIFY((*std::get<commands::SetSoftness>(moves[8]).softness == Softness{{0.5, 2, 0}, {{1, {1, 1, 0.25}}}}));
-  // A simulation takes what was read.
+  // A simulation accepts the commands that were read.
   Simulation simulation(mesh_, Algorithm::exact, Precision::double_precision);
   for (const Command& move : moves) {
     simulation.apply(move);
   }
   QVERIFY(read(with_commands("")).empty());
-  // What was pinned may be taken again, and what was let go be pinned.
+  // An unpinned element may be grabbed again, and a released one may be pinned.
   QCOMPARE(read(with_commands(R"({"do": "pin", "elements": [2]}, {"do": "unpin", "elements": [2]},
                                  {"do": "grab", "element": 2}, {"do": "release"}, {"do": "pin", "elements": [2]})"))
                .size(),
@@ -84,7 +84,7 @@ void MovesTest::commands_are_read() {
 }
 
 void MovesTest::what_is_written_reads_back() {
-  // Numbers that no few digits hold.
+  // Numbers that need many digits.
   const Point odd(0.1, 1.0 / 3, -1e-300), large(1e100, -0.0, 123456789.123456789);
   const std::vector<Command> moves{commands::Grab{4},
                                    commands::Drag{odd},
@@ -129,7 +129,7 @@ void MovesTest::other_files_are_refused_data() {
   row(" ", "m.json:1: it is not JSON; ");
   row(R"({"version": 1, "commands": []} x)", "m.json:1: it is not JSON; ");
   row(R"({"version": 1, "commands": [NaN]})", "m.json:1: it is not JSON; ");
-  row(R"({"version": 1, "commands": [1e999]})", "m.json: it holds a number that is too large");
+  row(R"({"version": 1, "commands": [1e999]})", "m.json: it contains a number that is too large");
   row("[]", "m.json: it holds no recorded moves; ");
   row("null", "m.json: it holds no recorded moves; ");
   row("{}", "m.json: 'version' is missing; ");
@@ -140,7 +140,7 @@ void MovesTest::other_files_are_refused_data() {
   row(R"({"version": -1, "commands": []})", "m.json: its version is not 1; ");
   row(R"({"version": 1})", "m.json: 'commands' is missing; ");
   row(R"({"version": 1, "commands": {}})", "m.json: 'commands' is not an array; ");
-  row(R"({"version": 1, "commands": [], "more": 1})", "m.json: 'more' is not known here; ");
+  row(R"({"version": 1, "commands": [], "more": 1})", "m.json: 'more' is not a known key; ");
 }
 
 void MovesTest::other_files_are_refused() {
@@ -165,7 +165,7 @@ void MovesTest::other_commands_are_refused_data() {
   row(R"({"do": "grab", "element": -1})", "0: '-1' is not an element's id; ");
   row(R"({"do": "grab", "element": 1.5})", "0: '1.5' is not an element's id; ");
   row(R"({"do": "grab", "element": [1]})", "0: '[1]' is not an element's id; ");
-  row(R"({"do": "grab", "element": 1, "elemen": 2})", "0: 'elemen' is not known here; ");
+  row(R"({"do": "grab", "element": 1, "elemen": 2})", "0: 'elemen' is not a known key; ");
   row(R"({"do": "release"}, {"do": "drag", "target": [1, 2, 3]})", "1: no element is grabbed at that time; ");
   row(R"({"do": "grab", "element": 1}, {"do": "release"}, {"do": "drag", "target": [1, 2, 3]})", "2: no element is ");
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, 2]})", "1: 'target' does not have three ");
@@ -212,7 +212,7 @@ void MovesTest::deep_nesting_is_refused() {
 }
 
 void MovesTest::damaged_files_never_do_worse() {
-  // Cut off anywhere, or with any character replaced: moves or an Error, nothing else.
+  // A file cut off at any place, or with any character replaced, gives moves or an Error, nothing else.
   for (std::size_t i = 0; i < every_command.size(); ++i) {
     QVERIFY(!error_of([&] { read(every_command.substr(0, i)); }).isEmpty());
     for (const char other : {'0', '9', '"', '[', '}', '-', '\xff'}) {
@@ -232,7 +232,7 @@ void MovesTest::keys_come_in_any_order() {
   QVERIFY((*std::get<commands::SetSoftness>(moves[2]).softness == Softness{{0.5, 2, 0}, {{1, {1, 1, 0.25}}}}));
 }
 
-/// One of the two would be passed over in silence.
+/// A key that occurs twice is an error, because one of the two values would be ignored.
 void MovesTest::a_key_that_stands_twice_is_refused_data() {
   QTest::addColumn<QString>("text");
   QTest::addColumn<QString>("said");
@@ -248,7 +248,8 @@ void MovesTest::a_key_that_stands_twice_is_refused() {
   QCOMPARE(error_of([&] { read(text.toStdString()); }), said);
 }
 
-/// A newer file may have commands that this program does not know: its version says so, wherever it stands.
+/// The version is checked before the commands, at any position in the file: a newer file may have commands that this
+/// program does not know.
 void MovesTest::what_is_wrong_with_the_file_comes_before_its_commands() {
   QVERIFY(error_of([&] {
             read(R"({"commands": [{"do": "twist"}], "version": 2})");
@@ -265,7 +266,7 @@ void MovesTest::a_large_file_takes_little_memory_besides_its_commands_data() {
   QTest::addColumn<QString>("begin");
   QTest::addColumn<QString>("item");
   QTest::addColumn<QString>("end");
-  QTest::addColumn<std::size_t>("of_item");  // bytes that an item takes in the result
+  QTest::addColumn<std::size_t>("of_item");  // bytes per item in the result
   QTest::newRow("drags") << R"({"version": 1, "commands": [{"do": "grab", "element": 5})"
                          << R"(, {"do": "drag", "target": [1.25, -2.5, 0]})"
                          << "]}" << sizeof(Command);
@@ -277,8 +278,8 @@ void MovesTest::a_large_file_takes_little_memory_besides_its_commands_data() {
                          << "]}]}" << sizeof(LinkId);
 }
 
-/// A tree of the file takes ten times as much and more; and what walks in it, such as the parser's own filter, takes
-/// quadratic time.
+/// Reading takes linear time and little memory. A tree of the file would take more than ten times as much memory, and
+/// the parser's own filter takes quadratic time.
 void MovesTest::a_large_file_takes_little_memory_besides_its_commands() {
   QFETCH(QString, begin);
   QFETCH(QString, item);
@@ -290,7 +291,7 @@ void MovesTest::a_large_file_takes_little_memory_besides_its_commands() {
   most_bytes_held = before;
   const auto moves = read(text);
   QVERIFY(!moves.empty());
-  // A vector that grows holds three times its size; a number that waits for its check takes 16 bytes.
+  // A growing vector takes up to three times its size; a number that is not yet checked takes 16 bytes.
   const std::size_t bound = items * (3 * of_item + (of_item < sizeof(Command) ? 2 * 3 * 16 : 0)) + (1U << 16);
   QVERIFY2(most_bytes_held - before < bound,
            qPrintable(QString("%1 bytes an item").arg((most_bytes_held - before) / items)));
@@ -310,7 +311,8 @@ void MovesTest::files() {
   const std::filesystem::path path = folder.filePath("m.json").toStdString();
   QVERIFY(error_of([&] { read_moves(path, *mesh_); }).contains(": there is no such file; "));
   put_file(path, "");
-  QVERIFY(error_of([&] { read_moves(path, *mesh_); }).endsWith(": it is empty; give a file that holds recorded moves"));
+  QVERIFY(
+      error_of([&] { read_moves(path, *mesh_); }).endsWith(": it is empty; use a file that contains recorded moves"));
   put_file(path, "\xef\xbb\xbf" + every_command);
   QCOMPARE(read_moves(path, *mesh_).size(), std::size_t{9});
 }

@@ -12,7 +12,7 @@ const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 }  // namespace
 
-/// Wavefront OBJ, in and out.
+/// Tests reading and writing of Wavefront OBJ.
 class ObjTest : public QObject {
   Q_OBJECT
 
@@ -47,7 +47,7 @@ void ObjTest::a_polygon_has_no_diagonal() {
 }
 
 void ObjTest::ids_are_the_vertices_order() {
-  const auto mesh = obj("v 9 0 0\nl 1 2\nv 7 0 0\nv 8 0 0\n");  // an element without links stays one
+  const auto mesh = obj("v 9 0 0\nl 1 2\nv 7 0 0\nv 8 0 0\n");  // an element without links is kept
   QCOMPARE(mesh->element_count(), 3U);
   QCOMPARE(mesh->rest_position(0).x(), 9.0);
   QCOMPARE(mesh->rest_position(1).x(), 7.0);

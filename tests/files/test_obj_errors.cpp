@@ -5,7 +5,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// What is wrong in an OBJ file is told with its line, and nothing is read as 0.
+/// Errors in an OBJ file are reported with their line, and no wrong number is read as 0.
 class ObjErrorsTest : public QObject {
   Q_OBJECT
 

@@ -11,7 +11,7 @@ using namespace chainmail::test;
 
 namespace {
 
-/// What the tetrahedra and hexahedra of a mesh fill (mesh units cubed).
+/// Returns the volume of the tetrahedra and hexahedra of a mesh (mesh units cubed).
 double volume_of(const Mesh& mesh) {
   const auto tetrahedron = [&](ElementId a, ElementId b, ElementId c, ElementId d) {
     const Point from = mesh.rest_position(a);
@@ -21,7 +21,7 @@ double volume_of(const Mesh& mesh) {
   for (const auto& [a, b, c, d] : mesh.tetrahedra) {
     sum += tetrahedron(a, b, c, d);
   }
-  for (const auto& h : mesh.hexahedra) {  // five tetrahedra
+  for (const auto& h : mesh.hexahedra) {  // as five tetrahedra
     sum += tetrahedron(h[0], h[1], h[3], h[4]) + tetrahedron(h[2], h[3], h[1], h[6]) +
            tetrahedron(h[5], h[4], h[6], h[1]) + tetrahedron(h[7], h[6], h[4], h[3]) +
            tetrahedron(h[1], h[3], h[4], h[6]);
@@ -31,7 +31,8 @@ double volume_of(const Mesh& mesh) {
 
 }  // namespace
 
-/// Files of other programs: what they say is what is there, ids in their order, and nothing lost in silence.
+/// Tests files of other programs: the mesh has their content with ids in their order, and nothing is lost without a
+/// message.
 class OpenMeshTest : public QObject {
   Q_OBJECT
 
@@ -79,13 +80,14 @@ void OpenMeshTest::files_of_other_programs_data() {
                       unsigned hexahedra, double volume) {
     QTest::newRow(name) << elements << links << triangles << tetrahedra << hexahedra << volume;
   };
-  // Of a ball: elements - links + sides - cells is 1, and four sides of a cell, or one on the surface, are two.
+  // For a ball, elements - links + sides - cells is 1. Each cell has four sides, and each side inside belongs to two
+  // cells.
   const unsigned sides = (4 * 91 + 84) / 2;
   for (const char* name :
        {"gmsh22.msh", "gmsh41.msh", "gmsh41_binary.msh", "gmsh.mesh", "gmsh_binary.vtk", "meshio_51.vtk"}) {
     row(name, 44, 44 + sides - 91 - 1, 84, 91, 0, 2);
   }
-  // Of its surface: elements - links + triangles is 2.
+  // For its surface, elements - links + triangles is 2.
   for (const char* name : {"gmsh_binary.stl", "assimp.obj", "meshio.off"}) {
     row(name, 44, 44 + 84 - 2, 84, 0, 0, 0);
   }
@@ -93,7 +95,7 @@ void OpenMeshTest::files_of_other_programs_data() {
   row("vtk.ply", 20, 20 + 36 - 2, 36, 0, 0, 0);
   row("vtk_sphere.vtk", 20, 20 + 36 - 2, 36, 0, 0, 0);
   row("vtk_line.vtk", 4, 3, 0, 0, 0, 0);
-  // 4 x 3 x 2 points; its 22 quadrangles outside are drawn as two triangles each.
+  // 4 x 3 x 2 points; each of the 22 outer quadrangles is drawn as two triangles.
   const unsigned grid = 3 * 3 * 2 + 4 * 2 * 2 + 4 * 3;
   row("gmsh_hexahedra.msh", 24, grid, 2 * 22, 0, 6, 6);
   row("gmsh_hexahedra.vtk", 24, grid, 2 * 22, 0, 6, 6);
@@ -113,7 +115,7 @@ void OpenMeshTest::files_of_other_programs() {
   QTEST(unsigned(mesh.tetrahedra.size()), "tetrahedra");
   QTEST(unsigned(mesh.hexahedra.size()), "hexahedra");
   QFETCH(double, volume);
-  QVERIFY(std::abs(volume_of(mesh) - volume) < 1e-6);  // some of the files give seven digits
+  QVERIFY(std::abs(volume_of(mesh) - volume) < 1e-6);  // some of the files have only seven digits
   QCOMPARE(opened.flaws.coincident, std::uint64_t(mesh.element_count() == 3 * 84 ? 3 * 84 - 44 : 0));
   QCOMPARE(opened.flaws.collapsed + opened.flaws.doubled + opened.flaws.flat + opened.flaws.inverted, std::uint64_t{0});
 }
@@ -131,7 +133,7 @@ void OpenMeshTest::ids_are_the_files_order_data() {
       "1 1.0000000000000002 0\n7 7 10000000.001\nPOLYGONS 1 4\n3 1 2 3\n");
 }
 
-/// Points that nothing uses are elements too, and the digits of a double are all there.
+/// Unused points are elements too, and all digits of a double are read.
 void OpenMeshTest::ids_are_the_files_order() {
   QFETCH(QByteArray, text);
   put_file(path(QTest::currentDataTag()), text.toStdString());
@@ -153,7 +155,7 @@ void OpenMeshTest::content_goes_before_the_name() {
   QCOMPARE(open_mesh(path("box.vtk")).mesh->tetrahedra.size(), std::size_t{91});
 }
 
-/// Each sign belongs to one format, also behind a comment, and no name is needed.
+/// The content identifies the format, also after a comment and whatever the file's name.
 void OpenMeshTest::each_format_is_known_by_its_signs() {
   int signs = 0;
   for (const MeshFormat& format : mesh_formats()) {
@@ -187,14 +189,14 @@ void OpenMeshTest::what_we_write_comes_back() {
   QCOMPARE(again->links, mesh->links);
   QCOMPARE(again->rest, mesh->rest);  // to the bit
   QCOMPARE(again->triangles.size(), mesh->triangles.size());
-  if (written.extension() == ".msh") {  // the others hold no cells
+  if (written.extension() == ".msh") {  // the other formats have no cells
     QCOMPARE(again->tetrahedra, mesh->tetrahedra);
     QCOMPARE(again->hexahedra, mesh->hexahedra);
   }
 }
 
-/// VTK lists the corners of voxels and pixels along x, then y, then z, and those of other cells in a row about a side.
-/// Here all are cubes and squares with edges of length 1.
+/// VTK lists the corners of voxels and pixels along x, then y, then z, and those of other cells around a side. Here all
+/// are cubes and squares with edges of length 1.
 void OpenMeshTest::voxels_and_pixels_have_corners_in_an_order_of_their_own() {
   const std::string head = "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\n";
   const std::string below = "0 0 0  1 0 0  2 0 0  0 1 0  1 1 0  2 1 0\n";
@@ -228,7 +230,8 @@ void OpenMeshTest::voxels_and_pixels_have_corners_in_an_order_of_their_own() {
 }
 
 void OpenMeshTest::flaws_are_told() {
-  // A triangle, again in another order, one that names a point twice, one without an area, two elements at one place.
+  // A triangle, the same in another order, one that uses a point twice, one without an area, and two elements at one
+  // position.
   put_file(path("flawed.off"),
            "OFF\n6 5 0\n0 0 0\n1 0 0\n0 1 0\n2 0 0\n2 0 0\n5 5 0\n3 0 1 2\n3 2 0 1\n3 3 3 5\n3 0 1 3\n3 1 4 5\n");
   const auto opened = open_mesh(path("flawed.off"));
@@ -241,7 +244,7 @@ void OpenMeshTest::flaws_are_told() {
   QCOMPARE(in_words(open_mesh(std::filesystem::path(FOREIGN) / "gmsh22.msh").flaws), std::string());
 }
 
-/// A square, the same from another corner on, one of other points, and one that names a point twice.
+/// A square, the same starting at another corner, one with other points, and one that uses a point twice.
 void OpenMeshTest::polygons_that_come_twice_are_left_out() {
   put_file(path("squares.off"),
            "OFF\n6 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n2 1 0\n4 0 1 2 3\n4 2 3 0 1\n4 1 4 5 2\n4 0 1 1 2\n");
@@ -250,7 +253,7 @@ void OpenMeshTest::polygons_that_come_twice_are_left_out() {
   QCOMPARE(opened.mesh->triangles.size(), std::size_t{4});  // two squares
 }
 
-/// A cube, a tetrahedron and a flat one, from micrometres to megametres.
+/// A cube, a tetrahedron and a flat tetrahedron, in sizes from micrometres to megametres.
 void OpenMeshTest::flat_cells_are_flat_in_any_unit() {
   for (const double unit : {1e-6, 1.0, 1e6}) {
     MeshParts parts;
@@ -275,7 +278,7 @@ void OpenMeshTest::a_strip_is_triangles_in_a_row() {
   const auto opened = open_mesh(path("strip.vtk"));
   QCOMPARE(opened.flaws, MeshFlaws());
   QCOMPARE(opened.mesh->triangles.size(), std::size_t{4});
-  QCOMPARE(opened.mesh->link_count(), 9U);  // three across, two along each side, two diagonals
+  QCOMPARE(opened.mesh->link_count(), 9U);  // three across, two along each side, and two diagonals
   double area = 0;
   for (const auto& [a, b, c] : opened.mesh->triangles) {
     const auto at = [&](ElementId e) { return opened.mesh->rest_position(e); };
@@ -284,7 +287,7 @@ void OpenMeshTest::a_strip_is_triangles_in_a_row() {
   QCOMPARE(area, 2.0);
 }
 
-/// A tetrahedron and a hexahedron, once as they should be and once as in a mirror; a flat one has no inside.
+/// A tetrahedron and a hexahedron, once correct and once mirrored. A flat cell does not count as inverted.
 void OpenMeshTest::cells_inside_out_are_counted() {
   const std::string head =
       "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 13 double\n"
@@ -318,10 +321,10 @@ void OpenMeshTest::what_others_hold_and_we_do_not_is_refused_data() {
                               << "elements of higher order";
   const QByteArray vtk = "# vtk DataFile Version 2.0\na\nASCII\nDATASET ";
   QTest::newRow("grid.vtk") << vtk + "STRUCTURED_POINTS\n"
-                            << "'STRUCTURED_POINTS' has no links; ";
+                            << "'STRUCTURED_POINTS' is not supported; ";
   QTest::newRow("cloud.vtk") << vtk + "POLYDATA\nPOINTS 2 float\n0 0 0 1 1 1\n"
-                             << "it holds points without links; ";
-  QTest::newRow("cloud.off") << QByteArray("OFF\n2 0 0\n0 0 0\n1 1 1\n") << "it holds points without links; ";
+                             << "it contains points without links; ";
+  QTest::newRow("cloud.off") << QByteArray("OFF\n2 0 0\n0 0 0\n1 1 1\n") << "it contains points without links; ";
 }
 
 void OpenMeshTest::what_others_hold_and_we_do_not_is_refused() {
@@ -331,7 +334,7 @@ void OpenMeshTest::what_others_hold_and_we_do_not_is_refused() {
   QVERIFY2(error.contains(sentence), qPrintable(error));
 }
 
-/// Cut off anywhere: a sentence or less of the mesh, from libraries that may crash or hang on it, and no more.
+/// A file cut off at any place gives an error sentence or a part of the mesh, even if a library crashes or hangs.
 void OpenMeshTest::damaged_files_give_one_sentence() {
   for (const char* name : {"gmsh41_binary.msh", "assimp_binary.ply", "gmsh_binary.stl", "gmsh.mesh", "teem.nrrd"}) {
     const std::string whole = file_text(std::filesystem::path(FOREIGN) / name);

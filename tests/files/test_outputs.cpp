@@ -11,7 +11,7 @@ using namespace chainmail::test;
 
 namespace fs = std::filesystem;
 
-/// Files are written whole or not at all.
+/// Files are written completely or not at all.
 class OutputsTest : public QObject {
   Q_OBJECT
 
@@ -134,7 +134,8 @@ void OutputsTest::a_mesh_is_saved_by_its_ending() {
   save_mesh(path("a.csv"), {*mesh, {}, rest_positions(*mesh), {}});
   QVERIFY(file_text(path("a.csv")).starts_with("id,x,y,z\n0,0,0,0\n"));
   const auto error = error_of([&] { save_mesh(path("a.doc"), {*mesh, {}, rest_positions(*mesh), {}}); });
-  QVERIFY2(error.contains("a.doc: the ending .doc is not known; write the mesh in one of these formats: .obj"), qPrintable(error));
+  QVERIFY2(error.contains("a.doc: the ending .doc is not known; write the mesh in one of these formats: .obj"),
+           qPrintable(error));
 }
 
 void OutputsTest::endings_are_known_by_their_use() {
@@ -149,9 +150,11 @@ void OutputsTest::endings_are_known_by_their_use() {
     }
   }
   const auto error = [](const char* name, FormatUse use) { return error_of([&] { mesh_format(name, use); }); };
-  QVERIFY(error("a.csv", FormatUse::read).startsWith("a.csv: a .csv file can be written but not opened; open a mesh in one of these formats: .obj"));
   QVERIFY(
-      error("a.dat", FormatUse::write_positions).startsWith("a.dat: a .dat file contains no positions; write positions in one of these formats: "));
+      error("a.csv", FormatUse::read)
+          .startsWith("a.csv: a .csv file can be written but not opened; open a mesh in one of these formats: .obj"));
+  QVERIFY(error("a.dat", FormatUse::write_positions)
+              .startsWith("a.dat: a .dat file contains no positions; write positions in one of these formats: "));
 }
 
 QTEST_APPLESS_MAIN(OutputsTest)

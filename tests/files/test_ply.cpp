@@ -15,7 +15,7 @@ ImportedMesh ply(const std::string& text) { return read_ply(text, "a.ply"); }
 
 }  // namespace
 
-/// PLY in; what others write of it is in test_open_mesh, and what we write in test_writers.
+/// Tests reading of PLY. Files of other programs are tested in test_open_mesh, and our writer in test_writers.
 class PlyTest : public QObject {
   Q_OBJECT
 
@@ -67,7 +67,7 @@ void PlyTest::wrong_files_are_refused_data() {
   };
   row("no head", "plyx\n", "a.ply:1: it does not begin with 'ply'; ");
   row("head without end", vertices, "a.ply:7: its header does not end; ");
-  row("no format", "ply\nend_header\n", "its header states no format; ");
+  row("no format", "ply\nend_header\n", "its header has no line 'format …'; ");
   row("format", "ply\nformat morse 1.0\n", "a.ply:2: the format 'morse' is not known; ");
   row("type", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n", "a.ply:4: numbers of type 'real' are");
   row("huge count",
@@ -85,9 +85,9 @@ void PlyTest::wrong_files_are_refused_data() {
   row("point as face", face + points + "1 0\n", "a face has fewer than 2 corners; ");
   row("strips",
       vertices + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" + points + "3 0 1 2\n",
-      "it holds triangle strips; save it with faces");
+      "it contains triangle strips; save it with faces");
   row("no z", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
-      "an element 'vertex' has no number 'z'; ");
+      "the PLY element 'vertex' has no property 'z'; ");
   row("binary", "ply\nformat binary_big_endian 1.0\nelement vertex 9\nproperty float x\nend_header\nabc",
       "a.ply: it ends before the last element");
 }

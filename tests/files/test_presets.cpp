@@ -9,7 +9,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Presets of softness as JSON.
+/// Tests presets of softness as JSON.
 class PresetsTest : public QObject {
   Q_OBJECT
 
@@ -42,7 +42,8 @@ void PresetsTest::those_built_in_are_softness() {
     QCOMPARE(fault_of_name(preset.name), std::string());
     known.insert(preset.name);
     for (const BuiltInPreset& other : built_in_presets()) {
-      QVERIFY(preset.name == other.name || preset.softness != other.softness);  // one of them is shown as chosen
+      QVERIFY(preset.name == other.name ||
+              preset.softness != other.softness);  // the interface shows one of them as chosen
     }
   }
   QCOMPARE(known.size(), built_in_presets().size());
@@ -79,18 +80,18 @@ void PresetsTest::other_files_are_refused_data() {
   const auto row = [](const std::string& text, const char* said) {
     QTest::newRow(said) << QString::fromStdString(text) << QString(said);
   };
-  row("{", "p.json:1: it is not JSON; give presets of softness");
+  row("{", "p.json:1: it is not JSON; use a file with presets of softness");
   row("[]", "p.json: it holds no presets; ");
   row("{}", "p.json: 'version' is missing; ");
   row(R"({"version": 2, "presets": []})", "p.json: its version is not 1; ");
   row(R"({"version": 1})", "p.json: 'presets' is missing; ");
   row(R"({"version": 1, "presets": {}})", "p.json: 'presets' is not an array; ");
-  row(R"({"version": 1, "presets": [], "x": 1})", "p.json: 'x' is not known here; ");
+  row(R"({"version": 1, "presets": [], "x": 1})", "p.json: 'x' is not a known key; ");
   row(with("3"), "p.json: preset 0: it is not an object; ");
   row(with(felt + R"(, {"name": 5})"), "p.json: preset 1: '5' is not a name; ");
   row(with(R"({"name": " "})"), "p.json: preset 0: ' ' is not a valid name; ");
   row(with(R"({"name": "a"})"), "p.json: preset 0: 'compression' is missing; ");
-  row(with(R"({"name": "a", "colour": 1})"), "p.json: preset 0: 'colour' is not known here; ");
+  row(with(R"({"name": "a", "colour": 1})"), "p.json: preset 0: 'colour' is not a known key; ");
   row(with(R"({"name": "a", "compression": "1", "stretch": 1, "shear": 0})"),
       "p.json: preset 0: '\"1\"' is not a number; ");
   row(with(R"({"name": "a", "compression": 1, "stretch": 0.9, "shear": 0})"), "p.json: preset 0: stretch: ");

@@ -7,7 +7,7 @@ using namespace chainmail::test;
 
 namespace fs = std::filesystem;
 
-/// Long work says how far it has come, and a cancelled one leaves nothing behind.
+/// Long work reports its progress, and cancelled work leaves no files.
 class ProgressTest : public QObject {
   Q_OBJECT
 
@@ -25,7 +25,7 @@ class ProgressTest : public QObject {
  private:
   fs::path path(const QString& name) const { return fs::path(folder_.filePath(name).toStdString()); }
 
-  MeshPointer mesh_ = made(MeshKind::grid, {120, 100, 1});  // more than are between two looks
+  MeshPointer mesh_ = made(MeshKind::grid, {120, 100, 1});  // more elements than between two progress reports
   QTemporaryDir folder_;
 };
 

@@ -9,7 +9,7 @@
 using namespace chainmail;
 using namespace chainmail::report;
 
-/// A comparison as JSON.
+/// Tests the JSON of a comparison.
 class ReportJsonTest : public QObject {
   Q_OBJECT
 
@@ -36,7 +36,7 @@ Comparison comparison() {
   measurement.errors.violation = {0.5, 0.25, 0.125, 100};
   measurement.errors.to_exact = Distance{4, 2};
   measurement.errors.float_to_double = {1e-6, 1e-7};
-  measurement.errors.largest_over_hand = 1.5;
+  measurement.errors.largest_over_handle = 1.5;
   return {{},
           {{"grid",
             "a grid",

@@ -9,7 +9,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// The sample meshes are what their README says.
+/// The sample meshes match the description in their README.
 class SamplesTest : public QObject {
   Q_OBJECT
 
@@ -35,7 +35,7 @@ void SamplesTest::samples_data() {
   QTest::newRow("3x3") << "3x3.dat" << 9U << 12U << 0U << 2;
   QTest::newRow("grid") << "grid.dat" << 576U << 1104U << 0U << 2;
   QTest::newRow("cloth") << "cloth.obj" << 384U << 1073U << 690U << 2;
-  // Closed: elements - links + faces is 2 on a sphere and 0 on a torus.
+  // For closed surfaces, elements - links + faces is 2 on a sphere and 0 on a torus.
   QTest::newRow("sphere") << "sphere.obj" << 266U << 792U << 528U << 3;
   QTest::newRow("torus") << "torus.obj" << 384U << 768U << 2 * 384U << 3;
   QTest::newRow("organ") << "organ.obj" << 1212U << 3630U << 2420U << 3;
@@ -68,10 +68,11 @@ void SamplesTest::the_inclusion_is_stiff_and_its_body_is_not() {
 
 void SamplesTest::the_organ_is_filled_from_its_surface() {
   const auto hollow = open("organ.obj"), filled = open("organ.msh");
-  // What Gmsh fills keeps the surface's elements, and their ids.
+  // Gmsh keeps the surface's elements and their ids when it fills the surface.
   QVERIFY(filled->element_count() > hollow->element_count());
   for (ElementId element = 0; element < hollow->element_count(); ++element) {
-    QVERIFY((filled->rest_position(element) - hollow->rest_position(element)).norm() < 1e-6);  // STL lay between
+    QVERIFY((filled->rest_position(element) - hollow->rest_position(element)).norm() <
+            1e-6);  // rounded by STL in between
   }
 }
 

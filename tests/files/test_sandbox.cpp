@@ -22,7 +22,7 @@ using namespace chainmail::test;
 
 namespace {
 
-/// True where a call gave a descriptor, or 0.
+/// Returns true if a call returned a descriptor or 0.
 bool worked(long result) { return result >= 0; }
 
 bool starts_a_process() {
@@ -30,7 +30,7 @@ bool starts_a_process() {
   if (process == 0) {
     _exit(0);
   }
-  return process > 0;  // whether it may be waited for or not
+  return process > 0;  // true even if waiting for the process is not allowed
 }
 
 bool starts_a_program() {
@@ -40,12 +40,12 @@ bool starts_a_program() {
   return posix_spawn(&process, "/bin/true", nullptr, nullptr, words, environ) == 0;
 }
 
-/// It leaves this process only where it works, with the status 0 as all that works here.
+/// If it works, it ends this process with status 0, which means success in this test.
 bool becomes_a_program() { return execl("/bin/true", "true", nullptr) == 0; }
 
 bool opens_a_socket(int domain) { return worked(socket(domain, SOCK_STREAM, 0)); }
 
-/// As a kernel without seccomp would: the import program gets no filter.
+/// Acts like a kernel without seccomp: the import program gets no filter.
 bool opens_without_seccomp() {
   const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
   const scmp_arg_cmp to_set_one{0, SCMP_CMP_EQ, PR_SET_SECCOMP, 0};
@@ -63,7 +63,8 @@ bool opens_without_seccomp() {
 using Attempt = bool (*)();
 Q_DECLARE_METATYPE(Attempt)
 
-/// The sandbox in which other people's readers run: everything that could leave a trace fails there, and works outside.
+/// Tests the sandbox in which third-party readers run: everything that could leave a trace fails inside and works
+/// outside.
 class SandboxTest : public QObject {
   Q_OBJECT
 
@@ -78,7 +79,7 @@ class SandboxTest : public QObject {
  private:
   enum Result { succeeded, failed, no_sandbox, died };
 
-  /// What becomes of an attempt in a process of its own.
+  /// Runs an attempt in a separate process, and returns its result.
   Result result_of(Attempt attempt, bool in_sandbox) const;
 
   std::unique_ptr<QTemporaryDir> folder_;
@@ -100,7 +101,7 @@ SandboxTest::Result SandboxTest::result_of(Attempt attempt, bool in_sandbox) con
     try {
       _exit(attempt() ? succeeded : failed);
     } catch (...) {
-      _exit(died);  // and not on into the copy of this test
+      _exit(died);  // the child process must not continue the test
     }
   }
   int status = 0;

@@ -6,7 +6,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Files that look like meshes and are scripts for Gmsh: nothing of them is carried out.
+/// Tests files that look like meshes but are scripts for Gmsh: none of their commands runs.
 class ScriptsTest : public QObject {
   Q_OBJECT
 
@@ -23,7 +23,7 @@ class ScriptsTest : public QObject {
   std::filesystem::path path(const std::string& name) const {
     return std::filesystem::path(folder_->path().toStdString()) / name;
   }
-  /// Commands that start a program and overwrite a file.
+  /// Gmsh commands that start a program and overwrite a file.
   std::string script() const {
     return "SystemCall \"touch " + path("trace").string() + "\";\nPrintf(\"gone\") > \"" + path("victim").string() +
            "\";\n";
@@ -49,7 +49,7 @@ void ScriptsTest::a_script_is_refused_data() {
   QTest::newRow("as Medit") << "a.mesh" << QByteArray();
   QTest::newRow("in capitals") << "a.MSH" << QByteArray();
   QTest::newRow("behind a comment") << "a.msh" << QByteArray("// $MeshFormat\n");
-  // To Gmsh these are scripts with errors at their beginnings.
+  // Gmsh takes these for scripts with an error at the beginning.
   QTest::newRow("behind a blank line and a mesh") << "a.msh"
                                                   << "\n" + mesh;
   QTest::newRow("behind a byte order mark and a mesh") << "a.msh" << mark + mesh;

@@ -13,7 +13,7 @@ using namespace chainmail::test;
 
 namespace fs = std::filesystem;
 
-/// A session comes back as it was, to the bit; and those of version 1 open for ever.
+/// A saved session reads back bit by bit, and sessions of version 1 must always open.
 class SessionTest : public QObject {
   Q_OBJECT
 
@@ -141,7 +141,7 @@ void SessionTest::every_float_comes_back_to_the_bit() {
   compare(parse_session(session_text(session), "a.chainmail"), session);
 }
 
-/// The file is never written anew: what it holds is version 1.
+/// This file must never be written again, because it is an example of version 1.
 void SessionTest::what_was_written_once_opens() {
   const Session session = read_session(fs::path(SESSIONS) / "version1.chainmail");
   QCOMPARE(session.name, std::string("cloth 3 × 3"));
@@ -184,7 +184,7 @@ void SessionTest::the_file_is_json_as_it_is_documented() {
   QCOMPARE(document["panels"][0]["held"].toArray(), (QJsonArray{0, 0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
 }
 
-/// What would be too much to open again is not saved: the object itself always is.
+/// Parts that would be too large to open again are not saved; the object itself always is.
 void SessionTest::moves_without_end_are_left_out() {
   Session session = session_on(made(MeshKind::grid, {40, 40, 1}));
   session.panels.resize(1);

@@ -6,7 +6,8 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Files that are no session, and sessions that lie: a sentence each that says where, and nothing half read.
+/// Files that are not sessions, and sessions with wrong content: each gives an error sentence with the position, and
+/// nothing is read in part.
 class SessionErrorsTest : public QObject {
   Q_OBJECT
 
@@ -27,7 +28,7 @@ class SessionErrorsTest : public QObject {
   static QString read(const std::string& text) {
     return error_of([&] { parse_session(text, "a.chainmail"); });
   }
-  /// What a small session says with one passage replaced; it must be there.
+  /// Returns the error for a small session with one passage replaced; the passage must exist.
   QString with(const std::string& passage, const std::string& other) const {
     std::string text = good_;
     const auto at = text.find(passage);
@@ -82,7 +83,7 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
       "its version is 2, but this program knows only version 1 and older; open it with a newer ");
   row("\"version\": 1", "\"version\": 0", "'version' is not a whole number from 1 to 1; ");
   row("\"version\": 1", "\"version\": \"1\"", "'version' is not a whole number from 1 to 1; ");
-  row("\"name\": ", "\"nam\": ", "'nam' is not known here; ");
+  row("\"name\": ", "\"nam\": ", "'nam' is not a known key; ");
   row("\"name\": ", "\"format\": 1, \"name\": ", "'format' appears twice; ");
   row("\"cloth 3 × 3\"", "3", "'name' is not a text; ");
   row("\"name\": ", "\"moves\": 3, \"name\": ", "moves: it holds no recorded moves; ");
@@ -117,7 +118,7 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("0,1,0,3,0,4", "0,1,0,3,0,4294967300", "number 5 of 'links' is not a whole number; ");
   row("\"triangles\": [0,1,4,", "\"triangles\": [0,1,", "mesh: 'triangles' ends within a group of 3; ");
   row("\"triangles\": [0,1,4,", "\"triangles\": [0,1,40,", "mesh: 'triangles' names element 40, which ");
-  row("\"triangles\": ", "\"triangle\": ", "mesh: 'triangle' is not known here; ");
+  row("\"triangles\": ", "\"triangle\": ", "mesh: 'triangle' is not a known key; ");
   row("\"polygons\": []", "\"polygons\": {}", "mesh: 'polygons' is not an array; ");
   row("\"polygons\": []", "\"polygons\": 0", "'polygons' is not an array; ");
   row("\"polygons\": []", "\"polygons\": [4,0,1,2]", "mesh: 'polygons' has a count of 4 at number 0; ");
@@ -142,7 +143,7 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "AAAA")", "mesh: 'texels' does not hold ");
   texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "A!==")", "mesh: 'texels' does not hold ");
   texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": [0])", "mesh: 'texels' does not hold ");
-  texture(R"("size": [1,1,1], "colour": 1)", "mesh: 'colour' is not known here; ");
+  texture(R"("size": [1,1,1], "colour": 1)", "mesh: 'colour' is not a known key; ");
   row("\"cuts\": [0,1,", "\"cuts\": [0,2,", "the elements 0 and 2 are not linked; ");
   row("\"cuts\": [0,1,", "\"cuts\": [5,4,", "'cuts' holds a link twice; ");
   row("\"pins\": [0,8]", "\"pins\": [0,9]", "'pins' names element 9, which does not exist; ");
@@ -195,7 +196,7 @@ void SessionErrorsTest::wrong_members_are_refused() {
   QVERIFY2(error.startsWith("a.chainmail: " + said) && !error.contains('\n'), qPrintable(error));
 }
 
-/// Whatever a later version means by its members.
+/// A newer version is reported before all other errors, because its members may have another meaning.
 void SessionErrorsTest::a_newer_version_is_named_before_all_else() {
   const auto error = read(R"({"format": "chainmail session", "version": 7, "mesh": [], "rest": "elsewhere"})");
   QCOMPARE(error, QString("a.chainmail: its version is 7, but this program knows only version 1 and older; "
@@ -208,9 +209,9 @@ void SessionErrorsTest::wrong_paths() {
   const auto error = [&] { return error_of([&] { read_session(path); }); };
   QVERIFY(error().endsWith("a.chainmail: there is no such file; check the path"));
   put_file(path, "");
-  QVERIFY(error().endsWith("a.chainmail: it is empty; give a file that holds a session"));
+  QVERIFY(error().endsWith("a.chainmail: it is empty; use a file that contains a session"));
   put_file(path, std::string("{\0}", 3));
-  QVERIFY(error().endsWith("a.chainmail: it is not a text file; give a session as text"));
+  QVERIFY(error().endsWith("a.chainmail: it is not a text file; use a text file with a session"));
   put_file(path, "\xef\xbb\xbf" + good_);
   QCOMPARE(error(), QString());
 }
@@ -244,7 +245,7 @@ void SessionErrorsTest::deep_nesting_is_refused() {
 }
 
 void SessionErrorsTest::what_ends_too_early_is_refused() {
-  // But for the last line's end.
+  // Except for the end of the last line.
   for (std::size_t i = 0; i + 1 < good_.size(); ++i) {
     const QString error = read(good_.substr(0, i));
     QVERIFY2(!error.isEmpty() && !error.contains('\n'), qPrintable(QString::number(i)));

@@ -7,7 +7,8 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// The softness of single links from CSV. The line of four has the links 0-1, 1-2 and 2-3, in this order.
+/// Tests the softness of single links from CSV. The line of four elements has the links 0-1, 1-2 and 2-3, in this
+/// order.
 class SoftnessFileTest : public QObject {
   Q_OBJECT
 
@@ -72,7 +73,7 @@ void SoftnessFileTest::other_rows_are_refused_data() {
   row("1,2,-0.1,2,3", "a.csv:1: compression: ");
   row("1,2,1,0.99,3", "a.csv:1: stretch: ");
   row("1,2,1,2,-1", "a.csv:1: shear: ");
-  // A header of other names, or behind the first row, is none.
+  // A line with other names, or after the first row, is not a header.
   row("a,b,stretch,compression,shear", "a.csv:1: 'a' is not an element's id; ");
   row("A,B,compression,stretch,shear", "a.csv:1: 'A' is not an element's id; ");
   row("1,2,1,2,3\na,b,compression,stretch,shear", "a.csv:2: 'a' is not an element's id; ");
@@ -91,7 +92,7 @@ void SoftnessFileTest::files() {
   const QString shown = QString::fromStdString(path.string());
   QVERIFY(error_of([&] { read_softness(path, *mesh_); }).startsWith(shown + ": there is no such file; "));
   put_file(path, "");
-  QCOMPARE(error_of([&] { read_softness(path, *mesh_); }), shown + ": it is empty; give a file that holds softness");
+  QCOMPARE(error_of([&] { read_softness(path, *mesh_); }), shown + ": it is empty; use a file that contains softness");
   put_file(path, "1,2,1,2,3\n");
   QVERIFY(read_softness(path, *mesh_) == (Links{{1, {1, 2, 3}}}));
 }

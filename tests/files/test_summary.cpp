@@ -9,7 +9,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// What is said of a mesh and of a deformation, and the JSON that says it.
+/// Tests the summaries of a mesh and of a deformation, and their JSON.
 class SummaryTest : public QObject {
   Q_OBJECT
 

@@ -9,7 +9,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Positions and traces as CSV.
+/// Tests positions and traces as CSV.
 class TablesTest : public QObject {
   Q_OBJECT
 

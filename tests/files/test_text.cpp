@@ -6,7 +6,7 @@
 
 using namespace chainmail;
 
-/// Words and numbers as files and command lines write them.
+/// Tests words and numbers as they occur in files and command lines.
 class TextTest : public QObject {
   Q_OBJECT
 
@@ -102,7 +102,8 @@ void TextTest::messages_stay_one_line_of_text() {
   QCOMPARE(printable("a\nb\x1b[1m\x7f"), std::string("a\\x0ab\\x1b[1m\\x7f"));
   QCOMPARE(printable("é…𝄞"), std::string("é…𝄞"));
   QCOMPARE(printable("\xff\xc3"), std::string("\\xff\\xc3"));
-  QCOMPARE(printable("\xc0\xaf\xed\xa0\x80"), std::string("\\xc0\\xaf\\xed\\xa0\\x80"));  // overlong, surrogate
+  QCOMPARE(printable("\xc0\xaf\xed\xa0\x80"),
+           std::string("\\xc0\\xaf\\xed\\xa0\\x80"));  // an overlong form and a surrogate
   QCOMPARE(in_quotes(std::string(100, 'a')), "'" + std::string(40, 'a') + "…'");
   QCOMPARE(shown(std::filesystem::path("a\nb.dat"), 7), std::string("a\\x0ab.dat:7"));
 }

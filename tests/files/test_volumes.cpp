@@ -22,7 +22,7 @@ const std::string head =
     "ObjectType = Image\nNDims = 3\nDimSize = 2 2 1\nElementSpacing = 0.5 1 2\nOffset = 1 2 3\n"
     "ElementType = MET_USHORT\nBinaryDataByteOrderMSB = True\n";
 
-/// Memory of this process (bytes): VmRSS now, or VmHWM, the most so far.
+/// Returns the memory of this process (bytes): the current one for VmRSS, the largest one so far for VmHWM.
 std::size_t resident(const std::string& name) {
   std::ifstream lines("/proc/self/status");
   for (std::string word; lines >> word;) {
@@ -34,7 +34,7 @@ std::size_t resident(const std::string& name) {
   return 0;
 }
 void forget_the_most_resident() { std::ofstream("/proc/self/clear_refs") << "5"; }
-/// The variance between the classes below and from a threshold on (Otsu 1979, equation 14), by its definition.
+/// Returns the variance between the two classes that a threshold separates, by its definition (Otsu 1979, equation 14).
 double variance_between(const Volume& volume, double threshold) {
   std::array<double, 2> count{}, sum{};
   for (std::size_t i = 0; i < volume.voxel_count(); ++i) {
@@ -51,7 +51,7 @@ double variance_between(const Volume& volume, double threshold) {
 
 }  // namespace
 
-/// Volumes of voxels: read with their places and densities, and made into objects.
+/// Volumes of voxels are read with their positions and densities, and converted to objects.
 class VolumesTest : public QObject {
   Q_OBJECT
 
@@ -86,7 +86,8 @@ void VolumesTest::densities_of_16_bits_are_exact() {
 void VolumesTest::others_are_near_to_a_65535th() {
   const auto volume = volume_of({3, 1, 1}, {0.25, 1e-3, 7});
   for (const auto& [voxel, density] : {std::pair(0, 0.25), {1, 1e-3}, {2, 7.0}}) {
-    QVERIFY(std::abs(volume.density(std::size_t(voxel)) - density) <= 7.0 / 65535 / 2 * 1.01);  // half a step
+    QVERIFY(std::abs(volume.density(std::size_t(voxel)) - density) <=
+            7.0 / 65535 / 2 * 1.01);  // half a step of density
   }
   QVERIFY(error_of([] { volume_of({2, 1, 1}, {1, std::nan("")}); }).startsWith("volume: the density of voxel 1 is no"));
 }
@@ -100,12 +101,13 @@ void VolumesTest::a_head_says_what_the_data_are() {
   QCOMPARE(volume.size, (std::array<std::uint32_t, 3>{2, 2, 1}));
   QCOMPARE(volume.spacing, Point(0.5, 1, 2));
   QCOMPARE(volume.origin, Point(1, 2, 3));
-  QCOMPARE(volume.density(0), 256.0);  // the highest byte first
+  QCOMPARE(volume.density(0), 256.0);  // big-endian: the highest byte comes first
   QCOMPARE(volume.density(1), 2.0);
   QCOMPARE(volume.density(3), 4096.0);
 }
 
-/// 'Position' and 'Origin' are other names of 'Offset'. A negative spacing is the distance of voxels all the same.
+/// 'Position' and 'Origin' are other names of 'Offset'. The absolute value of a negative spacing is the distance
+/// between voxels.
 void VolumesTest::heads_of_other_programs_use_other_keys() {
   const std::string size = "NDims = 3\nDimSize = 1 1 1\nElementType = MET_UCHAR\n", end = "ElementDataFile = LOCAL\n";
   for (const char* key : {"Offset", "Position", "Origin"}) {
@@ -114,7 +116,7 @@ void VolumesTest::heads_of_other_programs_use_other_keys() {
   for (const char* key : {"ElementSpacing", "ElementSize"}) {
     QCOMPARE(read_metaimage_head(size + key + " = 0.5 -1 2\n" + end, "a.mha").spacing, Point(0.5, 1, 2));
   }
-  // The size of a voxel is its spacing where that is not given, in whatever order.
+  // If the spacing is missing, the size of a voxel replaces it. The order of the lines does not matter.
   for (const char* both :
        {"ElementSpacing = 3 3 3\nElementSize = 1 2 1\n", "ElementSize = 1 2 1\nElementSpacing = 3 3 3\n"}) {
     QCOMPARE(read_metaimage_head(size + both + end, "a.mha").spacing, Point(3, 3, 3));
@@ -148,17 +150,18 @@ void VolumesTest::data_that_end_too_soon_are_refused() {
             metaimage_volume(read, std::string(7, 'x'), "a.mha");
           }).startsWith("a.mha: its data end after 7 of 8 bytes; "));
   read.compressed = true;
-  QVERIFY(error_of([&] { metaimage_volume(read, std::string(7, 'x'), "a.mha"); }).contains("packed data are damaged"));
+  QVERIFY(
+      error_of([&] { metaimage_volume(read, std::string(7, 'x'), "a.mha"); }).contains("compressed data are damaged"));
   read.size = {1'000'000, 1'000'000, 1'000'000};
   QVERIFY(error_of([&] { metaimage_volume(read, std::string(7, 'x'), "a.mha"); }).contains("there are more than"));
 }
 
-/// What 100 KB unpack to is never there as a whole: two bytes a voxel are taken, and no copy of the data beside them.
+/// 100 KB of compressed data are never decompressed as a whole: memory is taken only for the two bytes per voxel.
 void VolumesTest::packed_data_are_unpacked_in_pieces() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   QSKIP("a sanitizer takes memory of its own");
 #endif
-  constexpr std::size_t edge = 464;  // 100 million voxels of a byte
+  constexpr std::size_t edge = 464;  // 100 million voxels of one byte
   auto read = read_metaimage_head(head + "ElementDataFile = LOCAL\n", "a.mha");
   read.size = {edge, edge, edge};
   read.type = "MET_UCHAR";
@@ -167,7 +170,7 @@ void VolumesTest::packed_data_are_unpacked_in_pieces() {
   QByteArray plain(qsizetype(voxels), '\0');
   plain[qsizetype(voxels) / 2] = 7;
   plain.back() = 9;
-  const QByteArray packed = qCompress(plain).mid(4);  // behind Qt's own word: zlib's format
+  const QByteArray packed = qCompress(plain).mid(4);  // skips Qt's own header; zlib's format follows
   plain = QByteArray();
   QVERIFY(packed.size() < 200'000);
   const std::size_t before = resident("VmRSS");
@@ -205,10 +208,10 @@ void VolumesTest::an_nrrd_header_names_one_file_data() {
   QTest::newRow("odd") << QByteArray(" data file: a") << ""
                        << "a.nhdr:2: ' data file: a' is not a field of a header; ";
   QTest::newRow("two lines in one") << QByteArray("type: char\rdata file: a") << ""
-                                    << "a.nhdr:2: a line of its header holds a carriage return; ";
+                                    << "a.nhdr:2: a line of its header contains a carriage return; ";
 }
 
-/// Teem reads the header; which file it then opens is decided here.
+/// Teem reads the header, but our code decides which file it opens.
 void VolumesTest::an_nrrd_header_names_one_file() {
   QFETCH(QByteArray, field);
   QFETCH(QString, name);
@@ -224,7 +227,7 @@ void VolumesTest::an_nrrd_header_names_one_file() {
 }
 
 void VolumesTest::voxels_above_a_threshold_are_elements() {
-  // A square of four, one more beside, and one apart.
+  // A square of four voxels, one next to it, and one separate.
   const auto volume = volume_of({3, 3, 1}, {5, 5, 5, 5, 5, 0, 0, 0, 5});
   const auto block = voxel_block(volume, {4.0, 1, true}, "v");
   QCOMPARE(block.mesh->element_count(), 6U);
@@ -237,17 +240,17 @@ void VolumesTest::voxels_above_a_threshold_are_elements() {
 }
 
 void VolumesTest::several_voxels_make_one_element() {
-  // 4 x 2: means of the two squares 2.5 and 10; the second alone is dense enough.
+  // 4 x 2 voxels: the means of the two squares are 2.5 and 10. Only the second one is dense enough.
   const auto block = voxel_block(volume_of({4, 2, 1}, {1, 2, 10, 10, 3, 4, 10, 10}), {2.6, 2, true}, "v");
   QCOMPARE(block.mesh->element_count(), 1U);
   QCOMPARE(block.mesh->rest_position(0), Point(2.5, 0.5, 0.5));
   std::vector<double> many(std::size_t{60} * 60 * 60, 1.0);
   const auto coarser = voxel_block(volume_of({60, 60, 60}, many), {0.5, {}, true}, "v");
-  QCOMPARE(coarser.every, 2U);  // 216,000 voxels are more than answer a hand at once
+  QCOMPARE(coarser.every, 2U);  // 216,000 voxels are too many for real time
   QCOMPARE(coarser.mesh->element_count(), 27'000U);
 }
 
-/// Five voxels, two to an element: the fifth is one by itself, as dense as it is.
+/// Five voxels with two per element: the fifth one is an element alone, with its own density.
 void VolumesTest::what_is_left_at_the_border_makes_an_element_too() {
   const auto block = voxel_block(volume_of({5, 1, 1}, {9, 9, 9, 9, 9}), {8.0, 2, true}, "v");
   QCOMPARE(block.mesh->element_count(), 3U);
@@ -257,7 +260,7 @@ void VolumesTest::what_is_left_at_the_border_makes_an_element_too() {
 void VolumesTest::what_is_dense_is_stiff() {
   const auto volume = volume_of({4, 1, 1}, {10, 10, 20, 20});
   const auto block = voxel_block(volume, {10.0, 1, true}, "v");
-  QCOMPARE(block.softness.count(0), std::size_t{0});               // at the threshold: the standard
+  QCOMPARE(block.softness.count(0), std::size_t{0});               // at the threshold: the default
   QCOMPARE(block.softness.at(1), (LinkSoftness{0.9, 1.1, 0.05}));  // halfway, exact in binary steps of 1/32
   QCOMPARE(block.softness.at(2), (LinkSoftness{1, 1, 0}));
   QVERIFY(voxel_block(volume, {10.0, 1, false}, "v").softness.empty());
@@ -268,7 +271,8 @@ void VolumesTest::otsu_parts_two_heaps() {
   QVERIFY(threshold > 2 && threshold <= 100);
 }
 
-/// Every way to part the densities is tried. Few different ones in some volumes, so that several ways are equally good.
+/// The threshold is as good as the best of all thresholds. Some volumes have few different densities, so that several
+/// thresholds are equally good.
 void VolumesTest::otsu_finds_the_largest_variance_between_classes() {
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 500; ++trial) {
@@ -288,13 +292,13 @@ void VolumesTest::otsu_finds_the_largest_variance_between_classes() {
     QVERIFY2(variance_between(volume, threshold) >= best * (1 - 1e-12), qPrintable(QString::number(threshold)));
   }
   QCOMPARE(otsu_threshold(volume_of({4, 1, 1}, {0, 10, 90, 100})), 50.0);  // midway between the classes
-  // Two ways are equally good, with the lowest or the highest alone; what lies between them is not.
+  // Two thresholds are equally good: one separates the lowest density, one the highest. Those between them are worse.
   const auto tied = volume_of({4, 1, 1}, {0, 13, 17, 30});
   QCOMPARE(variance_between(tied, 13), variance_between(tied, 30));
   QVERIFY(variance_between(tied, otsu_threshold(tied)) > variance_between(tied, 17));
 }
 
-/// A section through the object shows, at each element, the density of the voxel that the element is.
+/// A section through the object shows at each element the density of its voxel.
 void VolumesTest::each_voxel_shows_its_density_at_its_centre() {
   std::vector<double> densities;
   for (int i = 0; i < 3 * 2 * 4; ++i) {

@@ -11,7 +11,7 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Pictures as sheets, and what becomes of them when the sheet is deformed.
+/// Tests pictures as sheets, and their warped pictures after the sheet is deformed.
 class WarpTest : public QObject {
   Q_OBJECT
 
@@ -47,7 +47,7 @@ Texture plain(std::uint32_t width, std::uint32_t height) {
   return picture;
 }
 
-/// A sheet whose elements stand where `place` has them, in single precision as a panel's do.
+/// A sheet with its elements at the positions that `place` returns, in single precision as in a panel.
 struct Sheet {
   explicit Sheet(const MeshPointer& of) : mesh(of), cuts(of) {
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
@@ -81,7 +81,7 @@ std::uint8_t opacity(const Texture& picture, std::uint32_t x, std::uint32_t y) {
 
 void WarpTest::a_sheet_stands_on_its_pictures_border() {
   const auto mesh = make_sheet(noise(300, 200), 16);
-  QCOMPARE(mesh->element_count(), 16U * 11U);  // a row every 20 pixels, as the columns
+  QCOMPARE(mesh->element_count(), 16U * 11U);  // one row and one column every 20 pixels
   QCOMPARE(mesh->rest_position(15), Point(300, 0, 0));
   QCOMPARE(mesh->rest_position(16 * 11 - 1), Point(300, 200, 0));
   QCOMPARE(mesh->rest_position(1), Point(20, 0, 0));
@@ -90,7 +90,7 @@ void WarpTest::a_sheet_stands_on_its_pictures_border() {
   QCOMPARE(mesh->texture->box[1], Point(300, 200, 0));
   QVERIFY(is_sheet(*mesh));
   QVERIFY(!is_sheet(*make_mesh(MeshKind::cloth, {4, 4, 1})));
-  QCOMPARE(sheet_size({1000, 1}, 2), (std::array<std::uint32_t, 2>{2, 2}));  // no flat sheet has less
+  QCOMPARE(sheet_size({1000, 1}, 2), (std::array<std::uint32_t, 2>{2, 2}));  // the smallest sheet
 }
 
 void WarpTest::a_sheet_beyond_the_limit_is_refused() {
@@ -132,7 +132,8 @@ void WarpTest::twice_as_wide_it_is_sampled_between_the_texels() {
   sheet.put_all([](const Point& p) { return Point(2 * p.x(), p.y(), 0); });
   const Texture picture = sheet.picture();
   QCOMPARE(picture.size, (std::array<std::uint32_t, 3>{80, 24, 1}));
-  // Pixel x has its centre at (x + 0.5) / 2 of the picture: a quarter of a texel from one centre, three from the next.
+  // The centre of pixel x is at (x + 0.5) / 2 in the picture: a quarter of a texel from one texel's centre, and three
+  // quarters from the next.
   for (std::uint32_t y = 0; y < 24; ++y) {
     for (std::uint32_t x = 0; x < 80; ++x) {
       const auto texel = [&](int column) {
@@ -142,33 +143,33 @@ void WarpTest::twice_as_wide_it_is_sampled_between_the_texels() {
       const int nearest = int(x / 2), other = nearest + (x % 2 == 0 ? -1 : 1);
       const double expected = 0.75 * texel(nearest) + 0.25 * texel(other);
       const double is = picture.texels[4 * (y * std::size_t{80} + x)];
-      QVERIFY(std::abs(is - expected) <= 0.51);  // it is rounded to a whole step
+      QVERIFY(std::abs(is - expected) <= 0.51);  // rounded to a whole step of brightness
     }
   }
 }
 
 void WarpTest::what_is_cut_is_transparent() {
-  Sheet sheet(make_sheet(plain(40, 40), 5));  // a square is ten pixels
+  Sheet sheet(make_sheet(plain(40, 40), 5));  // each square has ten pixels along each side
   const LinkId diagonal = *find_link(*sheet.mesh, 6, 12);
   sheet.cuts.cut(diagonal);
   const Texture picture = sheet.picture();
   for (std::uint32_t y = 0; y < 40; ++y) {
     for (std::uint32_t x = 0; x < 40; ++x) {
-      const bool gone = x >= 10 && x < 20 && y >= 10 && y < 20;  // both of its triangles
+      const bool gone = x >= 10 && x < 20 && y >= 10 && y < 20;  // both triangles of the square
       QCOMPARE(opacity(picture, x, y), std::uint8_t(gone ? 0 : 255));
     }
   }
 }
 
-/// The border stays, so that every pixel has its place in the sheet however the inside moves, and even where it folds:
-/// one that is missed between two triangles is transparent.
+/// The border stays, so every pixel lies in the sheet, even if the inside moves or folds. A transparent pixel would be
+/// a gap between two triangles.
 void WarpTest::in_any_shape_no_pixel_is_missed() {
   std::mt19937_64 random(11);
   for (int turn = 0; turn < 20; ++turn) {
     Sheet sheet(make_sheet(plain(64, 64), 9));
     sheet.put_all([&](const Point& p) {
       const bool border = p.x() == 0 || p.y() == 0 || p.x() == 64 || p.y() == 64;
-      const double by = turn == 0 ? 0.5 : 3;  // half pixels put edges through centres
+      const double by = turn == 0 ? 0.5 : 3;  // with half pixels, edges run through centres of pixels
       return border ? p
                     : Point(p.x() + std::round(uniform(random, -by, by) * 2) / 2,
                             p.y() + std::round(uniform(random, -by, by) * 2) / 2, 0);

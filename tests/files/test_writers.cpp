@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The first two elements 0.3 apart from where they were, a number that takes all its digits.
+/// Moves the first two elements by 0.3, a number that needs all its digits.
 std::vector<double> pulled(const Mesh& mesh) {
   std::vector<double> positions = mesh.rest;
   for (int k = 0; k < 2 * mesh.space_dimension; ++k) {
@@ -28,7 +28,7 @@ PositionView view(const Mesh& mesh, const std::vector<double>& positions) {
   return {positions.data(), mesh.space_dimension * sizeof(double), Precision::double_precision};
 }
 
-/// A tetrahedron, a hexahedron, a pentagon and a link that is along none of them.
+/// A tetrahedron, a hexahedron, a pentagon, and a link that is not an edge of any of them.
 MeshPointer one_of_each() {
   MeshParts parts;
   for (int z = 0; z < 2; ++z) {
@@ -52,7 +52,7 @@ std::string written(const char* name, const MeshState& state) {
   return out.str();
 }
 
-/// The numbers of a text's lines from the one after `begin` to the one before `end`.
+/// Returns the numbers in the lines of a text between the lines `begin` and `end`.
 QList<QList<double>> rows(const std::string& text, const std::string& begin, const std::string& end) {
   QList<QList<double>> result;
   std::istringstream lines(text.substr(text.find(begin + "\n") + begin.size() + 1));
@@ -65,7 +65,7 @@ QList<QList<double>> rows(const std::string& text, const std::string& begin, con
   return result;
 }
 
-/// An array of a .vtu file, by its name.
+/// Returns the array with this name in a .vtu file.
 template <class Number>
 QList<Number> array(const std::string& text, const std::string& name) {
   const auto begin = text.find('\n', text.find("Name=\"" + name + "\"")) + 1;
@@ -83,7 +83,7 @@ QList<Number> array(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-/// What is written, as a reader of each format takes it.
+/// Tests the written files as a reader of each format reads them.
 class WritersTest : public QObject {
   Q_OBJECT
 
@@ -111,7 +111,7 @@ void WritersTest::ply_holds_faces_and_edges() {
   QVERIFY(text.find("element vertex 10\n") != text.npos && text.find("element face 2\n") != text.npos);
   const auto body = rows(text, "end_header", "");
   QCOMPARE(body.mid(10, 2), (QList<QList<double>>{{5, 0, 3, 7, 8, 4}, {4, 0, 1, 2, 3}}));
-  // Both faces together have all their links but one twice.
+  // The two faces share one link.
   QCOMPARE(body.size(), 10 + 2 + qsizetype(mesh_->link_count()) - (5 + 4 - 1));
   QCOMPARE(body.last(), (QList<double>{8, 9}));
   QVERIFY(text.find("element edge " + std::to_string(body.size() - 12) + "\n") != text.npos);
@@ -127,7 +127,7 @@ void WritersTest::ply_without_edges_names_none() {
 void WritersTest::vtu_holds_every_piece() {
   const std::string text = written("a.vtu", {*mesh_, {}, rest_positions(*mesh_), softness_});
   QVERIFY(text.find("NumberOfPoints=\"10\" NumberOfCells=\"5\"") != text.npos);
-  // A line, for 8-9; pentagon, quadrangle, tetrahedron, hexahedron.
+  // One line for 8-9; then pentagon, quadrangle, tetrahedron and hexahedron.
   QCOMPARE(array<std::uint8_t>(text, "types"), (QList<std::uint8_t>{3, 7, 9, 10, 12}));
 }
 
@@ -143,7 +143,8 @@ void WritersTest::vtu_holds_both_fields() {
   QCOMPARE(violation.size(), 10);
   QCOMPARE(displacement[4], positions[4] - mesh_->rest[4]);
   QCOMPARE(displacement[6], 0.0);
-  // Element 3 hangs on 0, which moved and may, and on 2 and 7, which did not; 4 on 0, which may not.
+  // Element 3 has links to 0, which moved within its valid region, and to 2 and 7, which did not move. The link between
+  // 4 and 0 is violated.
   QCOMPARE(violation[3], 0.0);
   QCOMPARE(violation[4], link_violation(*mesh_, softness, at, *find_link(*mesh_, 0, 4)));
   QVERIFY(violation[4] > 0.1);
@@ -161,7 +162,7 @@ void WritersTest::msh_is_as_documented() {
 void WritersTest::msh_tells_large_faces_by_their_links() {
   const auto elements =
       rows(written("a.msh", {*mesh_, {}, rest_positions(*mesh_), softness_}), "$Elements", "$EndElements");
-  // Lines: 7-8, of the pentagon alone, and 8-9; then the quadrangle and the cells.
+  // Lines: 7-8, which only the pentagon has, and 8-9; then the quadrangle and the cells.
   QCOMPARE(elements, (QList<QList<double>>{{4, 5, 1, 5},
                                            {1, 1, 1, 2},
                                            {1, 8, 9},
@@ -183,19 +184,19 @@ void WritersTest::msh_of_elements_alone() {
   QVERIFY(text.ends_with("$Elements\n0 0 0 0\n$EndElements\n"));
 }
 
-/// Whatever used a cut link is gone; its other links are there as lines.
+/// Faces and cells with a cut link are left out; their other links are written as lines.
 void WritersTest::cut_pieces_are_gone() {
   Cuts cuts(mesh_);
-  cuts.cut(*find_link(*mesh_, 4, 5));  // of the tetrahedron and the hexahedron
+  cuts.cut(*find_link(*mesh_, 4, 5));  // an edge of the tetrahedron and the hexahedron
   const MeshState state{*mesh_, cuts, rest_positions(*mesh_), softness_};
   const auto types = array<std::uint8_t>(written("a.vtu", state), "types");
   QVERIFY(!types.contains(10) && !types.contains(12));
   QVERIFY(types.contains(7) && types.contains(9));
-  // Each remaining link once: five along the pentagon, four along the quadrangle, which share one.
+  // Each remaining link occurs once: the pentagon has five, the quadrangle four, and they share one.
   QCOMPARE(types.count(3), qsizetype(mesh_->link_count()) - 1 - 8);
   const auto lines = rows(written("a.msh", state), "$Elements", "$EndElements");
   QCOMPARE(lines[1][3], double(mesh_->link_count() - 1 - 4));
-  cuts.cut(*find_link(*mesh_, 0, 3));  // of both faces
+  cuts.cut(*find_link(*mesh_, 0, 3));  // an edge of both faces
   QVERIFY(written("a.ply", {*mesh_, cuts, rest_positions(*mesh_), softness_}).find("element face 0\n") !=
           std::string::npos);
 }

@@ -1,5 +1,6 @@
-// damaged SECONDS SEED KEPT FOLDER…: damages the meshes and volumes of folders, at random by the seed, and opens each,
-// libraries' child process and all. What does neither open nor get one sentence in time is kept in KEPT.
+// damaged SECONDS SEED KEPT FOLDER…: damages the meshes and volumes in folders, with random numbers from the seed, and
+// opens each of them, including the child process of libraries. A file that neither opens nor gives one error sentence
+// in time is copied to KEPT.
 
 #include <chrono>
 #include <cstdlib>
@@ -24,9 +25,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr double most_seconds = 20;  // for one small file, on a busy machine
 
-/// A file and those that belong to it, by their names.
+/// A file and the files that belong to it, by their names.
 struct Sample {
-  std::string name;  // of the one to open
+  std::string name;  // name of the file to open
   std::map<std::string, std::string> parts;
 };
 
@@ -44,7 +45,8 @@ bool is_mesh(const fs::path& path) {
   }
 }
 
-/// TetGen's other half, or data that a head names.
+/// Returns true if `other` belongs to `path`: it is the other file of TetGen's pair, or the data file that the header
+/// names.
 bool belongs_to(const fs::path& other, const fs::path& path, const std::string& head) {
   const auto ending = path.extension();
   return other != path &&
@@ -117,13 +119,13 @@ class Damage {
     }
   }
 
-  /// Often one that texts hold, so that they stay texts.
+  /// Returns a random character. It is often one that occurs in texts, so that texts stay texts.
   char any_byte() {
     static constexpr std::string_view of_texts = "0123456789 -.e\n";
     return below(3) > 0 ? of_texts[below(of_texts.size())] : static_cast<char>(random_());
   }
 
-  /// The next number of a text, by one that is no good; near the beginning stand the counts.
+  /// Replaces the first number after `place` by another one.
   static void replace_number(std::string& bytes, std::size_t place, const std::string& number) {
     const std::size_t first = bytes.find_first_of("0123456789", place);
     if (first != std::string::npos) {
@@ -136,7 +138,7 @@ class Damage {
 
 struct Outcome {
   bool opened = false;
-  std::string fault;  // of ours
+  std::string fault;  // fault of our program
 };
 
 Outcome open_one(const fs::path& path) {
@@ -162,7 +164,7 @@ struct Tally {
   unsigned opened = 0, refused = 0;
 };
 
-/// Says whether all went well.
+/// Returns true if there was no fault.
 bool run(double seconds, unsigned seed, const fs::path& kept, const std::vector<Sample>& samples) {
   Damage damage(seed);
   std::map<std::string, Tally> tallies;

@@ -6,7 +6,7 @@ using namespace chainmail;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::read_or_refuse([&] {
     const NrrdHead head = read_nrrd_head(fuzz::text_of(data, size), "fuzz.nhdr");
-    // The header that teem gets names the link beside it, or nothing.
+    // The header for teem names the link next to it, or no file.
     const NrrdHead again = read_nrrd_head(head.text, "fuzz.nhdr");
     fuzz::expect(again.data_file == (head.data_file.empty() ? "" : "data"), "a header that names another file");
     fuzz::expect(again.text == head.text, "a header that changes when it is read again");

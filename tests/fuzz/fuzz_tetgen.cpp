@@ -5,7 +5,7 @@
 using namespace chainmail;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  // Two files in one: what follows a line of three dashes is the second.
+  // Two files in one: a line of three dashes separates them.
   const std::string_view text = fuzz::text_of(data, size);
   constexpr std::string_view between = "---\n";
   const std::size_t end = text.find(between);

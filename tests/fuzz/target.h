@@ -31,7 +31,7 @@ inline void expect(bool holds, const char* what) {
   }
 }
 
-/// An error is one line that steers no terminal.
+/// Checks that an error is one line without control characters.
 inline void check_sentence(const std::string& sentence) {
   for (const unsigned char character : sentence) {
     if (character < ' ' || character == 0x7f) {
@@ -40,10 +40,10 @@ inline void check_sentence(const std::string& sentence) {
   }
 }
 
-/// What every object holds, whatever it was read from.
+/// Checks the conditions that every object must meet.
 inline void check_mesh(const Mesh& mesh) {
   for (const double coordinate : mesh.rest) {
-    expect(std::abs(coordinate) <= coordinate_limit, "a coordinate that is none");  // NaN is not either
+    expect(std::abs(coordinate) <= coordinate_limit, "a coordinate that is none");  // also fails for NaN
   }
   for (const auto& [a, b] : mesh.links) {
     expect(a < b && b < mesh.element_count(), "a link of no elements");
@@ -60,7 +60,7 @@ inline void check_mesh(const Mesh& mesh) {
   expect_ids(mesh.hexahedra);
 }
 
-/// Calls a reader: it returns, or it refuses what it is given. Any other exception ends the program.
+/// Calls a reader, which must return or throw Error. Any other exception ends the program.
 template <class Read>
 void read_or_refuse(Read read) {
   try {
@@ -71,7 +71,7 @@ void read_or_refuse(Read read) {
   }
 }
 
-/// What a function writes, as a string.
+/// Returns the text that a function writes.
 template <class Write>
 std::string written(Write write) {
   std::ostringstream out;

@@ -60,7 +60,7 @@ void add_meshes(std::vector<Case>& all) {
 
 void add_hands(std::vector<Case>& all) {
   all.push_back(make("handle at 1e30", make_grid(12, 12), usual, drag(78, Point(1e30, -1e30, 0))));
-  all.push_back(make("the smallest step", make_grid(12, 12), usual, [](Scene& scene, Outcome& outcome) {
+  all.push_back(make("the smallest move", make_grid(12, 12), usual, [](Scene& scene, Outcome& outcome) {
     const auto before = scene.positions();
     for (int i = 0; i < 100; ++i) {
       scene.drag_by(0, Point(1e-45, -1e-45, 0));

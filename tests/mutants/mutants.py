@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Puts random single-line faults ("mutants") into copies of the source and reports which of them the tests catch.
 
-Started by `tests/run mutants`, after the release build with its tests, whose compile database and dependency log say
-what belongs together. Each worker has a copy of the source. It changes one line there, builds and runs the related
-tests one after another, and stops at the first that fails. A mutant that does not compile is replaced by another one.
+`tests/run mutants` starts it after the release build with tests, and it uses the dependency log of that build. Each
+worker has a copy of the source. It changes one line there, builds and runs the related tests one after another, and
+stops at the first one that fails. A mutant that does not compile is replaced by another one.
 
 Related tests are those that include the header of the changed file, the most specific first, and then all tests of
 its room. A test counts as failing only if it fails twice.
@@ -22,7 +22,7 @@ import sys
 import threading
 import time
 
-# Where faults are put: the rooms, and the folders of tests that are run for them.
+# The rooms that get faults, and the folders of tests that run for them.
 ROOMS = {
     "core/mesh": ["core", "files"],
     "core/elastic": ["core"],
@@ -36,8 +36,8 @@ ROOMS = {
     "ui": ["ui"],
 }
 
-# Each operator: its name, a pattern, and what takes its place. Binary operators stand between spaces in this source,
-# which keeps templates and pointers out.
+# Each operator: its name, a pattern, and the replacement. Binary operators have spaces around them in this source, but
+# templates and pointers do not.
 SWAPS = [
     ("comparison", r" < ", " <= "), ("comparison", r" <= ", " < "),
     ("comparison", r" > ", " >= "), ("comparison", r" >= ", " > "),
@@ -52,10 +52,10 @@ SWAPS = [
 ]
 NUMBER = re.compile(r"(?<![\w.'])(\d+)(?![\w.'>])")
 REAL = re.compile(r"(?<![\w.'])(\d+\.\d+)(?![\w.'])")
-# Its value is a choice: a time to wait, a size on the screen. One more or less of it is not wrong.
+# Named constants are choices, like a waiting time or a size on the screen. A slightly different value is not wrong.
 NAMED_CONSTANT = re.compile(r"^\s*(static |inline )*constexpr \w[\w:<>, ]* \w+ = [^;]*;")
 STATEMENT = re.compile(r"^\s+[\w.>\-\[\]]+(\(.*\)| [+\-*/]?= .*);$")
-# Lines without behaviour that a test could see: declarations, checks of the compiler, hints to memory, layout.
+# Lines without behaviour that a test could check: declarations, compile-time checks, memory hints, layout.
 PASSED_OVER = re.compile(
     r"^\s*(#|//|using |namespace |template |static_assert|assert\(|friend |class |struct |enum |case .*:$|public:|private:)"
     r"|reserve\(|prefetch|shrink_to_fit|setSpacing|setContentsMargins|Margin|static_cast<void>|NOLINT|operator")
@@ -64,14 +64,14 @@ Mutant = collections.namedtuple("Mutant", "path line operator before after")
 
 
 def code_only(line):
-    """The line with strings, characters and comments blanked out, so that places stay the same."""
+    """Returns the line with strings, characters and comments replaced by the same number of other characters."""
     blank = lambda match: " " * len(match.group())
     line = re.sub(r'"(\\.|[^"\\])*"|(?<!\d)\'(\\.|[^\'\\])\'', lambda m: '"' + "_" * (len(m.group()) - 2) + '"', line)
     return re.sub(r"//.*", blank, line)
 
 
 def mutants_of(path, number, line):
-    """All faults that the operators can put into one line."""
+    """Returns all faults that the operators can put into one line."""
     code = code_only(line)
     if PASSED_OVER.search(code):
         return []
@@ -82,7 +82,7 @@ def mutants_of(path, number, line):
 
     for operator, pattern, text in SWAPS:
         if operator == "arithmetic" and '"' in code:
-            continue  # strings are joined there
+            continue  # the operator joins strings
         for match in re.finditer(pattern, code):
             if operator == "negation":
                 add(operator, match.start(), len(line), "if (!(" + line[match.end():-3] + ")) {")
@@ -99,7 +99,7 @@ def mutants_of(path, number, line):
 
 
 def source_files(root):
-    """All files of the checkout that belong to the project, without git, which an export does not have."""
+    """Returns all files of the project. It does not use git, so that it works in an export too."""
     files = []
     for folder, folders, names in os.walk(root):
         inside = pathlib.Path(folder).relative_to(root)
@@ -113,13 +113,13 @@ def room_of(path):
 
 
 def is_candidate(path, wanted):
-    # Templates live in the headers of core/solve; other headers declare.
+    # Only the headers of core/solve contain templates; other headers contain declarations.
     is_source = path.endswith(".cpp") or (path.endswith(".h") and path.startswith("core/solve/"))
     return is_source and room_of(path) and any(path == w or path.startswith(w.rstrip("/") + "/") for w in wanted)
 
 
 def draw(root, wanted, generator):
-    """Endless mutants: a random line among all that have any, then a random fault in it. No line comes twice."""
+    """Yields mutants: a random fault in each line that can have one, in random order of the lines."""
     lines = []
     for path in sorted(filter(lambda p: is_candidate(p, wanted), source_files(root))):
         for number, line in enumerate((root / path).read_text().split("\n")):
@@ -131,11 +131,11 @@ def draw(root, wanted, generator):
 
 
 class Tests:
-    """Which tests exist, what each includes, and how long it takes, from the release build."""
+    """The tests of the release build, with the files that each includes and the time that it takes."""
 
     def __init__(self, root):
         build = root / "build/release"
-        self.includes = {}  # of each test: the project's files that its own sources include
+        self.includes = {}  # per test: the files of the project that its sources include
         self.folder = {}
         deps = subprocess.run(["ninja", "-C", build, "-t", "deps"], check=True, capture_output=True, text=True).stdout
         name = None
@@ -154,8 +154,8 @@ class Tests:
         known = set(re.findall(r"Test +#\d+: (\S+)", known))
         self.includes = {name: files for name, files in self.includes.items() if name in known}
         if not self.includes:
-            sys.exit("mutants: the release build has no tests; start it by tests/run mutants")
-        self.seconds = collections.defaultdict(lambda: 12.0)  # until it is known
+            sys.exit("mutants: the release build has no tests; start it with tests/run mutants")
+        self.seconds = collections.defaultdict(lambda: 12.0)  # default until the time is known
         costs = build / "Testing/Temporary/CTestCostData.txt"
         for line in costs.read_text().splitlines() if costs.exists() else []:
             if match := re.match(r"(\S+) (\d+) ([\d.]+)$", line):
@@ -163,7 +163,7 @@ class Tests:
                     self.seconds[match.group(1)] = float(match.group(3))
 
     def related(self, path):
-        """The tests for a file: those that include its header, then those of its room; specific and quick ones first."""
+        """Returns the tests for a file, specific and fast ones first: those with its header, then those of its room."""
         header = re.sub(r"\.cpp$", ".h", path)
         words = set(re.findall(r"[a-z]+", pathlib.Path(path).stem))
         folders = ROOMS[room_of(path)]
@@ -178,7 +178,7 @@ class Tests:
 
 
 class Worker:
-    """A copy of the source with a build of its own."""
+    """A copy of the source with its own build."""
 
     def __init__(self, root, number, tests):
         self.root, self.tests = root, tests
@@ -186,17 +186,17 @@ class Worker:
         self.home = root / f"build/mutants/home{number}"
         self.home.mkdir(parents=True, exist_ok=True)
         self.home.chmod(0o700)
-        self.reliable = {}  # of each test that failed here: whether it passes without a fault
+        self.reliable = {}  # per test that failed here: True if it passes without a fault
         self.environment = dict(os.environ, CCACHE_BASEDIR=str(self.copy), HOME=str(self.home),
                                 XDG_RUNTIME_DIR=str(self.home), CCACHE_DIR=os.environ["CCACHE_DIR"])
         self.update()
-        # As the release build is configured, so that ccache knows the objects.
+        # Uses the options of the release build, so that ccache knows the objects.
         cache = (root / "build/release/CMakeCache.txt").read_text()
         options = ["-D" + line for line in re.findall(r"^(?:CHAINMAIL_TESTS|CMAKE_COMPILE_WARNING_AS_ERROR):.*", cache, re.M)]
         self.run(["cmake", "--preset", "release", *options], check=True)
 
     def update(self):
-        """Brings the copy up to date; files that are the same keep their time, so that nothing is built anew."""
+        """Updates the copy. Unchanged files keep their time, so that they are not built again."""
         files = set(source_files(self.root))
         for name in files:
             source, target = self.root / name, self.copy / name
@@ -228,7 +228,7 @@ class Worker:
         """Builds the object files of a source, or, for a header, of the library that holds the templates."""
         if path.endswith(".h"):
             return self.build("chainmail_core")
-        # Ninja knows the sources of the window by their whole path, the others from its folder.
+        # Ninja has absolute paths for the sources of the window, and relative paths for the others.
         return self.build(f"../../{path}^") or self.build(f"{self.copy / path}^")
 
     def fails(self, test):
@@ -237,7 +237,7 @@ class Worker:
         return all(self.run(command, seconds=limit)[0] != 0 for _ in range(2))
 
     def is_reliable(self, test):
-        """True where a test passes here without a fault. The source must be as it was."""
+        """Returns True if a test passes here without a fault. The source must be unchanged."""
         if test not in self.reliable:
             self.reliable[test] = self.build(f"test_{test}") and not self.fails(test)
             if not self.reliable[test]:
@@ -245,7 +245,7 @@ class Worker:
         return self.reliable[test]
 
     def examine(self, mutant):
-        """The name of the test that catches a mutant, '' if none does, None if it does not compile."""
+        """Returns the name of the test that catches a mutant; '' if none does, None if it does not compile."""
         tests = [test for test in self.tests.related(mutant.path) if self.reliable.get(test, True)]
         while True:
             caught = self.first_failure(mutant, tests)
@@ -264,7 +264,7 @@ class Worker:
                 return None
             for test in tests:
                 if not self.build(f"test_{test}"):
-                    return None  # a header that this test alone compiles
+                    return None  # it is a header that only this test compiles
                 if self.fails(test):
                     return test
             return ""
@@ -284,14 +284,14 @@ def main():
     parser.add_argument("--room", default="all", help="all, or a folder or file under " + ", ".join(ROOMS))
     parser.add_argument("--seed", type=int)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--at-least", type=float, default=0, help="the share to be caught, or the exit status is 1")
+    parser.add_argument("--at-least", type=float, default=0, help="exit with status 1 if a smaller share is caught")
     options = parser.parse_args()
     root = options.root.resolve()
     wanted = list(ROOMS) if options.room == "all" else [options.room]
     seed = random.SystemRandom().randrange(1_000_000) if options.seed is None else options.seed
     candidates = draw(root, wanted, random.Random(seed))
     if not any(is_candidate(path, wanted) for path in source_files(root)):
-        sys.exit(f"mutants: {options.room} holds no sources; name a folder or file under {', '.join(ROOMS)}")
+        sys.exit(f"mutants: {options.room} contains no sources; use a folder or file under {', '.join(ROOMS)}")
     print(f"mutants: {options.count} in {options.room}, seed {seed}", flush=True)
 
     os.environ.setdefault("CCACHE_DIR", subprocess.run(["ccache", "-k", "cache_dir"], capture_output=True,

@@ -34,7 +34,7 @@ struct GeneralizedChainMail {
   }
 };
 
-/// Spiral (thesis 3.2, first alteration): to the back.
+/// Spiral (thesis 3.2, first alteration): each neighbour is added to the back.
 struct Spiral {
   template <class Scalar>
   static void add_neighbours(Object<Scalar>& object, ElementId sponsor, std::list<WaitingListData>& waiting_list) {
@@ -44,7 +44,8 @@ struct Spiral {
   }
 };
 
-/// Natural Queue ChainMail (thesis 4.1): to the back, and only where the processing state is not 'updated'.
+/// Natural Queue ChainMail (thesis 4.1): each neighbour is added to the back, but only if its processing state is not
+/// 'updated'.
 struct NaturalQueueChainMail {
   template <class Scalar>
   static void add_neighbours(Object<Scalar>& object, ElementId sponsor, std::list<WaitingListData>& waiting_list) {
@@ -56,7 +57,7 @@ struct NaturalQueueChainMail {
   }
 };
 
-/// Puts an element into its valid region R about its sponsor; says whether that changed its position.
+/// Moves an element into its valid region R about its sponsor. Returns true if its position changed.
 template <class Scalar>
 bool move_into_valid_region(Object<Scalar>& object, Element<Scalar>& element, ElementId sponsor) {
   const auto& about = object.element(sponsor).current_position;
@@ -69,7 +70,7 @@ bool move_into_valid_region(Object<Scalar>& object, Element<Scalar>& element, El
   return element.current_position != before;
 }
 
-/// Puts the grabbed element at its target.
+/// Moves the grabbed element to its target.
 template <class Scalar>
 void begin(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
   for (Element<Scalar>& element : object.elements) {
@@ -82,7 +83,7 @@ void begin(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3
   held.updated = true;
 }
 
-/// Updates a candidate that has not been updated; says whether it moved.
+/// Updates a candidate that has not been updated. Returns true if it moved.
 template <class Scalar>
 bool update(Object<Scalar>& object, const WaitingListData& next, std::vector<Processed>& processed) {
   Element<Scalar>& element = object.element(next.element);
@@ -92,7 +93,7 @@ bool update(Object<Scalar>& object, const WaitingListData& next, std::vector<Pro
   return moved;
 }
 
-/// One move and the pass that answers it; returns the candidates that were processed, in order.
+/// Runs one move with its pass. Returns the processed candidates in their order.
 template <class Algorithm, class Scalar>
 std::vector<Processed> move(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
   std::vector<Processed> processed;

@@ -8,9 +8,9 @@
 
 namespace reference {
 
-/// The least displacements that answer a move by D along an axis, by Bellman and Ford: all links are
-/// looked at, round after round, until nothing grows. In double, from positions that are valid; it knows
-/// nothing of queues, keys or mirrored axes. `cut` says which links carry nothing.
+/// Computes the smallest displacements that answer a move by D along an axis, with the algorithm of Bellman and Ford:
+/// it checks all links, round after round, until no displacement grows. Computed in double, from valid positions,
+/// without queues, keys or mirrored axes. `cut` marks links that are cut.
 class LeastAnswer {
  public:
   LeastAnswer(MeshPointer mesh, const FactorsOfLink& factors, std::function<bool(ElementId, ElementId)> cut)
@@ -20,7 +20,7 @@ class LeastAnswer {
     }
   }
 
-  /// Positions (element_count x space_dimension) after the grabbed element went to its target.
+  /// Returns the positions (element_count x space_dimension) after the grabbed element moved to its target.
   std::vector<double> move(const std::vector<double>& positions, ElementId grabbed,
                            const std::array<double, 3>& target) const {
     std::vector<double> result = positions;

@@ -10,25 +10,25 @@
 
 #include "mesh/mesh.h"
 
-/// ChainMail written literally from Dean 2004, sections 3.1, 4.1 and 4.2: lists, and a search through a
-/// list wherever something is looked up. Slow on purpose, and one code path apart from core/solve: the
-/// tests' oracle, and the 2004 baseline of the benchmarks. Of core it knows the mesh alone.
+/// ChainMail written literally from Dean 2004, sections 3.1, 4.1 and 4.2, with lists and linear searches. It is slow on
+/// purpose, and shares no code with core/solve: of core it uses only the mesh. It gives the expected results of tests,
+/// and the 2004 baseline of the benchmarks.
 namespace reference {
 
 using chainmail::ElementId;
 using chainmail::MeshPointer;
 
-/// Compression, stretch and shear factor of a link, relative to its rest vector.
+/// Compression, stretch and shear factors of a link, relative to its rest vector.
 struct Factors {
   double compression = 0.8;
   double stretch = 1.2;
   double shear = 0.1;
 };
-/// The factors of the link between two elements, the smaller id first.
+/// The factors of the link between two elements; the smaller id comes first.
 using FactorsOfLink = std::function<Factors(ElementId, ElementId)>;
 
 /// Thesis 4.2: Element = { identifier, original position, current position, processing state, list of
-/// neighbours }. Of the coordinates the first space_dimension ones exist.
+/// neighbours }. Only the first space_dimension coordinates exist.
 template <class Scalar>
 struct Element {
   ElementId identifier;
@@ -64,7 +64,7 @@ class Object {
     construct_softness(factors);
   }
 
-  /// Works the valid regions out "when the object is constructed" (thesis 4.2), or when they change.
+  /// Computes the valid regions "when the object is constructed" (thesis 4.2), or when the softness changes.
   void construct_softness(const FactorsOfLink& factors) {
     softness.clear();
     for (ElementId i = 0; i < mesh_->element_count(); ++i) {
@@ -86,13 +86,13 @@ class Object {
     });
   }
 
-  /// Cutting a link amends the lists of neighbours (thesis 4.4, enhancement 4).
+  /// Cuts a link: removes it from the lists of neighbours (thesis 4.4, enhancement 4).
   void cut(ElementId a, ElementId b) {
     element(a).neighbours.remove(b);
     element(b).neighbours.remove(a);
   }
 
-  /// Joins a link again, each end at the place that the file gave it.
+  /// Restores a link, with each end at its original place in the list of neighbours.
   void uncut(ElementId a, ElementId b) {
     list_again(a, b);
     list_again(b, a);
@@ -115,8 +115,8 @@ class Object {
     }
   }
 
-  /// Bounds in double, rounded once. min and max are for links that run left or down: the thesis'
-  /// formula alone would turn their region inside out.
+  /// Bounds of the valid region, computed in double and rounded once. The formula of the thesis alone would invert the
+  /// regions of links that run left or down; min and max correct this.
   SoftnessData<Scalar> valid_region(ElementId sponsor, ElementId neighbour, const Factors& factors) {
     const auto& from = element(sponsor).original_position;
     const auto& to = element(neighbour).original_position;

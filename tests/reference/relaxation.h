@@ -7,9 +7,9 @@
 
 namespace reference {
 
-/// One sweep of the relaxation of thesis 2.1 as it stands there, without a clamp: each element in turn
-/// goes a step of the way to the mean, over its neighbours, of their position less the rest vector to
-/// them. It is what makes elements jump (thesis 4.4).
+/// Runs one sweep of the relaxation of thesis 2.1, literally and without a clamp. Each element in turn moves by the
+/// share `step` towards the mean, over its neighbours, of their position minus the rest vector to them. This makes
+/// elements jump (thesis 4.4).
 template <class Scalar>
 void relax(Object<Scalar>& object, Scalar step, std::optional<ElementId> held) {
   for (Element<Scalar>& element : object.elements) {

@@ -6,7 +6,7 @@
 
 namespace reference {
 
-/// How far an element lies outside its valid region about its sponsor, in rest lengths.
+/// Returns the distance of an element from its valid region about its sponsor, in rest lengths.
 template <class Scalar>
 double violation(Object<Scalar>& object, ElementId identifier, ElementId sponsor) {
   const Element<Scalar>& element = object.element(identifier);
@@ -24,8 +24,8 @@ double violation(Object<Scalar>& object, ElementId identifier, ElementId sponsor
   return std::sqrt(outside) / (length > 0 ? std::sqrt(length) : object.mesh().mean_link_length);
 }
 
-/// Enhanced ChainMail (Schill et al. 1998): of all that wait, the candidate that violates its region most
-/// comes next, the first of equals; the whole list is searched.
+/// Enhanced ChainMail (Schill et al. 1998): the waiting candidate with the largest violation comes next; of equal ones,
+/// the first. It searches the whole list.
 template <class Scalar>
 std::vector<Processed> move_enhanced(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
   std::vector<Processed> processed;
@@ -36,7 +36,7 @@ std::vector<Processed> move_enhanced(Object<Scalar>& object, ElementId grabbed, 
     auto most = waiting_list.begin();
     double largest = violation(object, most->element, most->sponsor);
     for (auto one = std::next(most); one != waiting_list.end(); ++one) {
-      // An element that was updated meanwhile moved after its candidate came in; it is dropped anyway.
+      // An element that was updated in the meantime is dropped anyway, although it moved after its candidate was added.
       const double its = object.element(one->element).updated ? 0 : violation(object, one->element, one->sponsor);
       if (its > largest) {
         most = one;
@@ -55,7 +55,7 @@ std::vector<Processed> move_enhanced(Object<Scalar>& object, ElementId grabbed, 
 /// 3D ChainMail (thesis 2.1): right, left, top, bottom, front, back.
 enum Direction { right, left, top, bottom, front, back };
 
-/// Where a grid's neighbour lies, by the places of both in the lattice.
+/// Returns the direction of a neighbour in a grid, from the lattice indices of both elements.
 inline Direction direction_of(const chainmail::Lattice& lattice, ElementId from, ElementId to) {
   const auto difference = (lattice.position(to) - lattice.position(from)).eval();
   for (int k = 0; k < 3; ++k) {
@@ -66,7 +66,7 @@ inline Direction direction_of(const chainmail::Lattice& lattice, ElementId from,
   throw std::logic_error("not a neighbour in a grid");
 }
 
-/// Which lists an element from each list feeds, as the paper's figures have them.
+/// The lists to which an element of each list adds its neighbours, as in the figures of the paper.
 inline const std::array<std::list<Direction>, 6> feeds{std::list<Direction>{right, top, bottom, front, back},
                                                        {left, top, bottom, front, back},
                                                        {top, front, back},

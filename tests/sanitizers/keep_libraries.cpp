@@ -1,3 +1,3 @@
-// Loaded before the tests under the address sanitizer: libraries stay loaded to the end, so that a leak in a
-// graphics driver, which is unloaded before leaks are looked for, still has the name that lsan.supp knows.
+// Loaded before the tests with the address sanitizer. It keeps all libraries loaded. Otherwise a graphics driver is
+// unloaded before the leak check, and lsan.supp cannot match its name.
 extern "C" int dlclose(void*) { return 0; }

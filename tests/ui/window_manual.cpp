@@ -187,10 +187,10 @@ class WindowManual : public QObject {
 
   void faultyLinksAreFound() {
     QVERIFY(linksOf(QStringLiteral("README.md")).contains(QStringLiteral("resources/manual/tour.md")));
-    QCOMPARE(fault(manual + "index.md", QStringLiteral("formats.md#files-from-others")), QString());
+    QCOMPARE(fault(manual + "index.md", QStringLiteral("formats.md#files-from-untrusted-sources")), QString());
     QVERIFY(!fault(manual + "index.md", QStringLiteral("format.md")).isEmpty());
     QVERIFY(!fault(manual + "index.md", QStringLiteral("formats.md#files")).isEmpty());
-    QVERIFY(!fault(manual + "index.md", QStringLiteral("#files-from-others")).isEmpty());
+    QVERIFY(!fault(manual + "index.md", QStringLiteral("#files-from-untrusted-sources")).isEmpty());
   }
 
   /// All that the window shows must be compiled in, also pictures.

@@ -75,7 +75,7 @@ class WindowOpen : public QObject {
       QCOMPARE(mkfifo(qPrintable(path), 0600), 0);
       bench.open(path);
       QCOMPARE(messages(bench).sentence(),
-               path + QStringLiteral(": it is a pipe; save its content as a file, and give that"));
+               path + QStringLiteral(": it is a pipe; save its content as a file, and use that"));
     }
     bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
     QCOMPARE(bench.document().name(), QStringLiteral("sphere.obj"));

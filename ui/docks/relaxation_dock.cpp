@@ -19,7 +19,7 @@ RelaxationDock::RelaxationDock(Document& document)
   fillSchemes();
   auto* row = new QHBoxLayout;
   row->addWidget(on_, 1);
-  row->addWidget(new QLabel(QStringLiteral("Scheme")));
+  row->addWidget(new QLabel(QStringLiteral("by")));
   row->addWidget(scheme_);
   column->addLayout(row);
   column->addWidget(step_);

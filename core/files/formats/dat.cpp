@@ -13,24 +13,24 @@
 namespace chainmail {
 namespace {
 
-/// The content of a .dat file, line by line, before rows are compared.
+/// The content of a .dat file, line by line. Rows are not yet checked against each other.
 struct DatRows {
   struct Row {
     ElementId id;
     std::size_t line;
-    std::size_t first, last;  // of its neighbours
+    std::size_t first, last;  // range of its neighbours in `neighbours`
   };
 
   std::vector<Row> rows;
-  std::vector<ElementId> neighbours;  // of all rows, in the file's order
+  std::vector<ElementId> neighbours;  // neighbours of all rows, in the order of the file
   std::optional<Stated<std::array<std::uint32_t, 3>>> size;
   std::optional<Stated<double>> spacing;
   std::optional<Stated<int>> space;
   std::size_t last_line = 0;
 };
 
-/// Throws Error, with its line, where a row or a statement is malformed, where two statements differ, and where an
-/// element is linked to itself.
+/// Parses the lines of a .dat file. Throws Error, with the line, if a row or a comment is malformed, if two comments
+/// contradict each other, or if an element is linked to itself.
 class DatParser {
  public:
   explicit DatParser(const std::filesystem::path& path) : path_(path) {}
@@ -58,7 +58,7 @@ class DatParser {
 template <class Value>
 void DatParser::state(std::optional<Stated<Value>>& known, const Value& value, const std::string& what) const {
   if (known && known->value != value) {
-    fail("the " + what + " differs from that of line " + std::to_string(known->line), "state it once");
+    fail("the " + what + " differs from that of line " + std::to_string(known->line), "write it once");
   }
   known = Stated<Value>{value, line_};
 }
@@ -97,7 +97,7 @@ void DatParser::read_comment(std::string_view line) {
 ElementId DatParser::read_id(std::string_view word) const {
   const auto id = parse_count(word);
   if (!id) {
-    fail(in_quotes(word) + " is not an element's id", "ids are whole numbers from 0");
+    fail(in_quotes(word) + " is not an element's id", "use a whole number from 0");
   }
   return *id;
 }
@@ -132,7 +132,7 @@ void DatParser::read_row(std::string_view line) {
   }
   row.last = result_.neighbours.size();
   if (const std::size_t listed = row.last - row.first; listed != count) {
-    fail("the count says " + std::to_string(count) + " neighbours, the row lists " + std::to_string(listed),
+    fail("the count says " + std::to_string(count) + " neighbours, but the row lists " + std::to_string(listed),
          "correct the count or the list");
   }
   result_.rows.push_back(row);
@@ -150,7 +150,7 @@ DatRows DatParser::parse(std::string_view text, const Progress& progress) {
   return std::move(result_);
 }
 
-/// Chooses the lattice and arranges the rows by element.
+/// Chooses the lattice and sorts the rows by element.
 class DatReader {
  public:
   DatReader(const DatRows& file, const std::filesystem::path& path, const ReadOptions& options)
@@ -193,7 +193,7 @@ void DatReader::choose_size() {
     lattice_.size = *named;
   } else {
     throw Error(shown(path_), "the size of its lattice is not known",
-                "give --size WxH[xD], write '# size W [H [D]]' into the file, or name it WxH[xD].dat");
+                "use --size WxH[xD], write '# size W [H [D]]' into the file, or name it WxH[xD].dat");
   }
 }
 
@@ -214,20 +214,20 @@ void DatReader::choose_lattice() {
   }
 }
 
-/// Returns the row of each element. Throws Error where an element has none, or two.
+/// Returns the row of each element. Throws Error if an element has no row, or two.
 std::vector<const DatRows::Row*> DatReader::rows_by_id() const {
   const std::uint64_t count = lattice_.element_count();
-  // At most as many as the file has rows, whatever size it claims.
+  // The file may state any size, so no more memory is taken than for its rows.
   std::vector<const Row*> of(std::min<std::uint64_t>(count, file_.rows.size()), nullptr);
   for (const Row& row : file_.rows) {
     if (row.id >= count) {
       fail(row.line, row_name(row.id) + " lies outside the size " + lattice_size_text(lattice_),
-           "ids run from 0 to " + std::to_string(count - 1));
+           "use an id from 0 to " + std::to_string(count - 1));
     }
     if (row.id < of.size()) {
       if (of[row.id] != nullptr) {
-        fail(row.line, row_name(row.id) + " has a row in line " + std::to_string(of[row.id]->line),
-             "give each element one row");
+        fail(row.line, row_name(row.id) + " already has a row in line " + std::to_string(of[row.id]->line),
+             "write one row for each element");
       }
       of[row.id] = &row;
     }
@@ -236,7 +236,7 @@ std::vector<const DatRows::Row*> DatReader::rows_by_id() const {
   if (missing != of.end() || of.size() < count) {
     fail(file_.last_line,
          "the file ends without a row for element " + std::to_string(missing - of.begin()) + " (" +
-             std::to_string(file_.rows.size()) + " rows, and the size is " + lattice_size_text(lattice_) + ")",
+             std::to_string(file_.rows.size()) + " rows, but the size is " + lattice_size_text(lattice_) + ")",
          "add the row or correct the size");
   }
   return of;
@@ -263,7 +263,7 @@ void DatReader::check_links(const std::vector<const Row*>& rows, const Progress&
 
 ImportedMesh DatReader::read(const Progress& progress) {
   if (file_.rows.empty()) {
-    throw Error(shown(path_), "it holds no rows", "write a row 'id count neighbour…' for each element");
+    throw Error(shown(path_), "it contains no rows", "write a row 'id count neighbour…' for each element");
   }
   choose_lattice();
   const auto rows = rows_by_id();
@@ -317,7 +317,7 @@ ImportedMesh read_dat(std::string_view text, const std::filesystem::path& path, 
 
 void write_dat(std::ostream& out, const MeshState& state, const Progress& progress) {
   if (!state.mesh.lattice) {
-    throw Error(".dat", "it holds only lattices, and this mesh has none", "save it as .obj");
+    throw Error(".dat", "the format can only store lattices, and this mesh has none", "save it as .obj");
   }
   out << dat_header(state.mesh);
   TextBlocks text(out);

@@ -14,9 +14,9 @@ namespace chainmail {
 /// Reads the format of the thesis (Dean 2004, 4.3): a row `id count neighbour…` for each element, in any order.
 /// Neighbours keep the order of the row.
 ///
-/// The format has no positions: elements stand in a lattice. Its size comes from the options, else from a comment
-/// `# size W H D` (one to three numbers), else from a file name that is exactly WxH.dat or WxHxD.dat. `path` gives that
-/// name and appears in errors. Throws Error with the line, and Cancelled.
+/// The format has no positions: the elements form a lattice. Its size comes from the options, else from a comment `#
+/// size W H D` (one to three numbers), else from a file name that is exactly WxH.dat or WxHxD.dat. `path` is used for
+/// that name and in error messages. Throws Error with the line, and Cancelled.
 ImportedMesh read_dat(std::string_view text, const std::filesystem::path& path, const ReadOptions& options,
                       const Progress& progress = {});
 

@@ -19,7 +19,7 @@ bool is_beneath(const fs::path& path, const fs::path& folder) {
 
 fs::path data_file(const fs::path& header, const std::string& name, bool outside) {
   if (name.empty()) {
-    throw Error(shown(header), "it names no data file", "export it again");
+    throw Error(shown(header), "it does not name a data file", "export it again");
   }
   fs::path path = header.parent_path() / name;
   if (outside) {
@@ -28,7 +28,7 @@ fs::path data_file(const fs::path& header, const std::string& name, bool outside
   fs::path target = resolved(path);
   if (!is_beneath(target, resolved(header.has_parent_path() ? header.parent_path() : "."))) {
     throw Error(shown(header), "its data are outside its folder, in " + in_quotes(name),
-                "copy them into that folder, or give --data-outside allow on the command line");
+                "copy them into that folder, or use --data-outside allow on the command line");
   }
   return target;
 }

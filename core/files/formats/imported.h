@@ -9,19 +9,20 @@
 
 namespace chainmail {
 
-/// A mesh as a reader takes it from a file. opened() (files/mesh/open_mesh.h) makes a Mesh of it.
+/// The content of a mesh file. opened() (files/mesh/open_mesh.h) builds a Mesh from it.
 struct ImportedMesh {
-  /// `links` holds only the lines of the file: opened() adds the edges of faces and cells.
+  /// Elements, faces, cells and links. `parts.links` contains only the lines of the file; opened() adds the edges of
+  /// faces and cells.
   MeshParts parts;
-  /// Number of points in the file that nothing uses and that the library leaves out.
+  /// Number of unused points in the file that the library leaves out.
   std::uint64_t unused = 0;
   /// The space dimension that a comment of the file states.
   std::optional<Stated<int>> space;
-  /// True if the reader refuses whatever it does not keep: opened() then keeps every face, and a mesh may have no link.
+  /// True if the reader itself refuses flawed faces. Then opened() keeps every face, and allows a mesh without links.
   bool checked = false;
 };
 
-/// Adds a face with these corners, or a link where there are two.
+/// Adds a face with these corners, or a link if there are two.
 inline void add_face(MeshParts& parts, std::span<const ElementId> corners) {
   if (corners.size() == 2) {
     parts.links.push_back({corners[0], corners[1]});

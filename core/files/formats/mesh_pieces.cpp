@@ -52,7 +52,7 @@ std::size_t MeshPieces::size(Piece piece) const {
   return polygons_.size();
 }
 
-/// Adds the link between two corners to `edges_`. Returns false if there is none, or if it is cut.
+/// Adds the link between two corners to `edges_`. Returns false if there is no such link, or if it is cut.
 bool MeshPieces::take_edge(ElementId a, ElementId b) {
   const auto link = find_link(mesh_, a, b);
   if (!link || cuts_.is_cut(*link)) {

@@ -18,7 +18,7 @@ enum class Piece { line, triangle, polygon, tetrahedron, hexahedron };
 /// The pieces that a format can list. Other pieces are written as lines.
 struct ListedPieces {
   bool cells = true;
-  std::size_t most_corners = SIZE_MAX;  // of a polygon
+  std::size_t most_corners = SIZE_MAX;  // largest number of corners of a polygon
 };
 
 /// The pieces to write for an object: faces and cells whose edges are all uncut links, and the other uncut links as
@@ -27,11 +27,11 @@ class MeshPieces {
  public:
   using Corners = std::span<const ElementId>;
 
-  /// Searches for the link of each edge. Throws Cancelled.
+  /// Collects the pieces. It searches for the link of each edge. Throws Cancelled.
   MeshPieces(const Mesh& mesh, const Cuts& cuts, const ListedPieces& listed, const Progress& progress);
 
   std::uint32_t count(Piece piece) const { return counts_[index(piece)]; }
-  /// Number of corners of all pieces of a kind.
+  /// Returns the number of corners of all pieces of a kind.
   std::uint64_t corner_count(Piece piece) const { return corner_counts_[index(piece)]; }
   /// Calls visit(corners) for each listed piece of a kind, in the order of the mesh.
   template <class Visit>
@@ -57,12 +57,12 @@ class MeshPieces {
 
   const Mesh& mesh_;
   const Cuts& cuts_;
-  std::vector<std::size_t> polygons_;  // index where each begins
+  std::vector<std::size_t> polygons_;  // index at which each polygon begins
   std::array<std::vector<bool>, 5> listed_;
   std::array<std::uint32_t, 5> counts_{};
   std::array<std::uint64_t, 5> corner_counts_{};
-  std::vector<LinkId> edges_;  // of the current piece
-  std::vector<bool> along_;    // links that are edges of a listed piece
+  std::vector<LinkId> edges_;  // links along the edges of the current piece
+  std::vector<bool> along_;    // true for links that are edges of a listed piece
 };
 
 }  // namespace chainmail

@@ -7,7 +7,7 @@
 
 namespace chainmail {
 
-/// Returns a view of the rest positions of a mesh, valid as long as the mesh.
+/// Returns a view of the rest positions of a mesh; valid while the mesh exists.
 inline PositionView rest_positions(const Mesh& mesh) {
   return {mesh.rest.data(), sizeof(double) * mesh.space_dimension, Precision::double_precision};
 }
@@ -17,7 +17,7 @@ struct MeshState {
   const Mesh& mesh;
   const Cuts& cuts;
   PositionView positions;
-  const Softness& softness;  // for formats that hold the violation of links
+  const Softness& softness;  // for formats that store the violation of links
 };
 
 }  // namespace chainmail

@@ -80,7 +80,7 @@ void MetaImageHeadReader::take(std::string_view key, std::string_view value) {
     const auto size = numbers(value);
     for (std::size_t k = 0; k < 3; ++k) {
       if (!(size[k] >= 0 && size[k] <= double(voxel_limit) && size[k] == std::floor(size[k]))) {
-        fail("a size is not a whole number up to " + std::to_string(voxel_limit), "give three sizes");
+        fail("a size is not a whole number up to " + std::to_string(voxel_limit), "write three sizes");
       }
       head_.size[k] = static_cast<std::uint64_t>(size[k]);
     }
@@ -113,7 +113,7 @@ std::array<double, 3> MetaImageHeadReader::numbers(std::string_view value) const
     const auto word = take_word(value);
     const auto parsed = parse_number(word);
     if (!parsed || std::abs(*parsed) > coordinate_limit) {
-      fail(in_quotes(word) + " is not one of three finite numbers", "give one for each axis of a volume");
+      fail(in_quotes(word) + " is not one of three finite numbers", "write one number for each axis of a volume");
     }
     number = *parsed;
   }
@@ -129,17 +129,17 @@ bool MetaImageHeadReader::flag(std::string_view value) const {
 
 void MetaImageHeadReader::check() const {
   if (dimension_ != 3) {
-    fail("the image does not have 3 dimensions", "give a volume");
+    fail("the image does not have 3 dimensions", "use a volume");
   }
   if (channels_ != 1) {
     fail("the image has " + std::to_string(channels_) + " numbers per voxel",
-         "give a volume with one density per voxel");
+         "use a volume with one density per voxel");
   }
   if (!binary_ || !head_size_known_) {
-    fail("its data are text, or have a header", "export it with binary data and HeaderSize 0");
+    fail("its data are text or have a header", "export it with binary data and HeaderSize 0");
   }
   if (!(head_.spacing.minCoeff() > 0)) {
-    fail("the spacing of voxels is 0 along an axis", "give spacings above 0");
+    fail("the spacing of voxels is 0 along an axis", "use spacings above 0");
   }
   if (head_.data_file == "LIST" || head_.data_file.find('%') != std::string::npos) {
     fail("its data are in several files", "export it as one file");
@@ -170,13 +170,13 @@ const NumberType& metaimage_type(const MetaImageHead& head, const std::filesyste
   return *found;
 }
 
-/// Numbers packed by zlib (Gailly and Adler). They are unpacked in pieces, again from the start for each pass: the
-/// unpacked data of a small file may exceed the memory.
+/// Numbers compressed by zlib (Gailly and Adler). Each reading decompresses them again in pieces, because the data of a
+/// small file may exceed the memory.
 class PackedNumbers {
  public:
   PackedNumbers(std::span<const char> data, const NumberType& type, bool big_endian, const std::filesystem::path& path)
       : data_(data), type_(type), big_endian_(big_endian), path_(path), piece_(piece_numbers * type.bytes) {
-    if (inflateInit2(&stream_, 15 + 32) != Z_OK) {  // either of its two formats
+    if (inflateInit2(&stream_, 15 + 32) != Z_OK) {  // accepts both formats of zlib
       throw std::bad_alloc();
     }
   }
@@ -208,13 +208,13 @@ class PackedNumbers {
     while (stream_.avail_out > 0) {
       if (stream_.avail_in == 0) {
         const std::size_t in = std::min(data_.size() - taken_, most_in);
-        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data_.data() + taken_));  // it is only read
+        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data_.data() + taken_));  // zlib only reads it
         stream_.avail_in = static_cast<uInt>(in);
         taken_ += in;
       }
       const int state = inflate(&stream_, Z_NO_FLUSH);
       if (stream_.avail_out > 0 && (state != Z_OK || (stream_.avail_in == 0 && taken_ == data_.size()))) {
-        throw Error(shown(path_), "its packed data are damaged, or end too early", "export it again");
+        throw Error(shown(path_), "its compressed data are damaged or incomplete", "export it again");
       }
     }
   }
@@ -231,7 +231,7 @@ class PackedNumbers {
   std::size_t taken_ = 0;
 };
 
-/// Reports the progress of two passes over the same numbers.
+/// Reports the progress of two readings of the same numbers.
 class TwicePassed {
  public:
   TwicePassed(std::size_t count, const Progress& progress) : count_(2 * count), progress_(progress) {}

@@ -16,14 +16,14 @@ struct MetaImageHead {
   std::array<std::uint64_t, 3> size{};
   Point spacing = Point::Ones();
   Point origin = Point::Zero();
-  std::string type;  // of a number: MET_UCHAR, MET_SHORT, …
+  std::string type;  // type of the numbers: MET_UCHAR, MET_SHORT, …
   bool big_endian = false;
-  bool compressed = false;  // by zlib
-  std::string data_file;    // LOCAL: after the header
-  std::size_t length = 0;   // of the header (bytes): local data follow it
+  bool compressed = false;  // true: compressed by zlib
+  std::string data_file;    // LOCAL: the data follow the header
+  std::size_t length = 0;   // length of the header (bytes)
 };
 
-/// Reads the head at the beginning of a file. Throws Error with the line.
+/// Reads the header at the beginning of a file. Throws Error with the line.
 MetaImageHead read_metaimage_head(std::string_view text, const std::filesystem::path& path);
 
 /// Returns the volume of a header and its data. Throws Error if they do not match, and Cancelled.

@@ -10,7 +10,7 @@
 namespace chainmail {
 namespace {
 
-/// How Gmsh names a kind of piece: the dimension of its entity, and its type.
+/// Gmsh's numbers for a kind of piece: the dimension of its entity, and its type.
 struct MshType {
   Piece piece;
   std::uint32_t dimension;
@@ -32,7 +32,8 @@ class MshWriter {
 
  private:
   bool has_dimension(std::uint32_t dimension) const;
-  /// Dimension of the entity of the nodes: the highest one, or 1 (a curve) if there are only nodes.
+  /// Returns the dimension of the entity of the nodes: the highest dimension of all pieces, or 1 (a curve) if there are
+  /// no pieces.
   std::uint32_t node_dimension() const;
   std::array<Point, 2> box(const Progress& progress) const;
 

@@ -29,7 +29,7 @@ std::optional<RowFault> NeighbourRows::fault_within(ElementId element) {
   if (begin != end && *(end - 1) >= count()) {
     return RowFault{element,
                     named(element) + " lists the neighbour " + std::to_string(*(end - 1)) + ", which is out of range",
-                    "ids run from 0 to " + std::to_string(count() - 1)};
+                    "use an id from 0 to " + std::to_string(count() - 1)};
   }
   if (const auto twice = std::adjacent_find(begin, end); twice != end) {
     return RowFault{element, named(element) + " lists the neighbour " + std::to_string(*twice) + " twice",

@@ -35,17 +35,17 @@ std::vector<std::string_view> header_lines(std::string_view text, const std::fil
     }
     lines.push_back(line);
     if (line.find('\r') != std::string_view::npos) {
-      refuse_header(path, lines.size(), "a line of its header holds a carriage return");
+      refuse_header(path, lines.size(), "a line of its header contains a carriage return");
     }
     text.remove_prefix(std::min(end, text.size() - 1) + 1);
   }
   if (!is_whole) {
-    refuse_header(path, lines.size(), "its header has no end");
+    refuse_header(path, lines.size(), "its header does not end with an empty line");
   }
   return lines;
 }
 
-/// Returns the file that a field names.
+/// Returns the file name in a field.
 std::string named_in(std::string_view line, const std::filesystem::path& path, std::size_t number) {
   const auto name = trimmed(line.substr(line.find(':') + 1));
   if (name.empty() || name.starts_with("LIST") || name.find('%') != std::string_view::npos) {

@@ -7,13 +7,13 @@
 
 namespace chainmail {
 
-/// The data file that the header of an NRRD file names. teem reads the rest of the header.
+/// The data file that the header of an NRRD file names. The library teem reads the rest of the header.
 struct NrrdHead {
   std::string data_file;  // as in the header; empty if the data follow the header
   std::string text;       // the header, with the name replaced by `data`
 };
 
-/// Largest header (bytes): it may hold long comments.
+/// Largest size of a header (bytes). It may contain long comments.
 inline constexpr std::size_t longest_nrrd_head = std::size_t{1} << 20;
 
 /// Reads the header in the first longest_nrrd_head bytes of a file. Throws Error if the data are in several files, or

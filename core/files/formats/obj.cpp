@@ -14,7 +14,7 @@
 namespace chainmail {
 namespace {
 
-/// Statements without elements or links.
+/// Statements that define no elements or links. They are skipped.
 constexpr std::array<std::string_view, 31> skipped_statements{
     "vn",    "vt",       "vp",       "g",    "o",    "s",      "mg",  "mtllib",     "usemtl",   "maplib", "usemap",
     "bevel", "c_interp", "d_interp", "lod",  "p",    "cstype", "deg", "bmat",       "step",     "curv",   "curv2",
@@ -66,8 +66,8 @@ class ObjReader {
   const std::filesystem::path& path_;
   std::size_t line_ = 0;
   ImportedMesh result_;
-  std::vector<ElementId> corners_;  // of the current line
-  // The largest index that a line uses before its vertex, which may follow.
+  std::vector<ElementId> corners_;  // corners in the current line
+  // The largest index that a line uses before its vertex is defined. The vertex may follow.
   ElementId farthest_ = 0;
   std::size_t farthest_line_ = 0;
 };
@@ -80,7 +80,7 @@ ImportedMesh ObjReader::read(std::string_view text, const Progress& progress) {
     read_line(lines.line());
   }
   if (result_.parts.rest.empty()) {
-    throw Error(shown(path_), "it holds no vertices", "write 'v x y z' for each element");
+    throw Error(shown(path_), "it contains no vertices", "write 'v x y z' for each element");
   }
   check_farthest();
   return std::move(result_);
@@ -104,7 +104,7 @@ void ObjReader::read_line(std::string_view line) {
     }
   } else if (!word.empty() &&
              std::find(skipped_statements.begin(), skipped_statements.end(), word) == skipped_statements.end()) {
-    fail(line_, in_quotes(word) + " is not an OBJ statement", "elements are 'v x y z', links come from 'f' and 'l'");
+    fail(line_, in_quotes(word) + " is not an OBJ statement", "use 'v x y z' for elements, 'f' and 'l' for links");
   }
 }
 
@@ -112,7 +112,7 @@ void ObjReader::read_space(std::string_view line) {
   if (const auto space = stated_space(line, path_, line_)) {
     if (result_.space && result_.space->value != *space) {
       fail(line_, "the space dimension differs from that of line " + std::to_string(result_.space->line),
-           "state it once");
+           "write it once");
     }
     result_.space = {*space, line_};
   }
@@ -122,7 +122,7 @@ void ObjReader::read_vertex(std::string_view rest) {
   if (result_.parts.rest.size() == element_limit) {
     fail(line_, "there are more than " + std::to_string(element_limit) + " vertices", "use a smaller mesh");
   }
-  std::array<double, 7> numbers{};  // x y z, then a weight or colours, which are not used
+  std::array<double, 7> numbers{};  // x y z, then a weight or colours, which are ignored
   std::size_t count = 0;
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
     const auto number = parse_number(word);
@@ -151,7 +151,7 @@ ElementId ObjReader::read_corner(std::string_view word) {
   const auto index = parse_corner(word);
   if (!index) {
     fail(line_, in_quotes(word) + " is not the index of a vertex",
-         "indices are use 1, 2, … from the first vertex, or -1, -2, … from the last one read");
+         "use 1, 2, … from the first vertex, or -1, -2, … from the last one read");
   }
   const auto known = static_cast<std::int64_t>(result_.parts.rest.size());
   const std::int64_t vertex = *index > 0 ? *index - 1 : known + *index;
@@ -179,14 +179,14 @@ void ObjReader::check_corners(bool is_face) const {
     twice = corners_.begin();
   }
   if (twice != corners_.end()) {
-    fail(line_, "vertex " + std::to_string(*twice + 1) + " is linked to itself", "name each corner once");
+    fail(line_, "vertex " + std::to_string(*twice + 1) + " is linked to itself", "use each corner once");
   }
 }
 
 void ObjReader::check_farthest() const {
   if (farthest_line_ != 0 && farthest_ >= result_.parts.rest.size()) {
     fail(farthest_line_, "there is no vertex " + std::to_string(farthest_ + 1),
-         "the file has " + std::to_string(result_.parts.rest.size()));
+         "use an index up to " + std::to_string(result_.parts.rest.size()));
   }
 }
 

@@ -21,7 +21,7 @@ constexpr std::string_view ply_blanks = " \t\r\n";
 struct PlyProperty {
   std::string name;
   const NumberType* type = nullptr;
-  const NumberType* count = nullptr;  // of a list, else null
+  const NumberType* count = nullptr;  // type of a list's length; null if it is not a list
 };
 
 struct PlyElement {
@@ -36,7 +36,7 @@ enum class PlyForm { text, little_endian, big_endian };
 struct PlyHead {
   PlyForm form = PlyForm::text;
   std::vector<PlyElement> elements;
-  std::size_t length = 0;  // of the head (bytes)
+  std::size_t length = 0;  // length of the header (bytes)
   std::size_t lines = 0;
 };
 
@@ -55,12 +55,12 @@ class PlyHeadReader {
 
   PlyHead read() {
     if (line() != "ply") {
-      fail("it does not begin with 'ply'", "give a PLY file");
+      fail("it does not begin with 'ply'", "use a PLY file");
     }
     while (take(line())) {
     }
     if (!has_form_) {
-      fail("its header states no format", "export it again");
+      fail("its header has no line 'format …'", "export it again");
     }
     return std::move(head_);
   }
@@ -71,7 +71,7 @@ class PlyHeadReader {
   }
 
   std::string_view line();
-  /// Returns false at the end of the head.
+  /// Reads a line of the header. Returns false at the end of the header.
   bool take(std::string_view line);
   void take_form(std::string_view rest);
   void take_element(std::string_view rest);
@@ -134,7 +134,7 @@ void PlyHeadReader::take_element(std::string_view rest) {
   element.name = take_word(rest);
   const auto count = parse_count(take_word(rest));
   if (element.name.empty() || !count) {
-    fail("an element has no name, or its count is not a whole number", "write 'element NAME COUNT'");
+    fail("an 'element' line has no name, or its count is not a whole number", "write 'element NAME COUNT'");
   }
   element.count = *count;
   head_.elements.push_back(std::move(element));
@@ -142,7 +142,7 @@ void PlyHeadReader::take_element(std::string_view rest) {
 
 void PlyHeadReader::take_property(std::string_view rest) {
   if (head_.elements.empty()) {
-    fail("a property has no element", "write 'element NAME COUNT' before it");
+    fail("a 'property' line comes before the first 'element' line", "write 'element NAME COUNT' before it");
   }
   PlyProperty property;
   std::string_view name = take_word(rest);
@@ -163,7 +163,7 @@ const NumberType& PlyHeadReader::type_of(std::string_view name) const {
   return *found;
 }
 
-/// True for the words for infinite and undefined numbers, which properties other than positions may have.
+/// Returns true for words like `nan` and `inf`. Properties other than positions may have them.
 bool is_no_number(std::string_view word) {
   word.remove_prefix(word.starts_with('-') ? 1 : 0);
   return word == "nan" || word == "inf" || word == "NaN" || word == "Inf";
@@ -188,7 +188,7 @@ class PlyReader {
 
   double number(const NumberType& type);
   double binary_number(const NumberType& type);
-  /// The numbers of one property of an element.
+  /// Reads the numbers of one property of an element.
   void read_property(const PlyProperty& property);
   void read_elements(const PlyElement& element, const Progress& progress);
   void take_vertex(const PlyElement& element);
@@ -205,9 +205,9 @@ class PlyReader {
   const Progress& progress_;
   PlyHead head_;
   std::size_t at_;
-  std::vector<double> numbers_;     // of all properties of the current element
-  std::vector<std::size_t> first_;  // index where each property begins, and the end
-  std::vector<double> corners_;     // of all faces: count, corner…
+  std::vector<double> numbers_;     // numbers of all properties of the current element
+  std::vector<std::size_t> first_;  // index at which each property begins, and the end
+  std::vector<double> corners_;     // count and corners of each face
   std::vector<std::array<double, 2>> edges_;
   ImportedMesh mesh_;
 };
@@ -260,7 +260,7 @@ void PlyReader::read_property(const PlyProperty& property) {
 
 void PlyReader::read_elements(const PlyElement& element, const Progress& progress) {
   if (element.name == "tristrips" && element.count > 0) {
-    fail("it holds triangle strips", "save it with faces");
+    fail("it contains triangle strips", "save it with faces");
   }
   const auto take = element.name == "vertex" ? &PlyReader::take_vertex
                     : element.name == "face" ? &PlyReader::take_face
@@ -296,7 +296,7 @@ std::span<const double> PlyReader::numbers_of(const PlyElement& element, std::st
 double PlyReader::number_of(const PlyElement& element, std::string_view name) const {
   const auto numbers = numbers_of(element, name);
   if (numbers.size() != 1) {
-    fail("an element " + in_quotes(element.name) + " has no number " + in_quotes(name), "export it again");
+    fail("the PLY element " + in_quotes(element.name) + " has no property " + in_quotes(name), "export it again");
   }
   return numbers.front();
 }
@@ -306,7 +306,7 @@ void PlyReader::take_vertex(const PlyElement& element) {
   if (!(point.cwiseAbs().maxCoeff() <= coordinate_limit) || !point.allFinite()) {
     fail("vertex " + std::to_string(mesh_.parts.rest.size()) +
              " has a coordinate that is not a number, or is beyond 1e100",
-         "give finite coordinates");
+         "use finite coordinates");
   }
   if (mesh_.parts.rest.size() == element_limit) {
     fail("there are more than " + std::to_string(element_limit) + " vertices", "use a smaller mesh");
@@ -354,7 +354,7 @@ void PlyReader::add_pieces() {
   }
 }
 
-/// True if the number of corners of each face fits a byte, which readers expect.
+/// Returns true if the number of corners of each face fits into a byte, which readers expect.
 bool fits_a_byte(const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.polygons.size(); i += mesh.polygons[i] + 1) {
     if (mesh.polygons[i] > 255) {

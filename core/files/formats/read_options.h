@@ -9,14 +9,15 @@
 
 namespace chainmail {
 
-/// What a caller says about a file that the file itself may leave open.
+/// Options of the user for data that a file may not contain.
 struct ReadOptions {
-  /// The lattice of a .dat file and its spacing (mesh units); they override what the file or its name states.
+  /// Size (elements) and spacing (mesh units) of the lattice of a .dat file. They override those in the file or its
+  /// name.
   std::optional<std::array<std::uint32_t, 3>> size;
   std::optional<double> spacing;
-  /// Default: what the file states, else the number of axes on which the mesh is not constant.
+  /// Space dimension. Default: the one that the file states, else the number of axes along which the mesh extends.
   std::optional<int> space_dimension;
-  /// How the voxels of a volume become elements.
+  /// Options for the conversion of voxels to elements.
   VoxelOptions voxels;
   /// True if the header of a volume may name data outside its own folder.
   bool data_outside = false;

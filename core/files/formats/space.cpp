@@ -38,7 +38,7 @@ std::optional<int> chosen_space(const MeshParts& parts, std::optional<int> asked
   }
   if (stated->value < needed) {
     throw Error(shown(path, stated->line), "the mesh extends along " + std::to_string(needed) + " axes",
-                "state a space dimension of " + std::to_string(needed) + " or more");
+                "use a space dimension of " + std::to_string(needed) + " or more");
   }
   return stated->value;
 }

@@ -16,15 +16,15 @@ struct Stated {
   std::size_t line;
 };
 
-/// Number of axes along which the positions differ, at least 1.
+/// Returns the number of axes along which the positions differ, at least 1.
 int extent_dimension(const Mesh& mesh, const PositionView& positions);
 
-/// Returns the line `# space N` if the mesh has more dimensions than a reader of these positions would find, else
-/// nothing.
+/// Returns the line `# space N` if the mesh has more dimensions than a reader can derive from these positions, else an
+/// empty text.
 std::string space_comment(const Mesh& mesh, const PositionView& positions);
 
-/// Returns the space dimension to build with: the one asked for, else the one that the file states. Throws Error at the
-/// line that states it if it would flatten the object.
+/// Returns the space dimension for the mesh: `asked`, else the one that the file states. Throws Error, with the line in
+/// the file, if the stated one is too small for the object.
 std::optional<int> chosen_space(const MeshParts& parts, std::optional<int> asked,
                                 const std::optional<Stated<int>>& stated, const std::filesystem::path& path);
 

@@ -10,18 +10,18 @@
 namespace chainmail {
 namespace {
 
-/// The rows of one of the two files: a header with their number, then numbered rows.
+/// Reads the rows of one of the two files: a header with their number, then numbered rows.
 class TetGenTable {
  public:
   TetGenTable(const NamedText& file, const char* rows, const Progress& progress)
       : path_(file.path), size_(file.text.size()), rows_(rows), progress_(progress), lines_(file.text) {
     if (!next()) {
-      fail("it holds no row", "begin with the number of " + std::string(rows_));
+      fail("it contains no row", "begin with the number of " + std::string(rows_));
     }
     count_ = whole("the number of " + std::string(rows_));
     // Each row has at least two characters, so a header cannot claim more rows.
     if (count_ > size_ / 2 || count_ > element_limit) {
-      fail(std::to_string(count_) + " " + rows_ + " are more than the file holds, or than " +
+      fail(std::to_string(count_) + " " + rows_ + " are more than the file contains, or more than " +
                std::to_string(element_limit),
            "correct the count");
     }
@@ -31,7 +31,7 @@ class TetGenTable {
     throw Error(shown(path_, std::max<std::size_t>(lines_.number(), 1)), problem, remedy);
   }
 
-  /// Goes to the next line that is not blank or a comment.
+  /// Moves to the next line that is not blank or a comment. Returns false at the end.
   bool next() {
     while (lines_.next()) {
       lines_.report(progress_);
@@ -43,7 +43,7 @@ class TetGenTable {
     }
     return false;
   }
-  /// Goes to the next row, which must have this number.
+  /// Moves to the next row. Fails if its number is not `number`.
   void next_row(std::uint64_t number) {
     if (!next()) {
       fail("it ends before row " + std::to_string(number) + " of its " + std::to_string(count_) + " " + rows_,
@@ -90,7 +90,7 @@ class TetGenTable {
 std::uint32_t read_tetgen_points(const NamedText& nodes, MeshParts& parts, const Progress& progress) {
   TetGenTable table(nodes, "points", progress);
   if (table.whole("the dimension") != 3) {
-    table.fail("its points do not have 3 coordinates", "give points in space");
+    table.fail("its points do not have 3 coordinates", "use points with 3 coordinates");
   }
   const std::uint32_t first = table.first_number();
   if (first > 1) {

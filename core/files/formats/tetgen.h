@@ -14,8 +14,8 @@ struct NamedText {
   const std::filesystem::path& path;
 };
 
-/// Reads TetGen's pair of files (Si 2015): points, numbered from 0 or 1, and the tetrahedra that connect them. Ids are
-/// the order of the points. Throws Error with the file and line, and Cancelled.
+/// Reads TetGen's pair of files (Si 2015): points, numbered from 0 or 1, and the tetrahedra that connect them. Ids
+/// follow the order of the points. Throws Error with the file and line, and Cancelled.
 ImportedMesh read_tetgen(const NamedText& nodes, const NamedText& elements, const Progress& progress = {});
 
 /// Reads the pair that one of the two files belongs to: both have the same name, up to the ending. Throws Error if the

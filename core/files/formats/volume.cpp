@@ -9,7 +9,7 @@ namespace chainmail {
 void DensityScale::widen(std::size_t voxel, double number) {
   if (!(std::abs(number) <= density_limit)) {
     throw Error(where_, "the density of voxel " + std::to_string(voxel) + " is not a number, or is beyond 1e30",
-                "give finite densities");
+                "use finite densities");
   }
   lowest_ = voxel == 0 ? number : std::min(lowest_, number);
   highest_ = voxel == 0 ? number : std::max(highest_, number);
@@ -24,7 +24,7 @@ double DensityScale::step() const {
 std::array<std::uint32_t, 3> checked_volume_size(const std::string& where, const std::array<std::uint64_t, 3>& size) {
   const double voxels = double(size[0]) * double(size[1]) * double(size[2]);
   if (voxels == 0) {
-    throw Error(where, "a size of 0 leaves no voxels", "give a volume of 1 voxel or more along each axis");
+    throw Error(where, "a size is 0, so there are no voxels", "use a volume of 1 voxel or more along each axis");
   }
   if (voxels > double(voxel_limit)) {
     throw Error(where, "there are more than " + std::to_string(voxel_limit) + " voxels", "use a smaller volume");

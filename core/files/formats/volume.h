@@ -11,13 +11,13 @@
 
 namespace chainmail {
 
-/// A medical or other volume: a density for each voxel of a regular arrangement.
+/// A medical or other volume: one density per voxel of a regular grid.
 struct Volume {
-  std::array<std::uint32_t, 3> size{1, 1, 1};  // voxels along x, y and z
-  Point spacing = Point::Ones();               // between voxels (mesh units)
+  std::array<std::uint32_t, 3> size{1, 1, 1};  // number of voxels along x, y and z
+  Point spacing = Point::Ones();               // distances between voxels (mesh units)
   Point origin = Point::Zero();                // centre of the first voxel (mesh units)
-  /// Along x, then y, then z, in at most 65,535 steps from the lowest to the highest density: whole numbers of 16 bits
-  /// stay exact.
+  /// Densities along x, then y, then z, as steps above the lowest density. There are at most 65,535 steps, so that
+  /// whole numbers of 16 bits stay exact.
   std::vector<std::uint16_t> densities;
   double lowest = 0;
   double step = 1;
@@ -27,13 +27,14 @@ struct Volume {
 };
 
 inline constexpr double most_density_steps = 65535;
-/// Densities beyond this are refused: their sums must stay finite in single precision.
+/// Largest magnitude of a density. Larger ones are refused, because sums must stay finite in single precision.
 inline constexpr double density_limit = 1e30;
 
-/// More voxels than this are refused before memory is taken: 2 GiB of them.
+/// Largest number of voxels (2 GiB). Larger volumes are refused before memory is taken.
 inline constexpr std::uint64_t voxel_limit = std::uint64_t{1} << 30;
 
-/// The range of densities and its step: 1 if all are whole numbers and their range is small enough.
+/// The range of densities and its step. The step is 1 if all densities are whole numbers and their range is small
+/// enough.
 class DensityScale {
  public:
   explicit DensityScale(std::string where) : where_(std::move(where)) {}
@@ -47,7 +48,7 @@ class DensityScale {
   bool whole_ = true;
 };
 
-/// Returns the size, or throws Error about `where` if it has no voxels or more than voxel_limit.
+/// Returns the size. Throws Error about `where` if there are no voxels or more than voxel_limit.
 std::array<std::uint32_t, 3> checked_volume_size(const std::string& where, const std::array<std::uint64_t, 3>& size);
 
 /// Fills in the densities from the numbers of a file; `number(i)` returns number i as double. Throws Error about

@@ -15,11 +15,11 @@ namespace chainmail {
 namespace {
 
 constexpr ElementId no_voxel = std::numeric_limits<ElementId>::max();
-constexpr std::uint64_t most_texels = std::uint64_t{1} << 27;  // 128 MiB on the graphics card
+constexpr std::uint64_t most_texels = std::uint64_t{1} << 27;  // at most 128 MiB on the graphics card
 
 using Size = std::array<std::uint32_t, 3>;
 
-/// Bricks of `every` voxels along each axis, with their mean densities.
+/// Blocks of `every` voxels along each axis, with their mean densities.
 struct Bricks {
   Size size{1, 1, 1};
   std::vector<float> densities;
@@ -137,14 +137,15 @@ class BlockBuilder {
   const Volume& volume_;
   const Bricks& bricks_;
   std::uint32_t every_;
-  std::vector<ElementId> element_;  // of each brick
+  std::vector<ElementId> element_;  // element of each brick
   MeshParts parts_;
 };
 
-/// Returns softness from standard, if both ends are at the threshold, to rigid, if both have the highest density.
+/// Returns the softness of links: default if both ends have the threshold's density, rigid if both have the highest
+/// density.
 std::map<LinkId, LinkSoftness> softness_by_density(const Mesh& mesh, const std::vector<float>& densities,
                                                    double threshold) {
-  constexpr double levels = 32;  // number of different softnesses
+  constexpr double levels = 32;  // number of different values of softness
   const LinkSoftness standard;
   const double range = double(*std::max_element(densities.begin(), densities.end())) - threshold;
   std::map<LinkId, LinkSoftness> softness;
@@ -162,7 +163,7 @@ std::map<LinkId, LinkSoftness> softness_by_density(const Mesh& mesh, const std::
   return softness;
 }
 
-/// Returns the smallest bricks that do not make too many elements.
+/// Returns the smallest bricks that do not give too many elements.
 Bricks chosen_bricks(const Volume& volume, const VoxelOptions& options, double threshold, std::uint32_t& every,
                      const Progress& progress) {
   every = options.every.value_or(1);
@@ -185,7 +186,7 @@ double otsu_threshold(const Volume& volume) {
     sum += density;
   }
   double below = 0, sum_below = 0, best = -1;
-  std::size_t first = 0, last = 0;  // of thresholds with the same classes: no density lies between them
+  std::size_t first = 0, last = 0;  // range of thresholds with the same classes: no density lies between them
   for (std::size_t i = 0; i + 1 < bins; ++i) {
     below += histogram[i];
     sum_below += double(i) * histogram[i];

@@ -11,26 +11,26 @@
 
 namespace chainmail {
 
-/// How a volume becomes an object.
+/// Options for the conversion of a volume to an object.
 struct VoxelOptions {
-  /// The lowest density of a voxel that becomes an element. Default: otsu_threshold().
+  /// Lowest density of voxels that become elements. Default: otsu_threshold().
   std::optional<double> threshold;
   /// Number of voxels along each axis that become one element. Default: the smallest with at most voxel_elements
   /// elements.
   std::optional<std::uint32_t> every;
-  /// True if links get stiffer with density: from the standard softness at the threshold to rigid at the highest
-  /// density. False if all links are alike.
+  /// True if links are stiffer where the density is higher: from the default softness at the threshold to rigid at the
+  /// highest density. False if all links have the default softness.
   bool stiff_where_dense = true;
 };
 
-/// Up to this number of elements, an object follows the handle in real time.
+/// Largest number of elements of an object that follows the handle in real time.
 inline constexpr std::uint64_t voxel_elements = 100'000;
 
-/// An object of the voxels from a density on, linked along the axes: the purpose that ChainMail was made for
+/// An object made of the voxels above a density, with links along the axes. ChainMail was developed for such objects
 /// (Frisken-Gibson 1997).
 struct VoxelBlock {
-  MeshPointer mesh;                         // its texture is the volume
-  std::map<LinkId, LinkSoftness> softness;  // of the links that are stiffer than the standard
+  MeshPointer mesh;                         // the mesh, with the volume as texture
+  std::map<LinkId, LinkSoftness> softness;  // softness of the links that are stiffer than the default
   double threshold = 0;
   std::uint32_t every = 1;
 };
@@ -38,8 +38,8 @@ struct VoxelBlock {
 /// Returns the threshold that best separates the densities of a volume into two classes (Otsu 1979).
 double otsu_threshold(const Volume& volume);
 
-/// Throws Error about `where` if no voxel reaches the density, or more than element_limit elements are; and
-/// Cancelled.
+/// Converts a volume to an object. Throws Error about `where` if no voxel reaches the density, or if there are more
+/// than element_limit elements. Throws Cancelled.
 VoxelBlock voxel_block(const Volume& volume, const VoxelOptions& options, const std::string& where,
                        const Progress& progress = {});
 

@@ -14,10 +14,10 @@
 namespace chainmail {
 namespace {
 
-/// Adds cells of legacy VTK to a mesh that has its points.
+/// Adds cells of legacy VTK to a mesh that already has its points.
 class VtkCells {
  public:
-  /// Numbers of the cell types in VTK.
+  /// VTK's numbers of the cell types.
   enum Type {
     vertex = 1,
     vertices,
@@ -35,10 +35,10 @@ class VtkCells {
 
   using Corners = std::span<const std::uint64_t>;
 
-  /// `cursor` knows the line for errors.
+  /// `cursor` provides the line for error messages.
   VtkCells(MeshParts& parts, const VtkCursor& cursor) : parts_(parts), cursor_(cursor) {}
 
-  /// Throws Error if the corners do not fit the type, or if the type is not supported.
+  /// Adds a cell. Throws Error if the corners do not fit the type, or if the type is not supported.
   void add(Corners corners, int type);
 
  private:
@@ -83,7 +83,7 @@ template <std::size_t Size>
 void VtkCells::add_group(std::vector<std::array<ElementId, Size>>& groups, Corners corners,
                          const std::array<int, Size>& order) {
   if (corners.size() != Size) {
-    cursor_.fail("a cell has " + std::to_string(corners.size()) + " corners, and its type has " + std::to_string(Size),
+    cursor_.fail("a cell has " + std::to_string(corners.size()) + " corners, but its type has " + std::to_string(Size),
                  "export it again");
   }
   std::array<ElementId, Size> group{};
@@ -120,12 +120,12 @@ void VtkCells::add(Corners corners, int type) {
     case hexahedron:
       return add_group(parts_.hexahedra, corners, {0, 1, 2, 3, 4, 5, 6, 7});
     default:
-      cursor_.fail("it holds cells of VTK's type " + std::to_string(type),
+      cursor_.fail("it contains cells of VTK's type " + std::to_string(type),
                    "split them into tetrahedra, or save them as cells of first order");
   }
 }
 
-/// Corners of cells: cell i has the corners ids[first[i] .. first[i + 1]).
+/// The corners of cells: cell i has the corners ids[first[i] .. first[i + 1]).
 struct CellRows {
   std::vector<std::uint64_t> first{0};
   std::vector<std::uint64_t> ids;
@@ -150,7 +150,7 @@ class VtkReader {
 
  private:
   void read_head();
-  /// Returns false at the end, and where only fields follow.
+  /// Reads the next section. Returns false at the end of the file, or if only fields follow.
   bool read_section();
   void read_points();
   void read_field();
@@ -161,8 +161,8 @@ class VtkReader {
   void add_all(const CellRows& rows, int type);
 
   VtkCursor cursor_;
-  bool has_offsets_ = false;  // from version 5 on
-  CellRows cells_;            // of an unstructured grid: their types follow
+  bool has_offsets_ = false;  // true for version 5 and later
+  CellRows cells_;            // cells of an unstructured grid; their types follow in the file
   ImportedMesh mesh_;
   VtkCells into_{mesh_.parts, cursor_};
 };
@@ -186,11 +186,11 @@ void VtkReader::read_head() {
   }
   cursor_.set_binary(format == "BINARY");
   if (upper_case(cursor_.word()) != "DATASET") {
-    cursor_.fail("it does not say what DATASET it is", "export it again");
+    cursor_.fail("the line 'DATASET …' is missing", "export it again");
   }
   const std::string kind = upper_case(cursor_.word());
   if (kind != "POLYDATA" && kind != "UNSTRUCTURED_GRID") {
-    cursor_.fail("a dataset " + in_quotes(kind) + " has no links", "save it as an unstructured grid");
+    cursor_.fail("a dataset " + in_quotes(kind) + " is not supported", "save it as an unstructured grid");
   }
 }
 
@@ -233,7 +233,7 @@ void VtkReader::read_points() {
     const Point point(numbers[i], numbers[i + 1], numbers[i + 2]);
     if (!point.allFinite() || !(point.cwiseAbs().maxCoeff() <= coordinate_limit)) {
       cursor_.fail("point " + std::to_string(i / 3) + " has a coordinate that is not a number, or is beyond 1e100",
-                   "give finite coordinates");
+                   "use finite coordinates");
     }
     mesh_.parts.rest.push_back(point);
   }
@@ -261,20 +261,20 @@ CellRows VtkReader::read_rows() {
   return has_offsets_ ? read_offsets(cells, size) : read_old_rows(cells, size);
 }
 
-/// Each cell is the number of its corners, then the corners.
+/// Reads cells in the format before version 5: each cell is its number of corners, then the corners.
 CellRows VtkReader::read_old_rows(std::uint64_t cells, std::uint64_t size) {
   const auto numbers = cursor_.wholes(size, "int");
   CellRows rows;
   for (std::size_t at = 0; at < numbers.size(); at += numbers[at] + 1) {
     if (numbers[at] >= numbers.size() - at) {
-      cursor_.fail("a cell has more corners than are given", "export it again");
+      cursor_.fail("a cell has more corners than the cell list", "export it again");
     }
     const auto corners = numbers.begin() + std::ptrdiff_t(at) + 1;
     rows.ids.insert(rows.ids.end(), corners, corners + std::ptrdiff_t(numbers[at]));
     rows.first.push_back(rows.ids.size());
   }
   if (rows.count() != cells) {
-    cursor_.fail("it gives " + std::to_string(rows.count()) + " of " + std::to_string(cells) + " cells",
+    cursor_.fail("it contains only " + std::to_string(rows.count()) + " of " + std::to_string(cells) + " cells",
                  "export it again");
   }
   return rows;
@@ -304,7 +304,7 @@ CellRows VtkReader::read_offsets(std::uint64_t offsets, std::uint64_t size) {
 void VtkReader::read_types() {
   const std::uint64_t count = cursor_.count("the number of types");
   if (count != cells_.count()) {
-    cursor_.fail("there are " + std::to_string(count) + " types of " + std::to_string(cells_.count()) + " cells",
+    cursor_.fail("there are " + std::to_string(count) + " types for " + std::to_string(cells_.count()) + " cells",
                  "export it again");
   }
   const auto types = cursor_.wholes(count, "int");

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view vtk_blanks = " \t\r\n";
 
-/// Sizes as in VTK's legacy readers on machines of 64 bits.
+/// Types of numbers, with the sizes that VTK's legacy readers use on 64-bit machines.
 constexpr std::array vtk_types{
     number_type<float>("float"),
     number_type<double>("double"),
@@ -34,7 +34,7 @@ constexpr std::array vtk_types{
 
 void VtkCursor::fail(const std::string& problem, const std::string& remedy) const {
   const auto lines = std::count(bytes_.begin(), bytes_.begin() + std::ptrdiff_t(std::min(at_, bytes_.size())), '\n');
-  // Binary numbers have no lines.
+  // In a binary file, lines have no meaning.
   throw Error(binary_ ? shown(path_) : shown(path_, static_cast<std::size_t>(lines) + 1), problem, remedy);
 }
 
@@ -108,7 +108,7 @@ std::vector<double> VtkCursor::reals(std::uint64_t count, std::string_view type)
 }
 
 std::vector<std::uint64_t> VtkCursor::wholes(std::uint64_t count, std::string_view type) {
-  static constexpr double largest = 1e15;  // doubles below are exact
+  static constexpr double largest = 1e15;  // smaller whole numbers are exact in double
   std::vector<std::uint64_t> numbers;
   visit_numbers(count, type, [&](double number) {
     if (!(number >= 0 && number <= largest) || number != std::floor(number)) {

@@ -20,19 +20,19 @@ class VtkCursor {
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
 
   void set_binary(bool binary) { binary_ = binary; }
-  /// Returns the rest of the line, and goes to the next.
+  /// Returns the rest of the line, and moves to the next line.
   std::string_view line();
   /// Returns the next word, on this or a later line; empty at the end.
   std::string_view word();
-  /// Returns the next word as a whole number. `what` names it in errors.
+  /// Returns the next word as a whole number. `what` describes it in error messages.
   std::uint64_t count(const std::string& what);
 
-  /// Returns `count` numbers of a type. Checks the count against the remaining bytes before it takes memory.
+  /// Returns `count` numbers of a type. Before it takes memory, it checks that the file has enough bytes.
   std::vector<double> reals(std::uint64_t count, std::string_view type);
   /// Returns `count` whole numbers from 0.
   std::vector<std::uint64_t> wholes(std::uint64_t count, std::string_view type);
   void skip_numbers(std::uint64_t count, std::string_view type);
-  /// Goes to the line after the next blank line.
+  /// Moves to the line after the next blank line.
   void skip_block();
 
  private:

@@ -59,7 +59,7 @@ class VtuWriter {
   void write_foot();
 
  private:
-  /// Writes an array of `count` numbers, which `fill` adds to the writer that it gets.
+  /// Writes an array of `count` numbers. `fill` adds them to the writer that it receives.
   template <class Number, class Fill>
   void write_array(std::string_view type, std::string_view name, int components, std::uint64_t count, Fill fill);
   template <class Vector>

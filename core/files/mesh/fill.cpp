@@ -30,10 +30,10 @@ ImportedMesh as_imported(const Mesh& surface) {
 
 MeshPointer fill(const Mesh& surface, double size, const Progress& progress) {
   if (!(size > 0) || !std::isfinite(size)) {
-    throw Error("size", "it must be a number above 0", "give the length of the new edges");
+    throw Error("size", "it must be a number above 0", "use the length of the new edges");
   }
   if (!surface.tetrahedra.empty() || !surface.hexahedra.empty()) {
-    throw Error("surface", "the object is a volume already", "take a closed surface");
+    throw Error("surface", "the object already has cells", "use a closed surface");
   }
   ImportInput input("surface");
   const auto bytes = encode_imported(as_imported(surface));

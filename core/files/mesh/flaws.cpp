@@ -12,8 +12,9 @@
 namespace chainmail {
 namespace {
 
-// A face or cell is flat if its area or volume is below this share of that of its longest edge squared or cubed. The
-// limit is well above rounding errors and well below a visible area or volume.
+// A face is flat if its area is below this share of its longest edge squared; a cell is flat if its volume is below
+// this share of its longest edge cubed. The limit is well above rounding errors and well below a visible area or
+// volume.
 constexpr double flat_share = 1e-9;
 
 template <std::size_t Size>
@@ -26,7 +27,8 @@ bool names_one_twice(std::span<const ElementId> ascending) {
   return std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end();
 }
 
-/// Returns for each of `count` groups of corners whether it is left out. `corners(i)` returns them in ascending order.
+/// Returns, for each of `count` groups of corners, true if it must be left out. `corners(i)` returns the corners of
+/// group i in ascending order.
 template <class Corners>
 std::vector<bool> left_out(std::size_t count, Corners corners, MeshFlaws& flaws) {
   std::vector<bool> out(count, false);
@@ -139,7 +141,7 @@ void count_flaws(const Mesh& mesh, MeshFlaws& flaws) {
     count_volume(u.cross(v).dot(w), longest({u, v, w}), flaws);
   }
   for (const auto& h : mesh.hexahedra) {
-    // The mean edges along its three axes: their determinant has about its volume, and its sign.
+    // The determinant of the mean edges along the three axes is about the volume of the hexahedron, with its sign.
     const auto mean = [&](std::array<int, 8> way) {
       Point sum = Point::Zero();
       for (int i = 0; i < 8; i += 2) {

@@ -9,22 +9,22 @@ namespace chainmail {
 
 /// Counts of flaws in the mesh of a file that are not errors.
 struct MeshFlaws {
-  // Left out.
-  std::uint64_t unused = 0;     // points that nothing uses and that a library leaves out
-  std::uint64_t collapsed = 0;  // faces and cells that name a point twice: their edges are still links
-  std::uint64_t doubled = 0;    // faces and cells that appear again
-  // Kept.
+  // Flaws that are left out:
+  std::uint64_t unused = 0;     // unused points that a library leaves out
+  std::uint64_t collapsed = 0;  // faces and cells that use a point twice; their edges are still links
+  std::uint64_t doubled = 0;    // duplicate faces and cells
+  // Flaws that are kept:
   std::uint64_t flat = 0;        // faces without an area, cells without a volume
   std::uint64_t inverted = 0;    // cells inside out
-  std::uint64_t coincident = 0;  // elements at the position of another
+  std::uint64_t coincident = 0;  // elements at the position of another element
 
   bool operator==(const MeshFlaws&) const = default;
 };
 
-/// Removes and counts faces and cells that name a point twice or appear again.
+/// Removes and counts faces and cells that use a point twice, and duplicates of others.
 void leave_out_flawed(MeshParts& parts, MeshFlaws& flaws);
 
-/// Counts the flaws that stay in a mesh.
+/// Counts the flaws that a mesh keeps.
 void count_flaws(const Mesh& mesh, MeshFlaws& flaws);
 
 /// Describes the flaws in a sentence without a full stop; empty if there are none.

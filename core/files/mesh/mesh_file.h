@@ -10,16 +10,16 @@
 
 namespace chainmail {
 
-/// Returns only the mesh of what open_mesh reads (files/mesh/open_mesh.h). Throws Error, with the line where there is
-/// one, and Cancelled.
+/// Reads a file with open_mesh (files/mesh/open_mesh.h) and returns only its mesh. Throws Error, with the line if the
+/// file is text, and Cancelled.
 MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& options = {},
                       const Progress& progress = {});
 
-/// Writes the object with its cuts at these positions; .dat holds no positions and takes those of its lattice.
-/// Throws Error if the format cannot hold the mesh, and Cancelled.
+/// Writes the object with its cuts at the positions of `state`. A .dat file stores no positions. Throws Error if the
+/// format cannot store the mesh, and Cancelled.
 void write_mesh(std::ostream& out, const MeshFormat& format, const MeshState& state, const Progress& progress = {});
 
-/// Writes the same into a file, in the format that its ending names. A failed write leaves the file as it was.
+/// Writes the object into a file, in the format of the file's ending. If writing fails, the old file stays.
 void save_mesh(const std::filesystem::path& path, const MeshState& state, const Progress& progress = {});
 
 }  // namespace chainmail

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t sign_bytes = 512;  // read at the beginning of a file to recognise its format
+constexpr std::size_t sign_bytes = 512;  // bytes at the beginning of a file that are read to recognise its format
 
 ImportedMesh read_obj_file(const fs::path& path, const ReadOptions& /*options*/, const Progress& progress) {
   return read_obj(read_text(path, "a mesh", progress.part(0, 0.1)), path, progress.part(0.1, 1));
@@ -153,7 +153,8 @@ std::string_view without_comments(std::string_view beginning) {
   }
 }
 
-/// Returns why a file with this ending does not have this use. `format` is the format of the ending, if any.
+/// Returns the reason why a file with this ending does not have this use. `format` is the format of the ending; null if
+/// there is none.
 std::string refusal(const std::string& ending, const MeshFormat* format, FormatUse use) {
   if (ending.empty()) {
     return "its name has no ending";
@@ -213,7 +214,7 @@ const MeshFormat& detect_format(const fs::path& path) {
   std::array<char, sign_bytes> bytes{};
   const std::string_view beginning(bytes.data(), RegularFile(path).read(bytes));
   if (beginning.empty()) {
-    throw Error(shown(path), "it is empty", "give a file that holds a mesh");
+    throw Error(shown(path), "it is empty", "use a file that contains a mesh");
   }
   const MeshFormat* by_comment = find_by_sign(beginning);
   const MeshFormat* by_sign = by_comment != nullptr ? by_comment : find_by_sign(without_comments(beginning));

@@ -18,21 +18,22 @@ namespace chainmail {
 /// The use of a file: to read an object, to write an object, or to write the current positions of its elements.
 enum class FormatUse { read, write, write_positions };
 
-/// A format of meshes or volumes: one row of the table in mesh_formats.cpp. Reading, writing, recognising a file, the
-/// file dialogs, the help texts and the sentences of errors all use this table.
+/// A format of meshes or volumes: one row of the table in mesh_formats.cpp. Readers, writers, the recognition of files,
+/// file dialogs, help texts and error messages all use this table.
 struct MeshFormat {
   std::string_view name;
-  std::string_view endings;  // in lower case, separated by blanks; files are written with the first
-  std::string_view help;     // what a file holds
-  /// How a file begins, after blank lines and comments, or with the comment. Unused signs are empty.
+  std::string_view endings;  // in lower case, separated by spaces; the first one is used for writing
+  std::string_view help;     // content of such files, for help texts
+  /// Texts at the beginning of a file that identify the format, after or within blank lines and comments. Unused
+  /// entries are empty.
   std::array<std::string_view, 5> signs{};
-  /// Readers of a mesh or of a volume: a format has one of them, or none if it is only written. They throw Error, with
-  /// the line where there is one, and Cancelled.
+  /// The reader of a mesh or of a volume. A format has one of the two, or none if it is only written. They throw Error,
+  /// with the line if the file is text, and Cancelled.
   ImportedMesh (*read_mesh)(const std::filesystem::path&, const ReadOptions&, const Progress&) = nullptr;
   Volume (*read_volume)(const std::filesystem::path&, const ReadOptions&, const Progress&) = nullptr;
-  /// The writer, or none if the format is only read. Throws Error if the format cannot hold the mesh, and Cancelled.
+  /// The writer; null if the format is only read. Throws Error if the format cannot store the mesh, and Cancelled.
   void (*write)(std::ostream&, const MeshState&, const Progress&) = nullptr;
-  /// False if elements have the positions of their lattice.
+  /// False if the format stores no positions, but only a lattice.
   bool holds_positions = true;
 
   bool reads() const { return read_mesh != nullptr || read_volume != nullptr; }
@@ -42,21 +43,21 @@ struct MeshFormat {
   }
 };
 
-/// Returns all formats, in the order in which they are offered.
+/// Returns all formats, in the order of menus and help texts.
 std::span<const MeshFormat> mesh_formats();
 
-/// Returns the endings of all formats with a use, as `.dat or .obj`. `last` is the word before the last one.
+/// Returns the endings of all formats with a use, like `.dat or .obj`. `last` is the word before the last ending.
 std::string mesh_endings(FormatUse use, std::string_view last = "or");
 
 /// Returns one line per format with a use, for help texts.
 std::string mesh_formats_help(FormatUse use);
 
-/// Returns the format that the ending of a file names, in upper or lower case. Throws Error if no format has this
-/// ending, or if it does not have this use.
+/// Returns the format with the ending of a file, in upper or lower case. Throws Error if no format has this ending, or
+/// if the format does not have this use.
 const MeshFormat& mesh_format(const std::filesystem::path& path, FormatUse use = FormatUse::read);
 
-/// Returns the format of a file that exists: the one whose sign its content begins with, else the one that its ending
-/// names. Throws Error if there is no such file, or if neither is known.
+/// Returns the format of an existing file. It is recognised by its content, else by its ending. Throws Error if the
+/// file does not exist, or if the format is not known.
 const MeshFormat& detect_format(const std::filesystem::path& path);
 
 }  // namespace chainmail

@@ -12,7 +12,7 @@ namespace {
 
 void check_options(const MeshFormat& format, const std::filesystem::path& path, const ReadOptions& options) {
   if (format.holds_positions && (options.size || options.spacing)) {
-    throw Error(shown(path), "it holds its own positions", "leave size and spacing out");
+    throw Error(shown(path), "it contains its own positions", "leave size and spacing out");
   }
   if (format.read_volume == nullptr && (options.voxels.threshold || options.voxels.every || options.data_outside)) {
     throw Error(shown(path), "it is not a volume of voxels", "leave out the options of volumes");
@@ -43,15 +43,15 @@ OpenedMesh opened(ImportedMesh imported, const std::filesystem::path& path, cons
                   const Progress& progress) {
   MeshParts& parts = imported.parts;
   if (parts.rest.empty()) {
-    throw Error(shown(path), "it holds no linked points", "give a file with lines, faces or cells");
+    throw Error(shown(path), "it contains no linked points", "use a file with lines, faces or cells");
   }
   OpenedMesh result;
   result.flaws.unused = imported.unused;
-  add_links_along_edges(parts);  // also of faces and cells that are left out
+  add_links_along_edges(parts);  // includes faces and cells that are left out
   if (!imported.checked) {
     leave_out_flawed(parts, result.flaws);
     if (parts.links.empty()) {
-      throw Error(shown(path), "it holds points without links", "give a file with lines, faces or cells");
+      throw Error(shown(path), "it contains points without links", "use a file with lines, faces or cells");
     }
   }
   parts.space_dimension = chosen_space(parts, options.space_dimension, imported.space, path);

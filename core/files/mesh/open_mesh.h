@@ -14,31 +14,31 @@
 
 namespace chainmail {
 
-/// The object of a file, and what the user should know about it.
+/// The object in a file, with remarks for the user.
 struct OpenedMesh {
   MeshPointer mesh;
-  std::map<LinkId, LinkSoftness> softness;  // of links with their own: dense voxels have stiffer links
+  std::map<LinkId, LinkSoftness> softness;  // softness of single links: dense voxels have stiffer links
   MeshFlaws flaws;
-  std::string remark;  // how voxels became elements, else empty
+  std::string remark;  // description of the conversion of voxels; empty for other files
 };
 
-/// Reads a mesh, a volume, or a pair of TetGen files. Its content decides the format, else its ending does.
+/// Reads a mesh, a volume, or a pair of TetGen files. The format is recognised by the content, else by the ending.
 ///
-/// Throws Error, with the line where there is one, and Cancelled. Libraries read in a process of their own, within
-/// limits of memory and time.
+/// Throws Error, with the line if the file is text, and Cancelled. Libraries read files in a separate process with
+/// limited memory and time.
 OpenedMesh open_mesh(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});
 
-/// True if the file is a volume of voxels. Throws as detect_format.
+/// Returns true if the file is a volume of voxels. Throws like detect_format.
 bool is_volume(const std::filesystem::path& path);
 
-/// Returns the voxels of such a file. Throws as open_mesh.
+/// Returns the voxels of a file that is a volume. Throws like open_mesh.
 Volume read_volume(const std::filesystem::path& path, const Progress& progress = {});
 
-/// Describes how voxels became elements: 'voxels from a density of 250, 2 along each axis to an element'.
+/// Describes the conversion of voxels to elements: 'voxels from a density of 250, 2 along each axis to an element'.
 std::string in_words(const VoxelBlock& block);
 
-/// Builds the mesh that a reader took from a file, with links along all edges. Flawed faces and cells are left out,
-/// unless the reader checked them.
+/// Builds a mesh from the content of a file, with links along all edges. Flawed faces and cells are left out, unless
+/// the reader checked them.
 OpenedMesh opened(ImportedMesh imported, const std::filesystem::path& path, const ReadOptions& options,
                   const Progress& progress = {});
 

@@ -13,9 +13,10 @@
 namespace chainmail {
 namespace {
 
-using TexelPoint = Eigen::Vector2d;  // in texels, from a corner of a picture
+using TexelPoint = Eigen::Vector2d;  // in texels from the first corner of a picture
 
-// A bound within this distance of a pixel row does not include the row (texels).
+// Rounding error of positions (texels). A range that reaches into a row of pixels by less than this does not include
+// the row.
 constexpr double rounding = 1e-3;
 
 bool is_whole(const Mesh& mesh, const Cuts& cuts, const std::array<ElementId, 3>& triangle) {
@@ -36,10 +37,11 @@ class TexelPositions {
   TexelPoint origin_, per_unit_;
 };
 
-/// An edge of a triangle: the points to its left, and those on it that do not belong to its neighbour.
+/// An edge of a triangle. It includes the points to its left, and those points on it that do not belong to the
+/// neighbour triangle.
 class Edge {
  public:
-  /// Both triangles at an edge compute the same number, because both start from the same end.
+  /// Starts both triangles at an edge from the same end, so that both compute the same numbers.
   Edge(const TexelPoint& a, const TexelPoint& b)
       : turned_(b.x() < a.x() || (b.x() == a.x() && b.y() < a.y())),
         from_(turned_ ? b : a),
@@ -53,7 +55,7 @@ class Edge {
   /// Extends a range to the point where the edge crosses the line at this height.
   void cross(double y, double& low, double& high) const {
     const double share = (y - from_.y()) / along_.y();
-    if (share >= 0 && share <= 1) {  // false for NaN, if the edge is level
+    if (share >= 0 && share <= 1) {  // false for NaN, which means that the edge is horizontal
       const double x = from_.x() + share * along_.x();
       low = std::min(low, x);
       high = std::max(high, x);
@@ -66,7 +68,8 @@ class Edge {
   bool owns_;
 };
 
-/// Interpolates the four channels between the four nearest texels; outside, the texels of the border.
+/// Interpolates the four channels between the four nearest texels. Outside the picture, it uses the texels of the
+/// border.
 class Sampler {
  public:
   explicit Sampler(const Texture& picture) : picture_(picture) {}
@@ -127,7 +130,7 @@ void Warper::draw(std::array<TexelPoint, 3> corners, std::array<TexelPoint, 3> s
   sides << corners[1] - corners[0], corners[2] - corners[0];
   if (const double area = sides.determinant(); area == 0 || !std::isfinite(area)) {
     return;
-  } else if (area < 0) {  // folded over: seen from behind
+  } else if (area < 0) {  // folded, and seen from behind
     std::swap(corners[1], corners[2]);
     std::swap(sources[1], sources[2]);
     sides.col(0).swap(sides.col(1));

@@ -9,12 +9,12 @@
 
 namespace chainmail {
 
-/// Largest number of pixels in a picture that is read or made. Larger ones are refused before memory is taken: a pixel
-/// takes up to 12 bytes while it is decoded, however small the file is.
+/// Largest number of pixels in a picture that is read or made. Larger pictures are refused before memory is taken: a
+/// pixel takes up to 12 bytes while the picture is decoded, even if the file is small.
 inline constexpr double picture_limit = 100e6;
 
-/// A part of the plane to draw: its lowest corner and its size, in whole texels from the first corner of the picture of
-/// a sheet.
+/// The part of the plane to draw: its lowest corner and its size, in whole texels from the first corner of the picture
+/// of a sheet.
 struct PictureFrame {
   std::array<double, 2> from{0, 0};
   std::array<double, 2> size{0, 0};
@@ -27,11 +27,11 @@ PictureFrame frame_about(const Mesh& sheet, const Cuts& cuts, const PositionView
 /// Returns the warped picture of a sheet (see is_sheet), with texels of the same size as in the original picture.
 ///
 /// Each whole triangle maps its part of the picture by the affine map of its corners, with bilinear sampling. A pixel
-/// belongs to the triangle that contains its centre, and to only one of two triangles with a shared edge: there are no
-/// seams. Pixels without a triangle, outside and in cuts, are transparent. Where the sheet is folded, the later
-/// triangle is visible. A sheet at rest returns the exact picture: positions in single precision are off by less than a
-/// thousandth of a pixel, which is less than half of one of 256 steps of brightness. Throws Error if the frame has no
-/// pixels or more than picture_limit, and Cancelled.
+/// belongs to the triangle that contains its centre. On a shared edge it belongs to only one of the two triangles, so
+/// there are no seams. Pixels without a triangle, outside and in cuts, are transparent. Where the sheet is folded, the
+/// later triangle is visible. A sheet at rest returns the exact picture: positions in single precision are off by less
+/// than a thousandth of a pixel, which is less than half of one of 256 steps of brightness. Throws Error if the frame
+/// has no pixels or more than picture_limit, and Cancelled.
 Texture warped(const Mesh& sheet, const Cuts& cuts, const PositionView& positions, const PictureFrame& frame,
                const Progress& progress = {});
 

@@ -75,7 +75,7 @@ Json to_json(const report::Errors& errors) {
           {"distance_to_exact", to_json(errors.to_exact)},
           {"energy_over_exact", to_json(errors.energy_over_exact)},
           {"float_to_double", to_json(std::optional(errors.float_to_double))},
-          {"largest_over_hand", to_json(errors.largest_over_hand)},
+          {"largest_over_hand", to_json(errors.largest_over_handle)},
           {"distance_to_equilibrium", to_json(errors.to_equilibrium)}};
 }
 
@@ -156,8 +156,8 @@ Json to_json(const report::PhysicsDrag& drag) {
           {"handle", drag.handle},
           {"moves", drag.moves},
           {"cut_before_last_move", drag.has_cut},
-          {"hand", drag.hand},
-          {"no_truth", drag.no_truth.empty() ? Json() : Json(drag.no_truth)},
+          {"hand", drag.handle_displacement},
+          {"no_truth", drag.no_reference.empty() ? Json() : Json(drag.no_reference)},
           {"contestants", all_of(drag.entries)}};
 }
 

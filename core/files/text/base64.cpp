@@ -8,7 +8,7 @@ namespace {
 constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr std::uint8_t none = 64;
 
-/// The six bits of each character, or none.
+/// The six bits that each character encodes, or none.
 constexpr std::array<std::uint8_t, 256> values = [] {
   std::array<std::uint8_t, 256> result{};
   result.fill(none);
@@ -40,7 +40,7 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
   if (text.size() % 4 != 0) {
     return std::nullopt;
   }
-  const std::size_t filled = text.size() - std::min(text.find('='), text.size());  // at the end, if anywhere
+  const std::size_t filled = text.size() - std::min(text.find('='), text.size());  // padding is only allowed at the end
   if (filled > 2) {
     return std::nullopt;
   }

@@ -24,7 +24,7 @@ class Base64Writer {
       add_byte(byte);
     }
   }
-  /// Call this at the end.
+  /// Writes the remaining bytes. Call this at the end.
   void finish();
 
  private:
@@ -41,7 +41,7 @@ class Base64Writer {
   int bytes_ = 0;
 };
 
-/// Returns the bytes of a text in the exact form that Base64Writer writes.
+/// Decodes a text in the exact form that Base64Writer writes; none if it has another form.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
 
 }  // namespace chainmail

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Throws Error if the text is not JSON that we can read; builds nothing.
+/// Checks that a text is JSON that we can read, without building a tree. Throws Error if it is not.
 class JsonCheck : public JsonScan {
  public:
   using JsonScan::JsonScan;
@@ -40,7 +40,7 @@ void JsonFields::fail(const std::string& problem, const std::string& remedy) con
 void JsonFields::check_keys(const Json& object, const std::vector<std::string>& known) const {
   for (const auto& [key, value] : object.items()) {
     if (std::find(known.begin(), known.end(), key) == known.end()) {
-      fail(in_quotes(key) + " is not known here", "remove it");
+      fail(in_quotes(key) + " is not a known key", "remove it");
     }
   }
 }

@@ -12,8 +12,9 @@
 
 namespace chainmail {
 
-/// Parses the JSON of a file. `content` is what the file should hold. Throws Error, with the line, if it is not JSON,
-/// and if it is nested deeper than our formats or has a number that is too large for a double.
+/// Parses the JSON of a file. `content` describes the expected content in error messages. Throws Error, with the line,
+/// if the text is not JSON, if it is nested deeper than our formats, or if it contains a number that is too large for a
+/// double.
 nlohmann::json parse_json(std::string_view text, const std::filesystem::path& path, const std::string& content);
 
 /// Checks and returns the members of objects. Throws Error if one is missing or has the wrong type.
@@ -21,14 +22,14 @@ class JsonFields {
  public:
   using Json = nlohmann::json;
 
-  /// `where` appears in errors.
+  /// `where` appears in error messages.
   explicit JsonFields(std::string where) : where_(std::move(where)) {}
 
   const std::string& where() const { return where_; }
   void say_at(const std::string& where) { where_ = where; }
 
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
-  /// Refuses unknown keys, which may be misspelt ones.
+  /// Throws Error if there is an unknown key, because it may be a misspelt one.
   void check_keys(const Json& object, const std::vector<std::string>& known) const;
   const Json& member(const Json& object, const std::string& key) const;
   const Json& array(const Json& object, const std::string& key) const;
@@ -36,7 +37,7 @@ class JsonFields {
   std::string text(const Json& object, const std::string& key) const;
   bool boolean(const Json& object, const std::string& key) const;
   double number(const Json& json) const;
-  /// Returns a number in the range of a parameter.
+  /// Returns a number. Throws Error if it is not in the range of the parameter.
   double number(const Json& json, const Parameter& parameter) const;
   LinkSoftness softness(const Json& compression, const Json& stretch, const Json& shear) const;
 
@@ -44,7 +45,7 @@ class JsonFields {
   std::string where_;
 };
 
-/// Returns a value as errors show it.
+/// Returns a value as text for error messages.
 std::string text_of(const nlohmann::json& json);
 
 }  // namespace chainmail

@@ -10,9 +10,9 @@
 namespace chainmail {
 namespace {
 
-// Levels of arrays and objects. Our formats need 5; deeper ones must not exhaust memory or stack.
+// Largest depth of nested arrays and objects. Our formats need 5. The limit protects memory and stack.
 constexpr std::size_t deepest = 16;
-constexpr std::size_t piece = std::size_t{1} << 18;  // bytes between two reports: a few milliseconds
+constexpr std::size_t piece = std::size_t{1} << 18;  // bytes between two progress reports: a few milliseconds
 
 }  // namespace
 
@@ -22,7 +22,7 @@ TextBuffer::int_type TextBuffer::underflow() {
   }
   progress_.report(double(done_) / double(text_.size()));
   const std::size_t size = std::min(piece, text_.size() - done_);
-  char* first = const_cast<char*>(text_.data()) + done_;  // it is only read
+  char* first = const_cast<char*>(text_.data()) + done_;  // the stream only reads it
   setg(first, first, first + size);
   done_ += size;
   return traits_type::to_int_type(*first);
@@ -66,7 +66,7 @@ bool JsonScan::key(std::string& key) {
 
 bool JsonScan::parse_error(std::size_t position, const std::string& /*last*/, const Json::exception& error) {
   if (dynamic_cast<const Json::parse_error*>(&error) == nullptr) {
-    throw Error(shown(path_), "it holds a number that is too large for a double", remedy_);
+    throw Error(shown(path_), "it contains a number that is too large for a double", remedy_);
   }
   throw Error(shown(path_, line_at(text_, position)), "it is not JSON", remedy_);
 }

@@ -36,7 +36,7 @@ constexpr NumberType number_type(std::string_view name) {
           }};
 }
 
-/// Returns the type with this name, or null.
+/// Returns the type with this name; null if there is none.
 inline const NumberType* find_number_type(std::span<const NumberType> types, std::string_view name) {
   const auto found = std::find_if(types.begin(), types.end(), [&](const auto& type) { return type.name == name; });
   return found == types.end() ? nullptr : &*found;

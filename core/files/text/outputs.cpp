@@ -18,20 +18,20 @@ namespace fs = std::filesystem;
 
 void refuse_unwritable(const fs::path& path, const fs::path& target, const fs::file_status& status) {
   if (fs::is_directory(status) || !target.has_filename()) {
-    throw Error(shown(path), "it is a folder", "give a file");
+    throw Error(shown(path), "it is a folder", "use a file");
   }
   std::error_code error;
   if (target.has_parent_path() && !fs::is_directory(target.parent_path(), error)) {
     throw Error(shown(path), "its folder does not exist", "create the folder first");
   }
-  // A rename would ignore that the file may not be written.
+  // The later rename would replace even a write-protected file.
   if (fs::exists(status) && !std::ofstream(target, std::ios::app)) {
     throw Error(shown(path), "it cannot be written (" + system_reason() + ")", "check its permissions");
   }
 }
 
 fs::path temporary_for(const fs::path& target) {
-  // Short and unrelated to the target's name, which may be as long as a name can be.
+  // The name is short and does not contain the target's name, which may already have the largest possible length.
   static std::random_device random;
   std::error_code error;
   for (;;) {
@@ -67,7 +67,8 @@ void Outputs::refuse_twice(const fs::path& path, const fs::path& target) const {
       std::any_of(files_.begin(), files_.end(), [&](const File& file) { return file.target == target; }) ||
       std::any_of(streams_.begin(), streams_.end(), [&](const Stream& stream) { return stream.path == path; });
   if (twice) {
-    throw Error(path == "-" ? "standard output" : shown(path), "two outputs have this name", "give each its own file");
+    throw Error(path == "-" ? "standard output" : shown(path), "two outputs have this name",
+                "use a different file for each");
   }
 }
 
@@ -75,14 +76,14 @@ void Outputs::keep(const fs::path& input) { inputs_.push_back(resolved(input)); 
 
 void Outputs::add(const fs::path& path, Writer writer) {
   if (path.empty()) {
-    throw Error("file name", "it is empty", "give a file, or - for standard output");
+    throw Error("file name", "it is empty", "use the name of a file, or - for standard output");
   }
   std::error_code error;
-  const fs::path target = resolved(path);  // a symbolic link stays one, and the file behind it is replaced
+  const fs::path target = resolved(path);  // keeps a symbolic link, and replaces the file that it points to
   const auto status = fs::status(path, error);
   refuse_twice(path, target);
   if (path != "-" && std::find(inputs_.begin(), inputs_.end(), target) != inputs_.end()) {
-    throw Error(shown(path), "it is an input, and this output would replace it", "give the output another name");
+    throw Error(shown(path), "it is an input, and this output would replace it", "choose another name for the output");
   }
   if (path == "-" || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))) {
     streams_.push_back({path, std::move(writer)});

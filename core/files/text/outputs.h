@@ -9,16 +9,17 @@
 
 namespace chainmail {
 
-/// A write that started and could not be finished: a full disk, a closed pipe.
+/// The error for a write that started and could not be finished, for example on a full disk.
 class WriteFailure : public Error {
  public:
   using Error::Error;
 };
 
-/// Files that are written together: all of them or none.
+/// Writes several files together: all of them or none.
 ///
-/// Each file is first written to a temporary file in the folder of its target; commit() then renames all. The path `-`
-/// is standard output. Standard output, devices and pipes receive their text in commit(), before the first rename.
+/// Each text is first written to a temporary file in the folder of its target. Then commit() renames all temporary
+/// files. The path `-` means standard output. Standard output, devices and pipes receive their text in commit(), before
+/// the first rename.
 class Outputs {
  public:
   using Writer = std::function<void(std::ostream&)>;
@@ -26,10 +27,10 @@ class Outputs {
   Outputs() = default;
   Outputs(const Outputs&) = delete;
   Outputs& operator=(const Outputs&) = delete;
-  /// Removes the temporary files that were not committed.
+  /// Removes temporary files that were not committed.
   ~Outputs();
 
-  /// Protects a file that was read: no output may replace it. Call this before add().
+  /// Protects an input file: no output may replace it. Call this before add().
   void keep(const std::filesystem::path& input);
   /// Writes the text of a file to its temporary file. Throws Error if the target cannot be written.
   void add(const std::filesystem::path& path, Writer writer);
@@ -37,7 +38,7 @@ class Outputs {
 
  private:
   struct File {
-    std::filesystem::path path;  // as the user named it
+    std::filesystem::path path;  // the path that the user entered
     std::filesystem::path target;
     std::filesystem::path temporary;
   };
@@ -48,12 +49,12 @@ class Outputs {
 
   void refuse_twice(const std::filesystem::path& path, const std::filesystem::path& target) const;
 
-  std::vector<std::filesystem::path> inputs_;  // with links resolved
+  std::vector<std::filesystem::path> inputs_;  // with symbolic links resolved
   std::vector<File> files_;
   std::vector<Stream> streams_;
 };
 
-/// Writes one file. A failed write leaves the file as it was.
+/// Writes one file. If writing fails, the old file stays.
 void write_file(const std::filesystem::path& path, const Outputs::Writer& writer);
 
 }  // namespace chainmail

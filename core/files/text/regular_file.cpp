@@ -19,20 +19,20 @@ void require_file(const std::filesystem::path& path) {
     case file_type::not_found:
       throw Error(shown(path), "there is no such file", "check the path");
     case file_type::directory:
-      throw Error(shown(path), "it is a folder", "give a file");
+      throw Error(shown(path), "it is a folder", "use a file");
     case file_type::fifo:
     case file_type::socket:
-      throw Error(shown(path), "it is a pipe", "save its content as a file, and give that");
+      throw Error(shown(path), "it is a pipe", "save its content as a file, and use that");
     case file_type::block:
     case file_type::character:
-      throw Error(shown(path), "it is a device", "give a file");
+      throw Error(shown(path), "it is a device", "use a file");
     default:
-      break;  // a file, or one without permission, which opening reports
+      break;  // a file; opening reports missing permission
   }
 }
 
 RegularFile::RegularFile(const std::filesystem::path& path) : path_(path) {
-  require_file(path);  // before it is opened: opening a device may have effects
+  require_file(path);  // check first: opening a device may have side effects
   descriptor_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   struct stat status {};
   if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) {

@@ -16,12 +16,12 @@
 namespace chainmail {
 namespace {
 
-// Ten times the size of the largest mesh allowed.
+// Largest size of a file (bytes): ten times that of the largest mesh allowed.
 constexpr std::size_t largest_text = std::size_t{4} << 30;
 constexpr std::size_t longest_quote = 40;
-constexpr std::size_t lines_between_reports = 4096;  // a millisecond or two
+constexpr std::size_t lines_between_reports = 4096;  // one or two milliseconds
 
-/// Returns the length of the UTF-8 sequence at the start of a text, or 0.
+/// Returns the length of the UTF-8 sequence at the start of a text (bytes); 0 if it is invalid.
 std::size_t sequence_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) < 0xc2 ? 0 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
@@ -79,11 +79,11 @@ std::string shown(const std::filesystem::path& path, std::size_t line) {
 
 namespace {
 
-/// Reads a whole file, which must have no byte 0 if it is text.
+/// Reads a whole file. A text file must not contain a byte 0.
 std::string read_whole(const std::filesystem::path& path, bool is_text, const std::string& content,
                        const Progress& progress) {
   RegularFile file(path);
-  const Error too_large(shown(path), "it is larger than 4 GiB", "give a smaller file");
+  const Error too_large(shown(path), "it is larger than 4 GiB", "use a smaller file");
   if (file.size() > largest_text) {
     throw too_large;
   }
@@ -94,14 +94,14 @@ std::string read_whole(const std::filesystem::path& path, bool is_text, const st
     text.append(part.data(), got);
     progress.report(std::min(1.0, double(text.size()) / double(file.size())));
     if (is_text && text.find('\0', text.size() - got) != std::string::npos) {
-      throw Error(shown(path), "it is not a text file", "give " + content + " as text");
+      throw Error(shown(path), "it is not a text file", "use a text file with " + content);
     }
     if (text.size() > largest_text) {
-      throw too_large;  // it grew
+      throw too_large;  // the file grew while it was read
     }
   }
   if (text.empty()) {
-    throw Error(shown(path), "it is empty", "give a file that holds " + content);
+    throw Error(shown(path), "it is empty", "use a file that contains " + content);
   }
   return text;
 }
@@ -171,7 +171,7 @@ std::string lower_case(std::string_view text) {
 
 std::optional<double> parse_number(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') {
-    word.remove_prefix(1);  // from_chars does not accept it, but files contain it
+    word.remove_prefix(1);  // files contain a plus sign, which from_chars does not accept
   }
   double number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
@@ -248,7 +248,7 @@ std::optional<std::string_view> stated(std::string_view line, std::string_view w
     rest.remove_prefix(1);
   }
   if (!rest.starts_with('#')) {
-    return std::nullopt;  // quickly: most lines are not comments
+    return std::nullopt;  // fast path: most lines are not comments
   }
   rest.remove_prefix(1);
   const std::string_view first = take_word(rest);

@@ -13,33 +13,33 @@
 
 namespace chainmail {
 
-/// Makes a text from outside safe for a message: control characters and invalid UTF-8 become \xNN. A message is then
-/// one line and cannot control a terminal.
+/// Makes a text from outside safe for a message: control characters and invalid UTF-8 become \xNN. So a message has one
+/// line and cannot control a terminal.
 std::string printable(std::string_view text);
-/// Returns a word from a file in quotes; long words are shortened.
+/// Returns a word in quotes; long words are shortened.
 std::string in_quotes(std::string_view word);
-/// Returns a path as messages show it, or `file:line`.
+/// Returns a path as text for messages; with a line, as `file:line`.
 std::string shown(const std::filesystem::path& path);
 std::string shown(const std::filesystem::path& path, std::size_t line);
 
-/// Reads a whole text file. Throws Error if it is not a regular file, or empty, too large or not text. `content` is
-/// what the file should hold.
+/// Reads a whole text file. Throws Error if it is not a regular file, or if it is empty, too large or not text.
+/// `content` describes the expected content in error messages.
 std::string read_text(const std::filesystem::path& path, const std::string& content = "a mesh",
                       const Progress& progress = {});
 /// Reads a whole file that may be binary.
 std::string read_bytes(const std::filesystem::path& path, const std::string& content = "a mesh",
                        const Progress& progress = {});
 
-/// Walks through a text line by line; lines end in \n, \r\n or \r and count from 1.
+/// Reads a text line by line. Lines end with \n, \r\n or \r, and their numbers start at 1.
 class Lines {
  public:
   explicit Lines(std::string_view text);
 
-  /// Goes to the next line; returns false at the end.
+  /// Moves to the next line. Returns false at the end.
   bool next();
   std::string_view line() const { return line_; }
   std::size_t number() const { return number_; }
-  /// Reports the share of the text that is done.
+  /// Reports the share of the text that was read.
   void report(const Progress& progress) const;
 
  private:
@@ -54,7 +54,7 @@ std::string_view take_word(std::string_view& rest);
 
 /// Returns a text without the blanks, tabs and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);
-/// Returns a text with A to Z in lower case.
+/// Converts A to Z to lower case. Other characters stay.
 std::string lower_case(std::string_view text);
 
 /// Parses a word that is a finite decimal number, to the nearest double.
@@ -66,7 +66,7 @@ std::optional<std::uint32_t> parse_count(std::string_view word);
 void append_number(std::string& text, double number);
 void append_number(std::string& text, std::uint64_t number);
 
-/// Writes text to a stream in blocks: writing each word to a stream or a string is slow.
+/// Writes text to a stream in large blocks, because writing each word to a stream or a string is slow.
 class TextBlocks {
  public:
   explicit TextBlocks(std::ostream& out) : out_(out) {}
@@ -78,7 +78,7 @@ class TextBlocks {
   /// Writes a number as append_number does.
   TextBlocks& operator<<(double number);
   TextBlocks& operator<<(std::uint32_t number);
-  /// Call this at the end.
+  /// Writes the remaining text. Call this at the end.
   void flush();
 
  private:
@@ -91,11 +91,11 @@ class TextBlocks {
   char* end_ = block_.data();
 };
 
-/// Returns the reason for the last failed system call, from errno.
+/// Returns the reason for the failure of the last system call, from errno.
 std::string system_reason();
 
-/// Returns the values of a comment `# WORD value…`, if the first value begins like a number. Prose that begins with
-/// WORD does not count.
+/// Returns the values of a comment `# WORD value…`; none if the first value does not begin like a number, because then
+/// the comment is a sentence.
 std::optional<std::string_view> stated(std::string_view line, std::string_view word);
 
 /// Returns the value of a comment `# space N`. Throws Error at `path:number` unless N is 1, 2 or 3.

@@ -58,7 +58,7 @@ Axis Axis::logarithmic(const std::vector<double>& values, double smallest) {
     low = static_cast<int>(std::floor(std::log10(least)));
     high = std::max(low + 1, static_cast<int>(std::ceil(std::log10(most))));
     step = (high - low) / most_ticks + 1;
-    high += (step - (high - low) % step) % step;  // so that the last decade has a tick
+    high += (step - (high - low) % step) % step;  // extends the axis, so that the last decade has a tick
   }
   axis.low_ = low;
   axis.high_ = high;

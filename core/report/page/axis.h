@@ -18,12 +18,11 @@ struct LabelledValue {
   std::string label;
 };
 
-/// Maps values to positions along an axis. Positions run from 0, where the axis begins, to 1, where it ends.
+/// Maps values to positions along an axis, from 0 at its beginning to 1 at its end.
 class Axis {
  public:
-  /// Returns a logarithmic axis over the decades of `values`. Values below `smallest` count as 0. Where there are such
-  /// values, 0 has a position of its own between the beginning and the first decade. Values beyond the axis are at its
-  /// ends.
+  /// Returns a logarithmic axis over the decades of `values`. Values below `smallest` count as 0. If there are any, 0
+  /// has its own position between the beginning and the first decade. Values beyond the axis are drawn at its ends.
   static Axis logarithmic(const std::vector<double>& values, double smallest);
   /// Returns a linear axis. Values beyond it have positions below 0 or above 1.
   static Axis linear(double low, double high, const std::vector<LabelledValue>& ticks);
@@ -31,10 +30,10 @@ class Axis {
   static Axis from_zero_to(double highest);
 
   double position(double value) const;
-  /// Returns few enough ticks that their labels do not crowd.
+  /// Returns the ticks, few enough that their labels do not overlap.
   const std::vector<Tick>& ticks() const { return ticks_; }
   bool has_zero() const { return has_zero_; }
-  /// Returns the position of the first decade, which is behind that of 0.
+  /// Returns the position of the first decade. It comes after that of 0.
   double first_decade() const { return has_zero_ ? behind_zero : 0; }
 
  private:
@@ -42,7 +41,7 @@ class Axis {
 
   bool is_logarithmic_ = false, has_zero_ = false;
   double smallest_ = 0;
-  double low_ = 0, high_ = 1;  // values; decades where the axis is logarithmic
+  double low_ = 0, high_ = 1;  // values; for a logarithmic axis their decades
   std::vector<Tick> ticks_;
 };
 

@@ -15,7 +15,7 @@ void write_errors(std::ostream& out, const Errors& errors) {
   write_distance(out, errors.to_exact);
   out << ',' << all_digits(errors.energy_over_exact);
   write_distance(out, errors.float_to_double);
-  out << ',' << all_digits(errors.largest_over_hand);
+  out << ',' << all_digits(errors.largest_over_handle);
   write_distance(out, errors.to_equilibrium);
 }
 
@@ -29,7 +29,7 @@ void write_measurement(std::ostream& out, const Measurement& measurement) {
   write_errors(out, measurement.errors);
 }
 
-constexpr int comparison_figures = 20;  // columns of a measurement
+constexpr int comparison_figures = 20;  // number of columns of a measurement
 
 }  // namespace
 

@@ -6,8 +6,8 @@
 
 namespace chainmail::report {
 
-/// Writes a row for each contestant, drag and object, under a header. Numbers have all digits; a field is empty where
-/// there is no figure.
+/// Writes a header, then a row for each contestant, drag and object. Numbers have all digits; missing values are empty
+/// fields.
 void write_csv(std::ostream& out, const Comparison& comparison);
 
 }  // namespace chainmail::report

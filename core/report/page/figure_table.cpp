@@ -55,7 +55,7 @@ void write_columns(std::ostream& out, const std::vector<std::vector<std::string>
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
     for (std::size_t i = 0; i < row.size(); ++i) {
-      // In a row of two, the second cell is a sentence that may be wider than the columns.
+      // The second cell of a row of two is a sentence. It may be wider than the columns.
       widths[i] = std::max(widths[i], row.size() == 2 && i == 1 ? 0 : width_of(row[i]));
     }
   }

@@ -9,7 +9,7 @@ namespace chainmail::report {
 /// A table of figures as text, for a page or a terminal.
 struct FigureTable {
   struct Column {
-    std::string group;  // shared by neighbouring columns
+    std::string group;  // common heading of neighbouring columns
     std::string name;
   };
   struct Row {
@@ -28,8 +28,8 @@ struct FigureTable {
 /// Writes the table as part of a page, in a box that scrolls horizontally.
 void write_html(std::ostream& out, const FigureTable& table);
 
-/// Writes columns as wide as their widest cell; the first one is left-aligned. A row of two cells is a name and a
-/// sentence.
+/// Writes rows as aligned text. Each column is as wide as its widest cell; the first column is left-aligned. A row of
+/// two cells is a name and a sentence.
 void write_columns(std::ostream& out, const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace chainmail::report

@@ -16,7 +16,7 @@ std::string percent(double share);
 std::string all_digits(double number);
 std::string all_digits(const std::optional<double>& number);
 
-/// Returns text as a field of CSV, in quotes where needed.
+/// Returns text as a field of CSV, in quotes if needed.
 std::string csv_field(const std::string& text);
 /// Returns text for XML and HTML, attributes included. Control characters and invalid UTF-8 become question marks.
 std::string escaped(std::string_view text);

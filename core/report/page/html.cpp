@@ -54,7 +54,7 @@ std::string exact_rms(const Measurement& m, const DragResult&) { return part(m.e
 std::string energy_cell(const Measurement& m, const DragResult&) { return figure(m.errors.energy_over_exact); }
 std::string float_max(const Measurement& m, const DragResult&) { return figure(m.errors.float_to_double.max); }
 std::string float_rms(const Measurement& m, const DragResult&) { return figure(m.errors.float_to_double.rms); }
-std::string handle_cell(const Measurement& m, const DragResult&) { return figure(m.errors.largest_over_hand); }
+std::string handle_cell(const Measurement& m, const DragResult&) { return figure(m.errors.largest_over_handle); }
 std::string rest_max(const Measurement& m, const DragResult&) { return part(m.errors.to_equilibrium, &Distance::max); }
 std::string rest_rms(const Measurement& m, const DragResult&) { return part(m.errors.to_equilibrium, &Distance::rms); }
 
@@ -114,7 +114,7 @@ FigureTable table_of(const CaseResult& object, const DragResult& drag) {
   return table;
 }
 
-/// Writes every figure of an object, one table for each drag.
+/// Writes all figures of an object, one table per drag.
 void write_details(std::ostream& out, const CaseResult& object) {
   for (const DragResult& drag : object.drags) {
     write_html(out, table_of(object, drag));

@@ -7,7 +7,7 @@
 
 namespace chainmail::report {
 
-/// Writes a comparison as one page that needs no other file: explanations, tables, plots, and their origin.
+/// Writes a comparison as one self-contained HTML page: explanations, tables, plots, and their origin.
 void write_html(std::ostream& out, const Comparison& comparison, const Origin& origin);
 
 }  // namespace chainmail::report

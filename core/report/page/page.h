@@ -11,7 +11,7 @@
 
 namespace chainmail::report {
 
-/// Writes the beginning of a page that needs no other file and can be printed.
+/// Writes the beginning of a self-contained HTML page that can be printed.
 void begin_page(std::ostream& out, const std::string& title, const Origin& origin);
 /// Writes the end of the page with the origin of its figures; `more` are terms with their descriptions.
 void end_page(std::ostream& out, const Origin& origin, const CompareOptions& options,

@@ -5,7 +5,7 @@
 namespace chainmail::report {
 namespace {
 
-constexpr int physics_figures = 29;  // columns of a measurement
+constexpr int physics_figures = 29;  // number of columns of a measurement
 
 /// Writes median, quartiles and repetitions; empty fields if nothing was timed.
 void write_spread(std::ostream& out, const TimeSpread& ms) {
@@ -59,8 +59,8 @@ void write_csv(std::ostream& out, const PhysicsReport& report) {
     for (const PhysicsDrag& drag : object.drags) {
       for (const PhysicsEntry& entry : drag.entries) {
         out << csv_field(object.name) << ',' << object.elements << ',' << object.pins << ',' << csv_field(drag.name)
-            << ',' << all_digits(drag.hand) << ',' << name(entry.contestant) << ',' << entry.contestant.sweeps << ','
-            << csv_field(entry.refusal);
+            << ',' << all_digits(drag.handle_displacement) << ',' << name(entry.contestant) << ','
+            << entry.contestant.sweeps << ',' << csv_field(entry.refusal);
         if (entry.measurement) {
           write_measurement(out, *entry.measurement);
         } else {

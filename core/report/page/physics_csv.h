@@ -6,7 +6,7 @@
 
 namespace chainmail::report {
 
-/// Writes a row for each contestant, drag and object, with all digits.
+/// Writes a header, then a row for each contestant, drag and object. Numbers have all digits.
 void write_csv(std::ostream& out, const PhysicsReport& report);
 
 }  // namespace chainmail::report

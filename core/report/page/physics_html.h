@@ -7,7 +7,7 @@
 
 namespace chainmail::report {
 
-/// Writes the report as a page that needs no other file.
+/// Writes the report as one self-contained HTML page.
 void write_html(std::ostream& out, const PhysicsReport& report, const Origin& origin);
 
 }  // namespace chainmail::report

@@ -51,7 +51,7 @@ PhysicsDrag mean_of(const std::string& name, const Drags& drags) {
   PhysicsDrag mean;
   mean.name = name;
   if (drags.empty()) {
-    mean.no_truth = "no drag has a reference solution";
+    mean.no_reference = "no drag has a reference solution";
     return mean;
   }
   mean.has_cut = drags.front()->has_cut;
@@ -74,7 +74,7 @@ std::vector<PhysicsDrag> means_by_name(const PhysicsObject& object) {
   for (const std::string& name : names) {
     Drags drags;
     for (const PhysicsDrag& drag : object.drags) {
-      if (drag.name == name && drag.no_truth.empty()) {
+      if (drag.name == name && drag.no_reference.empty()) {
         drags.push_back(&drag);
       }
     }
@@ -86,7 +86,7 @@ std::vector<PhysicsDrag> means_by_name(const PhysicsObject& object) {
 PhysicsDrag mean_of_drags(const PhysicsObject& object) {
   Drags drags;
   for (const PhysicsDrag& drag : object.drags) {
-    if (!drag.has_cut && drag.no_truth.empty()) {
+    if (!drag.has_cut && drag.no_reference.empty()) {
       drags.push_back(&drag);
     }
   }

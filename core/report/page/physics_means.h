@@ -4,7 +4,7 @@
 
 namespace chainmail::report {
 
-/// Returns one drag for each name: the mean over its handles of errors and times, and the maximum of the largest
+/// Returns one drag per name, with the means of errors and times over its handles and the maximum of the largest
 /// errors. Drags without a reference solution do not count. A contestant that is missing from one of the drags has no
 /// mean.
 std::vector<PhysicsDrag> means_by_name(const PhysicsObject& object);

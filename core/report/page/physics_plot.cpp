@@ -8,11 +8,11 @@
 namespace chainmail::report {
 namespace {
 
-// Errors below this are those of Newton's method and of single precision.
+// Smaller errors come from Newton's method and from single precision.
 constexpr double smallest_relative_error = 1e-5;
 constexpr double smallest_time = 1e-9;  // ms; for a clock that measured 0
 
-/// Returns the time to plot: that of a later move, or of the move after the cut.
+/// Returns the time to plot: the time of a later move, or of the move after the cut if the drag has one.
 const TimeSpread& time_of(const PhysicsDrag& drag, const PhysicsMeasurement& measured) {
   return drag.has_cut ? measured.move_after_cut : measured.ms_per_move;
 }
@@ -24,16 +24,17 @@ std::string in_words(const PhysicsDrag& drag, const PhysicsEntry& entry) {
          " of the handle's displacement, max " + percent(measured.error.max);
 }
 
-/// Returns the series of a contestant, labelled with the cells that it works on.
+/// Returns the index of a contestant's series. Its label names the cells that the method works on.
 std::size_t series_of(Plot& plot, const PhysicsContestant& contestant) {
   const std::size_t series = series_of(plot, *contestant.algorithm);
   plot.series[series].label = label(PhysicsContestant{contestant.algorithm, 0});
   return series;
 }
 
-/// Returns marks, and a line through them for each algorithm with sweeps. Calibrated contestants are not on a line.
+/// Returns a panel with a mark for each contestant, and a line through the marks of each algorithm with sweeps.
+/// Calibrated contestants are not on a line.
 PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag, const std::string& title) {
-  PlotPanel panel{drag.no_truth.empty() ? title : title + ": no reference", {}, {}};
+  PlotPanel panel{drag.no_reference.empty() ? title : title + ": no reference", {}, {}};
   for (const PhysicsEntry& entry : drag.entries) {
     if (!entry.measurement) {
       continue;
@@ -73,7 +74,8 @@ std::string sweeps_in_words(const PhysicsObject& object) {
   return text;
 }
 
-/// Returns one panel for each kind of object, one curve for each contestant. Hollow marks have sweeps.
+/// Returns a plot with one panel per kind of object and one curve per contestant. Contestants with sweeps have hollow
+/// marks.
 Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& what,
                  std::optional<double> (*value_of)(const GrowthPoint&)) {
   Plot plot;

@@ -10,7 +10,7 @@ namespace {
 
 using CellOf = std::string (*)(const PhysicsMeasurement&);
 
-// What Newton's method and single precision leave of the reference itself.
+// Relative errors below this come from Newton's method and from single precision: the method equals the reference.
 constexpr double reference_found_again = 1e-5;
 
 std::string relative_cell(const PhysicsMeasurement& m) {
@@ -25,7 +25,7 @@ std::string moving_max_cell(const PhysicsMeasurement& m) { return percent(m.erro
 struct ErrorColumns {
   const char* name;
   CellOf cell;
-  bool in_text = false;  // a terminal has no room for all
+  bool in_text = false;  // true: also shown in a terminal, which has no room for all
 };
 constexpr ErrorColumns groups[]{{"relative error", relative_cell, true},
                                 {"RMS error", rms_cell},
@@ -33,7 +33,7 @@ constexpr ErrorColumns groups[]{{"relative error", relative_cell, true},
                                 {"RMS, what moves", moving_rms_cell},
                                 {"largest, what moves", moving_max_cell}};
 
-/// Formats a time; empty if it was not measured because nothing is prepared or cut.
+/// Formats a time (ms); empty if it was not measured because nothing is prepared or cut.
 std::string time_cell(const TimeSpread& ms, bool for_text) {
   if (ms.count == 0) {
     return for_text ? "-" : "";
@@ -56,7 +56,7 @@ struct Means {
   const PhysicsDrag* cut = nullptr;  // one of by_name; none if nothing is cut
 
   explicit Means(const PhysicsObject& object) : by_name(means_by_name(object)), all(mean_of_drags(object)) {
-    std::erase_if(by_name, [](const PhysicsDrag& drag) { return !drag.no_truth.empty(); });
+    std::erase_if(by_name, [](const PhysicsDrag& drag) { return !drag.no_reference.empty(); });
     const auto found = std::ranges::find(by_name, true, &PhysicsDrag::has_cut);
     cut = found == by_name.end() ? nullptr : &*found;
   }
@@ -121,7 +121,7 @@ std::vector<FigureTable::Column> columns_of(const Means& means, bool for_text) {
   return columns;
 }
 
-/// Returns the cells of some columns in the order of others. An object may lack a drag that another object has.
+/// Returns `cells`, which are in the order of `own`, in the order of `columns`; '-' for a column that `own` lacks.
 std::vector<std::string> cells_under(const std::vector<FigureTable::Column>& columns,
                                      const std::vector<FigureTable::Column>& own,
                                      const std::vector<std::string>& cells) {
@@ -162,8 +162,8 @@ std::string about(const PhysicsObject& object) {
       names.push_back(drag.name);
       drags += "; " + drag.name + ": " + (drag.has_cut ? drag.description : what_happens(drag));
     }
-    if (!drag.no_truth.empty()) {
-      left_out += "; left out: " + drag.name + " of element " + std::to_string(drag.handle) + ", " + drag.no_truth;
+    if (!drag.no_reference.empty()) {
+      left_out += "; left out: " + drag.name + " of element " + std::to_string(drag.handle) + ", " + drag.no_reference;
     }
   }
   std::string text = object.description + "; " + std::to_string(object.elements) + " elements, " +

@@ -7,12 +7,12 @@
 
 namespace chainmail::report {
 
-/// Returns relative errors and times of all objects for a terminal: contestants without sweeps, and calibrated ones.
+/// Returns relative errors and times of all objects for a terminal, for contestants without sweeps and calibrated ones.
 FigureTable physics_summary(const PhysicsReport& report);
-/// Returns the main table of one object: relative errors and times; on a page also errors over the displacement of the
-/// handle.
+/// Returns the main table of one object: relative errors and times. The table of a page also has the errors divided by
+/// the handle's displacement.
 FigureTable physics_table(const PhysicsObject& object, bool for_text = false);
-/// Returns the largest size of each contestant, and the growth of its time.
+/// Returns a table of the largest size of each contestant and the growth of its time.
 FigureTable growth_table(const PhysicsGrowth& growth);
 
 /// Writes the report as text.

@@ -22,7 +22,7 @@ constexpr std::array errors_to_plot{
     PlottedError{"largest distance to Exact", "mean rest lengths", to_exact<&Distance::max>},
     PlottedError{"RMS distance to Exact", "mean rest lengths", to_exact<&Distance::rms>}};
 
-/// The numbers of sweeps that take part.
+/// Returns the numbers of sweeps of all contestants.
 std::set<int> sweeps_of(std::span<const DragResult> drags) {
   std::set<int> sweeps;
   for (const DragResult& drag : drags) {
@@ -52,7 +52,7 @@ void add_legend_notes(Plot& plot, const std::set<int>& sweeps) {
   plot.legend_notes.emplace_back("bars: quartiles of the time");
 }
 
-/// Adds the marks of a drag's contestants. Where several numbers of sweeps take part, a note says how many.
+/// Adds a panel with the marks of a drag's contestants. With `with_notes`, each mark shows its number of sweeps.
 void add_panel(Plot& plot, const DragResult& drag, const PlottedError& error, bool with_notes) {
   PlotPanel& panel = plot.panels.emplace_back();
   panel.title = drag.name;

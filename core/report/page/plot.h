@@ -19,7 +19,7 @@ struct PlotMark {
   std::size_t series = 0;  // index into Plot::series
   bool hollow = false;
   std::string note;   // drawn next to the mark
-  std::string title;  // the mark in words: what a reading of it says
+  std::string title;  // text that describes the mark, for its tooltip
 };
 
 /// A line through values.
@@ -28,7 +28,7 @@ struct PlotCurve {
   std::vector<std::array<double, 2>> points;  // x and y
 };
 
-/// A value of y to compare marks with, drawn as a dashed line across the panel.
+/// A value of y for comparison, drawn as a dashed line across the panel.
 struct PlotLevel {
   double y = 0;
   std::string label;
@@ -41,23 +41,23 @@ struct PlotPanel {
   std::optional<PlotLevel> level = {};
 };
 
-/// How values of x or y are shown.
+/// Describes an axis: its title, unit and scale.
 struct PlotAxis {
   std::string title;        // with the unit
-  std::string unit;         // follows a value in a reading
+  std::string unit;         // written after a value in a tooltip
   double smallest = 1e-12;  // on a logarithmic axis: smaller values count as 0
   bool linear = false;
-  /// The ends of a linear axis, and its ticks. Without ends it runs from 0 to a round number.
+  /// Ends and ticks of a linear axis. Without ends, the axis runs from 0 to a round number.
   std::optional<std::array<double, 2>> ends = {};
   std::vector<LabelledValue> ticks = {};
-  double zero = 0;  // readings of a linear axis count from here
+  double zero = 0;  // tooltips show values of a linear axis minus this
 };
 
-/// What one shape and colour stands for.
+/// An entry of the legend: a name with its shape and colour.
 struct PlotSeries {
   std::string label;
   std::size_t look = 0;     // shape and colour of the marks: a look of report/page/looks.h
-  std::string colour = {};  // of a series of lines without marks, as #rrggbb
+  std::string colour = {};  // colour of a series of lines without marks, as #rrggbb
 };
 
 /// Panels that share one pair of axes and one legend.
@@ -67,18 +67,18 @@ struct Plot {
   std::vector<PlotSeries> series;
   std::vector<PlotPanel> panels;
   std::vector<std::string> legend_notes;
-  /// Values of y up to this are good: a shaded strip, and its label.
+  /// Values of y up to this are good. They are drawn as a shaded strip with a label.
   std::optional<double> good_below;
   std::string good_label;
 };
 
-/// The axes of a plot, over all of its panels.
+/// The axes of a plot. All panels share them.
 struct PlotAxes {
   explicit PlotAxes(const Plot& plot);
   Axis x, y;
 };
 
-/// True if the plot has neither a mark nor a line.
+/// Returns true if the plot has no mark and no line.
 bool is_empty(const Plot& plot);
 
 /// Returns the index of the series of an algorithm's marks. Adds the series if it is missing.
@@ -92,13 +92,12 @@ struct PlottedError {
 };
 std::span<const PlottedError> plotted_errors();
 
-/// Returns a plot of time against an error, with one mark for each contestant; of one drag, or with one panel for each
-/// drag of an object.
+/// Returns a plot of time against an error for one drag, with one mark per contestant.
 Plot error_plot(const DragResult& drag, const PlottedError& error);
 Plot error_plot(const CaseResult& object, const PlottedError& error);
-/// Returns such a plot of the largest violation.
+/// Returns a plot of time against the largest violation, with one panel per drag of an object.
 Plot violation_plot(const CaseResult& object);
-/// Returns such a plot of the RMS distance to Exact ChainMail.
+/// Returns a plot of time against the RMS distance to Exact ChainMail, with one panel per drag of an object.
 Plot distance_plot(const CaseResult& object);
 
 }  // namespace chainmail::report

@@ -56,7 +56,7 @@ void write_verdict(std::ostream& out, const Ramp& ramp, const RampVerdict& verdi
   out << '\n';
 }
 
-/// Returns `median/p99` in ms, with a mark if the budget is missed; empty if the algorithm was no longer in the race.
+/// Returns `median/p99` in ms, with a `!` if the budget is exceeded; empty if the algorithm has left the ramp.
 std::string cell(const RampRow* row) {
   if (row == nullptr) {
     return "";

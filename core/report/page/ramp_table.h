@@ -7,10 +7,10 @@
 
 namespace chainmail::report {
 
-/// Writes the results of each algorithm, then the times size by size, as text.
+/// Writes the result of each algorithm, then the times at each size, as text.
 void write_text(std::ostream& out, const Ramp& ramp, const Machine& machine);
 
-/// Writes one row for each algorithm and size under a header, with all digits.
+/// Writes a header, then one row per algorithm and size. Numbers have all digits.
 void write_csv(std::ostream& out, const Ramp& ramp);
 
 }  // namespace chainmail::report

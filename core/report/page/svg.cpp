@@ -125,7 +125,7 @@ class SvgDrawing {
   void draw_bar(const PlotMark& mark) {
     const double y = at_y(mark.y), low = at_x(mark.x_low), high = at_x(mark.x_high);
     if (high - low < 2.5 * mark_size) {
-      return;  // the mark hides it
+      return;  // the mark would hide it
     }
     line(low, y, high, y, " stroke-opacity=\"0.8\"");
     line(low, y - 3, low, y + 3, " stroke-opacity=\"0.8\"");
@@ -158,7 +158,7 @@ class SvgDrawing {
     out_ << "</path>\n";
   }
 
-  /// A mark, or a short line for a series of lines.
+  /// Draws the mark of a series in the legend, or a short line for a series of lines.
   void draw_key(double x, double y, std::size_t series) {
     if (plot_.series[series].colour.empty()) {
       draw_mark(x, y, series, false, "");

@@ -6,8 +6,8 @@
 
 namespace chainmail::report {
 
-/// Writes the plot as an SVG element that is valid alone and within HTML, three panels in a row. Lines and text are in
-/// the colour `ink`. Marks have colours that are safe for the colour-blind, and differ in shape.
+/// Writes the plot as an SVG element, which is valid as a file and within HTML. It has three panels per row. Lines and
+/// text have the colour `ink`. Marks differ in shape, and in colours that colour-blind readers can tell apart.
 void write_svg(std::ostream& out, const Plot& plot, const std::string& ink = "currentColor");
 
 }  // namespace chainmail::report

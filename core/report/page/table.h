@@ -9,10 +9,10 @@
 
 namespace chainmail::report {
 
-/// A contestant in the main table: its times drag by drag, and its worst errors over the drags.
+/// A contestant in the main table: its time for each drag, and its worst errors over all drags.
 struct MainRow {
   std::string contestant;
-  std::string refusal;  // if it did not take part
+  std::string refusal;  // reason why it did not take part; else empty
   std::vector<std::optional<double>> ms_per_move;
   Violation violation;
   std::optional<Distance> to_exact;
@@ -24,7 +24,7 @@ std::vector<std::string> cells_of(const MainRow& row);
 /// The main table of one object.
 struct MainTable {
   std::string object;
-  std::string about;  // the object in words, with its elements and links
+  std::string about;  // description of the object, with its numbers of elements and links
   std::vector<std::string> drags;
   std::vector<MainRow> rows;
 };

@@ -15,8 +15,8 @@ void add_triangle(MeshParts& parts, ElementId a, ElementId b, ElementId c) {
   parts.links.insert(parts.links.end(), {{a, b}, {b, c}, {c, a}});
 }
 
-/// Returns triangles in a plane, all links different: elements are displaced by up to 0.3 on each axis, and each square
-/// is split along a random diagonal.
+/// Returns triangles in a plane, with links of different lengths. Elements are displaced by up to 0.3 mesh units along
+/// each axis, and each square is split along a random diagonal.
 MeshPointer jittered_cloth(std::uint32_t width, std::uint32_t height) {
   std::mt19937_64 random(2004);
   MeshParts parts;
@@ -77,7 +77,7 @@ std::vector<LinkId> slit_and_holes(const Mesh& grid) {
   return cuts;
 }
 
-/// Returns a softness in which links within the middle third of each axis give way by a tenth of the others.
+/// Returns a softness in which links within the middle third of each axis are ten times as stiff as the others.
 Softness with_stiff_middle(const Mesh& mesh, const LinkSoftness& soft) {
   const LinkSoftness stiff{1 - (1 - soft.compression) / 10, 1 + (soft.stretch - 1) / 10, soft.shear / 10};
   const auto [low, high] = bounds(mesh);

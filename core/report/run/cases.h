@@ -7,15 +7,15 @@
 
 namespace chainmail::report {
 
-/// A recorded drag, as commands from rest. The last `Release` is missing if the handle is still held when the errors
-/// are measured.
+/// A recorded drag, as commands from rest. The last `Release` is missing if the element is still grabbed when the
+/// errors are measured.
 struct RecordedMoves {
   std::string name;
   std::string description;
   std::vector<Command> commands;
 };
 
-/// An object at rest, and the drags to carry out on it.
+/// An object at rest, and the drags to run on it.
 struct Case {
   std::string name;
   std::string description;
@@ -27,7 +27,7 @@ struct Case {
   ElasticOptions elastic = {};
 };
 
-/// Returns the objects of the comparison by default, each with its three drags. All links have this softness, except
+/// Returns the built-in objects of the comparison, each with its three drags. All links have this softness, except
 /// those of the stiff inclusion.
 std::vector<Case> default_cases(const LinkSoftness& softness);
 

@@ -4,19 +4,19 @@
 
 namespace chainmail::report {
 
-/// Two clocks, each in seconds from some moment: elapsed time, and the time that the thread itself ran. Time that the
-/// thread waits for other programs is not a cost of an algorithm.
+/// Two clocks in seconds from an arbitrary moment: elapsed time, and the processor time of the thread. The second one
+/// does not count the time in which other programs run, which is not a cost of an algorithm.
 struct Clocks {
   std::function<double()> wall;
   std::function<double()> own;
 };
 
-/// Returns the clocks of the machine and of the calling thread. Where threads have no clock, both are that of the
-/// machine.
+/// Returns the clocks of the machine and of the calling thread. If the system has no clock for threads, both are the
+/// clock of the machine.
 Clocks machine_clocks();
 
-/// Returns the seconds that `work` takes without the time of other programs: the shorter of the two times. The clock of
-/// the thread is read outside, because reading it takes longer than a small pass.
+/// Returns the time in seconds that `work` takes, without the time of other programs: the shorter of the two times. The
+/// outer readings are those of the thread's clock, because reading it takes longer than a small pass.
 template <class Work>
 double seconds_of(const Clocks& clocks, Work work) {
   const double own = clocks.own(), wall = clocks.wall();

@@ -16,19 +16,19 @@ namespace {
 
 constexpr int fewest_repetitions_of_drag = 5;
 constexpr int most_repetitions_of_drag = 51;
-constexpr double warm_up_share = 0.25;  // of the progress: about the time of the references and both precisions
+constexpr double warm_up_share = 0.25;  // share of the progress for references and warm-up
 
 using Clock = std::chrono::steady_clock;
 
 /// The times of a drag's moves over its repetitions (ms).
 class MoveTimes {
  public:
-  /// Adds the times of one repetition, move by move. All repetitions have the same number of moves.
+  /// Adds the times of the moves of one repetition (ms). All repetitions have the same number of moves.
   void add(std::vector<double> ms) { runs_.push_back(std::move(ms)); }
 
-  /// Returns the mean time of a move over the repetitions.
+  /// Returns the spread, over the repetitions, of the mean time per move.
   TimeSpread spread() const;
-  /// Returns the largest median of a move over the repetitions.
+  /// Returns the time of the slowest move: each move counts with its median over the repetitions.
   double worst() const;
 
  private:
@@ -55,13 +55,13 @@ double MoveTimes::worst() const {
   return worst;
 }
 
-/// The runner of an algorithm, which serves all its contestants; or the reason why there is none.
+/// The runner of an algorithm, which all its contestants share; or the reason why there is none.
 struct Participant {
   std::unique_ptr<Runner> runner;
   std::string refusal;
 };
 
-/// One drag on one object, by all contestants.
+/// Runs one drag on one object with all contestants.
 class Experiment {
  public:
   Experiment(const Case& object, const RecordedMoves& moves, const CompareOptions& options, const std::stop_token& stop)
@@ -75,7 +75,7 @@ class Experiment {
     times_.resize(result_.entries.size());
   }
 
-  /// Calls `tell` with the share that is done. Returns nothing if it was stopped.
+  /// Calls `tell` with the share of the work that is done, 0 to 1. Returns nothing if it was stopped.
   std::optional<DragResult> run(const std::function<void(double)>& tell) {
     make_runners();
     measure_errors(tell);
@@ -106,7 +106,7 @@ class Experiment {
     }
   }
 
-  /// Runs the warm-up, which is not timed, and measures the errors: they are the same in every repetition.
+  /// Runs the warm-up, which is not timed, and measures the errors, which are the same in every repetition.
   void measure_errors(const std::function<void(double)>& tell) {
     References references(object_, moves_, options_, stop_);
     result_.no_exact = references.no_exact();

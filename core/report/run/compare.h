@@ -14,7 +14,7 @@
 
 namespace chainmail::report {
 
-/// An algorithm, and the sweeps of relaxation that follow each of its passes.
+/// An algorithm with a number of relaxation sweeps after each pass.
 struct Contestant {
   Algorithm algorithm = Algorithm::natural_queue;
   int sweeps = 0;
@@ -23,16 +23,16 @@ struct Contestant {
 std::string label(const Contestant& contestant);
 
 struct CompareOptions {
-  /// None: the ChainMail family, in the order of algorithms().
+  /// Algorithms to compare; empty: the ChainMail family, in the order of algorithms().
   std::vector<Algorithm> algorithms;
   std::vector<int> sweeps{0, 10};
   RelaxationScheme scheme = RelaxationScheme::mean;
   double relax_step = 1;
   /// Precision of the contestants. The references are always in double.
   Precision precision = Precision::single_precision;
-  /// Repetitions of each drag, without the warm-up. None: as many as fit in `seconds`, at least 5.
+  /// Number of repetitions of each drag, without the warm-up; none: as many as fit in `seconds`, at least 5.
   std::optional<int> repetitions;
-  double seconds = 4;  // for the repetitions of one drag by all contestants together
+  double seconds = 4;  // total time for the repetitions of one drag with all contestants
 };
 
 /// Throws Error if a number is out of its range.
@@ -46,7 +46,7 @@ struct Errors {
   std::optional<double> energy_over_exact;
   /// Distance between the contestant in float and in double.
   Distance float_to_double;
-  std::optional<double> largest_over_hand;
+  std::optional<double> largest_over_handle;
   /// Distance to the end of full relaxation; none if that is not defined or not computed.
   std::optional<Distance> to_equilibrium;
 
@@ -55,17 +55,17 @@ struct Errors {
 
 /// Times and errors of a contestant on one drag.
 struct Measurement {
-  TimeSpread ms_per_move;     // a pass and its sweeps, over the repetitions; time of the thread
-  double worst_move_ms = 0;   // the largest median of a move over the repetitions
-  std::uint64_t checked = 0;  // in all moves together
-  std::uint64_t moved = 0;    // in all moves together, without the handle
+  TimeSpread ms_per_move;     // time of a pass and its sweeps, over the repetitions
+  double worst_move_ms = 0;   // time of the slowest move, by its median over the repetitions
+  std::uint64_t checked = 0;  // number of checked elements in all moves
+  std::uint64_t moved = 0;    // number of moved elements in all moves, without the handle
   Errors errors;
 };
 
 struct Entry {
   Contestant contestant;
   std::optional<Measurement> measurement;
-  /// If there is no measurement: the reason why the contestant cannot take part.
+  /// Reason why the contestant cannot take part; empty if there is a measurement.
   std::string refusal;
 };
 
@@ -75,7 +75,7 @@ struct DragResult {
   int moves = 0;
   /// All contestants, in the same order for all drags.
   std::vector<Entry> entries;
-  /// If the distances to Exact ChainMail are missing: the reason.
+  /// Reason why there are no distances to Exact ChainMail; empty if there are.
   std::string no_exact;
 };
 
@@ -83,26 +83,27 @@ struct CaseResult {
   std::string name;
   std::string description;
   std::uint64_t elements = 0;
-  std::uint64_t links = 0;  // without cut links
+  std::uint64_t links = 0;  // number of uncut links
   std::vector<DragResult> drags;
 };
 
 struct Comparison {
   CompareOptions options;
   std::vector<CaseResult> cases;
-  /// True if it was stopped. Then only the finished drags are there.
+  /// True if the comparison was stopped. Then it contains only the finished drags.
   bool stopped = false;
 };
 
-/// Called by the comparing thread between repetitions, with the share that is done (0 to 1) and the next drag.
+/// Called on the comparing thread between repetitions, with the share that is done (0 to 1) and a text for the next
+/// drag.
 using Progress = std::function<void(double fraction, const std::string& text)>;
 
-/// Runs the experiment on the calling thread: all contestants carry out the same recorded moves in turns, each
-/// repetition from rest. All figures except the times are the same on every machine.
-///
-/// SetAlgorithm and SetRelaxation are ignored (each contestant has its own), and so are KeepState and DropState. Throws
-/// Error if a drag has no move, if it replaces the object (ReplaceMesh, RestoreState), or if a number in the options is
-/// out of its range. A contestant that cannot carry out the moves is listed with the reason.
+/// Runs the comparison on the calling thread. In each repetition, all contestants run the same recorded moves from
+/// rest, one contestant after another. All figures except the times are the same on every machine.
+/// The commands SetAlgorithm and SetRelaxation are ignored, because each contestant has its own; KeepState and
+/// DropState are ignored too. Throws Error if a drag has no move, if it replaces the object (ReplaceMesh,
+/// RestoreState), or if a number in the options is out of its range. A contestant that cannot run the moves is listed
+/// with the reason.
 ///
 /// `stop` is checked between passes and between sweeps.
 Comparison compare(const std::vector<Case>& cases, const CompareOptions& options, const Progress& progress = {},

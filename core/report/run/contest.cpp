@@ -35,12 +35,12 @@ class Contest::Participant {
   }
 
   /// Runs a drag for the first time and measures the errors.
-  void try_out(const RecordedMoves& moves, const ReferenceSolution& truth, const std::stop_token& stop) {
+  void try_out(const RecordedMoves& moves, const ReferenceSolution& reference, const std::stop_token& stop) {
     entry_ = {contestant_, std::nullopt, refusal_};
     times_ = {};
     warm_ = false;
     if (!contestant_.algorithm) {
-      entry_.measurement.emplace().error = error_of_nothing_moving(*object_.mesh, truth);
+      entry_.measurement.emplace().error = error_of_nothing_moving(*object_.mesh, reference);
       return;
     }
     if (!runner_) {
@@ -51,7 +51,7 @@ class Contest::Participant {
       has_cut_ = !cuts_of(moves).empty();
       moves_ = prepares(contestant_) ? with_preparing_move(*object_.mesh, moves) : moves;
       run(stop);
-      measure(handle_of(moves), truth);
+      measure(handle_of(moves), reference);
     } catch (const Error& error) {
       entry_.refusal = error.what();
     }
@@ -102,12 +102,12 @@ class Contest::Participant {
     times_.add(times);
   }
 
-  void measure(ElementId handle, const ReferenceSolution& truth) {
+  void measure(ElementId handle, const ReferenceSolution& reference) {
     const Simulation& simulation = runner_->simulation();
     entry_.refusal = simulation.statistics().remark;
     if (!stopped_ && entry_.refusal.empty()) {
       PhysicsMeasurement& measured = entry_.measurement.emplace();
-      measured.error = measure_physical_error(simulation.mesh(), simulation.body().positions(), truth);
+      measured.error = measure_physical_error(simulation.mesh(), simulation.body().positions(), reference);
       if (preparing_) {
         measured.prepare = preparing_->of(handle);
       }
@@ -120,7 +120,7 @@ class Contest::Participant {
   std::string refusal_;
   std::optional<PreparingTimes> preparing_;
   Clocks clocks_ = machine_clocks();
-  // Of the present drag:
+  // State of the current drag:
   PhysicsEntry entry_;
   RecordedMoves moves_;
   bool has_cut_ = false;
@@ -138,14 +138,15 @@ Contest::Contest(const Case& object, const std::vector<PhysicsContestant>& conte
 
 Contest::~Contest() = default;
 
-std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const ReferenceSolution& truth,
+std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const ReferenceSolution& reference,
                                        const std::function<void(double)>& tell, const std::stop_token& stop) {
   const double count = double(participants_.size());
   for (std::size_t i = 0; i < participants_.size() && !stop.stop_requested(); ++i) {
     tell(0.5 * double(i) / count);
-    participants_[i]->try_out(moves, truth, stop);
+    participants_[i]->try_out(moves, reference, stop);
   }
-  // In turns, so that other load on the machine affects all contestants alike. Slow contestants repeat less often.
+  // Contestants run in turns, so that other load on the machine affects all of them equally. Slow contestants repeat
+  // less often.
   const auto wanted = [&](const Participant& one) {
     return options_.repetitions ? std::min(one.repetitions(1e9), *options_.repetitions)
                                 : one.repetitions(options_.seconds / count);

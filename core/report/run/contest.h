@@ -9,7 +9,8 @@
 
 namespace chainmail::report {
 
-/// All contestants on one object, drag by drag. They keep what they have prepared for the object and a handle.
+/// Runs all contestants on one object, drag by drag. Each contestant keeps its preparation for the object and for a
+/// handle.
 class Contest {
  public:
   /// The object must outlive the contest. A contestant that cannot take part is listed with the reason.
@@ -17,7 +18,7 @@ class Contest {
   ~Contest();
 
   /// Runs a drag with all contestants, and compares them with the reference solution at its end.
-  std::vector<PhysicsEntry> run(const RecordedMoves& moves, const ReferenceSolution& truth,
+  std::vector<PhysicsEntry> run(const RecordedMoves& moves, const ReferenceSolution& reference,
                                 const std::function<void(double)>& tell, const std::stop_token& stop);
 
  private:

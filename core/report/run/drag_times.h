@@ -8,17 +8,17 @@
 
 namespace chainmail::report {
 
-/// Returns a drag with a first move of the handle to its rest position. A method of elasticity prepares everything in
-/// that move, so that no other move contains a part of the preparation.
+/// Returns the drag with an added first move of the handle to its rest position. A method of elasticity does all its
+/// preparation in that move, so that the times of the other moves contain none of it.
 RecordedMoves with_preparing_move(const Mesh& mesh, RecordedMoves moves);
 
 /// The times of one drag (ms).
 struct DragTimes {
-  double preparing = 0;         // of the preparing move
-  double first = 0, later = 0;  // of the first move, and the mean of the later moves
-  double after_cut = 0;         // of the last move, if a cut precedes it
+  double preparing = 0;         // time of the added first move
+  double first = 0, later = 0;  // time of the first real move, and mean time of the later moves
+  double after_cut = 0;         // time of the last move, if a cut precedes it
 };
-/// Splits the times of the moves of a drag, in their order. No time counts twice.
+/// Splits the times of the moves of a drag (ms, in their order). No time counts twice.
 DragTimes split(std::span<const double> ms, bool has_preparing_move, bool has_cut);
 
 /// The times of a drag over its repetitions.

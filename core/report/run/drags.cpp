@@ -9,7 +9,8 @@ namespace chainmail::report {
 namespace {
 
 constexpr int moves_one_way = 24;
-// Distances are tried in this ratio, from a tenth of a rest length up to this many object sizes.
+// Ratio of two consecutive distances to try. They run from a tenth of a rest length to `farthest_in_sizes` object
+// sizes.
 constexpr double next_distance = 1.4;
 constexpr double farthest_in_sizes = 100;
 
@@ -18,7 +19,7 @@ double size_of(const Mesh& mesh) {
   return std::max((high - low).norm(), mesh.mean_link_length);
 }
 
-/// Returns an oblique direction along all axes of the scene.
+/// Returns a direction that is oblique to all axes of the scene.
 Point direction_in(const Mesh& mesh) {
   const Point parts(2, 1, 0.5);
   Point direction = Point::Zero();
@@ -28,14 +29,14 @@ Point direction_in(const Mesh& mesh) {
   return direction.normalized();
 }
 
-/// Returns the unpinned element with the smallest `measure`, and of several the one with the lowest id.
+/// Returns the unpinned element with the smallest `measure`; if there are several, the one with the lowest id.
 template <class Measure>
 ElementId element_with_smallest(const Case& object, Measure measure) {
   ElementId best = no_element;
   double least = 0;
   for (ElementId e = 0; e < object.mesh->element_count(); ++e) {
     const double value = measure(object.mesh->rest_position(e));
-    // The pins come last, because few elements get here.
+    // This search is last, because few elements get here.
     if ((best == no_element || value < least) && std::ranges::find(object.pins, e) == object.pins.end()) {
       best = e;
       least = value;
@@ -44,7 +45,7 @@ ElementId element_with_smallest(const Case& object, Measure measure) {
   return best == no_element ? 0 : best;
 }
 
-/// Tries pulls of one element from rest, each with Exact ChainMail in one move.
+/// Pulls one element from rest by different distances, each in one move of Exact ChainMail.
 class Trial {
  public:
   Trial(const Case& object, ElementId element, const std::stop_token& stop)
@@ -62,8 +63,8 @@ class Trial {
     return simulation_.statistics().last_pass.moved;
   }
 
-  /// Returns the shortest tried distance at which this many elements follow. If pins or the end of the object prevent
-  /// that, returns the shortest at which as many as possible follow.
+  /// Returns the shortest of the tried distances at which `wanted` elements follow. If pins or the size of the object
+  /// prevent that, returns the shortest at which as many as possible follow.
   double distance_for(std::uint64_t wanted) {
     const Mesh& mesh = simulation_.mesh();
     const double farthest = farthest_in_sizes * size_of(mesh);
@@ -88,7 +89,7 @@ class Trial {
   const std::stop_token& stop_;
 };
 
-/// Adds moves of equal length, from the share `from` of the way to the share `to`.
+/// Adds moves of equal length, from share `from` to share `to` of the displacement `way`.
 void add_moves(RecordedMoves& drag, const Point& start, const Point& way, double from, double to) {
   for (int move = 1; move <= moves_one_way; ++move) {
     drag.commands.emplace_back(commands::Drag{start + std::lerp(from, to, double(move) / moves_one_way) * way});

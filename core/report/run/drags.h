@@ -8,11 +8,11 @@
 namespace chainmail::report {
 
 /// Returns three drags for an object.
-/// - local: the element nearest the middle moves until about an eighth of the object follows;
+/// - local: the element nearest to the middle moves until about an eighth of the object follows;
 /// - whole body: an element of the boundary moves outward until all elements follow, and as far again;
 /// - back and forth: the middle moves until all elements follow, and back.
-/// Exact ChainMail finds the distances, so they do not depend on the contestants. If `stop` is requested, the drags are
-/// shorter.
+/// Exact ChainMail determines the distances, so they do not depend on the contestants. If `stop` is requested, the
+/// drags are shorter.
 std::vector<RecordedMoves> three_drags(const Case& object, const std::stop_token& stop = {});
 
 }  // namespace chainmail::report

@@ -7,7 +7,7 @@
 namespace chainmail::report {
 namespace {
 
-// Above this size the reference takes longer than all contestants together.
+// Above this number of elements, the equilibrium takes longer than all contestants together.
 constexpr ElementId equilibrium_limit = 131'072;
 
 double energy_of(const Simulation& simulation) {
@@ -76,7 +76,7 @@ Errors References::errors_of(const Runner& runner, const Contestant& contestant)
   }
   errors.float_to_double = float_to_double(runner, contestant);
   if (runner.handle()) {
-    errors.largest_over_hand = largest_over_hand(simulation.mesh(), positions, *runner.handle());
+    errors.largest_over_handle = largest_over_handle(simulation.mesh(), positions, *runner.handle());
   }
   return errors;
 }

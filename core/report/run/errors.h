@@ -15,7 +15,7 @@ class References {
   References(const Case& object, const RecordedMoves& moves, const CompareOptions& options,
              const std::stop_token& stop);
 
-  /// Reason why there is no Exact ChainMail to compare with; empty if there is.
+  /// Reason why there is no result of Exact ChainMail for comparison; empty if there is one.
   const std::string& no_exact() const { return no_exact_; }
 
   /// Returns the errors of a contestant whose run has just ended.
@@ -31,9 +31,9 @@ class References {
   const std::stop_token& stop_;
   std::unique_ptr<Runner> exact_;
   double energy_of_exact_ = 0;
-  std::optional<Equilibrium> equilibrium_;  // if it is a reference for all elements
+  std::optional<Equilibrium> equilibrium_;  // only if it is a reference for all elements
   std::string no_exact_;
-  std::unique_ptr<Runner> other_;  // with the algorithm of the last contestant, in the other precision
+  std::unique_ptr<Runner> other_;  // runs the algorithm of the last contestant in the other precision
 };
 
 }  // namespace chainmail::report

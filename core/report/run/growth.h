@@ -6,11 +6,11 @@
 
 namespace chainmail::report {
 
-/// Returns the smallest value that is not below a share (above 0, up to 1) of the values: the nearest rank, which is
-/// one of the values. There must be a value.
+/// Returns the smallest of the values that at least `share` (above 0, up to 1) of them do not exceed (nearest rank).
+/// There must be at least one value.
 double percentile(std::vector<double> values, double share);
 
-/// A time at a size.
+/// A time for an object of a given size.
 struct SizedTime {
   double elements = 0;
   double ms = 0;
@@ -19,12 +19,12 @@ struct SizedTime {
 /// Growth of times: ms ∝ elements^exponent, by least squares over the logarithms.
 struct Growth {
   double exponent = 0;
-  double from = 0, to = 0;  // elements
+  double from = 0, to = 0;  // range of sizes (elements)
   int sizes = 0;
 };
 
-/// Returns the growth over the sizes of at least `from` elements with a time above 0; nothing for fewer than three
-/// sizes.
+/// Returns the growth over the sizes that have at least `from` elements and a time above 0; none if these are fewer
+/// than three.
 std::optional<Growth> growth_of(std::span<const SizedTime> times, double from);
 
 }  // namespace chainmail::report

@@ -6,7 +6,7 @@
 namespace chainmail::report {
 namespace {
 
-/// Returns the processor from /proc/cpuinfo; other systems than Linux have no such file.
+/// Returns the processor's name from /proc/cpuinfo, which only Linux has.
 std::string processor() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);) {

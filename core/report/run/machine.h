@@ -4,7 +4,7 @@
 
 namespace chainmail::report {
 
-/// The machine and the build with which times were measured.
+/// The machine and the build that measured the times.
 struct Machine {
   std::string processor;
   unsigned cores = 0;  // 0: unknown
@@ -13,7 +13,7 @@ struct Machine {
 };
 Machine this_machine();
 
-/// The origin of a report. All of its text comes from outside.
+/// The origin of a report. All texts come from outside, so they must be escaped.
 struct Origin {
   Machine machine;
   std::string command_line;

@@ -13,9 +13,10 @@
 namespace chainmail::report {
 namespace {
 
-// Calibration takes longer than a drag, and the other algorithms of the family differ little from these.
+// Only these algorithms are calibrated: calibration takes longer than a drag, and the other algorithms of the family
+// differ little from them.
 constexpr std::array calibrated_algorithms{Algorithm::natural_queue, Algorithm::exact};
-constexpr double share_of_drags = 0.6;  // of the progress, if objects grow too
+constexpr double share_of_drags = 0.6;  // share of the progress, if growth is measured too
 
 PhysicsOptions checked(PhysicsOptions options) {
   if (options.contest.algorithms.empty()) {
@@ -30,11 +31,10 @@ PhysicsOptions checked(PhysicsOptions options) {
   return options;
 }
 
-/// Returns the solver of the reference solution. Without it nothing can be measured.
+/// Returns the solver of the reference solution. Throws Error if physics has no solution for the object.
 ReferenceSolver reference_of(const Case& object, const std::vector<LinkId>& cut) {
   if (object.pins.empty()) {
-    throw Error(object.name, "nothing pins it, so physics has no static answer",
-                "pin a side, the boundary, or elements");
+    throw Error(object.name, "nothing pins it, so physics has no solution", "pin a side, the boundary, or elements");
   }
   try {
     return ReferenceSolver(elastic_problem(object, cut));
@@ -63,16 +63,16 @@ PhysicsDrag drag_of(Contest& contest, const Case& object, const RecordedMoves& m
     if (drag.has_cut) {
       with_cut.emplace(reference_of(object, cut));
     }
-    const ReferenceSolution truth = reference_at_end(with_cut ? *with_cut : uncut, moves);
-    drag.hand = truth.handle_displacement;
-    drag.entries = contest.run(moves, truth, tell, stop);
+    const ReferenceSolution reference = reference_at_end(with_cut ? *with_cut : uncut, moves);
+    drag.handle_displacement = reference.handle_displacement;
+    drag.entries = contest.run(moves, reference, tell, stop);
   } catch (const Error& error) {
-    drag.no_truth = error.what();
+    drag.no_reference = error.what();
   }
   return drag;
 }
 
-/// Calibrates the algorithms of the ChainMail family that take part and fit the object.
+/// Calibrates those of `calibrated_algorithms` that take part and support the object.
 std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options,
                                          const std::function<void(double)>& tell, const std::stop_token& stop) {
   std::vector<Calibration> found;
@@ -94,7 +94,7 @@ std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOption
   return found;
 }
 
-/// Reports the progress of the parts as progress of the whole.
+/// Converts the progress of the parts to progress of the whole comparison.
 class Teller {
  public:
   Teller(const Progress& progress, std::size_t drags, bool grows) : progress_(progress), drags_(drags), grows_(grows) {}

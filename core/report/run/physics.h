@@ -21,25 +21,26 @@ struct PhysicsOptions {
     contest.seconds = 1.5;
   }
 
-  /// No algorithms: all take part. The sweeps are those of the ChainMail family.
+  /// Options of the contest. If its list of algorithms is empty, all take part. Its sweeps apply to the ChainMail
+  /// family.
   CompareOptions contest;
-  double growth_seconds = 1;  // budget of each contestant for growing objects of each kind; 0: none grow
-  Calibrator calibrate;       // finds the softness of the calibrated contestants; none: no contestant is calibrated
+  double growth_seconds = 1;  // time budget per contestant and kind of growing object; 0: growth is not measured
+  Calibrator calibrate;       // finds the softness of the calibrated contestants; empty: no contestant is calibrated
 };
 
-/// Times of a method of elasticity before its first move (ms), over some repetitions.
+/// Times of the preparation of a method of elasticity (ms), over some repetitions.
 struct Preparation {
-  TimeSpread factorize;  // once for an object, its pins and its cuts
-  TimeSpread grab;       // for each element that becomes the handle: the response of the object to it
+  TimeSpread factorize;  // once per object with its pins and cuts
+  TimeSpread grab;       // once per handle: the response of the object to it
 
   double ms() const { return factorize.median + grab.median; }
 };
 
 /// Times (ms, over repetitions of the drag) and errors of a contestant on one drag.
 struct PhysicsMeasurement {
-  TimeSpread ms_per_move;     // mean of the moves after the first, with the sweeps that follow
-  TimeSpread first_move;      // of the first move, with everything prepared
-  TimeSpread move_after_cut;  // of the move after the cut, with all preparation that it repeats; if there is a cut
+  TimeSpread ms_per_move;     // mean of the moves after the first, with their sweeps
+  TimeSpread first_move;      // first move, after all preparation
+  TimeSpread move_after_cut;  // move after the cut, if there is one, with the preparation that it repeats
   Preparation prepare;
   PhysicalError error;
 };
@@ -47,7 +48,7 @@ struct PhysicsMeasurement {
 struct PhysicsEntry {
   PhysicsContestant contestant;
   std::optional<PhysicsMeasurement> measurement;
-  std::string refusal;  // if there is no measurement: the reason
+  std::string refusal;  // reason why there is no measurement; empty if there is one
 };
 
 struct PhysicsDrag {
@@ -55,9 +56,9 @@ struct PhysicsDrag {
   ElementId handle = 0;
   int moves = 0;
   bool has_cut = false;               // a cut precedes the last move
-  double hand = 0;                    // displacement of the handle (mesh units)
+  double handle_displacement = 0;     // mesh units
   std::vector<PhysicsEntry> entries;  // all contestants, in the same order for all drags; none without a reference
-  std::string no_truth;               // reason why there is no reference solution; empty if there is
+  std::string no_reference;           // reason why there is no reference solution; empty if there is one
 };
 
 struct PhysicsObject {
@@ -67,7 +68,7 @@ struct PhysicsObject {
   std::vector<Calibration> calibrations;
 };
 
-/// A contestant at one size.
+/// Figures of a contestant at one size.
 struct GrowthPoint {
   std::uint64_t elements = 0;
   double ms_per_move = 0, prepare_ms = 0;
@@ -78,10 +79,10 @@ struct GrowthSeries {
   PhysicsContestant contestant;
   std::vector<GrowthPoint> points;
   std::string end;               // reason why it grew no further
-  std::optional<Growth> growth;  // of the time per move
+  std::optional<Growth> growth;  // growth of the time per move
 };
 
-/// One kind of object, growing.
+/// Results for one kind of object at growing sizes.
 struct PhysicsGrowth {
   std::string name, description;
   std::vector<GrowthSeries> series;
@@ -92,16 +93,18 @@ struct PhysicsReport {
   ElasticOptions elastic;
   std::vector<PhysicsObject> objects;
   std::vector<PhysicsGrowth> growths;
-  bool stopped = false;  // then only the finished parts are there
+  bool stopped = false;  // true: the report contains only the finished parts
 };
 
-/// Compares with neo-Hookean FEM in double, converged on the same cells, with the cuts of the drag, at the end of each
-/// drag. The cases must have pins and no cuts. Throws Error, naming the case, if physics has no answer to it. A drag
-/// whose reference does not converge, and a contestant that cannot take part, are listed with the reason.
+/// Compares all contestants, at the end of each drag, with neo-Hookean FEM in double, converged on the same cells with
+/// the cuts of the drag. The cases must have pins and no cuts. Throws Error with the name of the case if physics has no
+/// solution for it. A drag whose reference does not converge is listed with the reason, and so is a contestant that
+/// cannot take part.
 PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& options,
                                    const Progress& progress = {}, const std::stop_token& stop = {});
 
-/// Measures the growth on one kind of object. `made` returns an object with about that many elements.
+/// Measures the growth of time and error on one kind of object. `made` returns an object with about the given number of
+/// elements.
 PhysicsGrowth grow(const std::string& name, const std::string& description,
                    const std::function<Case(std::uint64_t elements)>& made, const PhysicsOptions& options,
                    const std::function<void(double)>& tell, const std::stop_token& stop);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int moves_of_drag = 24, moves_before_cut = 12;
 constexpr std::size_t most_handles = 3;
-constexpr double nudge_share = 0.05, pull_share = 0.2;  // of the object's largest extent
+constexpr double nudge_share = 0.05, pull_share = 0.2;  // shares of the object's largest extent
 constexpr std::uint64_t usual_elements = 256;
 
 Case made(const char* name, const std::string& description, const MeshPointer& mesh, const char* side,
@@ -27,7 +27,7 @@ Case made(const char* name, const std::string& description, const MeshPointer& m
   return object;
 }
 
-/// Lowers the distances of elements to those from one more point.
+/// Lowers each squared distance to that between the element and `point`, if that is less.
 void come_near(std::vector<double>& distances, const Mesh& mesh, const std::vector<ElementId>& elements,
                const Point& point) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -46,7 +46,8 @@ Point outward_of(const Case& object, ElementId element) {
   return way.norm() > mesh.mean_link_length / 2 ? Point(way.normalized()) : Point(Point::Unit(mesh.axes[0]));
 }
 
-/// Returns a direction at a right angle to `outward`, close to the last axis of the scene; on a line, the way back.
+/// Returns a direction at a right angle to `outward`, close to the last axis of the scene; on a line, the opposite of
+/// `outward`.
 Point across_of(const Mesh& mesh, const Point& outward) {
   for (int k = mesh.space_dimension - 1; k >= 0; --k) {
     const Point axis = Point::Unit(mesh.axes[k]);
@@ -58,16 +59,17 @@ Point across_of(const Mesh& mesh, const Point& outward) {
   return -outward;
 }
 
-/// A plane across the way from the handle to the nearest pin, and the depth of a cut along it.
+/// A cut in a plane across the line from the handle to the nearest pin.
 struct CutPlace {
-  double along = 0.5;  // share of the way from the handle
-  double from = 0;     // the cut ends at this share of the object's extent there, counted from the way
+  double along = 0.5;  // position of the plane on that line, as a share from the handle
+  double from = 0;     // the cut ends at this share of the object's extent in the plane, counted from the line
 };
-// A cut through the middle, as deep as the object stays held; if it does not, less deep or elsewhere.
+// Cuts to try, in this order: through the middle first, then less deep, then nearer to the handle, then nearer to the
+// pins. The first one that leaves a unique solution is used.
 constexpr CutPlace cut_places[]{{0.5, 0},    {0.5, 0.3}, {0.5, 0.6},  {0.35, 0},  {0.35, 0.3},
                                 {0.35, 0.6}, {0.65, 0},  {0.65, 0.3}, {0.65, 0.6}};
 
-/// Returns the links that such a cut crosses.
+/// Returns the links that a cut crosses.
 std::vector<LinkId> links_through(const Case& object, ElementId handle, const CutPlace& place) {
   const Mesh& mesh = *object.mesh;
   const Point from = mesh.rest_position(handle);
@@ -94,7 +96,8 @@ std::vector<LinkId> links_through(const Case& object, ElementId handle, const Cu
   return links;
 }
 
-/// True if linear elasticity has one answer with these links cut: no part is loose or turns about a hinge.
+/// Returns true if linear elasticity has a unique solution after these links are cut: no part is loose or turns about a
+/// hinge.
 bool stays_held(const Case& object, const std::vector<LinkId>& links) {
   try {
     make_elastic(ElasticMethod::linear_fem, elastic_problem(object, links));
@@ -104,7 +107,7 @@ bool stays_held(const Case& object, const std::vector<LinkId>& links) {
   }
 }
 
-/// Returns the links of the first cut after which the object is held; none if there is no such cut.
+/// Returns the links of the first cut that leaves a unique solution; empty if there is none.
 std::vector<LinkId> links_to_cut(const Case& object, ElementId handle) {
   for (const CutPlace& place : cut_places) {
     std::vector<LinkId> links = links_through(object, handle, place);
@@ -124,7 +127,7 @@ RecordedMoves drag(const Mesh& mesh, ElementId element, const Point& way, const 
   return drag;
 }
 
-/// Returns half of a pull, a cut into the object, and one more move; no commands if there is nothing to cut.
+/// Returns half of a pull, then a cut into the object, then one more move; no commands if no cut is possible.
 RecordedMoves cut_then_move(const Case& object, const RecordedMoves& pull) {
   const ElementId handle = std::get<commands::Grab>(pull.commands.front()).element;
   std::vector<LinkId> links = links_to_cut(object, handle);

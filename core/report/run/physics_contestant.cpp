@@ -5,7 +5,8 @@
 namespace chainmail::report {
 namespace {
 
-/// The reference solution has the same cells as two of the methods, so their errors do not contain that of the mesh.
+/// Returns a remark on the cells that a method works on. Two methods have the same cells as the reference solution, so
+/// their errors do not include the error of the mesh.
 const char* cells_of(Algorithm algorithm) {
   switch (algorithm) {
     case Algorithm::linear_fem:

@@ -11,16 +11,17 @@ namespace {
 
 constexpr std::uint64_t smallest_object = 100, largest_object = 1'000'000;  // elements
 constexpr double next_size = 2;
-constexpr double asymptotic_from = 1000;  // elements; below, the fixed cost of a pass counts too much
+constexpr double asymptotic_from =
+    1000;  // elements; in smaller objects, the fixed cost of a pass is too large a part of the time
 const std::vector<int> sweeps_grown{0, 10};
-constexpr std::size_t moves_grown = 6;  // of the drag, in longer steps
+constexpr std::size_t moves_grown = 6;  // number of moves of the drag, which are longer than usual
 constexpr const char* drag_grown = "pull";
 
 double growth_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Keeps only the pull, in few moves, so that a size costs little more than its passes.
+/// Keeps only the pull, with few moves, so that runs are short.
 void shorten(Case& object) {
   RecordedMoves pull = *std::ranges::find(object.drags, drag_grown, &RecordedMoves::name);
   std::vector<Command> commands{pull.commands.front()};
@@ -39,7 +40,8 @@ class Budget {
 
   void spend(double seconds) {
     left_ -= seconds;
-    // Time grows at least as fast as the elements, and at most as fast as the last time or a dense factorization.
+    // Assumes that the time grows as it did last, at least in proportion to the elements and at most like a dense
+    // factorization.
     ratio_ = last_ > 0 ? std::clamp(seconds / last_, next_size, 8.0) : next_size;
     last_ = seconds;
   }
@@ -50,8 +52,8 @@ class Budget {
   double left_, last_ = 0, ratio_ = next_size;
 };
 
-/// Returns the reference solution at a size, while its own budget lasts.
-std::optional<ReferenceSolution> truth_at(const Case& object, Budget& budget) {
+/// Returns the reference solution for an object; none if its time budget is used up or there is no solution.
+std::optional<ReferenceSolution> reference_at(const Case& object, Budget& budget) {
   if (!budget.holds_next()) {
     return std::nullopt;
   }
@@ -59,31 +61,33 @@ std::optional<ReferenceSolution> truth_at(const Case& object, Budget& budget) {
   try {
     ReferenceSolver solver(elastic_problem(object));
     const auto& commands = object.drags.front().commands;
-    ReferenceSolution truth =
+    ReferenceSolution reference =
         solver.at(std::get<commands::Grab>(commands.front()).element, std::get<commands::Drag>(commands.back()).target);
     budget.spend(growth_clock() - start);
-    return truth;
+    return reference;
   } catch (const Error&) {
     budget.use_up();  // the object is too large
     return std::nullopt;
   }
 }
 
-/// Stands in for a missing reference solution: only times count then.
-ReferenceSolution no_truth(const Case& object) { return {std::vector<double>(object.mesh->rest.size(), 0.0), 1, {}}; }
+/// Returns a substitute for a missing reference solution, for runs of which only the times are used.
+ReferenceSolution no_reference(const Case& object) {
+  return {std::vector<double>(object.mesh->rest.size(), 0.0), 1, {}};
+}
 
-void measure(GrowthSeries& series, Budget& budget, const Case& object, const std::optional<ReferenceSolution>& truth,
-             CompareOptions options, const std::stop_token& stop) {
+void measure(GrowthSeries& series, Budget& budget, const Case& object,
+             const std::optional<ReferenceSolution>& reference, CompareOptions options, const std::stop_token& stop) {
   const double start = growth_clock();
   options.seconds = 0;
   options.repetitions = 1;
   Contest contest(object, {series.contestant}, options);
   const auto entries = contest.run(
-      object.drags.front(), truth ? *truth : no_truth(object), [](double) {}, stop);
+      object.drags.front(), reference ? *reference : no_reference(object), [](double) {}, stop);
   budget.spend(growth_clock() - start);
   if (const auto& measurement = entries.front().measurement) {
     series.points.push_back({object.mesh->element_count(), measurement->ms_per_move.median, measurement->prepare.ms(),
-                             truth ? std::optional(measurement->error) : std::nullopt});
+                             reference ? std::optional(measurement->error) : std::nullopt});
     series.end = budget.holds_next() ? "" : "its time budget is used up";
   } else if (!stop.stop_requested()) {
     series.end = entries.front().refusal;
@@ -113,17 +117,17 @@ PhysicsGrowth grow(const std::string& name, const std::string& description,
     growth.series.push_back({contestant, {}, {}, {}});
     budgets.emplace_back(options.growth_seconds);
   }
-  Budget of_truth(options.growth_seconds);
+  Budget of_reference(options.growth_seconds);
   const double sizes = std::log(double(largest_object) / smallest_object) / std::log(next_size);
   double size = smallest_object;
   for (int i = 0; size <= largest_object && std::ranges::any_of(budgets, &Budget::holds_next); ++i, size *= next_size) {
     tell(i / (sizes + 1));
     Case object = made(static_cast<std::uint64_t>(size));
     shorten(object);
-    const auto truth = truth_at(object, of_truth);
+    const auto reference = reference_at(object, of_reference);
     for (std::size_t k = 0; k < budgets.size() && !stop.stop_requested(); ++k) {
       if (budgets[k].holds_next()) {
-        measure(growth.series[k], budgets[k], object, truth, options.contest, stop);
+        measure(growth.series[k], budgets[k], object, reference, options.contest, stop);
       }
     }
     if (stop.stop_requested()) {

@@ -28,7 +28,7 @@ PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method) {
         const double seconds = seconds_of(clocks, [&] { solver->hold(handle); });
         grab_[handle].push_back(1e3 * seconds);
       } catch (const Error&) {
-        grab_.erase(handle);  // the drag itself reports why
+        grab_.erase(handle);  // the drag itself reports the reason
       }
     }
   }

@@ -6,18 +6,18 @@
 
 namespace chainmail::report {
 
-/// Times to prepare a method of elasticity for an object, and for each element that a drag of it grabs.
+/// Times to prepare a method of elasticity for an object, and for each element that its drags grab.
 class PreparingTimes {
  public:
   PreparingTimes() = default;
-  /// Prepares several times within a second, and at least once. Throws Error if the method has no answer.
+  /// Repeats the preparation for about a second, and does it at least once. Throws Error if the method has no solution.
   PreparingTimes(const Case& object, ElasticMethod method);
 
   Preparation of(ElementId handle) const;
 
  private:
   std::vector<double> factorize_;
-  std::map<ElementId, std::vector<double>> grab_;  // those that cannot be grabbed are missing
+  std::map<ElementId, std::vector<double>> grab_;  // ms; elements that cannot be grabbed are missing
 };
 
 /// Returns the elastic problem of an object with its pins at rest, with these links cut.

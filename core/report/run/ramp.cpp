@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t first_width = 4;
 
-/// The mesh of one size, and its solvers. The list-driven algorithms share one solver to save memory.
+/// The mesh of one size, with its solvers. The list-driven algorithms share one solver to save memory.
 class RampSize {
  public:
   RampSize(std::uint32_t width, const RampOptions& options)
@@ -69,7 +69,7 @@ class RampRun {
  private:
   double now() const { return result_.options.clocks.wall(); }
 
-  /// Measures one size, with its second attempt.
+  /// Measures one size, with a second attempt if needed.
   void measure(RampRace& race) {
     RampSize size(race.width(), result_.options);
     std::vector<RampRace::Result> results;
@@ -86,7 +86,8 @@ class RampRun {
     }
   }
 
-  /// One contestant after another: in turns, each would find its memory driven from the cache by the one before.
+  /// Runs one contestant after another. If they alternated, each would find its data displaced from the cache by the
+  /// one before.
   std::vector<RampPasses> attempt(RampSize& size, const RampRace& race) {
     const RampOptions& options = result_.options;
     const auto drags = scripted_drags(*size.mesh(), ramp_seed(options.seed, race.width(), race.attempt()),

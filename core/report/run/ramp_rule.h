@@ -12,23 +12,24 @@ namespace chainmail::report {
 /// The passes of one contestant at one size.
 struct RampPasses {
   std::vector<double> ms;
-  std::uint64_t moved = 0;  // elements, in all passes together
+  std::uint64_t moved = 0;  // number of moved elements in all passes
 };
 
 /// Returns the figures of a size. It is in real time if the 99th percentile of the passes is within the budget
 /// (seconds), or if there are no passes.
 RampRow ramp_row(const Mesh& mesh, std::uint32_t width, Algorithm algorithm, const RampPasses& passes, double budget);
 
-/// Returns what the rows of one algorithm say, size by size. Rows of other algorithms are ignored.
+/// Returns the result for one algorithm from its rows, which are in the order of sizes. Rows of other algorithms are
+/// ignored.
 RampVerdict ramp_verdict(Algorithm algorithm, std::span<const RampRow> rows);
 
 /// Returns the seed of the drags at a size. It differs for each size and for each of the two attempts.
 std::uint64_t ramp_seed(std::uint64_t seed, std::uint32_t width, int attempt);
 
-/// The order of events in a ramp: which size is next, and who measures it. The caller makes the passes.
-///
-/// At each size, all contestants that are still in the race make one attempt. A contestant that misses the budget makes
-/// a second attempt with other drags, and leaves the race if it misses the budget again.
+/// Decides the order of events in a ramp: the next size, and the contestants that measure it. The caller runs the
+/// passes.
+/// At each size, all remaining contestants make one attempt. A contestant that exceeds the budget makes a second
+/// attempt with other drags. It leaves the ramp if it exceeds the budget again.
 class RampRace {
  public:
   struct Result {
@@ -36,7 +37,7 @@ class RampRace {
     RampRow row;
   };
 
-  /// `widths` ascend. Contestants are known by their index; two of them may have the same algorithm.
+  /// `widths` must be ascending. Contestants are identified by their index; two of them may have the same algorithm.
   RampRace(std::vector<std::uint32_t> widths, std::vector<Algorithm> contestants, double budget);
 
   /// True when no size or no contestant is left.
@@ -46,13 +47,13 @@ class RampRace {
   double share() const { return double(size_) / double(widths_.size()); }
   std::size_t sizes() const { return widths_.size(); }
   const std::vector<std::size_t>& in_race() const { return in_race_; }
-  /// 0, or 1 for the second attempt.
+  /// Returns 0 for the first attempt, 1 for the second.
   int attempt() const { return attempt_; }
-  /// The contestants that make the present attempt.
+  /// Returns the contestants that make the current attempt.
   const std::vector<std::size_t>& attempting() const { return attempting_; }
 
-  /// Takes the passes of an attempt, in the order of attempting(). Returns the results of the size, in the order of the
-  /// contestants, and goes to the next size; returns none if a second attempt follows.
+  /// Takes the passes of an attempt, in the order of attempting(). If a second attempt must follow, returns nothing.
+  /// Otherwise returns the results of the size, in the order of the contestants, and moves to the next size.
   std::vector<Result> finish_attempt(const Mesh& mesh, std::span<const RampPasses> passes);
 
  private:

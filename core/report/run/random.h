@@ -4,7 +4,8 @@
 
 namespace chainmail::report {
 
-/// Returns a uniform number. It is the same on every machine; the distributions of the standard library are not.
+/// Returns a uniformly distributed number between `low` and `high`. Unlike the distributions of the standard library,
+/// it is the same on every machine.
 inline double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }

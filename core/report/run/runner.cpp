@@ -45,7 +45,7 @@ void Runner::go_to_rest() {
     simulation_.apply(commands::Unpin{{pinned.begin(), pinned.end()}});
     simulation_.apply(commands::Pin{pins_});
   }
-  simulation_.apply(commands::Reset{});  // the changes have woken elements
+  simulation_.apply(commands::Reset{});  // the changes above have activated elements for relaxation
   handle_.reset();
 }
 
@@ -97,7 +97,7 @@ void Runner::carry_out(const Command& command, int sweeps, Run& run) {
 void check(const RecordedMoves& moves) {
   for (const Command& command : moves.commands) {
     if (is_one_of<commands::ReplaceMesh, commands::SetPositions, commands::RestoreState>(command)) {
-      throw Error(moves.name, "these moves replace the object, or undo", "record moves of one object, without undo");
+      throw Error(moves.name, "these moves replace the object or use undo", "record moves of one object, without undo");
     }
   }
   if (count_moves(moves) == 0) {

@@ -10,25 +10,26 @@
 
 namespace chainmail::report {
 
-/// Carries out recorded moves on a case from rest, with one algorithm in one precision.
+/// Runs recorded moves on a case from rest, with one algorithm in one precision.
 class Runner {
  public:
   Runner(const Case& object, Algorithm algorithm, Precision precision, const CompareOptions& options);
 
   /// Times and counts of a run.
   struct Run {
-    std::vector<double> ms;  // for each move: its pass and its sweeps, without the time of other programs
+    std::vector<double> ms;  // time of each move: its pass and its sweeps, without the time of other programs
     std::uint64_t checked = 0;
     std::uint64_t moved = 0;
     bool stopped = false;
   };
-  /// A request to stop ends the run within a pass of a method of elasticity, between other passes, and within sweeps.
+  /// Runs the moves. A stop request takes effect within a pass of a method of elasticity, between passes of other
+  /// algorithms, and within sweeps.
   Run run(const RecordedMoves& moves, int sweeps, const std::stop_token& stop);
-  /// The same; throws Cancelled when it is cancelled.
+  /// Does the same, and throws Cancelled when it is cancelled.
   Run run(const RecordedMoves& moves, int sweeps, const chainmail::Progress& progress);
 
   const Simulation& simulation() const { return simulation_; }
-  /// The last handle.
+  /// Returns the last handle; none before the first run.
   std::optional<ElementId> handle() const { return handle_; }
 
  private:

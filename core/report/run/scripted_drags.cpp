@@ -11,7 +11,7 @@ namespace {
 
 // Mean step of the handle, in widths of the object.
 constexpr double mean_step = 0.02;
-// Largest change of direction from move to move (radians), and the share of the turning that is kept.
+// Largest random change of the turning rate per move (radians), and the share of the turning rate that is kept.
 constexpr double turn = 0.15;
 constexpr double turning_kept = 0.8;
 
@@ -21,7 +21,7 @@ ScriptedDrag draw_walk(const Mesh& mesh, double width, int moves, std::mt19937_6
   const double speed = mean_step * width * std::exp2(uniform(random, -1, 1));
   double direction = uniform(random, 0, 2 * std::numbers::pi), turning = 0;
   for (int move = 0; move < moves; ++move) {
-    // Half a sine from the first move to the last, with mean 1.
+    // The speed follows half a sine wave from the first move to the last, with mean 1.
     const double pace = std::numbers::pi / 2 * std::sin(std::numbers::pi * (move + 0.5) / moves);
     turning = turning_kept * turning + uniform(random, -turn, turn);
     direction += turning;

@@ -3,7 +3,7 @@
 #include "mesh/generate.h"
 #include "simulate/simulation.h"
 
-// Pulls the corner of a 3x3 grid two units to the left: a program that uses the installed library.
+// A program that uses the installed library. It pulls the corner of a 3x3 grid two mesh units to the left.
 int main() {
   using namespace chainmail;
   Simulation simulation(generate({MeshKind::grid, {3, 3, 1}}), Algorithm::natural_queue, Precision::double_precision);
