@@ -71,9 +71,9 @@ class Simulation {
   std::span<const double> control_points();
   /// Returns the element that the last pass moved to its target.
   std::optional<ElementId> last_moved() const { return last_moved_; }
-  /// Returns the positions, for SetPositions.
+  /// Returns a snapshot of the positions, for SetPositions.
   Snapshot snapshot() const { return body().snapshot(away_); }
-  /// The blocks in which a position may have changed since forget_changes().
+  /// Returns the blocks in which a position may have changed since forget_changes().
   const ElementBlocks& changed() const { return changed_; }
   void forget_changes() { changed_.clear(); }
   const Statistics& statistics() const { return statistics_; }

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "solve/body.h"
+#include "solve/positions.h"
 #include "solve/replay.h"
 
 namespace chainmail::bench {

@@ -52,9 +52,10 @@ class ShuffledSchedule {
 template <class Scalar, int Dimension, class Schedule>
 std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, const std::vector<Hand>& hands,
                          bool* visits_are_bounded = nullptr) {
-  Body<Scalar, Dimension> body(mesh);
-  body.hold_from_rest(true, softness);
-  body.set_softness(softness);
+  Body held(mesh, sizeof(Scalar) == sizeof(float) ? Precision::single_precision : Precision::double_precision);
+  held.store_displacements(true);
+  held.set_softness(softness);
+  auto body = held.view<Scalar, Dimension>();
   ExactPropagation<Scalar, Dimension, Schedule> exact;
   std::vector<ElementId> moved;
   for (const Hand& hand : hands) {

@@ -8,7 +8,8 @@
 #include "report/page/looks.h"
 #include "report/page/table.h"
 #include "report/run/ramp.h"
-#include "solve/list_algorithm.h"
+#include "solve/follow_pass.h"
+#include "solve/list_method.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
@@ -53,7 +54,8 @@ AlgorithmInfo dummy_entry() {
           .source = "nobody 2000",
           .summary = "does what Spiral does",
           .look = {"M0 0H1V1Z", "#123456"},
-          .list = &list_algorithm<DummyList>};
+          .make = make_list_method<DummyList>,
+          .history = follow_list<DummyList>};
 }
 
 constexpr Parameter dummy_parameter{.name = "dummy",

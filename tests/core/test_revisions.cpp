@@ -1,0 +1,193 @@
+#include <QtTest>
+
+#include "core/scenarios.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace {
+
+/// Everything that can change a solver between two moves.
+enum class Event {
+  nothing,
+  other_handle,
+  cut,
+  uncut,
+  pin,
+  unpin,
+  soften,
+  soften_links,
+  harden_material,
+  reset,
+  set_positions,
+  keep,
+  restore_kept,
+  relax,
+  change_algorithm,
+  count
+};
+
+ElementBlocks all_blocks(const Mesh& mesh) {
+  ElementBlocks all(mesh.element_count());
+  all.insert_all();
+  return all;
+}
+
+/// A solver that goes on for a whole test. Each of its moves is compared with that of a new solver in the same state.
+class LongLife {
+ public:
+  LongLife(MeshPointer mesh, Algorithm algorithm, Precision precision, std::vector<Algorithm> all)
+      : mesh_(std::move(mesh)),
+        all_(std::move(all)),
+        algorithm_(algorithm),
+        precision_(precision),
+        blocks_(all_blocks(*mesh_)),
+        solver_(mesh_, algorithm, precision) {}
+
+  void happen(Event event, std::uint32_t which) {
+    Body& body = solver_.body();
+    const LinkId link = which % mesh_->link_count();
+    const ElementId element = which % mesh_->element_count();
+    switch (event) {
+      case Event::other_handle:
+        handle_ = body.is_pinned(element) ? handle_ : element;
+        break;
+      case Event::cut:
+        return body.cut(std::span(&link, 1));
+      case Event::uncut:
+        return body.uncut(std::span(&link, 1));
+      case Event::pin:
+        return element == handle_ ? void() : body.pin(std::span(&element, 1));
+      case Event::unpin:
+        return body.unpin(std::span(&element, 1));
+      case Event::soften:
+        return soften({LinkSoftness{1 - which % 5 / 8.0, 1 + which % 8 / 4.0, which % 3 / 10.0}, {}});
+      case Event::soften_links:
+        return soften({body.softness().global, {{link, LinkSoftness{0.5, 2, 0.5}}}});
+      case Event::harden_material:
+        return body.set_elastic({{1 + which % 3 * 1.0, 0.25}, {3, 3, 3}});
+      case Event::reset:
+        return body.reset();
+      case Event::set_positions:
+        return body.set_positions(shaken(which));
+      case Event::keep:
+        kept_ = body.snapshot(blocks_);
+        break;
+      case Event::restore_kept:
+        return body.restore(kept_, blocks_);
+      case Event::relax:
+        solver_.wake_all();
+        (void)solver_.relax(0.5, mesh_->element_count() / 2 + 1, handle_);
+        break;
+      case Event::change_algorithm:
+        algorithm_ = all_[which % all_.size()];
+        return solver_.set_algorithm(algorithm_);
+      default:
+        break;
+    }
+  }
+
+  void move(const Point& by) {
+    Solver fresh(mesh_, algorithm_, precision_);
+    copy_state(fresh.body());
+    const Point target = position_of(solver_, *mesh_, handle_) + by;
+    const std::string expected = answer(fresh, target), found = answer(solver_, target);
+    RC_ASSERT(found == expected);
+    const auto positions = positions_of(solver_, *mesh_), of_fresh = positions_of(fresh, *mesh_);
+    if (info(algorithm_).elastic) {  // the path to a solution of Newton's method changes its last digits
+      RC_ASSERT(largest_step(positions, of_fresh) <= 1e-4 * (1 + largest_coordinate(positions)));
+    } else {
+      RC_ASSERT(same_bits(positions, of_fresh));
+    }
+  }
+
+ private:
+  void soften(const Softness& softness) { solver_.body().set_softness(softness); }
+
+  std::vector<double> shaken(std::uint32_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<double> positions = positions_of(solver_, *mesh_);
+    for (double& x : positions) {
+      x += uniform(random, -0.05, 0.05);
+    }
+    return positions;
+  }
+
+  void copy_state(Body& to) {
+    Body& from = solver_.body();
+    to.set_softness(from.shared_softness());
+    to.set_elastic(from.elastic());
+    to.cut(from.cuts().links());
+    to.restore(from.snapshot(blocks_), blocks_);
+    to.pin(from.pins());
+    to.reach() = from.reach();
+  }
+
+  /// Moves the handle. Returns the numbers of the pass, or the sentence of a refusal.
+  std::string answer(Solver& solver, const Point& target) {
+    try {
+      const PassCount count = solver.move(handle_, target);
+      return info(algorithm_).elastic ? "moved" : std::to_string(count.checked) + ' ' + std::to_string(count.moved);
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+
+  MeshPointer mesh_;
+  std::vector<Algorithm> all_;
+  Algorithm algorithm_;
+  Precision precision_;
+  ElementBlocks blocks_;
+  Solver solver_;
+  Snapshot kept_;
+  ElementId handle_ = 0;
+};
+
+/// Runs a random life on a mesh.
+void live(const MeshPointer& mesh, const std::vector<Algorithm>& all, int most_events) {
+  LongLife life(mesh, *rc::gen::elementOf(all), *any_precision(), all);
+  const int events = *rc::gen::inRange(1, most_events);
+  for (int i = 0; i < events; ++i) {
+    const int changes = *rc::gen::inRange(0, 3);
+    for (int k = 0; k < changes; ++k) {
+      const auto event = Event(*rc::gen::inRange(0, int(Event::count)));
+      RC_LOG() << "event " << int(event) << '\n';
+      life.happen(event, *rc::gen::inRange<std::uint32_t>(0, 1000));
+    }
+    life.move((*any_hand(*rc::gen::element(1, 4, 40))).by());
+  }
+}
+
+}  // namespace
+
+/// Whatever changed between two moves, nothing out of date is used: revisions of the body tell.
+class RevisionsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void each_move_is_that_of_a_new_solver();
+  void each_elastic_move_is_that_of_a_new_solver();
+};
+
+void RevisionsTest::each_move_is_that_of_a_new_solver() {
+  const auto holds = [] {
+    const MeshPointer& mesh = draw_family().mesh;
+    std::vector<Algorithm> all;
+    for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
+      all.push_back(one.algorithm);
+    }
+    live(mesh, all, 30);
+  };
+  QVERIFY(check_property("each move is that of a new solver in the same state", holds));
+}
+
+void RevisionsTest::each_elastic_move_is_that_of_a_new_solver() {
+  const auto holds = [] {
+    live(make_mesh(MeshKind::tetra, {4, 3, 3}),
+         {Algorithm::linear_fem, Algorithm::neo_hookean, Algorithm::boundary_elements, Algorithm::free_form}, 8);
+  };
+  QVERIFY(check_property("each elastic move is that of a new solver in the same state", holds));
+}
+
+QTEST_APPLESS_MAIN(RevisionsTest)
+#include "test_revisions.moc"
