@@ -28,6 +28,7 @@ struct Revisions {
   std::uint64_t pins = 0;       // elements were pinned or unpinned
   std::uint64_t elastic = 0;    // options of elasticity changed
   std::uint64_t positions = 0;  // positions were set, other than by a move or by relaxation
+  std::uint64_t relaxed = 0;    // relaxation moved elements
 
   bool operator==(const Revisions&) const = default;
 };
@@ -80,8 +81,13 @@ class Body {
 
   /// True if all elements are known to be at rest.
   bool is_at_rest() const { return is_at_rest_; }
-  /// Call this after a move or a step of relaxation.
-  void note_motion() { is_at_rest_ = false; }
+  /// Call this after a move.
+  void note_move() { is_at_rest_ = false; }
+  /// Call this after relaxation moved elements.
+  void note_relaxation() {
+    is_at_rest_ = false;
+    ++revisions_.relaxed;
+  }
   /// Moves all elements to rest. Cuts, pins and softness stay.
   void reset();
   /// The same as reset(), but faster. No element outside these blocks may be away from rest.

@@ -66,13 +66,14 @@ PassCount ElasticDeformation::move_control_point(Body& body, std::size_t point, 
 void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
   const Revisions& now = body.revisions();
   const Conditions conditions{now.cuts, now.pins, now.elastic};
-  const bool knows_positions = solver_ && positions_ == now.positions;
+  const std::uint64_t positions = now.positions + now.relaxed;
+  const bool knows_positions = solver_ && positions_ == positions;
   if (solver_ && conditions == made_for_ && (knows_positions || displacements_of(body, body.pins()) == pinned_)) {
     if (!knows_positions) {
       held_ = no_element;
       solver_->reset();
       body.is_at_rest() ? void() : take_positions(body);
-      positions_ = now.positions;
+      positions_ = positions;
     }
     return;
   }
@@ -83,7 +84,7 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
       method_, {body.mesh_pointer(), body.cuts(), {body.pins().begin(), body.pins().end()}, pinned_, body.elastic()},
       progress);
   made_for_ = conditions;
-  positions_ = now.positions;
+  positions_ = positions;
   take_positions(body);
 }
 

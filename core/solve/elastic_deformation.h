@@ -33,7 +33,7 @@ class ElasticDeformation final : public Method {
   ElasticMethod method_;
   std::unique_ptr<ElasticSolver> solver_;
   Conditions made_for_;
-  std::uint64_t positions_ = 0;  // revision of the positions that the solver knows
+  std::uint64_t positions_ = 0;  // revisions of the positions that the solver knows
   std::vector<double> pinned_;   // displacements of the pins that it was made for
   ElementId held_ = no_element;
 };

@@ -183,7 +183,7 @@ RelaxationResult Relaxation::sweep(Body& body, double step, std::uint64_t budget
   const RelaxationResult result =
       body.with_view([&]<class View>(const View& view) { return Slice<View>(*this, view, step, held).run(budget); });
   if (result.largest_step > 0) {
-    body.note_motion();
+    body.note_relaxation();
   }
   if (result.sweep_ended) {
     end_sweep();

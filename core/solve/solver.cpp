@@ -35,10 +35,10 @@ template <class Pass>
 PassCount Solver::run(Pass pass) {
   try {
     const PassCount count = pass(method());
-    body_.note_motion();
+    body_.note_move();
     return count;
   } catch (const std::bad_alloc&) {
-    body_.note_motion();
+    body_.note_move();
     moved_.clear();
     method_.reset();
     throw;

@@ -47,18 +47,18 @@ void MeasuresTest::distance_by_hand() {
 
 void MeasuresTest::distance_is_in_mean_rest_lengths() {
   const auto mesh = make_mesh(MeshKind::line, {2, 1, 1}, {}, 4);
-  QCOMPARE(measure_distance(*mesh, at(mesh, {0, 4})->positions(), at(mesh, {2, 4})->positions()).max, 0.5);
+  QCOMPARE(measure_distance(*mesh, at(mesh, {0, 4})->body().positions(), at(mesh, {2, 4})->body().positions()).max, 0.5);
   MeshParts parts;
   parts.rest = {{0, 0, 0}, {4, 0, 0}};  // no link, so no rest length
   const auto unlinked = build_mesh(std::move(parts));
-  QCOMPARE(measure_distance(*unlinked, at(unlinked, {0, 4})->positions(), at(unlinked, {2, 4})->positions()).max, 2.0);
+  QCOMPARE(measure_distance(*unlinked, at(unlinked, {0, 4})->body().positions(), at(unlinked, {2, 4})->body().positions()).max, 2.0);
 }
 
 void MeasuresTest::distance_between_precisions() {
   const auto mesh = make_mesh(MeshKind::line, {2, 1, 1});
   const auto in_float = at(mesh, {0, 0.1}, Precision::single_precision);
   const auto in_double = at(mesh, {0, 0.1});
-  QCOMPARE(measure_distance(*mesh, in_float->positions(), in_double->positions()).max, double(0.1F) - 0.1);
+  QCOMPARE(measure_distance(*mesh, in_float->body().positions(), in_double->body().positions()).max, double(0.1F) - 0.1);
 }
 
 void MeasuresTest::energy_ratio_is_none_at_0() {
@@ -78,8 +78,8 @@ void MeasuresTest::largest_over_handle_by_hand() {
 void MeasuresTest::a_hand_that_is_back_gives_no_ratio() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1}, {}, 0.1);
   // 1e-4 mean rest lengths are 1e-5 here.
-  QVERIFY(!largest_over_handle(*mesh, at(mesh, {0.9e-5, 0.1, 0.5})->positions(), 0));
-  QVERIFY(largest_over_handle(*mesh, at(mesh, {1.1e-5, 0.1, 0.5})->positions(), 0));
+  QVERIFY(!largest_over_handle(*mesh, at(mesh, {0.9e-5, 0.1, 0.5})->body().positions(), 0));
+  QVERIFY(largest_over_handle(*mesh, at(mesh, {1.1e-5, 0.1, 0.5})->body().positions(), 0));
 }
 
 void MeasuresTest::spread_by_hand() {

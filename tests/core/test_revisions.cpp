@@ -1,6 +1,7 @@
 #include <QtTest>
 
 #include "core/scenarios.h"
+#include "mesh/error.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
@@ -43,6 +44,11 @@ class LongLife {
         precision_(precision),
         blocks_(all_blocks(*mesh_)),
         solver_(mesh_, algorithm, precision) {}
+
+  void pin(const std::vector<ElementId>& elements) {
+    solver_.body().pin(elements);
+    handle_ = mesh_->element_count() - 1;
+  }
 
   void happen(Event event, std::uint32_t which) {
     Body& body = solver_.body();
@@ -94,8 +100,11 @@ class LongLife {
     const std::string expected = answer(fresh, target), found = answer(solver_, target);
     RC_ASSERT(found == expected);
     const auto positions = positions_of(solver_, *mesh_), of_fresh = positions_of(fresh, *mesh_);
-    if (info(algorithm_).elastic) {  // the path to a solution of Newton's method changes its last digits
-      RC_ASSERT(largest_step(positions, of_fresh) <= 1e-4 * (1 + largest_coordinate(positions)));
+    if (algorithm_ == Algorithm::neo_hookean) {
+      // The path to a solution changes its last digits; far from rest it leads to other solutions.
+      RC_ASSERT(largest_displacement(*mesh_, positions) > 0.75 || largest_step(positions, of_fresh) <= 1e-4);
+    } else if (info(algorithm_).elastic) {
+      RC_ASSERT(largest_step(positions, of_fresh) <= 1e-5 * (1 + largest_coordinate(positions)));
     } else {
       RC_ASSERT(same_bits(positions, of_fresh));
     }
@@ -143,9 +152,11 @@ class LongLife {
   ElementId handle_ = 0;
 };
 
-/// Runs a random life on a mesh.
-void live(const MeshPointer& mesh, const std::vector<Algorithm>& all, int most_events) {
+/// Runs a random life on a mesh, with these elements pinned at first.
+void live(const MeshPointer& mesh, const std::vector<Algorithm>& all, const std::vector<ElementId>& pins,
+          int most_events, int reach) {
   LongLife life(mesh, *rc::gen::elementOf(all), *any_precision(), all);
+  life.pin(pins);
   const int events = *rc::gen::inRange(1, most_events);
   for (int i = 0; i < events; ++i) {
     const int changes = *rc::gen::inRange(0, 3);
@@ -154,7 +165,7 @@ void live(const MeshPointer& mesh, const std::vector<Algorithm>& all, int most_e
       RC_LOG() << "event " << int(event) << '\n';
       life.happen(event, *rc::gen::inRange<std::uint32_t>(0, 1000));
     }
-    life.move((*any_hand(*rc::gen::element(1, 4, 40))).by());
+    life.move((*any_hand(*rc::gen::element(1, 2, reach))).by());
   }
 }
 
@@ -176,7 +187,7 @@ void RevisionsTest::each_move_is_that_of_a_new_solver() {
     for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
       all.push_back(one.algorithm);
     }
-    live(mesh, all, 30);
+    live(mesh, all, {}, 30, 40);
   };
   QVERIFY(check_property("each move is that of a new solver in the same state", holds));
 }
@@ -184,7 +195,8 @@ void RevisionsTest::each_move_is_that_of_a_new_solver() {
 void RevisionsTest::each_elastic_move_is_that_of_a_new_solver() {
   const auto holds = [] {
     live(make_mesh(MeshKind::tetra, {4, 3, 3}),
-         {Algorithm::linear_fem, Algorithm::neo_hookean, Algorithm::boundary_elements, Algorithm::free_form}, 8);
+         {Algorithm::linear_fem, Algorithm::neo_hookean, Algorithm::boundary_elements, Algorithm::free_form},
+         {0, 4, 8, 12, 16, 20, 24, 28, 32}, 8, 4);
   };
   QVERIFY(check_property("each elastic move is that of a new solver in the same state", holds));
 }

@@ -176,7 +176,7 @@ void SolverThreadTest::it_ends_without_finishing_the_commands() {
     solver->post(commands::Drag{Point(i % 2 == 0 ? -10'000 : 40'000, 0, 0)});
   }
   const auto start = std::chrono::steady_clock::now();
-  solver.body().reset();
+  solver.reset();
   QVERIFY(std::chrono::steady_clock::now() - start < promised);
 }
 
@@ -194,7 +194,7 @@ void SolverThreadTest::it_answers_questions_when_it_ends() {
   std::promise<ElementId> elements;
   auto answer = elements.get_future();
   solver->ask([&](const Simulation& simulation) { elements.set_value(simulation.mesh().element_count()); });
-  solver.body().reset();
+  solver.reset();
   QVERIFY(answer.wait_for(0s) == std::future_status::ready);
   QCOMPARE(answer.get(), next->element_count());
 }
@@ -232,7 +232,7 @@ void SolverThreadTest::it_ends_in_the_middle_of_sweeps() {
       std::make_unique<SolverThread>(make_mesh(MeshKind::grid, {300, 300, 1}), Algorithm::natural_queue, [] {});
   sweep_for_hours(*solver);
   const auto start = std::chrono::steady_clock::now();
-  solver.body().reset();
+  solver.reset();
   QVERIFY(std::chrono::steady_clock::now() - start < promised);
 }
 

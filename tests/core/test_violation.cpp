@@ -74,7 +74,7 @@ void ViolationTest::over_the_whole_mesh() {
   QVERIFY(close(violation.rms, std::sqrt((0.09 + 0.16) / 4)));
   QCOMPARE(violation.fraction, 0.5);
   const auto rest = at(mesh, mesh->rest);
-  QVERIFY(measure_violation(*mesh, {{1, 1, 0}, {}}, rest->cuts(), rest->positions()) == (Violation{0, 0, 0, 4}));
+  QVERIFY(measure_violation(*mesh, {{1, 1, 0}, {}}, rest->body().cuts(), rest->body().positions()) == (Violation{0, 0, 0, 4}));
 }
 
 void ViolationTest::cut_links_do_not_count() {
@@ -139,7 +139,7 @@ void ViolationTest::energy_by_hand() {
   QCOMPARE(elastic_energy(*line, solver->body().cuts(), solver->body().positions()), (0.25 + 0.25 + 0.0625) / 2);
   // Translated without deformation, it has no energy.
   const auto carried = at(line, {8, 4, 9, 4, 10, 4});
-  QCOMPARE(elastic_energy(*line, carried->cuts(), carried->positions()), 0.0);
+  QCOMPARE(elastic_energy(*line, carried->body().cuts(), carried->body().positions()), 0.0);
 }
 
 void ViolationTest::displacement_by_hand() {
