@@ -16,7 +16,7 @@ struct ObjectState {
   std::vector<LinkId> cuts;
   std::vector<ElementId> pins;
   std::shared_ptr<const Softness> softness;
-  PositionBlocks positions;
+  Snapshot positions;
   bool valid = true;
 };
 

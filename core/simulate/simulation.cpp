@@ -426,17 +426,13 @@ void Simulation::carry_out(const commands::DropState& command) { kept_.erase(com
 
 void Simulation::carry_out(const commands::SetPositions& command) {
   check(*command.snapshot, *mesh_, precision_);
-  solver_->body().restore(*command.snapshot, away_);
-  changed_.insert(away_);
-  unkept_.insert(away_);
-  away_.clear();
-  const auto& runs = command.snapshot->runs;
-  for (std::size_t i = 0; i < runs.size(); i += 2) {
-    away_.insert_run(runs[i], runs[i + 1]);
-  }
-  changed_.insert(away_);
-  unkept_.insert(away_);
-  valid_ = runs.empty();
+  ElementBlocks away = command.snapshot->away(*mesh_), changed = away_;
+  changed.insert(away);
+  solver_->body().restore(*command.snapshot, changed);
+  changed_.insert(changed);
+  unkept_.insert(changed);
+  away_ = std::move(away);
+  valid_ = command.snapshot->is_at_rest();
   forget_passes();
   grabbed_.reset();
   last_moved_.reset();
@@ -466,7 +462,7 @@ void Simulation::take(const Handover& handover, Algorithm algorithm) {
 }
 
 Simulation::State Simulation::current_state() {
-  solver_->body().keep_positions(unkept_, away_, last_kept_);
+  body().update(last_kept_, unkept_, away_);
   unkept_.clear();
   const auto pins = body().pins();
   return {mesh_, body().cuts().links(), {pins.begin(), pins.end()}, body().shared_softness(), last_kept_, valid_};
@@ -505,7 +501,7 @@ void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
 }
 
 /// Copies only blocks that the two states do not share, or in which a position has changed since they were saved.
-void Simulation::take_positions(const PositionBlocks& positions) {
+void Simulation::take_positions(const Snapshot& positions) {
   last_kept_.blocks.resize(away_.block_count());
   away_.clear();
   for (std::size_t block = 0; block < away_.block_count(); ++block) {

@@ -129,7 +129,7 @@ class Simulation {
   State current_state();
   void take_state(const State& state);
   void take_cuts(const std::vector<LinkId>& cuts);
-  void take_positions(const PositionBlocks& positions);
+  void take_positions(const Snapshot& positions);
 
   MeshPointer mesh_;
   Algorithm algorithm_;
@@ -139,7 +139,7 @@ class Simulation {
   ElasticOptions elastic_;
   ElementBlocks changed_;     // changed blocks since forget_changes()
   ElementBlocks away_;        // all elements outside these blocks are at rest
-  PositionBlocks last_kept_;  // positions that were last saved or restored
+  Snapshot last_kept_;  // positions that were last saved or restored
   ElementBlocks unkept_;      // blocks in which a position may have changed since then
   std::optional<ElementId> grabbed_;
   std::optional<ElementId> last_moved_;  // the element of the last pass

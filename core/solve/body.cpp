@@ -1,7 +1,6 @@
 #include "solve/body.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <utility>
 
@@ -40,30 +39,13 @@ double shift_of(const View& body, bool from_rest, ElementId element, int k) {
   return from_rest == body.from_rest ? -0.0 : from_rest ? rest : -rest;
 }
 
+/// Restores a run of elements from the coordinates of a block.
 template <class View>
-void restore_runs(const View& body, const Snapshot& snapshot) {
-  auto held = snapshot.held.begin();
-  for (std::size_t i = 0; i < snapshot.runs.size(); i += 2) {
-    for (ElementId e = snapshot.runs[i]; e < snapshot.runs[i + 1]; ++e) {
-      for (int k = 0; k < View::Dimension; ++k, ++held) {
-        body.positions[e][k] = static_cast<typename View::Scalar>(*held + shift_of(body, snapshot.from_rest, e, k));
-      }
-    }
-  }
-}
-
-/// Content of one block of PositionBlocks.
-template <class Scalar, int Dimension>
-using PositionBlock = std::array<Position<Scalar, Dimension>, ElementBlocks::block_elements>;
-
-/// Restores the positions of one block.
-template <class View, class Block>
-void restore_block(const View& body, const Block& positions, ElementId first, ElementId end, bool from_rest) {
+void restore_block(const View& body, const std::vector<double>& held, ElementId first, ElementId end, bool from_rest) {
+  auto one = held.begin();
   for (ElementId e = first; e < end; ++e) {
-    body.positions[e] = positions[e - first];
-    for (int k = 0; k < View::Dimension && from_rest != body.from_rest; ++k) {
-      const double held = positions[e - first][k];
-      body.positions[e][k] = static_cast<typename View::Scalar>(held + shift_of(body, from_rest, e, k));
+    for (int k = 0; k < View::Dimension; ++k, ++one) {
+      body.positions[e][k] = static_cast<typename View::Scalar>(*one + shift_of(body, from_rest, e, k));
     }
   }
 }
@@ -190,58 +172,41 @@ void Body::reset(const ElementBlocks& away) {
 
 Snapshot Body::snapshot(const ElementBlocks& away) const {
   Snapshot result;
-  result.from_rest = stores_displacements_;
-  std::visit(
-      [&]<class Scalar, int Dimension>(const Typed<Scalar, Dimension>& typed) {
-        away.for_each_run([&](ElementId first, ElementId end) {
-          result.runs.insert(result.runs.end(), {first, end});
-          for (ElementId e = first; e < end; ++e) {
-            const Scalar* at = typed.positions[e].at;
-            result.held.insert(result.held.end(), at, at + Dimension);
-          }
-        });
-      },
-      typed_);
+  update(result, away, away);
   return result;
 }
 
-void Body::restore(const Snapshot& snapshot, const ElementBlocks& away) {
-  reset(away);
-  if (!snapshot.runs.empty()) {
-    with_view([&](const auto& view) { restore_runs(view, snapshot); });
-    note_positions_set(false);
-  }
-}
-
-void Body::keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, PositionBlocks& kept) const {
-  kept.blocks.resize(away.block_count());
-  kept.from_rest = stores_displacements_;
+void Body::update(Snapshot& snapshot, const ElementBlocks& blocks, const ElementBlocks& away) const {
+  snapshot.blocks.resize(away.block_count());
+  snapshot.from_rest = stores_displacements_;
   std::visit(
       [&]<class Scalar, int Dimension>(const Typed<Scalar, Dimension>& typed) {
         blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
-          kept.blocks[block].reset();
+          snapshot.blocks[block].reset();
           if (away.contains_block(block)) {
-            const auto positions = std::make_shared<PositionBlock<Scalar, Dimension>>();
-            std::copy(typed.positions.begin() + first, typed.positions.begin() + end, positions->begin());
-            kept.blocks[block] = positions;
+            std::vector<double> held;
+            held.reserve(std::size_t{end - first} * Dimension);
+            for (ElementId e = first; e < end; ++e) {
+              held.insert(held.end(), typed.positions[e].at, typed.positions[e].at + Dimension);
+            }
+            snapshot.blocks[block] = std::make_shared<const std::vector<double>>(std::move(held));
           }
         });
       },
       typed_);
 }
 
-void Body::restore(const PositionBlocks& kept, const ElementBlocks& blocks) {
-  with_view([&]<class View>(const View& view) {
+void Body::restore(const Snapshot& snapshot, const ElementBlocks& blocks) {
+  with_view([&](const auto& view) {
     blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
-      using Block = PositionBlock<typename View::Scalar, View::Dimension>;
-      if (const auto* positions = static_cast<const Block*>(kept.blocks[block].get())) {
-        restore_block(view, *positions, first, end, kept.from_rest);
+      if (!snapshot.blocks.empty() && snapshot.blocks[block] != nullptr) {
+        restore_block(view, *snapshot.blocks[block], first, end, snapshot.from_rest);
       } else {
         put_to_rest(view, first, end);
       }
     });
   });
-  note_positions_set(std::ranges::none_of(kept.blocks, [](const auto& block) { return block != nullptr; }));
+  note_positions_set(snapshot.is_at_rest());
 }
 
 void Body::note_positions_set(bool at_rest) {

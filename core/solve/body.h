@@ -93,15 +93,12 @@ class Body {
   /// The same as reset(), but faster. No element outside these blocks may be away from rest.
   void reset(const ElementBlocks& away);
 
-  /// Returns the positions of these blocks. No other element may be away from rest.
+  /// Returns the positions. No element outside `away` may be away from rest.
   Snapshot snapshot(const ElementBlocks& away) const;
-  /// Restores a snapshot: elements that it does not give move to rest. No element outside `away` may be away from rest
-  /// now. The snapshot must have passed check().
-  void restore(const Snapshot& snapshot, const ElementBlocks& away);
-  /// Updates these blocks of `kept`. No element outside `away` may be away from rest.
-  void keep_positions(const ElementBlocks& blocks, const ElementBlocks& away, PositionBlocks& kept) const;
-  /// Restores these blocks. All others must be as they were saved.
-  void restore(const PositionBlocks& kept, const ElementBlocks& blocks);
+  /// Updates these blocks of a snapshot of this body. No element outside `away` may be away from rest.
+  void update(Snapshot& snapshot, const ElementBlocks& blocks, const ElementBlocks& away) const;
+  /// Restores these blocks of a snapshot that passed check(). All others must be as in the snapshot.
+  void restore(const Snapshot& snapshot, const ElementBlocks& blocks);
 
   /// True if displacements from rest are stored, which keep their digits however far the object is from the origin;
   /// false if positions are stored.

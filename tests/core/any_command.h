@@ -60,11 +60,14 @@ class AnyCommand {
   /// Positions of a few elements of a mesh, in one to three dimensions.
   Command place() {
     const ElementId first = below(elements_), end = first + 1 + below(70);
-    Snapshot placement{below(2) == 0, {first, end}, {}};
-    for (std::uint32_t i = 0, count = (end - first) * (1 + below(3)); i < count; ++i) {
-      placement.held.push_back(between(-4, 16));
+    const MeshPointer& mesh = meshes_[below(std::uint32_t(meshes_.size()))];  // may be another one than the object's
+    PositionRuns positions{
+        below(2) == 0, {std::min(first, mesh->element_count() - 1), std::min(end, mesh->element_count())}, {}};
+    for (std::size_t i = 0; i < (positions.runs[1] - positions.runs[0]) * std::size_t(mesh->space_dimension); ++i) {
+      positions.held.push_back(between(-4, 16));
     }
-    return commands::SetPositions{std::make_shared<const Snapshot>(placement)};
+    return commands::SetPositions{
+        std::make_shared<const Snapshot>(snapshot_of(positions, *mesh, Precision::single_precision))};
   }
   double between(double low, double high) { return uniform(random_, low, high); }
 

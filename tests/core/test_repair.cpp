@@ -102,8 +102,7 @@ void RepairTest::states_from_outside_are_looked_at() {
   for (const bool kept : {false, true}) {
     const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
     solver->body().set_positions(std::vector<double>{0, 5, 2, 3});
-    PositionBlocks positions;
-    solver->body().keep_positions(all, all, positions);
+    const Snapshot positions = solver->body().snapshot(all);
     solver->body().reset();
     solver->set_algorithm(Algorithm::exact);
     kept ? solver->body().restore(positions, all) : solver->body().set_positions(std::vector<double>{0, 5, 2, 3});

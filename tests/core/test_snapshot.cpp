@@ -66,7 +66,8 @@ void SnapshotTest::elements_that_are_not_given_stand_at_rest() {
   const auto mesh = make_mesh(MeshKind::grid, {30, 10, 1});
   Simulation simulation = dragged(mesh, Algorithm::natural_queue, Precision::double_precision);
   simulation.forget_changes();
-  carry_out(simulation, place({false, {70, 71, 200, 202}, {7, 8, 1, 2, 3, 4}}));
+  const PositionRuns some{false, {70, 71, 200, 202}, {7, 8, 1, 2, 3, 4}};
+  carry_out(simulation, place(snapshot_of(some, *mesh, Precision::double_precision)));
   auto expected = mesh->rest;
   std::copy_n(std::array{7.0, 8.0}.begin(), 2, expected.begin() + 140);
   std::copy_n(std::array{1.0, 2.0, 3.0, 4.0}.begin(), 4, expected.begin() + 400);
@@ -94,11 +95,19 @@ void SnapshotTest::what_does_not_fit_is_refused() {
   const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
   Simulation simulation = dragged(mesh, Algorithm::spiral, Precision::single_precision);
   const SavedState before(simulation);
-  const std::vector<Snapshot> wrong{
+  const std::vector<PositionRuns> wrong{
       {false, {0, 1}, {1}},       {false, {0, 1}, {1, 2, 3}},        {false, {0}, {}},
       {false, {1, 0}, {}},        {false, {15, 17}, {1, 2, 3, 4}},   {false, {0, 1, 0, 1}, {1, 2, 3, 4}},
       {false, {0, 1}, {1, 1e38}}, {false, {0, 1}, {1, std::nan("")}}};
-  for (const Snapshot& placement : wrong) {
+  for (const PositionRuns& positions : wrong) {
+    QVERIFY_THROWS_EXCEPTION(Error, snapshot_of(positions, *mesh, Precision::single_precision));
+  }
+  const auto block = [](std::size_t count, double value) {
+    return std::make_shared<const std::vector<double>>(count, value);
+  };
+  for (const Snapshot& placement :
+       {Snapshot{false, {block(31, 0)}}, Snapshot{false, {block(33, 0)}}, Snapshot{false, {block(32, 0), nullptr}},
+        Snapshot{false, {block(32, 1e38)}}, Snapshot{false, {block(32, std::nan(""))}}}) {
     QVERIFY_THROWS_EXCEPTION(Error, carry_out(simulation, place(placement)));
     QVERIFY(SavedState(simulation) == before);
   }

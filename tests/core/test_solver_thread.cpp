@@ -282,7 +282,7 @@ void SolverThreadTest::abandoned_it_answers_for_the_object_as_it_is() {
   solver.abandon();
   auto answer = placement.get_future();
   QVERIFY(answer.wait_for(30s) == std::future_status::ready);
-  QVERIFY(!answer.get().runs.empty());  // from the drag before the sweeps
+  QVERIFY(!answer.get().is_at_rest());  // from the drag before the sweeps
   QVERIFY(wait_until([&] { return solver.idle(); }));
   QCOMPARE(solver.latest_frame().statistics.passes, std::uint64_t{1});
 }

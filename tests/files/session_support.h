@@ -41,11 +41,13 @@ inline Session session_on(const MeshPointer& mesh) {
   session.relaxation = {true, 1.0 / 3, RelaxationScheme::link};
   session.elastic = {{2.5, 1.0 / 3}, {2, 5, 8}};
   const auto dimension = static_cast<std::size_t>(mesh->space_dimension);
-  session.panels = {{Algorithm::exact, Precision::single_precision, {true, {0, 2, 5, 9}, odd_floats(6 * dimension, 5)}},
-                    {Algorithm::spiral, Precision::double_precision, {false, {3, 4}, {}}},
-                    {Algorithm::generalized, Precision::single_precision, {}}};
-  session.panels[1].placement.held = {1.0 / 3, -0.0, 1e300};
-  session.panels[1].placement.held.resize(dimension);
+  std::vector<double> one{1.0 / 3, -0.0, 1e300};
+  one.resize(dimension);
+  const auto single = Precision::single_precision, twice = Precision::double_precision;
+  session.panels = {
+      {Algorithm::exact, single, snapshot_of({true, {0, 2, 5, 9}, odd_floats(6 * dimension, 5)}, *mesh, single)},
+      {Algorithm::spiral, twice, snapshot_of({false, {3, 4}, one}, *mesh, twice)},
+      {Algorithm::generalized, single, {}}};
   session.moves = {commands::Cut{{0, 3}}, commands::Pin{{1, 8}}, commands::Grab{2}, commands::Drag{{0.1, 1.0 / 3, 0}},
                    commands::Release{}};
   session.moves_done = 4;

@@ -39,6 +39,14 @@ class SessionTest : public QObject {
   }
 };
 
+/// Puts a number into the positions of the first panel.
+static void spoil(Session& session, double number) {
+  auto& block = session.panels[0].placement.blocks[0];
+  auto held = *block;
+  held[0] = number;
+  block = std::make_shared<const std::vector<double>>(held);
+}
+
 void SessionTest::what_is_written_reads_back_data() {
   QTest::addColumn<int>("which");
   int i = 0;
@@ -67,7 +75,8 @@ void SessionTest::compare(const Session& again, const Session& session) {
   for (std::size_t i = 0; i < again.panels.size(); ++i) {
     const auto &panel = again.panels[i], &one = session.panels[i];
     QVERIFY(panel.algorithm == one.algorithm && panel.precision == one.precision);
-    QVERIFY(panel.placement == one.placement && same_bits(panel.placement.held, one.placement.held));
+    const auto positions = runs_of(panel.placement, mesh), expected = runs_of(one.placement, mesh);
+    QVERIFY(positions == expected && same_bits(positions.held, expected.held));
   }
   QCOMPARE(again.moves.size(), session.moves.size());
   QCOMPARE(again.moves_done, session.moves_done);
@@ -136,8 +145,9 @@ void SessionTest::bytes_are_written_in_base_64() {
 void SessionTest::every_float_comes_back_to_the_bit() {
   Session session;
   session.mesh = made(MeshKind::line, {50'000, 1, 1});
-  session.panels = {
-      {Algorithm::natural_queue, Precision::single_precision, {false, {0, 50'000}, odd_floats(50'000, 1)}}};
+  const auto single = Precision::single_precision;
+  session.panels = {{Algorithm::natural_queue, single,
+                     snapshot_of({false, {0, 50'000}, odd_floats(50'000, 1)}, *session.mesh, single)}};
   compare(parse_session(session_text(session), "a.chainmail"), session);
 }
 
@@ -156,16 +166,23 @@ void SessionTest::what_was_written_once_opens() {
   QVERIFY((session.relaxation == commands::SetRelaxation{false, 0.5, RelaxationScheme::link}));
   QCOMPARE(session.panels.size(), std::size_t{2});
   QVERIFY(session.panels[0].algorithm == Algorithm::exact && session.panels[1].algorithm == Algorithm::natural_queue);
-  QVERIFY((session.panels[0].placement == Snapshot{true, {2, 4}, {0.1F, -0.0, 1.0F / 3, -2}}));
-  QVERIFY(std::signbit(session.panels[0].placement.held[1]));
-  QVERIFY((session.panels[1].placement == Snapshot{false, {8, 9}, {2.5, 2.25}}));
+  const auto one = runs_of(session.panels[0].placement, *session.mesh);
+  QVERIFY(one.from_rest);
+  QCOMPARE(one.held, (std::vector<double>{0, 0, 0, 0, 0.1F, -0.0, 1.0F / 3, -2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+  QVERIFY(std::signbit(one.held[5]));
+  auto expected = session.mesh->rest;
+  expected[16] = 2.5;
+  expected[17] = 2.25;
+  const auto other = runs_of(session.panels[1].placement, *session.mesh);
+  QVERIFY(!other.from_rest && other.held == expected);
   QCOMPARE(session.ui, std::string(R"({"colour":"plain"})"));
 }
 
 void SessionTest::the_file_is_json_as_it_is_documented() {
   Session session = session_on(made(MeshKind::grid, {3, 3, 1}));
   session.panels.resize(1);
-  session.panels[0].placement.held = {0, 0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  session.panels[0].placement = snapshot_of({true, {0, 2, 5, 9}, {0, 0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}},
+                                            *session.mesh, Precision::single_precision);
   const auto document = QJsonDocument::fromJson(QByteArray::fromStdString(session_text(session)));
   QCOMPARE(document["format"].toString(), QStringLiteral("chainmail session"));
   QCOMPARE(document["version"].toInt(), 1);
@@ -180,8 +197,9 @@ void SessionTest::the_file_is_json_as_it_is_documented() {
   QCOMPARE(document["moves"]["commands"][3]["target"].toArray(), (QJsonArray{0.1, 1.0 / 3, 0}));
   QCOMPARE(document["moves_done"].toInt(), 4);
   QCOMPARE(document["panels"][0]["algorithm"].toString(), QStringLiteral("exact"));
-  QCOMPARE(document["panels"][0]["runs"].toArray(), (QJsonArray{0, 2, 5, 9}));
-  QCOMPARE(document["panels"][0]["held"].toArray(), (QJsonArray{0, 0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+  QCOMPARE(document["panels"][0]["runs"].toArray(), (QJsonArray{0, 9}));
+  QCOMPARE(document["panels"][0]["held"].toArray(),
+           (QJsonArray{0, 0.5, 1, 2, 0, 0, 0, 0, 0, 0, 3, 4, 5, 6, 7, 8, 9, 10}));
 }
 
 /// Parts that would be too large to open again are not saved; the object itself always is.
@@ -207,7 +225,7 @@ void SessionTest::moves_without_end_are_left_out() {
 void SessionTest::numbers_that_are_none_are_not_written() {
   for (const double none : {std::nan(""), HUGE_VAL}) {
     Session session = session_on(made(MeshKind::grid, {3, 3, 1}));
-    session.panels[0].placement.held[0] = none;
+    spoil(session, none);
     QVERIFY(error_of([&] { session_text(session); }).startsWith("session: a coordinate is not a finite number; "));
   }
 }
@@ -219,7 +237,7 @@ void SessionTest::saving_is_whole_or_not_at_all() {
   save_session(path, session);
   compare(read_session(path), session);
   const std::string before = file_text(path);
-  session.panels[0].placement.held[0] = std::nan("");
+  spoil(session, std::nan(""));
   QVERIFY(!error_of([&] { save_session(path, session); }).isEmpty());
   QCOMPARE(file_text(path), before);
   QCOMPARE(files_in(folder.path().toStdString()), 1);

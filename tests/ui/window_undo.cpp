@@ -169,7 +169,7 @@ class WindowUndo : public QObject {
     Workbench bench;
     Document& document = bench.document();
     drag(bench, 10, QPoint(-60, 60));
-    const auto positions = [&] { return std::pair(document.snapshot(0).get().held, document.snapshot(1).get().held); };
+    const auto positions = [&] { return std::pair(document.snapshot(0).get(), document.snapshot(1).get()); };
     const auto before = positions();
     for (const bool released : {true, false}) {  // undo also ends an unfinished drag
       document.grab(31);

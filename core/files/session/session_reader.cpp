@@ -147,14 +147,8 @@ void SessionReader::take_elastic() {
 }
 
 Snapshot SessionReader::placement(const Json& object, Precision precision) const {
-  Snapshot result{fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held")};
-  check(result, *result_.mesh, precision);
-  if (precision == Precision::single_precision) {
-    for (double& held : result.held) {
-      held = static_cast<float>(held);
-    }
-  }
-  return result;
+  return snapshot_of({fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held")},
+                     *result_.mesh, precision);
 }
 
 Session::Panel SessionReader::panel(const Json& object) {

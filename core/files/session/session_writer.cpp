@@ -218,7 +218,7 @@ void SessionWriter::write_state() {
 }
 
 void SessionWriter::write_panel(const Session::Panel& panel, const Progress& progress) {
-  const Snapshot& placement = panel.placement;
+  const PositionRuns placement = runs_of(panel.placement, mesh_);
   const bool single = panel.precision == Precision::single_precision;
   out_ << "\n{\"algorithm\": \"" << info(panel.algorithm).name << "\", \"precision\": \""
        << std::string_view(single ? "float" : "double")
