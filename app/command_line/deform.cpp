@@ -183,7 +183,7 @@ void deform(const DeformArguments& options) {
   check_acts(acts, *mesh);
   if (const auto file = value_of(options.softness)) {
     for (const auto& [link, own] : read_softness(std::filesystem::path(*file), *mesh)) {
-      softness.links.insert_or_assign(link, own);
+      softness.links.set(link, own);
     }
   }
   std::vector<chainmail::Command> moves;

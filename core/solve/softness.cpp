@@ -1,11 +1,97 @@
 #include "solve/softness.h"
 
+#include <algorithm>
+
 namespace chainmail {
 
 void check(const LinkSoftness& softness) {
   check(parameters::compression, softness.compression);
   check(parameters::stretch, softness.stretch);
   check(parameters::shear, softness.shear);
+}
+
+OwnSoftness::OwnSoftness(std::initializer_list<Entry> entries) : OwnSoftness(entries.begin(), entries.end()) {}
+
+/// Returns the groups of links, with room up to a link. Copies them if another object shares them.
+std::vector<std::uint32_t>& OwnSoftness::writable(LinkId last) {
+  if (group_of_ == nullptr) {
+    group_of_ = std::make_shared<std::vector<std::uint32_t>>();
+  } else if (group_of_.use_count() > 1) {
+    group_of_ = std::make_shared<std::vector<std::uint32_t>>(*group_of_);
+  }
+  auto& groups = const_cast<std::vector<std::uint32_t>&>(*group_of_);  // this object alone has it
+  if (groups.size() <= last) {
+    groups.resize(std::size_t{last} + 1);
+  }
+  return groups;
+}
+
+void OwnSoftness::put(std::vector<std::uint32_t>& group_of, LinkId link, std::uint32_t group) {
+  std::uint32_t& present = group_of[link];
+  if (present != 0) {
+    --groups_[present - 1].count;
+    --count_;
+  }
+  present = group;
+  if (group != 0) {
+    ++groups_[group - 1].count;
+    ++count_;
+  }
+}
+
+void OwnSoftness::set(std::span<const LinkId> links, const LinkSoftness& softness) {
+  if (links.empty()) {
+    return;
+  }
+  const std::uint32_t first = group_of(links.front());
+  const bool is_group = first != 0 && groups_[first - 1].count == links.size() &&
+                        std::ranges::all_of(links, [&](LinkId link) { return group_of(link) == first; });
+  if (is_group) {
+    groups_[first - 1].softness = softness;
+    return;
+  }
+  if (groups_.empty() || groups_.back().softness != softness || (groups_.back().count > 0 && links.size() > 1)) {
+    groups_.push_back({softness, 0});
+  }
+  auto& all = writable(*std::ranges::max_element(links));
+  for (const LinkId link : links) {
+    put(all, link, static_cast<std::uint32_t>(groups_.size()));
+  }
+}
+
+void OwnSoftness::erase(std::span<const LinkId> links) {
+  if (std::ranges::none_of(links, [this](LinkId link) { return contains(link); })) {
+    return;
+  }
+  auto& all = writable(0);
+  for (const LinkId link : links) {
+    if (link < all.size()) {
+      put(all, link, 0);
+    }
+  }
+  if (count_ == 0) {
+    *this = {};
+  }
+}
+
+OwnSoftness::Iterator OwnSoftness::begin() const { return {*this, 0}; }
+
+OwnSoftness::Iterator OwnSoftness::end() const {
+  return {*this, static_cast<LinkId>(group_of_ == nullptr ? 0 : group_of_->size())};
+}
+
+void OwnSoftness::Iterator::settle() {
+  const std::size_t size = own_->group_of_ == nullptr ? 0 : own_->group_of_->size();
+  while (entry_.first < size && (*own_->group_of_)[entry_.first] == 0) {
+    ++entry_.first;
+  }
+  if (entry_.first < size) {
+    entry_.second = own_->groups_[(*own_->group_of_)[entry_.first] - 1].softness;
+  }
+}
+
+bool OwnSoftness::operator==(const OwnSoftness& other) const {
+  return count_ == other.count_ && std::equal(begin(), end(), other.begin(), other.end());
 }
 
 }  // namespace chainmail

@@ -1,6 +1,12 @@
 #pragma once
 
-#include <map>
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "mesh/mesh.h"
 #include "mesh/parameters.h"
@@ -19,17 +25,106 @@ struct LinkSoftness {
 /// Throws Error, with the name of the parameter, if one of them is out of range.
 void check(const LinkSoftness& softness);
 
+/// The softness of links that have their own.
+///
+/// Links are in groups that share one softness. The group of each link is in an array that copies share: to change the
+/// softness of a whole group, like a slider does for a selection, copies no link.
+class OwnSoftness {
+ public:
+  using Entry = std::pair<LinkId, LinkSoftness>;
+  class Iterator;
+
+  OwnSoftness() = default;
+  OwnSoftness(std::initializer_list<Entry> entries);
+  template <class First>
+  OwnSoftness(First first, First last) {
+    for (; first != last; ++first) {
+      set(first->first, first->second);
+    }
+  }
+
+  bool empty() const { return count_ == 0; }
+  /// Number of links with their own softness.
+  std::size_t size() const { return count_; }
+  /// Returns the softness of a link, or null if it has none of its own.
+  const LinkSoftness* find(LinkId link) const {
+    const std::uint32_t group = group_of(link);
+    return group == 0 ? nullptr : &groups_[group - 1].softness;
+  }
+  bool contains(LinkId link) const { return group_of(link) != 0; }
+
+  /// Sets the softness of links, which are all different.
+  void set(LinkId link, const LinkSoftness& softness) { set(std::span(&link, 1), softness); }
+  void set(std::span<const LinkId> links, const LinkSoftness& softness);
+  /// Removes the softness of links; those without one are ignored.
+  void erase(LinkId link) { erase(std::span(&link, 1)); }
+  void erase(std::span<const LinkId> links);
+
+  /// The links with their own softness, ascending.
+  Iterator begin() const;
+  Iterator end() const;
+
+  bool operator==(const OwnSoftness& other) const;
+
+ private:
+  struct Group {
+    LinkSoftness softness;
+    LinkId count = 0;  // links in the group
+  };
+
+  std::uint32_t group_of(LinkId link) const {
+    return group_of_ == nullptr || link >= group_of_->size() ? 0 : (*group_of_)[link];
+  }
+  std::vector<std::uint32_t>& writable(LinkId last);
+  void put(std::vector<std::uint32_t>& group_of, LinkId link, std::uint32_t group);
+
+  /// Of each link up to the last one that has its own softness: its group, counted from 1; 0 if it has none.
+  std::shared_ptr<const std::vector<std::uint32_t>> group_of_;
+  std::vector<Group> groups_;
+  std::size_t count_ = 0;
+};
+
+/// Goes through the links with their own softness, ascending.
+class OwnSoftness::Iterator {
+ public:
+  using iterator_category = std::forward_iterator_tag;
+  using value_type = Entry;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const Entry*;
+  using reference = const Entry&;
+
+  Iterator() = default;
+  Iterator(const OwnSoftness& own, LinkId link) : own_(&own), entry_(link, {}) { settle(); }
+
+  reference operator*() const { return entry_; }
+  pointer operator->() const { return &entry_; }
+  Iterator& operator++() {
+    ++entry_.first;
+    settle();
+    return *this;
+  }
+  Iterator operator++(int) {
+    const Iterator before = *this;
+    ++*this;
+    return before;
+  }
+  bool operator==(const Iterator& other) const { return entry_.first == other.entry_.first; }
+
+ private:
+  void settle();
+
+  const OwnSoftness* own_ = nullptr;
+  Entry entry_;
+};
+
 /// The softness of an object: a global one, and different ones for single links.
 struct Softness {
   LinkSoftness global;
-  std::map<LinkId, LinkSoftness> links;
+  OwnSoftness links;
 
   const LinkSoftness& of(LinkId link) const {
-    if (links.empty()) {
-      return global;
-    }
-    const auto found = links.find(link);
-    return found == links.end() ? global : found->second;
+    const LinkSoftness* own = links.find(link);
+    return own == nullptr ? global : *own;
   }
 
   bool operator==(const Softness&) const = default;

@@ -82,7 +82,7 @@ Softness mixed_softness(const Mesh& mesh) {
   Softness softness{stiff, {}};
   for (LinkId link = 0; link < mesh.link_count(); ++link) {
     const double give = 1e-4 * std::pow(200, test::uniform(random, 0, 1));
-    softness.links.emplace_hint(softness.links.end(), link, LinkSoftness{1 - give, 1 + give, give / 2});
+    softness.links.set(link, {1 - give, 1 + give, give / 2});
   }
   return softness;
 }

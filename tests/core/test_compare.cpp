@@ -109,7 +109,7 @@ void CompareTest::cuts_pins_and_softness_are_taken() {
   one.pins = {1};
   QVERIFY(moved().errors.violation.max > 0.7);  // Natural Queue does not stop at pins: 2 − 1.2
   one.pins = {};
-  one.softness.links[0] = {0, 3, 0};
+  one.softness.links.set(0, {0, 3, 0});
   QCOMPARE(moved().moved, std::uint64_t{0});
 }
 

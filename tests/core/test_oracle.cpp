@@ -18,7 +18,7 @@ Softness mixed_softness(const Mesh& mesh, std::mt19937_64& random) {
   Softness softness;
   for (LinkId link = 0; link < mesh.link_count(); ++link) {
     if (random() % 2 == 0) {
-      softness.links[link] = {uniform(random, 0, 1), uniform(random, 1, 2), uniform(random, 0, 0.5)};
+      softness.links.set(link, {uniform(random, 0, 1), uniform(random, 1, 2), uniform(random, 0, 0.5)});
     }
   }
   return softness;

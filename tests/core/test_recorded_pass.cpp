@@ -28,7 +28,7 @@ namespace {
 Softness mixed(const Mesh& mesh, std::mt19937_64& random) {
   Softness softness{{0.7, 1.3, 0.2}, {}};
   for (LinkId link = 0; link < mesh.link_count(); link += 3) {
-    softness.links[link] = {uniform(random, 0.2, 1), uniform(random, 1, 2), uniform(random, 0, 0.6)};
+    softness.links.set(link, {uniform(random, 0.2, 1), uniform(random, 1, 2), uniform(random, 0, 0.6)});
   }
   return softness;
 }

@@ -209,7 +209,7 @@ void SessionTest::moves_without_end_are_left_out() {
   session.panels[0].placement = {};
   Softness softness;
   for (LinkId link = 0; link < 3000; ++link) {
-    softness.links[link] = {1, 1, 0};
+    softness.links.set(link, {1, 1, 0});
   }
   const commands::SetSoftness own{softness};
   session.moves.assign(session_moves / 3001, own);

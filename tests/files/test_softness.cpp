@@ -21,14 +21,14 @@ class SoftnessFileTest : public QObject {
   void files();
 
  private:
-  std::map<LinkId, LinkSoftness> read(const std::string& text) const {
+  OwnSoftness read(const std::string& text) const {
     return read_softness(text, std::filesystem::path("a.csv"), *mesh_);
   }
 
   MeshPointer mesh_ = made(MeshKind::line, {4, 1, 1});
 };
 
-using Links = std::map<LinkId, LinkSoftness>;
+using Links = OwnSoftness;
 
 void SoftnessFileTest::rows_are_links() {
   QVERIFY(read("3,2,0,1e3,0\n0,1,0.5,1.5,0.25") == (Links{{0, {0.5, 1.5, 0.25}}, {2, {0, 1000, 0}}}));

@@ -134,7 +134,7 @@ void WritersTest::vtu_holds_every_piece() {
 void WritersTest::vtu_holds_both_fields() {
   const auto positions = pulled(*mesh_);
   Softness softness{{1, 1, 0}, {}};
-  softness.links[*find_link(*mesh_, 0, 3)] = {0, 100, 100};
+  softness.links.set(*find_link(*mesh_, 0, 3), {0, 100, 100});
   const PositionView at = view(*mesh_, positions);
   const std::string text = written("a.vtu", {*mesh_, {}, at, softness});
   const auto displacement = array<double>(text, "displacement");

@@ -73,20 +73,14 @@ void SelectedLinks::refresh() {
   shear_->show(all.shear ? all.softness.shear : global.shear);
 }
 
-/// Walks both sorted lists once: fast enough while a slider moves and many links are selected.
 SelectedLinks::Common SelectedLinks::common() const {
   const Softness& softness = *document_.wholeSoftness();
   const auto& links = document_.selection().links;
   Common result{softness.global};
-  auto own = softness.links.begin();
   for (std::size_t i = 0; i < links.size(); ++i) {
-    while (own != softness.links.end() && own->first < links[i]) {
-      ++own;
-    }
-    const bool hasOwn = own != softness.links.end() && own->first == links[i];
-    const LinkSoftness& here = hasOwn ? own->second : softness.global;
+    const LinkSoftness& here = softness.of(links[i]);
     result.softness = i == 0 ? here : result.softness;
-    result.own = result.own || hasOwn;
+    result.own = result.own || softness.links.contains(links[i]);
     result.compression = result.compression && here.compression == result.softness.compression;
     result.stretch = result.stretch && here.stretch == result.softness.stretch;
     result.shear = result.shear && here.shear == result.softness.shear;

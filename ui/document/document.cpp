@@ -301,13 +301,7 @@ void Document::setSoftness(const LinkSoftness& global, const QString& text, int 
 
 void Document::setSoftnessOf(const std::vector<LinkId>& links, const std::optional<LinkSoftness>& own) {
   Softness softness = *wholeSoftness();
-  for (const LinkId link : links) {
-    if (own) {
-      softness.links.insert_or_assign(link, *own);
-    } else {
-      softness.links.erase(link);
-    }
-  }
+  own ? softness.links.set(links, *own) : softness.links.erase(links);
   if (softness.links != wholeSoftness()->links) {
     Change edit = change(counted(QStringLiteral("softness of"), links.size(), QStringLiteral("link")));
     edit.after.softness = std::make_shared<const Softness>(std::move(softness));
@@ -396,8 +390,7 @@ void Document::resetObject() {
   apply(std::move(edit));
 }
 
-void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text,
-                           std::map<LinkId, LinkSoftness> own) {
+void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own) {
   Change edit = change(text);
   edit.after.object = std::make_shared<DocumentObject>(mesh, name);
   if (own != wholeSoftness()->links) {

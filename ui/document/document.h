@@ -150,7 +150,7 @@ class Document : public QObject {
   void resetObject();
   /// Replaces the object. `own` contains the softness of links that have their own.
   void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text,
-                   std::map<LinkId, LinkSoftness> own = {});
+                   OwnSoftness own = {});
   /// Opens a session. A panel that the session does not have shows the object of the session's first panel and keeps
   /// its algorithm if possible.
   void restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text);

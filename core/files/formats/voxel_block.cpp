@@ -143,21 +143,19 @@ class BlockBuilder {
 
 /// Returns the softness of links: default if both ends have the threshold's density, rigid if both have the highest
 /// density.
-std::map<LinkId, LinkSoftness> softness_by_density(const Mesh& mesh, const std::vector<float>& densities,
+OwnSoftness softness_by_density(const Mesh& mesh, const std::vector<float>& densities,
                                                    double threshold) {
   constexpr double levels = 32;  // number of different values of softness
   const LinkSoftness standard;
   const double range = double(*std::max_element(densities.begin(), densities.end())) - threshold;
-  std::map<LinkId, LinkSoftness> softness;
+  OwnSoftness softness;
   for (LinkId link = 0; range > 0 && link < mesh.link_count(); ++link) {
     const auto& [a, b] = mesh.links[link];
     const double mean = (double(densities[a]) + double(densities[b])) / 2;
     const double share = std::round(std::clamp((mean - threshold) / range, 0.0, 1.0) * levels) / levels;
     if (share > 0) {
-      softness.emplace_hint(
-          softness.end(), link,
-          LinkSoftness{standard.compression + share * (1 - standard.compression),
-                       standard.stretch - share * (standard.stretch - 1), standard.shear * (1 - share)});
+      softness.set(link, {standard.compression + share * (1 - standard.compression),
+                          standard.stretch - share * (standard.stretch - 1), standard.shear * (1 - share)});
     }
   }
   return softness;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 
 #include "files/formats/volume.h"
@@ -30,7 +29,7 @@ inline constexpr std::uint64_t voxel_elements = 100'000;
 /// (Frisken-Gibson 1997).
 struct VoxelBlock {
   MeshPointer mesh;                         // the mesh, with the volume as texture
-  std::map<LinkId, LinkSoftness> softness;  // softness of the links that are stiffer than the default
+  OwnSoftness softness;  // softness of the links that are stiffer than the default
   double threshold = 0;
   std::uint32_t every = 1;
 };

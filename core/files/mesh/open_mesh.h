@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 
 #include "files/formats/imported.h"
@@ -17,7 +16,7 @@ namespace chainmail {
 /// The object in a file, with remarks for the user.
 struct OpenedMesh {
   MeshPointer mesh;
-  std::map<LinkId, LinkSoftness> softness;  // softness of single links: dense voxels have stiffer links
+  OwnSoftness softness;  // softness of single links: dense voxels have stiffer links
   MeshFlaws flaws;
   std::string remark;  // description of the conversion of voxels; empty for other files
 };

@@ -177,9 +177,10 @@ Command MovesReader::softness(const Members& of) {
   for (std::size_t i = 0; i < links.size(); ++i) {
     const Json one = links.at(i);
     const LinkId link = fields_.link(one, 5);
-    if (!result.links.emplace(link, fields_.softness(one[2], one[3], one[4])).second) {
+    if (result.links.contains(link)) {
       fields_.fail("the link " + one[0].dump() + "-" + one[1].dump() + " is given twice", "remove one of them");
     }
+    result.links.set(link, fields_.softness(one[2], one[3], one[4]));
   }
   return commands::SetSoftness{result};
 }

@@ -102,9 +102,10 @@ void SessionReader::take_own(Softness& softness, const Json& object) {
     }
     const auto a = static_cast<ElementId>(own[i]), b = static_cast<ElementId>(own[i + 1]);
     const LinkId link = fields_.link(*result_.mesh, a, b);
-    if (!softness.links.emplace(link, LinkSoftness{own[i + 2], own[i + 3], own[i + 4]}).second) {
+    if (softness.links.contains(link)) {
       fields_.fail("the link " + std::to_string(a) + "-" + std::to_string(b) + " is given twice", "remove one of them");
     }
+    softness.links.set(link, {own[i + 2], own[i + 3], own[i + 4]});
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ class SoftnessReader {
  public:
   SoftnessReader(const std::filesystem::path& path, const Mesh& mesh) : path_(path), mesh_(mesh) {}
 
-  std::map<LinkId, LinkSoftness> read(std::string_view text);
+  OwnSoftness read(std::string_view text);
 
  private:
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
@@ -44,7 +45,7 @@ class SoftnessReader {
   const std::filesystem::path& path_;
   const Mesh& mesh_;
   std::size_t line_ = 0;
-  std::map<LinkId, LinkSoftness> result_;
+  OwnSoftness result_;
   std::map<LinkId, std::size_t> line_of_;
 };
 
@@ -93,10 +94,10 @@ void SoftnessReader::read_row(const std::vector<std::string_view>& fields) {
   if (const auto [known, is_new] = line_of_.emplace(link, line_); !is_new) {
     fail("this link is given twice, first in line " + std::to_string(known->second), "remove one of the rows");
   }
-  result_.emplace(link, softness);
+  result_.set(link, softness);
 }
 
-std::map<LinkId, LinkSoftness> SoftnessReader::read(std::string_view text) {
+OwnSoftness SoftnessReader::read(std::string_view text) {
   Lines lines(text);
   bool is_first = true;
   while (lines.next()) {
@@ -116,12 +117,11 @@ std::map<LinkId, LinkSoftness> SoftnessReader::read(std::string_view text) {
 
 }  // namespace
 
-std::map<LinkId, LinkSoftness> read_softness(std::string_view text, const std::filesystem::path& path,
-                                             const Mesh& mesh) {
+OwnSoftness read_softness(std::string_view text, const std::filesystem::path& path, const Mesh& mesh) {
   return SoftnessReader(path, mesh).read(text);
 }
 
-std::map<LinkId, LinkSoftness> read_softness(const std::filesystem::path& path, const Mesh& mesh) {
+OwnSoftness read_softness(const std::filesystem::path& path, const Mesh& mesh) {
   return read_softness(read_text(path, "softness"), path, mesh);
 }
 

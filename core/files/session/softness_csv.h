@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string_view>
 
 #include "mesh/mesh.h"
@@ -13,10 +12,10 @@ namespace chainmail {
 /// either order. A first line with exactly these names, blank lines and comments after `#` are skipped. `path` appears
 /// in errors. Throws Error, with the line, for a malformed row, a link that does not exist or appears twice, and
 /// softness out of range.
-std::map<LinkId, LinkSoftness> read_softness(std::string_view text, const std::filesystem::path& path,
+OwnSoftness read_softness(std::string_view text, const std::filesystem::path& path,
                                              const Mesh& mesh);
 
 /// Reads the softness of single links from a file.
-std::map<LinkId, LinkSoftness> read_softness(const std::filesystem::path& path, const Mesh& mesh);
+OwnSoftness read_softness(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace chainmail

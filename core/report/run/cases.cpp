@@ -88,7 +88,7 @@ Softness with_stiff_middle(const Mesh& mesh, const LinkSoftness& soft) {
   Softness softness{soft, {}};
   for (LinkId link = 0; link < mesh.link_count(); ++link) {
     if (const auto [a, b] = mesh.links[link]; inside(a) && inside(b)) {
-      softness.links[link] = stiff;
+      softness.links.set(link, stiff);
     }
   }
   return softness;
