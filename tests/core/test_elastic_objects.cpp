@@ -83,8 +83,7 @@ void ElasticObjectsTest::wrong_objects_are_refused() {
   };
   const auto tetra = make_mesh(MeshKind::tetra, {3, 3, 3});
   const auto left = layer(*tetra, *find_side("left"));
-  QVERIFY(
-      refusal(pinned(tetra, {})).startsWith("object: nothing pins it, so there is no solution; pin its bottom"));
+  QVERIFY(refusal(pinned(tetra, {})).startsWith("object: nothing pins it, so there is no solution; pin its bottom"));
   QVERIFY(refusal(pinned(tetra, {0, 1, 2}))
               .startsWith("the part of element 0: fewer than three pins that do not lie on one"));
   QVERIFY(refusal(pinned(make_mesh(MeshKind::cloth, {3, 3, 1}), {4}))
