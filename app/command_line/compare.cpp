@@ -79,7 +79,7 @@ void compare(const CompareArguments& options, const std::string& command_line) {
 
   ProgressLine line;
   const report::Comparison comparison = report::compare(cases, how, [&](double fraction, const std::string& text) {
-    line.show([&] { return std::to_string(int(100 * fraction)) + "% " + text; });
+    line.show([&] { return percent(fraction) + text; });
   });
   const report::Origin origin = origin_of(command_line);
 

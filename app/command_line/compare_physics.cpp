@@ -87,10 +87,9 @@ void compare_with_physics(const CompareArguments& arguments, const std::string& 
   OutputFolder folder(*value_of(arguments.output));
   const std::vector<report::Case> cases = physics_cases(arguments);
   ProgressLine line;
-  const report::PhysicsReport report =
-      report::compare_with_physics(cases, options, [&](double fraction, const std::string& text) {
-        line.show([&] { return std::to_string(int(100 * fraction)) + "% " + text; });
-      });
+  const report::PhysicsReport report = report::compare_with_physics(
+      cases, options,
+      [&](double fraction, const std::string& text) { line.show([&] { return percent(fraction) + text; }); });
   const report::Origin origin = origin_of(command_line);
 
   folder.make();

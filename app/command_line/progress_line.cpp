@@ -16,6 +16,8 @@ constexpr auto clear_line = "\r\x1b[K";
 
 }  // namespace
 
+std::string percent(double share) { return std::to_string(int(100 * share)) + "% "; }
+
 ProgressLine::ProgressLine(std::chrono::milliseconds delay)
     : is_terminal_(isatty(STDERR_FILENO) != 0), next_(std::chrono::steady_clock::now() + delay) {}
 
@@ -36,12 +38,12 @@ struct Watch::Line {
       : thread([text = std::move(text), &job, this](const std::stop_token& stop) { show(text, job, stop); }) {}
 
   void show(const std::string& text, const JobState& job, const std::stop_token& stop) {
+    ProgressLine line;
     std::unique_lock lock(mutex);
     // Short jobs show nothing.
     while (!over.wait_for(lock, stop, std::chrono::milliseconds(300), [&] { return stop.stop_requested(); })) {
-      std::cerr << clear_line << int(100 * job.share.load(std::memory_order_relaxed)) << "% " << text << std::flush;
+      line.show([&] { return percent(job.share.load(std::memory_order_relaxed)) + text; });
     }
-    std::cerr << clear_line << std::flush;
   }
 
   std::mutex mutex;

@@ -8,6 +8,9 @@
 
 namespace chainmail::command_line {
 
+/// Returns a share from 0 to 1 as the beginning of a progress line: "42% ".
+std::string percent(double share);
+
 /// A line of progress on standard error, if that is a terminal. The destructor clears it.
 class ProgressLine {
  public:
