@@ -20,8 +20,7 @@ void say_flaws(const OpenedMesh& opened) {
   }
 }
 
-void write(const MeshOptions& options, const std::string& target, const Mesh& mesh,
-           const OwnSoftness& softness) {
+void write(const MeshOptions& options, const std::string& target, const Mesh& mesh, const OwnSoftness& softness) {
   const MeshFormat& format = mesh_format(target, FormatUse::write);
   Outputs outputs;
   outputs.keep(*value_of(options.path));

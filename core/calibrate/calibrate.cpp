@@ -79,8 +79,8 @@ class Bench {
     const double done = std::min(1.0, double(evaluations_) / wanted_);
     for (const ReferenceDrag& drag : drags) {
       runner_.run(drag.moves, sweeps, progress_.part(done, done));
-      residuals.push_back(residual_of(
-          measure_physical_error(*object_.mesh, runner_.simulation().body().positions(), drag.reference)));
+      residuals.push_back(
+          residual_of(measure_physical_error(*object_.mesh, runner_.simulation().body().positions(), drag.reference)));
     }
     return residuals;
   }

@@ -135,12 +135,10 @@ class Simulation {
   Algorithm algorithm_;
   Precision precision_;
   std::unique_ptr<Solver> solver_;
-  std::shared_ptr<const Softness> softness_ = std::make_shared<const Softness>();
-  ElasticOptions elastic_;
-  ElementBlocks changed_;     // changed blocks since forget_changes()
-  ElementBlocks away_;        // all elements outside these blocks are at rest
-  Snapshot last_kept_;  // positions that were last saved or restored
-  ElementBlocks unkept_;      // blocks in which a position may have changed since then
+  ElementBlocks changed_;  // changed blocks since forget_changes()
+  ElementBlocks away_;     // all elements outside these blocks are at rest
+  Snapshot last_kept_;     // positions that were last saved or restored
+  ElementBlocks unkept_;   // blocks in which a position may have changed since then
   std::optional<ElementId> grabbed_;
   std::optional<ElementId> last_moved_;  // the element of the last pass
   bool valid_ = true;

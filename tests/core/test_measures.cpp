@@ -47,18 +47,23 @@ void MeasuresTest::distance_by_hand() {
 
 void MeasuresTest::distance_is_in_mean_rest_lengths() {
   const auto mesh = make_mesh(MeshKind::line, {2, 1, 1}, {}, 4);
-  QCOMPARE(measure_distance(*mesh, at(mesh, {0, 4})->body().positions(), at(mesh, {2, 4})->body().positions()).max, 0.5);
+  QCOMPARE(measure_distance(*mesh, at(mesh, {0, 4})->body().positions(), at(mesh, {2, 4})->body().positions()).max,
+           0.5);
   MeshParts parts;
   parts.rest = {{0, 0, 0}, {4, 0, 0}};  // no link, so no rest length
   const auto unlinked = build_mesh(std::move(parts));
-  QCOMPARE(measure_distance(*unlinked, at(unlinked, {0, 4})->body().positions(), at(unlinked, {2, 4})->body().positions()).max, 2.0);
+  QCOMPARE(
+      measure_distance(*unlinked, at(unlinked, {0, 4})->body().positions(), at(unlinked, {2, 4})->body().positions())
+          .max,
+      2.0);
 }
 
 void MeasuresTest::distance_between_precisions() {
   const auto mesh = make_mesh(MeshKind::line, {2, 1, 1});
   const auto in_float = at(mesh, {0, 0.1}, Precision::single_precision);
   const auto in_double = at(mesh, {0, 0.1});
-  QCOMPARE(measure_distance(*mesh, in_float->body().positions(), in_double->body().positions()).max, double(0.1F) - 0.1);
+  QCOMPARE(measure_distance(*mesh, in_float->body().positions(), in_double->body().positions()).max,
+           double(0.1F) - 0.1);
 }
 
 void MeasuresTest::energy_ratio_is_none_at_0() {

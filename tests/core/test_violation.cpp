@@ -74,7 +74,8 @@ void ViolationTest::over_the_whole_mesh() {
   QVERIFY(close(violation.rms, std::sqrt((0.09 + 0.16) / 4)));
   QCOMPARE(violation.fraction, 0.5);
   const auto rest = at(mesh, mesh->rest);
-  QVERIFY(measure_violation(*mesh, {{1, 1, 0}, {}}, rest->body().cuts(), rest->body().positions()) == (Violation{0, 0, 0, 4}));
+  QVERIFY(measure_violation(*mesh, {{1, 1, 0}, {}}, rest->body().cuts(), rest->body().positions()) ==
+          (Violation{0, 0, 0, 4}));
 }
 
 void ViolationTest::cut_links_do_not_count() {

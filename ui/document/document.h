@@ -149,8 +149,7 @@ class Document : public QObject {
   void cut(const std::vector<LinkId>& links);
   void resetObject();
   /// Replaces the object. `own` contains the softness of links that have their own.
-  void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text,
-                   OwnSoftness own = {});
+  void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own = {});
   /// Opens a session. A panel that the session does not have shows the object of the session's first panel and keeps
   /// its algorithm if possible.
   void restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text);

@@ -143,8 +143,7 @@ class BlockBuilder {
 
 /// Returns the softness of links: default if both ends have the threshold's density, rigid if both have the highest
 /// density.
-OwnSoftness softness_by_density(const Mesh& mesh, const std::vector<float>& densities,
-                                                   double threshold) {
+OwnSoftness softness_by_density(const Mesh& mesh, const std::vector<float>& densities, double threshold) {
   constexpr double levels = 32;  // number of different values of softness
   const LinkSoftness standard;
   const double range = double(*std::max_element(densities.begin(), densities.end())) - threshold;

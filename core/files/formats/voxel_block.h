@@ -28,7 +28,7 @@ inline constexpr std::uint64_t voxel_elements = 100'000;
 /// An object made of the voxels above a density, with links along the axes. ChainMail was developed for such objects
 /// (Frisken-Gibson 1997).
 struct VoxelBlock {
-  MeshPointer mesh;                         // the mesh, with the volume as texture
+  MeshPointer mesh;      // the mesh, with the volume as texture
   OwnSoftness softness;  // softness of the links that are stiffer than the default
   double threshold = 0;
   std::uint32_t every = 1;

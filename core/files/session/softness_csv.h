@@ -12,8 +12,7 @@ namespace chainmail {
 /// either order. A first line with exactly these names, blank lines and comments after `#` are skipped. `path` appears
 /// in errors. Throws Error, with the line, for a malformed row, a link that does not exist or appears twice, and
 /// softness out of range.
-OwnSoftness read_softness(std::string_view text, const std::filesystem::path& path,
-                                             const Mesh& mesh);
+OwnSoftness read_softness(std::string_view text, const std::filesystem::path& path, const Mesh& mesh);
 
 /// Reads the softness of single links from a file.
 OwnSoftness read_softness(const std::filesystem::path& path, const Mesh& mesh);
