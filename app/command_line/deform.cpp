@@ -21,7 +21,7 @@ struct DeformArguments {
   MeshOptions mesh;
   ElasticArguments elastic;
   CLI::Option *algorithm, *precision, *compression, *stretch, *shear, *softness;
-  CLI::Option *move, *by, *cut, *pin;
+  CLI::Option *move, *by, *cut, *pin, *grab, *rotate;
   CLI::Option* script;
   CLI::Option *steps, *relax, *relaxation, *relax_step;
   CLI::Option *positions, *trace, *json;
@@ -76,7 +76,9 @@ std::vector<Act> read_acts(const DeformArguments& options) {
   const std::map<const CLI::Option*, Act::Kind> kinds{{options.move, Act::Kind::move},
                                                       {options.by, Act::Kind::by},
                                                       {options.cut, Act::Kind::cut},
-                                                      {options.pin, Act::Kind::pin}};
+                                                      {options.pin, Act::Kind::pin},
+                                                      {options.grab, Act::Kind::grab},
+                                                      {options.rotate, Act::Kind::rotate}};
   std::map<const CLI::Option*, std::size_t> taken;
   std::vector<Act> acts;
   for (const CLI::Option* option : options.app->parse_order()) {
@@ -134,11 +136,19 @@ void write_deformation(std::ostream& out, const AlgorithmInfo& algorithm, const 
   out << algorithm.offered_name() << " on " << summary.elements << " elements, " << summary.links << " links\n";
   for (std::size_t i = 0; i < summary.passes.size(); ++i) {
     const auto& pass = summary.passes[i];
-    out << "pass " << i << ": element " << pass.element << " to (" << pass.target.x() << ", " << pass.target.y() << ", "
-        << pass.target.z() << "), " << pass.checked << " checked, " << pass.moved << " moved, " << pass.milliseconds
-        << " ms";
-    if (const auto& at = pass.stopped_at) {
-      out << ", stopped by pins at (" << at->x() << ", " << at->y() << ", " << at->z() << ")";
+    const auto point = [&out](const Point& at) { out << '(' << at.x() << ", " << at.y() << ", " << at.z() << ')'; };
+    out << "pass " << i << ": ";
+    pass.handle.size() == 1 ? out << "element " << pass.handle.front() : out << pass.handle.size() << " elements";
+    out << " to ";
+    point(pass.target);
+    if (pass.rotation.degrees != 0) {
+      out << ", rotated by " << pass.rotation.degrees << " degrees about ";
+      point(pass.rotation.axis);
+    }
+    out << ", " << pass.checked << " checked, " << pass.moved << " moved, " << pass.milliseconds << " ms";
+    if (pass.stopped_at) {
+      out << (pass.remark.empty() ? ", stopped by pins at " : ", stopped at ");
+      point(*pass.stopped_at);
     }
     out << (pass.remark.empty() ? "" : ", ") << pass.remark << '\n';
   }
@@ -202,11 +212,17 @@ void deform(const DeformArguments& options) {
 
 void add_acts(CLI::App& app, DeformArguments& options) {
   options.move = add_value(app, "--move", "ID:X[,Y[,Z]]", "drag an element to a position; omitted coordinates stay");
-  options.by = add_value(app, "--by", "ID:DX[,DY[,DZ]]", "drag an element by a distance");
+  options.by = add_value(app, "--by", "ID:DX[,DY[,DZ]]",
+                         "drag an element by a distance; without ID, what the last --grab has grabbed: DX,DY[,DZ]");
+  options.grab = add_value(app, "--grab", "IDS|LAYER",
+                           "grab elements, such as 3,7,20-29, or all of a layer: they move as one rigid body");
+  options.rotate = add_value(app, "--rotate", "AXIS:DEGREES",
+                             "rotate what is grabbed about its middle; AXIS is x, y, z or X,Y,Z");
   options.cut = add_value(app, "--cut", "A-B", "cut the link between two elements");
   options.pin =
       add_value(app, "--pin", "ID|LAYER", "pin an element at its current position, or all elements of " + pin_names());
-  for (CLI::Option* option : {options.move, options.by, options.cut, options.pin}) {
+  for (CLI::Option* option :
+       {options.move, options.by, options.grab, options.rotate, options.cut, options.pin}) {
     option->group("Actions (may be repeated; they run in the given order)");
   }
   options.steps = add_value(app, "--steps", "N", "passes per move, in equal steps [1]");

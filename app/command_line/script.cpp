@@ -38,10 +38,27 @@ ElementId parse_id(const std::string& where, std::string_view text) {
   return *id;
 }
 
-/// Returns the elements that an act pins.
-std::vector<ElementId> pins_of(const Act& act, const Mesh& mesh) {
-  if (act.layer.empty()) {
+void check_element(const Act& act, ElementId element, const Mesh& mesh) {
+  if (element >= mesh.element_count()) {
+    throw Error(act.where, "there is no element " + std::to_string(element),
+                "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
+  }
+}
+
+/// Returns the elements that an act pins or grabs, in the given order.
+std::vector<ElementId> elements_of(const Act& act, const Mesh& mesh) {
+  if (act.layer.empty() && act.kind == Act::Kind::pin) {
     return {act.element};
+  }
+  if (act.layer.empty()) {
+    std::vector<ElementId> elements;
+    for (const auto& [first, last] : act.ranges) {
+      check_element(act, last, mesh);
+      for (ElementId element = first; element <= last; ++element) {
+        elements.push_back(element);
+      }
+    }
+    return elements;
   }
   const auto pins = pins_by_name(act.where, act.layer, mesh);
   if (!pins) {
@@ -49,13 +66,6 @@ std::vector<ElementId> pins_of(const Act& act, const Mesh& mesh) {
                 "use a whole number from 0, or " + pin_names());
   }
   return *pins;
-}
-
-void check_element(const Act& act, ElementId element, const Mesh& mesh) {
-  if (element >= mesh.element_count()) {
-    throw Error(act.where, "there is no element " + std::to_string(element),
-                "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
-  }
 }
 
 void check_axes(const Act& act, const Mesh& mesh) {
@@ -94,7 +104,64 @@ std::vector<double> parse_coordinates(const std::string& where, std::string_view
   }
 }
 
-bool is_move(const Act& act) { return act.kind == Act::Kind::move || act.kind == Act::Kind::by; }
+/// Reads `ID,A-B,…`.
+std::vector<std::pair<ElementId, ElementId>> parse_ranges(const std::string& where, std::string_view text) {
+  std::vector<std::pair<ElementId, ElementId>> ranges;
+  for (;;) {
+    const std::size_t end = std::min(text.find(','), text.size());
+    const std::string_view range = text.substr(0, end);
+    const std::size_t dash = range.find('-');
+    const ElementId first = parse_id(where, range.substr(0, dash));
+    const ElementId last = dash == std::string_view::npos ? first : parse_id(where, range.substr(dash + 1));
+    if (last < first) {
+      throw Error(where, in_quotes(range) + " is not a range", "write the smaller id first");
+    }
+    ranges.emplace_back(first, last);
+    if (end == text.size()) {
+      return ranges;
+    }
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// Reads `x|y|z:DEGREES` or `X,Y,Z:DEGREES`.
+Rotation parse_rotation(const std::string& where, std::string_view text) {
+  const std::size_t mark = text.find(':');
+  const std::string_view axis = text.substr(0, mark);
+  if (mark == std::string_view::npos) {
+    throw Error(where, "it has no axis or no angle", "write AXIS:DEGREES, such as z:30 or 0,1,1:30");
+  }
+  Rotation rotation{Point::Zero(), parse_number_of(where, text.substr(mark + 1))};
+  if (const std::size_t k = std::string_view("xyz").find(axis); axis.size() == 1 && k != std::string_view::npos) {
+    rotation.axis[int(k)] = 1;
+    return rotation;
+  }
+  const std::vector<double> coordinates = parse_coordinates(where, axis);
+  if (coordinates.size() != 3) {
+    throw Error(where, in_quotes(axis) + " is not an axis", "use x, y, z, or three coordinates");
+  }
+  std::ranges::copy(coordinates, rotation.axis.begin());
+  if (rotation.axis.isZero(0)) {
+    throw Error(where, "the rotation has no axis: all its coordinates are 0", "use x, y, z, or other coordinates");
+  }
+  return rotation;
+}
+
+bool is_move(const Act& act) {
+  return act.kind == Act::Kind::move || act.kind == Act::Kind::by || act.kind == Act::Kind::rotate;
+}
+
+/// Throws Error if an element is grabbed twice, or if check_free(act, element) throws.
+template <class CheckFree>
+void check_grab(const Act& act, const Mesh& mesh, CheckFree check_free) {
+  std::set<ElementId> grabbed;
+  for (const ElementId element : elements_of(act, mesh)) {
+    check_free(act, element);
+    if (!grabbed.insert(element).second) {
+      throw Error(act.where, "element " + std::to_string(element) + " is named twice", "name each element once");
+    }
+  }
+}
 
 class Runner {
  public:
@@ -103,37 +170,58 @@ class Runner {
 
   void carry_out(const chainmail::Command& command) {
     if (const auto* drag = std::get_if<commands::Drag>(&command)) {
-      pass(*simulation_.grabbed(), drag->target);
+      pass(*drag);
     } else {
       simulation_.apply(command);
     }
   }
 
   void carry_out(const Act& act) {
-    if (act.kind == Act::Kind::cut) {
-      simulation_.apply(commands::Cut{{*find_link(simulation_.mesh(), act.element, act.other)}});
-    } else if (act.kind == Act::Kind::pin) {
-      simulation_.apply(commands::Pin{pins_of(act, simulation_.mesh())});
-    } else {
-      try {
-        move(act);
-      } catch (const Error& error) {
-        throw error.at(act.where + ": " + error.where());
+    try {
+      if (!act.of_handle) {
+        simulation_.apply(commands::Release{});
       }
+      apply(act);
+    } catch (const Error& error) {
+      throw is_move(act) ? error.at(act.where + ": " + error.where()) : error;
     }
   }
   Run take() { return std::move(run_); }
 
  private:
+  void apply(const Act& act);
   Point target_of(const Act& act, const Point& start) const;
   void move(const Act& act);
-  void pass(ElementId element, const Point& target);
+  void move_handle(const Act& act);
+  void pass(const commands::Drag& drag);
 
   Simulation& simulation_;
   const Schedule& schedule_;
+  commands::Drag handle_;  // where the handle of many is, since it was grabbed
   PassCount progress_;
   Run run_;
 };
+
+void Runner::apply(const Act& act) {
+  const Mesh& mesh = simulation_.mesh();
+  switch (act.kind) {
+    case Act::Kind::cut:
+      simulation_.apply(commands::Cut{{*find_link(mesh, act.element, act.other)}});
+      break;
+    case Act::Kind::pin:
+      simulation_.apply(commands::Pin{elements_of(act, mesh)});
+      break;
+    case Act::Kind::grab:
+      simulation_.apply(commands::Grab{elements_of(act, mesh)});
+      handle_ = {Point::Zero(), {}, true};
+      break;
+    case Act::Kind::move:
+    case Act::Kind::by:
+    case Act::Kind::rotate:
+      act.of_handle ? move_handle(act) : move(act);
+      break;
+  }
+}
 
 Point Runner::target_of(const Act& act, const Point& start) const {
   Point target = start;
@@ -156,21 +244,43 @@ void Runner::move(const Act& act) {
       // std::lerp ends exactly at the target, and does not overflow.
       between[k] = std::lerp(start[k], target[k], double(step) / schedule_.steps);
     }
-    pass(act.element, between);
+    pass({between});
   }
   simulation_.apply(commands::Release{});
 }
 
-void Runner::pass(ElementId element, const Point& target) {
+/// Moves the handle of many from where it is.
+void Runner::move_handle(const Act& act) {
+  const commands::Drag from = handle_;
+  const Point target = target_of(act, from.target);
+  for (std::uint32_t step = 1; step <= schedule_.steps; ++step) {
+    const double share = double(step) / schedule_.steps;
+    for (int k = 0; k < 3; ++k) {
+      handle_.target[k] = std::lerp(from.target[k], target[k], share);
+    }
+    handle_.rotation = composed(from.rotation, {act.rotation.axis, share * act.rotation.degrees});
+    pass(handle_);
+  }
+}
+
+void Runner::pass(const commands::Drag& drag) {
   Trace trace;
   simulation_.set_trace(schedule_.trace ? &trace : nullptr);
-  simulation_.apply(commands::Drag{target});
+  simulation_.apply(drag);
   simulation_.set_trace(nullptr);
   const Statistics& statistics = simulation_.statistics();
-  run_.passes.push_back(
-      {element, target, statistics.last_pass.checked, statistics.last_pass.moved, statistics.last_pass_ms});
+  const Handle& handle = *simulation_.last_handle();
+  const auto elements = handle.elements();
+  run_.passes.push_back({{elements.begin(), elements.end()},
+                         drag.relative ? Point(handle.grabbed().pivot + drag.target) : drag.target,
+                         drag.rotation,
+                         statistics.last_pass.checked,
+                         statistics.last_pass.moved,
+                         statistics.last_pass_ms});
   if (statistics.last_pass.stopped) {
-    run_.passes.back().stopped_at = point_of(simulation_.mesh(), simulation_.body().positions(), element);
+    run_.passes.back().stopped_at =
+        handle.has_one() ? point_of(simulation_.mesh(), simulation_.body().positions(), elements[0])
+                         : handle.pose().pivot;
   }
   run_.passes.back().remark = statistics.remark;
   if (schedule_.trace) {
@@ -184,49 +294,71 @@ void Runner::pass(ElementId element, const Point& target) {
 
 Act parse_act(Act::Kind kind, const std::string& option, const std::string& text) {
   Act act{kind, option + " " + text, 0, 0, {}, {}};
-  if (kind == Act::Kind::pin) {
-    if (text.find_first_of("0123456789") == 0) {
-      act.element = parse_id(act.where, text);
-    } else {
-      act.layer = text;
-    }
-    return act;
-  }
+  const bool starts_with_digit = text.find_first_of("0123456789") == 0;
   const bool is_cut = kind == Act::Kind::cut;
   const std::size_t mark = text.find(is_cut ? '-' : ':');
-  if (mark == std::string::npos) {
+  if (kind == Act::Kind::rotate) {
+    act.rotation = parse_rotation(act.where, text);
+    act.of_handle = true;
+  } else if ((kind == Act::Kind::pin || kind == Act::Kind::grab) && !starts_with_digit) {
+    act.layer = text;
+  } else if (kind == Act::Kind::pin) {
+    act.element = parse_id(act.where, text);
+  } else if (kind == Act::Kind::grab) {
+    act.ranges = parse_ranges(act.where, text);
+  } else if (kind == Act::Kind::by && mark == std::string::npos) {
+    act.of_handle = true;
+    act.coordinates = parse_coordinates(act.where, text);
+  } else if (mark == std::string::npos) {
     throw Error(act.where, is_cut ? "it does not name a link" : "it does not name a target",
                 is_cut ? "write A-B with the ids of the two ends" : "write ID:X[,Y[,Z]]");
-  }
-  act.element = parse_id(act.where, std::string_view(text).substr(0, mark));
-  const std::string_view rest = std::string_view(text).substr(mark + 1);
-  if (is_cut) {
-    act.other = parse_id(act.where, rest);
   } else {
-    act.coordinates = parse_coordinates(act.where, rest);
+    act.element = parse_id(act.where, std::string_view(text).substr(0, mark));
+    const std::string_view rest = std::string_view(text).substr(mark + 1);
+    is_cut ? void(act.other = parse_id(act.where, rest)) : void(act.coordinates = parse_coordinates(act.where, rest));
   }
   return act;
 }
 
 void check_acts(const std::vector<Act>& acts, const Mesh& mesh) {
   std::set<ElementId> pinned;
+  bool is_grabbed = false;
+  const auto check_free = [&](const Act& act, ElementId element) {
+    if (pinned.contains(element)) {
+      throw Error(act.where, "element " + std::to_string(element) + " is pinned by then and cannot move",
+                  "move another element, or pin it later");
+    }
+  };
   for (const Act& act : acts) {
     check_element(act, act.element, mesh);
+    if (act.of_handle && !is_grabbed) {
+      throw Error(act.where, "nothing is grabbed at that point", "put --grab IDS before it, or write --by ID:DX,DY,DZ");
+    }
+    is_grabbed = act.kind == Act::Kind::grab || act.of_handle;
     switch (act.kind) {
       case Act::Kind::cut:
         check_link(act, mesh);
         break;
       case Act::Kind::pin:
-        for (const ElementId pin : pins_of(act, mesh)) {
+        for (const ElementId pin : elements_of(act, mesh)) {
           pinned.insert(pin);
+        }
+        break;
+      case Act::Kind::grab:
+        check_grab(act, mesh, check_free);
+        break;
+      case Act::Kind::rotate:
+        try {
+          check(act.rotation, mesh);
+        } catch (const Error& error) {
+          throw error.at(act.where);
         }
         break;
       case Act::Kind::move:
       case Act::Kind::by:
         check_axes(act, mesh);
-        if (pinned.contains(act.element)) {
-          throw Error(act.where, "element " + std::to_string(act.element) + " is pinned by then and cannot move",
-                      "move another element, or pin it later");
+        if (!act.of_handle) {
+          check_free(act, act.element);
         }
         break;
     }

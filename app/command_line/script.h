@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "files/results/summary.h"
@@ -11,22 +12,27 @@ namespace chainmail::command_line {
 
 /// An action of the command line. Actions run in the given order.
 struct Act {
-  enum class Kind { move, by, cut, pin };
+  enum class Kind { move, by, cut, pin, grab, rotate };
 
   Kind kind = Kind::move;
   std::string where;  // the option and its value, for error messages
   ElementId element = 0;
   ElementId other = 0;              // cut: the other end of the link
   std::vector<double> coordinates;  // move, by: the given ones of x, y and z
-  std::string layer;                // pin: the name of a layer; empty for one element
+  std::string layer;                // pin, grab: the name of a layer; empty for elements
+  /// Grab: the first and the last element of each range.
+  std::vector<std::pair<ElementId, ElementId>> ranges = {};
+  Rotation rotation = {};  // rotate
+  bool of_handle = false;  // by, rotate: moves what the last --grab has grabbed
 };
 
-/// Reads `ID:X[,Y[,Z]]` for a move, `A-B` for a cut, `ID` or the name of a layer for a pin. Throws Error naming the
-/// option.
+/// Reads `ID:X[,Y[,Z]]` for a move, the same or `X[,Y[,Z]]` for a move of what is grabbed, `A-B` for a cut, `ID` or the
+/// name of a layer for a pin, `ID,A-B,…` or the name of a layer for a grab, and `AXIS:DEGREES` for a rotation. Throws
+/// Error naming the option.
 Act parse_act(Act::Kind kind, const std::string& option, const std::string& text);
 
 /// Throws Error if an act does not fit the mesh or the acts before it: if the element, link or axis does not exist, or
-/// if a moved element is already pinned.
+/// if a moved element is already pinned, if an element is grabbed twice, or if nothing is grabbed.
 void check_acts(const std::vector<Act>& acts, const Mesh& mesh);
 
 /// Settings that apply to each move.

@@ -34,15 +34,22 @@ class BoundaryElements final : public LinearResponse {
   }
 
  private:
-  Eigen::MatrixXd respond(ElementId element, const Progress& progress) override {
-    Eigen::MatrixXd response = Eigen::MatrixXd::Zero(Index(3 * pinned_.size()), 3);
+  Eigen::MatrixXd respond(std::span<const ElementId> elements, const Eigen::MatrixXd& prescribed,
+                          const Progress& progress) override {
+    Eigen::MatrixXd response = Eigen::MatrixXd::Zero(Index(3 * pinned_.size()), prescribed.cols());
     for (const PinnedSolid& solid : solids_) {
-      if (solid.has_corner(element)) {
-        add(solid, solid.respond(element, progress), response);
-      } else if (std::ranges::count(solid.elements(), element) != 0) {
-        throw Error("BEM",
-                    "element " + std::to_string(element) + " lies inside the object, and BEM works only on the surface",
-                    "grab an element of the surface");
+      std::vector<ElementId> corners;
+      Eigen::MatrixXd of_corners(prescribed.rows(), prescribed.cols());
+      for (std::size_t i = 0; i < elements.size(); ++i) {
+        if (solid.has_corner(elements[i])) {
+          of_corners.middleRows<3>(Index(3 * corners.size())) = prescribed.middleRows<3>(Index(3 * i));
+          corners.push_back(elements[i]);
+        } else {
+          check_outside(solid, elements[i]);
+        }
+      }
+      if (!corners.empty()) {
+        add(solid, solid.respond(corners, of_corners, progress), response);
       }
     }
     for (std::size_t e = 0; e < pinned_.size(); ++e) {
@@ -50,8 +57,19 @@ class BoundaryElements final : public LinearResponse {
         response.middleRows<3>(3 * Index(e)).setZero();
       }
     }
-    response.middleRows<3>(3 * Index{element}).setIdentity();
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      response.middleRows<3>(3 * Index{elements[i]}) = prescribed.middleRows<3>(Index(3 * i));
+    }
     return response;
+  }
+
+  /// Throws Error if an element lies inside a solid.
+  static void check_outside(const PinnedSolid& solid, ElementId element) {
+    if (std::ranges::count(solid.elements(), element) != 0) {
+      throw Error("BEM",
+                  "element " + std::to_string(element) + " lies inside the object, and BEM works only on the surface",
+                  "grab an element of the surface");
+    }
   }
 
   void start_at_rest() {

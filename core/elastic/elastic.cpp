@@ -67,6 +67,25 @@ const MethodEntry& entry_of(ElasticMethod method) { return *std::ranges::find(me
 
 }  // namespace
 
+ElasticHandle ElasticHandle::of(ElementId element, int dimension) {
+  const std::vector<double> none(static_cast<std::size_t>(dimension), 0.0);
+  return {{element}, none, none};
+}
+
+ElasticMotion ElasticMotion::by(std::span<const double> translation) {
+  const auto n = static_cast<Eigen::Index>(translation.size());
+  return {SmallMatrix::Zero(n, n), Eigen::Map<const Eigen::VectorXd>(translation.data(), n)};
+}
+
+SmallVector displacement_of(const ElasticHandle& handle, std::size_t i, const ElasticMotion& motion) {
+  const Eigen::Index n = motion.translation.size();
+  const auto of = [&](const std::vector<double>& all) {
+    return Eigen::Map<const Eigen::VectorXd>(all.data() + static_cast<Eigen::Index>(i) * n, n);
+  };
+  const SmallVector turned = motion.turn * of(handle.arms);
+  return of(handle.displacements) + turned + motion.translation;
+}
+
 void check_boundary_size(std::uint64_t triangles, std::uint64_t elements_of_cells) {
   if (triangles > boundary_limit) {
     refuse_size("BEM", triangles, boundary_limit, "triangles on the surface");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "elastic/material.h"
+#include "elastic/small.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
@@ -25,8 +26,33 @@ struct ElasticProblem {
   ElasticOptions options;
 };
 
-/// A solver of one problem. It prepares once what depends on the object and its pins, and once per handle what depends
-/// on the grabbed element. A move costs only the rest.
+/// A handle: elements that move as one rigid body. Displacements and arms have space_dimension coordinates per element
+/// (mesh units).
+struct ElasticHandle {
+  std::vector<ElementId> elements;    // ascending, none is pinned
+  std::vector<double> displacements;  // from rest, when grabbed
+  std::vector<double> arms;           // from the pivot, when grabbed
+
+  /// A handle of one element, whose motion is its displacement from rest.
+  static ElasticHandle of(ElementId element, int dimension);
+  bool operator==(const ElasticHandle&) const = default;
+};
+
+/// A motion of a handle, from where it was grabbed: displaces an element at `arm` from the pivot by
+/// turn · arm + translation.
+struct ElasticMotion {
+  SmallMatrix turn;         // the rotation matrix less the identity
+  SmallVector translation;  // mesh units
+
+  /// A translation without a rotation.
+  static ElasticMotion by(std::span<const double> translation);
+};
+
+/// Displacement of element number i of a handle from rest (mesh units).
+SmallVector displacement_of(const ElasticHandle& handle, std::size_t i, const ElasticMotion& motion);
+
+/// A solver of one problem. It prepares once what depends on the object and its pins, and once per grab what depends on
+/// the handle. A move costs only the rest.
 ///
 /// Displacements are from rest, element by element, space_dimension coordinates each (mesh units). An element without a
 /// cell stays at rest unless it is grabbed or pinned.
@@ -34,12 +60,12 @@ class ElasticSolver {
  public:
   virtual ~ElasticSolver() = default;
 
-  /// Grabs an element that is not pinned. May throw Error and Cancelled.
-  virtual void hold(ElementId element, const Progress& progress = {}) = 0;
-  /// Computes the static answer with the grabbed element at this displacement from rest (space_dimension coordinates).
-  /// Throws Error if there is none, and Cancelled; the last answer stays then.
-  virtual void move(std::span<const double> displacement, const Progress& progress = {}) = 0;
-  /// Returns to rest, or to the answer to the pins, without a grabbed element. The preparation stays.
+  /// Grabs a handle. May throw Error and Cancelled.
+  virtual void hold(const ElasticHandle& handle, const Progress& progress = {}) = 0;
+  /// Computes the static answer after a motion of the handle. Throws Error if there is none, and Cancelled; the last
+  /// answer stays then.
+  virtual void move(const ElasticMotion& motion, const Progress& progress = {}) = 0;
+  /// Returns to rest, or to the answer to the pins, without a handle. The preparation stays.
   virtual void reset() = 0;
   /// Call this after others moved the object. Methods that depend on the path continue from these displacements.
   virtual void start_from(std::span<const double> /*displacements*/) {}

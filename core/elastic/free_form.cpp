@@ -17,7 +17,8 @@ constexpr std::size_t most_fitted = 20'000;
 
 /// Free-form deformation (Sederberg and Parry 1986) by direct manipulation (Hsu et al. 1992): of all motions of the
 /// control points that bring the grabbed element to its target, takes the smallest. Pins stay as well as the lattice
-/// allows.
+/// allows, and so does the shape of a handle of many elements: its elements are at their targets in any case, but the
+/// others follow the control points.
 class FreeForm final : public ElasticSolver {
  public:
   explicit FreeForm(const ElasticProblem& problem)
@@ -27,33 +28,32 @@ class FreeForm final : public ElasticSolver {
         volume_(*problem.mesh, problem.options.lattice),
         dimension_(problem.mesh->space_dimension) {
     reset();
-    Eigen::MatrixXd resistance = Eigen::MatrixXd::Identity(volume_.count(), volume_.count());
-    for (const ElementId pin : pins_) {
-      const Eigen::VectorXd weights = volume_.weights(pin);
-      resistance += pin_weight * weights * weights.transpose();
-    }
-    resistance_.compute(resistance);
+    resistance_ = Eigen::MatrixXd::Identity(volume_.count(), volume_.count());
+    add_resistance(pins_, resistance_);
+    factors_.compute(resistance_);
   }
 
-  void hold(ElementId element, const Progress& progress) override {
-    held_ = element;
-    const Eigen::VectorXd weights = volume_.weights(element);
-    control_response_ = resistance_.solve(weights);
-    control_response_ /= weights.dot(control_response_);
-    response_.resize(mesh_->element_count());
+  void hold(const ElasticHandle& handle, const Progress& progress) override {
+    handle_ = handle;
+    begin();
+    control_response_ = handle.elements.size() == 1 ? respond_to_one() : respond_to_many();
+    response_.resize(mesh_->element_count(), control_response_.cols());
     for (ElementId e = 0; e < mesh_->element_count(); ++e) {
       progress.report(e, mesh_->element_count());
-      response_[e] = volume_.weights(e).dot(control_response_);
+      const Eigen::VectorXd weights = volume_.weights(e);
+      for (Eigen::Index column = 0; column < response_.cols(); ++column) {
+        response_(e, column) = weights.dot(control_response_.col(column));
+      }
     }
-    begin();
   }
 
-  void move(std::span<const double> displacement, const Progress& /*progress*/) override {
-    const Eigen::Map<const Eigen::VectorXd> to(displacement.data(), dimension_);
-    const Eigen::RowVectorXd way = (to - fields(begun_).col(held_)).transpose();
+  void move(const ElasticMotion& motion, const Progress& /*progress*/) override {
+    const Eigen::MatrixXd way = way_of(motion);
     controls_ = begun_controls_ + control_response_ * way;
     fields(displacements_).noalias() = fields(begun_) + way.transpose() * response_.transpose();
-    fields(displacements_).col(held_) = to;  // exact, without rounding
+    for (std::size_t i = 0; i < handle_.elements.size(); ++i) {
+      fields(displacements_).col(handle_.elements[i]) = displacement_of(handle_, i, motion);  // exact, without rounding
+    }
     hold_pins();
     place_controls();
   }
@@ -99,6 +99,63 @@ class FreeForm final : public ElasticSolver {
     return {all.data(), dimension_, static_cast<Eigen::Index>(mesh_->element_count())};
   }
 
+  void add_resistance(std::span<const ElementId> elements, Eigen::MatrixXd& to) const {
+    for (const ElementId element : elements) {
+      const Eigen::VectorXd weights = volume_.weights(element);
+      to += pin_weight * weights * weights.transpose();
+    }
+  }
+
+  /// Returns the response of the control points to a unit displacement of the handle, the same along each axis.
+  Eigen::MatrixXd respond_to_one() const {
+    const Eigen::VectorXd weights = volume_.weights(handle_.elements[0]);
+    const Eigen::VectorXd response = factors_.solve(weights);
+    return response / weights.dot(response);
+  }
+
+  /// Returns the responses of the control points to a unit turn about each coordinate of the arms, and to a unit
+  /// displacement. The elements of the handle are fitted like pins, since the lattice may not contain the motion. Also
+  /// moves the state of the beginning to where the handle has the shape with which it was grabbed.
+  Eigen::MatrixXd respond_to_many() {
+    const Eigen::Index count = volume_.count(), n = dimension_;
+    Eigen::MatrixXd resistance = resistance_;
+    add_resistance(handle_.elements, resistance);
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 2 * n + 1);
+    for (std::size_t i = 0; i < handle_.elements.size(); ++i) {
+      const auto of_element = [&](const std::vector<double>& all) {
+        return Eigen::Map<const Eigen::RowVectorXd>(all.data() + static_cast<Eigen::Index>(i) * n, n);
+      };
+      const Eigen::VectorXd weights = pin_weight * volume_.weights(handle_.elements[i]);
+      right.leftCols(n) += weights * of_element(handle_.arms);
+      right.col(n) += weights;
+      right.rightCols(n) +=
+          weights * (of_element(handle_.displacements) - fields(begun_).col(handle_.elements[i]).transpose());
+    }
+    const Eigen::MatrixXd responses = resistance.llt().solve(right);
+    take_shape(responses.rightCols(n));
+    return responses.leftCols(n + 1);
+  }
+
+  void take_shape(const Eigen::MatrixXd& controls) {
+    if (controls.isZero(0)) {
+      return;
+    }
+    begun_controls_ += controls;
+    for (ElementId e = 0; e < mesh_->element_count(); ++e) {
+      fields(begun_).col(e) += controls.transpose() * volume_.weights(e);
+    }
+  }
+
+  /// The factors of the responses, one row each.
+  Eigen::MatrixXd way_of(const ElasticMotion& motion) {
+    if (handle_.elements.size() == 1) {
+      return (displacement_of(handle_, 0, motion) - fields(begun_).col(handle_.elements[0])).transpose();
+    }
+    Eigen::MatrixXd way(dimension_ + 1, dimension_);
+    way << motion.turn.transpose(), motion.translation.transpose();
+    return way;
+  }
+
   /// Sets the state from which the handle's displacement is measured.
   void begin() {
     begun_ = displacements_;
@@ -138,9 +195,10 @@ class FreeForm final : public ElasticSolver {
   std::vector<double> pinned_;
   BernsteinVolume volume_;
   int dimension_;
-  Eigen::LLT<Eigen::MatrixXd> resistance_;  // of the control points to motion
-  ElementId held_ = 0;
-  Eigen::VectorXd control_response_, response_;  // to a unit displacement of the handle, the same along each axis
+  Eigen::MatrixXd resistance_;           // of the control points to motion
+  Eigen::LLT<Eigen::MatrixXd> factors_;  // of it
+  ElasticHandle handle_;
+  Eigen::MatrixXd control_response_, response_;  // to the motion of the handle: one row per control point or element
   std::vector<double> displacements_, begun_;    // now, and where the handle's displacement begins
   Eigen::MatrixXd controls_, begun_controls_;    // displacements, one row per control point
   std::vector<double> control_places_;

@@ -16,47 +16,57 @@ class LinearFem final : public LinearResponse {
  public:
   LinearFem(const ElasticProblem& problem, const Progress& progress)
       : LinearResponse(problem),
+        pins_(problem.pins),
+        lame_(lame(problem.options.material)),
         simplices_(build_simplices(*problem.mesh, problem.cuts, progress.part(0, 0.1))),
-        unknowns_((check_held(simplices_, *problem.mesh, problem.pins), problem.mesh->space_dimension),
-                  problem.mesh->element_count(), elimination_order(simplices_, *problem.mesh, progress.part(0.1, 0.2)),
-                  problem.pins) {
-    Stiffness stiffness(simplices_, unknowns_);
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(unknowns_.count());
-    const Lame material = lame(problem.options.material);
+        order_((check_held(simplices_, *problem.mesh, problem.pins),
+                elimination_order(simplices_, *problem.mesh, progress.part(0.1, 0.2)))),
+        unknowns_(simplices_.dimension, problem.mesh->element_count(), order_, problem.pins) {
+    std::vector<double> base = displacements();
+    Eigen::Map<Eigen::MatrixXd> fields(base.data(), static_cast<Eigen::Index>(base.size()), 1);
+    solve(unknowns_, factor_, fields, progress.part(0.2, 1));
+    set_base(std::move(base));
+  }
+
+ private:
+  using Fields = Eigen::Ref<Eigen::MatrixXd>;  // n rows per element, one field per column
+
+  /// Factors the stiffness matrix of the unknowns, and computes them in each field from the prescribed displacements.
+  void solve(const Unknowns& unknowns, Cholesky& factor, Fields fields, const Progress& progress) const {
+    Stiffness stiffness(simplices_, unknowns);
+    Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(unknowns.count(), fields.cols());
     for (std::size_t s = 0; s < simplices_.count(); ++s) {
-      progress.part(0.2, 0.3).report(s, simplices_.count());
-      const CornerMatrix of_simplex = chainmail::stiffness(simplices_, s, material);
+      progress.part(0, 0.1).report(s, simplices_.count());
+      const CornerMatrix of_simplex = chainmail::stiffness(simplices_, s, lame_);
       stiffness.add(s, of_simplex);
-      add_load(s, of_simplex, load);
+      for (Eigen::Index column = 0; column < fields.cols(); ++column) {
+        add_load(s, of_simplex, unknowns, fields.col(column), loads.col(column));
+      }
     }
-    progress.report(0.3);
-    if (unknowns_.count() > 0) {
-      factor_.analyze(stiffness.matrix());
-      if (!factor_.factor(stiffness.matrix(), progress.part(0.3, 1))) {
+    if (unknowns.count() > 0) {
+      factor.analyze(stiffness.matrix());
+      if (!factor.factor(stiffness.matrix(), progress.part(0.1, 1))) {
         throw Error(
             "linear FEM",
             "the stiffness matrix is not positive definite: cells are too thin, or Poisson's ratio is too close to 0.5",
             "mesh the object again, or lower Poisson's ratio");
       }
-      std::vector<double> base = displacements();
-      unknowns_.scatter(factor_.solve(load), base);
-      set_base(std::move(base));
+      unknowns.scatter(factor.solve(std::move(loads)), fields);
     }
     progress.report(1.0);
   }
 
- private:
-  /// Adds the forces that the displacements of the pins exert on the unknowns.
-  void add_load(std::size_t simplex, const CornerMatrix& of_simplex, Eigen::VectorXd& load) const {
+  /// Adds the forces that prescribed displacements of a field exert on the unknowns.
+  void add_load(std::size_t simplex, const CornerMatrix& of_simplex, const Unknowns& unknowns,
+                const Eigen::Ref<const Eigen::VectorXd>& field, Eigen::Ref<Eigen::VectorXd> load) const {
     const int n = simplices_.dimension;
     const auto corners = simplices_.corners_of(simplex);
     CornerVector prescribed = CornerVector::Zero(of_simplex.rows());
     bool any = false;
     for (int a = 0; a <= n; ++a) {
       const ElementId corner = corners[static_cast<std::size_t>(a)];
-      for (int k = 0; k < n && unknowns_.of(corner) == Unknowns::none; ++k) {
-        prescribed[n * a + k] =
-            displacements()[std::size_t{corner} * static_cast<std::size_t>(n) + static_cast<std::size_t>(k)];
+      for (int k = 0; k < n && unknowns.of(corner) == Unknowns::none; ++k) {
+        prescribed[n * a + k] = field[Eigen::Index{corner} * n + k];
         any = any || prescribed[n * a + k] != 0;
       }
     }
@@ -65,15 +75,38 @@ class LinearFem final : public LinearResponse {
     }
     const CornerVector force = of_simplex * prescribed;
     for (int a = 0; a <= n; ++a) {
-      if (const std::int32_t first = unknowns_.of(corners[static_cast<std::size_t>(a)]); first != Unknowns::none) {
+      if (const std::int32_t first = unknowns.of(corners[static_cast<std::size_t>(a)]); first != Unknowns::none) {
         load.segment(first, n) -= force.segment(n * a, n);
       }
     }
   }
 
+  Eigen::MatrixXd respond(std::span<const ElementId> elements, const Eigen::MatrixXd& prescribed,
+                          const Progress& progress) override {
+    return elements.size() == 1 ? respond_to_one(elements[0]) : respond_to_many(elements, prescribed, progress);
+  }
+
+  /// Factors the stiffness matrix once more, without the handle's unknowns: for more than a few elements, that is faster
+  /// than the compliance of all of them.
+  Eigen::MatrixXd respond_to_many(std::span<const ElementId> elements, const Eigen::MatrixXd& prescribed,
+                                  const Progress& progress) const {
+    const int n = simplices_.dimension;
+    std::vector<ElementId> held = pins_;
+    held.insert(held.end(), elements.begin(), elements.end());
+    const Unknowns unknowns(n, static_cast<ElementId>(displacements().size() / static_cast<std::size_t>(n)), order_,
+                            held);
+    Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(Eigen::Index(displacements().size()), prescribed.cols());
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      fields.middleRows(Eigen::Index{elements[i]} * n, n) = prescribed.middleRows(Eigen::Index(i) * n, n);
+    }
+    Cholesky factor;
+    solve(unknowns, factor, fields, progress);
+    return fields;
+  }
+
   /// Applies unit forces to the element, and scales them so that they displace it by one (Schur complement of the
   /// compliance).
-  Eigen::MatrixXd respond(ElementId element, const Progress& /*progress*/) override {
+  Eigen::MatrixXd respond_to_one(ElementId element) const {
     const int n = simplices_.dimension;
     const auto size = static_cast<Eigen::Index>(displacements().size());
     Eigen::MatrixXd response = Eigen::MatrixXd::Zero(size, n);
@@ -84,18 +117,17 @@ class LinearFem final : public LinearResponse {
       Eigen::MatrixXd fields = factor_.solve(std::move(forces));
       const SmallMatrix compliance = fields.middleRows(first, n);
       fields *= compliance.inverse();
-      std::vector<double> all(static_cast<std::size_t>(size), 0.0);
-      for (int k = 0; k < n; ++k) {
-        unknowns_.scatter(fields.col(k), all);
-        response.col(k) = Eigen::Map<const Eigen::VectorXd>(all.data(), size);
-      }
+      unknowns_.scatter(fields, response);
     }
     // The grabbed element is exactly at its target, without rounding. If it has no cell, it moves alone.
     response.middleRows(Eigen::Index{element} * n, n).setIdentity();
     return response;
   }
 
+  std::vector<ElementId> pins_;
+  Lame lame_;
   Simplices simplices_;
+  std::vector<ElementId> order_;  // of the unknowns
   Unknowns unknowns_;
   Cholesky factor_;
 };

@@ -45,19 +45,23 @@ class NeoHookean final : public ElasticSolver {
     reset();
   }
 
-  void hold(ElementId element, const Progress& /*progress*/) override {
-    if (!newton_ || element != held_) {
+  void hold(const ElasticHandle& handle, const Progress& /*progress*/) override {
+    if (!newton_ || handle.elements != handle_.elements) {
       std::vector<ElementId> prescribed = pins_;
-      prescribed.push_back(element);
+      prescribed.insert(prescribed.end(), handle.elements.begin(), handle.elements.end());
       newton_ = std::make_unique<Newton>(simplices_, lame_, elements_, order_, prescribed);
-      held_ = element;
     }
+    handle_ = handle;
   }
 
   /// Starts from the last answer, which is near. If that does not converge, starts from the answer to the pins alone.
-  void move(std::span<const double> displacement, const Progress& progress) override {
-    const std::vector<ElementId> handle{held_};
-    const std::vector<double> target(displacement.begin(), displacement.end());
+  void move(const ElasticMotion& motion, const Progress& progress) override {
+    const std::vector<ElementId>& handle = handle_.elements;
+    std::vector<double> target;
+    for (std::size_t i = 0; i < handle.size(); ++i) {
+      const SmallVector displacement = displacement_of(handle_, i, motion);
+      target.insert(target.end(), displacement.begin(), displacement.end());
+    }
     std::vector<double> answer = displacements_;
     remark_ = carry(*newton_, handle, target, answer, progress.part(0, 0.5));
     if (!remark_.empty() && displacements_ != base_) {
@@ -121,8 +125,8 @@ class NeoHookean final : public ElasticSolver {
   std::vector<ElementId> order_;  // order of the unknowns
   Lame lame_;
   std::vector<double> base_, displacements_;
-  std::unique_ptr<Newton> newton_;  // for the grabbed element
-  ElementId held_ = 0;
+  std::unique_ptr<Newton> newton_;  // for the handle's elements
+  ElasticHandle handle_;
   std::string remark_;
 };
 

@@ -79,44 +79,64 @@ void PinnedSolid::find_pinned_facets(const PinnedElements& pinned) {
   }
 }
 
-std::vector<std::size_t> PinnedSolid::facets_about(ElementId corner) const {
-  std::vector<std::size_t> about;
+PinnedSolid::HandleFacets PinnedSolid::facets_about(std::span<const ElementId> corners,
+                                                    const Eigen::MatrixXd& prescribed) const {
+  HandleFacets about;
+  about.displacements = Eigen::MatrixXd::Zero(Index(3 * solid_.triangles.size()), prescribed.cols());
   for (std::size_t t = 0; t < solid_.triangles.size(); ++t) {
-    if (std::ranges::count(solid_.triangles[t], corner) != 0) {
-      about.push_back(t);
+    auto displacement = about.displacements.middleRows<3>(Index(3 * about.facets.size()));
+    int count = 0;
+    for (const ElementId corner : solid_.triangles[t]) {
+      const auto found = std::ranges::lower_bound(corners, corner);
+      if (found != corners.end() && *found == corner) {
+        displacement += prescribed.middleRows<3>(3 * (found - corners.begin()));
+        ++count;
+      }
+    }
+    if (count > 0) {
+      displacement /= count;
+      about.facets.push_back(t);
     }
   }
   return about;
 }
 
 /// In the system, the tractions of the handle's facets are known. So this computes the displacements for unit tractions
-/// on them, and combines these so that the facets move by one along each axis. Facets that pins also hold have known
+/// on them, and combines these so that the facets move as prescribed. Facets that pins also hold have known
 /// displacements and move with the handle directly.
-Eigen::MatrixXd PinnedSolid::respond(ElementId corner, const Progress& progress) const {
-  auto free = facets_about(corner);
-  Eigen::MatrixXd handle = Eigen::MatrixXd::Zero(pins_.size(), 3);
-  std::erase_if(free, [&](std::size_t t) {
-    if (is_pinned_[t]) {
-      handle.middleRows<3>(Index(3 * t)).setIdentity();
+Eigen::MatrixXd PinnedSolid::respond(std::span<const ElementId> corners, const Eigen::MatrixXd& prescribed,
+                                     const Progress& progress) const {
+  const HandleFacets about = facets_about(corners, prescribed);
+  const Index cases = prescribed.cols();
+  Eigen::MatrixXd handle = Eigen::MatrixXd::Zero(pins_.size(), cases);
+  std::vector<std::size_t> free;
+  Eigen::MatrixXd follow(3 * Index(about.facets.size()), cases);  // of the free facets
+  for (std::size_t i = 0; i < about.facets.size(); ++i) {
+    const auto displacement = about.displacements.middleRows<3>(Index(3 * i));
+    if (is_pinned_[about.facets[i]]) {
+      handle.middleRows<3>(Index(3 * about.facets[i])) = displacement;
+    } else {
+      follow.middleRows<3>(Index(3 * free.size())) = displacement;
+      free.push_back(about.facets[i]);
     }
-    return is_pinned_[t];
-  });
+  }
   const Index units = Index(3 * free.size());
-  Eigen::MatrixXd known = Eigen::MatrixXd::Zero(pins_.size(), units + 3);
-  known.rightCols<3>() = handle;
+  follow.conservativeResize(units, cases);
+  Eigen::MatrixXd known = Eigen::MatrixXd::Zero(pins_.size(), units + cases);
+  known.rightCols(cases) = handle;
   for (std::size_t i = 0; i < free.size(); ++i) {
     known.block<3, 3>(Index(3 * free[i]), Index(3 * i)).setIdentity();
   }
   const auto fields = system_->solve(known);
   progress.report(0.5);
-  Eigen::MatrixXd at_handle(units, units + 3), follow(units, 3);
+  Eigen::MatrixXd at_handle(units, units + cases);
   for (std::size_t i = 0; i < free.size(); ++i) {
     at_handle.middleRows<3>(Index(3 * i)) = fields.displacements.middleRows<3>(Index(3 * free[i]));
-    follow.middleRows<3>(Index(3 * i)).setIdentity();
   }
-  const Eigen::MatrixXd tractions = at_handle.leftCols(units).partialPivLu().solve(follow - at_handle.rightCols<3>());
+  const Eigen::MatrixXd tractions =
+      at_handle.leftCols(units).partialPivLu().solve(follow - at_handle.rightCols(cases));
   const auto together = [&](const Eigen::MatrixXd& of) -> Eigen::MatrixXd {
-    return of.rightCols<3>() + of.leftCols(units) * tractions;
+    return of.rightCols(cases) + of.leftCols(units) * tractions;
   };
   return at_elements({together(fields.displacements), together(fields.tractions)}, progress.part(0.5, 1));
 }

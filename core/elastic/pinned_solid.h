@@ -16,7 +16,7 @@ using PinnedElements = std::vector<std::optional<Point>>;
 /// One solid with pins, by boundary elements.
 ///
 /// Displacements are prescribed on facets. A pin holds the facets with only pinned corners, or all facets around it if
-/// there are none of these; the handle holds all facets around its element. The other facets are free of tractions. The
+/// there are none of these; the handle holds all facets around its elements. The other facets are free of tractions. The
 /// displacement of an element is the mean of the facets around it, by area.
 ///
 /// Since only displacements are prescribed, Young's modulus cancels out.
@@ -31,13 +31,20 @@ class PinnedSolid {
 
   /// Returns the displacements of its elements, three rows each, while only the pins are prescribed.
   const Eigen::VectorXd& at_rest() const { return at_rest_; }
-  /// Returns what a handle at a corner adds for a unit displacement along each axis, one column each. On facets that
-  /// both hold, the handle counts. Throws Cancelled.
-  Eigen::MatrixXd respond(ElementId corner, const Progress& progress) const;
+  /// Returns what a handle at some corners (ascending) adds: one column for each column of `prescribed`, which holds the
+  /// displacements of these corners, three rows each. A facet moves by the mean of its corners in the handle. On facets
+  /// that both hold, the handle counts. Throws Cancelled.
+  Eigen::MatrixXd respond(std::span<const ElementId> corners, const Eigen::MatrixXd& prescribed,
+                          const Progress& progress) const;
 
  private:
   void check_pins(const Mesh& mesh, const PinnedElements& pinned) const;
-  std::vector<std::size_t> facets_about(ElementId corner) const;
+  /// Facets with a corner in the handle, and their displacements, three rows each.
+  struct HandleFacets {
+    std::vector<std::size_t> facets;
+    Eigen::MatrixXd displacements;
+  };
+  HandleFacets facets_about(std::span<const ElementId> corners, const Eigen::MatrixXd& prescribed) const;
   void find_pinned_facets(const PinnedElements& pinned);
   Eigen::MatrixXd at_elements(const BoundarySystem::Fields& fields, const Progress& progress) const;
 

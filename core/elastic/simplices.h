@@ -5,15 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "elastic/small.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
-
-/// Up to 3 x 3 entries, or up to 12 coordinates of the corners of a tetrahedron, stored on the stack.
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
 
 /// An object as linear finite elements of its space dimension n: bars, triangles of thickness 1, or tetrahedra. Each
 /// has n + 1 corners.

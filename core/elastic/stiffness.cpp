@@ -37,6 +37,14 @@ void Unknowns::scatter(const Eigen::VectorXd& unknown, std::vector<double>& all)
   }
 }
 
+void Unknowns::scatter(const Eigen::MatrixXd& unknown, Eigen::Ref<Eigen::MatrixXd> all) const {
+  for (std::size_t e = 0; e < first_.size(); ++e) {
+    if (first_[e] != none) {
+      all.middleRows(static_cast<Eigen::Index>(e) * dimension_, dimension_) = unknown.middleRows(first_[e], dimension_);
+    }
+  }
+}
+
 namespace {
 
 /// Returns the unknown of each coordinate of the corners of a simplex, or none.

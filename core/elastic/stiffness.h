@@ -26,6 +26,8 @@ class Unknowns {
   /// Copies the unknown entries out of a field of all elements (n each), and back.
   Eigen::VectorXd gather(const std::vector<double>& all) const;
   void scatter(const Eigen::VectorXd& unknown, std::vector<double>& all) const;
+  /// The same for several fields, one per column.
+  void scatter(const Eigen::MatrixXd& unknown, Eigen::Ref<Eigen::MatrixXd> all) const;
 
  private:
   int dimension_;

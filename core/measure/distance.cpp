@@ -38,13 +38,18 @@ std::optional<double> energy_ratio(double energy, double of_reference) {
   return of_reference > 0 ? std::optional(energy / of_reference) : std::nullopt;
 }
 
-std::optional<double> largest_over_handle(const Mesh& mesh, const PositionView& positions, ElementId handle) {
-  double square = 0;
-  for (int k = 0; k < mesh.space_dimension; ++k) {
-    const double moved = positions(handle, k) - mesh.rest[std::size_t{handle} * mesh.space_dimension + k];
-    square += moved * moved;
+std::optional<double> largest_over_handle(const Mesh& mesh, const PositionView& positions,
+                                          std::span<const ElementId> handle) {
+  double largest = 0;  // squared
+  for (const ElementId element : handle) {
+    double square = 0;
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      const double moved = positions(element, k) - mesh.rest[std::size_t{element} * mesh.space_dimension + k];
+      square += moved * moved;
+    }
+    largest = std::max(largest, square);
   }
-  const double of_handle = std::sqrt(square);
+  const double of_handle = std::sqrt(largest);
   return of_handle > counts_as_moved * unit_of(mesh)
              ? std::optional(measure_displacement(mesh, positions).max / of_handle)
              : std::nullopt;

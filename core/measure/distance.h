@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "mesh/mesh.h"
 #include "solve/solver.h"
@@ -20,8 +21,9 @@ Distance measure_distance(const Mesh& mesh, const PositionView& one, const Posit
 /// Returns the elastic energy divided by that of a reference; none if the reference's energy is 0.
 std::optional<double> energy_ratio(double energy, double of_reference);
 
-/// Returns the largest displacement of any element divided by that of the handle's element; none if the handle is at
-/// rest, to 1e-4 mean rest lengths. Above 1, an element moved further than the handle.
-std::optional<double> largest_over_handle(const Mesh& mesh, const PositionView& positions, ElementId handle);
+/// Returns the largest displacement of any element divided by the largest one of the handle's elements; none if the
+/// handle is at rest, to 1e-4 mean rest lengths, or if there is none. Above 1, an element moved further than the handle.
+std::optional<double> largest_over_handle(const Mesh& mesh, const PositionView& positions,
+                                          std::span<const ElementId> handle);
 
 }  // namespace chainmail

@@ -1,5 +1,6 @@
 #include "measure/reference_solution.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,21 +13,37 @@ ReferenceSolver::ReferenceSolver(const ElasticProblem& problem, const Progress& 
 
 ReferenceSolution ReferenceSolver::at(ElementId handle, const Point& target, const Progress& progress) {
   std::vector<double> displacement;
-  double square = 0;
   for (int k = 0; k < mesh_->space_dimension; ++k) {
     const double rest = mesh_->rest[std::size_t{handle} * static_cast<std::size_t>(mesh_->space_dimension) + k];
     displacement.push_back(target[mesh_->axes[k]] - rest);
-    square += displacement.back() * displacement.back();
+  }
+  return at({handle}, displacement, progress);
+}
+
+/// The targets are reached from rest along straight lines: the shape of the handle is what its displacements say.
+ReferenceSolution ReferenceSolver::at(const std::vector<ElementId>& handle, const std::vector<double>& displacements,
+                                      const Progress& progress) {
+  const auto n = static_cast<std::size_t>(mesh_->space_dimension);
+  double largest = 0;
+  for (std::size_t i = 0; i < handle.size(); ++i) {
+    double square = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      square += displacements[n * i + k] * displacements[n * i + k];
+    }
+    largest = std::max(largest, std::sqrt(square));
   }
   solver_->reset();
-  solver_->hold(handle, progress.part(0, 0.2));
-  solver_->move(displacement, progress.part(0.2, 1));
+  const std::vector<double> none(displacements.size(), 0.0);
+  const ElasticHandle held{handle, handle.size() == 1 ? none : displacements, none};
+  solver_->hold(held, progress.part(0, 0.2));
+  solver_->move(ElasticMotion::by(handle.size() == 1 ? displacements : std::vector<double>(n, 0.0)),
+                progress.part(0.2, 1));
   if (const std::string& remark = solver_->remark(); !remark.empty()) {
     throw Error("neo-Hookean FEM", remark, "drag less far, or use a finer mesh");
   }
   std::vector<ElementId> prescribed = pins_;
-  prescribed.push_back(handle);
-  return {solver_->displacements(), std::sqrt(square), std::move(prescribed)};
+  prescribed.insert(prescribed.end(), handle.begin(), handle.end());
+  return {solver_->displacements(), largest, std::move(prescribed)};
 }
 
 }  // namespace chainmail

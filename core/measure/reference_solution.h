@@ -7,12 +7,13 @@
 
 namespace chainmail {
 
-/// The reference solution: the equilibrium of an elastic object with one element held at the handle's target.
+/// The reference solution: the equilibrium of an elastic object with the handle's elements held at their targets.
 struct ReferenceSolution {
   /// Displacements from rest, element by element, space_dimension coordinates each (mesh units).
   std::vector<double> displacements;
-  double handle_displacement = 0;  // length of the handle's displacement from rest (mesh units), above 0
-  /// The handle's element and the pins. Every method gets their positions as input.
+  /// Length of the largest displacement from rest of an element of the handle (mesh units), above 0.
+  double handle_displacement = 0;
+  /// The handle's elements and the pins. Every method gets their positions as input.
   std::vector<ElementId> prescribed;
 };
 
@@ -28,6 +29,10 @@ class ReferenceSolver {
   /// differ from its rest position. Starts from rest. Throws Error, with the load step, if Newton's method does not
   /// converge, and Cancelled.
   ReferenceSolution at(ElementId handle, const Point& target, const Progress& progress = {});
+  /// The same for a handle of elements (ascending) and their displacements from rest, space_dimension coordinates each
+  /// (mesh units), not all 0.
+  ReferenceSolution at(const std::vector<ElementId>& handle, const std::vector<double>& displacements,
+                       const Progress& progress = {});
 
  private:
   MeshPointer mesh_;

@@ -18,15 +18,22 @@ namespace chainmail {
 /// simulations and replayed.
 namespace commands {
 
-/// Grabs an element; nothing moves yet.
+/// Grabs an element, or many that move as one rigid body; nothing moves yet.
 struct Grab {
-  ElementId element = 0;
+  Grab(ElementId element = 0) : elements{element} {}
+  explicit Grab(std::vector<ElementId> grabbed) : elements(std::move(grabbed)) {}
+
+  std::vector<ElementId> elements;
 };
-/// Moves the grabbed element to a target (mesh units): one pass.
+/// Moves the handle: one pass.
 struct Drag {
+  /// Of its pivot, which is the mean of the grabbed positions (mesh units): a position, or, if `relative`, a way from
+  /// where it was grabbed.
   Point target = Point::Zero();
+  Rotation rotation = {};  // about the pivot, since it was grabbed
+  bool relative = false;
 };
-/// Releases the grabbed element.
+/// Releases the handle.
 struct Release {};
 /// Sets the softness. It is shared, so that the command does not copy the softness of single links.
 struct SetSoftness {
@@ -67,7 +74,7 @@ struct Cut {
 struct Uncut {
   std::vector<LinkId> links;
 };
-/// Pins elements at their current positions. The grabbed element cannot be pinned.
+/// Pins elements at their current positions. Grabbed elements cannot be pinned.
 struct Pin {
   std::vector<ElementId> elements;
 };

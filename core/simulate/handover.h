@@ -27,8 +27,8 @@ struct Handover {
   std::map<commands::StateId, ObjectState> kept;  // snapshots for undo
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
-  std::optional<ElementId> grabbed;
-  std::optional<ElementId> last_moved;  // the element of the last pass
+  std::shared_ptr<const Handle> grabbed;     // null: nothing is grabbed
+  std::shared_ptr<const Handle> last_handle;  // of the last pass, if any
 };
 
 }  // namespace chainmail

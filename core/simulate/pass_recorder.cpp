@@ -73,7 +73,7 @@ void PassRecorder::copy(const Simulation& simulation, ElementId first, ElementId
 
 void PassRecorder::end(Simulation& simulation) {
   simulation.set_trace(nullptr);
-  if (!runs_ || simulation.statistics().passes == passes_ || !simulation.last_moved()) {
+  if (!runs_ || simulation.statistics().passes == passes_ || simulation.last_handle() == nullptr) {
     return;
   }
   if (!conditions_) {
@@ -91,16 +91,19 @@ void PassRecorder::end(Simulation& simulation) {
 void PassRecorder::write(const Simulation& simulation) {
   record_.algorithm = simulation.statistics().algorithm;
   record_.number = simulation.statistics().passes;
-  record_.grabbed = *simulation.last_moved();
+  const auto handle = simulation.last_handle()->elements();
+  record_.handle.assign(handle.begin(), handle.end());
   record_.conditions = conditions_;
   std::swap(record_.trace, trace_);
   const auto coordinates = static_cast<std::size_t>(record_.mesh->space_dimension);
-  record_.after.resize(coordinates * (record_.trace.size() + 1));
-  simulation.body().copy_positions(record_.grabbed, std::span(record_.after).first(coordinates));
-  for (std::size_t row = 0; row < record_.trace.size(); ++row) {
-    simulation.body().copy_positions(record_.trace[row].element,
-                                     std::span(record_.after).subspan(coordinates * (row + 1), coordinates));
-  }
+  record_.after.resize(coordinates * (handle.size() + record_.trace.size()));
+  auto after = std::span(record_.after);
+  const auto copy_next = [&](ElementId element) {
+    simulation.body().copy_positions(element, after.first(coordinates));
+    after = after.subspan(coordinates);
+  };
+  std::ranges::for_each(handle, copy_next);
+  std::ranges::for_each(record_.trace, copy_next, &TraceRow::element);
 }
 
 void PassRecorder::note_changes(const Simulation& simulation) {

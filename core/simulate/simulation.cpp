@@ -45,11 +45,14 @@ void Simulation::apply(const Command& command) {
   std::visit([this](const auto& one) { carry_out(one); }, command);
 }
 
-void Simulation::pass(ElementId element, const Point& target) {
-  time_pass([&] { return solver_->move(element, target, trace_); });
-  last_moved_ = element;
-  valid_ = info(algorithm_).holds_links;
-  for (const auto& moved : {std::span<const ElementId>(&element, 1), solver_->moved()}) {
+void Simulation::pass(const std::shared_ptr<Handle>& handle, const Pose& target) {
+  const bool was_valid = valid_;
+  time_pass([&] { return solver_->move(*handle, target, trace_); });
+  last_handle_ = handle;
+  // Links inside a handle of many stay as they are. A rotation may violate them.
+  valid_ = info(algorithm_).holds_links &&
+           (handle->has_one() || (was_valid && handle->pose().rotation == Point::Zero()));
+  for (const auto& moved : {handle->elements(), solver_->moved()}) {
     mark(moved);
     wake(moved);
   }
@@ -105,7 +108,7 @@ bool Simulation::step() {
     return false;
   }
   measure_.reset();
-  const auto slice = solver_->relax(relaxation_step_, elements_per_slice, grabbed_);
+  const auto slice = solver_->relax(relaxation_step_, elements_per_slice, grabbed());
   mark(solver_->relaxed());
   if (slice.sweep_ended) {
     ++statistics_.sweeps;
@@ -126,8 +129,8 @@ void Simulation::relax(int count, double step) {
     return;
   }
   measure_.reset();
-  if (last_moved_) {
-    solver_->wake(std::span(&*last_moved_, 1));
+  if (last_handle_) {
+    solver_->wake(last_handle_->elements());
     solver_->wake(solver_->moved());
   }
   for (int i = 0; i < count && sweep(step, progress_.part(double(i) / count, double(i + 1) / count)) > 0; ++i) {
@@ -139,7 +142,7 @@ std::uint64_t Simulation::sweep(double step, const Progress& progress) {
   std::uint64_t visited = 0;
   while (true) {
     progress.report(std::min(1.0, double(visited) / mesh_->element_count()));
-    const RelaxationResult slice = solver_->relax(step, elements_per_slice, grabbed_);
+    const RelaxationResult slice = solver_->relax(step, elements_per_slice, grabbed());
     mark(solver_->relaxed());
     visited += slice.visited;
     if (slice.sweep_ended) {
@@ -156,9 +159,9 @@ void Simulation::refresh_statistics(bool whole_mesh) {
   }
   statistics_.last_second = times_.summary(Clock::now());
   statistics_.violation_of_whole_mesh = false;
-  if (last_moved_) {
+  if (last_handle_) {
     statistics_.violation = touched_.measure(*mesh_, softness(), body().cuts(), body().positions(),
-                                             {std::span(&*last_moved_, 1), solver_->moved()});
+                                             {last_handle_->elements(), solver_->moved()});
   } else {
     statistics_.violation = {};
   }
@@ -208,7 +211,7 @@ void Simulation::take_mesh(MeshPointer mesh) {
   last_kept_ = {};
   changed_.insert_all();
   grabbed_.reset();
-  last_moved_.reset();
+  last_handle_.reset();
   valid_ = true;
   forget_passes();
   fall_asleep();
@@ -248,25 +251,22 @@ void Simulation::fall_asleep() {
 // How each command is carried out.
 
 void Simulation::carry_out(const commands::Grab& command) {
-  check_element(command.element);
-  if (std::ranges::binary_search(body().pins(), command.element)) {
-    throw Error("element " + std::to_string(command.element), "it is pinned and may not move",
-                "unpin it, or grab another element");
-  }
-  grabbed_ = command.element;
+  grabbed_ = std::make_shared<Handle>(body(), command.elements);
 }
 
 void Simulation::carry_out(const commands::Drag& command) {
   if (!grabbed_) {
     throw Error("drag", "no element is grabbed", "grab one first");
   }
-  pass(*grabbed_, command.target);
+  check(command.rotation, *mesh_);
+  const Point from = command.relative ? grabbed_->grabbed().pivot : Point(Point::Zero());
+  pass(grabbed_, {command.relative ? Point(from + command.target) : command.target, command.rotation.vector()});
 }
 
 void Simulation::carry_out(const commands::Release&) {
   if (grabbed_) {
-    // The released element may follow its neighbours, in idle time or in requested sweeps.
-    solver_->wake(std::span(&*grabbed_, 1));
+    // The released elements may follow their neighbours, in idle time or in requested sweeps.
+    solver_->wake(grabbed());
     wake({});
   }
   grabbed_.reset();
@@ -294,17 +294,25 @@ void Simulation::set_softness(const std::shared_ptr<const Softness>& softness) {
 }
 
 /// Runs a pass after a change that may have violated links while the object is deformed. The pass starts at the handle,
-/// or at the element that was moved last. It moves nothing if all links are valid.
+/// or at the one that was moved last. It moves nothing if all links are valid.
 void Simulation::answer() {
-  if (!last_moved_) {
+  if (!last_handle_) {
     return;  // no element has moved since rest
   }
-  const auto about = grabbed_ ? grabbed_ : last_moved_;
-  if (std::ranges::binary_search(body().pins(), *about)) {
+  const auto about = grabbed_ ? grabbed_ : last_handle_;
+  if (std::ranges::any_of(about->elements(), [this](ElementId one) { return body().is_pinned(one); })) {
     return;
   }
   try {
-    pass(*about, point_of(*mesh_, body().positions(), *about));
+    if (about->has_one()) {
+      pass(about, {point_of(*mesh_, body().positions(), about->elements()[0]), Point::Zero()});
+    } else if (grabbed_) {
+      pass(grabbed_, grabbed_->pose());
+    } else {  // its elements may have moved apart since it was released
+      const auto anew =
+          std::make_shared<Handle>(body(), std::vector<ElementId>(about->elements().begin(), about->elements().end()));
+      pass(anew, anew->grabbed());
+    }
   } catch (const Error&) {
     // The pins now contradict each other. The setting stays, and the next drag reports the error.
   }
@@ -380,7 +388,7 @@ void Simulation::carry_out(const commands::Uncut& command) {
 void Simulation::carry_out(const commands::Pin& command) {
   for (const ElementId element : command.elements) {
     check_element(element);
-    if (element == grabbed_) {
+    if (grabbed_ && grabbed_->contains(element)) {
       throw Error("element " + std::to_string(element), "it is grabbed", "release it, then pin it");
     }
   }
@@ -401,7 +409,10 @@ void Simulation::carry_out(const commands::Reset&) {
   changed_.insert(away_);
   unkept_.insert(away_);
   away_.clear();
-  last_moved_.reset();
+  last_handle_.reset();
+  if (grabbed_) {  // at rest now
+    grabbed_ = std::make_shared<Handle>(body(), std::vector<ElementId>(grabbed().begin(), grabbed().end()));
+  }
   forget_passes();
   valid_ = true;
   fall_asleep();
@@ -435,7 +446,7 @@ void Simulation::carry_out(const commands::SetPositions& command) {
   valid_ = command.snapshot->is_at_rest();
   forget_passes();
   grabbed_.reset();
-  last_moved_.reset();
+  last_handle_.reset();
   fall_asleep();
 }
 
@@ -447,7 +458,12 @@ Simulation::State& Simulation::kept(commands::StateId state) {
   return found->second;
 }
 
-Handover Simulation::hand_over() { return {current_state(), kept_, relaxation(), elastic(), grabbed_, last_moved_}; }
+Handover Simulation::hand_over() {
+  const auto copy = [](const std::shared_ptr<Handle>& handle) {
+    return handle ? std::make_shared<const Handle>(*handle) : nullptr;
+  };
+  return {current_state(), kept_, relaxation(), elastic(), copy(grabbed_), copy(last_handle_)};
+}
 
 void Simulation::take(const Handover& handover, Algorithm algorithm) {
   measure_.reset();
@@ -457,8 +473,8 @@ void Simulation::take(const Handover& handover, Algorithm algorithm) {
   take_state(handover.object);
   kept_ = handover.kept;
   carry_out(handover.relaxation);
-  grabbed_ = handover.grabbed;
-  last_moved_ = handover.last_moved;
+  grabbed_ = handover.grabbed ? std::make_shared<Handle>(*handover.grabbed) : nullptr;
+  last_handle_ = handover.last_handle ? std::make_shared<Handle>(*handover.last_handle) : nullptr;
 }
 
 Simulation::State Simulation::current_state() {
@@ -482,7 +498,7 @@ void Simulation::take_state(const State& state) {
   valid_ = state.valid;
   forget_passes();
   grabbed_.reset();
-  last_moved_.reset();
+  last_handle_.reset();
   fall_asleep();
 }
 

@@ -65,12 +65,13 @@ class Simulation {
   const Softness& softness() const { return body().softness(); }
   const ElasticOptions& elastic() const { return body().elastic(); }
   commands::SetRelaxation relaxation() const { return {relaxation_on_, relaxation_step_, relaxation_scheme_}; }
-  std::optional<ElementId> grabbed() const { return grabbed_; }
+  /// The elements of the handle, ascending; empty while nothing is grabbed.
+  std::span<const ElementId> grabbed() const { return elements_of(grabbed_); }
   /// Returns the control points of free-form deformation, and prepares it. Returns nothing for other algorithms, or if
   /// it has no solution.
   std::span<const double> control_points();
-  /// Returns the element that the last pass moved to its target.
-  std::optional<ElementId> last_moved() const { return last_moved_; }
+  /// Returns the handle of the last pass; null before the first one.
+  const Handle* last_handle() const { return last_handle_.get(); }
   /// Returns a snapshot of the positions, for SetPositions.
   Snapshot snapshot() const { return body().snapshot(away_); }
   /// Returns the blocks in which a position may have changed since forget_changes().
@@ -114,7 +115,10 @@ class Simulation {
   void answer();
   void forget_passes();
   void set_softness(const std::shared_ptr<const Softness>& softness);
-  void pass(ElementId element, const Point& target);
+  static std::span<const ElementId> elements_of(const std::shared_ptr<Handle>& handle) {
+    return handle ? handle->elements() : std::span<const ElementId>();
+  }
+  void pass(const std::shared_ptr<Handle>& handle, const Pose& target);
   template <class Move>
   void time_pass(Move move);
   void mark(std::span<const ElementId> moved);
@@ -139,8 +143,8 @@ class Simulation {
   ElementBlocks away_;     // all elements outside these blocks are at rest
   Snapshot last_kept_;     // positions that were last saved or restored
   ElementBlocks unkept_;   // blocks in which a position may have changed since then
-  std::optional<ElementId> grabbed_;
-  std::optional<ElementId> last_moved_;  // the element of the last pass
+  std::shared_ptr<Handle> grabbed_;      // null: nothing is grabbed
+  std::shared_ptr<Handle> last_handle_;  // of the last pass, if any
   bool valid_ = true;
   bool relaxation_on_ = false;
   double relaxation_step_ = 1;

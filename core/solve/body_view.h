@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "mesh/error.h"
-#include "solve/body.h"
+#include "solve/handle.h"
 
 namespace chainmail {
 
@@ -139,6 +139,30 @@ Position<Scalar, Dimension> stored_target(const BodyView<Scalar, Dimension>& bod
     }
   }
   return next;
+}
+
+/// Calls use(element, target) for each element of a handle, with its target in stored coordinates (mesh units). Throws
+/// Error if one is not a finite number of the scalar.
+template <class Scalar, int Dimension, class Use>
+void for_each_target(const BodyView<Scalar, Dimension>& body, const HandleMove& move, Use use) {
+  const auto elements = move.handle.elements();
+  if (move.handle.has_one()) {
+    use(elements[0], stored_target(body, elements[0], move.pose.pivot));
+    return;
+  }
+  const RigidMotion motion = move.handle.motion(move.pose);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    use(elements[i], stored_target(body, elements[i], move.handle.target(i, motion)));
+  }
+}
+
+/// Moves the elements of a handle to their targets. Throws Error as for_each_target does; nothing has moved then.
+template <class Scalar, int Dimension>
+void place_handle(const BodyView<Scalar, Dimension>& body, const HandleMove& move) {
+  if (!move.handle.has_one()) {
+    for_each_target(body, move, [](ElementId, const auto&) {});
+  }
+  for_each_target(body, move, [&](ElementId element, const auto& target) { body.positions[element] = target; });
 }
 
 }  // namespace chainmail

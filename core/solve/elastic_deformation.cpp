@@ -1,6 +1,8 @@
 #include "solve/elastic_deformation.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "solve/body_view.h"
 
@@ -25,25 +27,86 @@ std::vector<double> displacements_of(const Body& body, std::span<const ElementId
   return result;
 }
 
+/// Returns a handle in the coordinates that exist. The motion of one element is its displacement from rest.
+ElasticHandle elastic_handle(const Mesh& mesh, const Handle& handle) {
+  if (handle.has_one()) {
+    return ElasticHandle::of(handle.elements()[0], mesh.space_dimension);
+  }
+  ElasticHandle result;
+  result.elements.assign(handle.elements().begin(), handle.elements().end());
+  for (std::size_t i = 0; i < result.elements.size(); ++i) {
+    const Point displacement = handle.target(i, {}) - mesh.rest_position(result.elements[i]);
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      result.displacements.push_back(displacement[mesh.axes[std::size_t(k)]]);
+      result.arms.push_back(handle.arm(i)[mesh.axes[std::size_t(k)]]);
+    }
+  }
+  return result;
+}
+
+ElasticMotion elastic_motion(const Mesh& mesh, const RigidMotion& motion) {
+  const int n = mesh.space_dimension;
+  ElasticMotion result{SmallMatrix(n, n), SmallVector(n)};
+  for (int row = 0; row < n; ++row) {
+    const int axis = mesh.axes[std::size_t(row)];
+    result.translation[row] = motion.translation[axis];
+    for (int column = 0; column < n; ++column) {
+      result.turn(row, column) = motion.turn(axis, mesh.axes[std::size_t(column)]);
+    }
+  }
+  return result;
+}
+
+// Largest rotation in one step of a method that depends on the path (radians).
+constexpr double largest_turn = 0.25;
+
 }  // namespace
 
-PassCount ElasticDeformation::move(Body& body, const HandleMove& handle, PassOutput output) {
-  std::array<double, 3> displacement{};
+PassCount ElasticDeformation::move(Body& body, HandleMove& move, PassOutput output) {
+  std::array<double, 3> displacement{};  // of a handle of one element
   body.with_view([&]<class View>(const View& view) {
-    const auto target = stored_target(view, handle.element, handle.target);
-    for (int k = 0; k < View::Dimension; ++k) {
-      displacement[std::size_t(k)] =
-          double(target[k]) - view.mesh->rest[std::size_t{handle.element} * View::Dimension + std::size_t(k)];
-    }
+    for_each_target(view, move, [&](ElementId element, const Position<typename View::Scalar, View::Dimension>& target) {
+      for (int k = 0; k < View::Dimension; ++k) {
+        displacement[std::size_t(k)] =
+            double(target[k]) - view.mesh->rest[std::size_t{element} * View::Dimension + std::size_t(k)];
+      }
+    });
   });
   prepare(body, output.progress);
-  if (held_ != handle.element) {
-    held_ = no_element;
-    solver_->hold(handle.element, output.progress);
-    held_ = handle.element;
+  hold(body, move.handle, output.progress);
+  if (move.handle.has_one()) {
+    const auto dimension = std::size_t(body.mesh().space_dimension);
+    solver_->move(ElasticMotion::by(std::span(displacement).first(dimension)), output.progress);
+  } else {
+    move_rigidly(body.mesh(), move, output.progress);
   }
-  solver_->move(std::span(displacement).first(std::size_t(body.mesh().space_dimension)), output.progress);
-  return take_answer(body, handle.element, output.moved);
+  return take_answer(body, move.handle.elements(), output.moved);
+}
+
+/// A method that depends on the path follows a rotation in steps: on a straight line, the handle would shrink.
+void ElasticDeformation::move_rigidly(const Mesh& mesh, const HandleMove& move, const Progress& progress) {
+  const Pose from = move.handle.pose();
+  const double angle = angle_between(from.rotation, move.pose.rotation);
+  const int steps = method_ == ElasticMethod::neo_hookean ? std::max(1, int(std::ceil(angle / largest_turn))) : 1;
+  for (int step = 1; step <= steps; ++step) {
+    const double share = double(step) / steps;
+    const Pose to = step == steps ? move.pose
+                                  : Pose{from.pivot + share * (move.pose.pivot - from.pivot),
+                                         rotation_between(from.rotation, move.pose.rotation, share)};
+    solver_->move(elastic_motion(mesh, move.handle.motion(to)), progress.part(double(step - 1) / steps, share));
+    if (!solver_->remark().empty()) {
+      return;
+    }
+  }
+}
+
+void ElasticDeformation::hold(const Body& body, const Handle& handle, const Progress& progress) {
+  const Grab grab{handle.elements()[0], handle.grab()};
+  if (held_ != grab) {
+    held_ = {};
+    solver_->hold(elastic_handle(body.mesh(), handle), progress);
+    held_ = grab;
+  }
 }
 
 std::span<const double> ElasticDeformation::control_points(Body& body, const Progress& progress) {
@@ -60,7 +123,7 @@ PassCount ElasticDeformation::move_control_point(Body& body, std::size_t point, 
     to[k] = target[body.mesh().axes[k]];
   }
   solver_->move_control_point(point, std::span(to).first(dimension));
-  return take_answer(body, no_element, output.moved);
+  return take_answer(body, {}, output.moved);
 }
 
 void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
@@ -70,7 +133,7 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
   const bool knows_positions = solver_ && positions_ == positions;
   if (solver_ && conditions == made_for_ && (knows_positions || displacements_of(body, body.pins()) == pinned_)) {
     if (!knows_positions) {
-      held_ = no_element;
+      held_ = {};
       solver_->reset();
       body.is_at_rest() ? void() : take_positions(body);
       positions_ = positions;
@@ -78,7 +141,7 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
     return;
   }
   solver_.reset();
-  held_ = no_element;
+  held_ = {};
   pinned_ = displacements_of(body, body.pins());
   solver_ = make_elastic(
       method_, {body.mesh_pointer(), body.cuts(), {body.pins().begin(), body.pins().end()}, pinned_, body.elastic()},
@@ -97,9 +160,11 @@ void ElasticDeformation::take_positions(const Body& body) {
 }
 
 /// Sets the position of every element, and collects those that moved.
-PassCount ElasticDeformation::take_answer(Body& body, ElementId grabbed, std::vector<ElementId>& moved) const {
+PassCount ElasticDeformation::take_answer(Body& body, std::span<const ElementId> handle,
+                                          std::vector<ElementId>& moved) const {
   const std::vector<double>& answer = solver_->displacements();
   moved.clear();
+  auto next_held = handle.begin();
   body.with_view([&]<class View>(const View& view) {
     for (ElementId e = 0; e < view.mesh->element_count(); ++e) {
       const auto before = view.positions[e];
@@ -107,7 +172,9 @@ PassCount ElasticDeformation::take_answer(Body& body, ElementId grabbed, std::ve
         const std::size_t at = std::size_t{e} * View::Dimension + std::size_t(k);
         view.set_position(e, k, view.mesh->rest[at] + answer[at]);
       }
-      if (e != grabbed && view.positions[e] != before) {
+      if (next_held != handle.end() && *next_held == e) {
+        ++next_held;
+      } else if (view.positions[e] != before) {
         moved.push_back(e);
       }
     }

@@ -14,7 +14,7 @@ class ElasticDeformation final : public Method {
  public:
   explicit ElasticDeformation(ElasticMethod method) : method_(method) {}
 
-  PassCount move(Body& body, const HandleMove& handle, PassOutput output) override;
+  PassCount move(Body& body, HandleMove& move, PassOutput output) override;
   std::string remark() const override { return solver_ ? solver_->remark() : std::string(); }
   std::span<const double> control_points(Body& body, const Progress& progress) override;
   PassCount move_control_point(Body& body, std::size_t point, const Point& target, PassOutput output) override;
@@ -28,14 +28,23 @@ class ElasticDeformation final : public Method {
 
   void prepare(const Body& body, const Progress& progress);
   void take_positions(const Body& body);
-  PassCount take_answer(Body& body, ElementId grabbed, std::vector<ElementId>& moved) const;
+  void move_rigidly(const Mesh& mesh, const HandleMove& move, const Progress& progress);
+  void hold(const Body& body, const Handle& handle, const Progress& progress);
+  PassCount take_answer(Body& body, std::span<const ElementId> handle, std::vector<ElementId>& moved) const;
 
   ElasticMethod method_;
   std::unique_ptr<ElasticSolver> solver_;
   Conditions made_for_;
   std::uint64_t positions_ = 0;  // revisions of the positions that the solver knows
   std::vector<double> pinned_;   // displacements of the pins that it was made for
-  ElementId held_ = no_element;
+
+  /// What the solver holds.
+  struct Grab {
+    ElementId first = no_element;
+    std::uint64_t number = 0;  // of a handle of many
+    bool operator==(const Grab&) const = default;
+  };
+  Grab held_;
 };
 
 /// Makes the method of an entry of the algorithm table.

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "solve/handle_regions.h"
 #include "solve/replay.h"
+#include "solve/rigid_handle.h"
 #include "solve/trace.h"
 
 namespace chainmail {
@@ -21,36 +25,139 @@ class ExactPropagation {
   using State = BodyView<Scalar, Dimension>;
   using Reach = HandleReach<Scalar, Dimension>;
 
-  /// Moves the grabbed element to this displacement from rest. On axes on which pins stop it, it moves as far as they
-  /// allow. The state must be valid. `moved` receives the elements that moved, without the grabbed one. `trace`, if
-  /// given, receives the same elements, the largest move first, ties by id.
-  PassCount propagate(State& body, ElementId grabbed, const Scalar* target, std::vector<ElementId>& moved,
-                      Trace* trace) {
-    const Conditions conditions{body.revisions().cuts, body.revisions().pins, body.revisions().softness, grabbed};
-    if (conditions != made_for_) {
-      regions_.begin(body, grabbed);
-      made_for_ = conditions;
-    }
-    Reach reach(body.positions[grabbed], target);
-    const std::uint64_t visits_before = regions_.visits();
-    regions_.extend(body, reach);
+  /// Moves a handle. The state must be valid, except for links inside a handle of many. On axes on which pins stop it,
+  /// the handle moves as far as they allow. A rotation ends where the handle would contradict itself, or pins, through
+  /// links outside it. `move` gets the pose that was reached. `moved` receives the elements that moved, without the
+  /// handle. `trace`, if given, receives the same elements, the largest move first, ties by id.
+  PassCount propagate(State& body, HandleMove& move, std::vector<ElementId>& moved, Trace* trace) {
+    remark_.clear();
+    visits_ = 0;
+    begin(body, move.handle);
+    const Reach reach = move.handle.has_one() ? extend_one(body, move) : extend_many(body, move);
     if (trace != nullptr) {
       write_trace(body, reach, *trace);
     }
-    move(body, reach, moved);
-    std::copy_n(reach.to, Dimension, body.positions[grabbed].at);
+    this->move(body, reach, moved);
     drop_what_rests(moved.size());
     const bool stopped = std::find(reach.stopped, reach.stopped + Dimension, true) != reach.stopped + Dimension;
-    return {moved.size(), moved.size(), stopped, regions_.visits() - visits_before};
+    return {moved.size(), moved.size(), stopped || !remark_.empty(), visits_};
   }
 
+  /// Reason why the last pass did not reach its rotation. Usually empty.
+  const std::string& remark() const { return remark_; }
+
  private:
+  using Offset = Position<Scalar, Dimension>;
+
   /// What the regions are valid for.
   struct Conditions {
     std::uint64_t cuts = 0, pins = 0, softness = 0;
-    ElementId grabbed = no_element;
+    ElementId first = no_element;  // of the handle
+    std::uint64_t grab = 0;        // of a handle of many
+    std::uint64_t positions = 0;   // of a handle of many, whose offsets come from them
     bool operator==(const Conditions&) const = default;
   };
+
+  void begin(const State& body, const Handle& handle) {
+    const Revisions& now = body.revisions();
+    const Conditions conditions{now.cuts,       now.pins, now.softness, handle.elements()[0], handle.grab(),
+                                handle.has_one() ? 0 : now.positions};
+    if (conditions == made_for_) {
+      return;
+    }
+    offsets_.clear();
+    if (!handle.has_one()) {
+      shape_.begin(body, handle);
+      offsets_ = shape_.offsets(rotation_ = handle.pose().rotation);
+      at_ = shape_.at(handle.pose());
+    }
+    regions_.begin(body, handle.elements(), offsets_);
+    made_for_ = conditions;
+  }
+
+  void extend(const State& body, Reach& reach) {
+    const std::uint64_t before = regions_.visits();
+    regions_.extend(body, reach);
+    visits_ += regions_.visits() - before;
+  }
+
+  Reach extend_one(const State& body, HandleMove& move) {
+    const ElementId element = move.handle.elements()[0];
+    Reach reach(body.positions[element], stored_target(body, element, move.pose.pivot).at);
+    extend(body, reach);
+    for (int k = 0; k < Dimension; ++k) {
+      if (reach.stopped[k]) {
+        move.pose.pivot[body.mesh->axes[std::size_t(k)]] = body.origin(element, k) + double(reach.to[k]);
+      }
+    }
+    return reach;
+  }
+
+  Reach extend_many(const State& body, HandleMove& move) {
+    const Pose target = move.pose;
+    const Offset to = shape_.at(target);
+    std::optional<Offset> turned;
+    if (target.rotation != rotation_) {
+      turned = turn(body, move.handle, target.rotation, to);
+    }
+    Reach reach = turned ? Reach(*turned) : Reach(at_, to.at);
+    if (turned) {
+      for (int k = 0; k < Dimension; ++k) {
+        reach.stopped[k] = (*turned)[k] != to[k];
+      }
+    } else {
+      extend(body, reach);
+    }
+    std::copy_n(reach.to, Dimension, at_.at);
+    if (at_ != to) {
+      move.pose.pivot = shape_.pivot_at(at_);
+    }
+    move.pose.rotation = rotation_;
+    return reach;
+  }
+
+  /// Finds regions for a rotation of the handle, or for the furthest possible one. Returns where the handle is then, as
+  /// near to `to` as pins allow; nothing if it cannot rotate. The regions are those of rotation_ in either case.
+  std::optional<Offset> turn(const State& body, const Handle& handle, const Point& target, const Offset& to) {
+    const Point from = rotation_;
+    auto reached = try_rotation(body, handle, target, to);
+    if (reached) {
+      return reached;
+    }
+    double possible = 0, impossible = 1;
+    const double angle = angle_between(from, target);
+    while ((impossible - possible) * angle > finest_angle) {
+      const double fraction = (possible + impossible) / 2;
+      (try_rotation(body, handle, rotation_between(from, target, fraction), to) ? possible : impossible) = fraction;
+    }
+    remark_ = "links outside the handle, or pins, stop its rotation";
+    reached = try_rotation(body, handle, rotation_between(from, target, possible), to);
+    return possible > 0 ? reached : std::nullopt;
+  }
+
+  std::optional<Offset> try_rotation(const State& body, const Handle& handle, const Point& rotation, Offset to) {
+    rotation_ = rotation;
+    offsets_ = shape_.offsets(rotation);
+    regions_.begin(body, handle.elements(), offsets_);
+    for (int i = 0; i < most_corrections; ++i) {
+      Reach reach(to);
+      extend(body, reach);
+      if (!regions_.hold(body, to)) {
+        break;
+      }
+    }
+    double size = 0;
+    for (int k = 0; k < Dimension; ++k) {
+      size = std::max({size, std::abs(double(to[k])), std::abs(double(offsets_.front()[k]))});
+    }
+    const double tolerance =
+        std::max(unseen * body.mesh->mean_link_length, 64 * std::numeric_limits<Scalar>::epsilon() * size);
+    return regions_.agree(body, to, static_cast<Scalar>(tolerance)) ? std::optional(to) : std::nullopt;
+  }
+
+  static constexpr double finest_angle = 1e-6;  // radians
+  static constexpr double unseen = 1e-6;        // rest lengths: a hundredth of the smallest violation that is reported
+  static constexpr int most_corrections = 8;    // of the place of a rotated handle, by pins found one after another
 
   /// A drag that reached far and then moves little would still clamp all elements that it reached. So the regions are
   /// dropped after enough idle passes to pay for a new search.
@@ -71,7 +178,8 @@ class ExactPropagation {
     auto* positions = body.positions.data();
     moved.resize(elements.size());
     std::size_t count = 0;
-    for (std::size_t i = 1; i < elements.size(); ++i) {
+    const std::size_t in_handle = std::max<std::size_t>(1, offsets_.size());
+    for (std::size_t i = in_handle; i < elements.size(); ++i) {
       __builtin_prefetch(&positions[elements[std::min(i + fetched_ahead, elements.size() - 1)]], 1);
       auto& position = positions[elements[i]];
       const auto next = clamped(position, reach.low, reach.high, regions[i]);
@@ -81,6 +189,12 @@ class ExactPropagation {
       }
     }
     moved.resize(count);
+    std::copy_n(reach.to, Dimension, positions[elements[0]].at);
+    for (std::size_t i = 0; i < offsets_.size(); ++i) {
+      for (int k = 0; k < Dimension; ++k) {
+        positions[elements[i]][k] = reach.to[k] + offsets_[i][k];
+      }
+    }
   }
 
   struct Row {
@@ -90,7 +204,7 @@ class ExactPropagation {
 
   void write_trace(const State& body, const Reach& reach, Trace& trace) const {
     std::vector<Row> rows;
-    for (std::size_t i = 1; i < regions_.elements().size(); ++i) {
+    for (std::size_t i = std::max<std::size_t>(1, offsets_.size()); i < regions_.elements().size(); ++i) {
       const ElementId element = regions_.elements()[i];
       const auto next = clamped(body.positions[element], reach.low, reach.high, regions_.regions()[i]);
       double ways[Dimension];
@@ -130,6 +244,12 @@ class ExactPropagation {
 
   HandleRegions<Scalar, Dimension, Schedule> regions_;
   Conditions made_for_;
+  RigidHandle<Scalar, Dimension> shape_;  // of a handle of many; the members below too
+  std::vector<Offset> offsets_;           // for rotation_; empty for a handle of one
+  Point rotation_ = Point::Zero();
+  Offset at_{};  // displacement of the handle after the last pass
+  std::string remark_;
+  std::uint64_t visits_ = 0;  // in this pass
   int idle_passes_ = 0;  // passes in a row that moved few of the known elements
 };
 

@@ -17,48 +17,62 @@ class ExactMethod final : public Method {
  public:
   using State = BodyView<Scalar, Dimension>;
 
-  PassCount move(Body& body, const HandleMove& handle, PassOutput output) override {
+  PassCount move(Body& body, HandleMove& move, PassOutput output) override {
     State view = body.view<Scalar, Dimension>();
-    const auto target = stored_target(view, handle.element, handle.target);
+    const double size = size_of(view, move);
     if (body.is_at_rest()) {
       body.reach().since_rest = 0;
     }
-    bool is_valid = body.is_at_rest() || (links_hold_ && made_for_ == conditions_of(body.revisions()));
-    const double reach = note_reach(body, view, handle.element, target, is_valid);
-    Repair repair(view, search_, body.reach().since_rest);
+    bool is_valid = body.is_at_rest() || holds(body, move.handle);
+    note_reach(body, view, size, is_valid);
+    Repair repair(view, search_, body.reach().since_rest, move.handle.elements());
     std::vector<Position<Scalar, Dimension>> before;
     if (!is_valid && !repair.is_valid()) {
       before.assign(view.positions.begin(), view.positions.end());
-      repair.run(body.pins(), handle.element);
+      repair.run(body.pins());
     }
     links_hold_ = true;
     made_for_ = conditions_of(body.revisions());
-    body.reach().since_rest = std::max(body.reach().since_rest, reach);
-    PassCount count = propagation_.propagate(view, handle.element, target.at, output.moved, output.trace);
+    handle_.assign(move.handle.elements().begin(), move.handle.elements().end());
+    body.reach().since_rest = std::max(body.reach().since_rest, size);
+    PassCount count = propagation_.propagate(view, move, output.moved, output.trace);
     if (!before.empty()) {
-      add_repaired(view, before, handle.element, output.moved, count, output.trace);
+      add_repaired(view, before, move.handle, output.moved, count, output.trace);
     }
     return count;
   }
 
+  std::string remark() const override { return propagation_.remark(); }
+
  private:
+  /// Returns the largest stored coordinate of the handle, before and after the move. Throws Error if one is out of
+  /// range.
+  static double size_of(const State& view, const HandleMove& move) {
+    double size = 0;
+    for_each_target(view, move, [&](ElementId element, const Position<Scalar, Dimension>& target) {
+      for (int k = 0; k < Dimension; ++k) {
+        size = std::max({size, std::abs(double(target[k])), std::abs(double(view.positions[element][k]))});
+      }
+    });
+    return size;
+  }
+
+  /// True if nothing has changed since the last pass left all links valid, outside the handle of many that it had.
+  bool holds(const Body& body, const Handle& handle) const {
+    return links_hold_ && made_for_ == conditions_of(body.revisions()) &&
+           (handle_.size() == 1 || std::ranges::equal(handle_, handle.elements()));
+  }
+
   /// Large coordinates leave large rounding errors in the links. When the handle returns to small coordinates, the
   /// links must be checked again.
-  static double note_reach(Body& body, const State& view, ElementId grabbed, const Position<Scalar, Dimension>& target,
-                           bool& is_valid) {
-    double reach = 0;
-    for (int k = 0; k < Dimension; ++k) {
-      const double from = double(view.positions[grabbed][k]);
-      reach = std::max({reach, std::abs(double(target[k])), std::abs(from)});
-    }
+  static void note_reach(Body& body, const State& view, double size, bool& is_valid) {
     double& furthest = body.reach().since_check;
     const double rounding = std::numeric_limits<Scalar>::epsilon() * furthest;
-    if (64 * reach < furthest && rounding > 1e-6 * view.mesh->mean_link_length) {
+    if (64 * size < furthest && rounding > 1e-6 * view.mesh->mean_link_length) {
       is_valid = false;
       furthest = 0;
     }
-    furthest = std::max(furthest, reach);
-    return reach;
+    furthest = std::max(furthest, size);
   }
 
   /// What keeps the links valid that a pass left valid. Cutting links and pinning elements do.
@@ -72,7 +86,7 @@ class ExactMethod final : public Method {
 
   /// Counts a repair and the pass after it as one pass. An element has moved if its position changed in total. Elements
   /// that the pass did not reach moved without a sponsor.
-  void add_repaired(const State& body, const std::vector<Position<Scalar, Dimension>>& before, ElementId grabbed,
+  void add_repaired(const State& body, const std::vector<Position<Scalar, Dimension>>& before, const Handle& handle,
                     std::vector<ElementId>& moved, PassCount& count, Trace* trace) const {
     const auto has_moved = [&](ElementId e) {
       return !std::equal(before[e].at, before[e].at + Dimension, body.positions[e].at);
@@ -88,7 +102,7 @@ class ExactMethod final : public Method {
     }
     moved.clear();
     for (ElementId e = 0; e < before.size(); ++e) {
-      if (e == grabbed || !has_moved(e)) {
+      if (!has_moved(e) || handle.contains(e)) {
         continue;
       }
       moved.push_back(e);
@@ -106,6 +120,7 @@ class ExactMethod final : public Method {
   PathSearch search_;
   bool links_hold_ = false;  // all links were valid after the last pass
   Conditions made_for_;      // of that pass
+  std::vector<ElementId> handle_;  // of that pass
 };
 
 }  // namespace chainmail

@@ -68,7 +68,9 @@ struct RecordedBody {
     for (const ElementId pin : of.conditions->pins) {
       is_updated[pin] = true;
     }
-    set_position(of.grabbed, of.grabbed_after());
+    for (std::size_t i = 0; i < of.handle.size(); ++i) {
+      set_position(of.handle[i], of.handle_after(i));
+    }
   }
   void begin_pass() {}
   bool updated(ElementId element) const { return is_updated[element]; }
@@ -97,11 +99,11 @@ class RecordedOutcomes {
  public:
   RecordedOutcomes(const RecordedPass& pass, WaitingLog& log) : pass_(pass), log_(log) {}
   template <class Body>
-  bool begin(Body& /*body*/, ElementId /*grabbed*/) {
+  bool begin(Body& /*body*/, std::span<const ElementId> /*handle*/) {
     return false;
   }
   template <class Body>
-  void begin_anew(Body& /*body*/, ElementId /*grabbed*/) {}
+  void begin_anew(Body& /*body*/, std::span<const ElementId> /*handle*/) {}
 
   template <class Body>
   bool update(Body& body, Candidate candidate, std::vector<ElementId>& /*moved*/) {
@@ -161,7 +163,7 @@ WaitingHistory follow_list(const RecordedPass& pass) {
   return follow_pass(pass, List::order, [&](auto& body, RecordedOutcomes& outcomes, WaitingLog& log) {
     LoggedList<List> list(log);
     std::vector<ElementId> none;
-    propagate(body, list, outcomes, pass.grabbed, none);
+    propagate(body, list, outcomes, pass.handle, none);
   });
 }
 

@@ -11,9 +11,12 @@
 
 namespace chainmail {
 
-/// Target of the grabbed element, as bounds of displacements. On an axis along which it moves up, `low` is the target
-/// and `high` is infinite. On an axis along which it moves down, `high` is the target and `low` is minus infinite. On
-/// an axis along which it stays, both are infinite.
+/// Target of the handle, as bounds of displacements. On an axis along which it moves up, `low` is the target and `high`
+/// is infinite. On an axis along which it moves down, `high` is the target and `low` is minus infinite. On an axis along
+/// which it stays, both are infinite. A handle that has rotated moves its elements both ways: then both are the target.
+///
+/// A handle of one element is at the displacement of that element. Of a handle of many, each element is at the
+/// handle's displacement plus an offset of its own.
 template <class Scalar, int Dimension>
 struct HandleReach {
   static constexpr Scalar infinite = std::numeric_limits<Scalar>::infinity();
@@ -22,6 +25,12 @@ struct HandleReach {
     for (int k = 0; k < Dimension; ++k) {
       start[k] = from[k];
       set(k, target[k]);
+    }
+  }
+  /// The reach of a handle that has rotated and is at a displacement.
+  explicit HandleReach(const Position<Scalar, Dimension>& at) {
+    for (int k = 0; k < Dimension; ++k) {
+      start[k] = to[k] = low[k] = high[k] = at[k];
     }
   }
 
@@ -48,9 +57,10 @@ struct HandleReach {
   bool stopped[Dimension]{};
 };
 
-/// The region about the grabbed element in which each element may lie, for any state of the object. Its bounds are the
-/// shortest paths of links from the handle, up and down along each axis; the length of a link is the bound of its
-/// region.
+/// The region about the handle in which each element may lie, for any state of the object. Its bounds are the shortest
+/// paths of links from the handle, up and down along each axis; the length of a link is the bound of its region. A path
+/// from an element of a handle of many begins at its offset. Links inside the handle are part of no path: the handle is
+/// rigid, and holds their ends itself.
 ///
 /// A link is two difference constraints per axis. In a valid state the slacks along a path add up to the path's length
 /// less the distance of its ends. So the shortest path depends on softness and links only, not on positions, and the
@@ -66,8 +76,11 @@ class HandleRegions {
   using Reach = HandleReach<Scalar, Dimension>;
   using Bounds = Region<Scalar, Dimension>;
 
-  /// Drops all regions. Call this for a new handle, or when links, softness or pins have changed.
-  void begin(const State& body, ElementId grabbed) {
+  using Offset = Position<Scalar, Dimension>;
+
+  /// Drops all regions. Call this for a new handle, when offsets or links, softness or pins have changed. A handle of
+  /// one element has no offsets; one of many has an offset for each element.
+  void begin(const State& body, std::span<const ElementId> handle, std::span<const Offset> offsets) {
     index_.resize(body.positions.size(), unknown);
     for (const ElementId element : elements_) {
       index_[element] = unknown;
@@ -76,11 +89,46 @@ class HandleRegions {
     regions_.clear();
     searched_.clear();
     pins_.clear();
-    frontier_.assign(1, add(grabbed));
-    regions_.front() = {};
-    searched_.front().state = waits;
+    frontier_.clear();
+    handle_size_ = static_cast<Index>(handle.size());
+    for (const ElementId element : handle) {
+      frontier_.push_back(add(element));
+      regions_.back() = {};
+      searched_.back().state = waits;
+    }
+    set_offsets(offsets);
     schedule_.begin_drag();
     visits_ = 0;
+  }
+
+  /// True if every element and every pin has a place in its region while the handle is at a displacement, up to a
+  /// tolerance (mesh units). False if the handle has rotated so far that it contradicts itself.
+  bool agree(const State& body, const Offset& handle, Scalar tolerance) const {
+    bool agree = true;
+    for (const Bounds& region : regions_) {
+      for (int k = 0; k < Dimension; ++k) {
+        agree &= region.low[k] <= region.high[k] + tolerance;
+      }
+    }
+    for (const Pin& pin : pins_) {
+      for (int k = 0; k < Dimension; ++k) {
+        const Scalar at = body.positions[pin.element][k] - handle[k];
+        agree &= pin.region.low[k] <= at + tolerance && at <= pin.region.high[k] + tolerance;
+      }
+    }
+    return agree;
+  }
+
+  /// Moves the displacement of a handle, on each axis, as little as the known pins require. Returns true if it moved.
+  bool hold(const State& body, Offset& handle) const {
+    const Offset before = handle;
+    for (const Pin& pin : pins_) {
+      for (int k = 0; k < Dimension; ++k) {
+        const Scalar at = body.positions[pin.element][k];
+        handle[k] = std::min(std::max(handle[k], at - pin.region.high[k]), at - pin.region.low[k]);
+      }
+    }
+    return handle != before;
   }
 
   /// Computes the regions of all elements that a handle with this reach moves. Pins that it finds stop the handle.
@@ -105,7 +153,7 @@ class HandleRegions {
     }
   }
 
-  /// The elements with a region, the grabbed one first, and their regions.
+  /// The elements with a region, those of the handle first, and their regions.
   std::span<const ElementId> elements() const { return elements_; }
   std::span<const Bounds> regions() const { return regions_; }
   /// Returns the region of an element, or null if the drag has not come near it.
@@ -127,6 +175,26 @@ class HandleRegions {
     ElementId element;
     Bounds region;
   };
+
+  /// Sets the regions of the handle's elements: the offsets themselves. Keys are paths from the extreme offsets, so that
+  /// none is below 0.
+  void set_offsets(std::span<const Offset> offsets) {
+    for (int k = 0; k < Dimension; ++k) {
+      const auto of_axis = [k](const Offset& one) { return one[k]; };
+      least_[k] = offsets.empty() ? Scalar{0} : of_axis(*std::ranges::min_element(offsets, {}, of_axis));
+      most_[k] = offsets.empty() ? Scalar{0} : of_axis(*std::ranges::max_element(offsets, {}, of_axis));
+    }
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      std::copy_n(offsets[i].at, Dimension, regions_[i].low);
+      std::copy_n(offsets[i].at, Dimension, regions_[i].high);
+      searched_[i].key = Reach::infinite;
+      for (int k = 0; k < Dimension; ++k) {
+        searched_[i].key = std::min({searched_[i].key, offsets[i][k] - least_[k], most_[k] - offsets[i][k]});
+      }
+    }
+  }
+
+  bool in_handle(ElementId element) const { return index_[element] < handle_size_; }
 
   Index add(ElementId element) {
     const auto index = static_cast<Index>(elements_.size());
@@ -173,8 +241,11 @@ class HandleRegions {
 
   void visit(const State& body, Reach& reach, Index index) {
     const Bounds from = regions_[index];
-    const bool has_pins = body.pin_count > 0;
+    const bool has_pins = body.pin_count > 0, has_inner_links = handle_size_ > 1 && index < handle_size_;
     body.for_each_neighbour(elements_[index], [&](ElementId neighbour, EntryId entry) {
+      if (has_inner_links && in_handle(neighbour)) {
+        return;
+      }
       const Bounds& link = body.regions[entry];
       Bounds through;
       for (int k = 0; k < Dimension; ++k) {
@@ -197,11 +268,11 @@ class HandleRegions {
     for (int k = 0; k < Dimension; ++k) {
       if (through.low[k] > region.low[k]) {
         region.low[k] = through.low[k];
-        key = std::min(key, -through.low[k]);
+        key = std::min(key, most_[k] - through.low[k]);
       }
       if (through.high[k] < region.high[k]) {
         region.high[k] = through.high[k];
-        key = std::min(key, through.high[k]);
+        key = std::min(key, through.high[k] - least_[k]);
       }
     }
     if (key < Reach::infinite) {
@@ -232,6 +303,8 @@ class HandleRegions {
   std::vector<Searched> searched_;
   std::vector<Index> frontier_;  // elements that wait until they move, and some that no longer wait
   std::vector<Pin> pins_;        // may contain duplicates
+  Index handle_size_ = 0;
+  Scalar least_[Dimension]{}, most_[Dimension]{};  // offsets of the handle's elements, 0 for one element
   Schedule schedule_;
   std::uint64_t visits_ = 0;
 };

@@ -14,10 +14,10 @@ namespace chainmail {
 template <class Propagation, class Scalar, int Dimension>
 class ListMethod final : public Method {
  public:
-  PassCount move(Body& body, const HandleMove& handle, PassOutput output) override {
+  PassCount move(Body& body, HandleMove& move, PassOutput output) override {
     auto view = body.view<Scalar, Dimension>();
-    view.positions[handle.element] = stored_target(view, handle.element, handle.target);
-    propagation_.propagate(view, record_, handle.element, output.moved);
+    place_handle(view, move);
+    propagation_.propagate(view, record_, move.handle.elements(), output.moved);
     const auto steps = record_.steps();
     if (output.trace != nullptr) {
       std::ranges::transform(steps, std::back_inserter(*output.trace), [](const Step& step) {
@@ -36,8 +36,8 @@ class ListMethod final : public Method {
 template <class List>
 struct Propagation {
   template <class View>
-  void propagate(View& body, PassRecord& record, ElementId grabbed, std::vector<ElementId>& moved) {
-    chainmail::propagate(body, list, record, grabbed, moved);
+  void propagate(View& body, PassRecord& record, std::span<const ElementId> handle, std::vector<ElementId>& moved) {
+    chainmail::propagate(body, list, record, handle, moved);
   }
   List list;
 };

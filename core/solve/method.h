@@ -7,16 +7,10 @@
 #include <vector>
 
 #include "mesh/progress.h"
-#include "solve/body.h"
+#include "solve/handle.h"
 #include "solve/trace.h"
 
 namespace chainmail {
-
-/// A move of the handle: an element and its target (mesh units, on the axes that exist).
-struct HandleMove {
-  ElementId element = 0;
-  Point target = Point::Zero();
-};
 
 /// What a pass reports besides its numbers.
 struct PassOutput {
@@ -33,9 +27,9 @@ class Method {
  public:
   virtual ~Method() = default;
 
-  /// Moves the handle to its target and answers: one pass. The element is not pinned. Throws Error if the target is not
-  /// a finite number of the body's precision, and if there is no answer; nothing has moved then.
-  virtual PassCount move(Body& body, const HandleMove& handle, PassOutput output) = 0;
+  /// Moves the handle to its target and answers: one pass. No element of the handle is pinned. Throws Error if a target
+  /// is not a finite number of the body's precision, and if there is no answer; nothing has moved then.
+  virtual PassCount move(Body& body, HandleMove& move, PassOutput output) = 0;
 
   /// Reason why the last pass did not reach its target or did not converge. Usually empty.
   virtual std::string remark() const { return {}; }

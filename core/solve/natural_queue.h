@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "solve/replay.h"
@@ -22,18 +23,22 @@ class NaturalQueuePass {
       : body_(body), record_(record), queue_(record.queue()), moved_(moved) {}
 
   /// Runs what the record has not replayed.
-  void run(ElementId grabbed) {
+  void run(std::span<const ElementId> handle) {
     body_.begin_pass();
-    body_.mark_updated(grabbed);
+    std::ranges::for_each(handle, [this](ElementId element) { body_.mark_updated(element); });
     const std::size_t head = record_.agreed();
-    const std::size_t tail = head > 0 ? take_up(head) : begin(grabbed);
+    const std::size_t tail = head > 0 ? take_up(head) : begin(handle);
     record_.end(run(head, tail));
   }
 
  private:
-  std::size_t begin(ElementId grabbed) {
+  std::size_t begin(std::span<const ElementId> handle) {
     moved_.clear();
-    return admit(body_, grabbed, queue_, 0);
+    std::size_t tail = 0;
+    for (const ElementId element : handle) {
+      tail = admit(body_, element, queue_, tail);
+    }
+    return tail;
   }
 
   /// Admits the neighbours that have not been admitted yet; returns the new end of the queue.
@@ -94,12 +99,12 @@ class NaturalQueuePass {
 };
 
 struct NaturalQueue {
-  /// Answers the move of the grabbed element, as chainmail::propagate() does.
+  /// Answers the move of a handle, as chainmail::propagate() does.
   template <class Scalar, int Dimension>
-  void propagate(BodyView<Scalar, Dimension>& body, PassRecord& record, ElementId grabbed,
+  void propagate(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
                  std::vector<ElementId>& moved) const {
-    if (!record.begin(body, grabbed)) {
-      NaturalQueuePass<Scalar, Dimension>(body, record, moved).run(grabbed);
+    if (!record.begin(body, handle, true)) {
+      NaturalQueuePass<Scalar, Dimension>(body, record, moved).run(handle);
     }
   }
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "solve/replay.h"
@@ -8,11 +10,13 @@ namespace chainmail {
 
 /// The propagation that answers a move: one loop for all algorithms that differ in their waiting list only.
 ///
-/// The grabbed element is at its target already. `moved` receives the elements that moved, in order of update, without
-/// the grabbed one; it must be unchanged since the last pass. `record`, a PassRecord or a substitute, receives the
-/// processed candidates. Each element is updated at most once (thesis 3.1 and 4.1; Li and Brodlie 2003).
+/// The elements of the handle (ascending) are at their targets already and count as updated; then their neighbours are
+/// admitted, handle element by handle element. `moved` receives the elements that moved, in order of update, without
+/// the handle; it must be unchanged since the last pass. `record`, a PassRecord or a substitute, receives the processed
+/// candidates. Each element is updated at most once (thesis 3.1 and 4.1; Li and Brodlie 2003).
 template <class List, class Body, class Record>
-void propagate(Body& body, List& list, Record& record, ElementId grabbed, std::vector<ElementId>& moved) {
+void propagate(Body& body, List& list, Record& record, std::span<const ElementId> handle,
+               std::vector<ElementId>& moved) {
   const auto admit = [&](Candidate candidate, ElementId neighbour) {
     if constexpr (requires { List::by_violation; }) {
       list.admit(candidate, body.violation(neighbour, candidate.sponsor, candidate.entry));
@@ -32,8 +36,8 @@ void propagate(Body& body, List& list, Record& record, ElementId grabbed, std::v
     });
   };
   if constexpr (requires { List::by_violation; }) {
-    record.begin_anew(body, grabbed);
-  } else if (record.begin(body, grabbed)) {
+    record.begin_anew(body, handle);
+  } else if (record.begin(body, handle)) {
     return;
   }
   if constexpr (requires { list.begin(*body.mesh); }) {
@@ -41,8 +45,8 @@ void propagate(Body& body, List& list, Record& record, ElementId grabbed, std::v
   }
   moved.clear();
   body.begin_pass();
-  body.mark_updated(grabbed);
-  admit_neighbours(grabbed);
+  std::ranges::for_each(handle, [&](ElementId element) { body.mark_updated(element); });
+  std::ranges::for_each(handle, admit_neighbours);
   while (!list.empty()) {
     const Candidate candidate = list.take();
     const ElementId element = body.mesh->neighbours[candidate.entry];

@@ -22,26 +22,27 @@ struct PassConditions {
 };
 
 /// One pass that can be replayed step by step. An element is updated at most once per pass, so the positions of all
-/// elements before it and those of the updated elements after it give every state between. At step k the grabbed
-/// element is at its target, and the first k candidates of the trace have been taken.
+/// elements before it and those of the updated elements after it give every state between. At step k the handle is
+/// at its target, and the first k candidates of the trace have been taken.
 struct RecordedPass {
   MeshPointer mesh;
   Algorithm algorithm = Algorithm::natural_queue;
   std::uint64_t number = 0;  // index of the pass in its simulation, from 1
-  ElementId grabbed = 0;
+  std::vector<ElementId> handle;  // ascending
   std::shared_ptr<const PassConditions> conditions;
   /// Positions of all elements before the pass, space_dimension coordinates each (mesh units).
   std::vector<float> before;
   Trace trace;
-  /// Positions after the pass: the grabbed element, then the element of each row of the trace (mesh units).
+  /// Positions after the pass: the elements of the handle, then the element of each row of the trace (mesh units).
   std::vector<float> after;
 
   std::size_t step_count() const { return trace.size(); }
   /// Position of an element before the pass (mesh units).
   std::span<const float> position_before(ElementId element) const { return position(before, element); }
   /// Position of the element of a row after the pass.
-  std::span<const float> position_after(std::size_t row) const { return position(after, row + 1); }
-  std::span<const float> grabbed_after() const { return position(after, 0); }
+  std::span<const float> position_after(std::size_t row) const { return position(after, handle.size() + row); }
+  /// Position of element number i of the handle after the pass.
+  std::span<const float> handle_after(std::size_t i) const { return position(after, i); }
 
  private:
   std::span<const float> position(const std::vector<float>& positions, std::size_t i) const {

@@ -29,6 +29,7 @@ class RegionTable {
 
   Id id(EntryId entry) const { return shape_of_ != nullptr ? shape_of_[entry] : entry; }
   const One& at(Id id) const { return regions_[id]; }
+  const One* data() const { return regions_.data(); }
   const One& operator[](EntryId entry) const { return regions_[id(entry)]; }
 
  private:

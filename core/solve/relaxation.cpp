@@ -15,7 +15,7 @@ class Relaxation::Slice {
   using Scalar = typename View::Scalar;
   static constexpr int Dimension = View::Dimension;
 
-  Slice(Relaxation& relaxation, const View& body, double step, std::optional<ElementId> held)
+  Slice(Relaxation& relaxation, const View& body, double step, std::span<const ElementId> held)
       : relaxation_(relaxation), body_(body), step_(step), held_(held) {}
 
   RelaxationResult run(std::uint64_t budget) {
@@ -48,7 +48,10 @@ class Relaxation::Slice {
     return position;
   }
 
-  bool stays(ElementId element) const { return element == held_ || body_.pinned(element); }
+  bool stays(ElementId element) const {
+    return body_.pinned(element) ||
+           (held_.size() < 2 ? !held_.empty() && held_[0] == element : std::ranges::binary_search(held_, element));
+  }
 
   void wake_next(ElementId element) { relaxation_.next_.insert(element, body_.positions.size()); }
 
@@ -143,7 +146,7 @@ class Relaxation::Slice {
   Relaxation& relaxation_;
   const View body_;
   double step_;
-  std::optional<ElementId> held_;
+  std::span<const ElementId> held_;
 };
 
 void Relaxation::follow(const Body& body) {
@@ -173,7 +176,7 @@ void Relaxation::sleep() {
   end_sweep();
 }
 
-RelaxationResult Relaxation::sweep(Body& body, double step, std::uint64_t budget, std::optional<ElementId> held) {
+RelaxationResult Relaxation::sweep(Body& body, double step, std::uint64_t budget, std::span<const ElementId> held) {
   follow(body);
   if (!in_sweep_) {
     std::swap(current_, next_);

@@ -86,8 +86,9 @@ class Relaxation {
   void sleep();
 
   /// Continues the current sweep, or begins one, with a step in (0, 1], until it ends or `budget` elements were
-  /// visited. `held` and pinned elements stay. If nothing is active, `visited` is 0 and the sweep has ended.
-  RelaxationResult sweep(Body& body, double step, std::uint64_t budget, std::optional<ElementId> held);
+  /// visited. Elements of `held` (ascending) and pinned elements stay. If nothing is active, `visited` is 0 and the sweep
+  /// has ended.
+  RelaxationResult sweep(Body& body, double step, std::uint64_t budget, std::span<const ElementId> held);
 
   /// The elements that the last slice moved, once per move.
   std::span<const ElementId> moved() const { return moved_; }

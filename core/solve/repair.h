@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesh/error.h"
@@ -15,7 +16,8 @@ namespace chainmail {
 /// Makes any state of a body that stores displacements valid: Exact ChainMail needs this after softness was edited
 /// under load or another algorithm left its state.
 ///
-/// Anchors, which are the pins and the grabbed element, stay. Every displacement is clamped to what the anchors allow.
+/// Anchors, which are the pins and the elements of the handle, stay as far as they can. Links inside a handle of many do
+/// not count: the handle holds their ends. Every displacement is clamped to what the anchors allow.
 /// Then the result is the mean of the least and the greatest valid answer about it, so no order of elements or links
 /// matters. One axis at a time, in double. Links are difference constraints, their shortest paths are distances over
 /// the bounds, and the rest shape makes every weight non-negative.
@@ -24,8 +26,9 @@ class Repair {
  public:
   using State = BodyView<Scalar, Dimension>;
 
-  /// `reach`: the largest displacement or move that led to the state (mesh units).
-  Repair(State& body, PathSearch& search, double reach) : body_(body), search_(search), reach_(reach) {}
+  /// `reach`: the largest displacement or move that led to the state (mesh units). `handle`: its elements, ascending.
+  Repair(State& body, PathSearch& search, double reach, std::span<const ElementId> handle)
+      : body_(body), search_(search), reach_(reach), handle_(handle) {}
 
   /// Returns true if every link is valid, up to rounding of displacements of this size and, within an invisible
   /// tolerance, up to rounding of the displacements that led to the state.
@@ -33,7 +36,7 @@ class Repair {
     for (ElementId e = 0; e < body_.mesh->element_count(); ++e) {
       bool holds = true;
       body_.for_each_neighbour(
-          e, [&](ElementId n, EntryId entry) { holds = holds && (n < e || link_holds(e, n, entry)); });
+          e, [&](ElementId n, EntryId entry) { holds = holds && (n < e || is_inner(e, n) || link_holds(e, n, entry)); });
       if (!holds) {
         return false;
       }
@@ -43,10 +46,10 @@ class Repair {
 
   /// Repairs the state. Throws Error, with the pins, if two pins are further apart than links allow; nothing has moved
   /// then.
-  void run(std::span<const ElementId> pins, ElementId grabbed) {
+  void run(std::span<const ElementId> pins) {
     Labels result[Dimension];
     for (int k = 0; k < Dimension; ++k) {
-      result[k] = axis(pins, grabbed, k);
+      result[k] = axis(pins, k);
     }
     for (ElementId e = 0; e < body_.mesh->element_count(); ++e) {
       for (int k = 0; k < Dimension && !body_.pinned(e); ++k) {
@@ -59,6 +62,9 @@ class Repair {
   using Labels = std::vector<double>;
   enum class Way { up, down };
   static constexpr double epsilon = std::numeric_limits<Scalar>::epsilon();
+
+  bool is_inner(ElementId a, ElementId b) const { return handle_.size() > 1 && is_held(a) && is_held(b); }
+  bool is_held(ElementId element) const { return std::ranges::binary_search(handle_, element); }
 
   /// Invisible tolerance: half of the smallest reported violation, for links of average length (mesh units).
   double unseen() const { return 5e-5 * body_.mesh->mean_link_length; }
@@ -86,7 +92,10 @@ class Repair {
     for (const ElementId source : sources) {
       search_.add_source(source, way == Way::up ? u[source] : -u[source]);
     }
-    search_.run(body_, [&](ElementId, ElementId, EntryId entry) {
+    search_.run(body_, [&](ElementId from, ElementId to, EntryId entry) {
+      if (is_inner(from, to)) {
+        return PathSearch::unreached;
+      }
       const auto& region = body_.regions[entry];
       return double(way == Way::up ? region.high[k] : -region.low[k]);
     });
@@ -105,7 +114,7 @@ class Repair {
     }
   }
 
-  Labels axis(std::span<const ElementId> pins, ElementId grabbed, int k) {
+  Labels axis(std::span<const ElementId> pins, int k) {
     Labels u(body_.positions.size());
     for (std::size_t e = 0; e < u.size(); ++e) {
       u[e] = double(body_.positions[e][k]);
@@ -115,11 +124,12 @@ class Repair {
       const Labels before = u;
       clamp(u, anchors, k);
       check_pins(before, u, pins, k);
-      const double handle = u[grabbed];  // the handle's element moves to where the pins allow it
-      u = before;
-      u[grabbed] = handle;
+      const Labels allowed = std::exchange(u, before);
+      for (const ElementId element : handle_) {
+        u[element] = allowed[element];  // the handle moves to where the pins allow it
+      }
     }
-    anchors.push_back(grabbed);
+    anchors.insert(anchors.end(), handle_.begin(), handle_.end());
     clamp(u, anchors, k);
     return between_envelopes(u, k);
   }
@@ -174,6 +184,7 @@ class Repair {
   State& body_;
   PathSearch& search_;
   double reach_;
+  std::span<const ElementId> handle_;
 };
 
 }  // namespace chainmail

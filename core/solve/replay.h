@@ -36,14 +36,16 @@ inline constexpr std::size_t fetched_ahead = 64;
 /// memory.
 template <class Scalar, int Dimension>
 std::size_t replay(const BodyView<Scalar, Dimension>& body, std::span<const Step> steps) {
-  auto* positions = body.positions.data();
+  auto* const positions = body.positions.data();
+  const auto* const regions = body.regions.data();
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Step& later = steps[std::min(i + fetched_ahead, steps.size() - 1)];
     __builtin_prefetch(&positions[later.element()], 1);
-    __builtin_prefetch(&body.regions.at(later.region));
+    __builtin_prefetch(&regions[later.region]);
     const Step& step = steps[i];
     const ElementId element = step.element();
-    const auto next = body.clamped(element, step.sponsor, step.region);
+    const Scalar* about = positions[step.sponsor].at;
+    const auto next = clamped(positions[element], about, about, regions[step.region]);
     if ((next != positions[element]) != step.has_moved()) {
       return i;
     }
@@ -54,27 +56,28 @@ std::size_t replay(const BodyView<Scalar, Dimension>& body, std::span<const Step
 
 /// The processed candidates of the last pass, for the next pass of the same handle.
 ///
-/// The next pass begins with a replay. Where that ends at a difference, an algorithm goes on from there (Natural Queue)
-/// or runs its list again, and the record saves clamping up to there. A replay that agrees for less than half of its
-/// steps has failed. After two failures in a row, some passes are not replayed: 1, then 2, 4, 8 and so on, until a
-/// replay succeeds.
+/// The next pass begins with a replay. Where that ends at a difference, an algorithm goes on from there (Natural Queue),
+/// so that a replay never costs anything; or it runs its list again, and the record saves clamping up to there. Such a
+/// replay has failed if it agrees for less than half of its steps. After two failures in a row, some passes are not
+/// replayed: 1, then 2, 4, 8 and so on, until a replay succeeds.
 class PassRecord {
  public:
   /// Begins a pass. Returns true if a replay was all of it. Otherwise the pass must run, from the beginning or from
-  /// step agreed(), and end() must be called.
+  /// step agreed(), and end() must be called. `goes_on`: the pass can run from there.
   template <class View>
-  bool begin(View& body, ElementId grabbed) {
+  bool begin(View& body, std::span<const ElementId> handle, bool goes_on = false) {
     if (!steps_) {
       steps_ = std::make_unique_for_overwrite<Step[]>(body.positions.size() + 1);  // unused pages take no memory
     }
-    const Conditions conditions{body.revisions().cuts, body.revisions().pins, body.revisions().softness, grabbed};
-    const bool is_known = conditions == conditions_, tries = is_known && unused_ == 0;
+    const Conditions conditions{body.revisions().cuts, body.revisions().pins, body.revisions().softness};
+    const bool is_known = conditions == conditions_ && std::ranges::equal(handle, handle_);
+    const bool tries = is_known && unused_ == 0;
     agreed_ = tries ? replay(body, steps()) : 0;
     if (agreed_ > 0 && agreed_ == count_) {
       failures_ = 0;
       return true;
     }
-    if (!is_known || (tries && 2 * agreed_ >= count_)) {
+    if (!is_known || (tries && (goes_on || 2 * agreed_ >= count_))) {
       failures_ = unused_ = 0;
     } else if (tries) {
       failures_ = std::min(failures_ + 1, most_failures);
@@ -83,15 +86,16 @@ class PassRecord {
       --unused_;
     }
     conditions_ = conditions;
+    handle_.assign(handle.begin(), handle.end());
     next_ = 0;
     return false;
   }
 
   /// Begins a pass of an algorithm whose order of candidates depends on positions: it is never replayed.
   template <class View>
-  void begin_anew(View& body, ElementId grabbed) {
-    conditions_ = {};
-    begin(body, grabbed);
+  void begin_anew(View& body, std::span<const ElementId> handle) {
+    handle_.clear();
+    begin(body, handle);
   }
 
   /// Number of steps that agreed, if the pass is not all replayed. They have been carried out.
@@ -124,10 +128,9 @@ class PassRecord {
   void end(std::size_t count) { count_ = count; }
 
  private:
-  /// What a record is valid for.
+  /// What a record is valid for, with the handle.
   struct Conditions {
     std::uint64_t cuts = 0, pins = 0, softness = 0;
-    ElementId grabbed = no_element;
     bool operator==(const Conditions&) const = default;
   };
 
@@ -138,6 +141,7 @@ class PassRecord {
   std::size_t next_ = 0;
   std::size_t agreed_ = 0;
   Conditions conditions_;
+  std::vector<ElementId> handle_;  // of the last pass; empty before it
   int failures_ = 0;  // replays in a row that failed
   int unused_ = 0;    // number of coming passes that are not replayed
 };

@@ -45,12 +45,24 @@ PassCount Solver::run(Pass pass) {
   }
 }
 
-PassCount Solver::move(ElementId element, const Point& target, Trace* trace) {
-  if (body_.is_pinned(element)) {
-    throw Error("element " + std::to_string(element), "it is pinned and may not move",
-                "unpin it, or move another element");
+PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
+  for (const ElementId element : handle.elements()) {
+    if (body_.is_pinned(element)) {
+      throw Error("element " + std::to_string(element), "it is pinned and may not move",
+                  "unpin it, or move another element");
+    }
   }
-  return run([&](Method& method) { return method.move(body_, {element, target}, {moved_, trace, progress_}); });
+  HandleMove move{handle, target};
+  const PassCount count = run([&](Method& method) { return method.move(body_, move, {moved_, trace, progress_}); });
+  handle.set_pose(move.pose);
+  return count;
+}
+
+PassCount Solver::move(ElementId element, const Point& target, Trace* trace) {
+  if (!single_ || single_->elements()[0] != element) {
+    single_.emplace(body_, std::vector<ElementId>{element});
+  }
+  return move(*single_, {target, Point::Zero()}, trace);
 }
 
 std::span<const double> Solver::control_points() {

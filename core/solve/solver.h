@@ -32,19 +32,21 @@ class Solver {
   /// Sets the progress of long preparations and solutions. A cancelled pass throws Cancelled, and nothing has moved.
   void set_progress(const Progress& progress) { progress_ = progress; }
 
-  /// Moves an element to a target (mesh units, on the axes that exist) and propagates: one pass. `trace`, if given,
-  /// receives every processed candidate. Throws Error if the element is pinned, if the target is not a finite number of
-  /// the precision, and if there is no answer; nothing has moved then.
+  /// Moves a handle to a target and propagates: one pass. The handle gets the pose that was reached. `trace`, if given,
+  /// receives every processed candidate. Throws Error if an element of the handle is pinned, if the target is not a
+  /// finite number of the precision, and if there is no answer; nothing has moved then.
+  PassCount move(Handle& handle, const Pose& target, Trace* trace = nullptr);
+  /// The same for a single element and its target (mesh units, on the axes that exist).
   PassCount move(ElementId element, const Point& target, Trace* trace = nullptr);
   /// Reason why the last pass did not reach its target or did not converge. Usually empty.
   std::string remark() const { return method_ ? method_->remark() : std::string(); }
-  /// The elements that the last pass moved, in order of update, without the grabbed one.
+  /// The elements that the last pass moved, in order of update, without the handle.
   std::span<const ElementId> moved() const { return moved_; }
 
   /// Returns the control points of free-form deformation, space_dimension coordinates each (mesh units); empty for
   /// other algorithms.
   std::span<const double> control_points();
-  /// Moves a control point to a target (mesh units): one pass without a grabbed element. Throws Error if the point does
+  /// Moves a control point to a target (mesh units): one pass without a handle. Throws Error if the point does
   /// not exist.
   PassCount move_control_point(std::size_t point, const Point& target);
 
@@ -54,9 +56,9 @@ class Solver {
   /// Makes all elements inactive.
   void sleep() { relaxation_.sleep(); }
   void set_relaxation(RelaxationScheme scheme) { relaxation_.set_scheme(scheme); }
-  /// Relaxes with a step in (0, 1] until a sweep ends or `budget` elements were visited. `held` stays. If nothing is
-  /// active, `visited` is 0 and the sweep has ended.
-  RelaxationResult relax(double step, std::uint64_t budget, std::optional<ElementId> held) {
+  /// Relaxes with a step in (0, 1] until a sweep ends or `budget` elements were visited. The elements of `held`
+  /// (ascending) stay. If nothing is active, `visited` is 0 and the sweep has ended.
+  RelaxationResult relax(double step, std::uint64_t budget, std::span<const ElementId> held) {
     return relaxation_.sweep(body_, step, budget, held);
   }
   /// The elements that the last call of relax moved, once per move.
@@ -71,6 +73,7 @@ class Solver {
   AlgorithmInfo algorithm_;
   std::unique_ptr<Method> method_;  // of the algorithm, made by its first pass
   std::vector<ElementId> moved_;
+  std::optional<Handle> single_;  // of the last move of a single element
   Relaxation relaxation_;
   Progress progress_;
 };

@@ -19,7 +19,7 @@ struct TraceRow {
 };
 using Trace = std::vector<TraceRow>;
 
-/// Numbers of a pass: candidates processed, and elements moved without the grabbed one.
+/// Numbers of a pass: candidates processed, and elements moved, without the handle.
 struct PassCount {
   std::uint64_t checked = 0;
   std::uint64_t moved = 0;

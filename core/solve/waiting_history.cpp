@@ -32,7 +32,9 @@ std::vector<std::uint32_t> WaitingHistory::at(std::size_t step) const {
 WaitingHistory follow_natural_queue(const RecordedPass& pass) {
   std::vector<std::uint32_t> updated_at(pass.mesh->element_count(), no_element);
   std::vector<WaitingCandidate> candidates;
-  updated_at[pass.grabbed] = 0;
+  for (const ElementId element : pass.handle) {
+    updated_at[element] = 0;
+  }
   for (std::uint32_t row = 0; row < pass.trace.size(); ++row) {
     const auto [element, sponsor, moved] = pass.trace[row];
     if (sponsor == no_element || updated_at[sponsor] == no_element) {

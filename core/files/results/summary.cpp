@@ -53,11 +53,14 @@ void write_json(std::ostream& out, const MeshSummary& summary) {
 void write_json(std::ostream& out, const DeformSummary& summary) {
   Json passes = Json::array();
   for (const auto& pass : summary.passes) {
-    Json one{{"element", pass.element},
-             {"target", to_json(pass.target)},
-             {"checked", pass.checked},
-             {"moved", pass.moved},
-             {"milliseconds", pass.milliseconds}};
+    Json one = pass.handle.size() == 1 ? Json{{"element", pass.handle.front()}} : Json{{"elements", pass.handle}};
+    one["target"] = to_json(pass.target);
+    if (pass.rotation.degrees != 0) {
+      one["rotate"] = {{"axis", to_json(pass.rotation.axis)}, {"degrees", pass.rotation.degrees}};
+    }
+    one["checked"] = pass.checked;
+    one["moved"] = pass.moved;
+    one["milliseconds"] = pass.milliseconds;
     if (pass.stopped_at) {
       one["stopped_at"] = to_json(*pass.stopped_at);
     }

@@ -10,6 +10,7 @@
 #include "files/mesh/open_mesh.h"
 #include "measure/violation.h"
 #include "mesh/mesh.h"
+#include "solve/handle.h"
 
 namespace chainmail {
 
@@ -35,12 +36,13 @@ void write_json(std::ostream& out, const MeshSummary& summary);
 /// The passes of a deformation, and the state of the object after them.
 struct DeformSummary {
   struct Pass {
-    ElementId element = 0;
-    Point target = Point::Zero();
+    std::vector<ElementId> handle;  // ascending
+    Point target = Point::Zero();   // of its pivot (mesh units)
+    Rotation rotation = {};         // since it was grabbed
     std::uint64_t checked = 0;
     std::uint64_t moved = 0;
     double milliseconds = 0;
-    std::optional<Point> stopped_at = {};  // where pins stopped the handle before its target
+    std::optional<Point> stopped_at = {};  // where the pivot is, if the handle stopped before its target (mesh units)
     std::string remark = {};               // reason why it did not end as requested; usually empty
   };
 

@@ -29,7 +29,10 @@ class MoveFields : public JsonFields {
   LinkId link(const Json& json, std::size_t size) const;
   /// Return the only member of a command besides `do`.
   std::vector<LinkId> links(const MoveMembers& command) const;
-  std::vector<ElementId> elements(const MoveMembers& command) const;
+  std::vector<ElementId> elements(const MoveMembers& command, const std::string& key = "elements") const;
+  /// Returns a position or a way of three coordinates (mesh units), and a rotation.
+  Point coordinates(const Json& members, const std::string& key) const;
+  Rotation rotation(const Json& members) const;
   const NumberList& list(const MoveMembers& command, const std::string& key) const;
 
  private:
@@ -75,9 +78,35 @@ std::vector<LinkId> MoveFields::links(const MoveMembers& command) const {
   return result;
 }
 
-std::vector<ElementId> MoveFields::elements(const MoveMembers& command) const {
-  check_keys(command.members, {"do", "elements"});
-  const NumberList& ids = list(command, "elements");
+Point MoveFields::coordinates(const Json& members, const std::string& key) const {
+  const Json& values = array(members, key);
+  if (values.size() != 3) {
+    fail(in_quotes(key) + " does not have three coordinates", "write [x, y, z]");
+  }
+  return {number(values[0]), number(values[1]), number(values[2])};
+}
+
+Rotation MoveFields::rotation(const Json& members) const {
+  const Json& rotate = member(members, "rotate");
+  if (!rotate.is_object()) {
+    fail("'rotate' is not an object", "write {\"axis\": [x, y, z], \"degrees\": angle}");
+  }
+  check_keys(rotate, {"axis", "degrees"});
+  const Rotation rotation{coordinates(rotate, "axis"), number(member(rotate, "degrees"))};
+  if (rotation.axis.isZero(0)) {
+    fail("the rotation has no axis: all its coordinates are 0", "write an axis such as [0, 0, 1]");
+  }
+  try {
+    check(rotation, mesh_);
+  } catch (const Error& error) {
+    fail(error.problem(), error.remedy());
+  }
+  return rotation;
+}
+
+std::vector<ElementId> MoveFields::elements(const MoveMembers& command, const std::string& key) const {
+  check_keys(command.members, {"do", key});
+  const NumberList& ids = list(command, key);
   std::vector<ElementId> result;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     result.push_back(element(ids.at(i)));
@@ -102,6 +131,7 @@ class MovesReader {
   void take(const Json& value, const Members& of);
   Command command(const Members& of);
   Command grab(const Members& of);
+  ElementId one_element(const Members& of) const;
   Command drag(const Members& of);
   Command release(const Members& of);
   Command cut(const Members& of) { return commands::Cut{fields_.links(of)}; }
@@ -117,42 +147,65 @@ class MovesReader {
   std::vector<Command> commands_;
   std::optional<Error> fault_;  // of the first wrong command; errors of the whole file are reported first
   // The state that the simulation would be in.
-  std::optional<ElementId> grabbed_;
+  std::set<ElementId> grabbed_;
   std::set<ElementId> pinned_;
 };
 
 Command MovesReader::grab(const Members& of) {
-  fields_.check_keys(of.members, {"do", "element"});
-  const ElementId one = fields_.element(fields_.member(of.members, "element"));
-  if (pinned_.contains(one)) {
-    fields_.fail("element " + std::to_string(one) + " is pinned at that time and cannot move", "unpin it first");
+  const bool many = of.members.contains("elements");
+  const auto elements = many ? fields_.elements(of) : std::vector{one_element(of)};
+  std::set<ElementId> grabbed;
+  for (const ElementId one : elements) {
+    if (pinned_.contains(one)) {
+      fields_.fail("element " + std::to_string(one) + " is pinned at that time and cannot move", "unpin it first");
+    }
+    if (!grabbed.insert(one).second) {
+      fields_.fail("element " + std::to_string(one) + " is grabbed twice", "name each element of the handle once");
+    }
   }
-  grabbed_ = one;
-  return commands::Grab{one};
+  if (grabbed.empty()) {
+    fields_.fail("the handle holds no element", "grab at least one");
+  }
+  grabbed_ = std::move(grabbed);
+  return commands::Grab{elements};
+}
+
+ElementId MovesReader::one_element(const Members& of) const {
+  fields_.check_keys(of.members, {"do", "element"});
+  return fields_.element(fields_.member(of.members, "element"));
 }
 
 Command MovesReader::drag(const Members& of) {
-  fields_.check_keys(of.members, {"do", "target"});
-  if (!grabbed_) {
+  const bool relative = of.members.contains("by") || !of.members.contains("target");
+  fields_.check_keys(of.members, {"do", relative ? "by" : "target", "rotate"});
+  if (grabbed_.empty()) {
     fields_.fail("no element is grabbed at that time", "grab an element first");
   }
-  const Json& target = fields_.array(of.members, "target");
-  if (target.size() != 3) {
-    fields_.fail("'target' does not have three coordinates", "write [x, y, z]");
+  commands::Drag drag;
+  drag.relative = relative;
+  if (of.members.contains("rotate")) {
+    drag.rotation = fields_.rotation(of.members);
+  } else if (!of.members.contains("by") && relative) {
+    fields_.fail("it has no 'target'", "write \"target\": [x, y, z], or \"by\": [x, y, z]");
   }
-  return commands::Drag{{fields_.number(target[0]), fields_.number(target[1]), fields_.number(target[2])}};
+  if (of.members.contains("by") || !relative) {
+    drag.target = fields_.coordinates(of.members, relative ? "by" : "target");
+  }
+  return drag;
 }
 
 Command MovesReader::release(const Members& of) {
   fields_.check_keys(of.members, {"do"});
-  grabbed_.reset();
+  grabbed_.clear();
   return commands::Release{};
 }
 
 Command MovesReader::pin(const Members& of) {
   const auto pins = fields_.elements(of);
-  if (grabbed_ && std::find(pins.begin(), pins.end(), *grabbed_) != pins.end()) {
-    fields_.fail("element " + std::to_string(*grabbed_) + " is grabbed at that time", "release it first");
+  for (const ElementId one : pins) {
+    if (grabbed_.contains(one)) {
+      fields_.fail("element " + std::to_string(one) + " is grabbed at that time", "release it first");
+    }
   }
   pinned_.insert(pins.begin(), pins.end());
   return commands::Pin{pins};
@@ -267,14 +320,23 @@ OrderedJson links_of(const std::vector<LinkId>& links, const Mesh& mesh) {
   return result;
 }
 
+OrderedJson coordinates_of(const Point& point) { return {point.x(), point.y(), point.z()}; }
+
 /// Returns a command as JSON, or null for a command that is left out.
 class MoveWriter {
  public:
   explicit MoveWriter(const Mesh& mesh) : mesh_(mesh) {}
 
-  OrderedJson operator()(const commands::Grab& one) const { return {{"do", "grab"}, {"element", one.element}}; }
+  OrderedJson operator()(const commands::Grab& one) const {
+    return one.elements.size() == 1 ? OrderedJson{{"do", "grab"}, {"element", one.elements.front()}}
+                                    : OrderedJson{{"do", "grab"}, {"elements", one.elements}};
+  }
   OrderedJson operator()(const commands::Drag& one) const {
-    return {{"do", "drag"}, {"target", {one.target.x(), one.target.y(), one.target.z()}}};
+    OrderedJson json{{"do", "drag"}, {one.relative ? "by" : "target", coordinates_of(one.target)}};
+    if (one.rotation.degrees != 0) {
+      json["rotate"] = {{"axis", coordinates_of(one.rotation.axis)}, {"degrees", one.rotation.degrees}};
+    }
+    return json;
   }
   OrderedJson operator()(const commands::Release&) const { return {{"do", "release"}}; }
   OrderedJson operator()(const commands::Cut& one) const {

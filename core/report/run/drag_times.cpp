@@ -9,8 +9,10 @@ RecordedMoves with_preparing_move(const Mesh& mesh, RecordedMoves moves) {
   const auto grab = std::ranges::find_if(
       moves.commands, [](const Command& command) { return std::holds_alternative<commands::Grab>(command); });
   if (grab != moves.commands.end()) {
-    const ElementId handle = std::get<commands::Grab>(*grab).element;
-    moves.commands.insert(grab + 1, commands::Drag{mesh.rest_position(handle)});
+    const auto& handle = std::get<commands::Grab>(*grab).elements;
+    const auto nowhere = commands::Drag{Point::Zero(), {}, true};
+    moves.commands.insert(grab + 1,
+                          handle.size() == 1 ? commands::Drag{mesh.rest_position(handle.front())} : nowhere);
   }
   return moves;
 }

@@ -40,9 +40,7 @@ void References::find_equilibrium() {
   const Simulation& simulation = exact_->simulation();
   const auto pins = simulation.body().pins();
   std::vector<ElementId> fixed(pins.begin(), pins.end());
-  if (exact_->handle()) {
-    fixed.push_back(*exact_->handle());
-  }
+  fixed.insert(fixed.end(), exact_->handle().begin(), exact_->handle().end());
   if (simulation.mesh().element_count() > equilibrium_limit) {
     return;
   }
@@ -75,9 +73,7 @@ Errors References::errors_of(const Runner& runner, const Contestant& contestant)
     errors.to_equilibrium = measure_distance(simulation.mesh(), positions, equilibrium_->positions(simulation.mesh()));
   }
   errors.float_to_double = float_to_double(runner, contestant);
-  if (runner.handle()) {
-    errors.largest_over_handle = largest_over_handle(simulation.mesh(), positions, *runner.handle());
-  }
+  errors.largest_over_handle = largest_over_handle(simulation.mesh(), positions, runner.handle());
   return errors;
 }
 

@@ -129,7 +129,7 @@ RecordedMoves drag(const Mesh& mesh, ElementId element, const Point& way, const 
 
 /// Returns half of a pull, then a cut into the object, then one more move; no commands if no cut is possible.
 RecordedMoves cut_then_move(const Case& object, const RecordedMoves& pull) {
-  const ElementId handle = std::get<commands::Grab>(pull.commands.front()).element;
+  const ElementId handle = std::get<commands::Grab>(pull.commands.front()).elements.front();
   std::vector<LinkId> links = links_to_cut(object, handle);
   if (links.empty()) {
     return {};

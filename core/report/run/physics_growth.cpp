@@ -62,7 +62,7 @@ std::optional<ReferenceSolution> reference_at(const Case& object, Budget& budget
     ReferenceSolver solver(elastic_problem(object));
     const auto& commands = object.drags.front().commands;
     ReferenceSolution reference =
-        solver.at(std::get<commands::Grab>(commands.front()).element, std::get<commands::Drag>(commands.back()).target);
+        solver.at(std::get<commands::Grab>(commands.front()).elements.front(), std::get<commands::Drag>(commands.back()).target);
     budget.spend(growth_clock() - start);
     return reference;
   } catch (const Error&) {

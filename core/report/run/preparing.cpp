@@ -25,7 +25,7 @@ PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method) {
     factorize_.push_back(1e3 * seconds_of(clocks, [&] { solver = make_elastic(method, problem); }));
     for (const ElementId handle : handles) {
       try {
-        const double seconds = seconds_of(clocks, [&] { solver->hold(handle); });
+        const double seconds = seconds_of(clocks, [&] { solver->hold(ElasticHandle::of(handle, problem.mesh->space_dimension)); });
         grab_[handle].push_back(1e3 * seconds);
       } catch (const Error&) {
         grab_.erase(handle);  // the drag itself reports the reason
@@ -62,7 +62,7 @@ std::vector<ElementId> handles_of(const Case& object) {
 ElementId handle_of(const RecordedMoves& moves) {
   for (const Command& command : moves.commands) {
     if (const auto* grab = std::get_if<commands::Grab>(&command)) {
-      return grab->element;
+      return grab->elements.front();
     }
   }
   return 0;

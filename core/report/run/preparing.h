@@ -24,7 +24,7 @@ class PreparingTimes {
 ElasticProblem elastic_problem(const Case& object, const std::vector<LinkId>& cut = {});
 /// Returns the elements that the drags of an object grab, each once, in their order.
 std::vector<ElementId> handles_of(const Case& object);
-/// Returns the element that a drag grabs, or 0 if it grabs none.
+/// Returns the element that a drag grabs, the first of many, or 0 if it grabs none.
 ElementId handle_of(const RecordedMoves& moves);
 /// Returns the links that a drag cuts.
 std::vector<LinkId> cuts_of(const RecordedMoves& moves);

@@ -46,7 +46,7 @@ void Runner::go_to_rest() {
     simulation_.apply(commands::Pin{pins_});
   }
   simulation_.apply(commands::Reset{});  // the changes above have activated elements for relaxation
-  handle_.reset();
+  handle_.clear();
 }
 
 Runner::Run Runner::run(const RecordedMoves& moves, int sweeps, const std::stop_token& stop) {
@@ -80,7 +80,7 @@ void Runner::carry_out(const Command& command, int sweeps, Run& run) {
   }
   const double applying = 1e3 * seconds_of(clocks_, [&] { simulation_.apply(command); });
   if (const auto* grab = std::get_if<Grab>(&command)) {
-    handle_ = grab->element;
+    handle_ = grab->elements;
   }
   if (!std::holds_alternative<Drag>(command)) {
     return;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -29,8 +28,8 @@ class Runner {
   Run run(const RecordedMoves& moves, int sweeps, const chainmail::Progress& progress);
 
   const Simulation& simulation() const { return simulation_; }
-  /// Returns the last handle; none before the first run.
-  std::optional<ElementId> handle() const { return handle_; }
+  /// Returns the elements of the last handle; none before the first run.
+  const std::vector<ElementId>& handle() const { return handle_; }
 
  private:
   void go_to_rest();
@@ -43,7 +42,7 @@ class Runner {
   Clocks clocks_ = machine_clocks();
   JobState job_;  // of a run that can be stopped
   Simulation simulation_;
-  std::optional<ElementId> handle_;
+  std::vector<ElementId> handle_;
 };
 
 /// Throws Error if the moves cannot be repeated from rest, or if there are none.

@@ -1,0 +1,127 @@
+#include "solve/handle.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+std::uint64_t new_grab() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
+Eigen::Quaterniond quaternion_of(const Point& rotation) {
+  const double angle = rotation.norm();
+  return angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle)) : Eigen::Quaterniond::Identity();
+}
+
+std::string name_of(ElementId element) { return "element " + std::to_string(element); }
+
+void check_handle(const Body& body, std::span<const ElementId> ascending) {
+  if (ascending.empty()) {
+    throw Error("handle", "it holds no element", "grab at least one");
+  }
+  const ElementId count = body.mesh().element_count();
+  if (ascending.back() >= count) {
+    throw Error(name_of(*std::ranges::lower_bound(ascending, count)), "there is no such element",
+                "use an id below " + std::to_string(count));
+  }
+  if (const auto twice = std::ranges::adjacent_find(ascending); twice != ascending.end()) {
+    throw Error(name_of(*twice), "it is grabbed twice", "name each element of the handle once");
+  }
+  const auto pinned = std::ranges::find_if(ascending, [&](ElementId one) { return body.is_pinned(one); });
+  if (pinned != ascending.end()) {
+    throw Error(name_of(*pinned), "it is pinned and may not move", "unpin it, or grab another element");
+  }
+}
+
+}  // namespace
+
+Eigen::Matrix3d turn_of(const Point& rotation) {
+  const double angle = rotation.norm();
+  if (angle == 0) {
+    return Eigen::Matrix3d::Zero();
+  }
+  const Point axis = rotation / angle;
+  Eigen::Matrix3d cross;
+  cross << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
+  const double half = std::sin(angle / 2);
+  return std::sin(angle) * cross + 2 * half * half * (cross * cross);  // 1 - cos, without cancellation
+}
+
+Point rotation_between(const Point& from, const Point& to, double fraction) {
+  if (fraction == 0 || from == to) {
+    return from;
+  }
+  if (fraction == 1) {
+    return to;
+  }
+  const Eigen::AngleAxisd between(quaternion_of(from).slerp(fraction, quaternion_of(to)));
+  return between.angle() * between.axis();
+}
+
+double angle_between(const Point& from, const Point& to) {
+  return quaternion_of(from).angularDistance(quaternion_of(to));
+}
+
+Point Rotation::vector() const {
+  return degrees == 0 ? Point(Point::Zero()) : Point(axis.normalized() * (degrees * (std::numbers::pi / 180)));
+}
+
+Rotation composed(const Rotation& first, const Rotation& then) {
+  if (first.degrees == 0 || then.degrees == 0) {
+    return first.degrees == 0 ? then : first;
+  }
+  if (first.axis == then.axis) {
+    return {first.axis, first.degrees + then.degrees};
+  }
+  const Eigen::AngleAxisd both(quaternion_of(then.vector()) * quaternion_of(first.vector()));
+  return {both.axis(), both.angle() * (180 / std::numbers::pi)};
+}
+
+void check(const Rotation& rotation, const Mesh& mesh) {
+  if (rotation.degrees == 0) {
+    return;
+  }
+  const double length = rotation.axis.norm();
+  if (!std::isfinite(rotation.degrees) || !std::isfinite(length)) {
+    throw Error("rotation", "its angle or its axis is not a finite number", "give them as numbers");
+  }
+  if (!(length > 0)) {
+    throw Error("rotation", "it has no axis: all its coordinates are 0", "give an axis such as 0, 0, 1");
+  }
+  const auto axes = std::span(mesh.axes).first(static_cast<std::size_t>(mesh.space_dimension));
+  for (int k = 0; k < 3 && mesh.space_dimension < 3; ++k) {
+    const bool leaves_space = mesh.space_dimension == 1 || std::ranges::find(axes, k) != axes.end();
+    if (rotation.axis[k] != 0 && leaves_space) {
+      throw Error("rotation", std::string("about ") + "xyz"[k] + ", it would leave the space of the object",
+                  mesh.space_dimension == 1 ? "move it without a rotation, or use more dimensions"
+                                            : "rotate about the axis across the object's plane, or use more dimensions");
+    }
+  }
+}
+
+Handle::Handle(const Body& body, std::vector<ElementId> elements) : elements_(std::move(elements)) {
+  std::ranges::sort(elements_);
+  check_handle(body, elements_);
+  const PositionView positions = body.positions();
+  pivot_ = Point::Zero();
+  for (const ElementId element : elements_) {
+    positions_.push_back(point_of(body.mesh(), positions, element));
+    pivot_ += positions_.back() / double(elements_.size());
+  }
+  pose_ = grabbed();
+  grab_ = has_one() ? 0 : new_grab();
+}
+
+bool Handle::contains(ElementId element) const { return std::ranges::binary_search(elements_, element); }
+
+}  // namespace chainmail
