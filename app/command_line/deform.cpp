@@ -73,12 +73,9 @@ Schedule read_schedule(const DeformArguments& options, const Targets& targets) {
 
 /// Returns the acts in the order of their options on the command line.
 std::vector<Act> read_acts(const DeformArguments& options) {
-  const std::map<const CLI::Option*, Act::Kind> kinds{{options.move, Act::Kind::move},
-                                                      {options.by, Act::Kind::by},
-                                                      {options.cut, Act::Kind::cut},
-                                                      {options.pin, Act::Kind::pin},
-                                                      {options.grab, Act::Kind::grab},
-                                                      {options.rotate, Act::Kind::rotate}};
+  const std::map<const CLI::Option*, Act::Kind> kinds{
+      {options.move, Act::Kind::move}, {options.by, Act::Kind::by},     {options.cut, Act::Kind::cut},
+      {options.pin, Act::Kind::pin},   {options.grab, Act::Kind::grab}, {options.rotate, Act::Kind::rotate}};
   std::map<const CLI::Option*, std::size_t> taken;
   std::vector<Act> acts;
   for (const CLI::Option* option : options.app->parse_order()) {
@@ -216,13 +213,12 @@ void add_acts(CLI::App& app, DeformArguments& options) {
                          "drag an element by a distance; without ID, what the last --grab has grabbed: DX,DY[,DZ]");
   options.grab = add_value(app, "--grab", "IDS|LAYER",
                            "grab elements, such as 3,7,20-29, or all of a layer: they move as one rigid body");
-  options.rotate = add_value(app, "--rotate", "AXIS:DEGREES",
-                             "rotate what is grabbed about its middle; AXIS is x, y, z or X,Y,Z");
+  options.rotate =
+      add_value(app, "--rotate", "AXIS:DEGREES", "rotate what is grabbed about its middle; AXIS is x, y, z or X,Y,Z");
   options.cut = add_value(app, "--cut", "A-B", "cut the link between two elements");
   options.pin =
       add_value(app, "--pin", "ID|LAYER", "pin an element at its current position, or all elements of " + pin_names());
-  for (CLI::Option* option :
-       {options.move, options.by, options.grab, options.rotate, options.cut, options.pin}) {
+  for (CLI::Option* option : {options.move, options.by, options.grab, options.rotate, options.cut, options.pin}) {
     option->group("Actions (may be repeated; they run in the given order)");
   }
   options.steps = add_value(app, "--steps", "N", "passes per move, in equal steps [1]");

@@ -278,9 +278,9 @@ void Runner::pass(const commands::Drag& drag) {
                          statistics.last_pass.moved,
                          statistics.last_pass_ms});
   if (statistics.last_pass.stopped) {
-    run_.passes.back().stopped_at =
-        handle.has_one() ? point_of(simulation_.mesh(), simulation_.body().positions(), elements[0])
-                         : handle.pose().pivot;
+    run_.passes.back().stopped_at = handle.has_one()
+                                        ? point_of(simulation_.mesh(), simulation_.body().positions(), elements[0])
+                                        : handle.pose().pivot;
   }
   run_.passes.back().remark = statistics.remark;
   if (schedule_.trace) {

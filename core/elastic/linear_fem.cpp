@@ -86,8 +86,8 @@ class LinearFem final : public LinearResponse {
     return elements.size() == 1 ? respond_to_one(elements[0]) : respond_to_many(elements, prescribed, progress);
   }
 
-  /// Factors the stiffness matrix once more, without the handle's unknowns: for more than a few elements, that is faster
-  /// than the compliance of all of them.
+  /// Factors the stiffness matrix once more, without the handle's unknowns: for more than a few elements, that is
+  /// faster than the compliance of all of them.
   Eigen::MatrixXd respond_to_many(std::span<const ElementId> elements, const Eigen::MatrixXd& prescribed,
                                   const Progress& progress) const {
     const int n = simplices_.dimension;

@@ -133,8 +133,7 @@ Eigen::MatrixXd PinnedSolid::respond(std::span<const ElementId> corners, const E
   for (std::size_t i = 0; i < free.size(); ++i) {
     at_handle.middleRows<3>(Index(3 * i)) = fields.displacements.middleRows<3>(Index(3 * free[i]));
   }
-  const Eigen::MatrixXd tractions =
-      at_handle.leftCols(units).partialPivLu().solve(follow - at_handle.rightCols(cases));
+  const Eigen::MatrixXd tractions = at_handle.leftCols(units).partialPivLu().solve(follow - at_handle.rightCols(cases));
   const auto together = [&](const Eigen::MatrixXd& of) -> Eigen::MatrixXd {
     return of.rightCols(cases) + of.leftCols(units) * tractions;
   };

@@ -16,8 +16,8 @@ using PinnedElements = std::vector<std::optional<Point>>;
 /// One solid with pins, by boundary elements.
 ///
 /// Displacements are prescribed on facets. A pin holds the facets with only pinned corners, or all facets around it if
-/// there are none of these; the handle holds all facets around its elements. The other facets are free of tractions. The
-/// displacement of an element is the mean of the facets around it, by area.
+/// there are none of these; the handle holds all facets around its elements. The other facets are free of tractions.
+/// The displacement of an element is the mean of the facets around it, by area.
 ///
 /// Since only displacements are prescribed, Young's modulus cancels out.
 class PinnedSolid {
@@ -31,9 +31,9 @@ class PinnedSolid {
 
   /// Returns the displacements of its elements, three rows each, while only the pins are prescribed.
   const Eigen::VectorXd& at_rest() const { return at_rest_; }
-  /// Returns what a handle at some corners (ascending) adds: one column for each column of `prescribed`, which holds the
-  /// displacements of these corners, three rows each. A facet moves by the mean of its corners in the handle. On facets
-  /// that both hold, the handle counts. Throws Cancelled.
+  /// Returns what a handle at some corners (ascending) adds: one column for each column of `prescribed`, which holds
+  /// the displacements of these corners, three rows each. A facet moves by the mean of its corners in the handle. On
+  /// facets that both hold, the handle counts. Throws Cancelled.
   Eigen::MatrixXd respond(std::span<const ElementId> corners, const Eigen::MatrixXd& prescribed,
                           const Progress& progress) const;
 

@@ -29,7 +29,8 @@ class LinearResponse : public ElasticSolver {
   /// this.
   void set_base(std::vector<double> displacements);
   /// Returns the response of the field to displacements of some elements (ascending), while the pins stay: one column
-  /// for each column of `prescribed`, which has n rows per element. At the elements themselves it is what is prescribed.
+  /// for each column of `prescribed`, which has n rows per element. At the elements themselves it is what is
+  /// prescribed.
   virtual Eigen::MatrixXd respond(std::span<const ElementId> elements, const Eigen::MatrixXd& prescribed,
                                   const Progress& progress) = 0;
 

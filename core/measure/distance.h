@@ -22,7 +22,8 @@ Distance measure_distance(const Mesh& mesh, const PositionView& one, const Posit
 std::optional<double> energy_ratio(double energy, double of_reference);
 
 /// Returns the largest displacement of any element divided by the largest one of the handle's elements; none if the
-/// handle is at rest, to 1e-4 mean rest lengths, or if there is none. Above 1, an element moved further than the handle.
+/// handle is at rest, to 1e-4 mean rest lengths, or if there is none. Above 1, an element moved further than the
+/// handle.
 std::optional<double> largest_over_handle(const Mesh& mesh, const PositionView& positions,
                                           std::span<const ElementId> handle);
 

@@ -27,7 +27,7 @@ struct Handover {
   std::map<commands::StateId, ObjectState> kept;  // snapshots for undo
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
-  std::shared_ptr<const Handle> grabbed;     // null: nothing is grabbed
+  std::shared_ptr<const Handle> grabbed;      // null: nothing is grabbed
   std::shared_ptr<const Handle> last_handle;  // of the last pass, if any
 };
 

@@ -50,8 +50,8 @@ void Simulation::pass(const std::shared_ptr<Handle>& handle, const Pose& target)
   time_pass([&] { return solver_->move(*handle, target, trace_); });
   last_handle_ = handle;
   // Links inside a handle of many stay as they are. A rotation may violate them.
-  valid_ = info(algorithm_).holds_links &&
-           (handle->has_one() || (was_valid && handle->pose().rotation == Point::Zero()));
+  valid_ =
+      info(algorithm_).holds_links && (handle->has_one() || (was_valid && handle->pose().rotation == Point::Zero()));
   for (const auto& moved : {handle->elements(), solver_->moved()}) {
     mark(moved);
     wake(moved);

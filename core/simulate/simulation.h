@@ -139,10 +139,10 @@ class Simulation {
   Algorithm algorithm_;
   Precision precision_;
   std::unique_ptr<Solver> solver_;
-  ElementBlocks changed_;  // changed blocks since forget_changes()
-  ElementBlocks away_;     // all elements outside these blocks are at rest
-  Snapshot last_kept_;     // positions that were last saved or restored
-  ElementBlocks unkept_;   // blocks in which a position may have changed since then
+  ElementBlocks changed_;                // changed blocks since forget_changes()
+  ElementBlocks away_;                   // all elements outside these blocks are at rest
+  Snapshot last_kept_;                   // positions that were last saved or restored
+  ElementBlocks unkept_;                 // blocks in which a position may have changed since then
   std::shared_ptr<Handle> grabbed_;      // null: nothing is grabbed
   std::shared_ptr<Handle> last_handle_;  // of the last pass, if any
   bool valid_ = true;

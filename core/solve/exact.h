@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,8 +62,8 @@ class ExactPropagation {
 
   void begin(const State& body, const Handle& handle) {
     const Revisions& now = body.revisions();
-    const Conditions conditions{now.cuts,       now.pins, now.softness, handle.elements()[0], handle.grab(),
-                                handle.has_one() ? 0 : now.positions};
+    const Conditions conditions{
+        now.cuts, now.pins, now.softness, handle.elements()[0], handle.grab(), handle.has_one() ? 0 : now.positions};
     if (conditions == made_for_) {
       return;
     }
@@ -130,8 +132,11 @@ class ExactPropagation {
       const double fraction = (possible + impossible) / 2;
       (try_rotation(body, handle, rotation_between(from, target, fraction), to) ? possible : impossible) = fraction;
     }
-    remark_ = "links outside the handle, or pins, stop its rotation";
     reached = try_rotation(body, handle, rotation_between(from, target, possible), to);
+    char text[96];
+    std::snprintf(text, sizeof text, "links outside the handle, or pins, stop its rotation at %.3g degrees",
+                  rotation_.norm() * (180 / std::numbers::pi));
+    remark_ = text;
     return possible > 0 ? reached : std::nullopt;
   }
 
@@ -250,7 +255,7 @@ class ExactPropagation {
   Offset at_{};  // displacement of the handle after the last pass
   std::string remark_;
   std::uint64_t visits_ = 0;  // in this pass
-  int idle_passes_ = 0;  // passes in a row that moved few of the known elements
+  int idle_passes_ = 0;       // passes in a row that moved few of the known elements
 };
 
 }  // namespace chainmail

@@ -118,8 +118,8 @@ class ExactMethod final : public Method {
 
   ExactPropagation<Scalar, Dimension> propagation_;
   PathSearch search_;
-  bool links_hold_ = false;  // all links were valid after the last pass
-  Conditions made_for_;      // of that pass
+  bool links_hold_ = false;        // all links were valid after the last pass
+  Conditions made_for_;            // of that pass
   std::vector<ElementId> handle_;  // of that pass
 };
 

@@ -103,8 +103,9 @@ void check(const Rotation& rotation, const Mesh& mesh) {
     const bool leaves_space = mesh.space_dimension == 1 || std::ranges::find(axes, k) != axes.end();
     if (rotation.axis[k] != 0 && leaves_space) {
       throw Error("rotation", std::string("about ") + "xyz"[k] + ", it would leave the space of the object",
-                  mesh.space_dimension == 1 ? "move it without a rotation, or use more dimensions"
-                                            : "rotate about the axis across the object's plane, or use more dimensions");
+                  mesh.space_dimension == 1
+                      ? "move it without a rotation, or use more dimensions"
+                      : "rotate about the axis across the object's plane, or use more dimensions");
     }
   }
 }

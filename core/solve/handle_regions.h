@@ -12,8 +12,9 @@
 namespace chainmail {
 
 /// Target of the handle, as bounds of displacements. On an axis along which it moves up, `low` is the target and `high`
-/// is infinite. On an axis along which it moves down, `high` is the target and `low` is minus infinite. On an axis along
-/// which it stays, both are infinite. A handle that has rotated moves its elements both ways: then both are the target.
+/// is infinite. On an axis along which it moves down, `high` is the target and `low` is minus infinite. On an axis
+/// along which it stays, both are infinite. A handle that has rotated moves its elements both ways: then both are the
+/// target.
 ///
 /// A handle of one element is at the displacement of that element. Of a handle of many, each element is at the
 /// handle's displacement plus an offset of its own.
@@ -176,8 +177,8 @@ class HandleRegions {
     Bounds region;
   };
 
-  /// Sets the regions of the handle's elements: the offsets themselves. Keys are paths from the extreme offsets, so that
-  /// none is below 0.
+  /// Sets the regions of the handle's elements: the offsets themselves. Keys are paths from the extreme offsets, so
+  /// that none is below 0.
   void set_offsets(std::span<const Offset> offsets) {
     for (int k = 0; k < Dimension; ++k) {
       const auto of_axis = [k](const Offset& one) { return one[k]; };

@@ -27,7 +27,7 @@ struct PassConditions {
 struct RecordedPass {
   MeshPointer mesh;
   Algorithm algorithm = Algorithm::natural_queue;
-  std::uint64_t number = 0;  // index of the pass in its simulation, from 1
+  std::uint64_t number = 0;       // index of the pass in its simulation, from 1
   std::vector<ElementId> handle;  // ascending
   std::shared_ptr<const PassConditions> conditions;
   /// Positions of all elements before the pass, space_dimension coordinates each (mesh units).

@@ -86,8 +86,8 @@ class Relaxation {
   void sleep();
 
   /// Continues the current sweep, or begins one, with a step in (0, 1], until it ends or `budget` elements were
-  /// visited. Elements of `held` (ascending) and pinned elements stay. If nothing is active, `visited` is 0 and the sweep
-  /// has ended.
+  /// visited. Elements of `held` (ascending) and pinned elements stay. If nothing is active, `visited` is 0 and the
+  /// sweep has ended.
   RelaxationResult sweep(Body& body, double step, std::uint64_t budget, std::span<const ElementId> held);
 
   /// The elements that the last slice moved, once per move.

@@ -16,11 +16,11 @@ namespace chainmail {
 /// Makes any state of a body that stores displacements valid: Exact ChainMail needs this after softness was edited
 /// under load or another algorithm left its state.
 ///
-/// Anchors, which are the pins and the elements of the handle, stay as far as they can. Links inside a handle of many do
-/// not count: the handle holds their ends. Every displacement is clamped to what the anchors allow.
-/// Then the result is the mean of the least and the greatest valid answer about it, so no order of elements or links
-/// matters. One axis at a time, in double. Links are difference constraints, their shortest paths are distances over
-/// the bounds, and the rest shape makes every weight non-negative.
+/// Anchors, which are the pins and the elements of the handle, stay as far as they can. Links inside a handle of many
+/// do not count: the handle holds their ends. Every displacement is clamped to what the anchors allow. Then the result
+/// is the mean of the least and the greatest valid answer about it, so no order of elements or links matters. One axis
+/// at a time, in double. Links are difference constraints, their shortest paths are distances over the bounds, and the
+/// rest shape makes every weight non-negative.
 template <class Scalar, int Dimension>
 class Repair {
  public:
@@ -35,8 +35,9 @@ class Repair {
   bool is_valid() const {
     for (ElementId e = 0; e < body_.mesh->element_count(); ++e) {
       bool holds = true;
-      body_.for_each_neighbour(
-          e, [&](ElementId n, EntryId entry) { holds = holds && (n < e || is_inner(e, n) || link_holds(e, n, entry)); });
+      body_.for_each_neighbour(e, [&](ElementId n, EntryId entry) {
+        holds = holds && (n < e || is_inner(e, n) || link_holds(e, n, entry));
+      });
       if (!holds) {
         return false;
       }

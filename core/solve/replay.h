@@ -56,10 +56,10 @@ std::size_t replay(const BodyView<Scalar, Dimension>& body, std::span<const Step
 
 /// The processed candidates of the last pass, for the next pass of the same handle.
 ///
-/// The next pass begins with a replay. Where that ends at a difference, an algorithm goes on from there (Natural Queue),
-/// so that a replay never costs anything; or it runs its list again, and the record saves clamping up to there. Such a
-/// replay has failed if it agrees for less than half of its steps. After two failures in a row, some passes are not
-/// replayed: 1, then 2, 4, 8 and so on, until a replay succeeds.
+/// The next pass begins with a replay. Where that ends at a difference, an algorithm goes on from there (Natural
+/// Queue), so that a replay never costs anything; or it runs its list again, and the record saves clamping up to there.
+/// Such a replay has failed if it agrees for less than half of its steps. After two failures in a row, some passes are
+/// not replayed: 1, then 2, 4, 8 and so on, until a replay succeeds.
 class PassRecord {
  public:
   /// Begins a pass. Returns true if a replay was all of it. Otherwise the pass must run, from the beginning or from
@@ -142,8 +142,8 @@ class PassRecord {
   std::size_t agreed_ = 0;
   Conditions conditions_;
   std::vector<ElementId> handle_;  // of the last pass; empty before it
-  int failures_ = 0;  // replays in a row that failed
-  int unused_ = 0;    // number of coming passes that are not replayed
+  int failures_ = 0;               // replays in a row that failed
+  int unused_ = 0;                 // number of coming passes that are not replayed
 };
 
 }  // namespace chainmail

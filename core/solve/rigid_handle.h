@@ -56,8 +56,7 @@ class RigidHandle {
   std::vector<Offset> offsets(const Point& rotation) const {
     // R R0⁻¹ − I, of the rotation R and the one at the beginning R0, is (turn − turn0) R0ᵀ: exactly 0 for no change.
     const Eigen::Matrix3d before = turn_of(pose_.rotation);
-    const Eigen::Matrix3d turn =
-        (turn_of(rotation) - before) * (before + Eigen::Matrix3d::Identity()).transpose();
+    const Eigen::Matrix3d turn = (turn_of(rotation) - before) * (before + Eigen::Matrix3d::Identity()).transpose();
     std::vector<Offset> offsets = offsets_;
     for (std::size_t i = 0; i < offsets.size(); ++i) {
       const Point way = turn * arms_[i];

@@ -11,8 +11,7 @@ RecordedMoves with_preparing_move(const Mesh& mesh, RecordedMoves moves) {
   if (grab != moves.commands.end()) {
     const auto& handle = std::get<commands::Grab>(*grab).elements;
     const auto nowhere = commands::Drag{Point::Zero(), {}, true};
-    moves.commands.insert(grab + 1,
-                          handle.size() == 1 ? commands::Drag{mesh.rest_position(handle.front())} : nowhere);
+    moves.commands.insert(grab + 1, handle.size() == 1 ? commands::Drag{mesh.rest_position(handle.front())} : nowhere);
   }
   return moves;
 }

@@ -61,8 +61,8 @@ std::optional<ReferenceSolution> reference_at(const Case& object, Budget& budget
   try {
     ReferenceSolver solver(elastic_problem(object));
     const auto& commands = object.drags.front().commands;
-    ReferenceSolution reference =
-        solver.at(std::get<commands::Grab>(commands.front()).elements.front(), std::get<commands::Drag>(commands.back()).target);
+    ReferenceSolution reference = solver.at(std::get<commands::Grab>(commands.front()).elements.front(),
+                                            std::get<commands::Drag>(commands.back()).target);
     budget.spend(growth_clock() - start);
     return reference;
   } catch (const Error&) {
