@@ -67,17 +67,15 @@ const MethodEntry& entry_of(ElasticMethod method) { return *std::ranges::find(me
 
 }  // namespace
 
-ElasticHandle ElasticHandle::of(ElementId element, int dimension) {
-  const std::vector<double> none(static_cast<std::size_t>(dimension), 0.0);
-  return {{element}, none, none};
-}
-
 ElasticMotion ElasticMotion::by(std::span<const double> translation) {
   const auto n = static_cast<Eigen::Index>(translation.size());
   return {SmallMatrix::Zero(n, n), Eigen::Map<const Eigen::VectorXd>(translation.data(), n)};
 }
 
 SmallVector displacement_of(const ElasticHandle& handle, std::size_t i, const ElasticMotion& motion) {
+  if (handle.elements.size() == 1) {
+    return motion.translation;
+  }
   const Eigen::Index n = motion.translation.size();
   const auto of = [&](const std::vector<double>& all) {
     return Eigen::Map<const Eigen::VectorXd>(all.data() + static_cast<Eigen::Index>(i) * n, n);

@@ -27,14 +27,13 @@ struct ElasticProblem {
 };
 
 /// A handle: elements that move as one rigid body. Displacements and arms have space_dimension coordinates per element
-/// (mesh units).
+/// (mesh units). A handle of one element has none: its motion is its displacement from rest.
 struct ElasticHandle {
   std::vector<ElementId> elements;    // ascending, none is pinned
   std::vector<double> displacements;  // from rest, when grabbed
   std::vector<double> arms;           // from the pivot, when grabbed
 
-  /// A handle of one element, whose motion is its displacement from rest.
-  static ElasticHandle of(ElementId element, int dimension);
+  static ElasticHandle of(ElementId element) { return {{element}, {}, {}}; }
   bool operator==(const ElasticHandle&) const = default;
 };
 

@@ -34,10 +34,10 @@ ReferenceSolution ReferenceSolver::at(const std::vector<ElementId>& handle, cons
   }
   solver_->reset();
   const std::vector<double> none(displacements.size(), 0.0);
-  const ElasticHandle held{handle, handle.size() == 1 ? none : displacements, none};
-  solver_->hold(held, progress.part(0, 0.2));
-  solver_->move(ElasticMotion::by(handle.size() == 1 ? displacements : std::vector<double>(n, 0.0)),
-                progress.part(0.2, 1));
+  const bool is_one = handle.size() == 1;
+  solver_->hold(is_one ? ElasticHandle::of(handle.front()) : ElasticHandle{handle, displacements, none},
+                progress.part(0, 0.2));
+  solver_->move(ElasticMotion::by(is_one ? displacements : std::vector<double>(n, 0.0)), progress.part(0.2, 1));
   if (const std::string& remark = solver_->remark(); !remark.empty()) {
     throw Error("neo-Hookean FEM", remark, "drag less far, or use a finer mesh");
   }

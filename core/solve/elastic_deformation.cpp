@@ -30,7 +30,7 @@ std::vector<double> displacements_of(const Body& body, std::span<const ElementId
 /// Returns a handle in the coordinates that exist. The motion of one element is its displacement from rest.
 ElasticHandle elastic_handle(const Mesh& mesh, const Handle& handle) {
   if (handle.has_one()) {
-    return ElasticHandle::of(handle.elements()[0], mesh.space_dimension);
+    return ElasticHandle::of(handle.elements()[0]);
   }
   ElasticHandle result;
   result.elements.assign(handle.elements().begin(), handle.elements().end());

@@ -155,13 +155,12 @@ class ExactPropagation {
     for (int k = 0; k < Dimension; ++k) {
       size = std::max({size, std::abs(double(to[k])), std::abs(double(offsets_.front()[k]))});
     }
-    const double tolerance =
-        std::max(unseen * body.mesh->mean_link_length, 64 * std::numeric_limits<Scalar>::epsilon() * size);
+    // The same tolerance as for the links of a state that is taken to be valid.
+    const double tolerance = 8 * std::numeric_limits<Scalar>::epsilon() * size;
     return regions_.agree(body, to, static_cast<Scalar>(tolerance)) ? std::optional(to) : std::nullopt;
   }
 
   static constexpr double finest_angle = 1e-6;  // radians
-  static constexpr double unseen = 1e-6;        // rest lengths: a hundredth of the smallest violation that is reported
   static constexpr int most_corrections = 8;    // of the place of a rotated handle, by pins found one after another
 
   /// A drag that reached far and then moves little would still clamp all elements that it reached. So the regions are

@@ -124,7 +124,7 @@ Contestant dragged_as_2004(const Scene& scene) {
   const auto pass = [object, round, mesh = scene.mesh] {
     const Point& to = round->step();
     const auto processed =
-        reference::move<reference::NaturalQueueChainMail>(*object, round->hand.element, {to[0], to[1], to[2]});
+        reference::move<reference::NaturalQueueChainMail>(*object, {{round->hand.element, {to[0], to[1], to[2]}}});
     const auto moved = std::count_if(processed.begin(), processed.end(), [](const auto& one) { return one.moved; });
     check_whole(std::uint64_t(moved), *mesh);
     return std::uint64_t(moved);

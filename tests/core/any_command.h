@@ -49,14 +49,22 @@ class AnyCommand {
       case 9:
       case 10:
       case 11:
-        return Grab{below(elements_)};
+        return below(3) == 0 ? Grab{{below(elements_), below(elements_), below(elements_)}} : Grab{below(elements_)};
       default:
-        return Drag{Point(between(-4, 16), between(-4, 16), between(-4, 4))};
+        return drag();
     }
   }
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random_() % n); }
 
  private:
+  /// To a position, or along a way with a rotation in the plane, which some objects refuse.
+  Command drag() {
+    commands::Drag drag{Point(between(-4, 16), between(-4, 16), between(-4, 4))};
+    if (below(4) == 0) {
+      drag = {Point(between(-2, 2), between(-2, 2), 0), {Point(0, 0, 1), between(-90, 90)}, true};
+    }
+    return drag;
+  }
   /// Positions of a few elements of a mesh, in one to three dimensions.
   Command place() {
     const ElementId first = below(elements_), end = first + 1 + below(70);

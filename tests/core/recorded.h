@@ -48,7 +48,9 @@ struct Recorded {
 /// Shows the states of a pass, one after another.
 struct Player {
   explicit Player(const RecordedPass& of) : pass(of), positions(of.before) {
-    place(pass.grabbed, pass.grabbed_after());
+    for (std::size_t i = 0; i < pass.handle.size(); ++i) {
+      place(pass.handle[i], pass.handle_after(i));
+    }
   }
   void take(std::size_t row) { place(pass.trace[row].element, pass.position_after(row)); }
   void place(ElementId element, std::span<const float> at) {
@@ -69,7 +71,7 @@ inline std::vector<float> played(const RecordedPass& pass) {
 }
 
 inline bool updated_once(const RecordedPass& pass) {
-  std::set<ElementId> updated{pass.grabbed};
+  std::set<ElementId> updated(pass.handle.begin(), pass.handle.end());
   return std::ranges::all_of(pass.trace, [&](const TraceRow& row) { return updated.insert(row.element).second; });
 }
 
@@ -96,7 +98,7 @@ inline float clamped_by_hand(const Player& player, std::size_t row, int k) {
 /// Returns true if at every step the next waiting candidate that will not be dropped is the next one of the trace.
 inline bool leads_through(const RecordedPass& pass, const WaitingHistory& history) {
   std::set<ElementId> updated(pass.conditions->pins.begin(), pass.conditions->pins.end());
-  updated.insert(pass.grabbed);
+  updated.insert(pass.handle.begin(), pass.handle.end());
   for (std::size_t step = 0; step < pass.trace.size(); ++step) {
     const auto waiting = history.at(step);
     const auto next = std::ranges::find_if(

@@ -43,7 +43,7 @@ struct SavedState {
         positions(positions_of(simulation)),
         cuts(simulation.body().cuts().links()),
         softness(simulation.softness()),
-        grabbed(simulation.grabbed()),
+        grabbed(simulation.grabbed().begin(), simulation.grabbed().end()),
         algorithm(simulation.statistics().algorithm),
         passes(simulation.statistics().passes),
         relaxing(simulation.statistics().relaxing),
@@ -63,7 +63,7 @@ struct SavedState {
   std::vector<double> positions;
   std::vector<LinkId> cuts;
   Softness softness;
-  std::optional<ElementId> grabbed;
+  std::vector<ElementId> grabbed;
   Algorithm algorithm;
   std::uint64_t passes;
   bool relaxing;

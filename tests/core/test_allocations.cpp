@@ -83,7 +83,7 @@ class TestAllocations : public QObject {
       solver->move(element, mesh->rest_position(element) + Point(by, 0, 0));
       solver->wake(solver->moved());
       for (int sweep = 0; sweep < 5; ++sweep) {
-        solver->relax(1, 200, element);
+        solver->relax(1, 200, std::array{element});
       }
     };
     drag_and_relax(3);

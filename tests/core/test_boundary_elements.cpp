@@ -88,8 +88,8 @@ void BoundaryElementsTest::the_hand_and_the_pins_are_where_they_are() {
   std::vector<std::vector<double>> answers;
   const Point first(0.3, 0.2, -0.1), second(-0.1, 0.4, 0.2), before(rest.data() + 3 * std::size_t{top.front()});
   for (const Point& to : {first, second, Point(first + second - before)}) {
-    solver->hold(top.front());
-    solver->move(std::array{to.x(), to.y(), to.z()});
+    solver->hold(ElasticHandle::of(top.front()));
+    solver->move(ElasticMotion::by(std::array{to.x(), to.y(), to.z()}));
     answers.push_back(solver->displacements());
     for (int k = 0; k < 3; ++k) {
       // The displacement from the position that the pins gave it is added to that position, which rounds.
@@ -205,8 +205,8 @@ void BoundaryElementsTest::the_hand_does_what_pins_would() {
   const auto bottom = layer(*mesh, *find_side("bottom"));
   const ElementId top = layer(*mesh, *find_side("top")).front();
   const auto held = make_elastic(ElasticMethod::boundary, pinned(mesh, bottom));
-  held->hold(top);
-  held->move(std::array{0.1, 0.3, -0.2});
+  held->hold(ElasticHandle::of(top));
+  held->move(ElasticMotion::by(std::array{0.1, 0.3, -0.2}));
   std::vector<ElementId> pins(mesh->neighbours_of(top).begin(), mesh->neighbours_of(top).end());
   pins.push_back(top);
   pins.insert(pins.end(), bottom.begin(), bottom.end());
@@ -235,8 +235,8 @@ void BoundaryElementsTest::the_hand_wins_over_pins() {
     }
   }
   const auto solver = make_elastic(ElasticMethod::boundary, pinned(octahedron, equator));
-  solver->hold(top);
-  solver->move(std::array{0.0, 0.5, 0.0});
+  solver->hold(ElasticHandle::of(top));
+  solver->move(ElasticMotion::by(std::array{0.0, 0.5, 0.0}));
   QCOMPARE(solver->displacements()[3 * top + 1], 0.5);
   QCOMPARE(solver->displacements()[3 * bottom + 1], 0.0);
   QCOMPARE(solver->displacements()[3 * equator[0] + 1], 0.0);
@@ -260,18 +260,18 @@ void BoundaryElementsTest::parts_move_by_themselves() {
   const auto beside = make_elastic(ElasticMethod::boundary, pinned(two, both));
   const ElementId top = layer(*one, *find_side("top")).front();
   const std::array<double, 3> to{0.2, 0.1, 0.3};
-  alone->hold(top);
-  alone->move(to);
-  beside->hold(top);
-  beside->move(to);
+  alone->hold(ElasticHandle::of(top));
+  alone->move(ElasticMotion::by(to));
+  beside->hold(ElasticHandle::of(top));
+  beside->move(ElasticMotion::by(to));
   for (std::size_t i = 0; i < 3 * std::size_t(count); ++i) {
     QVERIFY(std::abs(alone->displacements()[i] - beside->displacements()[i]) < 1e-12);
     QCOMPARE(beside->displacements()[i + 3 * count], 0.0);
   }
   const ElementId loose = 2 * count;
   QCOMPARE(beside->displacements()[3 * loose], 0.0);
-  beside->hold(loose);
-  beside->move(to);
+  beside->hold(ElasticHandle::of(loose));
+  beside->move(ElasticMotion::by(to));
   QCOMPARE(beside->displacements()[3 * loose + 2], to[2]);
   QCOMPARE(beside->displacements()[3 * top], 0.0);
 }
@@ -351,7 +351,9 @@ void BoundaryElementsTest::loose_parts_are_refused() {
   auto pins = layer(*block, *find_side("left"));
   const ElementId behind = 1 + 4 * (1 + 3 * 1), inside = behind + 1;
   const auto solver = make_elastic(ElasticMethod::boundary, pinned(block, pins));
-  QVERIFY(told([&] { solver->hold(inside); }).startsWith(QString("BEM: element %1 lies inside").arg(inside)));
+  QVERIFY(told([&] {
+            solver->hold(ElasticHandle::of(inside));
+          }).startsWith(QString("BEM: element %1 lies inside").arg(inside)));
   pins.insert(std::ranges::lower_bound(pins, behind), behind);
   QCOMPARE(refused(block, pins), QString());
   pins.insert(std::ranges::lower_bound(pins, inside), inside);

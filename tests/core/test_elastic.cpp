@@ -210,8 +210,8 @@ void ElasticTest::a_cantilever_bends_as_beams_do() {
   const auto mesh = make_mesh(MeshKind::cloth, {10 * parts + 1, parts + 1, 1}, {}, height / parts);
   const auto solver = make_elastic(ElasticMethod::linear_fem, pinned(mesh, layer(*mesh, *find_side("left")), poisson));
   const ElementId middle_row = parts / 2 * (10 * parts + 1);
-  solver->hold(middle_row + 10 * parts);
-  solver->move(std::array{0.0, 0.1});
+  solver->hold(ElasticHandle::of(middle_row + 10 * parts));
+  solver->move(ElasticMotion::by(std::array{0.0, 0.1}));
   const auto deflection = [&](double x) {
     return solver->displacements()[2 * (middle_row + std::size_t(x * parts)) + 1];
   };
@@ -236,8 +236,8 @@ void ElasticTest::small_moves_are_linear() {
     for (const double way : {0.02, 0.01}) {
       const std::vector<double> to{0.3 * way, way, 0.5 * way};
       for (ElasticSolver* solver : {linear.get(), whole.get()}) {
-        solver->hold(mesh->element_count() - 1);
-        solver->move(std::span(to).first(std::size_t(dimension)));
+        solver->hold(ElasticHandle::of(mesh->element_count() - 1));
+        solver->move(ElasticMotion::by(std::span(to).first(std::size_t(dimension))));
       }
       QVERIFY(whole->remark().empty());
       apart.push_back(largest_step(linear->displacements(), whole->displacements()));
@@ -255,8 +255,8 @@ void ElasticTest::the_hand_and_the_pins_are_where_they_are() {
     const auto solver = make_elastic(method, problem);
     const std::array<double, 3> first{0.4, 0.3, -0.2}, second{-0.3, 0.1, 0.6};
     for (const auto& [element, to] : {std::pair{mesh->element_count() - 1, first}, std::pair{ElementId{23}, second}}) {
-      solver->hold(element);
-      solver->move(to);
+      solver->hold(ElasticHandle::of(element));
+      solver->move(ElasticMotion::by(to));
       for (std::size_t k = 0; k < 3; ++k) {
         QCOMPARE(solver->displacements()[3 * element + k], to[k]);
         for (const ElementId pin : left) {

@@ -132,14 +132,14 @@ void ElasticObjectsTest::what_does_not_converge_is_told() {
   const auto mesh = make_mesh(MeshKind::tetra, {4, 3, 3});
   const auto solver = make_elastic(ElasticMethod::neo_hookean, pinned(mesh, boundary(*mesh)));
   const ElementId middle = 1 + 4 * (1 + 3 * 1);
-  solver->hold(middle);
-  solver->move(std::array{-3.0, 0.0, 0.0});
+  solver->hold(ElasticHandle::of(middle));
+  solver->move(ElasticMotion::by(std::array{-3.0, 0.0, 0.0}));
   const QString remark = QString::fromStdString(solver->remark());
   QVERIFY2(remark.startsWith("Newton did not converge in load step "), qPrintable(remark));
   QVERIFY(remark.contains("this is the last converged state"));
   const double reached = solver->displacements()[3 * middle];
   QVERIFY(reached < 0 && reached > -1);  // the wall is one spacing away
-  solver->move(std::array{-0.3, 0.0, 0.0});
+  solver->move(ElasticMotion::by(std::array{-0.3, 0.0, 0.0}));
   QVERIFY(solver->remark().empty());
   QCOMPARE(solver->displacements()[3 * middle], -0.3);
 }

@@ -59,12 +59,9 @@ std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, cons
   ExactPropagation<Scalar, Dimension, Schedule> exact;
   std::vector<ElementId> moved;
   for (const Hand& hand : hands) {
-    const ElementId element = hand.of(*mesh);
-    Scalar target[Dimension];
-    for (int k = 0; k < Dimension; ++k) {
-      target[k] = body.positions[element][k] + static_cast<Scalar>(hand.by()[k]);
-    }
-    const auto result = exact.propagate(body, element, target, moved, nullptr);
+    const Handle handle(held, {hand.of(*mesh)});
+    HandleMove move{handle, {handle.grabbed().pivot + hand.by(), Point::Zero()}};
+    const auto result = exact.propagate(body, move, moved, nullptr);
     if (visits_are_bounded != nullptr) {
       *visits_are_bounded = *visits_are_bounded && result.visits <= (result.checked + 1) * 2 * Dimension;
     }

@@ -72,8 +72,8 @@ void FreeFormTest::elements_follow_the_hand_by_least_squares() {
   const auto mesh = make_mesh(MeshKind::cloth, {9, 9, 1});
   const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(mesh, {3, 3, 2}));
   const std::vector<double> before(solver->control_points().begin(), solver->control_points().end());
-  solver->hold(40);  // the middle: weights (1, 2, 1) / 4 along each axis
-  solver->move(std::array{0.5, -1.0});
+  solver->hold(ElasticHandle::of(40));  // the middle: weights (1, 2, 1) / 4 along each axis
+  solver->move(ElasticMotion::by(std::array{0.5, -1.0}));
   QCOMPARE(solver->displacements()[80], 0.5);
   QCOMPARE(solver->displacements()[81], -1.0);
   const std::array<double, 3> along{0.25, 0.5, 0.25};
@@ -88,7 +88,7 @@ void FreeFormTest::elements_follow_the_hand_by_least_squares() {
     QVERIFY(std::abs(solver->control_points()[2 * c] - before[2 * c] - 0.5 * weight / squares) < 1e-12);
     QVERIFY(std::abs(solver->control_points()[2 * c + 1] - before[2 * c + 1] + weight / squares) < 1e-12);
   }
-  solver->move(std::array{0.0, 0.0});  // back again: no displacement remains
+  solver->move(ElasticMotion::by(std::array{0.0, 0.0}));  // back again: no displacement remains
   QVERIFY(furthest_from(*mesh, solver->displacements(), [](const Point&) { return Point(Point::Zero()); }) < 1e-12);
 }
 
@@ -96,8 +96,8 @@ void FreeFormTest::pins_hold_as_well_as_the_lattice_can() {
   const auto mesh = make_mesh(MeshKind::cloth, {9, 5, 1});
   const auto left = layer(*mesh, *find_side("left"));
   const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(mesh, {4, 4, 2}, left));
-  solver->hold(mesh->element_count() - 1);
-  solver->move(std::array{2.0, 1.0});
+  solver->hold(ElasticHandle::of(mesh->element_count() - 1));
+  solver->move(ElasticMotion::by(std::array{2.0, 1.0}));
   for (const ElementId pin : left) {
     QCOMPARE(solver->displacements()[2 * pin], 0.0);
   }
@@ -119,8 +119,8 @@ void FreeFormTest::goes_on_from_where_others_put_it() {
   solver->start_from(bent);
   QVERIFY(same_bits(solver->displacements(), bent));
   QVERIFY(std::abs(solver->control_points()[2 * 15] - 5 - 2.5) < 1e-6);  // the far corner: 0.1 · 5²
-  solver->hold(0);
-  solver->move(std::array{1.0, 0.0});
+  solver->hold(ElasticHandle::of(0));
+  solver->move(ElasticMotion::by(std::array{1.0, 0.0}));
   QVERIFY(std::abs(solver->displacements()[2 * 14 + 1] - 0.3) < 1e-12);  // the remainder stays
 }
 
@@ -135,16 +135,16 @@ void FreeFormTest::the_drag_goes_on_from_there_too() {
     bent.push_back(0.1 * at.x() * at.x());
   }
   const auto dragged = make_elastic(ElasticMethod::free_form, problem);
-  dragged->hold(14);
-  dragged->move(std::array{3.0, -2.0});
+  dragged->hold(ElasticHandle::of(14));
+  dragged->move(ElasticMotion::by(std::array{3.0, -2.0}));
   dragged->start_from(bent);
-  dragged->move(std::array{bent[2 * 14], bent[2 * 14 + 1]});  // to its current position
+  dragged->move(ElasticMotion::by(std::array{bent[2 * 14], bent[2 * 14 + 1]}));  // to its current position
   QVERIFY(largest_step(dragged->displacements(), bent) < 1e-12);
-  dragged->move(std::array{1.0, 0.5});
+  dragged->move(ElasticMotion::by(std::array{1.0, 0.5}));
   const auto fresh = make_elastic(ElasticMethod::free_form, problem);
   fresh->start_from(bent);
-  fresh->hold(14);
-  fresh->move(std::array{1.0, 0.5});
+  fresh->hold(ElasticHandle::of(14));
+  fresh->move(ElasticMotion::by(std::array{1.0, 0.5}));
   QVERIFY(largest_step(dragged->displacements(), fresh->displacements()) < 1e-12);
 }
 

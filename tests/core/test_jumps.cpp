@@ -73,8 +73,8 @@ double largest_step_in_thesis(int sweeps) {
   for (const Drag& drag : far_drags()) {
     const auto before = positions_in_thesis(object);
     const auto& from = object.element(drag.element).current_position;
-    reference::move<reference::NaturalQueueChainMail>(object, drag.element,
-                                                      {from[0] + drag.step, from[1] + drag.step, 0});
+    reference::move<reference::NaturalQueueChainMail>(object,
+                                                      {{drag.element, {from[0] + drag.step, from[1] + drag.step, 0}}});
     largest = std::max(largest, largest_step(before, positions_in_thesis(object)) / std::abs(drag.step));
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       reference::relax<double>(object, 1, drag.element);

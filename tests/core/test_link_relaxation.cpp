@@ -60,9 +60,9 @@ void LinkRelaxationTest::a_step_is_that_share_of_the_way() {
 
 void LinkRelaxationTest::a_held_end_leaves_its_half_to_the_next_sweep() {
   const auto solver = stretched_chain(2, {0, 3});
-  solver->relax(1, no_limit, 0);
+  solver->relax(1, no_limit, std::array{ElementId{0}});
   QCOMPARE(positions_of_chain(*solver, 2), (std::vector<double>{0, 2}));
-  solver->relax(1, no_limit, 0);
+  solver->relax(1, no_limit, std::array{ElementId{0}});
   QCOMPARE(positions_of_chain(*solver, 2), (std::vector<double>{0, 1.5}));
 }
 
@@ -115,7 +115,7 @@ void LinkRelaxationTest::valid_links_stay_valid() {
     std::iota(all.begin(), all.end(), ElementId{0});
     solver->wake(all);
     for (int i = 0; i < 5; ++i) {
-      solver->relax(*rc::gen::inRange(1, 101) / 100.0, no_limit, (*any_hand()).of(*mesh));
+      solver->relax(*rc::gen::inRange(1, 101) / 100.0, no_limit, std::array{(*any_hand()).of(*mesh)});
       // In rest lengths: only rounding.
       RC_ASSERT(measure_violation(*mesh, softness, solver->body().cuts(), solver->body().positions()).max <= 1e-9);
     }
@@ -138,7 +138,7 @@ void LinkRelaxationTest::displacements_relax_like_positions() {
       solver->body().set_positions(state);
       solver->wake(all);
       for (int i = 0; i < 5; ++i) {
-        solver->relax(0.8, no_limit, 20);
+        solver->relax(0.8, no_limit, std::array{ElementId{20}});
       }
     }
     QVERIFY(largest_step(state, positions_of(*absolute, *mesh)) > 0.01);

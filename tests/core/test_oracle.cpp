@@ -1,4 +1,7 @@
+#include <Eigen/Geometry>
 #include <QtTest>
+#include <optional>
+#include <set>
 
 #include "core/families.h"
 #include "reference/chainmail.h"
@@ -61,8 +64,11 @@ class SideBySide {
     }
   }
 
-  /// Moves a random element by up to `reach` in both. All results must agree.
-  void move(double reach) {
+  /// Moves a random element, or many, by up to `reach` in both. All results must agree.
+  void move(double reach) { random_() % 2 == 0 ? move_one(reach) : move_many(reach); }
+
+ private:
+  void move_one(double reach) {
     const ElementId element = random_() % mesh_->element_count();
     const auto target = random_target(element, reach);
     Point point = mesh_->origin;
@@ -71,10 +77,55 @@ class SideBySide {
     }
     Trace trace;
     const PassCount count = solver_->move(element, point, &trace);
-    compare(count, trace, move_reference(element, target));
+    compare(count, trace, move_reference({{element, target}}));
   }
 
- private:
+  /// Moves a handle of up to eight elements and rotates it. Half of the time this is the last handle again.
+  void move_many(double reach) {
+    if (!handle_ || random_() % 2 == 0) {
+      std::set<ElementId> elements;
+      for (int i = 0; i < 8; ++i) {
+        elements.insert(random_() % mesh_->element_count());
+      }
+      handle_.emplace(solver_->body(), std::vector<ElementId>(elements.begin(), elements.end()));
+    }
+    Pose pose = handle_->pose();
+    for (int k = 0; k < mesh_->space_dimension; ++k) {
+      pose.pivot[mesh_->axes[k]] += uniform(random_, -reach, reach);
+    }
+    if (mesh_->space_dimension > 1 && random_() % 2 == 0) {
+      pose.rotation += uniform(random_, -0.5, 0.5) * reach * axis_across(*mesh_);
+    }
+    Trace trace;
+    const PassCount count = solver_->move(*handle_, pose, &trace);
+    // The handle is where a rotation matrix of Eigen and the motion of its middle put it, up to rounding. The reference
+    // takes its elements from there, so that all others can agree to the bit.
+    const double rounding = 16 * half_ulp(precision_of<Scalar>) * (20 + handle_->grabbed().pivot.norm());
+    const Eigen::AngleAxisd turn(pose.rotation.norm(), axis_across(*mesh_) * (pose.rotation.sum() < 0 ? -1 : 1));
+    reference::Handle held;
+    for (std::size_t i = 0; i < handle_->elements().size(); ++i) {
+      const ElementId element = handle_->elements()[i];
+      const Point at = position_of(*solver_, *mesh_, element);
+      QVERIFY((pose.pivot + turn * handle_->arm(i) - at).norm() <= rounding);
+      std::array<double, 3> target{};
+      for (int k = 0; k < mesh_->space_dimension; ++k) {
+        target[k] = solver_->body().positions()(element, k);
+      }
+      held.push_back({element, target});
+    }
+    compare(count, trace, move_reference(held));
+  }
+
+  /// The axis about which a plane object rotates; for others any axis.
+  static Point axis_across(const Mesh& mesh) {
+    Point axis(0, 0, 0);
+    for (int k = 0; k < 3; ++k) {
+      const auto end = mesh.axes.begin() + mesh.space_dimension;
+      axis[k] = std::find(mesh.axes.begin(), end, k) == end ? 1 : 0;
+    }
+    return mesh.space_dimension == 3 ? Point(0.6, 0, 0.8) : axis;
+  }
+
   std::array<double, 3> random_target(ElementId element, double reach) {
     std::array<double, 3> target{};
     for (int k = 0; k < mesh_->space_dimension; ++k) {
@@ -83,18 +134,18 @@ class SideBySide {
     return target;
   }
 
-  std::vector<reference::Processed> move_reference(ElementId element, const std::array<double, 3>& target) {
+  std::vector<reference::Processed> move_reference(const reference::Handle& handle) {
     switch (algorithm_) {
       case Algorithm::generalized:
-        return reference::move<reference::GeneralizedChainMail>(object_, element, target);
+        return reference::move<reference::GeneralizedChainMail>(object_, handle);
       case Algorithm::spiral:
-        return reference::move<reference::Spiral>(object_, element, target);
+        return reference::move<reference::Spiral>(object_, handle);
       case Algorithm::natural_queue:
-        return reference::move<reference::NaturalQueueChainMail>(object_, element, target);
+        return reference::move<reference::NaturalQueueChainMail>(object_, handle);
       case Algorithm::enhanced:
-        return reference::move_enhanced(object_, element, target);
+        return reference::move_enhanced(object_, handle);
       case Algorithm::chainmail_3d:
-        return reference::move_3d_chainmail(object_, element, target);
+        return reference::move_3d_chainmail(object_, handle);
       default:
         return {};  // Exact has its own oracle, and methods of elasticity are checked by mechanics
     }
@@ -122,6 +173,7 @@ class SideBySide {
   Algorithm algorithm_;
   std::unique_ptr<Solver> solver_;
   reference::Object<Scalar> object_;
+  std::optional<Handle> handle_;
 };
 
 template <class Scalar>

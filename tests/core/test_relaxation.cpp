@@ -117,7 +117,7 @@ void RelaxationTest::a_cut_link_does_not_pull() {
   solver->body().cut(std::span(&right, 1));
   solver->body().set_positions(std::vector<double>{0, 1.25, 9});
   wake_all(*solver, *mesh);
-  solver->relax(1, no_limit, 0);
+  solver->relax(1, no_limit, std::array{ElementId{0}});
   QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{0, 1, 9}));
 }
 
@@ -187,7 +187,7 @@ void RelaxationTest::it_ends_at_the_rest_shape_about_the_held_element() {
     move_by(*solver, *mesh, 7, way);
     wake_all(*solver, *mesh);
     int sweeps = 0;
-    while (solver->relax(1, no_limit, 7).visited != 0 && ++sweeps < 10'000) {
+    while (solver->relax(1, no_limit, std::array{ElementId{7}}).visited != 0 && ++sweeps < 10'000) {
     }
     QVERIFY(sweeps < 10'000);
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
@@ -203,7 +203,7 @@ void RelaxationTest::a_local_move_wakes_few() {
   const ElementId centre = 100 * 200 + 100;
   QCOMPARE(move_by(*solver, *mesh, centre, Point(0.05, 0, 0)).moved, std::uint64_t{0});
   solver->wake(std::span(&centre, 1));
-  const RelaxationResult first = solver->relax(1, no_limit, centre);
+  const RelaxationResult first = solver->relax(1, no_limit, std::array{centre});
   QVERIFY(first.visited >= 5);    // the element and its four neighbours
   QVERIFY(first.visited <= 400);  // of 40,000
 }
@@ -229,12 +229,12 @@ void RelaxationTest::a_slice_goes_on_where_the_last_one_stopped() {
     wake_all(*solver, *mesh);
   }
   for (int sweep = 0; sweep < 10; ++sweep) {
-    const RelaxationResult at_once = whole->relax(0.7, no_limit, 20);
-    RelaxationResult slice = sliced->relax(0.7, 7, 20);
+    const RelaxationResult at_once = whole->relax(0.7, no_limit, std::array{ElementId{20}});
+    RelaxationResult slice = sliced->relax(0.7, 7, std::array{ElementId{20}});
     std::uint64_t visited = slice.visited;
     while (!slice.sweep_ended) {
       QVERIFY(slice.visited <= 7);
-      slice = sliced->relax(0.7, 7, 20);
+      slice = sliced->relax(0.7, 7, std::array{ElementId{20}});
       visited += slice.visited;
     }
     QCOMPARE(visited, at_once.visited);

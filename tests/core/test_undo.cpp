@@ -249,7 +249,7 @@ void UndoTest::the_hand_lets_go_and_relaxation_sleeps() {
   carry_out(simulation, commands::SetRelaxation{true, 1});
   drag_by(simulation, 20, Point(-3, 2, 0));
   exchange(simulation, 1);
-  QVERIFY(!simulation.grabbed());
+  QVERIFY(simulation.grabbed().empty());
   QVERIFY(!simulation.statistics().relaxing);
   QVERIFY(!simulation.step());  // otherwise the state that undo restored would change slowly
   QVERIFY(SavedState(simulation).same_object(kept));

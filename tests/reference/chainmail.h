@@ -70,17 +70,27 @@ bool move_into_valid_region(Object<Scalar>& object, Element<Scalar>& element, El
   return element.current_position != before;
 }
 
-/// Moves the grabbed element to its target.
+/// An element of the handle, and its target.
+struct Held {
+  ElementId element;
+  std::array<double, 3> target;
+};
+/// The elements of the handle, in ascending order of their identifiers.
+using Handle = std::vector<Held>;
+
+/// Moves the elements of the handle to their targets.
 template <class Scalar>
-void begin(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
+void begin(Object<Scalar>& object, const Handle& handle) {
   for (Element<Scalar>& element : object.elements) {
     element.updated = false;
   }
-  Element<Scalar>& held = object.element(grabbed);
-  for (int k = 0; k < object.space_dimension; ++k) {
-    held.current_position[k] = static_cast<Scalar>(target[k]);
+  for (const Held& one : handle) {
+    Element<Scalar>& held = object.element(one.element);
+    for (int k = 0; k < object.space_dimension; ++k) {
+      held.current_position[k] = static_cast<Scalar>(one.target[k]);
+    }
+    held.updated = true;
   }
-  held.updated = true;
 }
 
 /// Updates a candidate that has not been updated. Returns true if it moved.
@@ -95,11 +105,13 @@ bool update(Object<Scalar>& object, const WaitingListData& next, std::vector<Pro
 
 /// Runs one move with its pass. Returns the processed candidates in their order.
 template <class Algorithm, class Scalar>
-std::vector<Processed> move(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
+std::vector<Processed> move(Object<Scalar>& object, const Handle& handle) {
   std::vector<Processed> processed;
-  begin(object, grabbed, target);
+  begin(object, handle);
   std::list<WaitingListData> waiting_list;
-  Algorithm::add_neighbours(object, grabbed, waiting_list);
+  for (const Held& one : handle) {
+    Algorithm::add_neighbours(object, one.element, waiting_list);
+  }
   while (!waiting_list.empty()) {
     const WaitingListData next = waiting_list.front();
     waiting_list.pop_front();

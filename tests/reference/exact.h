@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "reference/object.h"
@@ -18,6 +19,41 @@ class LeastAnswer {
     for (const auto& one : object_.softness) {
       bounds_.push_back(one);
     }
+  }
+
+  /// Returns the bounds of all elements (element_count x space_dimension each) while the elements of a handle are at
+  /// these positions: the shortest paths from all of them at once, without the links between two of them.
+  struct Bounds {
+    std::vector<double> low, high;
+  };
+  Bounds about(const std::vector<ElementId>& handle, const std::vector<double>& positions) const {
+    const double infinite = std::numeric_limits<double>::infinity();
+    Bounds bounds{std::vector<double>(positions.size(), -infinite), std::vector<double>(positions.size(), infinite)};
+    const auto is_held = [&](ElementId e) { return std::find(handle.begin(), handle.end(), e) != handle.end(); };
+    const auto n = static_cast<std::size_t>(object_.space_dimension);
+    for (const ElementId e : handle) {
+      for (std::size_t k = 0; k < n; ++k) {
+        bounds.low[e * n + k] = bounds.high[e * n + k] = positions[e * n + k];
+      }
+    }
+    for (bool narrowed = true; narrowed;) {
+      narrowed = false;
+      for (const SoftnessData<double>& link : bounds_) {
+        if (cut_(link.sponsor, link.neighbour) || (is_held(link.sponsor) && is_held(link.neighbour))) {
+          continue;
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+          double& low = bounds.low[link.neighbour * n + k];
+          double& high = bounds.high[link.neighbour * n + k];
+          const double lowest = bounds.low[link.sponsor * n + k] + link.low[k];
+          const double highest = bounds.high[link.sponsor * n + k] + link.high[k];
+          narrowed = narrowed || lowest > low || highest < high;
+          low = std::max(low, lowest);
+          high = std::min(high, highest);
+        }
+      }
+    }
+    return bounds;
   }
 
   /// Returns the positions (element_count x space_dimension) after the grabbed element moved to its target.

@@ -27,11 +27,13 @@ double violation(Object<Scalar>& object, ElementId identifier, ElementId sponsor
 /// Enhanced ChainMail (Schill et al. 1998): the waiting candidate with the largest violation comes next; of equal ones,
 /// the first. It searches the whole list.
 template <class Scalar>
-std::vector<Processed> move_enhanced(Object<Scalar>& object, ElementId grabbed, const std::array<double, 3>& target) {
+std::vector<Processed> move_enhanced(Object<Scalar>& object, const Handle& handle) {
   std::vector<Processed> processed;
-  begin(object, grabbed, target);
+  begin(object, handle);
   std::list<WaitingListData> waiting_list;
-  NaturalQueueChainMail::add_neighbours(object, grabbed, waiting_list);
+  for (const Held& one : handle) {
+    NaturalQueueChainMail::add_neighbours(object, one.element, waiting_list);
+  }
   while (!waiting_list.empty()) {
     auto most = waiting_list.begin();
     double largest = violation(object, most->element, most->sponsor);
@@ -75,10 +77,9 @@ inline const std::array<std::list<Direction>, 6> feeds{std::list<Direction>{righ
                                                        {back}};
 
 template <class Scalar>
-std::vector<Processed> move_3d_chainmail(Object<Scalar>& object, ElementId grabbed,
-                                         const std::array<double, 3>& target) {
+std::vector<Processed> move_3d_chainmail(Object<Scalar>& object, const Handle& handle) {
   std::vector<Processed> processed;
-  begin(object, grabbed, target);
+  begin(object, handle);
   std::array<std::list<WaitingListData>, 6> lists;
   const auto feed = [&](ElementId sponsor, const std::list<Direction>& into) {
     for (const ElementId neighbour : object.element(sponsor).neighbours) {
@@ -88,7 +89,9 @@ std::vector<Processed> move_3d_chainmail(Object<Scalar>& object, ElementId grabb
       }
     }
   };
-  feed(grabbed, {right, left, top, bottom, front, back});
+  for (const Held& one : handle) {
+    feed(one.element, {right, left, top, bottom, front, back});
+  }
   for (const Direction direction : {right, left, top, bottom, front, back}) {
     auto& list = lists[direction];
     for (; !list.empty(); list.pop_front()) {

@@ -26,7 +26,7 @@ PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method) {
     for (const ElementId handle : handles) {
       try {
         const double seconds =
-            seconds_of(clocks, [&] { solver->hold(ElasticHandle::of(handle, problem.mesh->space_dimension)); });
+            seconds_of(clocks, [&] { solver->hold(ElasticHandle::of(handle)); });
         grab_[handle].push_back(1e3 * seconds);
       } catch (const Error&) {
         grab_.erase(handle);  // the drag itself reports the reason
