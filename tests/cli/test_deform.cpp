@@ -1,3 +1,4 @@
+#include <QJsonArray>
 #include <csignal>
 
 #include "cli/chainmail_program.h"
@@ -20,6 +21,7 @@ class DeformCommandTest : public QObject {
   void every_algorithm_runs_data();
   void every_algorithm_runs();
   void acts_are_carried_out_in_their_order();
+  void a_handle_of_many_moves_and_rotates();
   void coordinates_left_out_stay();
   void coordinates_that_do_not_exist_must_be_0();
   void steps_are_equal_and_end_at_the_target();
@@ -98,6 +100,38 @@ void DeformCommandTest::acts_are_carried_out_in_their_order() {
   QCOMPARE(xs("--by 0:1 --move 0:7")[0], 7.0);
   QCOMPARE(xs("--move 0:7 --by 0:1")[0], 8.0);
   QCOMPARE(program_->json("out.json")["passes"].toArray().size(), 2);
+}
+
+/// Elements 7 and 8 lie at (2, 1) and (3, 1).
+void DeformCommandTest::a_handle_of_many_moves_and_rotates() {
+  using Row = QList<double>;
+  const auto near = [](const Row& a, const Row& b) {
+    return std::abs(a[0] - b[0]) < 1e-12 && std::abs(a[1] - b[1]) < 1e-12;
+  };
+  auto rows = deform("--algorithm natural-queue --grab 7,8 --by 1,0.5", "grid.dat");
+  QVERIFY(near(rows[7], {3, 1.5}) && near(rows[8], {4, 1.5}));
+  rows = deform("--algorithm natural-queue --steps 3 --grab 7-8 --rotate z:90 --by 0.5 --by 0,1", "grid.dat");
+  QVERIFY(near(rows[7], {3, 1.5}) && near(rows[8], {3, 2.5}));
+  const QJsonValue json = program_->json("out.json")["passes"];
+  QCOMPARE(json.toArray().size(), 9);
+  QCOMPARE(json[8]["elements"], QJsonValue(QJsonArray({7, 8})));
+  QVERIFY(std::abs(json[8]["target"][0].toDouble() - 3) < 1e-12);
+  QCOMPARE(json[8]["rotate"]["degrees"].toDouble(), 90.0);
+  QVERIFY(std::abs(json[0]["rotate"]["degrees"].toDouble() - 30) < 1e-12);
+  // Rotations about different axes follow each other: x to y about z, then y to z about x.
+  rows = deform("--algorithm spiral --space 3 --grab 7,8 --rotate 0,0,5:90 --rotate x:90", "grid.dat");
+  QVERIFY(near(rows[7], {2.5, 1}) && std::abs(rows[7][2] + 0.5) < 1e-12 && std::abs(rows[8][2] - 0.5) < 1e-12);
+  // A layer by its name; another act releases the handle.
+  rows = deform("--algorithm natural-queue --grab top --by 0,1 --move 0:-1 --grab top --by 0,1", "grid.dat");
+  QVERIFY(near(rows[15], {0, 5}) && near(rows[19], {4, 5}));
+  // The same in a script.
+  program_->write("moves.json", R"({"version": 1, "commands": [{"do": "grab", "elements": [7, 8]},
+      {"do": "drag", "by": [1, 0, 0], "rotate": {"axis": [0, 0, 1], "degrees": 90}}]})");
+  rows = deform("--algorithm natural-queue --script moves.json", "grid.dat");
+  QVERIFY(near(rows[7], {3.5, 0.5}) && near(rows[8], {3.5, 1.5}));
+  const auto text = program_->run("deform grid.dat --algorithm exact --grab 6-8,11-13 --rotate z:80").output;
+  QVERIFY2(text.contains("pass 0: 6 elements to (2, 1.5, 0), rotated by 80 degrees about (0, 0, 1)"), text);
+  QVERIFY2(text.contains("links outside the handle, or pins, stop its rotation at"), text);
 }
 
 void DeformCommandTest::coordinates_left_out_stay() {
@@ -209,9 +243,18 @@ void DeformCommandTest::acts_that_do_not_fit_are_refused_data() {
        {"--move 20:1", "--move -1:1",  "--move 3",         "--move 3:",      "--move :1",    "--move x:1",
         "--move 3:1,", "--move 3:,1",  "--move 3:1,2,0,0", "--move 3:1,2,3", "--move 3:nan", "--by 3:1e999",
         "--by 3:1x",   "--by 3:0,0,1", "--cut 0",          "--cut 0-2",      "--cut 0-0",    "--cut 0-20",
-        "--cut 0-1-2", "--cut -",      "--cut 0:1"}) {
+        "--cut 0-1-2", "--cut -",      "--cut 0:1",        "--grab 20",      "--grab 3,3",   "--grab 5-3",
+        "--grab x",    "--grab 1,,2",  "--grab 1-",        "--grab 1-99999", "--grab 0:1",   "--by 1,1",
+        "--by 3",      "--rotate z:3"}) {
     row(act, act);
   }
+  for (const char* rotation : {"--rotate z", "--rotate z:", "--rotate :5", "--rotate w:5", "--rotate 0,1:5",
+                               "--rotate 0,0,0:5", "--rotate 1,0,0:5", "--rotate x:5", "--rotate z:nan"}) {
+    row(("--grab 1,2 " + std::string(rotation)).c_str(), rotation);
+  }
+  row("--pin 2 --grab 1-3", "--grab 1-3");
+  row("--grab 1-3 --cut 0-1 --by 1,1", "--by 1,1");
+  row("--grab 1-3 --by 1e308,0 --by 1e308,0", "--by 1e308,0: element 1");
   row("--by 3:1e308 --by 3:1e308", "--by 3:1e308: element 3");
   row("--precision float --by 3:1e39", "--by 3:1e39: element 3");
   row("--space 1 --by 3:1", "--space 1");

@@ -5,9 +5,19 @@
 
 #include "core/allocations.h"
 #include "core/families.h"
+#include "mesh/layers.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
+
+// Eigen takes memory by malloc.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+extern "C" void* __libc_malloc(std::size_t bytes);
+extern "C" void* malloc(std::size_t bytes) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(bytes);
+}
+#endif
 
 namespace {
 
@@ -22,6 +32,25 @@ std::uint64_t taken_by_drag(Solver& solver, const Mesh& mesh, ElementId element,
     for (int i = 0; i < 16; ++i) {
       const double angle = std::numbers::pi * i / 8;
       solver.move(element, mesh.rest_position(element) + radius * Point(std::cos(angle), std::sin(angle), 0));
+    }
+  };
+  for (int i = 0; i < rounds_to_warm_up; ++i) {
+    round();
+  }
+  const std::uint64_t before = allocations;
+  round();
+  round();
+  return allocations - before;
+}
+
+/// The same for a handle of many elements.
+std::uint64_t taken_by_handle(Solver& solver, const std::vector<ElementId>& elements, double radius) {
+  Handle handle(solver.body(), elements);
+  const auto round = [&] {
+    for (int i = 0; i < 16; ++i) {
+      const double angle = std::numbers::pi * i / 8;
+      solver.move(handle,
+                  {handle.grabbed().pivot + radius * Point(std::cos(angle), std::sin(angle), 0), Point::Zero()});
     }
   };
   for (int i = 0; i < rounds_to_warm_up; ++i) {
@@ -65,6 +94,34 @@ class TestAllocations : public QObject {
       solver->body().reset();
       solver->body().set_softness({stiff, {}});
       QCOMPARE(taken_by_drag(*solver, *mesh, 0, 6), std::uint64_t{0});
+    }
+  }
+
+  void aHandleOfManyTakesNothing_data() { aPassTakesNothing_data(); }
+  void aHandleOfManyTakesNothing() {
+    QFETCH(int, algorithm);
+    QFETCH(bool, jittered);
+    const MeshPointer mesh = jittered ? jittered_triangles(24, 24, 3) : make_mesh(MeshKind::grid, {24, 24, 1});
+    for (const Precision precision : precisions) {
+      const auto solver = make_solver(mesh, Algorithm(algorithm), precision);
+      QCOMPARE(taken_by_handle(*solver, {299, 300, 301, 324}, 2), std::uint64_t{0});
+    }
+  }
+
+  /// A product of a matrix and a vector needs no memory. Neo-Hookean FEM takes some in each factorization.
+  void aLinearMethodTakesNothing_data() {
+    QTest::addColumn<int>("algorithm");
+    QTest::newRow("linear FEM") << int(Algorithm::linear_fem);
+    QTest::newRow("BEM") << int(Algorithm::boundary_elements);
+  }
+  void aLinearMethodTakesNothing() {
+    QFETCH(int, algorithm);
+    const MeshPointer mesh = make_mesh(MeshKind::tetra, {5, 5, 5});
+    for (const Precision precision : precisions) {
+      const auto solver = make_solver(mesh, Algorithm(algorithm), precision);
+      solver->body().pin(layer(*mesh, *find_side("bottom")));
+      QCOMPARE(taken_by_drag(*solver, *mesh, 124, 0.5), std::uint64_t{0});
+      QCOMPARE(taken_by_handle(*solver, layer(*mesh, *find_side("top")), 0.5), std::uint64_t{0});
     }
   }
 

@@ -15,6 +15,7 @@ class MovesTest : public QObject {
 
  private slots:
   void commands_are_read();
+  void a_handle_of_many_is_read();
   void what_is_written_reads_back();
   void what_is_not_the_objects_is_left_out();
   void a_change_of_mesh_is_not_written();
@@ -61,7 +62,7 @@ std::string with_commands(const std::string& commands) { return R"({"version": 1
 void MovesTest::commands_are_read() {
   const auto moves = read(every_command);
   QCOMPARE(moves.size(), std::size_t{9});
-  QCOMPARE(std::get<commands::Grab>(moves[0]).element, 5U);
+  QCOMPARE(std::get<commands::Grab>(moves[0]).elements, std::vector<ElementId>{5});
   QVERIFY(std::get<commands::Drag>(moves[1]).target == Point(1, -2.5, 0));
   QVERIFY(std::holds_alternative<commands::Release>(moves[2]));
   QCOMPARE(std::get<commands::Cut>(moves[3]).links, (std::vector<LinkId>{0, 6}));
@@ -81,6 +82,24 @@ void MovesTest::commands_are_read() {
                                  {"do": "grab", "element": 2}, {"do": "release"}, {"do": "pin", "elements": [2]})"))
                .size(),
            std::size_t{5});
+}
+
+void MovesTest::a_handle_of_many_is_read() {
+  const auto moves = read(with_commands(R"({"do": "grab", "elements": [4, 1]}, {"do": "drag", "by": [1, 0.5, 0]},
+      {"do": "drag", "rotate": {"axis": [0, 0, 2], "degrees": 30}},
+      {"do": "drag", "target": [1, 2, 0], "rotate": {"axis": [0, 0, 1], "degrees": -5}})"));
+  QCOMPARE(moves.size(), std::size_t{4});
+  QCOMPARE(std::get<commands::Grab>(moves[0]).elements, (std::vector<ElementId>{4, 1}));
+  const auto drag = [&](std::size_t i) { return std::get<commands::Drag>(moves[i]); };
+  QVERIFY(drag(1).relative && drag(1).target == Point(1, 0.5, 0) && drag(1).rotation == Rotation());
+  QVERIFY(drag(2).relative && drag(2).target == Point(0, 0, 0) && drag(2).rotation == (Rotation{Point(0, 0, 2), 30}));
+  QVERIFY(!drag(3).relative && drag(3).target == Point(1, 2, 0) && drag(3).rotation.degrees == -5);
+  QCOMPARE(written(read(written(moves))), written(moves));
+  Simulation simulation(mesh_, Algorithm::exact, Precision::double_precision);
+  for (const Command& move : moves) {
+    simulation.apply(move);
+  }
+  QCOMPARE(simulation.grabbed().size(), std::size_t{2});
 }
 
 void MovesTest::what_is_written_reads_back() {
@@ -173,6 +192,27 @@ void MovesTest::other_commands_are_refused_data() {
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, null, 2]})", "1: 'null' is not a number; ");
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, "2", 2]})", "1: '\"2\"' is not a number; ");
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, 1e101, 2]})", "1: '1e+101' is too large");
+  row(R"({"do": "grab", "elements": []})", "0: the handle holds no element; ");
+  row(R"({"do": "grab", "elements": [1, 6]})", "0: there is no element 6; ");
+  row(R"({"do": "grab", "elements": [1, 2, 1]})", "0: element 1 is grabbed twice; ");
+  row(R"({"do": "grab", "element": 1, "elements": [1]})", "0: 'element' is not a known key; ");
+  row(R"({"do": "pin", "elements": [2]}, {"do": "grab", "elements": [1, 2]})", "1: element 2 is pinned at that time ");
+  row(R"({"do": "grab", "elements": [1, 2]}, {"do": "pin", "elements": [2]})",
+      "1: element 2 is grabbed at that time; ");
+  const std::string grabbed = R"({"do": "grab", "elements": [1, 2]}, {"do": "drag", )";
+  const std::vector<std::pair<std::string, const char*>> drags{
+      {R"("x": 1})", "1: 'x' is not a known key; "},
+      {R"("by": [1, 2, 0], "target": [1, 2, 0]})", "1: 'target' is not a known key; "},
+      {R"("by": [1, 2]})", "1: 'by' does not have three coordinates; "},
+      {R"("rotate": 30})", "1: 'rotate' is not an object; "},
+      {R"("rotate": {"degrees": 30}})", "1: 'axis' is missing; "},
+      {R"("rotate": {"axis": [0, 0, 0], "degrees": 30}})", "1: the rotation has no axis: "},
+      {R"("rotate": {"axis": [0, 0, 1]}})", "1: 'degrees' is missing; "},
+      {R"("rotate": {"axis": [0, 0, 1], "degrees": "a"}})", "1: '\"a\"' is not a number; "},
+      {R"("rotate": {"axis": [1, 0, 0], "degrees": 30}})", "1: about x, it would leave the space of the object; "}};
+  for (const auto& [text, said] : drags) {
+    row((grabbed + text).c_str(), said);
+  }
   row(R"({"do": "cut", "links": [[0, 1], [0, 2]]})", "0: the elements 0 and 2 are not linked; ");
   row(R"({"do": "cut", "links": [[1, 1]]})", "0: the elements 1 and 1 are not linked; ");
   row(R"({"do": "cut", "links": [0, 1]})", "0: a link is not an array of 2; ");
