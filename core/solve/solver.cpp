@@ -9,7 +9,7 @@
 namespace chainmail {
 
 Solver::Solver(MeshPointer mesh, Algorithm algorithm, Precision precision)
-    : body_(std::move(mesh), precision), algorithm_(info(algorithm)) {
+    : body_((check(algorithm, *mesh), std::move(mesh)), precision), algorithm_(info(algorithm)) {
   body_.store_displacements(algorithm_.from_rest);
 }
 
@@ -80,7 +80,6 @@ PassCount Solver::move_control_point(std::size_t point, const Point& target) {
 }
 
 std::unique_ptr<Solver> make_solver(const MeshPointer& mesh, Algorithm algorithm, Precision precision) {
-  check(algorithm, *mesh);
   return std::make_unique<Solver>(mesh, algorithm, precision);
 }
 

@@ -29,9 +29,9 @@ struct HandleScene {
   double radius;  // of the circle (mesh units)
 };
 
-/// A square patch in the middle of a cloth, of which the lower edge is pinned for the methods that need pins.
-HandleScene cloth_with_patch(const std::string& name, std::uint32_t side, std::uint32_t width) {
-  HandleScene scene{name, generate({MeshKind::cloth, {side, side, 1}}), {}, {}, 2};
+/// A square patch in the middle of a plane object, of which the lower edge is pinned for the methods that need pins.
+HandleScene with_patch(const std::string& name, MeshKind kind, std::uint32_t side, std::uint32_t width) {
+  HandleScene scene{name, generate({kind, {side, side, 1}}), {}, {}, 2};
   const std::uint32_t first = (side - width) / 2;
   for (std::uint32_t y = first; y < first + width; ++y) {
     for (std::uint32_t x = first; x < first + width; ++x) {
@@ -119,7 +119,8 @@ int main(int argc, char** argv) {
   std::printf("%-8s  %-14s  %9s  %7s  %10s  %10s  %10s  %8s\n", "scene", "algorithm", "elements", "handle", "first ms",
               "later ms", "rotation", "violated");
   for (const HandleScene& scene :
-       {cloth_with_patch("surface", 159, 17), cloth_with_patch("cloth", 1000, 100), solid_with_top(12)}) {
+       {with_patch("surface", MeshKind::cloth, 159, 17), with_patch("cloth", MeshKind::cloth, 1000, 100),
+        with_patch("grid", MeshKind::grid, 1000, 100), solid_with_top(12)}) {
     for (const AlgorithmInfo& algorithm : every_algorithm()) {
       const std::string name(algorithm.offered_name());
       if ((scene.name + "/" + name).find(filter) == std::string::npos) {

@@ -49,7 +49,7 @@ class AnyCommand {
       case 9:
       case 10:
       case 11:
-        return below(3) == 0 ? Grab{{below(elements_), below(elements_), below(elements_)}} : Grab{below(elements_)};
+        return below(4) == 0 ? Grab{{below(elements_), below(elements_), below(elements_)}} : Grab{below(elements_)};
       default:
         return drag();
     }
@@ -60,8 +60,9 @@ class AnyCommand {
   /// To a position, or along a way with a rotation in the plane, which some objects refuse.
   Command drag() {
     commands::Drag drag{Point(between(-4, 16), between(-4, 16), between(-4, 4))};
-    if (below(4) == 0) {
-      drag = {Point(between(-2, 2), between(-2, 2), 0), {Point(0, 0, 1), between(-90, 90)}, true};
+    if (below(6) == 0) {
+      drag = {Point(between(-2, 2), between(-2, 2), 0), {}, true};
+      drag.rotation = below(2) == 0 ? Rotation{Point(0, 0, 1), between(-90, 90)} : Rotation();
     }
     return drag;
   }

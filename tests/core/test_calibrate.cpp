@@ -114,7 +114,7 @@ void CalibrateTest::drags_are_those_of_a_hand() {
     QVERIFY(length >= 0.05 * size && length <= 0.2 * size);
     QVERIFY(from_pins(drag.element) >= size / 4);
     QVERIFY(mesh->space_dimension == 2 || std::ranges::binary_search(outside, drag.element));
-    QVERIFY(std::get<commands::Grab>(drag.moves.commands.front()).element == drag.element);
+    QVERIFY(std::get<commands::Grab>(drag.moves.commands.front()).elements.front() == drag.element);
     Point at = start;
     const auto steps = double(drag.moves.commands.size() - 1);
     for (std::size_t i = 1; i < drag.moves.commands.size(); ++i) {

@@ -182,7 +182,7 @@ void CompareTest::three_drags_reach_as_far_as_they_say() {
   QVERIFY(displaced(one.drags[0]) >= 32 && displaced(one.drags[0]) < 128);
   QCOMPARE(displaced(one.drags[1]), 256);
   const auto& back = one.drags[2].commands;
-  const ElementId handle = std::get<commands::Grab>(back.front()).element;
+  const ElementId handle = std::get<commands::Grab>(back.front()).elements.front();
   QVERIFY(std::get<commands::Drag>(back.back()).target == grid->rest_position(handle));
   QVERIFY(displaced(one.drags[2]) > 128);  // the object does not spring back by itself
 }

@@ -76,15 +76,15 @@ void MeasuresTest::energy_ratio_is_none_at_0() {
 void MeasuresTest::largest_over_handle_by_hand() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1}, 2);
   const auto solver = at(mesh, {0, 2, 1, 0, 5, 4});  // the handle moved by 2, the last element by (3, 4)
-  QCOMPARE(largest_over_handle(*mesh, solver->body().positions(), 0).value(), 2.5);
-  QCOMPARE(largest_over_handle(*mesh, solver->body().positions(), 2).value(), 1.0);
+  QCOMPARE(largest_over_handle(*mesh, solver->body().positions(), std::array{ElementId{0}}).value(), 2.5);
+  QCOMPARE(largest_over_handle(*mesh, solver->body().positions(), std::array{ElementId{2}}).value(), 1.0);
 }
 
 void MeasuresTest::a_hand_that_is_back_gives_no_ratio() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1}, {}, 0.1);
   // 1e-4 mean rest lengths are 1e-5 here.
-  QVERIFY(!largest_over_handle(*mesh, at(mesh, {0.9e-5, 0.1, 0.5})->body().positions(), 0));
-  QVERIFY(largest_over_handle(*mesh, at(mesh, {1.1e-5, 0.1, 0.5})->body().positions(), 0));
+  QVERIFY(!largest_over_handle(*mesh, at(mesh, {0.9e-5, 0.1, 0.5})->body().positions(), std::array{ElementId{0}}));
+  QVERIFY(largest_over_handle(*mesh, at(mesh, {1.1e-5, 0.1, 0.5})->body().positions(), std::array{ElementId{0}}));
 }
 
 void MeasuresTest::spread_by_hand() {

@@ -280,7 +280,7 @@ void PhysicsTest::the_reference_solution_knows_nothing_of_the_last_one() {
   const Case sheet = pinned_sheet(25, {}, {});
   const std::vector<double> at_rest(2 * sheet.pins.size());
   ReferenceSolver solver({sheet.mesh, Cuts(sheet.mesh), sheet.pins, at_rest, {}});
-  const ElementId handle = std::get<commands::Grab>(sheet.drags[0].commands[0]).element;
+  const ElementId handle = std::get<commands::Grab>(sheet.drags[0].commands[0]).elements.front();
   const Point near = sheet.mesh->rest_position(handle) + Point(0.1, -0.05, 0), far = near + Point(0.6, -0.6, 0);
   const ReferenceSolution first = solver.at(handle, near);
   QVERIFY(solver.at(handle, far).displacements != first.displacements);
@@ -314,7 +314,7 @@ void PhysicsTest::everyone_takes_part() {
 
 void PhysicsTest::the_truth_has_no_error_and_linear_elasticity_less_for_less() {
   Case bar = pinned_bar(24, {}, {});
-  const ElementId handle = std::get<commands::Grab>(bar.drags[0].commands[0]).element;
+  const ElementId handle = std::get<commands::Grab>(bar.drags[0].commands[0]).elements.front();
   bar.drags = {drag(*bar.mesh, handle, {0.4, 0.4, 0}), drag(*bar.mesh, handle, {0.04, 0.04, 0})};
   const auto report = compare_with_physics({bar}, quick({}, {0, 10}));
   const auto far = errors_of(report.objects[0].drags[0]), near = errors_of(report.objects[0].drags[1]);

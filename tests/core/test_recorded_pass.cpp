@@ -77,7 +77,7 @@ void RecordedPassTest::steps_lead_from_before_to_after() {
   std::uint64_t passes = 0;
   AnyCommand any(41, true, {mesh, make_mesh(MeshKind::block, {3, 3, 2})}, 12, 14);
   Recorded recorded(mesh, Algorithm::generalized);
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     if (any.below(40) == 0) {
       recorded.recorder.set_on(false);
       QVERIFY(!recorded.recorder.last(0));

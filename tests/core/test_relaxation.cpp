@@ -45,7 +45,7 @@ std::vector<double> sweep_chain(const MeshPointer& mesh, const Softness& softnes
   solver->body().set_softness(softness);
   solver->body().set_positions(positions);
   wake_all(*solver, *mesh);
-  solver->relax(step, no_limit, held);
+  solver->relax(step, no_limit, std::array{held});
   return positions_of(*solver, *mesh);
 }
 
@@ -126,7 +126,7 @@ void RelaxationTest::the_held_element_stays() {
     const ActiveState state;
     const Point before = position_of(*state.solver, *state.mesh, state.held);
     for (int sweep = 0; sweep < 5; ++sweep) {
-      state.solver->relax(state.step, no_limit, state.held);
+      state.solver->relax(state.step, no_limit, std::array{state.held});
     }
     RC_ASSERT(position_of(*state.solver, *state.mesh, state.held) == before);
   };
@@ -156,7 +156,7 @@ void RelaxationTest::from_a_valid_state_every_link_stays_valid() {
     // below 1e-11 per sweep.
     RC_ASSERT(state.violation() <= 1e-10);
     for (int sweep = 0; sweep < 10; ++sweep) {
-      state.solver->relax(state.step, no_limit, state.held);
+      state.solver->relax(state.step, no_limit, std::array{state.held});
       RC_ASSERT(state.violation() <= 1e-10);
     }
   };
@@ -168,7 +168,7 @@ void RelaxationTest::from_a_valid_state_the_energy_never_rises() {
     const ActiveState state;
     double before = state.energy();
     for (int sweep = 0; sweep < 10; ++sweep) {
-      state.solver->relax(state.step, no_limit, state.held);
+      state.solver->relax(state.step, no_limit, std::array{state.held});
       const double after = state.energy();
       // E is a sum of some 100 squares of differences. Each difference has an error of an ulp of a coordinate (1e-14),
       // which changes E by that times a deflection: 1e-12 of E, and less than 1e-20 if E is almost 0.

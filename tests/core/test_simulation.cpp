@@ -231,7 +231,7 @@ void SimulationTest::sweeps_of_a_large_mesh_are_those_of_its_solver() {
   solver->wake_all();
   simulation.relax(3, 0.5);
   for (int i = 0; i < 3; ++i) {
-    solver->relax(0.5, std::numeric_limits<std::uint64_t>::max(), 0);
+    solver->relax(0.5, std::numeric_limits<std::uint64_t>::max(), std::array{ElementId{0}});
   }
   QVERIFY(same_bits(positions_of(simulation), positions_of(*solver, *mesh)));
 }

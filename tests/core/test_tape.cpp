@@ -24,7 +24,7 @@ class TapeTest : public QObject {
 
 namespace {
 
-ElementId grabbed(const Tape& tape, std::size_t i) { return std::get<commands::Grab>(tape.at(i)).element; }
+ElementId grabbed(const Tape& tape, std::size_t i) { return std::get<commands::Grab>(tape.at(i)).elements.front(); }
 
 /// Records grabs of these elements.
 void note(Tape& tape, const std::vector<ElementId>& elements) {
@@ -153,7 +153,7 @@ void TapeTest::the_last_drag_is_told_apart() {
   }
   const auto drag = tape.last_drag();  // a grab without a move is not a drag
   QCOMPARE(drag.size(), std::size_t{3});
-  QCOMPARE(std::get<commands::Grab>(drag.front()).element, 1U);
+  QCOMPARE(std::get<commands::Grab>(drag.front()).elements.front(), 1U);
   QVERIFY(std::get<commands::Drag>(drag.back()).target == Point(2, 0, 0));
   QCOMPARE(tape.passes(tape.length()), std::size_t{2});
   QCOMPARE(tape.passes(2), std::size_t{1});

@@ -130,7 +130,7 @@ void MovesTest::what_is_not_the_objects_is_left_out() {
   const auto again = read(written({commands::SetAlgorithm{Algorithm::spiral}, commands::SetRelaxation{true, 1},
                                    commands::KeepState{1}, commands::Grab{1}, commands::DropState{1}}));
   QCOMPARE(again.size(), std::size_t{1});
-  QCOMPARE(std::get<commands::Grab>(again[0]).element, 1U);
+  QCOMPARE(std::get<commands::Grab>(again[0]).elements.front(), 1U);
   QVERIFY(read(written({commands::KeepState{1}})).empty());
 }
 
