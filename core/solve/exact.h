@@ -166,7 +166,7 @@ class ExactPropagation {
   /// A drag that reached far and then moves little would still clamp all elements that it reached. So the regions are
   /// dropped after enough idle passes to pay for a new search.
   void drop_what_rests(std::size_t moved) {
-    const std::size_t known = regions_.elements().size();
+    const std::size_t known = regions_.elements().size() - offsets_.size();
     idle_passes_ = moved < known / 4 ? idle_passes_ + 1 : 0;
     if (idle_passes_ == passes_of_a_search) {
       made_for_ = {};

@@ -5,6 +5,7 @@
 #include "core/elastic_problems.h"
 #include "core/scenarios.h"
 #include "core/simulations.h"
+#include "elastic/bernstein.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
 #include "reference/exact.h"
@@ -91,6 +92,8 @@ class HandleTest : public QObject {
   void elastic_answers_are_those_of_displaced_pins_data();
   void elastic_answers_are_those_of_displaced_pins();
   void boundary_elements_follow_a_translation();
+  void free_form_fits_the_handle_and_the_pins();
+  void any_motion_stays_finite();
   void a_bad_handle_is_refused_data();
   void a_bad_handle_is_refused();
   void a_released_handle_may_deform();
@@ -368,6 +371,78 @@ void HandleTest::boundary_elements_follow_a_translation() {
     for (int k = 0; k < 3; ++k) {
       const double expected = (turn * mesh->rest_position(element) + by)[k];
       QVERIFY(std::abs(solver->displacements()[3 * element + std::size_t(k)] - expected) < 1e-12);
+    }
+  }
+}
+
+/// Of all motions of the control points, free-form deformation takes the one with the least sum of its squares and of
+/// weighted squares of what handle and pins miss: there the gradient of that sum is 0.
+void HandleTest::free_form_fits_the_handle_and_the_pins() {
+  const auto mesh = make_mesh(MeshKind::grid, {9, 7, 1});
+  ElasticProblem problem = pinned(mesh, {0, 8});
+  problem.options.lattice = {4, 3, 2};
+  const auto solver = make_elastic(ElasticMethod::free_form, problem);
+  ElasticHandle handle{{30, 31, 40, 50, 62}, {}, {}};
+  for (const ElementId element : handle.elements) {
+    handle.displacements.insert(handle.displacements.end(), {0.01 * element, 0.1});
+    const Point arm = mesh->rest_position(element) - mesh->rest_position(40);
+    handle.arms.insert(handle.arms.end(), {arm.x(), arm.y()});
+  }
+  solver->hold(handle);
+  const Eigen::Matrix2d turn = turn_of(Point(0, 0, 0.4)).topLeftCorner<2, 2>();
+  solver->move({turn, Eigen::Vector2d(0.5, -0.25)});
+  const BernsteinVolume volume(*mesh, {4, 3, 2});
+  Eigen::MatrixXd controls(volume.count(), 2);
+  for (Eigen::Index c = 0; c < volume.count(); ++c) {
+    const Eigen::Map<const Eigen::Vector2d> at(solver->control_points().data() + 2 * c);
+    controls.row(c) = (at - volume.rest(c)).transpose();
+  }
+  Eigen::MatrixXd gradient = controls;
+  const auto add = [&](ElementId element, const Eigen::Vector2d& to) {
+    const Eigen::VectorXd weights = volume.weights(element);
+    gradient += 1e6 * weights * (weights.transpose() * controls - to.transpose());
+    QVERIFY((weights.transpose() * controls - to.transpose()).norm() < 0.05);
+  };
+  add(0, Eigen::Vector2d::Zero());
+  add(8, Eigen::Vector2d::Zero());
+  for (std::size_t i = 0; i < handle.elements.size(); ++i) {
+    const Eigen::Vector2d arm(handle.arms[2 * i], handle.arms[2 * i + 1]);
+    const Eigen::Vector2d shape(handle.displacements[2 * i], handle.displacements[2 * i + 1]);
+    const Eigen::Vector2d to = shape + turn * arm + Eigen::Vector2d(0.5, -0.25);
+    add(handle.elements[i], to);
+    QCOMPARE(solver->displacements()[2 * handle.elements[i]], to.x());
+  }
+  QVERIFY(gradient.norm() < 1e-6);
+}
+
+/// Large handles, whole objects included, and rotations of any size.
+void HandleTest::any_motion_stays_finite() {
+  std::mt19937_64 random(11);
+  for (const MeshFamily& family : families()) {
+    for (const AlgorithmInfo& one : algorithms_for(*family.mesh)) {
+      for (const Precision precision : precisions) {
+        Solver solver(family.mesh, one.algorithm, precision);
+        for (const std::uint32_t share : {1u, 2u, 3u}) {
+          std::vector<ElementId> elements;
+          for (ElementId e = 0; e < family.mesh->element_count(); e += share) {
+            elements.push_back(e);
+          }
+          Handle handle(solver.body(), elements);
+          for (int i = 0; i < 6; ++i) {
+            Pose pose = handle.grabbed();
+            for (int k = 0; k < family.mesh->space_dimension; ++k) {
+              pose.pivot[family.mesh->axes[std::size_t(k)]] += uniform(random, -5, 5);
+            }
+            if (family.mesh->space_dimension == 3) {
+              pose.rotation = Point(uniform(random, -3, 3), uniform(random, -3, 3), uniform(random, -3, 3));
+            }
+            solver.move(handle, pose);
+            const auto positions = positions_of(solver, *family.mesh);
+            QVERIFY(std::ranges::all_of(positions, [](double x) { return std::abs(x) < 1000; }));
+          }
+          QVERIFY(!one.holds_links || largest_violation_outside(solver, elements) < counts_as_violated);
+        }
+      }
     }
   }
 }

@@ -50,7 +50,7 @@ void SummaryTest::json_keeps_the_order_of_the_keys() {
 }
 
 void SummaryTest::json_of_a_deformation() {
-  DeformSummary summary{"spiral", 4, 3, {{2, Point(0.1, 0, 0), 7, 5, 0.25}}, {}, 0.5, {2, 1}};
+  DeformSummary summary{"spiral", 4, 3, {{{2}, Point(0.1, 0, 0), {}, 7, 5, 0.25}}, {}, 0.5, {2, 1}};
   summary.violation.max = 0.125;
   std::ostringstream out;
   write_json(out, summary);
