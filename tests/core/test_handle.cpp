@@ -97,6 +97,7 @@ class HandleTest : public QObject {
   void a_bad_handle_is_refused_data();
   void a_bad_handle_is_refused();
   void a_released_handle_may_deform();
+  void a_rotated_handle_violates_its_own_links();
 };
 
 void HandleTest::a_rotation_is_that_of_a_matrix() {
@@ -502,6 +503,19 @@ void HandleTest::a_released_handle_may_deform() {
                        std::vector(relaxed.begin() + 60, relaxed.begin() + 66)) > 0.01);
   simulation.apply(commands::SetSoftness{{{0.25, 2, 1}, {}}});  // softer: no link is violated
   QVERIFY(same_bits(positions_of(simulation), relaxed));
+}
+
+/// Exact ChainMail keeps all links valid when a handle moves, but not those inside a handle that rotates.
+void HandleTest::a_rotated_handle_violates_its_own_links() {
+  Simulation simulation(make_mesh(MeshKind::grid, {9, 9, 1}), Algorithm::exact, Precision::double_precision);
+  simulation.apply(commands::Grab{std::vector<ElementId>{40, 41}});
+  simulation.apply(commands::Drag{Point(0.5, 0.5, 0), {}, true});
+  QVERIFY(simulation.valid());
+  simulation.apply(commands::Drag{Point(0.5, 0.5, 0), {Point(0, 0, 1), 15}, true});
+  QVERIFY(!simulation.valid());
+  simulation.refresh_statistics(true);
+  QVERIFY(std::abs(simulation.statistics().violation.max - (std::sin(15 * std::numbers::pi / 180) - 0.1)) < 1e-12);
+  QCOMPARE(simulation.statistics().violation.fraction, 1.0 / 144);
 }
 
 QTEST_APPLESS_MAIN(HandleTest)
