@@ -45,7 +45,7 @@ void move(Workbench& bench) {
   QPushButton* button = bench.find<QPushButton>("moveElement");
   QVERIFY(button->isEnabled());
   button->click();
-  QTRY_VERIFY(!bench.document().held());
+  QTRY_VERIFY(bench.document().held().empty());
   bench.settle();
 }
 
@@ -147,7 +147,7 @@ class WindowExact : public QObject {
         const QPointF off = bench.view(p).placeOf(element) - middleOfView;
         QVERIFY2(off.manhattanLength() < 2, qPrintable(QStringLiteral("%1 %2").arg(off.x()).arg(off.y())));
       }
-      QVERIFY(!bench.document().held());
+      QVERIFY(bench.document().held().empty());
       QMouseEvent move(QEvent::MouseMove, middleOfView + QPointF(50, 50),
                        bench.view(0).mapToGlobal(middleOfView + QPointF(50, 50)), Qt::NoButton, Qt::NoButton,
                        Qt::NoModifier);
@@ -287,7 +287,7 @@ class WindowExact : public QObject {
     QTRY_VERIFY(bench.document().frame(0)->statistics.passes > 2);
     QVERIFY(button->text().contains(QStringLiteral("of 1000")));
     button->click();
-    QVERIFY(!bench.document().held());
+    QVERIFY(bench.document().held().empty());
     bench.settle();
     QVERIFY(bench.position(0, middle).y() < 40);
   }
