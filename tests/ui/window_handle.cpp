@@ -87,6 +87,15 @@ int shownRadius(Workbench& bench) {
   return match.hasMatch() ? match.captured(1).toInt() : 0;
 }
 
+/// Moves the cursor to a place, and waits for the events of that move: they have no pressed button and would end a
+/// drag.
+void pointAt(Workbench& bench, int panel, QPoint at) {
+  QTest::mouseMove(&bench.view(panel), QPoint(3, 3));  // the cursor may be there already
+  QTest::mouseMove(&bench.view(panel), at);
+  QTRY_VERIFY(bench.document().highlight().element);
+  bench.settle();
+}
+
 /// Turns the wheel with R held until the radius reaches that many pixels.
 void setRadius(Workbench& bench, int panel, QPoint at, double pixels) {
   View& view = bench.view(panel);
@@ -175,7 +184,7 @@ class WindowHandle : public QObject {
     const auto before = allPositions(bench);
     const QPoint at = bench.place(panel, 31);
     const double link = linkPixels(bench, panel);
-    QTest::mouseMove(&bench.view(panel), at);
+    pointAt(bench, panel, at);
     setRadius(bench, panel, at, 1.15 * link);
     const std::vector<ElementId> cross{22, 30, 31, 32, 40};  // the nearest diagonal is 1.41 links away
     QVERIFY2(readout(bench).contains(QStringLiteral("px · 5 elements")), qPrintable(readout(bench)));
@@ -204,7 +213,7 @@ class WindowHandle : public QObject {
   void theRingIsDrawnAtTheCursor() {
     Workbench bench;
     const QPoint at = bench.place(0, 31);
-    QTest::mouseMove(&bench.view(0), at);
+    pointAt(bench, 0, at);
     setRadius(bench, 0, at, 40);
     bench.settle();
     const QPointF below = QPointF(at) + shownRadius(bench) * QPointF(std::cos(0.4), std::sin(0.4));
@@ -217,7 +226,7 @@ class WindowHandle : public QObject {
   void theBrushReturnsToOneElement() {
     Workbench bench;
     const QPoint at = bench.place(0, 31);
-    QTest::mouseMove(&bench.view(0), at);
+    pointAt(bench, 0, at);
     for (const bool byWheel : {true, false}) {
       setRadius(bench, 0, at, 90);
       if (byWheel) {
@@ -244,7 +253,7 @@ class WindowHandle : public QObject {
     bench.settle();
     const auto before = allPositions(bench);
     const QPoint at = bench.place(0, 31);
-    QTest::mouseMove(&bench.view(0), at);
+    pointAt(bench, 0, at);
     setRadius(bench, 0, at, 1.15 * linkPixels(bench, 0));
     QVERIFY2(readout(bench).contains(QStringLiteral("px · 4 elements")), qPrintable(readout(bench)));
     bench.stroke(0, {at, at + QPoint(10, -10)}, false);
@@ -324,9 +333,9 @@ class WindowHandle : public QObject {
     QTest::newRow("plane x-y") << plane(2) << 0.0 << 0.0;
     QTest::newRow("plane x-z") << plane(1) << 0.0 << 0.0;
     QTest::newRow("plane y-z") << plane(0) << 0.0 << 0.0;
-    QTest::newRow("volume from the front") << block << 0.0 << 0.0;
-    QTest::newRow("volume from the back") << block << 180.0 << 0.0;
-    QTest::newRow("volume from below") << block << 0.0 << -90.0;
+    QTest::newRow("volume nearly from the front") << block << 12.0 << 8.0;
+    QTest::newRow("volume nearly from the back") << block << 168.0 << -8.0;
+    QTest::newRow("volume nearly from below") << block << 12.0 << -80.0;
     QTest::newRow("volume obliquely") << block << -130.0 << -40.0;
   }
   void theObjectFollowsTheCursor() {
@@ -501,7 +510,9 @@ class WindowHandle : public QObject {
     auto* degrees = bench.find<QLineEdit>("moveDegrees");
     QVERIFY(degrees->isVisible());
     QVERIFY(!bench.find<QComboBox>("moveAxis")->isVisible());  // a plane leaves no choice
-    QVERIFY(!bench.find<QComboBox>("moveHow")->isEnabled());
+    auto* how = bench.find<QComboBox>("moveHow");
+    QVERIFY(!how->isEnabled());
+    QCOMPARE(how->currentIndex(), 1);
     for (const char* bad : {"", "x", "4000"}) {
       degrees->setText(QLatin1String(bad));
       QVERIFY(!button->isEnabled());
@@ -527,7 +538,9 @@ class WindowHandle : public QObject {
     QVERIFY(button->toolTip().contains(QStringLiteral("pinned")));
     bench.document().select({31});
     QVERIFY(!degrees->isVisible());
-    QVERIFY(bench.find<QComboBox>("moveHow")->isEnabled());
+    QVERIFY(how->isEnabled());
+    QCOMPARE(how->currentIndex(), 0);
+    QCOMPARE(bench.find<QLineEdit>("moveX")->text(), QStringLiteral("4"));  // where element 31 is
   }
 
   void inSpaceTheNumbersHaveAnAxis() {

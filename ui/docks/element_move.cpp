@@ -14,6 +14,7 @@ namespace {
 constexpr int mostSteps = 1000;
 constexpr int standardSteps = 10;
 constexpr double mostDegrees = 3600;
+constexpr int byDistance = 1;  // index of the choice
 
 bool isCarried(const Mesh& mesh, int axis) {
   const auto end = mesh.axes.begin() + mesh.space_dimension;
@@ -111,6 +112,7 @@ void ElementMove::setElements(const std::vector<ElementId>& elements) {
     drag_.stop();
     const bool hadMany = hasMany();
     elements_ = elements;
+    showHow();
     if (elements.size() == 1 && !relative()) {
       const Point at = positionIn(document_, 0, elements.front());
       for (std::size_t k = 0; k < 3; ++k) {
@@ -134,11 +136,23 @@ void ElementMove::adapt() {
     numbers_[k]->setToolTip(relative() ? QStringLiteral("Distance along this axis (mesh units)")
                                        : QStringLiteral("Target position on this axis (mesh units)"));
   }
-  how_->setEnabled(!hasMany());
+  showHow();
   how_->setToolTip(hasMany() ? QStringLiteral("Several elements move by a distance")
                              : QStringLiteral("Moves to a position, or by a distance from the position in panel A"));
   adaptRotation();
   adaptButton();
+}
+
+/// Many elements only move by a distance. The choice for one element comes back with it.
+void ElementMove::showHow() {
+  const QSignalBlocker quiet(how_);
+  if (hasMany() && how_->isEnabled()) {
+    howForOne_ = how_->currentIndex();
+    how_->setCurrentIndex(byDistance);
+  } else if (!hasMany() && !how_->isEnabled()) {
+    how_->setCurrentIndex(howForOne_);
+  }
+  how_->setEnabled(!hasMany());
 }
 
 /// Shows the rotation for many elements. In a plane, its only axis is the one across the plane.

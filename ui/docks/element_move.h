@@ -26,6 +26,7 @@ class ElementMove : public QWidget {
   void arrange();
   QLineEdit* numberField(const char* name, const QString& accessible, double limit);
   void adapt();
+  void showHow();
   void adaptRotation();
   void adaptButton();
   QString whyNot() const;
@@ -35,11 +36,12 @@ class ElementMove : public QWidget {
   /// Returns the typed rotation; empty if the angle is not a number in its range.
   std::optional<Rotation> typedRotation() const;
   bool hasMany() const { return elements_.size() > 1; }
-  bool relative() const { return hasMany() || how_->currentIndex() == 1; }
+  bool relative() const { return how_->currentIndex() == 1; }
 
   Document& document_;
   SteppedDrag drag_;
   std::vector<ElementId> elements_;
+  int howForOne_ = 0;  // the choice of how_ for one element
   QComboBox* how_;
   std::array<QLabel*, 3> names_{};
   std::array<QLineEdit*, 3> numbers_{};

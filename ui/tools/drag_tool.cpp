@@ -69,15 +69,21 @@ void DragTool::hover(View& view, QPointF position) {
 }
 
 void DragTool::hoverBrush(View& view, QPointF position) {
-  brushAt_ = &view;
-  for (int i = 0; i <= brushCorners; ++i) {
-    const double angle = 2 * M_PI * i / brushCorners;
-    outline_.push_back(position + brush_.radius() * QPointF(std::cos(angle), std::sin(angle)));
-  }
+  outline(view, position);
   Highlight highlight;
   std::ranges::set_difference(withinBrush(view, position), document_.pins(), std::back_inserter(highlight.handle));
   brush_.setReached(highlight.handle.size());
   document_.setHighlight(highlight);
+}
+
+/// Draws the brush around a position.
+void DragTool::outline(View& view, QPointF position) {
+  brushAt_ = &view;
+  outline_.clear();
+  for (int i = 0; i <= brushCorners; ++i) {
+    const double angle = 2 * M_PI * i / brushCorners;
+    outline_.push_back(position + brush_.radius() * QPointF(std::cos(angle), std::sin(angle)));
+  }
   view.update();
 }
 
@@ -138,7 +144,6 @@ void DragTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modif
   if (pressOnPoint(view, position)) {
     return;
   }
-  outline_.clear();
   if (ring_.isAt(view, position)) {
     grab(view, position, ring_.elements(), Grip::ring);
   } else if (const auto elements = elementsToGrab(view, position); !elements.empty()) {
@@ -210,12 +215,16 @@ void DragTool::moveHandle(View& view, QPointF position, bool turns) {
     change(view, turns);
   }
   if (turns) {
+    outline_.clear();
     turn(view, position);
     ring_.showRotation({document_.held().begin(), document_.held().end()}, view.panel(), position,
                        motion_.rotation.degrees);
   } else {
     motion_.by = motion_.byBefore + pointOf(view.pointAt(position, start_) - gripAt_);
     ring_.hideRotation();
+    if (grip_ == Grip::handle && brush_.radius() > 0) {
+      outline(view, position);
+    }
   }
   motion_.cursor = position;
   document_.dragBy(motion_.by, motion_.rotation);

@@ -17,9 +17,10 @@ namespace {
 constexpr double smallestRing = 40, ringMargin = 16;  // pixels, radius and distance from the elements
 constexpr double largestRingShare = 0.45;             // of the smaller side of the view
 constexpr double ringReach = 6;                       // pixels, distance at which the cursor finds the ring
-constexpr float ringWidth = 2, litRingWidth = 4;      // pixels
+constexpr float ringWidth = 2, litRingWidth = 3;      // pixels
 constexpr float ringRim = 2;                          // pixels of background, both sides together
-constexpr int ringCorners = 96;
+constexpr double largestSagitta = 0.25;               // pixels between the circle and its chords
+constexpr double ringOverlap = 0.5;                   // pixels; smooth lines are faint at their ends
 constexpr double measuredPixels = 100;
 
 }  // namespace
@@ -99,11 +100,15 @@ void RotationRing::draw(const Canvas& canvas) {
   const auto radius = float(ring->radius * ring->unitsPerPixel);
   const QVector3D right = canvas.scene.toView.row(0).toVector3D().normalized() * radius;
   const QVector3D up = canvas.scene.toView.row(1).toVector3D().normalized() * radius;
+  const auto at = [&](double angle) {
+    return asVector(ring->pivot) + right * float(std::cos(angle)) + up * float(std::sin(angle));
+  };
+  const int corners = int(std::ceil(M_PI / std::acos(1 - largestSagitta / ring->radius)));
+  const double overlap = ringOverlap / ring->radius;
   std::vector<QVector3D> ends;
-  for (int i = 0; i <= ringCorners; ++i) {
-    const double angle = 2 * M_PI * i / ringCorners;
-    const QVector3D corner = asVector(ring->pivot) + right * float(std::cos(angle)) + up * float(std::sin(angle));
-    ends.insert(ends.end(), i == 0 || i == ringCorners ? 1 : 2, corner);
+  for (int i = 0; i < corners; ++i) {
+    ends.push_back(at(2 * M_PI * i / corners - overlap));
+    ends.push_back(at(2 * M_PI * (i + 1) / corners + overlap));
   }
   const bool lit = hovered_ || turn_;
   const float width = lit ? litRingWidth : ringWidth;
