@@ -28,7 +28,9 @@ constexpr float cursorMarkSize = 13;    // pixels
 constexpr float markEdge = 4;           // pixels of background around a mark, both sides together
 constexpr double largestSelected = 12;  // diameter of a selected element's mark, pixels
 constexpr double smallestSelected = 2;
-constexpr double handleMarkShare = 0.5;  // diameter of the mark of a handle's element, in link lengths
+// Diameter of the mark of a handle's element, in link lengths. In space, the marks of hidden elements are also visible.
+constexpr double handleMarkShare = 0.5, spatialMarkShare = 0.2;
+constexpr double largestHandleMark = 10;  // pixels
 
 Error tooLarge(QSize picture, int most) {
   const auto what = QStringLiteral("%1 × %2 pixels are too many: the graphics card draws at most %3 on a side")
@@ -563,7 +565,8 @@ void View::drawHighlight(const Easel& on) {
   const QColor colour = highlight.grabbed ? colours::lit : colours::marked;
   if (!highlight.handle.empty()) {
     const double pixelsPerLink = document_.mesh()->mean_link_length / camera_->unitsPerPixel(size());
-    const auto diameter = float(std::clamp(handleMarkShare * pixelsPerLink, smallestSelected, double(cursorMarkSize)));
+    const double share = camera_->spatial() ? spatialMarkShare : handleMarkShare;
+    const auto diameter = float(std::clamp(share * pixelsPerLink, smallestSelected, largestHandleMark));
     on.own.drawElements(in, highlight.handle, colour, diameter);
   }
   if (highlight.element) {
