@@ -191,6 +191,7 @@ void DragTool::grab(View& view, QPointF position, const std::vector<ElementId>& 
     document_.setHighlight({std::nullopt, true, {}, held});
   }
   if (grip_ == Grip::ring) {
+    setRingHovered(&view);
     view.setCursor(Qt::ClosedHandCursor);
   }
 }

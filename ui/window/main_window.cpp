@@ -285,7 +285,8 @@ void MainWindow::fillEditMenu(QMenu& menu) {
   auto* cancel = menu.addAction(QStringLiteral("&Cancel"), Qt::Key_Escape, this, &MainWindow::cancelCurrent);
   cancel->setObjectName(QStringLiteral("giveUp"));
   cancel->setStatusTip(
-      QStringLiteral("Cancels the current stroke, drag or job, or clears the selection; dismisses the message"));
+      QStringLiteral("Cancels the current stroke, drag or job, or clears the brush or the selection; dismisses the "
+                     "message"));
 }
 
 void MainWindow::fillObjectMenu(QMenu& menu) {
