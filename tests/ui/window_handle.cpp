@@ -87,12 +87,12 @@ int shownRadius(Workbench& bench) {
   return match.hasMatch() ? match.captured(1).toInt() : 0;
 }
 
-/// Moves the cursor to a place, and waits for the events of that move: they have no pressed button and would end a
-/// drag.
-void pointAt(Workbench& bench, int panel, QPoint at) {
-  QTest::mouseMove(&bench.view(panel), QPoint(3, 3));  // the cursor may be there already
-  QTest::mouseMove(&bench.view(panel), at);
-  QTRY_VERIFY(bench.document().highlight().element);
+/// Moves the cursor to a place without a pressed button, and waits until the tool has followed. The events do not come
+/// from the display, whose cursor may be anywhere.
+void pointAt(Workbench& bench, int panel, QPointF at) {
+  View& view = bench.view(panel);
+  QMouseEvent move(QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+  QApplication::sendEvent(&view, &move);
   bench.settle();
 }
 
@@ -316,6 +316,11 @@ class WindowHandle : public QObject {
     circle(bench, 0, pivot + QPointF(link / 2, -link), at + QPointF(link / 2, -link), -50, Qt::ShiftModifier);
     bench.settle();
     compareTurned(bench, before, square, -20, Point(0.5, 1, 0), 0.02);
+    const QPointF then = view.placeOf(ElementId(22));
+    moveTo(bench, 0, then, {});
+    moveTo(bench, 0, then + QPointF(link, 0), {});
+    bench.settle();
+    compareTurned(bench, before, square, -20, Point(1.5, 1, 0), 0.03);
     QTest::mouseRelease(&view, Qt::LeftButton, {}, from);
     bench.settle();
     QCOMPARE(bench.document().undoStack().count(), 1);
@@ -385,7 +390,7 @@ class WindowHandle : public QObject {
     const QPointF at = pivot + QPointF(radius * 0.6, -radius * 0.8);
     QVERIFY(bench.distanceFromColour(1, at, colours::selected) < 60);
     QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(squareMiddle) + (at - pivot), colours::selected) < 60);
-    QTest::mouseMove(&view, at.toPoint());
+    pointAt(bench, 1, at.toPoint());
     QTRY_COMPARE(view.cursor().shape(), Qt::OpenHandCursor);
     QVERIFY(!bench.document().highlight().element);
     QTest::mousePress(&view, Qt::LeftButton, {}, at.toPoint());
@@ -423,7 +428,7 @@ class WindowHandle : public QObject {
     bench.settle();
     View& view = bench.view(0);
     for (double radius = 20; radius < 300; radius += 2) {
-      const QPointF at = view.placeOf(ElementId(4)) + QPointF(0, radius);
+      const QPointF at = view.placeOf(ElementId(pinned.empty() ? 4 : 3)) + QPointF(0, radius);
       if (view.rect().contains(at.toPoint()) && !view.elementAt(at)) {
         QTest::mousePress(&view, Qt::LeftButton, {}, at.toPoint());
         QVERIFY(held(bench).empty());
@@ -529,6 +534,13 @@ class WindowHandle : public QObject {
     QCOMPARE(bench.document().undoStack().count(), 1);
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("drag of 9 elements"));
     QCOMPARE(bench.document().frame(0)->statistics.passes, 3U);
+    const std::vector<Command> drag = bench.document().lastDrag();  // the grab, then equal steps
+    QCOMPARE(drag.size(), std::size_t{4});
+    for (std::size_t step = 1; step <= 3; ++step) {
+      const auto& move = std::get<commands::Drag>(drag[step]);
+      QVERIFY(std::abs(move.rotation.degrees + 25.0 * double(step)) < 1e-9);
+      QVERIFY((move.target - Point(0.5, -0.25, 0) * double(step) / 3).norm() < 1e-9);
+    }
     bench.document().undo();
     bench.settle();
     QVERIFY(allPositions(bench) == before);
@@ -583,6 +595,7 @@ class WindowHandle : public QObject {
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
     bench.settleFigures();
     QVERIFY(!head("state1").contains(QStringLiteral("stop")));
+    QVERIFY(bench.find<QLabel>("statistics1")->text().contains(QStringLiteral("violation")));
     // A translation that pins stop says so as before.
     QTest::mousePress(&bench.view(0), Qt::LeftButton, {}, bench.place(0, 22));
     moveTo(bench, 0, bench.place(0, 22) + QPoint(250, 0), {});

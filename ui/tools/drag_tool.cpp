@@ -15,24 +15,22 @@ constexpr int brushCorners = 64;
 // Nearer to the pivot, a small move of the mouse would be a large angle: there it does not rotate.
 constexpr double smallestArm = 12;  // pixels
 
+Point pointOf(const QVector3D& at) { return {at.x(), at.y(), at.z()}; }
+
 /// Returns the axis across the view, towards the eye. In a plane, it is exactly the axis that the mesh does not have.
 Point axisToEye(const View& view, const Mesh& mesh) {
-  const QVector3D toEye = view.camera()->toView().row(2).toVector3D();
-  const Point eye = Point(toEye.x(), toEye.y(), toEye.z()).normalized();
   if (mesh.space_dimension == 3) {
-    return eye;
+    return pointOf(view.camera()->toView().row(2).toVector3D()).normalized();
   }
   const auto end = mesh.axes.begin() + mesh.space_dimension;
   Point axis = Point::Zero();
   for (int k = 0; k < 3; ++k) {
     if (std::find(mesh.axes.begin(), end, k) == end) {
-      axis[k] = eye[k] < 0 ? -1 : 1;
+      axis[k] = 1;  // the camera looks at a plane from the positive side
     }
   }
   return axis;
 }
-
-Point pointOf(const QVector3D& at) { return {at.x(), at.y(), at.z()}; }
 
 }  // namespace
 
