@@ -29,6 +29,7 @@ RotationRing::RotationRing(const Document& document) : document_(document) {
   for (const auto signal : {&Document::selectionChanged, &Document::pinsChanged, &Document::meshChanged}) {
     connect(&document, signal, this, &RotationRing::followSelection);
   }
+  connect(&document, &Document::meshChanged, this, &RotationRing::hideRotation);
 }
 
 void RotationRing::followSelection() {
