@@ -270,7 +270,9 @@ void Simulation::carry_out(const commands::Release&) {
     wake({});
   }
   grabbed_.reset();
-  statistics_.last_pass.stopped = false;  // the handle no longer pulls
+  if (std::exchange(statistics_.last_pass.stopped, false)) {
+    statistics_.remark.clear();  // the handle no longer pulls
+  }
 }
 
 void Simulation::carry_out(const commands::SetSoftness& command) {

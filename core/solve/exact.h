@@ -134,7 +134,7 @@ class ExactPropagation {
     }
     reached = try_rotation(body, handle, rotation_between(from, target, possible), to);
     char text[96];
-    std::snprintf(text, sizeof text, "links outside the handle, or pins, stop its rotation at %.3g degrees",
+    std::snprintf(text, sizeof text, "stopped at %.3g degrees by links outside the handle, or by pins",
                   rotation_.norm() * (180 / std::numbers::pi));
     remark_ = text;
     return possible > 0 ? reached : std::nullopt;

@@ -244,6 +244,31 @@ class WindowPhysics : public QObject {
     QTRY_VERIFY(title(0).contains(QStringLiteral("drag an element first")));
   }
 
+  /// A panel with the reference method has the reference solution for any handle.
+  void theReferenceHoldsAHandleOfMany() {
+    Workbench bench(gridInAPlane());
+    bench.choose(0, "Neo-Hookean FEM");
+    bench.trigger("colourBy-truth");
+    bench.trigger("pinBottom");
+    const auto title = [&bench](int panel) { return bench.window.panel(panel).legend().title(); };
+    bench.document().grab(std::vector<ElementId>{49, 50, 51, 58, 59, 60});
+    bench.document().dragBy(Point(0.4, 0.3, 0), {Point::UnitZ(), 12});
+    bench.document().release();
+    bench.settle();
+    QTRY_VERIFY(title(0).contains(QStringLiteral("relative error ")));
+    const QString after = title(0).section(QStringLiteral("relative error "), 1);
+    const double error = QLocale().toDouble(after.section(QRegularExpression(QStringLiteral("[,;() ]")), 0, 0));
+    QVERIFY2(error < 1e-4, qPrintable(title(0)));
+    QVERIFY(error > 0);
+    bench.document().grab(std::vector<ElementId>{49, 50, 51, 58, 59, 60});
+    bench.document().dragBy(Point(-0.4, -0.3, 0), {Point::UnitZ(), -12});
+    bench.document().release();
+    bench.settle();
+    QTRY_VERIFY2(title(0).contains(QStringLiteral("back at rest")), qPrintable(title(0)));
+    bench.document().setPinned({50}, true);
+    QTRY_VERIFY2(title(0).contains(QStringLiteral("is pinned")), qPrintable(title(0)));
+  }
+
   void calibratedSoftnessIsOneStep() {
     Workbench bench(generate({MeshKind::grid, {5, 4, 1}, 1, {}}));
     auto* start = bench.find<QPushButton>("calibrate");

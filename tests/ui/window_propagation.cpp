@@ -78,6 +78,41 @@ class WindowPropagation : public QObject {
     QVERIFY(positions(bench, 1) == after);
   }
 
+  void aHandleOfManyIsShownWithAllItsElements() {
+    Workbench bench;
+    QTest::keyClick(&bench.window, Qt::Key_O);
+    QTRY_VERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
+    const std::vector<ElementId> handle{30, 31, 32};
+    bench.document().grab(handle);
+    bench.document().dragBy(Point(0, 3, 0));
+    bench.document().release();
+    bench.settle();
+    QTRY_VERIFY(bench.find<QAction>("passBack")->isEnabled());
+    const auto after = positions(bench, 1);
+    bench.trigger("passFirst");
+    bench.settle();
+    for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
+      const Point rest = bench.document().mesh()->rest_position(e);
+      const bool held = std::ranges::find(handle, e) != handle.end();
+      QVERIFY((bench.position(1, e) - (held ? Point(rest + Point(0, 3, 0)) : rest)).norm() < 1e-5);
+    }
+    for (const ElementId e : handle) {
+      QVERIFY(bench.distanceFromColour(1, bench.view(1).placeOf(e), colours::lit) < alike);
+    }
+    // One element of the handle is above the waiting candidates, the others are below them.
+    const int rows = list(bench, 1).rowCount();
+    const auto row = [&](int i) { return cell(bench, 1, i, 0) + cell(bench, 1, i, 2); };
+    QCOMPARE(row(0), QStringLiteral("30handle"));
+    QVERIFY(row(1).endsWith(QStringLiteral("next")));
+    QCOMPARE(row(rows - 2), QStringLiteral("31handle"));
+    QCOMPARE(row(rows - 1), QStringLiteral("32handle"));
+    bench.trigger("passForward");
+    QCOMPARE(cell(bench, 1, 0, 2), QStringLiteral("moved"));
+    QCOMPARE(cell(bench, 1, list(bench, 1).rowCount() - 3, 2), QStringLiteral("handle"));
+    bench.trigger("passLast");
+    QVERIFY(positions(bench, 1) == after);
+  }
+
   void theListSaysWhatWaits() {
     Workbench bench;
     openAndDrag(bench);

@@ -83,7 +83,7 @@ class WindowReportRun : public QObject {
     bench.stroke(0, {from, to});
     QVERIFY(enabled());
     const std::vector<Command> commands = bench.document().lastDrag();
-    QCOMPARE(std::get<commands::Grab>(commands.front()).element, ElementId(31));
+    QCOMPARE(std::get<commands::Grab>(commands.front()).elements, std::vector<ElementId>{31});
     // The panels store floats.
     QVERIFY((std::get<commands::Drag>(commands.back()).target - bench.position(1, 31)).norm() < 1e-5);
     drags->setCurrentIndex(1);

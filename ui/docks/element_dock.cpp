@@ -4,6 +4,7 @@
 #include <QHeaderView>
 #include <QLineEdit>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <limits>
 
 #include "common/dock_scroll.h"
@@ -190,14 +191,18 @@ QString ElementDock::stateText() const {
     return counted(document_.mesh()->neighbours_of(*element_).size(), QStringLiteral("neighbour")) +
            (document_.isPinned(*element_) ? QStringLiteral(" · pinned") : QString());
   }
-  const std::size_t selected = document_.selection().elements.size();
+  const auto& elements = document_.selection().elements;
+  const std::size_t selected = elements.size();
+  const auto pinned = std::ranges::count_if(elements, [this](ElementId one) { return document_.isPinned(one); });
   return selected == 0 ? QStringLiteral("Type an id and press Enter, or select one element in a view.")
-                       : QStringLiteral("%L1 elements are selected: type an id to select one.").arg(selected);
+                       : QStringLiteral("%L1 elements selected%2: move them below, or type an id to select one.")
+                             .arg(selected)
+                             .arg(pinned == 0 ? QString() : QStringLiteral(", %L1 of them pinned").arg(pinned));
 }
 
 void ElementDock::showElement() {
   state_->setText(stateText());
-  move_->setElement(element_);
+  move_->setElements(document_.selection().elements);
   showPositions();
   showNeighbours();
   adaptButtons();
@@ -263,7 +268,7 @@ void ElementDock::adaptButtons() {
   const bool pinned = element_ && document_.isPinned(*element_);
   pin_->setText(pinned ? QStringLiteral("Un&pin") : QStringLiteral("&Pin"));
   pin_->setEnabled(element_.has_value());
-  pin_->setToolTip(!element_ ? QStringLiteral("Select an element first")
+  pin_->setToolTip(!element_ ? QStringLiteral("Select a single element first")
                    : pinned  ? QStringLiteral("Lets the element move again")
                              : QStringLiteral("Keeps the element at its position"));
   const auto link = chosenLink();

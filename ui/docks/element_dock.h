@@ -9,7 +9,7 @@
 namespace chainmail {
 
 /// One element, selected by its id: its positions, links and pin, and exact edits without the mouse. Follows the
-/// selection if that is a single element.
+/// selection. If many elements are selected, it moves and rotates them by numbers.
 class ElementDock : public QDockWidget {
   Q_OBJECT
 

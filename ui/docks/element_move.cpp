@@ -2,7 +2,9 @@
 
 #include <QDoubleValidator>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <algorithm>
+#include <cmath>
 
 #include "document/element_facts.h"
 
@@ -11,6 +13,20 @@ namespace {
 
 constexpr int mostSteps = 1000;
 constexpr int standardSteps = 10;
+constexpr double mostDegrees = 3600;
+constexpr int byDistance = 1;  // index of the choice
+
+bool isCarried(const Mesh& mesh, int axis) {
+  const auto end = mesh.axes.begin() + mesh.space_dimension;
+  return std::find(mesh.axes.begin(), end, axis) != end;
+}
+
+/// Returns the typed number; empty if it is not a number, or beyond the limit.
+std::optional<double> numberIn(const QLineEdit& field, double limit) {
+  bool valid = true;
+  const double value = field.locale().toDouble(field.text(), &valid);
+  return valid && std::abs(value) <= limit ? std::optional(value) : std::nullopt;
+}
 
 }  // namespace
 
@@ -18,12 +34,23 @@ ElementMove::ElementMove(Document& document)
     : document_(document),
       drag_(document),
       how_(new QComboBox),
+      turn_(new QLabel),
+      axis_(new QComboBox),
+      degrees_(numberField("moveDegrees", QStringLiteral("Angle of the rotation (degrees)"), mostDegrees)),
       steps_(new QSpinBox),
       go_(new QPushButton(QStringLiteral("&Move"))) {
   how_->setObjectName(QStringLiteral("moveHow"));
   how_->addItems({QStringLiteral("to (absolute)"), QStringLiteral("by (relative)")});
   how_->setAccessibleName(QStringLiteral("Meaning of the numbers"));
   how_->setToolTip(QStringLiteral("Moves to a position, or by a distance from the position in panel A"));
+  axis_->setObjectName(QStringLiteral("moveAxis"));
+  axis_->addItems({QStringLiteral("x"), QStringLiteral("y"), QStringLiteral("z")});
+  axis_->setCurrentIndex(2);
+  axis_->setAccessibleName(QStringLiteral("Axis of the rotation"));
+  axis_->setToolTip(QStringLiteral("Axis of the rotation, through the middle of the elements"));
+  degrees_->setToolTip(
+      QStringLiteral("Angle of the rotation about the middle of the elements (degrees), counterclockwise as seen from "
+                     "the positive end of the axis"));
   steps_->setObjectName(QStringLiteral("moveSteps"));
   steps_->setRange(1, mostSteps);
   steps_->setValue(standardSteps);
@@ -39,6 +66,19 @@ ElementMove::ElementMove(Document& document)
   adapt();
 }
 
+/// Returns a field for a number of at most `limit`. Enter presses the button.
+QLineEdit* ElementMove::numberField(const char* name, const QString& accessible, double limit) {
+  auto* field = new QLineEdit(QStringLiteral("0"));
+  field->setObjectName(QLatin1String(name));
+  field->setAccessibleName(accessible);
+  auto* validator = new QDoubleValidator(-limit, limit, -1, field);
+  validator->setNotation(QDoubleValidator::ScientificNotation);
+  field->setValidator(validator);
+  connect(field, &QLineEdit::textChanged, this, &ElementMove::adapt);
+  connect(field, &QLineEdit::returnPressed, this, [this] { go_->click(); });
+  return field;
+}
+
 void ElementMove::arrange() {
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
@@ -52,28 +92,35 @@ void ElementMove::arrange() {
   for (std::size_t k = 0; k < 3; ++k) {
     const QChar axis = QLatin1Char("xyz"[k]);
     names_[k] = new QLabel(QStringLiteral("&%1").arg(axis));
-    numbers_[k] = new QLineEdit(QStringLiteral("0"));
-    numbers_[k]->setObjectName(QStringLiteral("move%1").arg(axis.toUpper()));
-    numbers_[k]->setAccessibleName(QStringLiteral("Target, %1 (mesh units)").arg(axis));
-    auto* validator = new QDoubleValidator(-coordinate_limit, coordinate_limit, -1, numbers_[k]);
-    validator->setNotation(QDoubleValidator::ScientificNotation);
-    numbers_[k]->setValidator(validator);
-    connect(numbers_[k], &QLineEdit::textChanged, this, &ElementMove::adapt);
-    connect(numbers_[k], &QLineEdit::returnPressed, go_, &QPushButton::click);
+    numbers_[k] = numberField(std::array{"moveX", "moveY", "moveZ"}[k],
+                              QStringLiteral("Target, %1 (mesh units)").arg(axis), coordinate_limit);
     add(names_[k], numbers_[k]);
   }
+  auto* rotation = new QHBoxLayout;
+  rotation->addWidget(axis_);
+  rotation->addWidget(degrees_, 1);
+  const int row = grid->rowCount();
+  turn_->setBuddy(degrees_);
+  grid->addWidget(turn_, row, 0);
+  grid->addLayout(rotation, row, 1);
   add(new QLabel(QStringLiteral("S&teps")), steps_);
   grid->addWidget(go_, grid->rowCount(), 0, 1, 2);
 }
 
-void ElementMove::setElement(std::optional<ElementId> element) {
-  if (element != element_) {
+void ElementMove::setElements(const std::vector<ElementId>& elements) {
+  if (elements != elements_) {
     drag_.stop();
-    element_ = element;
-    if (element && !relative()) {
-      const Point at = positionIn(document_, 0, *element);
+    const bool hadMany = hasMany();
+    elements_ = elements;
+    showHow();
+    if (elements.size() == 1 && !relative()) {
+      const Point at = positionIn(document_, 0, elements.front());
       for (std::size_t k = 0; k < 3; ++k) {
         numbers_[k]->setText(figure(at[int(k)]));
+      }
+    } else if (hasMany() && !hadMany) {
+      for (QLineEdit* field : {numbers_[0], numbers_[1], numbers_[2], degrees_}) {
+        field->setText(QStringLiteral("0"));  // a distance, where a position may have been
       }
     }
   }
@@ -82,45 +129,103 @@ void ElementMove::setElement(std::optional<ElementId> element) {
 
 void ElementMove::adapt() {
   const Mesh& mesh = *document_.mesh();
-  const auto end = mesh.axes.begin() + mesh.space_dimension;
   for (std::size_t k = 0; k < 3; ++k) {
-    const bool carried = std::find(mesh.axes.begin(), end, int(k)) != end;
+    const bool carried = isCarried(mesh, int(k));
     names_[k]->setVisible(carried);
     numbers_[k]->setVisible(carried);
     numbers_[k]->setToolTip(relative() ? QStringLiteral("Distance along this axis (mesh units)")
                                        : QStringLiteral("Target position on this axis (mesh units)"));
   }
-  const bool pinned = element_ && document_.isPinned(*element_);
+  showHow();
+  how_->setToolTip(hasMany() ? QStringLiteral("Several elements move by a distance")
+                             : QStringLiteral("Moves to a position, or by a distance from the position in panel A"));
+  adaptRotation();
+  adaptButton();
+}
+
+/// Many elements only move by a distance. The choice for one element comes back with it.
+void ElementMove::showHow() {
+  const QSignalBlocker quiet(how_);
+  if (hasMany() && how_->isEnabled()) {
+    howForOne_ = how_->currentIndex();
+    how_->setCurrentIndex(byDistance);
+  } else if (!hasMany() && !how_->isEnabled()) {
+    how_->setCurrentIndex(howForOne_);
+  }
+  how_->setEnabled(!hasMany());
+}
+
+/// Shows the rotation for many elements. In a plane, its only axis is the one across the plane.
+void ElementMove::adaptRotation() {
+  const Mesh& mesh = *document_.mesh();
+  const bool shown = hasMany() && mesh.space_dimension > 1;
+  turn_->setVisible(shown);
+  degrees_->setVisible(shown);
+  axis_->setVisible(shown && mesh.space_dimension == 3);
+  turn_->setText(QStringLiteral("&Rotate (°)"));
+  for (int k = 0; mesh.space_dimension == 2 && k < 3; ++k) {
+    if (!isCarried(mesh, k)) {
+      axis_->setCurrentIndex(k);
+      turn_->setText(QStringLiteral("&Rotate about %1 (°)").arg(QLatin1Char("xyz"[k])));
+    }
+  }
+}
+
+void ElementMove::adaptButton() {
   go_->setText(drag_.running() ? QStringLiteral("&Stop at step %1 of %2").arg(drag_.stepsDone()).arg(drag_.steps())
                                : QStringLiteral("&Move"));
-  go_->setEnabled(drag_.running() || (element_ && !pinned && typed()));
+  const QString why = whyNot();
+  go_->setEnabled(drag_.running() || why.isEmpty());
   go_->setToolTip(
-      !element_  ? QStringLiteral("Select an element first")
-      : pinned   ? QStringLiteral("This element is pinned: unpin it first")
-      : !typed() ? QStringLiteral("Type a number on each axis")
-                 : QStringLiteral("Grabs the element, drags it to the target in steps and releases it, as one drag"));
+      !why.isEmpty() ? why
+      : hasMany()    ? QStringLiteral("Grabs the elements that are not pinned, moves them as one rigid body in steps "
+                                         "and releases them, as one drag")
+                  : QStringLiteral("Grabs the element, drags it to the target in steps and releases it, as one drag"));
+}
+
+/// Returns a sentence that says why the elements cannot move now; empty if they can.
+QString ElementMove::whyNot() const {
+  const bool pinned = std::ranges::all_of(elements_, [this](ElementId element) { return document_.isPinned(element); });
+  return elements_.empty()  ? QStringLiteral("Select an element first")
+         : pinned           ? hasMany() ? QStringLiteral("All selected elements are pinned: unpin some first")
+                                        : QStringLiteral("This element is pinned: unpin it first")
+                   : !typed() ? QStringLiteral("Type a number on each axis")
+         : !typedRotation() ? QStringLiteral("Type an angle from −%L1 to %L1 degrees").arg(int(mostDegrees))
+                            : QString();
 }
 
 std::optional<Point> ElementMove::typed() const {
   Point point = Point::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
-    bool valid = true;
-    const double value = numbers_[k]->isHidden() ? 0 : numbers_[k]->locale().toDouble(numbers_[k]->text(), &valid);
-    if (!valid || !(std::abs(value) <= coordinate_limit)) {
+    const auto number = numbers_[k]->isHidden() ? std::optional(0.0) : numberIn(*numbers_[k], coordinate_limit);
+    if (!number) {
       return {};
     }
-    point[int(k)] = value;
+    point[int(k)] = *number;
   }
   return point;
 }
 
+std::optional<Rotation> ElementMove::typedRotation() const {
+  if (degrees_->isHidden()) {
+    return Rotation();
+  }
+  const auto degrees = numberIn(*degrees_, mostDegrees);
+  return degrees ? std::optional(Rotation{Point::Unit(axis_->currentIndex()), *degrees}) : std::nullopt;
+}
+
 void ElementMove::go() {
   const auto numbers = typed();
-  if (!element_ || !numbers) {
+  const auto rotation = typedRotation();
+  if (elements_.empty() || !numbers || !rotation) {
     return;
   }
-  const Point from = positionIn(document_, 0, *element_);
-  drag_.start(*element_, from, relative() ? Point(from + *numbers) : *numbers, steps_->value());
+  if (hasMany()) {
+    drag_.start(elements_, *numbers, *rotation, steps_->value());
+    return;
+  }
+  const Point from = positionIn(document_, 0, elements_.front());
+  drag_.start(elements_.front(), from, relative() ? Point(from + *numbers) : *numbers, steps_->value());
 }
 
 }  // namespace chainmail

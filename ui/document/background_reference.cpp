@@ -11,9 +11,23 @@ namespace {
 
 constexpr int restMilliseconds = 300;
 constexpr int progressMilliseconds = 200;
-// Fraction of the mean link length. A pin that is nearer than this to its rest position counts as at rest, because of
-// rounding.
+// Fraction of the mean link length. An element that is nearer than this to its rest position counts as at rest, because
+// of rounding.
 constexpr double atRest = 1e-5;
+
+/// Returns the displacements of elements from rest in a frame (mesh units), without those that are only rounding.
+std::vector<double> displacementsOf(const Frame& frame, const std::vector<ElementId>& elements) {
+  const Mesh& mesh = *frame.mesh;
+  std::vector<double> displacements;
+  for (const ElementId element : elements) {
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      const std::size_t at = std::size_t{element} * std::size_t(mesh.space_dimension) + std::size_t(k);
+      const double away = double(frame.positions[at]) - mesh.rest[at];
+      displacements.push_back(std::abs(away) > atRest * mesh.mean_link_length ? away : 0);
+    }
+  }
+  return displacements;
+}
 
 bool alike(const ElasticProblem& one, const ElasticProblem& other) {
   return one.mesh == other.mesh && one.pins == other.pins && one.pinned == other.pinned &&
@@ -25,7 +39,8 @@ bool alike(const ElasticProblem& one, const ElasticProblem& other) {
 /// Keeps the prepared solver of a problem. Used by one thread at a time.
 class BackgroundReference::Worker {
  public:
-  Answer answer(const ElasticProblem& problem, const Handle& handle, const Progress& progress) {
+  Answer answer(const Task& task, const Progress& progress) {
+    const ElasticProblem& problem = task.problem;
     if (!solver_ || !alike(*problem_, problem)) {
       solver_.reset();
       problem_ = problem;
@@ -33,7 +48,8 @@ class BackgroundReference::Worker {
     }
     Answer answer;
     answer.mesh = problem.mesh;
-    answer.solution = solver_->at(handle.element, handle.target, progress.part(0.3, 1));
+    answer.solution = task.target ? solver_->at(task.handle.front(), *task.target, progress.part(0.3, 1))
+                                  : solver_->at(task.handle, task.displacements, progress.part(0.3, 1));
     answer.rms = rms_displacement(*answer.mesh, answer.solution);
     answer.nothing = error_of_nothing_moving(*answer.mesh, answer.solution).relative;
     return answer;
@@ -74,14 +90,16 @@ void BackgroundReference::setWanted(bool wanted) {
 /// Returns the last target of a drag, unless the object was reset after it.
 std::optional<BackgroundReference::Handle> BackgroundReference::lastHandle() const {
   const Tape& tape = document_.tape();
-  std::optional<Point> target;
+  const commands::Drag* last = nullptr;
   for (std::size_t i = tape.position(); i > 0; --i) {
     const Command& command = tape.at(i - 1);
-    if (const auto* drag = std::get_if<commands::Drag>(&command); drag != nullptr && !target) {
-      target = drag->target;
-    } else if (const auto* grab = std::get_if<commands::Grab>(&command); grab != nullptr && target) {
-      return Handle{grab->element, *target};
-    } else if (std::holds_alternative<commands::Reset>(command) && !target) {
+    if (const auto* drag = std::get_if<commands::Drag>(&command); drag != nullptr && last == nullptr) {
+      last = drag;
+    } else if (const auto* grab = std::get_if<commands::Grab>(&command); grab != nullptr && last != nullptr) {
+      Handle handle{grab->elements, last->target, last->rotation, last->relative};
+      std::ranges::sort(handle.elements);
+      return handle;
+    } else if (std::holds_alternative<commands::Reset>(command) && last == nullptr) {
       return std::nullopt;
     }
   }
@@ -115,11 +133,23 @@ QString BackgroundReference::state() const {
 void BackgroundReference::compute() {
   if (const std::string why = whyNot(); !why.empty()) {
     setState(why);
-  } else if (auto asked = problem(); asked && document_.idle()) {
+  } else if (auto asked = task(); asked && document_.idle()) {
     start(std::move(*asked));
   } else {
     delay_.start();  // the solvers are still busy
   }
+}
+
+/// True if the handle has one element with an absolute target.
+bool BackgroundReference::hasOneTarget(const Handle& handle) { return handle.elements.size() == 1 && !handle.relative; }
+
+bool BackgroundReference::isAtRest() const {
+  if (hasOneTarget(*handle_)) {
+    return handle_->target == document_.mesh()->rest_position(handle_->elements.front());
+  }
+  const Frame* frame = document_.frame(0);
+  return frame != nullptr && std::ranges::all_of(displacementsOf(*frame, handle_->elements),
+                                                 [](double displacement) { return displacement == 0; });
 }
 
 std::string BackgroundReference::whyNot() const {
@@ -129,11 +159,14 @@ std::string BackgroundReference::whyNot() const {
   if (!handle_) {
     return "drag an element first";
   }
-  if (document_.isPinned(handle_->element)) {
-    return "the element that was dragged last is pinned";
+  const auto& elements = handle_->elements;
+  const bool one = elements.size() == 1;
+  if (std::ranges::any_of(elements, [this](ElementId element) { return document_.isPinned(element); })) {
+    return one ? "the element that was dragged last is pinned" : "an element that was dragged last is pinned";
   }
-  if (handle_->target == document_.mesh()->rest_position(handle_->element)) {
-    return "the element that was dragged last is back at rest";
+  if (isAtRest()) {
+    return one ? "the element that was dragged last is back at rest"
+               : "the handle that was dragged last is back at rest";
   }
   try {
     check(ElasticMethod::neo_hookean, *document_.mesh());
@@ -143,35 +176,34 @@ std::string BackgroundReference::whyNot() const {
   return {};
 }
 
-/// Returns the problem for the current object; none before the first frame. The positions of the pins come from the
-/// first panel. The panels differ in them only if elements were pinned away from rest.
-std::optional<ElasticProblem> BackgroundReference::problem() const {
+/// Returns the task for the current object; none before the first frame. The positions of the pins come from the first
+/// panel. The panels differ in them only if elements were pinned away from rest. The positions of a handle of many also
+/// come from the first panel: the panels differ in the offsets of its elements, because they grab it in different
+/// shapes.
+std::optional<BackgroundReference::Task> BackgroundReference::task() const {
   const Frame* frame = document_.frame(0);
   if (frame == nullptr) {
     return std::nullopt;
   }
-  const Mesh& mesh = *frame->mesh;
-  ElasticProblem problem{frame->mesh, document_.cuts(), document_.pins(), {}, document_.elastic()};
-  for (const ElementId pin : problem.pins) {
-    for (int k = 0; k < mesh.space_dimension; ++k) {
-      const std::size_t at = std::size_t{pin} * std::size_t(mesh.space_dimension) + std::size_t(k);
-      const double away = double(frame->positions[at]) - mesh.rest[at];
-      problem.pinned.push_back(std::abs(away) > atRest * mesh.mean_link_length ? away : 0);
-    }
+  Task task{{frame->mesh, document_.cuts(), document_.pins(), {}, document_.elastic()}, handle_->elements, {}, {}};
+  task.problem.pinned = displacementsOf(*frame, task.problem.pins);
+  if (hasOneTarget(*handle_)) {
+    task.target = handle_->target;
+  } else {
+    task.displacements = displacementsOf(*frame, task.handle);
   }
-  return problem;
+  return task;
 }
 
-void BackgroundReference::start(ElasticProblem problem) {
+void BackgroundReference::start(Task task) {
   if (!worker_) {
     worker_ = std::make_shared<Worker>();
   }
   jobs_.start(Jobs::Kind::load, QStringLiteral("Reference solution"),
-              [this, worker = worker_, handle = *handle_,
-               problem = std::move(problem)](const Progress& progress) -> Jobs::Finish {
+              [this, worker = worker_, task = std::move(task)](const Progress& progress) -> Jobs::Finish {
                 Answer answer;
                 try {
-                  answer = worker->answer(problem, handle, progress);
+                  answer = worker->answer(task, progress);
                 } catch (const Error& error) {
                   answer.fault = error.problem();
                 }

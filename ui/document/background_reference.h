@@ -11,7 +11,7 @@
 namespace chainmail {
 
 /// Computes the reference solution of the document's object: the shape in which a neo-Hookean solid with the document's
-/// pins, cuts and material comes to rest while the handle holds the element that was moved last.
+/// pins, cuts and material comes to rest while the handle holds the elements that were moved last.
 ///
 /// The computation runs in the background once the handle rests. It is cancelled when the handle moves, or when pins,
 /// cuts or material change. It computes nothing until setWanted(true) is called.
@@ -40,10 +40,20 @@ class BackgroundReference : public QObject {
   void changed();
 
  private:
+  /// The handle as it was moved last.
   struct Handle {
-    ElementId element = 0;
-    Point target = Point::Zero();  // mesh units
+    std::vector<ElementId> elements;  // ascending
+    Point target = Point::Zero();     // mesh units
+    Rotation rotation;
+    bool relative = false;  // the target is a way from where it was grabbed
     bool operator==(const Handle&) const = default;
+  };
+  /// The problem, and what the handle prescribes.
+  struct Task {
+    ElasticProblem problem;
+    std::vector<ElementId> handle;
+    std::vector<double> displacements;  // of the handle from rest, space_dimension coordinates each (mesh units)
+    std::optional<Point> target;        // instead of the displacements, for a handle of one element
   };
   class Worker;
 
@@ -51,9 +61,11 @@ class BackgroundReference : public QObject {
   void followHandle();
   void outdate();
   void compute();
+  static bool hasOneTarget(const Handle& handle);
+  bool isAtRest() const;
   std::string whyNot() const;
-  std::optional<ElasticProblem> problem() const;
-  void start(ElasticProblem problem);
+  std::optional<Task> task() const;
+  void start(Task task);
   void take(std::shared_ptr<const Answer> answer);
   void setState(const std::string& why);
 

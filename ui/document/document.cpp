@@ -4,6 +4,7 @@
 #include <QThread>
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <new>
 
 #include "common/panel_names.h"
@@ -447,14 +448,18 @@ void Document::setSessionFile(const QString& file) {
 
 // The handle: its moves go directly to the solvers, and a drag becomes an undo step when it ends.
 
-void Document::grab(ElementId element) {
+void Document::grab(std::vector<ElementId> elements) {
   endDrag();
-  if (isPinned(element)) {
-    log_->replay(commands::Grab{element});  // the solvers refuse it, and nothing is recorded
+  std::ranges::sort(elements);
+  std::vector<ElementId> free;
+  std::ranges::set_difference(elements, pins(), std::back_inserter(free));
+  if (free.empty()) {
+    log_->replay(commands::Grab{std::move(elements)});  // the solvers refuse it, and nothing is recorded
     return;
   }
-  beginDrag(element, QStringLiteral("drag of element %1").arg(element));
-  post(commands::Grab{element});
+  beginDrag(free, free.size() == 1 ? QStringLiteral("drag of element %1").arg(free.front())
+                                   : counted(QStringLiteral("drag of"), free.size(), QStringLiteral("element")));
+  post(commands::Grab{std::move(free)});
 }
 
 void Document::grabControlPoint(std::uint32_t point) {
@@ -463,18 +468,22 @@ void Document::grabControlPoint(std::uint32_t point) {
   handle_->controlPoint = point;
 }
 
-void Document::beginDrag(std::optional<ElementId> element, const QString& text) {
+void Document::beginDrag(std::vector<ElementId> elements, const QString& text) {
   noteRelaxation();
   lastRefusal_ = {};
-  handle_ = Handle{element, 0, text, newState()};
+  handle_ = Handle{std::move(elements), 0, text, newState()};
   post(commands::KeepState{handle_->before});
 }
 
-void Document::drag(const Point& target) {
+void Document::drag(const Point& target) { postDrag({target}); }
+
+void Document::dragBy(const Point& by, const Rotation& rotation) { postDrag({by, rotation, true}); }
+
+void Document::postDrag(const commands::Drag& drag) {
   if (handle_) {
     handle_->moved = true;
   }
-  post(commands::Drag{target});
+  post(drag);
 }
 
 void Document::dragControlPoint(const Point& target) {
@@ -485,7 +494,7 @@ void Document::dragControlPoint(const Point& target) {
 }
 
 void Document::release() {
-  if (!handle_ || handle_->element) {
+  if (!handle_ || !handle_->elements.empty()) {
     post(commands::Release{});
   }
   endDrag();

@@ -19,12 +19,13 @@ namespace chainmail {
 
 struct Session;
 
-/// The parts of the object that all panels highlight: the element under the cursor or in the handle, and the links that
-/// a stroke would cut.
+/// The parts of the object that all panels highlight: the element under the cursor or in the handle, the links that a
+/// stroke would cut, and the elements of a handle of many.
 struct Highlight {
   std::optional<ElementId> element;
   bool grabbed = false;
   std::vector<LinkId> links;
+  std::vector<ElementId> handle = {};  // grabbed, or those that a press would grab
 
   bool operator==(const Highlight&) const = default;
 };
@@ -95,11 +96,17 @@ class Document : public QObject {
 
   // The handle. Targets are in mesh units. A drag, from grab() to release(), becomes one undo step if anything moved.
 
-  void grab(ElementId element);
+  void grab(ElementId element) { grab(std::vector{element}); }
+  /// Grabs elements, which move together as one rigid body. Leaves pinned elements out; if all are pinned, the solvers
+  /// refuse the grab.
+  void grab(std::vector<ElementId> elements);
+  /// Moves a handle of one element to a position.
   void drag(const Point& target);
+  /// Moves the handle by a way and a rotation about its pivot, both since it was grabbed.
+  void dragBy(const Point& by, const Rotation& rotation = {});
   void release();
-  /// The grabbed element, if any.
-  std::optional<ElementId> held() const { return handle_ ? handle_->element : std::nullopt; }
+  /// The grabbed elements, ascending; empty while nothing or a control point is grabbed.
+  std::span<const ElementId> held() const { return handle_ ? handle_->elements : std::span<const ElementId>(); }
   /// Grabs a control point in the panels that run free-form deformation. release() releases it.
   void grabControlPoint(std::uint32_t point);
   void dragControlPoint(const Point& target);
@@ -222,7 +229,8 @@ class Document : public QObject {
   void addSolver(std::unique_ptr<SolverThread> solver);
   Algorithm unusedAlgorithm() const;
 
-  void beginDrag(std::optional<ElementId> element, const QString& text);
+  void beginDrag(std::vector<ElementId> elements, const QString& text);
+  void postDrag(const commands::Drag& drag);
   void endDrag();
 
   // Replay, in document_replay.cpp.
@@ -242,7 +250,7 @@ class Document : public QObject {
   commands::StateId nextState_ = 1;
 
   struct Handle {
-    std::optional<ElementId> element;  // none while a control point is grabbed
+    std::vector<ElementId> elements;  // ascending; none while a control point is grabbed
     std::uint32_t controlPoint = 0;
     QString text;                  // of the undo step
     commands::StateId before = 0;  // state before the drag, which the solvers have saved

@@ -2,6 +2,7 @@
 
 #include <QLocale>
 #include <QStringList>
+#include <algorithm>
 
 #include "measure/violation.h"
 
@@ -41,6 +42,14 @@ SoftnessRange softnessOf(const Document& document, ElementId element) {
 Point positionIn(const Document& document, int panel, ElementId element) {
   const Frame* frame = document.frame(panel);
   return frame == nullptr ? document.mesh()->rest_position(element) : point_of(*frame->mesh, frame->view(), element);
+}
+
+Point middleIn(const Document& document, int panel, std::span<const ElementId> elements) {
+  Point sum = Point::Zero();
+  for (const ElementId element : elements) {
+    sum += positionIn(document, panel, element);
+  }
+  return sum / double(std::max<std::size_t>(1, elements.size()));
 }
 
 double violationOfLink(const Document& document, int panel, LinkId link) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <span>
 
 #include "common/panel_names.h"
 #include "document/document.h"
@@ -19,6 +20,8 @@ SoftnessRange softnessOf(const Document& document, ElementId element);
 
 /// Returns the position of an element in a panel (mesh units); its rest position while the panel shows nothing.
 Point positionIn(const Document& document, int panel, ElementId element);
+/// Returns the mean position of elements in a panel (mesh units): the pivot of a handle that holds them.
+Point middleIn(const Document& document, int panel, std::span<const ElementId> elements);
 /// Returns the largest violation of an element's links in a panel (rest lengths of the link).
 double violationIn(const Document& document, int panel, ElementId element);
 double violationOfLink(const Document& document, int panel, LinkId link);

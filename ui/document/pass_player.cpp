@@ -20,7 +20,9 @@ PassPlayer::PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& sta
   for (const ElementId pin : pass_->conditions->pins) {
     updatedAt_[pin] = 0;
   }
-  updatedAt_[pass_->grabbed] = 0;
+  for (const ElementId element : pass_->handle) {
+    updatedAt_[element] = 0;
+  }
   for (std::uint32_t row = 0; row < pass_->trace.size(); ++row) {
     updatedAt_[pass_->trace[row].element] = row + 1;
   }
@@ -30,7 +32,9 @@ PassPlayer::PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& sta
   frame_.statistics = statistics;
   frame_.series = newSeries();
   frame_.number = 1;
-  move(pass_->grabbed, pass_->grabbed_after());
+  for (std::size_t i = 0; i < pass_->handle.size(); ++i) {
+    move(pass_->handle[i], pass_->handle_after(i));
+  }
   setStep(stepCount());
 }
 

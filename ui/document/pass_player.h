@@ -27,7 +27,7 @@ class PassPlayer {
 
   /// The object at this step, as a frame for a panel.
   const Frame& frame() const { return frame_; }
-  /// The step that updated an element: 0 for grabbed and pinned elements, 1 and more for the others, or never.
+  /// The step that updated an element: 0 for the handle and pinned elements, 1 and more for the others, or never.
   std::uint32_t updatedAt(ElementId element) const { return updatedAt_[element]; }
 
  private:

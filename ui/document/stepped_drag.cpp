@@ -1,5 +1,6 @@
 #include "document/stepped_drag.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace chainmail {
@@ -14,23 +15,37 @@ SteppedDrag::SteppedDrag(Document& document) : document_(document) {
 }
 
 void SteppedDrag::start(ElementId element, const Point& from, const Point& target, int steps) {
-  stop();
-  element_ = element;
+  begin({element}, steps);
   from_ = from;
   target_ = target;
+  relative_ = false;
+}
+
+void SteppedDrag::start(const std::vector<ElementId>& elements, const Point& by, const Rotation& rotation, int steps) {
+  begin(elements, steps);
+  by_ = by;
+  rotation_ = rotation;
+  relative_ = true;
+}
+
+void SteppedDrag::begin(const std::vector<ElementId>& elements, int steps) {
+  stop();
   steps_ = steps;
   done_ = 0;
   shown_ = false;
-  document_.grab(element);  // first, because it may end another drag, and the new undo step would stop this one
+  document_.grab(elements);  // first, because it may end another drag, and the new undo step would stop this one
+  held_.assign(document_.held().begin(), document_.held().end());
   running_ = true;
   emit changed();
 }
+
+bool SteppedDrag::holds() const { return !held_.empty() && std::ranges::equal(document_.held(), held_); }
 
 void SteppedDrag::stop() {
   if (!std::exchange(running_, false)) {
     return;
   }
-  if (document_.held() == element_) {
+  if (holds()) {
     document_.release();
   }
   emit changed();
@@ -42,7 +57,7 @@ void SteppedDrag::step() {
   if (!running_) {
     return;
   }
-  if (document_.held() != element_) {
+  if (!holds()) {
     stop();  // something else was grabbed
   } else if (shown_ && document_.idle()) {
     if (done_ == steps_) {
@@ -51,8 +66,19 @@ void SteppedDrag::step() {
     }
     ++done_;
     shown_ = false;
-    document_.drag(done_ == steps_ ? target_ : Point(from_ + (target_ - from_) * done_ / steps_));
+    drag();
     emit changed();
+  }
+}
+
+void SteppedDrag::drag() {
+  const bool last = done_ == steps_;
+  if (relative_) {
+    const double share = double(done_) / steps_;
+    document_.dragBy(last ? by_ : Point(by_ * share),
+                     last ? rotation_ : Rotation{rotation_.axis, rotation_.degrees * share});
+  } else {
+    document_.drag(last ? target_ : Point(from_ + (target_ - from_) * done_ / steps_));
   }
 }
 

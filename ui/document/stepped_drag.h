@@ -1,10 +1,12 @@
 #pragma once
 
+#include <vector>
+
 #include "document/document.h"
 
 namespace chainmail {
 
-/// Drags an element along a straight line in equal steps, with exact targets. Each step is one pass in every panel. A
+/// Drags a handle along a straight line in equal steps, with exact targets. Each step is one pass in every panel. A
 /// drag with the mouse, an undo or another mesh ends it.
 class SteppedDrag : public QObject {
   Q_OBJECT
@@ -14,6 +16,8 @@ class SteppedDrag : public QObject {
 
   /// Starts a drag from one point to another (mesh units); the last step ends exactly at the target.
   void start(ElementId element, const Point& from, const Point& target, int steps);
+  /// Starts a drag of many elements by a way (mesh units) and a rotation about their pivot.
+  void start(const std::vector<ElementId>& elements, const Point& by, const Rotation& rotation, int steps);
   void stop();
   bool running() const { return running_; }
   int stepsDone() const { return done_; }
@@ -24,11 +28,17 @@ class SteppedDrag : public QObject {
   void changed();
 
  private:
+  void begin(const std::vector<ElementId>& elements, int steps);
+  bool holds() const;
   void step();
+  void drag();
 
   Document& document_;
-  ElementId element_ = 0;
-  Point from_ = Point::Zero(), target_ = Point::Zero();
+  std::vector<ElementId> held_;                          // the elements that it has grabbed
+  Point from_ = Point::Zero(), target_ = Point::Zero();  // positions of one element
+  bool relative_ = false;                                // then the way and the rotation count instead
+  Point by_ = Point::Zero();
+  Rotation rotation_;
   int steps_ = 0, done_ = 0;
   bool running_ = false;
   bool shown_ = false;  // the first panel has shown a frame since the last step

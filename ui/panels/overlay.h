@@ -24,6 +24,7 @@ class Overlay {
  public:
   /// The view that is being painted.
   struct Canvas {
+    const View& view;
     ObjectDrawing& painter;
     const ObjectDrawing::Scene& scene;
     const Frame& frame;  // the frame that the painter draws

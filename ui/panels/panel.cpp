@@ -158,7 +158,8 @@ QStringList Panel::states(const Statistics& statistics) const {
     states << QStringLiteral("nothing pinned: no solution");
   }
   if (statistics.last_pass.stopped) {
-    states << QStringLiteral("taut: pins stop the handle");
+    states << (statistics.remark.empty() ? QStringLiteral("taut: pins stop the handle")
+                                         : QString::fromStdString(statistics.remark));
   }
   if (document_.parts() > 1) {
     states << QStringLiteral("%L1 parts").arg(document_.parts());

@@ -22,8 +22,10 @@ class Tool {
   /// Positions are in logical pixels from the top left of the view. hover() is a move without a pressed button.
   virtual void hover(View& view, QPointF position) = 0;
   virtual void press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) = 0;
-  virtual void move(View& view, QPointF position) = 0;
+  virtual void move(View& view, QPointF position, Qt::KeyboardModifiers modifiers) = 0;
   virtual void release(View& view, QPointF position) = 0;
+  /// The wheel was turned by this many notches, up if above 0. Returns true if the tool uses it; otherwise it zooms.
+  virtual bool wheel(View& /*view*/, QPointF /*position*/, double /*notches*/) { return false; }
   /// The cursor has left the view.
   virtual void leave(View& /*view*/) {}
   /// True if single clicks have an effect. Then a double click counts as two clicks and does not move the camera.
@@ -33,6 +35,8 @@ class Tool {
   /// Ends the current stroke, which then has no effect, or the current drag. Called by Esc, by undo, and when another
   /// tool is chosen.
   virtual void cancel() = 0;
+  /// The tool was chosen, or another one was.
+  virtual void setActive(bool /*active*/) {}
   /// Handles Esc, also without a current stroke or drag.
   virtual void escape() { cancel(); }
 

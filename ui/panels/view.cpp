@@ -28,6 +28,9 @@ constexpr float cursorMarkSize = 13;    // pixels
 constexpr float markEdge = 4;           // pixels of background around a mark, both sides together
 constexpr double largestSelected = 12;  // diameter of a selected element's mark, pixels
 constexpr double smallestSelected = 2;
+// Diameter of the mark of a handle's element, in link lengths. In space, the marks of hidden elements are also visible.
+constexpr double handleMarkShare = 0.5, spatialMarkShare = 0.2;
+constexpr double largestHandleMark = 10;  // pixels
 
 Error tooLarge(QSize picture, int most) {
   const auto what = QStringLiteral("%1 × %2 pixels are too many: the graphics card draws at most %3 on a side")
@@ -325,7 +328,7 @@ void View::mouseMoveEvent(QMouseEvent* event) {
     }
   } else if ((event->buttons() & Qt::LeftButton) != 0) {
     if (tool_ != nullptr) {
-      tool_->move(*this, cursor_);
+      tool_->move(*this, cursor_, event->modifiers());
     }
   } else {
     moveCamera(travel, event->buttons());
@@ -371,7 +374,10 @@ void View::leaveEvent(QEvent* event) {
 }
 
 void View::wheelEvent(QWheelEvent* event) {
-  zoom(std::pow(zoomPerNotch, event->angleDelta().y() / 120.0), event->position());
+  const double notches = event->angleDelta().y() / 120.0;
+  if (tool_ == nullptr || !tool_->wheel(*this, event->position(), notches)) {
+    zoom(std::pow(zoomPerNotch, notches), event->position());
+  }
 }
 
 // Keyboard: a frame shows the focus, except after a click
@@ -478,7 +484,7 @@ void View::draw(const Easel& on) {
   drawObjects(on);
   const Frame& frame = *document_.frame(panel_);
   for (Overlay* overlay : overlays_) {
-    overlay->draw({on.own, on.scene, frame, panel_, camera_->unitsPerPixel(size())});
+    overlay->draw({*this, on.own, on.scene, frame, panel_, camera_->unitsPerPixel(size())});
   }
   drawMarks(on);
   drawAnnotations(on);
@@ -556,10 +562,17 @@ void View::drawHighlight(const Easel& on) {
     return;
   }
   on.own.drawLinks(in, highlight.links, colours::lit);
+  const QColor colour = highlight.grabbed ? colours::lit : colours::marked;
+  if (!highlight.handle.empty()) {
+    const double pixelsPerLink = document_.mesh()->mean_link_length / camera_->unitsPerPixel(size());
+    const double share = camera_->spatial() ? spatialMarkShare : handleMarkShare;
+    const auto diameter = float(std::clamp(share * pixelsPerLink, smallestSelected, largestHandleMark));
+    on.own.drawElements(in, highlight.handle, colour, diameter);
+  }
   if (highlight.element) {
     const ElementId element = *highlight.element;
     on.own.drawElements(in, std::span(&element, 1), in.background, cursorMarkSize + markEdge);
-    on.own.drawElements(in, std::span(&element, 1), highlight.grabbed ? colours::lit : colours::marked, cursorMarkSize);
+    on.own.drawElements(in, std::span(&element, 1), colour, cursorMarkSize);
   }
 }
 

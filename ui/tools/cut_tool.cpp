@@ -25,7 +25,7 @@ void CutTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modifi
   document_.setHighlight({});
 }
 
-void CutTool::move(View& view, QPointF position) {
+void CutTool::move(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
   if (at_ != &view) {
     return;
   }
@@ -44,7 +44,7 @@ void CutTool::release(View& view, QPointF position) {
   if (at_ != &view) {
     return;
   }
-  move(view, position);
+  move(view, position, {});
   const std::vector<LinkId> links(crossed_.begin(), crossed_.end());
   cancel();
   document_.cut(links);

@@ -22,7 +22,7 @@ class CutTool : public Tool {
 
   void hover(View& view, QPointF position) override;
   void press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
-  void move(View& view, QPointF position) override;
+  void move(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
   void release(View& view, QPointF position) override;
   bool busy() const override { return at_ != nullptr; }
   void cancel() override;

@@ -1,13 +1,54 @@
 #include "tools/drag_tool.h"
 
+#include <QLineF>
+#include <algorithm>
+#include <cmath>
+
+#include "common/text.h"
+#include "document/element_facts.h"
 #include "panels/view.h"
 
 namespace chainmail {
+namespace {
+
+constexpr int brushCorners = 64;
+// Nearer to the pivot, a small move of the mouse would be a large angle: there it does not rotate.
+constexpr double smallestArm = 12;  // pixels
+
+Point pointOf(const QVector3D& at) { return {at.x(), at.y(), at.z()}; }
+
+/// Returns the axis across the view, towards the eye. In a plane, it is exactly the axis that the mesh does not have.
+Point axisToEye(const View& view, const Mesh& mesh) {
+  if (mesh.space_dimension == 3) {
+    return pointOf(view.camera()->toView().row(2).toVector3D()).normalized();
+  }
+  const auto end = mesh.axes.begin() + mesh.space_dimension;
+  Point axis = Point::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (std::find(mesh.axes.begin(), end, k) == end) {
+      axis[k] = 1;  // the camera looks at a plane from the positive side
+    }
+  }
+  return axis;
+}
+
+}  // namespace
 
 QString DragTool::hint() const {
+  if (brush_.radius() > 0) {
+    return QStringLiteral(
+               "Radius %1 px · %2  ·  Left: drag them as one body  ·  Shift: rotate  ·  R + wheel: radius  ·  "
+               "Esc: one element")
+        .arg(brush_.radius())
+        .arg(counted(brush_.reached(), QStringLiteral("element")));
+  }
   return QStringLiteral(
-      "Left: drag an element, in all panels  ·  Right: orbit (3D)  ·  Middle: pan  ·  Wheel: zoom  ·  F: fit");
+      "Left: drag an element or the selection  ·  Shift: rotate the selection  ·  R + wheel: grab many  ·  Right: "
+      "orbit "
+      "(3D)  ·  Middle: pan  ·  Wheel: zoom  ·  F: fit");
 }
+
+// Hover: control points, the rotation ring, the brush, and the element under the cursor
 
 void DragTool::hover(View& view, QPointF position) {
   if (busy()) {
@@ -15,20 +56,82 @@ void DragTool::hover(View& view, QPointF position) {
   }
   const auto point = controlPoints_.at(view, position);
   controlPoints_.mark(point);
-  document_.setHighlight({point ? std::nullopt : view.elementAt(position), false, {}});
-}
-
-void DragTool::leave(View& /*view*/) {
-  if (!point_) {
-    controlPoints_.mark({});
+  const bool onRing = !point && ring_.isAt(view, position);
+  setRingHovered(onRing ? &view : nullptr);
+  outline_.clear();
+  if (!point && !onRing && brush_.radius() > 0) {
+    hoverBrush(view, position);
+  } else {
+    document_.setHighlight({point || onRing ? std::nullopt : view.elementAt(position), false, {}});
   }
 }
+
+void DragTool::hoverBrush(View& view, QPointF position) {
+  outline(view, position);
+  Highlight highlight;
+  std::ranges::set_difference(withinBrush(view, position), document_.pins(), std::back_inserter(highlight.handle));
+  brush_.setReached(highlight.handle.size());
+  document_.setHighlight(highlight);
+}
+
+/// Draws the brush around a position.
+void DragTool::outline(View& view, QPointF position) {
+  brushAt_ = &view;
+  outline_.clear();
+  for (int i = 0; i <= brushCorners; ++i) {
+    const double angle = 2 * M_PI * i / brushCorners;
+    outline_.push_back(position + brush_.radius() * QPointF(std::cos(angle), std::sin(angle)));
+  }
+  view.update();
+}
+
+void DragTool::setRingHovered(View* view) {
+  if (ringHovered_ && ringHovered_ != view) {
+    ringHovered_->setCursor(cursor());
+  }
+  if (view != nullptr && ringHovered_ != view) {
+    view->setCursor(Qt::OpenHandCursor);
+  }
+  ringHovered_ = view;
+  ring_.setHovered(view != nullptr);
+}
+
+void DragTool::leave(View& view) {
+  if (busy()) {
+    return;
+  }
+  controlPoints_.mark({});
+  setRingHovered(nullptr);
+  if (!outline_.empty()) {
+    outline_.clear();
+    view.update();
+  }
+}
+
+std::span<const QPointF> DragTool::stroke(const View& view) const {
+  return brushAt_ == &view ? std::span<const QPointF>(outline_) : std::span<const QPointF>();
+}
+
+bool DragTool::wheel(View& view, QPointF position, double notches) {
+  if (!brush_.keyHeld()) {
+    return false;
+  }
+  if (!busy()) {
+    brush_.turn(notches);
+    hover(view, position);
+    view.update();
+  }
+  return true;
+}
+
+// Press: what the handle holds
 
 bool DragTool::pressOnPoint(View& view, QPointF position) {
   point_ = controlPoints_.at(view, position);
   if (point_) {
+    grip_ = Grip::controlPoint;
     start_ = controlPoints_.position(*point_);
-    grip_ = view.pointAt(position, start_);
+    gripAt_ = view.pointAt(position, start_);
     controlPoints_.mark(point_, true);
     document_.grabControlPoint(point_->point);
   }
@@ -36,28 +139,124 @@ bool DragTool::pressOnPoint(View& view, QPointF position) {
 }
 
 void DragTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
-  const auto element = view.elementAt(position);
-  if (pressOnPoint(view, position) || !element) {
+  if (pressOnPoint(view, position)) {
     return;
   }
-  if (document_.isPinned(*element)) {
-    document_.grab(*element);  // the document refuses it, and a message gives the reason
-    return;
+  if (ring_.isAt(view, position)) {
+    grab(view, position, ring_.elements(), Grip::ring);
+  } else if (const auto elements = elementsToGrab(view, position); !elements.empty()) {
+    grab(view, position, elements, Grip::handle);
   }
-  grabbed_ = element;
-  start_ = view.position(*element);
-  grip_ = view.pointAt(position, start_);
-  document_.setHighlight({element, true, {}});
-  document_.grab(*element);
 }
 
-void DragTool::move(View& view, QPointF position) {
+std::vector<ElementId> DragTool::withinBrush(const View& view, QPointF position) const {
+  const double radius = brush_.radius();
+  const QRectF bounds(position.x() - radius, position.y() - radius, 2 * radius, 2 * radius);
+  return view.elementsWhere(bounds, [=](QPointF at) { return QLineF(position, at).length() <= radius; });
+}
+
+std::vector<ElementId> DragTool::elementsToGrab(View& view, QPointF position) const {
+  if (brush_.radius() > 0) {
+    return withinBrush(view, position);
+  }
+  const auto element = view.elementAt(position);
+  if (!element) {
+    return {};
+  }
+  const auto& selected = document_.selection().elements;
+  const bool ofSelection = selected.size() > 1 && std::ranges::binary_search(selected, *element);
+  return ofSelection ? selected : std::vector{*element};
+}
+
+void DragTool::grab(View& view, QPointF position, const std::vector<ElementId>& elements, Grip grip) {
+  document_.grab(elements);
+  const std::vector<ElementId> held(document_.held().begin(), document_.held().end());
+  if (held.empty()) {
+    return;  // all are pinned: the document refuses them, and a message gives the reason
+  }
+  const auto under = view.elementAt(position);
+  motion_ = {};
+  motion_.pivot = middleIn(document_, view.panel(), held);
+  motion_.cursor = position;
+  start_ = under && std::ranges::binary_search(held, *under) ? view.position(*under) : motion_.pivot;
+  gripAt_ = view.pointAt(position, start_);
+  grip_ = held.size() == 1 ? Grip::element : grip;
+  if (grip_ == Grip::element) {
+    start_ = view.position(held.front());
+    gripAt_ = view.pointAt(position, start_);
+    document_.setHighlight({held.front(), true, {}});
+  } else {
+    document_.setHighlight({std::nullopt, true, {}, held});
+  }
+  if (grip_ == Grip::ring) {
+    setRingHovered(&view);
+    view.setCursor(Qt::ClosedHandCursor);
+  }
+}
+
+// Drag
+
+void DragTool::move(View& view, QPointF position, Qt::KeyboardModifiers modifiers) {
   if (!busy()) {
     return;
   }
-  const QVector3D travel = view.pointAt(position, start_) - grip_;
-  const Point target = start_ + Point(travel.x(), travel.y(), travel.z());
-  grabbed_ ? document_.drag(target) : document_.dragControlPoint(target);
+  if (grip_ == Grip::handle || grip_ == Grip::ring) {
+    const bool shift = (modifiers & Qt::ShiftModifier) != 0;
+    moveHandle(view, position, grip_ == Grip::ring || (shift && RotationRing::canRotate(*document_.mesh())));
+    return;
+  }
+  const Point target = start_ + pointOf(view.pointAt(position, start_) - gripAt_);
+  grip_ == Grip::element ? document_.drag(target) : document_.dragControlPoint(target);
+}
+
+void DragTool::moveHandle(View& view, QPointF position, bool turns) {
+  if (turns != motion_.turns) {
+    change(view, turns);
+  }
+  if (turns) {
+    outline_.clear();
+    turn(view, position);
+    ring_.showRotation({document_.held().begin(), document_.held().end()}, view.panel(), position,
+                       motion_.rotation.degrees);
+  } else {
+    motion_.by = motion_.byBefore + pointOf(view.pointAt(position, start_) - gripAt_);
+    ring_.hideRotation();
+    if (grip_ == Grip::handle && brush_.radius() > 0) {
+      outline(view, position);
+    }
+  }
+  motion_.cursor = position;
+  document_.dragBy(motion_.by, motion_.rotation);
+}
+
+/// Changes between translation and rotation at the last position of the cursor, so that the handle does not jump.
+void DragTool::change(const View& view, bool turns) {
+  motion_.turns = turns;
+  motion_.byBefore = motion_.by;
+  gripAt_ = view.pointAt(motion_.cursor, start_);
+  motion_.rotationBefore = motion_.rotation;
+  motion_.axis = axisToEye(view, *document_.mesh());
+  motion_.turned = 0;
+  motion_.angle = angleAt(view, motion_.cursor);
+}
+
+/// Rotates the handle by the angle of the cursor about the pivot since the last position of the cursor.
+void DragTool::turn(const View& view, QPointF position) {
+  const auto angle = angleAt(view, position);
+  if (angle && motion_.angle) {
+    motion_.turned += std::remainder(*angle - *motion_.angle, 360);
+    motion_.rotation = composed(motion_.rotationBefore, {motion_.axis, motion_.turned});
+  }
+  motion_.angle = angle;
+}
+
+/// Returns the angle of a position about the pivot (degrees), counterclockwise on the screen.
+std::optional<double> DragTool::angleAt(const View& view, QPointF position) const {
+  const QPointF arm = position - view.placeOf(Point(motion_.pivot + motion_.by));
+  if (std::hypot(arm.x(), arm.y()) < smallestArm) {
+    return std::nullopt;
+  }
+  return std::atan2(-arm.y(), arm.x()) * 180 / M_PI;
 }
 
 void DragTool::release(View& view, QPointF position) {
@@ -69,12 +268,27 @@ void DragTool::release(View& view, QPointF position) {
 
 void DragTool::cancel() {
   if (busy()) {
-    grabbed_.reset();
+    grip_ = Grip::nothing;
     point_.reset();
     document_.release();
   }
   controlPoints_.mark({});
+  ring_.hideRotation();
+  setRingHovered(nullptr);
+  outline_.clear();
   document_.setHighlight({});
+}
+
+/// Ends the drag. Without one, makes the brush grab one element again; without a brush, clears a selection of many.
+void DragTool::escape() {
+  if (!busy()) {
+    if (brush_.radius() > 0) {
+      brush_.setNotches(0);
+    } else if (document_.selection().elements.size() > 1) {
+      document_.select({});
+    }
+  }
+  cancel();
 }
 
 }  // namespace chainmail

@@ -1,19 +1,26 @@
 #pragma once
 
+#include <QPointer>
 #include <QVector3D>
 #include <optional>
+#include <vector>
 
 #include "document/document.h"
 #include "panels/tool.h"
 #include "tools/control_points.h"
+#include "tools/grab_brush.h"
+#include "tools/rotation_ring.h"
 
 namespace chainmail {
 
-/// Grabs the element under the cursor and moves it in all panels, in the plane through the element that is parallel to
-/// the view. Near a control point of free-form deformation, grabs and moves that point instead.
+/// Grabs a handle and moves it in all panels, in the plane through the handle that is parallel to the view: the element
+/// under the cursor, the selection that this element belongs to, or all elements within the brush. A handle of many
+/// elements rotates about the axis across the view while Shift is held, or when the user drags the rotation ring. Near
+/// a control point of free-form deformation, grabs and moves that point instead.
 class DragTool : public Tool {
  public:
-  DragTool(Document& document, ControlPoints& controlPoints) : document_(document), controlPoints_(controlPoints) {}
+  DragTool(Document& document, ControlPoints& controlPoints, GrabBrush& brush, RotationRing& ring)
+      : document_(document), controlPoints_(controlPoints), brush_(brush), ring_(ring) {}
 
   QString name() const override { return QStringLiteral("Drag"); }
   QString hint() const override;
@@ -21,22 +28,57 @@ class DragTool : public Tool {
 
   void hover(View& view, QPointF position) override;
   void press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
-  void move(View& view, QPointF position) override;
+  void move(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
   void release(View& view, QPointF position) override;
   void leave(View& view) override;
-  bool busy() const override { return grabbed_ || point_; }
+  bool wheel(View& view, QPointF position, double notches) override;
+  bool busy() const override { return grip_ != Grip::nothing; }
   void cancel() override;
-  std::span<const QPointF> stroke(const View&) const override { return {}; }
+  void escape() override;
+  void setActive(bool active) override { ring_.setActive(active); }
+  std::span<const QPointF> stroke(const View& view) const override;
 
  private:
+  enum class Grip { nothing, element, controlPoint, handle, ring };
+  /// The motion of a handle of many elements since it was grabbed (mesh units).
+  struct Motion {
+    Point pivot = Point::Zero();  // when it was grabbed
+    Point by = Point::Zero();
+    Rotation rotation;
+    // Since it changed between translation and rotation.
+    bool turns = false;
+    Point byBefore = Point::Zero();
+    Rotation rotationBefore;
+    Point axis = Point::Zero();   // towards the eye
+    double turned = 0;            // degrees
+    std::optional<double> angle;  // of the cursor about the pivot (degrees); none near the pivot
+    QPointF cursor;               // its last position
+  };
+
   bool pressOnPoint(View& view, QPointF position);
+  void grab(View& view, QPointF position, const std::vector<ElementId>& elements, Grip grip);
+  std::vector<ElementId> elementsToGrab(View& view, QPointF position) const;
+  std::vector<ElementId> withinBrush(const View& view, QPointF position) const;
+  void hoverBrush(View& view, QPointF position);
+  void outline(View& view, QPointF position);
+  void setRingHovered(View* view);
+  void moveHandle(View& view, QPointF position, bool turns);
+  void change(const View& view, bool turns);
+  void turn(const View& view, QPointF position);
+  std::optional<double> angleAt(const View& view, QPointF position) const;
 
   Document& document_;
   ControlPoints& controlPoints_;
-  std::optional<ElementId> grabbed_;
+  GrabBrush& brush_;
+  RotationRing& ring_;
+  Grip grip_ = Grip::nothing;
   std::optional<ControlPoints::PointId> point_;
-  Point start_ = Point::Zero();  // position of the element or control point when it was grabbed (mesh units)
-  QVector3D grip_;               // position of the cursor at that moment, in the same plane (mesh units)
+  Point start_ = Point::Zero();  // position of what is under the cursor when it was grabbed (mesh units)
+  QVector3D gripAt_;             // position of the cursor at that moment, in the same plane (mesh units)
+  Motion motion_;
+  QPointer<View> ringHovered_;     // the view whose ring is under the cursor
+  const View* brushAt_ = nullptr;  // the view of the brush's outline
+  std::vector<QPointF> outline_;
 };
 
 }  // namespace chainmail

@@ -2,6 +2,7 @@
 
 #include <QLocale>
 
+#include "common/text.h"
 #include "document/element_facts.h"
 
 namespace chainmail {
@@ -19,7 +20,7 @@ ElementReadout::ElementReadout(const Document& document, const Measurement& meas
   refresh_.setInterval(refreshMilliseconds);
   connect(&refresh_, &QTimer::timeout, this, &ElementReadout::updateText);
   const auto later = [this] {
-    if (!refresh_.isActive() && (document_.highlight().element || measurement_.from())) {
+    if (!refresh_.isActive() && (document_.highlight().element || holdsMany() || measurement_.from())) {
       refresh_.start();
     }
   };
@@ -39,17 +40,46 @@ void ElementReadout::updateText() {
   const auto& element = document_.highlight().element;
   // At an end of the measured distance, the distance is more useful.
   const bool measured = element && (element == measurement_.from() || element == measurement_.to());
-  setText(element && !measured ? describe(*element) : measurement_.from() ? measurement_.sentence() : hint_);
+  setText(element && !measured  ? describe(*element)
+          : holdsMany()         ? describeHandle()
+          : measurement_.from() ? measurement_.sentence()
+                                : hint_);
+}
+
+bool ElementReadout::holdsMany() const {
+  return document_.highlight().grabbed && !document_.highlight().handle.empty();
+}
+
+/// Returns the panels; the panel under the cursor comes first.
+std::vector<int> ElementReadout::panelsInOrder() const {
+  std::vector<int> panels{hovered_()};
+  for (int panel = 0; panel < document_.panels(); ++panel) {
+    if (panel != panels.front()) {
+      panels.push_back(panel);
+    }
+  }
+  return panels;
+}
+
+/// Describes a handle of many elements in all panels by the position of its middle.
+QString ElementReadout::describeHandle() const {
+  QString text = QStringLiteral("<b>Handle of %1</b>")
+                     .arg(counted(document_.highlight().handle.size(), QStringLiteral("element")));
+  for (const int panel : panelsInOrder()) {
+    text += QStringLiteral("  ·  %1: middle %2")
+                .arg(panelName(panel),
+                     coordinates(*document_.mesh(), middleIn(document_, panel, document_.highlight().handle)));
+  }
+  return text;
 }
 
 /// Describes the element in all panels; the panel under the cursor comes first.
 QString ElementReadout::describe(ElementId element) const {
   const int first = hovered_();
   QString places;
-  for (int i = 0; i < document_.panels(); ++i) {
-    const int panel = i == 0 ? first : i <= first ? i - 1 : i;
+  for (const int panel : panelsInOrder()) {
     places += QStringLiteral("  ·  %1: %2, violation %3")
-                  .arg(i == 0 ? QStringLiteral("<b>%1</b>").arg(panelName(panel)) : panelName(panel),
+                  .arg(panel == first ? QStringLiteral("<b>%1</b>").arg(panelName(panel)) : panelName(panel),
                        coordinates(*document_.mesh(), positionIn(document_, panel, element)),
                        QLocale().toString(violationIn(document_, panel, element), 'g', 3));
   }

@@ -8,8 +8,8 @@
 
 namespace chainmail {
 
-/// The text in the status bar: data of the element under the cursor, otherwise the measured distance, otherwise the
-/// hint of the tool. It does nothing while neither the mouse nor the object moves.
+/// The text in the status bar: data of the element under the cursor or of a handle of many, otherwise the measured
+/// distance, otherwise the hint of the tool. It does nothing while neither the mouse nor the object moves.
 class ElementReadout : public QLabel {
   Q_OBJECT
 
@@ -22,6 +22,9 @@ class ElementReadout : public QLabel {
  private:
   void updateText();
   QString describe(ElementId element) const;
+  bool holdsMany() const;
+  QString describeHandle() const;
+  std::vector<int> panelsInOrder() const;
 
   const Document& document_;
   const Measurement& measurement_;

@@ -16,7 +16,7 @@ class MeasureTool : public Tool {
 
   void hover(View& view, QPointF position) override;
   void press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
-  void move(View&, QPointF) override {}
+  void move(View&, QPointF, Qt::KeyboardModifiers) override {}
   void release(View& view, QPointF position) override { hover(view, position); }
   bool clicks() const override { return true; }
   bool busy() const override { return measurement_.from() && !measurement_.complete(); }

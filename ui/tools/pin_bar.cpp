@@ -51,7 +51,7 @@ void PinBar::await(int panel) {
 }
 
 void PinBar::offer() {
-  if (!awaits_ || document_.held() || panel_ >= document_.panels() || !document_.lacksPins(panel_)) {
+  if (!awaits_ || !document_.held().empty() || panel_ >= document_.panels() || !document_.lacksPins(panel_)) {
     return;
   }
   awaits_ = false;

@@ -169,13 +169,13 @@ void PropagationOverlay::drawElements(const Canvas& canvas, const PassPlayer& pl
   }
 }
 
-/// Draws the grabbed element, the waiting list, and the last candidate.
+/// Draws the handle, the waiting list, and the last candidate.
 void PropagationOverlay::drawFront(const Canvas& canvas, const PassPlayer& player) const {
   const auto mark = [&](std::span<const ElementId> elements, QColor colour, float size, ObjectDrawing::Mark shape) {
     canvas.painter.drawElements(canvas.scene, elements, colour, size, shape);
   };
   const float disc = discSize(canvas);
-  mark(std::span(&player.pass().grabbed, 1), colours::lit, grabbedSize, ObjectDrawing::Mark::disc);
+  mark(player.pass().handle, colours::lit, grabbedSize, ObjectDrawing::Mark::disc);
   if (propagation_.follows()) {
     return;
   }

@@ -61,7 +61,7 @@ void SelectTool::press(View& view, QPointF position, Qt::KeyboardModifiers modif
   }
 }
 
-void SelectTool::move(View& view, QPointF position) {
+void SelectTool::move(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
   if (!pressed_ || at_ != &view) {
     return;
   }
@@ -77,7 +77,7 @@ void SelectTool::release(View& view, QPointF position) {
   if (!pressed_ || at_ != &view) {
     return;
   }
-  move(view, position);
+  move(view, position, {});
   if (shape_ == Shape::rectangle) {
     const QRectF rectangle = QRectF(start_, position).normalized();
     if (std::max(rectangle.width(), rectangle.height()) >= smallestRectangle) {

@@ -27,7 +27,7 @@ class SelectTool : public Tool {
 
   void hover(View& view, QPointF position) override;
   void press(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
-  void move(View& view, QPointF position) override;
+  void move(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
   void release(View& view, QPointF position) override;
   bool busy() const override { return pressed_; }
   void cancel() override;

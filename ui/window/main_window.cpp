@@ -65,7 +65,8 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       propagationOverlay_(propagation_),
       regions_(document_),
       controlPoints_(document_),
-      dragTool_(document_, controlPoints_),
+      rotationRing_(document_),
+      dragTool_(document_, controlPoints_, grabBrush_, rotationRing_),
       cutTool_(document_),
       pinTool_(document_),
       measurement_(document_),
@@ -142,6 +143,9 @@ void MainWindow::listen() {
   area_->addOverlay(regions_);
   area_->addOverlay(measurement_);
   area_->addOverlay(controlPoints_);
+  area_->addOverlay(rotationRing_);
+  connect(&rotationRing_, &RotationRing::changed, area_, &PanelArea::refresh);
+  connect(&grabBrush_, &GrabBrush::changed, this, [this] { readout_->setHint(tool_->hint()); });
   connect(&controlPoints_, &ControlPoints::changed, area_, &PanelArea::refresh);
   connect(&measurement_, &Measurement::changed, area_, &PanelArea::refresh);
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
@@ -195,8 +199,10 @@ QAction* MainWindow::addTool(Tool& tool, const char* iconName, const QKeySequenc
 void MainWindow::activate(Tool& tool) {
   if (tool_ != nullptr) {
     tool_->cancel();
+    tool_->setActive(false);
   }
   tool_ = &tool;
+  tool.setActive(true);
   area_->setTool(tool);
   readout_->setHint(tool.hint());
 }
@@ -279,13 +285,14 @@ void MainWindow::fillEditMenu(QMenu& menu) {
   auto* cancel = menu.addAction(QStringLiteral("&Cancel"), Qt::Key_Escape, this, &MainWindow::cancelCurrent);
   cancel->setObjectName(QStringLiteral("giveUp"));
   cancel->setStatusTip(
-      QStringLiteral("Cancels the current stroke, drag or job, or clears the selection; dismisses the message"));
+      QStringLiteral("Cancels the current stroke, drag or job, or clears the brush or the selection; dismisses the "
+                     "message"));
 }
 
 void MainWindow::fillObjectMenu(QMenu& menu) {
   resetObject_ = menu.addAction(QStringLiteral("Reset &object"), this, [this] { document_.resetObject(); });
   resetObject_->setObjectName(QStringLiteral("resetObject"));
-  resetObject_->setShortcut(Qt::Key_R);
+  resetObject_->setShortcut(Qt::CTRL | Qt::Key_Backspace);  // R alone belongs to the brush of the Drag tool
   resetObject_->setStatusTip(
       QStringLiteral("Moves all elements to their rest positions; cuts, pins and softness stay"));
   auto* softness = menu.addAction(QStringLiteral("Reset &softness"), this, [this] { document_.resetSoftness(); });

@@ -95,6 +95,8 @@ class MainWindow : public QMainWindow {
   PropagationOverlay propagationOverlay_;
   ValidRegions regions_;
   ControlPoints controlPoints_;
+  GrabBrush grabBrush_;
+  RotationRing rotationRing_;
   DragTool dragTool_;
   CutTool cutTool_;
   PinTool pinTool_;

@@ -28,18 +28,19 @@ void WaitingListModel::show(const PassPlayer* player, std::size_t highest) {
 }
 
 int WaitingListModel::rowCount(const QModelIndex& parent) const {
-  return player_ == nullptr || parent.isValid() ? 0 : int(1 + waiting_.size() + player_->step());
+  return player_ == nullptr || parent.isValid() ? 0 : int(taken() + waiting_.size());
 }
 
-/// Returns the content of a row. The handle and each step of the trace count as taken.
+/// Returns the content of a row. The elements of the handle and each step of the trace count as taken, the last one
+/// first. It is above the waiting ones, the others are below them.
 WaitingListModel::Row WaitingListModel::row(int row) const {
   const auto i = std::size_t(row);
   if (i >= 1 && i <= waiting_.size()) {
     return waitingRow(i - 1);
   }
   const std::size_t back = i == 0 ? 0 : i - waiting_.size();
-  if (back == player_->step()) {
-    return {player_->pass().grabbed, no_element, Kind::handle, true};
+  if (back >= player_->step()) {
+    return {player_->pass().handle[back - player_->step()], no_element, Kind::handle, true};
   }
   const TraceRow& taken = player_->pass().trace[player_->step() - 1 - back];
   return {taken.element, taken.sponsor, back == 0 ? Kind::current : Kind::done, taken.moved};

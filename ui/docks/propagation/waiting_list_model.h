@@ -7,8 +7,8 @@
 namespace chainmail {
 
 /// A table of a pass at one step. The first row is the candidate taken last. Then come the waiting candidates, in the
-/// order in which they will be taken, then the candidates taken before, the latest first. If the waiting list is
-/// unknown, the remaining steps of the pass replace it.
+/// order in which they will be taken, then the candidates taken before, the latest first, and the handle. If the
+/// waiting list is unknown, the remaining steps of the pass replace it.
 class WaitingListModel : public QAbstractTableModel {
   Q_OBJECT
 
@@ -35,6 +35,8 @@ class WaitingListModel : public QAbstractTableModel {
     bool moved = true;
   };
 
+  /// Number of elements of the handle and of steps done.
+  std::size_t taken() const { return player_->pass().handle.size() + player_->step(); }
   Row row(int row) const;
   Row waitingRow(std::size_t i) const;
   QString text(const Row& row, int column) const;

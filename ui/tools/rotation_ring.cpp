@@ -1,0 +1,131 @@
+#include "tools/rotation_ring.h"
+
+#include <QLineF>
+#include <QLocale>
+#include <QVector3D>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "common/colours.h"
+#include "document/element_facts.h"
+#include "panels/view.h"
+
+namespace chainmail {
+namespace {
+
+constexpr double smallestRing = 40, ringMargin = 16;  // pixels, radius and distance from the elements
+constexpr double largestRingShare = 0.45;             // of the smaller side of the view
+constexpr double ringReach = 6;                       // pixels, distance at which the cursor finds the ring
+constexpr float ringWidth = 2, litRingWidth = 3;      // pixels
+constexpr float ringRim = 2;                          // pixels of background, both sides together
+constexpr double largestSagitta = 0.25;               // pixels between the circle and its chords
+constexpr double ringOverlap = 0.5;                   // pixels; smooth lines are faint at their ends
+constexpr double measuredPixels = 100;
+
+}  // namespace
+
+RotationRing::RotationRing(const Document& document) : document_(document) {
+  for (const auto signal : {&Document::selectionChanged, &Document::pinsChanged, &Document::meshChanged}) {
+    connect(&document, signal, this, &RotationRing::followSelection);
+  }
+  connect(&document, &Document::meshChanged, this, &RotationRing::hideRotation);
+}
+
+void RotationRing::followSelection() {
+  elements_.clear();
+  if (active_ && canRotate(*document_.mesh())) {
+    std::ranges::set_difference(document_.selection().elements, document_.pins(), std::back_inserter(elements_));
+  }
+  if (elements_.size() < 2) {
+    elements_.clear();
+  }
+  emit changed();
+}
+
+void RotationRing::setActive(bool active) {
+  active_ = active;
+  followSelection();
+}
+
+void RotationRing::setHovered(bool hovered) {
+  if (hovered != hovered_) {
+    hovered_ = hovered;
+    emit changed();
+  }
+}
+
+void RotationRing::showRotation(const std::vector<ElementId>& handle, int panel, QPointF cursor, double degrees) {
+  turn_ = Turn{handle, panel, cursor, degrees};
+  emit changed();
+}
+
+void RotationRing::hideRotation() {
+  if (turn_) {
+    turn_.reset();
+    emit changed();
+  }
+}
+
+/// Returns the ring in a view. It encloses the elements from every side, so that its size does not change while they
+/// rotate. A large ring is limited, so that it stays within reach of the cursor.
+std::optional<RotationRing::Circle> RotationRing::circle(const View& view) const {
+  const auto& elements = turn_ ? turn_->handle : elements_;
+  if (elements.empty()) {
+    return std::nullopt;
+  }
+  Circle circle;
+  circle.pivot = middleIn(document_, view.panel(), elements);
+  double reach = 0;  // mesh units
+  for (const ElementId element : elements) {
+    reach = std::max(reach, (view.position(element) - circle.pivot).norm());
+  }
+  const QVector3D across =
+      view.pointAt({measuredPixels, 0}, circle.pivot) - view.pointAt({0, 0}, circle.pivot);  // parallel to the view
+  circle.unitsPerPixel = double(across.length()) / measuredPixels;
+  const double largest = std::max(smallestRing, largestRingShare * std::min(view.width(), view.height()));
+  circle.radius = std::clamp(reach / circle.unitsPerPixel + ringMargin, smallestRing, largest);
+  return circle;
+}
+
+bool RotationRing::isAt(const View& view, QPointF position) const {
+  const auto ring = circle(view);
+  return ring && std::abs(QLineF(view.placeOf(ring->pivot), position).length() - ring->radius) <= ringReach;
+}
+
+void RotationRing::draw(const Canvas& canvas) {
+  const auto ring = circle(canvas.view);
+  if (!ring) {
+    return;
+  }
+  const auto radius = float(ring->radius * ring->unitsPerPixel);
+  const QVector3D right = canvas.scene.toView.row(0).toVector3D().normalized() * radius;
+  const QVector3D up = canvas.scene.toView.row(1).toVector3D().normalized() * radius;
+  const auto at = [&](double angle) {
+    return asVector(ring->pivot) + right * float(std::cos(angle)) + up * float(std::sin(angle));
+  };
+  const int corners = int(std::ceil(M_PI / std::acos(1 - largestSagitta / ring->radius)));
+  const double overlap = ringOverlap / ring->radius;
+  std::vector<QVector3D> ends;
+  for (int i = 0; i < corners; ++i) {
+    ends.push_back(at(2 * M_PI * i / corners - overlap));
+    ends.push_back(at(2 * M_PI * (i + 1) / corners + overlap));
+  }
+  const bool lit = hovered_ || turn_;
+  const float width = lit ? litRingWidth : ringWidth;
+  const auto draw = [&](QColor colour, float pixels) {
+    canvas.painter.drawInSpace(canvas.scene, ends, ObjectDrawing::Shape::segments, colour, pixels);
+  };
+  draw(canvas.scene.background, width + ringRim);
+  draw(turn_ ? colours::lit : hovered_ ? colours::marked : colours::selected, width);
+}
+
+std::vector<Annotation> RotationRing::annotations(const View& view) const {
+  if (!turn_ || turn_->panel != view.panel()) {
+    return {};
+  }
+  const QPointF pivot = view.placeOf(middleIn(document_, view.panel(), turn_->handle));
+  return {{QLineF(pivot, turn_->cursor), QStringLiteral("%1°").arg(QLocale().toString(std::lround(turn_->degrees)))}};
+}
+
+}  // namespace chainmail
