@@ -203,7 +203,8 @@ std::string text_of(Write write) {
 
 }  // namespace
 
-const std::vector<ComparisonRow>& Comparison::rows() const { return inside_->rows; }
+const std::vector<ComparisonRow>& Comparison::rows() const& { return inside_->rows; }
+std::vector<ComparisonRow> Comparison::rows() && { return inside_->rows; }
 
 std::string Comparison::text() const {
   return text_of(

@@ -25,19 +25,19 @@ struct CalibrateOptions {
 
 /// Errors against the reference solution, means over drags; the maxima are the largest.
 struct CalibrationErrors {
-  PhysicalError nothing;  ///< If only the handle moves.
-  PhysicalError before;   ///< With the default softness, without sweeps.
-  PhysicalError after;    ///< With the result.
+  PhysicalError nothing = {};  ///< If only the handle moves.
+  PhysicalError before = {};   ///< With the default softness, without sweeps.
+  PhysicalError after = {};    ///< With the result.
 };
 
 /// The softness that comes closest to an elastic material.
 struct Calibration {
-  LinkSoftness softness;       ///< Softness of all links.
-  int sweeps = 0;              ///< Sweeps of relaxation after each move.
-  int evaluations = 0;         ///< Number of evaluations that were made.
-  CalibrationErrors fitted;    ///< On the drags that the search used.
-  CalibrationErrors held_out;  ///< On drags that the search did not use.
-  std::string json;            ///< All figures, drag by drag, as `chainmail calibrate --json` writes them.
+  LinkSoftness softness = {};       ///< Softness of all links.
+  int sweeps = 0;                   ///< Sweeps of relaxation after each move.
+  int evaluations = 0;              ///< Number of evaluations that were made.
+  CalibrationErrors fitted = {};    ///< On the drags that the search used.
+  CalibrationErrors held_out = {};  ///< On drags that the search did not use.
+  std::string json = {};            ///< All figures, drag by drag, as `chainmail calibrate --json` writes them.
 };
 
 /// Finds one softness for all links, and the number of sweeps, that together have the lowest mean relative error

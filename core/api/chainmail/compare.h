@@ -19,9 +19,9 @@ struct Access;
 
 /// A drag from rest: grabs elements, then moves them along a path, one pass per motion.
 struct Drag {
-  std::string name;                 ///< Name in the table.
-  std::vector<ElementId> elements;  ///< The grabbed elements.
-  std::vector<Motion> path;         ///< Motions from where they were grabbed, at least one.
+  std::string name = {};                 ///< Name in the table.
+  std::vector<ElementId> elements = {};  ///< The grabbed elements.
+  std::vector<Motion> path = {};         ///< Motions from where they were grabbed, at least one.
 };
 
 /// What errors refer to.
@@ -32,42 +32,45 @@ enum class Reference {
 
 /// Options of a comparison.
 struct CompareOptions {
-  std::string title = "object";      ///< Name of the object in the report.
-  std::vector<std::string> methods;  ///< Names of methods. Empty: the ChainMail family; against physics, all.
-  std::vector<int> sweeps{0};        ///< Numbers of sweeps of relaxation after each move; one row for each.
-  double relax_step = 1;             ///< Share of the way that an element moves per sweep: above 0, to 1.
+  std::string title = "object";           ///< Name of the object in the report.
+  std::vector<std::string> methods = {};  ///< Names of methods. Empty: the ChainMail family; against physics, all.
+  std::vector<int> sweeps{0};             ///< Numbers of sweeps of relaxation after each move; one row for each.
+  double relax_step = 1;                  ///< Share of the way that an element moves per sweep: above 0, to 1.
   RelaxationScheme scheme = RelaxationScheme::mean;   ///< Relaxation scheme.
   Precision precision = Precision::single_precision;  ///< Precision of the methods. References are in double.
-  std::optional<int> repetitions;  ///< Number of runs of each drag, for times. Default: as many as fit in `seconds`.
-  double seconds = 4;              ///< Time for all runs of one drag (s).
+  /// Number of runs of each drag, for times. Default: as many as fit in `seconds`.
+  std::optional<int> repetitions = {};
+  double seconds = 4;                    ///< Time for all runs of one drag (s).
   Reference against = Reference::exact;  ///< What errors refer to.
 };
 
 /// A row of the table: one method with a number of sweeps, on one drag. A figure that was not measured is empty.
 struct ComparisonRow {
-  std::string drag;     ///< Name of the drag.
-  std::string method;   ///< Name of the method; `nothing` for an object of which only handle and pins move.
-  std::string label;    ///< Title of the method, with its sweeps.
-  int sweeps = 0;       ///< Sweeps of relaxation after each move.
-  std::string refusal;  ///< Reason why there is no result; empty if there is one.
+  std::string drag = {};     ///< Name of the drag.
+  std::string method = {};   ///< Name of the method; `nothing` for an object of which only handle and pins move.
+  std::string label = {};    ///< Title of the method, with its sweeps.
+  int sweeps = 0;            ///< Sweeps of relaxation after each move.
+  std::string refusal = {};  ///< Reason why there is no result; empty if there is one.
 
-  std::optional<double> ms_per_move;     ///< Median time of a pass with its sweeps (ms).
-  std::optional<double> lower_quartile;  ///< Lower quartile of that time (ms).
-  std::optional<double> upper_quartile;  ///< Upper quartile of that time (ms).
-  std::optional<double> prepare_ms;      ///< Time of the preparation before the first move (ms), against physics.
+  std::optional<double> ms_per_move = {};     ///< Median time of a pass with its sweeps (ms).
+  std::optional<double> lower_quartile = {};  ///< Lower quartile of that time (ms).
+  std::optional<double> upper_quartile = {};  ///< Upper quartile of that time (ms).
+  std::optional<double> prepare_ms = {};      ///< Time of the preparation before the first move (ms), against physics.
 
-  std::optional<Violation> violation;       ///< Violation at the end of the drag.
-  std::optional<Spread> to_exact;           ///< Distance to Exact ChainMail, in mean rest lengths.
-  std::optional<double> energy_over_exact;  ///< Elastic energy over that of Exact ChainMail.
-  std::optional<Spread> float_to_double;    ///< Distance between the method in float and in double.
-  std::optional<PhysicalError> to_physics;  ///< Error against the reference solution, against physics.
+  std::optional<Violation> violation = {};       ///< Violation at the end of the drag.
+  std::optional<Spread> to_exact = {};           ///< Distance to Exact ChainMail, in mean rest lengths.
+  std::optional<double> energy_over_exact = {};  ///< Elastic energy over that of Exact ChainMail.
+  std::optional<Spread> float_to_double = {};    ///< Distance between the method in float and in double.
+  std::optional<PhysicalError> to_physics = {};  ///< Error against the reference solution, against physics.
 };
 
 /// The result of compare(). Copies share the data.
 class Comparison {
  public:
-  /// The table: drag by drag, method by method.
-  const std::vector<ComparisonRow>& rows() const;
+  /// The table: drag by drag, method by method. Valid while a copy of the comparison exists.
+  const std::vector<ComparisonRow>& rows() const&;
+  /// The table of a comparison that is not kept.
+  std::vector<ComparisonRow> rows() &&;
   /// Returns the main table as aligned text.
   std::string text() const;
   /// Returns the report as a self-contained page with tables and plots, as `chainmail compare` writes it.

@@ -19,8 +19,8 @@ struct MoveResult {
   std::uint64_t checked = 0;  ///< Number of candidates that the method processed.
   std::uint64_t moved = 0;    ///< Number of elements that moved, without the handle.
   bool stopped = false;       ///< True if pins stopped the handle before its target (Exact ChainMail).
-  Pose reached;               ///< Where the handle is now.
-  std::string remark;         ///< Reason why the move did not end as requested. Usually empty.
+  Pose reached = {};          ///< Where the handle is now.
+  std::string remark = {};    ///< Reason why the move did not end as requested. Usually empty.
 };
 
 /// A candidate that a method of the ChainMail family processed in a move.

@@ -13,7 +13,7 @@ struct Access;
 
 /// A rotation about an axis. In a plane, only the axis across it is possible, and on a line none.
 struct Rotation {
-  Vector3 axis;        ///< Axis of any length above 0, unless there is no rotation.
+  Vector3 axis = {};   ///< Axis of any length above 0, unless there is no rotation.
   double degrees = 0;  ///< Counterclockwise as seen from the tip of the axis.
 
   /// True if axis and angle are equal.
@@ -22,8 +22,9 @@ struct Rotation {
 
 /// Where a handle is.
 struct Pose {
-  Vector3 pivot;  ///< Position of its pivot (mesh units). Coordinates that do not exist are 0 or those of the object.
-  Rotation rotation;  ///< Rotation about the pivot since the handle was grabbed.
+  /// Position of its pivot (mesh units). Coordinates that do not exist are 0 or those of the object.
+  Vector3 pivot = {};
+  Rotation rotation = {};  ///< Rotation about the pivot since the handle was grabbed.
 
   /// True if position and rotation are equal.
   bool operator==(const Pose&) const = default;
@@ -31,8 +32,8 @@ struct Pose {
 
 /// A rigid motion of a handle, from where it was grabbed.
 struct Motion {
-  Vector3 by;         ///< Displacement of the pivot (mesh units).
-  Rotation rotation;  ///< Rotation about the pivot.
+  Vector3 by = {};         ///< Displacement of the pivot (mesh units).
+  Rotation rotation = {};  ///< Rotation about the pivot.
 
   /// True if displacement and rotation are equal.
   bool operator==(const Motion&) const = default;

@@ -15,9 +15,9 @@ namespace chainmail::api {
 
 /// A format of files.
 struct FileFormat {
-  std::string name;              ///< Name, like `Wavefront OBJ`.
-  std::string endings;           ///< Endings in lower case, separated by spaces; the first one is used for writing.
-  std::string content;           ///< What such files contain.
+  std::string name = {};         ///< Name, like `Wavefront OBJ`.
+  std::string endings = {};      ///< Endings in lower case, separated by spaces; the first one is used for writing.
+  std::string content = {};      ///< What such files contain.
   bool reads = false;            ///< True if read_mesh() opens it.
   bool writes = false;           ///< True if write_mesh() writes it.
   bool holds_positions = false;  ///< False if it stores links only (.dat).

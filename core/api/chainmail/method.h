@@ -16,10 +16,10 @@ enum class MethodFamily {
 
 /// What is known about a method.
 struct MethodInfo {
-  std::string name;     ///< Its name for Deformer, compare() and calibrate(), like `natural-queue`.
-  std::string label;    ///< Its title in reports, like `Natural Queue ChainMail`.
-  std::string source;   ///< Publication: author and year.
-  std::string summary;  ///< One sentence about how it works.
+  std::string name = {};     ///< Its name for Deformer, compare() and calibrate(), like `natural-queue`.
+  std::string label = {};    ///< Its title in reports, like `Natural Queue ChainMail`.
+  std::string source = {};   ///< Publication: author and year.
+  std::string summary = {};  ///< One sentence about how it works.
   MethodFamily family = MethodFamily::chainmail;  ///< Kind of model.
   bool needs_grid = false;                        ///< True if it works only on lattices with links along the axes.
   bool needs_pins = false;                        ///< True if it has no answer without pinned elements.

@@ -16,8 +16,8 @@ struct Access;
 
 /// A box (mesh units). Coordinates that do not exist are those of the object.
 struct Box {
-  Vector3 low;   ///< Lowest corner.
-  Vector3 high;  ///< Highest corner.
+  Vector3 low = {};   ///< Lowest corner.
+  Vector3 high = {};  ///< Highest corner.
 };
 
 /// Access to an object while a method of your own answers a move. It notes which elements move. Every function throws
@@ -56,8 +56,8 @@ class MovingBody {
 
 /// The move that a method answers.
 struct HandleMove {
-  std::span<const ElementId> elements;  ///< The grabbed elements, ascending. They are at their targets already.
-  std::span<const Vector3> before;      ///< Their positions before the move (mesh units).
+  std::span<const ElementId> elements = {};  ///< The grabbed elements, ascending. They are at their targets already.
+  std::span<const Vector3> before = {};      ///< Their positions before the move (mesh units).
 };
 
 /// A method of your own. Each Deformer has one, made by the factory when the first move comes; it may keep data between
@@ -77,10 +77,10 @@ class Method {
 
 /// How reports and lists describe a method of your own.
 struct MethodDescription {
-  std::string name;          ///< Its name: letters a to z, digits and hyphens.
-  std::string label;         ///< Its title in reports: one line. Empty: the name.
-  std::string source;        ///< Publication: author and year.
-  std::string summary;       ///< One sentence about how it works.
+  std::string name = {};     ///< Its name: letters a to z, digits and hyphens.
+  std::string label = {};    ///< Its title in reports: one line. Empty: the name.
+  std::string source = {};   ///< Publication: author and year.
+  std::string summary = {};  ///< One sentence about how it works.
   bool needs_grid = false;   ///< True if it works only on lattices with links along the axes.
   bool holds_links = false;  ///< True if no link is violated after a move.
 };
