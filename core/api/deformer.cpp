@@ -115,13 +115,7 @@ MoveResult Deformer::move(ElementId element, const Vector3& target) {
 
 std::span<const ElementId> Deformer::moved() const { return inside_->solver().moved(); }
 
-void Deformer::release() {
-  auto& body = Access::inside(inside_->body);
-  if (body.is_held) {
-    body.solver->wake(body.handle);
-    body.is_held = false;
-  }
-}
+void Deformer::release() { Access::inside(inside_->body).is_held = false; }
 
 int Deformer::relax(int sweeps, const RelaxOptions& options) {
   if (sweeps < 0) {
