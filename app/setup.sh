@@ -12,7 +12,7 @@ build_packages=(
 )
 # Needed to show a window on a minimal machine: a software driver for OpenGL, and fonts.
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)
-test_packages=(librapidcheck-dev xvfb ffmpeg clang-format)
+test_packages=(librapidcheck-dev xvfb ffmpeg clang-format doxygen)
 check_packages=(clang-tidy python3)
 mutant_packages=(python3)
 bench_packages=(libbenchmark-dev libbullet-dev)

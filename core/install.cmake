@@ -1,22 +1,21 @@
-# For `cmake --install` and find_package(chainmail): installs only the solver library, as chainmail::core, without file
-# formats and the window.
+# For `cmake --install` and find_package(chainmail): installs the public headers, the library as chainmail::chainmail, and
+# the program that reads the formats of other libraries. The other libraries are parts that chainmail::chainmail links;
+# they have no headers.
 include(CMakePackageConfigHelpers)
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chainmail)
 
-install(TARGETS chainmail_core EXPORT chainmail
+install(TARGETS chainmail_api chainmail_calibrate chainmail_core chainmail_files EXPORT chainmail
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core)
-foreach(room IN ITEMS mesh elastic solve measure simulate report)
-  install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/chainmail COMPONENT core
-    FILES_MATCHING PATTERN "*.h")
-endforeach()
+install(DIRECTORY api/chainmail DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT core FILES_MATCHING PATTERN "*.h")
 
 install(EXPORT chainmail NAMESPACE chainmail:: FILE chainmail-targets.cmake
   DESTINATION ${config_folder} COMPONENT core)
 configure_package_config_file(chainmail-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/chainmail-config.cmake
   INSTALL_DESTINATION ${config_folder})
+# Below version 1, a new minor version may change the interface.
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/chainmail-config-version.cmake
-  COMPATIBILITY SameMinorVersion)
+  VERSION ${PROJECT_VERSION} COMPATIBILITY SameMinorVersion)
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/chainmail-config.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/chainmail-config-version.cmake

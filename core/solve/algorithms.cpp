@@ -122,6 +122,16 @@ std::size_t family_size() {
   return static_cast<std::size_t>(std::ranges::count(algorithm_table(), Family::chainmail, &AlgorithmInfo::family));
 }
 
+/// Numbers of algorithms that are added while the program runs start here.
+constexpr auto first_added = Algorithm(10'000);
+
+/// Inserts an entry at the end of its family.
+Algorithm insert(const AlgorithmInfo& entry) {
+  auto& table = algorithm_table();
+  const auto end = entry.family() == Family::chainmail ? table.begin() + std::ptrdiff_t(family_size()) : table.end();
+  return table.insert(end, entry)->algorithm;
+}
+
 }  // namespace
 
 std::span<const AlgorithmInfo> algorithms() { return every_algorithm().first(family_size()); }
@@ -157,11 +167,13 @@ void check(Algorithm algorithm, const Mesh& mesh) {
   }
 }
 
-ExtraAlgorithm::ExtraAlgorithm(const AlgorithmInfo& entry) : algorithm_(entry.algorithm) {
-  auto& table = algorithm_table();
-  const auto end = entry.family() == Family::chainmail ? table.begin() + std::ptrdiff_t(family_size()) : table.end();
-  table.insert(end, entry);
+Algorithm add_algorithm(AlgorithmInfo entry) {
+  const auto last = std::ranges::max_element(algorithm_table(), {}, &AlgorithmInfo::algorithm);
+  entry.algorithm = std::max(first_added, Algorithm(int(last->algorithm) + 1));
+  return insert(entry);
 }
+
+ExtraAlgorithm::ExtraAlgorithm(const AlgorithmInfo& entry) : algorithm_(insert(entry)) {}
 
 ExtraAlgorithm::~ExtraAlgorithm() {
   std::erase_if(algorithm_table(), [this](const AlgorithmInfo& one) { return one.algorithm == algorithm_; });

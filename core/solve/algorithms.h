@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -60,6 +61,9 @@ struct AlgorithmInfo {
   bool from_rest = false;           // the solver holds displacements from rest instead of positions
   bool has_control_points = false;  // a user may drag control points
 
+  /// Owns the texts above, if they are not literals.
+  std::shared_ptr<const void> texts = {};
+
   Family family() const { return elastic ? Family::elastic : Family::chainmail; }
   /// Name in help texts and in messages of the command line.
   std::string_view offered_name() const { return alias.empty() ? name : alias; }
@@ -88,6 +92,10 @@ std::optional<Algorithm> find_algorithm(std::string_view name);
 bool fits(Algorithm algorithm, const Mesh& mesh);
 /// Throws Error, with the reason, if the algorithm does not work on the mesh.
 void check(Algorithm algorithm, const Mesh& mesh);
+
+/// Adds an entry to the table for good, in its family, and returns its new number; that of `entry` is ignored. No other
+/// thread may read the table meanwhile, and references to entries become invalid.
+Algorithm add_algorithm(AlgorithmInfo entry);
 
 /// Adds an entry to the table while this object exists. For tests: no other thread may read the table meanwhile, and
 /// references to entries become invalid.

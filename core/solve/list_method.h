@@ -50,11 +50,11 @@ struct ListMethodOf {
 
 /// Makes the method of an algorithm that differs from others in its waiting list only.
 template <class List>
-inline constexpr MakeMethod make_list_method = make_method<ListMethodOf<List>::template Typed>;
+inline constexpr auto make_list_method = &make_method<ListMethodOf<List>::template Typed>;
 
 template <class Scalar, int Dimension>
 using NaturalQueueMethod = ListMethod<NaturalQueue, Scalar, Dimension>;
 
-inline constexpr MakeMethod make_natural_queue = make_method<NaturalQueueMethod>;
+inline constexpr auto make_natural_queue = &make_method<NaturalQueueMethod>;
 
 }  // namespace chainmail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -44,8 +45,9 @@ class Method {
   }
 };
 
-/// Makes a method for bodies of a precision and a space dimension.
-using MakeMethod = std::unique_ptr<Method> (*)(Precision precision, int dimension);
+/// Makes a method for bodies of a precision and a space dimension. A method that is added by a program outside may
+/// carry data of its own.
+using MakeMethod = std::function<std::unique_ptr<Method>(Precision precision, int dimension)>;
 
 /// Makes a method that is a template of the scalar and the space dimension.
 template <template <class Scalar, int Dimension> class Typed>

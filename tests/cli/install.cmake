@@ -1,19 +1,101 @@
-# Installs a build into an empty folder. Then builds and runs a user's program with the installed library.
-#   cmake -DBUILD=… -DCONSUMER=… -DCONFIG=… -DFLAGS=… -DCOMPILER=… -DGENERATOR=… -P install.cmake
+# Installs a build into an empty folder and checks what is there. Then builds a user's program and the examples with the
+# installed package, and checks what they print.
+#   cmake -DSOURCE=… -DBUILD=… -DCONFIG=… -DVERSION=… -DFLAGS=… -DCOMPILER=… -DGENERATOR=… -P install.cmake
 set(prefix ${BUILD}/tests/install/prefix)
 set(work ${BUILD}/tests/install/consumer)
+set(most_headers 15)
 file(REMOVE_RECURSE ${prefix} ${work})
 
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
+# Runs a program, which must print a text that matches.
+function(run_and_find pattern)
+  execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ECHO_OUTPUT_VARIABLE COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT output MATCHES "${pattern}")
+    message(FATAL_ERROR "${ARGN} did not print '${pattern}'")
+  endif()
+endfunction()
+
 # Leaves out the window, which this test does not need.
 foreach(component IN ITEMS core command_line)
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component ${component})
 endforeach()
-run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${work} -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
+
+# Only the public headers are installed. They include the standard library and each other.
+file(GLOB_RECURSE headers RELATIVE ${prefix} ${prefix}/*.h ${prefix}/*.hpp)
+list(LENGTH headers count)
+if(count GREATER most_headers OR count EQUAL 0)
+  message(FATAL_ERROR "${count} headers are installed, and at most ${most_headers} should be: ${headers}")
+endif()
+foreach(header IN LISTS headers)
+  if(NOT header MATCHES "^include/chainmail/[a-z_]+[.]h$")
+    message(FATAL_ERROR "${header} is not a public header")
+  endif()
+  file(STRINGS ${prefix}/${header} includes REGEX "^ *# *include")
+  foreach(include IN LISTS includes)
+    if(NOT include MATCHES "^#include (<[a-z_]+>|\"chainmail/[a-z_]+[.]h\")$")
+      message(FATAL_ERROR "${header} includes what users do not have: ${include}")
+    endif()
+  endforeach()
+endforeach()
+
+# The package leads to nothing in the source or the build, and leaves options of floating point to users.
+file(GLOB_RECURSE package ${prefix}/*.cmake)
+foreach(file IN LISTS package)
+  file(READ ${file} text)
+  string(FIND "${text}" "${SOURCE}/core" of_source)
+  string(FIND "${text}" "ffp-contract" option)
+  string(FIND "${text}" "Eigen" eigen)
+  if(NOT of_source EQUAL -1 OR NOT option EQUAL -1 OR NOT eigen EQUAL -1)
+    message(FATAL_ERROR "${file} names the source, an option of floating point or Eigen")
+  endif()
+endforeach()
+
+# The version is that of the project. Another minor version does not fit.
+file(GLOB_RECURSE version_file ${prefix}/chainmail-config-version.cmake)
+function(check_version wanted major minor fits)
+  set(PACKAGE_FIND_VERSION ${wanted})
+  set(PACKAGE_FIND_VERSION_MAJOR ${major})
+  set(PACKAGE_FIND_VERSION_MINOR ${minor})
+  set(CMAKE_SIZEOF_VOID_P 8)
+  include(${version_file})
+  if(NOT PACKAGE_VERSION STREQUAL VERSION OR (PACKAGE_VERSION_COMPATIBLE AND NOT fits)
+     OR (fits AND NOT PACKAGE_VERSION_COMPATIBLE))
+    message(FATAL_ERROR "version ${PACKAGE_VERSION} of the package: asked for ${wanted}, which should fit: ${fits}")
+  endif()
+endfunction()
+string(REPLACE "." ";" parts ${VERSION})
+list(GET parts 0 major)
+list(GET parts 1 minor)
+math(EXPR next "${minor} + 1")
+check_version(${major}.${minor} ${major} ${minor} TRUE)
+check_version(${major}.${next} ${major} ${next} FALSE)
+
+run(${CMAKE_COMMAND} -S ${SOURCE}/tests/cli/consumer -B ${work} -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
+  -DEXAMPLES=${SOURCE}/core/api/examples
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_BUILD_TYPE=${CONFIG})
 run(${CMAKE_COMMAND} --build ${work})
-run(${work}/consumer)
+run_and_find("chainmail ${VERSION}: 8 moved" ${work}/consumer)
+run_and_find("move 10: 240 elements followed.*largest violation [0-9.]+e-1[0-9] of"
+  ${work}/drag ${SOURCE}/meshes/cloth.obj ${work}/dragged.obj)
+# Needs chainmail-import, which is in another folder than the program.
+run_and_find("2240 elements.*move 10: 458 elements" ${work}/drag ${SOURCE}/meshes/organ.msh)
+run_and_find("Generalized ChainMail: [0-9.e-]+ ms per pass, largest violation 4[.]3266.*Exact ChainMail.* violation [0-9.]+e-0[67]"
+  ${work}/compare ${work}/report)
+run_and_find("before the cut, 199 elements.*after the cut, 99 elements.*the gap is 11[.]2 wide" ${work}/cut)
+run_and_find("relative error 0[.]8[0-9]+ before, 0[.]6[0-9]+ after" ${work}/calibrate)
+run_and_find("Rings: RMS distance to Exact ChainMail 0[.]36601.*Natural Queue.* 0[.]36601" ${work}/own_method)
+foreach(written IN ITEMS dragged.obj report/report.html report/report.json report/report.csv)
+  if(NOT EXISTS ${work}/${written})
+    message(FATAL_ERROR "${written} was not written")
+  endif()
+endforeach()
 run(${prefix}/bin/chainmail --version)
+
+# What people cite has the version of the project.
+file(STRINGS ${SOURCE}/CITATION.cff cited REGEX "^version: ${VERSION}$")
+if(NOT cited)
+  message(FATAL_ERROR "CITATION.cff does not have the version ${VERSION}")
+endif()

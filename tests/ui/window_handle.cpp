@@ -590,7 +590,7 @@ class WindowHandle : public QObject {
     circle(bench, 0, pivot, from, 170, Qt::ShiftModifier);
     bench.settleFigures();
     const auto head = [&bench](const char* name) { return bench.find<QLabel>(name)->toolTip(); };
-    QVERIFY2(head("state1").contains(QStringLiteral("stop its rotation at")), qPrintable(head("state1")));
+    QVERIFY2(head("state1").contains(QStringLiteral("stopped at ")), qPrintable(head("state1")));
     QVERIFY(!head("state0").contains(QStringLiteral("stop")));
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
     bench.settleFigures();

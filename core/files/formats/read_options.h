@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -21,6 +22,8 @@ struct ReadOptions {
   VoxelOptions voxels;
   /// True if the header of a volume may name data outside its own folder.
   bool data_outside = false;
+  /// Path of chainmail-import, for programs in another folder; see run_import (files/import/import_process.h).
+  std::filesystem::path import_program;
 };
 
 /// Returns W x H x D of a text `WxH` or `WxHxD`, each 1 or more. `sizes` is the number of sizes that the text must

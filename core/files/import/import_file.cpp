@@ -12,14 +12,15 @@ namespace chainmail {
 
 /// Libraries recognise a format by the name: the file is linked under one with the right ending.
 ImportedMesh import_mesh(const std::string& task, const std::filesystem::path& path, int passes,
-                         const Progress& progress) {
+                         const Progress& progress, const std::filesystem::path& program) {
   ImportInput input(path, passes);
   input.link("mesh." + task, RegularFile(path));
-  return std::get<ImportedMesh>(run_import(task, input, {}, limits_for(input.linked_size()), progress));
+  return std::get<ImportedMesh>(run_import(task, input, {}, limits_for(input.linked_size()), progress, program));
 }
 
 /// If the data are in a file of their own, teem gets a header that names a link to it.
-Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progress& progress) {
+Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progress& progress,
+                   const std::filesystem::path& program) {
   RegularFile file(path);
   std::string beginning(longest_nrrd_head, '\0');
   beginning.resize(file.read(beginning));
@@ -31,7 +32,7 @@ Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progre
     input.write("volume.nhdr", head.text);
     input.link("data", RegularFile(data_file(path, head.data_file, outside)));
   }
-  return std::get<Volume>(run_import("nrrd", input, {}, limits_for(input.linked_size()), progress));
+  return std::get<Volume>(run_import("nrrd", input, {}, limits_for(input.linked_size()), progress, program));
 }
 
 }  // namespace chainmail

@@ -28,9 +28,12 @@ namespace {
 constexpr int wait_milliseconds = 30;               // between two checks for cancelling
 constexpr int first_free = import::last_input + 1;  // descriptors below have a meaning in the program
 
-/// Finds the program in the folder of this program, or where an installation has it.
-std::filesystem::path import_program() {
+/// Finds the program at the given path, in the folder of this program, or where an installation has it.
+std::filesystem::path import_program(const std::filesystem::path& given) {
   std::error_code none;
+  if (std::filesystem::is_regular_file(given, none)) {
+    return given;
+  }
   const auto folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
   for (const char* subfolder : {"", "../bin", "../libexec/chainmail"}) {
     if (auto program = folder / subfolder / "chainmail-import"; std::filesystem::is_regular_file(program, none)) {
@@ -291,8 +294,8 @@ ImportLimits limits_for(std::uint64_t size) {
 }
 
 Imported run_import(const std::string& task, const ImportInput& input, const std::vector<std::string>& arguments,
-                    const ImportLimits& limits, const Progress& progress) {
-  std::vector<std::string> words{import_program().string(), std::to_string(limits.bytes),
+                    const ImportLimits& limits, const Progress& progress, const std::filesystem::path& program) {
+  std::vector<std::string> words{import_program(program).string(), std::to_string(limits.bytes),
                                  std::to_string(limits.seconds), task, input.main_file().string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   Pipe result, shares;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,11 @@ ImportLimits limits_for(std::uint64_t size);
 /// Runs a task of the import program on a file. Libraries may crash or hang on damaged files: they run in a process of
 /// their own, in a sandbox (files/import/sandbox.h), within limits. Cancelling ends the process at once.
 ///
-/// `task` is a word that the program knows; `arguments` follow the path. Throws Error, which names the input, if the
-/// program refuses the file, crashes, exceeds a limit or is missing; and Cancelled.
+/// `task` is a word that the program knows; `arguments` follow the path. `program` is the path of the program; if it is
+/// empty or there is no such file, the program is found next to this one, or where an installation has it. Throws
+/// Error, which names the input, if the program refuses the file, crashes, exceeds a limit or is missing; and
+/// Cancelled.
 Imported run_import(const std::string& task, const ImportInput& input, const std::vector<std::string>& arguments,
-                    const ImportLimits& limits, const Progress& progress);
+                    const ImportLimits& limits, const Progress& progress, const std::filesystem::path& program = {});
 
 }  // namespace chainmail

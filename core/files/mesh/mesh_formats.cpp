@@ -58,8 +58,10 @@ constexpr std::array formats{
                .endings = ".msh",
                .help = "lines, triangles, quadrangles, tetrahedra and hexahedra",
                .signs = {"$MeshFormat", "$NOD"},
-               .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
-                               const Progress& progress) { return import_mesh("msh", path, 2, progress); },
+               .read_mesh =
+                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
+                     return import_mesh("msh", path, 2, progress, options.import_program);
+                   },
                .write = write_msh},
     MeshFormat{.name = "legacy VTK",
                .endings = ".vtk",
@@ -70,32 +72,39 @@ constexpr std::array formats{
                .endings = ".mesh",
                .help = "lines, surfaces and volumes",
                .signs = {"MeshVersionFormatted"},
-               .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
-                               const Progress& progress) { return import_mesh("mesh", path, 2, progress); }},
+               .read_mesh =
+                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
+                     return import_mesh("mesh", path, 2, progress, options.import_program);
+                   }},
     MeshFormat{.name = "OFF",
                .endings = ".off",
                .help = "surfaces",
                .signs = {"OFF", "COFF", "NOFF", "CNOFF", "STOFF"},
-               .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
-                               const Progress& progress) { return import_mesh("off", path, 1, progress); }},
+               .read_mesh =
+                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
+                     return import_mesh("off", path, 1, progress, options.import_program);
+                   }},
     MeshFormat{.name = "STL",
                .endings = ".stl",
                .help = "surfaces, triangle by triangle",
                .signs = {"solid "},
-               .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
-                               const Progress& progress) { return import_mesh("stl", path, 1, progress); }},
+               .read_mesh =
+                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
+                     return import_mesh("stl", path, 1, progress, options.import_program);
+                   }},
     MeshFormat{.name = "TetGen",
                .endings = ".node .ele",
                .help = "tetrahedra, in a pair of files",
                .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
                                const Progress& progress) { return read_tetgen(path, progress); }},
-    MeshFormat{
-        .name = "NRRD",
-        .endings = ".nrrd .nhdr",
-        .help = "volumes of voxels",
-        .signs = {"NRRD000"},
-        .read_volume = [](const fs::path& path, const ReadOptions& options,
-                          const Progress& progress) { return import_nrrd(path, options.data_outside, progress); }},
+    MeshFormat{.name = "NRRD",
+               .endings = ".nrrd .nhdr",
+               .help = "volumes of voxels",
+               .signs = {"NRRD000"},
+               .read_volume =
+                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
+                     return import_nrrd(path, options.data_outside, progress, options.import_program);
+                   }},
     MeshFormat{
         .name = "MetaImage",
         .endings = ".mha .mhd",

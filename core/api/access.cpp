@@ -1,0 +1,116 @@
+#include "api/access.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/algorithms.h"
+
+namespace chainmail::api {
+namespace {
+
+bool exists(const inner::Mesh& mesh, int axis) {
+  const auto axes = std::span(mesh.axes).first(static_cast<std::size_t>(mesh.space_dimension));
+  return std::ranges::find(axes, axis) != axes.end();
+}
+
+[[noreturn]] void refuse_axis(const std::string& where, int axis) {
+  const std::string name(1, "xyz"[axis]);
+  throw Error(where, "the object does not extend along " + name,
+              "leave " + name + " unchanged, or make the mesh with more space dimensions");
+}
+
+}  // namespace
+
+Job::Job() : inside_(std::make_shared<Inside>()) {}
+
+double Job::share() const { return inside_->state.share.load(); }
+
+void Job::cancel() const {
+  inside_->state.cancelled = true;
+  inside_->stop.request_stop();
+}
+
+bool Job::is_cancelled() const { return inside_->state.cancelled; }
+
+std::string_view version() { return CHAINMAIL_VERSION; }
+
+void check_element(const inner::Mesh& mesh, ElementId element) {
+  if (element >= mesh.element_count()) {
+    throw Error("element " + std::to_string(element), "there is no such element",
+                "use an id below " + std::to_string(mesh.element_count()));
+  }
+}
+
+void check_elements(const inner::Mesh& mesh, std::span<const ElementId> elements) {
+  std::ranges::for_each(elements, [&](ElementId element) { check_element(mesh, element); });
+}
+
+void check_links(const inner::Mesh& mesh, std::span<const LinkId> links) {
+  for (const LinkId link : links) {
+    if (link >= mesh.link_count()) {
+      throw Error("link " + std::to_string(link), "there is no such link",
+                  "use a number below " + std::to_string(mesh.link_count()));
+    }
+  }
+}
+
+void check_coordinates(const inner::Mesh& mesh, const std::string& where, const Vector3& vector, bool is_displacement) {
+  const Point point = point_of(vector);
+  if (!point.allFinite()) {
+    throw Error(where, "a coordinate is not a finite number", "give numbers");
+  }
+  for (int k = 0; k < 3; ++k) {
+    const bool stays = point[k] == 0 || (!is_displacement && point[k] == mesh.origin[k]);
+    if (!stays && !exists(mesh, k)) {
+      refuse_axis(where, k);
+    }
+  }
+}
+
+Algorithm algorithm_of(std::string_view name) {
+  const auto algorithm = find_algorithm(name);
+  if (!algorithm) {
+    std::string names;
+    for (const AlgorithmInfo& one : every_algorithm()) {
+      names += (names.empty() ? "" : ", ") + std::string(one.offered_name());
+    }
+    throw Error("method '" + std::string(name.substr(0, 60)) + "'", "there is no such method", "use one of " + names);
+  }
+  return *algorithm;
+}
+
+std::vector<double> positions_of(const inner::Mesh& mesh, const PositionView& positions) {
+  std::vector<double> all;
+  all.reserve(std::size_t{3} * mesh.element_count());
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    const Point point = inner::point_of(mesh, positions, e);
+    all.insert(all.end(), point.begin(), point.end());
+  }
+  return all;
+}
+
+std::vector<double> carried_of(const inner::Mesh& mesh, std::span<const double> positions, double limit) {
+  if (positions.size() != std::size_t{3} * mesh.element_count()) {
+    throw Error("positions",
+                "there are " + std::to_string(positions.size()) + " numbers for " +
+                    std::to_string(mesh.element_count()) + " elements",
+                "give x, y and z for each element");
+  }
+  std::vector<double> carried;
+  carried.reserve(mesh.rest.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const int k = int(i % 3);
+    const std::string where = "positions, element " + std::to_string(i / 3);
+    if (!(std::abs(positions[i]) <= limit)) {
+      throw Error(where, "a coordinate is not finite or out of the range of the precision", "give smaller numbers");
+    }
+    if (exists(mesh, k)) {
+      carried.push_back(positions[i]);
+    } else if (positions[i] != mesh.origin[k]) {
+      refuse_axis(where, k);
+    }
+  }
+  return carried;
+}
+
+}  // namespace chainmail::api

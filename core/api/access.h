@@ -1,0 +1,132 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "chainmail/chainmail.h"
+#include "measure/reference_solution.h"
+#include "mesh/error.h"
+#include "mesh/progress.h"
+#include "solve/handle.h"
+#include "solve/solver.h"
+
+namespace chainmail::api {
+
+/// The solver library behind the interface. Both have types of the same name, like Mesh.
+namespace inner = ::chainmail;
+
+struct Job::Inside {
+  JobState state;
+  std::stop_source stop;
+};
+
+struct Mesh::Inside {
+  MeshPointer mesh;
+  OwnSoftness softness;  // of links that a file makes stiffer
+  std::string remark;
+};
+
+struct Snapshot::Inside {
+  inner::Snapshot snapshot;
+  MeshPointer mesh;
+  inner::Precision precision;
+};
+
+/// A body is the body of a solver, so that a Deformer need not copy it. Without a Deformer, the solver is idle.
+struct Body::Inside {
+  Mesh mesh;
+  std::unique_ptr<Solver> solver;
+  std::vector<ElementId> handle;  // of the last move since positions were set
+  bool is_held = false;           // the handle was not released
+
+  inner::Body& body() { return solver->body(); }
+  const inner::Body& body() const { return solver->body(); }
+  /// Call this after positions were set.
+  void forget_handle() {
+    handle.clear();
+    is_held = false;
+  }
+};
+
+struct Handle::Inside {
+  inner::Handle handle;
+  MeshPointer mesh;
+};
+
+struct ReferenceSolution::Inside {
+  MeshPointer mesh;
+  inner::ReferenceSolution reference;
+};
+
+/// Leads from the types of the interface to what is behind them.
+struct Access {
+  static Mesh mesh(MeshPointer mesh, OwnSoftness softness = {}, std::string remark = {}) {
+    return make<Mesh>(std::move(mesh), std::move(softness), std::move(remark));
+  }
+  static const Mesh::Inside& inside(const Mesh& mesh) { return *mesh.inside_; }
+  static const MeshPointer& pointer(const Mesh& mesh) { return mesh.inside_->mesh; }
+  static Body::Inside& inside(Body& body) { return *body.inside_; }
+  static const Body::Inside& inside(const Body& body) { return *body.inside_; }
+  static const inner::Body& body(const Body& body) { return body.inside_->solver->body(); }
+  static Handle::Inside& inside(Handle& handle) { return *handle.inside_; }
+  static const ReferenceSolution::Inside& inside(const ReferenceSolution& one) { return *one.inside_; }
+  static const Snapshot::Inside& inside(const Snapshot& one) { return *one.inside_; }
+  /// Makes a type of the interface that shares what is behind it.
+  template <class Public, class... Parts>
+  static Public make(Parts&&... parts) {
+    using Inside = typename Public::Inside;
+    return Public(std::make_shared<const Inside>(Inside{std::forward<Parts>(parts)...}));
+  }
+  using MovingState = MovingBody::Inside;
+  static MovingBody moving(MovingState& inside) { return MovingBody(inside); }
+
+  static Progress progress(const Job& job) { return Progress(job.inside_->state); }
+  static std::stop_token stop(const Job& job) { return job.inside_->stop.get_token(); }
+};
+
+/// Runs work behind the interface: its exceptions become those of the interface.
+template <class Work>
+decltype(auto) guarded(Work work) {
+  try {
+    return work();
+  } catch (const inner::Error& error) {
+    throw Error(error.where(), error.problem(), error.remedy());
+  } catch (const inner::Cancelled&) {
+    throw Cancelled();
+  }
+}
+
+inline Vector3 vector_of(const Point& point) { return {point.x(), point.y(), point.z()}; }
+inline Point point_of(const Vector3& vector) { return {vector.x, vector.y, vector.z}; }
+inline inner::Precision precision_of(Precision precision) {
+  return precision == Precision::single_precision ? inner::Precision::single_precision
+                                                  : inner::Precision::double_precision;
+}
+inline inner::RelaxationScheme scheme_of(RelaxationScheme scheme) {
+  return scheme == RelaxationScheme::mean ? inner::RelaxationScheme::mean : inner::RelaxationScheme::link;
+}
+inline inner::LinkSoftness softness_of(const LinkSoftness& softness) {
+  return {softness.compression, softness.stretch, softness.shear};
+}
+inline inner::Rotation rotation_of(const Rotation& rotation) { return {point_of(rotation.axis), rotation.degrees}; }
+
+// These functions throw Error about an argument.
+void check_element(const inner::Mesh& mesh, ElementId element);
+void check_elements(const inner::Mesh& mesh, std::span<const ElementId> elements);
+void check_links(const inner::Mesh& mesh, std::span<const LinkId> links);
+/// On axes that do not exist, a coordinate must be 0 or, unless it is a displacement, that of the object.
+void check_coordinates(const inner::Mesh& mesh, const std::string& where, const Vector3& vector, bool is_displacement);
+/// Returns the algorithm with this name; names all of them otherwise.
+Algorithm algorithm_of(std::string_view name);
+
+/// Returns the positions of a view: x, y, z for each element.
+std::vector<double> positions_of(const inner::Mesh& mesh, const PositionView& positions);
+/// Returns positions, x, y, z for each element, without the coordinates that do not exist. Throws Error if there are
+/// not as many as the mesh has, or if one is not finite, beyond the limit, or on an axis that does not exist.
+std::vector<double> carried_of(const inner::Mesh& mesh, std::span<const double> positions, double limit);
+
+}  // namespace chainmail::api

@@ -1,0 +1,222 @@
+#include "chainmail/body.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "api/access.h"
+
+namespace chainmail::api {
+namespace {
+
+ElementBlocks every_block(const inner::Mesh& mesh) {
+  ElementBlocks all(mesh.element_count());
+  all.insert_all();
+  return all;
+}
+
+inner::Snapshot snapshot_of(const inner::Body& body) {
+  return body.is_at_rest() ? body.snapshot(ElementBlocks(body.mesh().element_count()))
+                           : body.snapshot(every_block(body.mesh()));
+}
+
+std::unique_ptr<Solver> copy_of(Solver& solver) {
+  inner::Body& from = solver.body();
+  auto copy = make_solver(from.mesh_pointer(), Algorithm::natural_queue, from.precision());
+  inner::Body& body = copy->body();
+  body.store_displacements(from.stores_displacements());
+  body.set_softness(from.shared_softness());
+  body.set_elastic(from.elastic());
+  body.cut(from.cuts().links());
+  body.pin(from.pins());
+  if (!from.is_at_rest()) {
+    body.restore(snapshot_of(from), every_block(from.mesh()));
+    body.reach() = from.reach();
+  }
+  return copy;
+}
+
+std::vector<LinkId> unique_links(const inner::Mesh& mesh, std::vector<LinkId> links) {
+  check_links(mesh, links);
+  std::ranges::sort(links);
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  return links;
+}
+
+}  // namespace
+
+bool Snapshot::operator==(const Snapshot& other) const {
+  return inside_->mesh == other.inside_->mesh && inside_->precision == other.inside_->precision &&
+         inside_->snapshot == other.inside_->snapshot;
+}
+
+Body::Body(const Mesh& mesh, Precision precision) {
+  inside_ = guarded([&] {
+    return std::make_unique<Inside>(
+        Inside{mesh, make_solver(Access::pointer(mesh), Algorithm::natural_queue, precision_of(precision)), {}, false});
+  });
+  if (const OwnSoftness& own = Access::inside(mesh).softness; !own.empty()) {
+    inside_->body().set_softness(Softness{{}, own});
+  }
+}
+
+Body::Body(const Body& other)
+    : inside_(std::make_unique<Inside>(Inside{other.inside_->mesh, copy_of(*other.inside_->solver),
+                                              other.inside_->handle, other.inside_->is_held})) {}
+Body::Body(Body&& other) noexcept = default;
+Body& Body::operator=(const Body& other) {
+  Body copy(other);
+  std::swap(inside_, copy.inside_);
+  return *this;
+}
+Body& Body::operator=(Body&& other) noexcept = default;
+Body::~Body() = default;
+
+const Mesh& Body::mesh() const { return inside_->mesh; }
+
+Precision Body::precision() const {
+  return inside_->body().precision() == inner::Precision::single_precision ? Precision::single_precision
+                                                                           : Precision::double_precision;
+}
+
+Vector3 Body::position(ElementId element) const {
+  const inner::Body& body = inside_->body();
+  check_element(body.mesh(), element);
+  return vector_of(inner::point_of(body.mesh(), body.positions(), element));
+}
+
+std::vector<double> Body::positions() const {
+  return positions_of(inside_->body().mesh(), inside_->body().positions());
+}
+
+void Body::copy_positions(std::span<double> out) const {
+  const inner::Mesh& mesh = inside_->body().mesh();
+  if (out.size() != std::size_t{3} * mesh.element_count()) {
+    throw Error("positions", "the array has " + std::to_string(out.size()) + " numbers",
+                "use one of " + std::to_string(std::size_t{3} * mesh.element_count()));
+  }
+  const PositionView positions = inside_->body().positions();
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    std::ranges::copy(inner::point_of(mesh, positions, e), out.begin() + std::ptrdiff_t(3) * e);
+  }
+}
+
+void Body::set_positions(std::span<const double> positions) {
+  inner::Body& body = inside_->body();
+  body.set_positions(carried_of(body.mesh(), positions, position_limit(body.precision())));
+  inside_->forget_handle();
+}
+
+void Body::reset() {
+  inside_->body().reset();
+  inside_->forget_handle();
+}
+
+Snapshot Body::snapshot() const {
+  const inner::Body& body = inside_->body();
+  return Access::make<Snapshot>(snapshot_of(body), body.mesh_pointer(), body.precision());
+}
+
+void Body::restore(const Snapshot& snapshot) {
+  inner::Body& body = inside_->body();
+  const auto& [positions, mesh, precision] = Access::inside(snapshot);
+  if (mesh != body.mesh_pointer() || precision != body.precision()) {
+    throw Error("snapshot", "it is of another mesh or precision", "restore it into a body of the same mesh");
+  }
+  body.restore(positions, every_block(body.mesh()));
+  inside_->forget_handle();
+}
+
+void Body::cut(const std::vector<LinkId>& links) {
+  inner::Body& body = inside_->body();
+  check_links(body.mesh(), links);
+  body.cut(links);
+  for (const LinkId link : links) {
+    inside_->solver->wake(body.mesh().links[link]);
+  }
+}
+
+void Body::cut(ElementId a, ElementId b) {
+  const auto link = inside_->mesh.find_link(a, b);
+  if (!link) {
+    throw Error("elements " + std::to_string(a) + " and " + std::to_string(b), "they are not linked",
+                "use the two ends of a link");
+  }
+  cut({*link});
+}
+
+void Body::uncut(const std::vector<LinkId>& links) {
+  inner::Body& body = inside_->body();
+  check_links(body.mesh(), links);
+  body.uncut(links);
+  for (const LinkId link : links) {
+    inside_->solver->wake(body.mesh().links[link]);
+  }
+}
+
+std::vector<LinkId> Body::cuts() const { return inside_->body().cuts().links(); }
+
+bool Body::is_cut(LinkId link) const {
+  check_links(inside_->body().mesh(), std::span(&link, 1));
+  return inside_->body().cuts().is_cut(link);
+}
+
+void Body::pin(const std::vector<ElementId>& elements) {
+  check_elements(inside_->body().mesh(), elements);
+  inside_->body().pin(elements);
+}
+
+void Body::unpin(const std::vector<ElementId>& elements) {
+  check_elements(inside_->body().mesh(), elements);
+  inside_->body().unpin(elements);
+  inside_->solver->wake(elements);
+}
+
+std::span<const ElementId> Body::pins() const { return inside_->body().pins(); }
+
+bool Body::is_pinned(ElementId element) const {
+  check_element(inside_->body().mesh(), element);
+  return inside_->body().is_pinned(element);
+}
+
+void Body::set_softness(const LinkSoftness& softness) {
+  guarded([&] { inner::check(softness_of(softness)); });
+  inside_->body().set_softness(Softness{softness_of(softness), inside_->body().softness().links});
+}
+
+void Body::set_softness(const std::vector<LinkId>& links, const LinkSoftness& softness) {
+  const auto unique = unique_links(inside_->body().mesh(), links);
+  guarded([&] { inner::check(softness_of(softness)); });
+  Softness next = inside_->body().softness();
+  next.links.set(unique, softness_of(softness));
+  inside_->body().set_softness(next);
+}
+
+void Body::clear_softness(const std::vector<LinkId>& links) {
+  Softness next = inside_->body().softness();
+  next.links.erase(unique_links(inside_->body().mesh(), links));
+  inside_->body().set_softness(next);
+}
+
+LinkSoftness Body::softness() const {
+  const auto& [compression, stretch, shear] = inside_->body().softness().global;
+  return {compression, stretch, shear};
+}
+
+LinkSoftness Body::softness(LinkId link) const {
+  check_links(inside_->body().mesh(), std::span(&link, 1));
+  const auto& [compression, stretch, shear] = inside_->body().softness().of(link);
+  return {compression, stretch, shear};
+}
+
+void Body::set_elasticity(const Elasticity& elasticity) {
+  const ElasticOptions options{{elasticity.young, elasticity.poisson}, elasticity.control_points};
+  guarded([&] { inner::check(options); });
+  inside_->body().set_elastic(options);
+}
+
+Elasticity Body::elasticity() const {
+  const ElasticOptions& options = inside_->body().elastic();
+  return {options.material.young, options.material.poisson, options.lattice};
+}
+
+}  // namespace chainmail::api

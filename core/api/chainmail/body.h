@@ -1,0 +1,136 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "chainmail/mesh.h"
+#include "chainmail/types.h"
+
+namespace chainmail::api {
+
+struct Access;
+
+/// How far a link may shorten, lengthen and lean, relative to its rest vector (thesis of Dean 2004, 3.1).
+struct LinkSoftness {
+  double compression = 0.8;  ///< Shortest length along each axis, of rest length: 0 (no limit) to 1 (rigid).
+  double stretch = 1.2;      ///< Greatest length along each axis, of rest length: 1 (rigid) or more.
+  double shear = 0.1;        ///< How far it may lean, per length along the other axes: 0 or more.
+
+  /// True if all values are equal.
+  bool operator==(const LinkSoftness&) const = default;
+};
+
+/// Settings of the methods of elasticity and of free-form deformation. The ChainMail family ignores them.
+struct Elasticity {
+  double young = 1;      ///< Young's modulus (force per square of a mesh unit), above 0. It does not change the shape.
+  double poisson = 0.3;  ///< Poisson's ratio: 0 to below 0.5.
+  /// Number of control points of free-form deformation along each axis, 2 to 8.
+  std::array<std::uint32_t, 3> control_points{4, 4, 4};
+
+  /// True if all values are equal.
+  bool operator==(const Elasticity&) const = default;
+};
+
+/// The positions of an object at one time. Copies share the data.
+class Snapshot {
+ public:
+  /// True if both contain the same positions, bit for bit.
+  bool operator==(const Snapshot& other) const;
+
+ private:
+  friend struct Access;
+  struct Inside;
+  explicit Snapshot(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
+  std::shared_ptr<const Inside> inside_;
+};
+
+/// The state of one object: positions, cuts, pins and softness. Copies are independent.
+///
+/// Arrays of positions contain x, y and z for each element, in the order of the ids (mesh units): 3 · element_count()
+/// numbers. A coordinate that does not exist (z in a plane) is constant and must stay so. Every function that takes ids
+/// throws Error if one does not exist; nothing has changed then. One thread at a time may use a body.
+class Body {
+ public:
+  /// Makes an object at rest, without cuts and pins, with the default softness and that of the file (see read_mesh()).
+  explicit Body(const Mesh& mesh, Precision precision = Precision::double_precision);
+  /// Copies the state.
+  Body(const Body& other);
+  /// Moves the state; `other` may then only be assigned to or destroyed.
+  Body(Body&& other) noexcept;
+  /// Copies the state.
+  Body& operator=(const Body& other);
+  /// Moves the state; `other` may then only be assigned to or destroyed.
+  Body& operator=(Body&& other) noexcept;
+  ~Body();
+
+  /// The object at rest.
+  const Mesh& mesh() const;
+  /// Type of the numbers that store the positions.
+  Precision precision() const;
+
+  /// Position of an element (mesh units).
+  Vector3 position(ElementId element) const;
+  /// Returns the positions of all elements.
+  std::vector<double> positions() const;
+  /// Writes the positions of all elements into an array, without allocating memory. Throws Error if it has another
+  /// size.
+  void copy_positions(std::span<double> out) const;
+  /// Sets the positions of all elements, also of pinned ones. They are rounded to the precision. Throws Error if the
+  /// array has another size, or if a coordinate is not finite, out of the range of the precision, or on an axis that
+  /// does not exist.
+  void set_positions(std::span<const double> positions);
+  /// Moves all elements to rest. Cuts, pins and softness stay.
+  void reset();
+
+  /// Returns the positions, to restore them later. Cuts, pins and softness are not part of it.
+  Snapshot snapshot() const;
+  /// Restores positions, bit for bit. Throws Error if the snapshot is of another mesh or precision.
+  void restore(const Snapshot& snapshot);
+
+  /// Cuts links. Nothing is renumbered. Links that are cut already stay cut.
+  void cut(const std::vector<LinkId>& links);
+  /// Cuts the link between two elements. Throws Error if they are not linked.
+  void cut(ElementId a, ElementId b);
+  /// Restores cut links.
+  void uncut(const std::vector<LinkId>& links);
+  /// Returns the cut links, ascending.
+  std::vector<LinkId> cuts() const;
+  /// True if the link is cut.
+  bool is_cut(LinkId link) const;
+
+  /// Pins elements at their current positions: no method moves them, and a move of a pinned element is an error.
+  void pin(const std::vector<ElementId>& elements);
+  /// Unpins elements.
+  void unpin(const std::vector<ElementId>& elements);
+  /// The pinned elements, ascending. Valid until pins change.
+  std::span<const ElementId> pins() const;
+  /// True if the element is pinned.
+  bool is_pinned(ElementId element) const;
+
+  /// Sets the softness of all links that have none of their own. Nothing moves; the next move answers. Throws Error if
+  /// a value is out of its range.
+  void set_softness(const LinkSoftness& softness);
+  /// Gives links their own softness.
+  void set_softness(const std::vector<LinkId>& links, const LinkSoftness& softness);
+  /// Takes their own softness away from links: the common one applies to them.
+  void clear_softness(const std::vector<LinkId>& links);
+  /// The softness of all links that have none of their own.
+  LinkSoftness softness() const;
+  /// The softness of a link.
+  LinkSoftness softness(LinkId link) const;
+
+  /// Sets the settings of the methods of elasticity. Throws Error if a value is out of its range.
+  void set_elasticity(const Elasticity& elasticity);
+  /// The settings of the methods of elasticity.
+  Elasticity elasticity() const;
+
+ private:
+  friend struct Access;
+  struct Inside;
+  std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace chainmail::api

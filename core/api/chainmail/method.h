@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "chainmail/mesh.h"
+
+namespace chainmail::api {
+
+/// What kind of model a method is.
+enum class MethodFamily {
+  chainmail,  ///< Links with valid regions: fast, uses softness, may be relaxed.
+  elastic     ///< Elasticity or free-form deformation: prepares once, answers with an equilibrium, ignores softness.
+};
+
+/// What is known about a method.
+struct MethodInfo {
+  std::string name = {};     ///< Its name for Deformer, compare() and calibrate(), like `natural-queue`.
+  std::string label = {};    ///< Its title in reports, like `Natural Queue ChainMail`.
+  std::string source = {};   ///< Publication: author and year.
+  std::string summary = {};  ///< One sentence about how it works.
+  MethodFamily family = MethodFamily::chainmail;  ///< Kind of model.
+  bool needs_grid = false;                        ///< True if it works only on lattices with links along the axes.
+  bool needs_pins = false;                        ///< True if it has no answer without pinned elements.
+  bool holds_links = false;                       ///< True if no link is violated after a move.
+  bool is_registered = false;                     ///< True if a program registered it (register_method()).
+};
+
+/// Returns all methods: the ChainMail family, with registered methods at its end, then the methods that it is compared
+/// with. Built in are generalized (Li and Brodlie 2003), spiral and natural-queue (Dean 2004), enhanced (Schill et al.
+/// 1998), 3d (Frisken-Gibson 1997), exact (this project), fem (Bro-Nielsen and Cotin 1996), neo-hookean (Bonet and Wood
+/// 1997), bem (James and Pai 1999) and ffd (Sederberg and Parry 1986; Hsu et al. 1992).
+std::vector<MethodInfo> methods();
+
+/// Returns what is known about a method. Throws Error, with all names, if there is none with this name.
+MethodInfo method_info(std::string_view name);
+
+/// Returns the reason why a method does not work on a mesh, in one sentence; empty if it does. Throws Error for an
+/// unknown name. Whether the pins suffice is found by the first move.
+std::string refusal(std::string_view method, const Mesh& mesh);
+
+}  // namespace chainmail::api

@@ -1,0 +1,262 @@
+#include "chainmail/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <sstream>
+#include <variant>
+
+#include "api/access.h"
+#include "files/results/report_json.h"
+#include "files/text/outputs.h"
+#include "files/text/text.h"
+#include "report/page/csv.h"
+#include "report/page/html.h"
+#include "report/page/physics_csv.h"
+#include "report/page/physics_html.h"
+#include "report/page/physics_table.h"
+#include "report/page/table.h"
+#include "report/run/compare.h"
+#include "report/run/drags.h"
+#include "report/run/machine.h"
+#include "report/run/physics.h"
+#include "report/run/physics_cases.h"
+
+namespace chainmail::api {
+
+struct Comparison::Inside {
+  std::variant<report::Comparison, report::PhysicsReport> report;
+  report::Origin origin;
+  std::vector<ComparisonRow> rows;
+};
+
+namespace {
+
+std::string date_in_words() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &parts);
+  return text;
+}
+
+report::Origin this_origin() {
+  return {report::this_machine(), "chainmail::api::compare", date_in_words(), "chainmail " + std::string(version())};
+}
+
+report::CompareOptions contest_of(const CompareOptions& options) {
+  report::CompareOptions how;
+  for (const std::string& name : options.methods) {
+    const Algorithm algorithm = algorithm_of(name);
+    if (std::ranges::find(how.algorithms, algorithm) != how.algorithms.end()) {
+      throw Error("method " + in_quotes(name), "it is given twice", "name each method once");
+    }
+    how.algorithms.push_back(algorithm);
+  }
+  if (!(options.seconds >= 0) || !std::isfinite(options.seconds)) {
+    throw Error("seconds", "the time is not a number from 0", "use a number of seconds");
+  }
+  how.sweeps = options.sweeps;
+  how.scheme = scheme_of(options.scheme);
+  how.relax_step = options.relax_step;
+  how.precision = precision_of(options.precision);
+  how.repetitions = options.repetitions;
+  how.seconds = options.seconds;
+  check(how);
+  return how;
+}
+
+void check_drag(const Drag& drag, const inner::Body& body, Reference against) {
+  const std::string where = "drag " + in_quotes(drag.name);
+  const inner::Handle handle(body, drag.elements);
+  if (drag.path.empty()) {
+    throw Error(where, "its path is empty", "give at least one motion");
+  }
+  if (against == Reference::physics && !handle.has_one()) {
+    throw Error(where, "it grabs many elements", "compare with physics on drags of one element");
+  }
+  for (const Motion& motion : drag.path) {
+    check_coordinates(body.mesh(), where, motion.by, true);
+    check(rotation_of(motion.rotation), body.mesh());
+  }
+}
+
+/// Targets are absolute for a handle of one element, as the comparison with physics reads them.
+report::RecordedMoves moves_of(const Drag& drag, const inner::Mesh& mesh) {
+  report::RecordedMoves moves{printable(drag.name), "", {commands::Grab(drag.elements)}};
+  for (const Motion& motion : drag.path) {
+    const bool has_one = drag.elements.size() == 1;
+    const Point from = has_one ? mesh.rest_position(drag.elements[0]) : Point(Point::Zero());
+    moves.commands.emplace_back(commands::Drag{from + point_of(motion.by), rotation_of(motion.rotation), !has_one});
+  }
+  return moves;
+}
+
+report::Case case_of(const Body& body, const std::vector<Drag>& drags, const CompareOptions& options, const Job& job) {
+  const inner::Body& inside = Access::body(body);
+  report::Case object{printable(options.title),
+                      "object of a program",
+                      inside.mesh_pointer(),
+                      inside.cuts().links(),
+                      {inside.pins().begin(), inside.pins().end()},
+                      inside.softness(),
+                      {},
+                      inside.elastic()};
+  if (options.against == Reference::physics && !object.cuts.empty()) {
+    throw Error("cuts", "the comparison with physics needs an object without cuts", "uncut its links");
+  }
+  for (const Drag& drag : drags) {
+    check_drag(drag, inside, options.against);
+    object.drags.push_back(moves_of(drag, inside.mesh()));
+  }
+  if (drags.empty()) {
+    object.drags = options.against == Reference::physics ? report::physics_drags(object)
+                                                         : report::three_drags(object, Access::stop(job));
+  }
+  return object;
+}
+
+Spread spread_of_distance(const Distance& distance) { return {distance.max, distance.rms}; }
+
+ComparisonRow row_of(const report::DragResult& drag, const report::Entry& entry) {
+  ComparisonRow row;
+  row.drag = drag.name;
+  row.method = info(entry.contestant.algorithm).offered_name();
+  row.label = label(entry.contestant);
+  row.sweeps = entry.contestant.sweeps;
+  row.refusal = entry.refusal;
+  if (const auto& measured = entry.measurement) {
+    const report::Errors& errors = measured->errors;
+    row.ms_per_move = measured->ms_per_move.median;
+    row.lower_quartile = measured->ms_per_move.lower_quartile;
+    row.upper_quartile = measured->ms_per_move.upper_quartile;
+    row.violation = {errors.violation.max, errors.violation.rms, errors.violation.fraction, errors.violation.links};
+    row.to_exact = errors.to_exact ? std::optional(spread_of_distance(*errors.to_exact)) : std::nullopt;
+    row.energy_over_exact = errors.energy_over_exact;
+    row.float_to_double = spread_of_distance(errors.float_to_double);
+  }
+  return row;
+}
+
+ComparisonRow row_of(const report::PhysicsDrag& drag, const report::PhysicsEntry& entry) {
+  ComparisonRow row;
+  row.drag = drag.name;
+  row.method = entry.contestant.algorithm ? info(*entry.contestant.algorithm).offered_name() : "nothing";
+  row.label = label(entry.contestant);
+  row.sweeps = entry.contestant.sweeps;
+  row.refusal = entry.refusal;
+  if (const auto& measured = entry.measurement) {
+    if (entry.contestant.algorithm) {
+      // A drag of one move has no later ones.
+      const TimeSpread& ms = drag.moves > 1 ? measured->ms_per_move : measured->first_move;
+      row.ms_per_move = ms.median;
+      row.lower_quartile = ms.lower_quartile;
+      row.upper_quartile = ms.upper_quartile;
+      row.prepare_ms = measured->prepare.ms();
+    }
+    row.to_physics = {measured->error.relative, measured->error.rms, measured->error.max};
+  }
+  return row;
+}
+
+std::vector<ComparisonRow> rows_of(const report::Comparison& comparison) {
+  std::vector<ComparisonRow> rows;
+  for (const report::DragResult& drag : comparison.cases.front().drags) {
+    for (const report::Entry& entry : drag.entries) {
+      rows.push_back(row_of(drag, entry));
+    }
+  }
+  return rows;
+}
+
+std::vector<ComparisonRow> rows_of(const report::PhysicsReport& comparison) {
+  std::vector<ComparisonRow> rows;
+  for (const report::PhysicsDrag& drag : comparison.objects.front().drags) {
+    for (const report::PhysicsEntry& entry : drag.entries) {
+      rows.push_back(row_of(drag, entry));
+    }
+    if (!drag.no_reference.empty()) {
+      ComparisonRow& row = rows.emplace_back();
+      row.drag = drag.name;
+      row.refusal = drag.no_reference;
+    }
+  }
+  return rows;
+}
+
+template <class Report>
+Comparison finished(Report report) {
+  if (report.stopped) {
+    throw Cancelled();
+  }
+  auto rows = rows_of(report);
+  return Access::make<Comparison>(std::move(report), this_origin(), std::move(rows));
+}
+
+template <class Write>
+std::string text_of(Write write) {
+  std::ostringstream out;
+  write(out);
+  return std::move(out).str();
+}
+
+}  // namespace
+
+const std::vector<ComparisonRow>& Comparison::rows() const& { return inside_->rows; }
+std::vector<ComparisonRow> Comparison::rows() && { return inside_->rows; }
+
+std::string Comparison::text() const {
+  return text_of(
+      [&](std::ostream& out) { std::visit([&](const auto& one) { write_text(out, one); }, inside_->report); });
+}
+
+std::string Comparison::html() const {
+  return text_of([&](std::ostream& out) {
+    std::visit([&](const auto& one) { write_html(out, one, inside_->origin); }, inside_->report);
+  });
+}
+
+std::string Comparison::json() const {
+  return text_of([&](std::ostream& out) {
+    std::visit([&](const auto& one) { write_json(out, one, inside_->origin); }, inside_->report);
+  });
+}
+
+std::string Comparison::csv() const {
+  return text_of(
+      [&](std::ostream& out) { std::visit([&](const auto& one) { write_csv(out, one); }, inside_->report); });
+}
+
+void Comparison::write(const std::filesystem::path& folder) const {
+  guarded([&] {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+      throw inner::Error(shown(folder), "the folder cannot be created (" + error.message() + ")", "use another folder");
+    }
+    Outputs outputs;
+    outputs.add(folder / "report.html", [&](std::ostream& out) { out << html(); });
+    outputs.add(folder / "report.json", [&](std::ostream& out) { out << json(); });
+    outputs.add(folder / "report.csv", [&](std::ostream& out) { out << csv(); });
+    outputs.commit();
+  });
+}
+
+Comparison compare(const Body& body, const std::vector<Drag>& drags, const CompareOptions& options, const Job& job) {
+  return guarded([&] {
+    const report::CompareOptions contest = contest_of(options);
+    const std::vector<report::Case> cases{case_of(body, drags, options, job)};
+    const Progress progress = Access::progress(job);
+    const auto tell = [&](double share, const std::string&) { progress.report(share); };
+    if (options.against == Reference::exact) {
+      return finished(report::compare(cases, contest, tell, Access::stop(job)));
+    }
+    report::PhysicsOptions physics;
+    physics.contest = contest;
+    physics.growth_seconds = 0;
+    return finished(report::compare_with_physics(cases, physics, tell, Access::stop(job)));
+  });
+}
+
+}  // namespace chainmail::api

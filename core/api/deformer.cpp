@@ -1,0 +1,181 @@
+#include "chainmail/deformer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "api/access.h"
+#include "mesh/parameters.h"
+
+namespace chainmail::api {
+namespace {
+
+static_assert(no_sponsor == no_element);
+
+constexpr std::uint64_t elements_between_checks = 20'000;  // about 2 ms, after which a job may cancel
+
+}  // namespace
+
+struct Deformer::Inside {
+  Body body;
+  Algorithm algorithm;
+  Job job = {};
+  bool is_tracing = false;
+  Trace traced = {};
+  std::vector<TraceStep> trace = {};
+
+  Solver& solver() { return *Access::inside(body).solver; }
+  const Solver& solver() const { return *Access::inside(body).solver; }
+  void set_algorithm(Algorithm next) {
+    solver().set_algorithm(next);
+    solver().body().store_displacements(info(next).from_rest);  // a copied body may store positions the other way
+    algorithm = next;
+  }
+  template <class Move>
+  MoveResult run(Move move);
+  std::uint64_t sweep(double step, const Progress& progress);
+};
+
+template <class Move>
+MoveResult Deformer::Inside::run(Move move) {
+  traced.clear();
+  trace.clear();
+  solver().set_progress(Access::progress(job));
+  const PassCount count = guarded([&] { return move(is_tracing ? &traced : nullptr); });
+  for (const TraceRow& row : traced) {
+    trace.push_back({row.element, row.sponsor, row.moved});
+  }
+  return {count.checked, count.moved, count.stopped, {}, solver().remark()};
+}
+
+/// Runs one sweep, in slices. Returns the number of visited elements.
+std::uint64_t Deformer::Inside::sweep(double step, const Progress& progress) {
+  const auto& inside = Access::inside(body);
+  std::uint64_t visited = 0;
+  while (true) {
+    progress.report(std::min(1.0, double(visited) / body.mesh().element_count()));
+    const auto held = inside.is_held ? std::span(inside.handle) : std::span<const ElementId>();
+    const RelaxationResult slice = solver().relax(step, elements_between_checks, held);
+    visited += slice.visited;
+    if (slice.sweep_ended) {
+      return visited;
+    }
+  }
+}
+
+Deformer::Deformer(Body body, std::string_view method) {
+  const Algorithm algorithm = algorithm_of(method);
+  guarded([&] { check(algorithm, *Access::pointer(body.mesh())); });
+  inside_ = std::make_unique<Inside>(Inside{std::move(body), algorithm});
+  inside_->set_algorithm(algorithm);
+}
+
+Deformer::Deformer(const Mesh& mesh, std::string_view method, Precision precision)
+    : Deformer(Body(mesh, precision), method) {}
+
+Deformer::Deformer(Deformer&& other) noexcept = default;
+Deformer& Deformer::operator=(Deformer&& other) noexcept = default;
+Deformer::~Deformer() = default;
+
+Body& Deformer::body() { return inside_->body; }
+const Body& Deformer::body() const { return inside_->body; }
+std::string Deformer::method() const { return std::string(info(inside_->algorithm).offered_name()); }
+
+void Deformer::set_method(std::string_view method) {
+  const Algorithm algorithm = algorithm_of(method);
+  guarded([&] { inside_->set_algorithm(algorithm); });
+}
+
+MoveResult Deformer::move(Handle& handle, const Pose& target) {
+  auto& body = Access::inside(inside_->body);
+  const inner::Mesh& mesh = body.body().mesh();
+  auto& held = Access::inside(handle);
+  if (held.mesh != body.body().mesh_pointer()) {
+    throw Error("handle", "it is of another mesh", "grab elements of this object");
+  }
+  check_coordinates(mesh, "pivot", target.pivot, false);
+  guarded([&] { check(rotation_of(target.rotation), mesh); });
+  const inner::Pose pose{point_of(target.pivot), rotation_of(target.rotation).vector()};
+  MoveResult result = inside_->run([&](Trace* trace) { return body.solver->move(held.handle, pose, trace); });
+  body.handle.assign(handle.elements().begin(), handle.elements().end());
+  body.is_held = true;
+  result.reached = handle.pose();
+  return result;
+}
+
+MoveResult Deformer::move(ElementId element, const Vector3& target) {
+  auto& body = Access::inside(inside_->body);
+  check_element(body.body().mesh(), element);
+  check_coordinates(body.body().mesh(), "target", target, false);
+  MoveResult result = inside_->run([&](Trace* trace) { return body.solver->move(element, point_of(target), trace); });
+  body.handle.assign(1, element);
+  body.is_held = true;
+  result.reached.pivot = inside_->body.position(element);
+  return result;
+}
+
+std::span<const ElementId> Deformer::moved() const { return inside_->solver().moved(); }
+
+void Deformer::release() { Access::inside(inside_->body).is_held = false; }
+
+int Deformer::relax(int sweeps, const RelaxOptions& options) {
+  if (sweeps < 0) {
+    throw Error("sweeps", "the number is below 0", "use a number from 0");
+  }
+  return guarded([&] {
+    check(parameters::relax_step, options.step);
+    if (!info(inside_->algorithm).relaxes()) {
+      return 0;
+    }
+    Solver& solver = inside_->solver();
+    solver.set_relaxation(scheme_of(options.scheme));
+    if (const auto& handle = Access::inside(inside_->body).handle; !handle.empty()) {
+      solver.wake(handle);
+      solver.wake(solver.moved());
+    }
+    const Progress progress = Access::progress(inside_->job);
+    int run = 0;
+    while (run < sweeps &&
+           inside_->sweep(options.step, progress.part(double(run) / sweeps, (run + 1.0) / sweeps)) > 0) {
+      ++run;
+    }
+    return run;
+  });
+}
+
+void Deformer::set_job(const Job& job) { inside_->job = job; }
+void Deformer::set_tracing(bool on) { inside_->is_tracing = on; }
+std::span<const TraceStep> Deformer::trace() const { return inside_->trace; }
+
+std::vector<double> Deformer::control_points() {
+  return guarded([&] {
+    Solver& solver = inside_->solver();
+    solver.set_progress(Access::progress(inside_->job));
+    const inner::Mesh& mesh = solver.body().mesh();
+    const std::span<const double> carried = solver.control_points();
+    std::vector<double> points;
+    for (std::size_t i = 0; i < carried.size(); i += static_cast<std::size_t>(mesh.space_dimension)) {
+      const Point point = mesh.to_point(carried.data() + i);
+      points.insert(points.end(), point.begin(), point.end());
+    }
+    return points;
+  });
+}
+
+MoveResult Deformer::move_control_point(std::uint32_t point, const Vector3& target) {
+  auto& body = Access::inside(inside_->body);
+  check_coordinates(body.body().mesh(), "target", target, false);
+  MoveResult result = inside_->run([&](Trace*) { return body.solver->move_control_point(point, point_of(target)); });
+  result.reached.pivot = target;
+  return result;
+}
+
+std::vector<double> deform(const Mesh& mesh, std::string_view method, const std::vector<ElementId>& elements,
+                           const Vector3& by) {
+  Deformer deformer(mesh, method);
+  Handle handle = deformer.grab(elements);
+  check_coordinates(*Access::pointer(mesh), "displacement", by, true);
+  deformer.move(handle, handle.after({by, {}}));
+  return deformer.body().positions();
+}
+
+}  // namespace chainmail::api

@@ -1,0 +1,43 @@
+#include "chainmail/handle.h"
+
+#include <numbers>
+
+#include "api/access.h"
+
+namespace chainmail::api {
+namespace {
+
+Pose pose_of(const inner::Pose& pose) {
+  const double angle = pose.rotation.norm();
+  if (angle == 0) {
+    return {vector_of(pose.pivot), {}};
+  }
+  return {vector_of(pose.pivot), {vector_of(pose.rotation / angle), angle * (180 / std::numbers::pi)}};
+}
+
+}  // namespace
+
+Handle::Handle(const Body& body, const std::vector<ElementId>& elements)
+    : inside_(guarded([&] {
+        const inner::Body& inside = Access::body(body);
+        return std::make_unique<Inside>(Inside{inner::Handle(inside, elements), inside.mesh_pointer()});
+      })) {}
+
+Handle::Handle(const Handle& other) : inside_(std::make_unique<Inside>(*other.inside_)) {}
+Handle::Handle(Handle&& other) noexcept = default;
+Handle& Handle::operator=(const Handle& other) {
+  *inside_ = *other.inside_;
+  return *this;
+}
+Handle& Handle::operator=(Handle&& other) noexcept = default;
+Handle::~Handle() = default;
+
+std::span<const ElementId> Handle::elements() const { return inside_->handle.elements(); }
+Pose Handle::grabbed() const { return pose_of(inside_->handle.grabbed()); }
+Pose Handle::pose() const { return pose_of(inside_->handle.pose()); }
+
+Pose Handle::after(const Motion& motion) const {
+  return {vector_of(inside_->handle.grabbed().pivot + point_of(motion.by)), motion.rotation};
+}
+
+}  // namespace chainmail::api

@@ -1,0 +1,122 @@
+#include "chainmail/measure.h"
+
+#include <algorithm>
+
+#include "api/access.h"
+#include "measure/distance.h"
+#include "measure/physical_error.h"
+#include "measure/violation.h"
+
+namespace chainmail::api {
+namespace {
+
+PhysicalError error_of(const inner::PhysicalError& error) { return {error.relative, error.rms, error.max}; }
+
+/// Returns the displacements of elements from rest, on the axes that exist (mesh units).
+std::vector<double> displacements_of(const inner::Body& body, std::span<const ElementId> elements) {
+  const PositionView positions = body.positions();
+  const auto dimension = static_cast<std::size_t>(body.mesh().space_dimension);
+  std::vector<double> displacements;
+  for (const ElementId element : elements) {
+    for (std::size_t k = 0; k < dimension; ++k) {
+      displacements.push_back(positions(element, int(k)) - body.mesh().rest[dimension * element + k]);
+    }
+  }
+  return displacements;
+}
+
+}  // namespace
+
+Violation violation(const Body& body) {
+  const inner::Body& inside = Access::body(body);
+  const inner::Violation all = measure_violation(inside.mesh(), inside.softness(), inside.cuts(), inside.positions());
+  return {all.max, all.rms, all.fraction, all.links};
+}
+
+double violation(const Body& body, LinkId link) {
+  const inner::Body& inside = Access::body(body);
+  check_links(inside.mesh(), std::span(&link, 1));
+  return link_violation(inside.mesh(), inside.softness(), inside.positions(), link);
+}
+
+Spread displacement(const Body& body) {
+  const inner::Displacement all = measure_displacement(Access::body(body).mesh(), Access::body(body).positions());
+  return {all.max, all.rms};
+}
+
+Spread distance(const Body& one, const Body& other) {
+  if (one.mesh() != other.mesh()) {
+    throw Error("distance", "the two objects have different meshes", "use two bodies of one mesh");
+  }
+  const Distance apart =
+      measure_distance(Access::body(one).mesh(), Access::body(one).positions(), Access::body(other).positions());
+  return {apart.max, apart.rms};
+}
+
+Spread distance(const Body& body, std::span<const double> positions) {
+  const inner::Mesh& mesh = Access::body(body).mesh();
+  const std::vector<double> carried = carried_of(mesh, positions, position_limit(inner::Precision::double_precision));
+  const Distance apart =
+      measure_distance(mesh, Access::body(body).positions(),
+                       {carried.data(), sizeof(double) * static_cast<std::size_t>(mesh.space_dimension),
+                        inner::Precision::double_precision});
+  return {apart.max, apart.rms};
+}
+
+double elastic_energy(const Body& body) {
+  const inner::Body& inside = Access::body(body);
+  return inner::elastic_energy(inside.mesh(), inside.cuts(), inside.positions());
+}
+
+std::vector<double> ReferenceSolution::positions() const {
+  const inner::Mesh& mesh = *inside_->mesh;
+  std::vector<double> carried = mesh.rest;
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    carried[i] += inside_->reference.displacements[i];
+  }
+  return positions_of(mesh, {carried.data(), sizeof(double) * static_cast<std::size_t>(mesh.space_dimension),
+                             inner::Precision::double_precision});
+}
+
+double ReferenceSolution::handle_displacement() const { return inside_->reference.handle_displacement; }
+
+ReferenceSolution reference_solution(const Body& body, const std::vector<ElementId>& handle, const Job& job) {
+  return guarded([&] {
+    const inner::Body& inside = Access::body(body);
+    const inner::Handle grabbed(inside, handle);  // checks the elements
+    const std::vector<double> displacements = displacements_of(inside, grabbed.elements());
+    if (std::ranges::all_of(displacements, [](double one) { return one == 0; })) {
+      throw inner::Error("handle", "it is at rest, so there is nothing to compare with", "move it first");
+    }
+    const auto pins = inside.pins();
+    if (pins.empty()) {
+      throw inner::Error("pins", "nothing pins the object, so physics has no solution", "pin a side or some elements");
+    }
+    const Progress progress = Access::progress(job);
+    ReferenceSolver solver({inside.mesh_pointer(),
+                            inside.cuts(),
+                            {pins.begin(), pins.end()},
+                            displacements_of(inside, pins),
+                            inside.elastic()},
+                           progress.part(0, 0.3));
+    const std::vector<ElementId> elements(grabbed.elements().begin(), grabbed.elements().end());
+    return Access::make<ReferenceSolution>(inside.mesh_pointer(),
+                                           solver.at(elements, displacements, progress.part(0.3, 1)));
+  });
+}
+
+PhysicalError physical_error(const Body& body, const ReferenceSolution& reference) {
+  const auto& [mesh, solution] = Access::inside(reference);
+  const inner::Body& inside = Access::body(body);
+  if (mesh != inside.mesh_pointer()) {
+    throw Error("reference solution", "it is of another mesh", "compute it for this object");
+  }
+  return error_of(measure_physical_error(*mesh, inside.positions(), solution));
+}
+
+PhysicalError physical_error_of_rest(const ReferenceSolution& reference) {
+  const auto& [mesh, solution] = Access::inside(reference);
+  return error_of(error_of_nothing_moving(*mesh, solution));
+}
+
+}  // namespace chainmail::api

@@ -1,0 +1,45 @@
+#include "chainmail/method.h"
+
+#include "api/access.h"
+#include "solve/algorithms.h"
+
+namespace chainmail::api {
+namespace {
+
+/// Number of the first algorithm that a program registered: those that are built in come before it.
+constexpr auto first_registered = Algorithm(10'000);
+
+MethodInfo info_of(const AlgorithmInfo& one) {
+  return {.name = std::string(one.offered_name()),
+          .label = std::string(one.label),
+          .source = std::string(one.source),
+          .summary = std::string(one.summary),
+          .family = one.family() == Family::chainmail ? MethodFamily::chainmail : MethodFamily::elastic,
+          .needs_grid = one.needs_grid,
+          .needs_pins = one.needs_pins,
+          .holds_links = one.holds_links,
+          .is_registered = one.algorithm >= first_registered};
+}
+
+}  // namespace
+
+std::vector<MethodInfo> methods() {
+  std::vector<MethodInfo> all;
+  for (const AlgorithmInfo& one : every_algorithm()) {
+    all.push_back(info_of(one));
+  }
+  return all;
+}
+
+MethodInfo method_info(std::string_view name) { return info_of(info(algorithm_of(name))); }
+
+std::string refusal(std::string_view method, const Mesh& mesh) {
+  try {
+    check(algorithm_of(method), *Access::pointer(mesh));
+  } catch (const inner::Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace chainmail::api

@@ -1,0 +1,271 @@
+#include "chainmail/own_method.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "api/access.h"
+#include "files/text/text.h"
+#include "solve/algorithms.h"
+#include "solve/body_view.h"
+#include "solve/method.h"
+
+namespace chainmail::api {
+namespace {
+
+std::string element_name(ElementId element) { return "element " + std::to_string(element); }
+
+}  // namespace
+
+/// The state of a move that a method of a user answers.
+struct MovingBody::Inside {
+  /// The stored coordinates of an element before the move. A double holds a float exactly.
+  struct Stored {
+    ElementId element;
+    std::array<double, 3> at;
+  };
+
+  inner::Body* body = nullptr;
+  const inner::Handle* handle = nullptr;
+  std::vector<ElementId>* moved = nullptr;
+  std::optional<Mesh> mesh = {};
+  std::vector<Stored> before = {};           // of the handle, and of all elements that moved
+  std::vector<std::uint32_t> moved_in = {};  // the last move in which each element moved
+  std::uint32_t move = 0;
+  std::vector<ElementId> neighbours = {};
+
+  /// Begins a move: the elements of the handle go to their targets.
+  void begin(inner::Body& on, const inner::HandleMove& with, std::vector<ElementId>& output);
+  /// Puts all elements back.
+  void undo();
+  void check_free(ElementId element) const;
+  /// Returns the entry of an element in the neighbour table of its sponsor.
+  EntryId entry_of(ElementId sponsor, ElementId element) const;
+  /// Calls change(view), which returns true if it moved the element, and notes that it moved.
+  template <class Change>
+  bool change(ElementId element, Change change);
+  Stored stored(ElementId element) const;
+};
+
+void MovingBody::Inside::begin(inner::Body& on, const inner::HandleMove& with, std::vector<ElementId>& output) {
+  body = &on;
+  handle = &with.handle;
+  moved = &output;
+  if (!mesh) {
+    mesh = Access::mesh(on.mesh_pointer());
+    moved_in.resize(on.mesh().element_count());
+  }
+  if (++move == std::numeric_limits<std::uint32_t>::max()) {
+    std::ranges::fill(moved_in, 0);
+    move = 1;
+  }
+  before.clear();
+  for (const ElementId element : handle->elements()) {
+    before.push_back(stored(element));
+  }
+  on.with_view([&](const auto& view) { place_handle(view, with); });  // throws before anything has moved
+  moved->clear();
+}
+
+MovingBody::Inside::Stored MovingBody::Inside::stored(ElementId element) const {
+  Stored result{element, {}};
+  body->with_view([&]<class View>(const View& view) {
+    for (int k = 0; k < View::Dimension; ++k) {
+      result.at[std::size_t(k)] = double(view.positions[element][k]);
+    }
+  });
+  return result;
+}
+
+void MovingBody::Inside::undo() {
+  body->with_view([&]<class View>(const View& view) {
+    for (const Stored& one : before) {
+      for (int k = 0; k < View::Dimension; ++k) {
+        view.positions[one.element][k] = static_cast<typename View::Scalar>(one.at[std::size_t(k)]);
+      }
+    }
+  });
+  moved->clear();
+}
+
+void MovingBody::Inside::check_free(ElementId element) const {
+  check_element(body->mesh(), element);
+  if (body->is_pinned(element) || handle->contains(element)) {
+    throw Error(element_name(element), body->is_pinned(element) ? "it is pinned" : "it is part of the handle",
+                "move only elements that are not fixed");
+  }
+}
+
+EntryId MovingBody::Inside::entry_of(ElementId sponsor, ElementId element) const {
+  const inner::Mesh& links = body->mesh();
+  check_element(links, sponsor);
+  check_element(links, element);
+  for (EntryId entry = links.first_entry[sponsor]; entry < links.first_entry[sponsor + 1]; ++entry) {
+    if (links.neighbours[entry] == element && !body->cuts().is_cut(links.entry_link[entry])) {
+      return entry;
+    }
+  }
+  throw Error("elements " + std::to_string(sponsor) + " and " + std::to_string(element),
+              "they are not linked, or the link is cut", "use neighbours()");
+}
+
+template <class Change>
+bool MovingBody::Inside::change(ElementId element, Change change) {
+  const Stored old = stored(element);
+  const bool has_moved = body->with_view(change);
+  if (has_moved && moved_in[element] != move) {
+    moved_in[element] = move;
+    before.push_back(old);
+    moved->push_back(element);
+  }
+  return has_moved;
+}
+
+const Mesh& MovingBody::mesh() const { return *inside_.mesh; }
+
+std::span<const ElementId> MovingBody::neighbours(ElementId element) {
+  check_element(inside_.body->mesh(), element);
+  inside_.neighbours.clear();
+  for_each_neighbour(inside_.body->mesh(), inside_.body->cuts(), element,
+                     [&](ElementId neighbour, EntryId) { inside_.neighbours.push_back(neighbour); });
+  return inside_.neighbours;
+}
+
+bool MovingBody::is_fixed(ElementId element) const {
+  check_element(inside_.body->mesh(), element);
+  return inside_.body->is_pinned(element) || inside_.handle->contains(element);
+}
+
+Vector3 MovingBody::position(ElementId element) const {
+  check_element(inside_.body->mesh(), element);
+  return vector_of(inner::point_of(inside_.body->mesh(), inside_.body->positions(), element));
+}
+
+void MovingBody::set_position(ElementId element, const Vector3& position) {
+  inside_.check_free(element);
+  check_coordinates(inside_.body->mesh(), element_name(element), position, false);
+  guarded([&] {
+    inside_.change(element, [&](const auto& view) {
+      const auto target = stored_target(view, element, point_of(position));
+      const bool moves = target != view.positions[element];
+      view.positions[element] = target;
+      return moves;
+    });
+  });
+}
+
+Box MovingBody::valid_region(ElementId sponsor, ElementId element) const {
+  const EntryId entry = inside_.entry_of(sponsor, element);
+  const inner::Mesh& mesh = inside_.body->mesh();
+  std::array<double, 3> low{}, high{};
+  inside_.body->with_view([&]<class View>(const View& view) {
+    const auto& region = view.regions[entry];
+    for (int k = 0; k < View::Dimension; ++k) {
+      low[std::size_t(k)] = double(view.positions[sponsor][k] + region.low[k]);
+      high[std::size_t(k)] = double(view.positions[sponsor][k] + region.high[k]);
+    }
+  });
+  return {vector_of(mesh.to_point(low.data())), vector_of(mesh.to_point(high.data()))};
+}
+
+bool MovingBody::clamp(ElementId element, ElementId sponsor) {
+  const EntryId entry = inside_.entry_of(sponsor, element);
+  inside_.check_free(element);
+  return inside_.change(element, [&](const auto& view) { return view.clamp(element, sponsor, entry); });
+}
+
+namespace {
+
+/// Runs a method of a user as one of the library.
+class OwnMethod final : public inner::Method {
+ public:
+  explicit OwnMethod(std::unique_ptr<api::Method> method) : method_(std::move(method)) {}
+
+  PassCount move(inner::Body& body, inner::HandleMove& move, PassOutput output) override {
+    before_.clear();
+    for (const ElementId element : move.handle.elements()) {
+      before_.push_back(vector_of(inner::point_of(body.mesh(), body.positions(), element)));
+    }
+    state_.begin(body, move, output.moved);
+    return {answer(move.handle), output.moved.size()};
+  }
+
+  std::string remark() const override { return method_->remark(); }
+
+ private:
+  /// If the method throws, nothing has moved.
+  std::uint64_t answer(const inner::Handle& handle) {
+    try {
+      MovingBody body = Access::moving(state_);
+      return method_->move(body, {handle.elements(), before_});
+    } catch (const Error& error) {
+      state_.undo();
+      throw inner::Error(error.where(), error.problem(), error.remedy());
+    } catch (const Cancelled&) {
+      state_.undo();
+      throw inner::Cancelled();
+    } catch (...) {
+      state_.undo();
+      throw;
+    }
+  }
+
+  std::unique_ptr<api::Method> method_;
+  Access::MovingState state_;
+  std::vector<Vector3> before_;  // positions of the handle before the move
+};
+
+void check_own_name(const std::string& name) {
+  const auto fits = [](char one) { return (one >= 'a' && one <= 'z') || (one >= '0' && one <= '9') || one == '-'; };
+  const std::string where = "method " + in_quotes(name);
+  if (name.empty() || name.size() > 40 || !std::ranges::all_of(name, fits)) {
+    throw Error(where, "it cannot be the name of a method", "use up to 40 letters a to z, digits and hyphens");
+  }
+  if (name == "nothing" || find_algorithm(name)) {
+    throw Error(where, "there is a method with this name", "use another name");
+  }
+}
+
+/// Marks of own methods in plots: an hourglass, in colours that differ.
+constexpr std::array<AlgorithmLook, 4> own_looks{{{"M-1-1H1L-1 1H1Z", "#117733"},
+                                                  {"M-1-1H1L-1 1H1Z", "#aa4499"},
+                                                  {"M-1-1H1L-1 1H1Z", "#999933"},
+                                                  {"M-1-1H1L-1 1H1Z", "#44aa99"}}};
+
+}  // namespace
+
+void register_method(const MethodDescription& description, MethodFactory factory) {
+  check_own_name(description.name);
+  const auto texts = std::make_shared<MethodDescription>(description);
+  texts->label = description.label.empty() ? description.name : printable(description.label);
+  texts->source = printable(description.source);
+  texts->summary = printable(description.summary);
+  if (!factory) {
+    throw Error("method " + in_quotes(description.name), "there is no factory", "give a function that makes it");
+  }
+  const auto others =
+      std::ranges::count_if(every_algorithm(), [](const AlgorithmInfo& one) { return one.texts != nullptr; });
+  add_algorithm(
+      {.algorithm = {},
+       .name = texts->name,
+       .label = texts->label,
+       .source = texts->source,
+       .summary = texts->summary,
+       .look = own_looks[std::size_t(others) % own_looks.size()],
+       .make = [factory = std::move(factory), texts](inner::Precision, int) -> std::unique_ptr<inner::Method> {
+         std::unique_ptr<Method> method = factory();
+         if (method == nullptr) {
+           throw inner::Error("method " + in_quotes(texts->name), "its factory made none",
+                              "return a method from the factory");
+         }
+         return std::make_unique<OwnMethod>(std::move(method));
+       },
+       .needs_grid = texts->needs_grid,
+       .holds_links = texts->holds_links,
+       .texts = texts});
+}
+
+}  // namespace chainmail::api
