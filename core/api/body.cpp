@@ -4,8 +4,20 @@
 #include <utility>
 
 #include "api/access.h"
+#include "mesh/parameters.h"
 
 namespace chainmail::api {
+
+// Public headers cannot include the table of parameters, so its defaults are repeated there.
+static_assert(LinkSoftness().compression == parameters::compression.standard &&
+              LinkSoftness().stretch == parameters::stretch.standard &&
+              LinkSoftness().shear == parameters::shear.standard);
+static_assert(Elasticity().young == parameters::young.standard &&
+              Elasticity().poisson == parameters::poisson.standard &&
+              Elasticity().control_points[0] == ElasticOptions::control_points &&
+              Elasticity().control_points[1] == ElasticOptions::control_points &&
+              Elasticity().control_points[2] == ElasticOptions::control_points);
+
 namespace {
 
 ElementBlocks every_block(const inner::Mesh& mesh) {

@@ -10,6 +10,7 @@ namespace chainmail::api {
 namespace {
 
 static_assert(no_sponsor == no_element);
+static_assert(RelaxOptions().step == parameters::relax_step.standard);
 
 constexpr std::uint64_t elements_between_checks = 20'000;  // about 2 ms, after which a job may cancel
 

@@ -9,8 +9,12 @@
 #include "mesh/cells.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
+#include "mesh/parameters.h"
 
 namespace chainmail::api {
+
+static_assert(LatticeOptions().spacing == parameters::spacing.standard);
+
 namespace {
 
 Mesh generated(MeshKind kind, std::array<std::uint32_t, 3> size, const LatticeOptions& options) {

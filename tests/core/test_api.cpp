@@ -954,6 +954,11 @@ void ApiTest::softness_is_calibrated() {
   how.evaluations = 20;
   how.most_sweeps = 3;
   const auto expected = calibrate(mesh, chainmail::Cuts(mesh), how);
+  const chainmail::CalibrationOptions usual;
+  const cm::CalibrateOptions ours;
+  QVERIFY(ours.seed == usual.seed && ours.drags == usual.drags && ours.held_out == usual.held_out &&
+          ours.evaluations == usual.evaluations && ours.most_sweeps == usual.most_sweeps &&
+          ours.method == cm::methods()[std::size_t(usual.algorithm)].name);
   QCOMPARE(found.softness.compression, expected.softness.compression);
   QCOMPARE(found.softness.stretch, expected.softness.stretch);
   QCOMPARE(found.softness.shear, expected.softness.shear);
