@@ -23,9 +23,11 @@ constexpr const char* compare_footer =
     "--against physics: the reference is neo-Hookean FEM on the same cells. FEM, BEM, free-form deformation and an\n"
     "object that does not move are added. Without MESH, a bar and a sheet are used. Each object is nudged, pulled and\n"
     "bent at three handles, and cut once between two moves. FOLDER also receives the plots as SVG.\n\n"
-    "Recorded moves are JSON. Other commands are pin, unpin, cut, uncut and softness:\n"
+    "Recorded moves are JSON. Other commands are release, pin, unpin, cut, uncut, softness, relax and reset:\n"
     "  {\"version\": 1, \"commands\": [{\"do\": \"pin\", \"elements\": [0]}, {\"do\": \"grab\", \"element\": 5},\n"
-    "    {\"do\": \"drag\", \"target\": [1, 2, 0]}, {\"do\": \"drag\", \"target\": [2, 3, 0]}]}\n\n"
+    "    {\"do\": \"drag\", \"target\": [1, 2, 0]}, {\"do\": \"drag\", \"target\": [2, 3, 0]},\n"
+    "    {\"do\": \"grab\", \"elements\": [5, 6]}, {\"do\": \"drag\", \"by\": [1, 2, 0],\n"
+    "     \"rotate\": {\"axis\": [0, 0, 1], \"degrees\": 20}}]}\n\n"
     "Example:\n"
     "  chainmail compare cloth.obj --algorithms natural-queue,exact --relax 0,10 -o report\n"
     "  chainmail compare organ.msh --against physics --pins bottom --poisson 0.45 -o report";

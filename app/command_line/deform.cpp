@@ -210,11 +210,11 @@ void deform(const DeformArguments& options) {
 void add_acts(CLI::App& app, DeformArguments& options) {
   options.move = add_value(app, "--move", "ID:X[,Y[,Z]]", "drag an element to a position; omitted coordinates stay");
   options.by = add_value(app, "--by", "ID:DX[,DY[,DZ]]",
-                         "drag an element by a distance; without ID, what the last --grab has grabbed: DX,DY[,DZ]");
+                         "drag an element by a distance; without ID, drag the handle of --grab: DX,DY[,DZ]");
   options.grab = add_value(app, "--grab", "IDS|LAYER",
                            "grab elements, such as 3,7,20-29, or all of a layer: they move as one rigid body");
-  options.rotate =
-      add_value(app, "--rotate", "AXIS:DEGREES", "rotate what is grabbed about its middle; AXIS is x, y, z or X,Y,Z");
+  options.rotate = add_value(app, "--rotate", "AXIS:DEGREES",
+                             "rotate the handle of --grab about its middle; AXIS is x, y, z or X,Y,Z");
   options.cut = add_value(app, "--cut", "A-B", "cut the link between two elements");
   options.pin =
       add_value(app, "--pin", "ID|LAYER", "pin an element at its current position, or all elements of " + pin_names());

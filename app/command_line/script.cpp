@@ -54,6 +54,9 @@ std::vector<ElementId> elements_of(const Act& act, const Mesh& mesh) {
     std::vector<ElementId> elements;
     for (const auto& [first, last] : act.ranges) {
       check_element(act, last, mesh);
+      if (elements.size() + (last - first) >= mesh.element_count()) {
+        throw Error(act.where, "it names more elements than the mesh has", "name each element once");
+      }
       for (ElementId element = first; element <= last; ++element) {
         elements.push_back(element);
       }
@@ -325,14 +328,17 @@ void check_acts(const std::vector<Act>& acts, const Mesh& mesh) {
   bool is_grabbed = false;
   const auto check_free = [&](const Act& act, ElementId element) {
     if (pinned.contains(element)) {
-      throw Error(act.where, "element " + std::to_string(element) + " is pinned by then and cannot move",
+      throw Error(act.where, "element " + std::to_string(element) + " is already pinned and cannot move",
                   "move another element, or pin it later");
     }
   };
   for (const Act& act : acts) {
     check_element(act, act.element, mesh);
     if (act.of_handle && !is_grabbed) {
-      throw Error(act.where, "nothing is grabbed at that point", "put --grab IDS before it, or write --by ID:DX,DY,DZ");
+      throw Error(
+          act.where,
+          "no handle is grabbed at this action: every action except --by without an id and --rotate releases it",
+          "put --grab IDS directly before it, or write --by ID:DX,DY,DZ");
     }
     is_grabbed = act.kind == Act::Kind::grab || act.of_handle;
     switch (act.kind) {

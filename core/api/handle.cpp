@@ -26,7 +26,7 @@ Handle::Handle(const Body& body, const std::vector<ElementId>& elements)
 Handle::Handle(const Handle& other) : inside_(std::make_unique<Inside>(*other.inside_)) {}
 Handle::Handle(Handle&& other) noexcept = default;
 Handle& Handle::operator=(const Handle& other) {
-  *inside_ = *other.inside_;
+  inside_ = std::make_unique<Inside>(*other.inside_);  // this one may have been moved from
   return *this;
 }
 Handle& Handle::operator=(Handle&& other) noexcept = default;

@@ -6,9 +6,6 @@
 namespace chainmail::api {
 namespace {
 
-/// Number of the first algorithm that a program registered: those that are built in come before it.
-constexpr auto first_registered = Algorithm(10'000);
-
 MethodInfo info_of(const AlgorithmInfo& one) {
   return {.name = std::string(one.offered_name()),
           .label = std::string(one.label),
@@ -18,7 +15,7 @@ MethodInfo info_of(const AlgorithmInfo& one) {
           .needs_grid = one.needs_grid,
           .needs_pins = one.needs_pins,
           .holds_links = one.holds_links,
-          .is_registered = one.algorithm >= first_registered};
+          .is_registered = one.is_added()};
 }
 
 }  // namespace

@@ -246,8 +246,7 @@ void register_method(const MethodDescription& description, MethodFactory factory
   if (!factory) {
     throw Error("method " + in_quotes(description.name), "there is no factory", "give a function that makes it");
   }
-  const auto others =
-      std::ranges::count_if(every_algorithm(), [](const AlgorithmInfo& one) { return one.texts != nullptr; });
+  const auto others = std::ranges::count_if(every_algorithm(), [](const AlgorithmInfo& one) { return one.is_added(); });
   add_algorithm(
       {.algorithm = {},
        .name = texts->name,

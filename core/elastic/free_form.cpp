@@ -29,17 +29,17 @@ class FreeForm final : public ElasticSolver {
         dimension_(problem.mesh->space_dimension) {
     reset();
     resistance_ = Eigen::MatrixXd::Identity(volume_.count(), volume_.count());
-    add_resistance(pins_, resistance_);
+    add_resistance(pins_, resistance_, {});
     factors_.compute(resistance_);
   }
 
   void hold(const ElasticHandle& handle, const Progress& progress) override {
     handle_ = handle;
     begin();
-    control_response_ = handle.elements.size() == 1 ? respond_to_one() : respond_to_many();
+    control_response_ = handle.elements.size() == 1 ? respond_to_one() : respond_to_many(progress.part(0, 0.5));
     response_.resize(mesh_->element_count(), control_response_.cols());
     for (ElementId e = 0; e < mesh_->element_count(); ++e) {
-      progress.report(e, mesh_->element_count());
+      progress.part(0.5, 1).report(e, mesh_->element_count());
       const Eigen::VectorXd weights = volume_.weights(e);
       for (Eigen::Index column = 0; column < response_.cols(); ++column) {
         response_(e, column) = weights.dot(control_response_.col(column));
@@ -99,9 +99,10 @@ class FreeForm final : public ElasticSolver {
     return {all.data(), dimension_, static_cast<Eigen::Index>(mesh_->element_count())};
   }
 
-  void add_resistance(std::span<const ElementId> elements, Eigen::MatrixXd& to) const {
-    for (const ElementId element : elements) {
-      const Eigen::VectorXd weights = volume_.weights(element);
+  void add_resistance(std::span<const ElementId> elements, Eigen::MatrixXd& to, const Progress& progress) const {
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      progress.report(i, elements.size());
+      const Eigen::VectorXd weights = volume_.weights(elements[i]);
       to += pin_weight * weights * weights.transpose();
     }
   }
@@ -116,10 +117,10 @@ class FreeForm final : public ElasticSolver {
   /// Returns the responses of the control points to a unit turn about each coordinate of the arms, and to a unit
   /// displacement. The elements of the handle are fitted like pins, since the lattice may not contain the motion. Also
   /// moves the state of the beginning to where the handle has the shape with which it was grabbed.
-  Eigen::MatrixXd respond_to_many() {
+  Eigen::MatrixXd respond_to_many(const Progress& progress) {
     const Eigen::Index count = volume_.count(), n = dimension_;
     Eigen::MatrixXd resistance = resistance_;
-    add_resistance(handle_.elements, resistance);
+    add_resistance(handle_.elements, resistance, progress);
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 2 * n + 1);
     for (std::size_t i = 0; i < handle_.elements.size(); ++i) {
       const auto of_element = [&](const std::vector<double>& all) {

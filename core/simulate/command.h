@@ -27,8 +27,8 @@ struct Grab {
 };
 /// Moves the handle: one pass.
 struct Drag {
-  /// Of its pivot, which is the mean of the grabbed positions (mesh units): a position, or, if `relative`, a way from
-  /// where it was grabbed.
+  /// Of its pivot, which is the mean of the grabbed positions (mesh units): a position, or, if `relative`, a
+  /// displacement from where it was grabbed.
   Point target = Point::Zero();
   Rotation rotation = {};  // about the pivot, since it was grabbed
   bool relative = false;

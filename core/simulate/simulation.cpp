@@ -311,9 +311,9 @@ void Simulation::answer() {
     } else if (grabbed_) {
       pass(grabbed_, grabbed_->pose());
     } else {  // its elements may have moved apart since it was released
-      const auto anew =
+      const auto again =
           std::make_shared<Handle>(body(), std::vector<ElementId>(about->elements().begin(), about->elements().end()));
-      pass(anew, anew->grabbed());
+      pass(again, again->grabbed());
     }
   } catch (const Error&) {
     // The pins now contradict each other. The setting stays, and the next drag reports the error.

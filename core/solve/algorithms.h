@@ -58,7 +58,7 @@ struct AlgorithmInfo {
 
   // What other code may assume.
   bool holds_links = false;         // all links are valid after each pass
-  bool from_rest = false;           // the solver holds displacements from rest instead of positions
+  bool from_rest = false;           // the body stores displacements from rest instead of positions
   bool has_control_points = false;  // a user may drag control points
 
   /// Owns the texts above, if they are not literals.
@@ -71,8 +71,10 @@ struct AlgorithmInfo {
   bool uses_softness() const { return family() == Family::chainmail; }
   /// True if relaxation may follow a pass. The answer of the other methods is an equilibrium already.
   bool relaxes() const { return family() == Family::chainmail; }
+  /// True if a program added it to the table: see add_algorithm.
+  bool is_added() const { return texts != nullptr; }
   /// True if a pass is a series of steps, element after element, that can be replayed.
-  bool has_steps() const { return family() == Family::chainmail; }
+  bool has_steps() const { return family() == Family::chainmail && !is_added(); }
   /// True if the algorithm can answer any state at once when it takes over, without a move.
   bool answers_any_state() const { return holds_links || family() == Family::elastic; }
 };

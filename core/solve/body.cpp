@@ -220,6 +220,7 @@ void Body::store_displacements(bool displacements) {
   }
   std::visit(
       [&]<class Scalar, int Dimension>(Typed<Scalar, Dimension>& typed) {
+        typed.regions.set(*mesh_, *softness_, displacements);  // may run out of memory, so it comes first
         for (ElementId e = 0; e < mesh_->element_count(); ++e) {
           for (int k = 0; k < Dimension; ++k) {
             const double rest = mesh_->rest[std::size_t{e} * Dimension + std::size_t(k)];
@@ -228,7 +229,6 @@ void Body::store_displacements(bool displacements) {
           }
         }
         stores_displacements_ = displacements;
-        typed.regions.set(*mesh_, *softness_, displacements);
       },
       typed_);
   if (is_at_rest_) {  // restores digits that absolute positions lost by rounding

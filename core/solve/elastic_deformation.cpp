@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "solve/body_view.h"
 
@@ -83,20 +84,22 @@ PassCount ElasticDeformation::move(Body& body, HandleMove& move, PassOutput outp
   return take_answer(body, move.handle.elements(), output.moved);
 }
 
-/// A method that depends on the path follows a rotation in steps: on a straight line, the handle would shrink.
-void ElasticDeformation::move_rigidly(const Mesh& mesh, const HandleMove& move, const Progress& progress) {
-  const Pose from = move.handle.pose();
-  const double angle = angle_between(from.rotation, move.pose.rotation);
+/// A method that depends on the path follows a rotation in steps: on a straight line, the handle would shrink. If a
+/// step does not converge, the handle has the pose of the one before.
+void ElasticDeformation::move_rigidly(const Mesh& mesh, HandleMove& move, const Progress& progress) {
+  const Pose from = move.handle.pose(), target = std::exchange(move.pose, from);
+  const double angle = angle_between(from.rotation, target.rotation);
   const int steps = method_ == ElasticMethod::neo_hookean ? std::max(1, int(std::ceil(angle / largest_turn))) : 1;
   for (int step = 1; step <= steps; ++step) {
     const double share = double(step) / steps;
-    const Pose to = step == steps ? move.pose
-                                  : Pose{from.pivot + share * (move.pose.pivot - from.pivot),
-                                         rotation_between(from.rotation, move.pose.rotation, share)};
+    const Pose to = step == steps ? target
+                                  : Pose{from.pivot + share * (target.pivot - from.pivot),
+                                         rotation_between(from.rotation, target.rotation, share)};
     solver_->move(elastic_motion(mesh, move.handle.motion(to)), progress.part(double(step - 1) / steps, share));
     if (!solver_->remark().empty()) {
       return;
     }
+    move.pose = to;
   }
 }
 

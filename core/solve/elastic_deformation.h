@@ -28,7 +28,7 @@ class ElasticDeformation final : public Method {
 
   void prepare(const Body& body, const Progress& progress);
   void take_positions(const Body& body);
-  void move_rigidly(const Mesh& mesh, const HandleMove& move, const Progress& progress);
+  void move_rigidly(const Mesh& mesh, HandleMove& move, const Progress& progress);
   void hold(const Body& body, const Handle& handle, const Progress& progress);
   PassCount take_answer(Body& body, std::span<const ElementId> handle, std::vector<ElementId>& moved) const;
 

@@ -40,7 +40,7 @@ class ExactPropagation {
       write_trace(body, reach, *trace);
     }
     this->move(body, reach, moved);
-    drop_what_rests(moved.size());
+    drop_idle_regions(moved.size());
     const bool stopped = std::find(reach.stopped, reach.stopped + Dimension, true) != reach.stopped + Dimension;
     return {moved.size(), moved.size(), stopped || !remark_.empty(), visits_};
   }
@@ -64,7 +64,7 @@ class ExactPropagation {
     const Revisions& now = body.revisions();
     const Conditions conditions{
         now.cuts, now.pins, now.softness, handle.elements()[0], handle.grab(), handle.has_one() ? 0 : now.positions};
-    if (conditions == made_for_) {
+    if (conditions == made_for_ && is_where_it_was(body, handle)) {
       return;
     }
     offsets_.clear();
@@ -75,6 +75,18 @@ class ExactPropagation {
     }
     regions_.begin(body, handle.elements(), offsets_);
     made_for_ = conditions;
+  }
+
+  /// True if nothing has moved an element of a handle of many since the last pass. Relaxation may, after a release.
+  bool is_where_it_was(const State& body, const Handle& handle) const {
+    for (std::size_t i = 0; i < offsets_.size(); ++i) {
+      for (int k = 0; k < Dimension; ++k) {
+        if (body.positions[handle.elements()[i]][k] != at_[k] + offsets_[i][k]) {
+          return false;
+        }
+      }
+    }
+    return true;
   }
 
   void extend(const State& body, Reach& reach) {
@@ -161,11 +173,12 @@ class ExactPropagation {
   }
 
   static constexpr double finest_angle = 1e-6;  // radians
-  static constexpr int most_corrections = 8;    // of the place of a rotated handle, by pins found one after another
+  // Of the position of a rotated handle, as the search finds more pins.
+  static constexpr int most_corrections = 8;
 
   /// A drag that reached far and then moves little would still clamp all elements that it reached. So the regions are
   /// dropped after enough idle passes to pay for a new search.
-  void drop_what_rests(std::size_t moved) {
+  void drop_idle_regions(std::size_t moved) {
     const std::size_t known = regions_.elements().size() - offsets_.size();
     idle_passes_ = moved < known / 4 ? idle_passes_ + 1 : 0;
     if (idle_passes_ == passes_of_a_search) {

@@ -25,6 +25,7 @@ class ExactMethod final : public Method {
     }
     bool is_valid = body.is_at_rest() || holds(body, move.handle);
     note_reach(body, view, size, is_valid);
+    links_hold_ = is_valid;  // if the repair fails, the next pass checks again
     Repair repair(view, search_, body.reach().since_rest, move.handle.elements());
     std::vector<Position<Scalar, Dimension>> before;
     if (!is_valid && !repair.is_valid()) {

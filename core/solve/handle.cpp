@@ -27,7 +27,7 @@ std::string name_of(ElementId element) { return "element " + std::to_string(elem
 
 void check_handle(const Body& body, std::span<const ElementId> ascending) {
   if (ascending.empty()) {
-    throw Error("handle", "it holds no element", "grab at least one");
+    throw Error("handle", "it has no elements", "grab at least one element");
   }
   const ElementId count = body.mesh().element_count();
   if (ascending.back() >= count) {
@@ -73,7 +73,7 @@ double angle_between(const Point& from, const Point& to) {
 }
 
 Point Rotation::vector() const {
-  return degrees == 0 ? Point(Point::Zero()) : Point(axis.normalized() * (degrees * (std::numbers::pi / 180)));
+  return degrees == 0 ? Point(Point::Zero()) : Point(axis.stableNormalized() * (degrees * (std::numbers::pi / 180)));
 }
 
 Rotation composed(const Rotation& first, const Rotation& then) {
@@ -91,7 +91,7 @@ void check(const Rotation& rotation, const Mesh& mesh) {
   if (rotation.degrees == 0) {
     return;
   }
-  const double length = rotation.axis.norm();
+  const double length = rotation.axis.stableNorm();
   if (!std::isfinite(rotation.degrees) || !std::isfinite(length)) {
     throw Error("rotation", "its angle or its axis is not a finite number", "give them as numbers");
   }
@@ -104,8 +104,8 @@ void check(const Rotation& rotation, const Mesh& mesh) {
     if (rotation.axis[k] != 0 && leaves_space) {
       throw Error("rotation", std::string("about ") + "xyz"[k] + ", it would leave the space of the object",
                   mesh.space_dimension == 1
-                      ? "move it without a rotation, or use more dimensions"
-                      : "rotate about the axis across the object's plane, or use more dimensions");
+                      ? "move it without a rotation, or use more space dimensions"
+                      : "rotate about the axis across the object's plane, or use more space dimensions");
     }
   }
 }

@@ -102,7 +102,7 @@ class HandleRegions {
     visits_ = 0;
   }
 
-  /// True if every element and every pin has a place in its region while the handle is at a displacement, up to a
+  /// True if every element and every pin can lie in its region while the handle is at a displacement, up to a
   /// tolerance (mesh units). False if the handle has rotated so far that it contradicts itself.
   bool agree(const State& body, const Offset& handle, Scalar tolerance) const {
     bool agree = true;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <span>
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "solve/body_view.h"
@@ -10,8 +11,8 @@ namespace chainmail {
 /// A handle of many elements, in displacements from rest. Each element is at the handle's displacement, which is that
 /// of its pivot, plus an offset of its own. A translation keeps the offsets; a rotation changes them.
 ///
-/// It begins with the positions that the elements have at that time: they may differ a little from those when they were
-/// grabbed, because a repair moved them.
+/// It begins with the positions that the elements have at that time. They differ from those of the pose if something
+/// else than this handle has moved them: a repair, relaxation or another handle. Then the pivot is their mean.
 template <class Scalar, int Dimension>
 class RigidHandle {
  public:
@@ -29,7 +30,11 @@ class RigidHandle {
         absolute[k] = body.absolute(element, k);
       }
       offsets_.push_back(body.positions[element]);
-      arms_.push_back(mesh_->to_point(absolute) - pose_.pivot);
+      arms_.push_back(mesh_->to_point(absolute));
+    }
+    take_pivot();
+    for (Point& arm : arms_) {
+      arm -= pose_.pivot;
     }
   }
 
@@ -68,6 +73,20 @@ class RigidHandle {
   }
 
  private:
+  /// Sets the pivot to the mean of the positions, unless it is that up to rounding.
+  void take_pivot() {
+    Point mean = Point::Zero();
+    double size = 0;
+    for (const Point& position : arms_) {
+      mean += position / double(arms_.size());
+      size = std::max(size, position.template lpNorm<Eigen::Infinity>());
+    }
+    const double rounding = 64 * std::numeric_limits<Scalar>::epsilon() * size;
+    if ((mean - pose_.pivot).template lpNorm<Eigen::Infinity>() > rounding) {
+      pose_.pivot = mean;
+    }
+  }
+
   const Mesh* mesh_ = nullptr;
   Pose pose_;                    // at the beginning
   std::vector<Offset> offsets_;  // at the beginning, when the handle's displacement is 0

@@ -1,6 +1,7 @@
 #include "solve/softness.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace chainmail {
 
@@ -12,13 +13,31 @@ void check(const LinkSoftness& softness) {
 
 OwnSoftness::OwnSoftness(std::initializer_list<Entry> entries) : OwnSoftness(entries.begin(), entries.end()) {}
 
+OwnSoftness::OwnSoftness(const OwnSoftness& other)
+    : group_of_(other.group_of_), groups_(other.groups_), count_(other.count_) {
+  other.is_exclusive_ = false;
+}
+
+OwnSoftness::OwnSoftness(OwnSoftness&& other) noexcept { *this = std::move(other); }
+
+OwnSoftness& OwnSoftness::operator=(const OwnSoftness& other) { return *this = OwnSoftness(other); }
+
+OwnSoftness& OwnSoftness::operator=(OwnSoftness&& other) noexcept {
+  group_of_ = std::move(other.group_of_);
+  groups_ = std::move(other.groups_);
+  count_ = std::exchange(other.count_, 0);
+  is_exclusive_ = other.is_exclusive_.exchange(false);
+  return *this;
+}
+
 /// Returns the groups of links, with room up to a link. Copies them if another object shares them.
 std::vector<std::uint32_t>& OwnSoftness::writable(LinkId last) {
   if (group_of_ == nullptr) {
     group_of_ = std::make_shared<std::vector<std::uint32_t>>();
-  } else if (group_of_.use_count() > 1) {
+  } else if (!is_exclusive_) {
     group_of_ = std::make_shared<std::vector<std::uint32_t>>(*group_of_);
   }
+  is_exclusive_ = true;
   auto& groups = const_cast<std::vector<std::uint32_t>&>(*group_of_);  // this object alone has it
   if (groups.size() <= last) {
     groups.resize(std::size_t{last} + 1);
@@ -50,13 +69,27 @@ void OwnSoftness::set(std::span<const LinkId> links, const LinkSoftness& softnes
     groups_[first - 1].softness = softness;
     return;
   }
-  if (groups_.empty() || groups_.back().softness != softness || (groups_.back().count > 0 && links.size() > 1)) {
-    groups_.push_back({softness, 0});
-  }
   auto& all = writable(*std::ranges::max_element(links));
+  const std::uint32_t group = group_for(softness, links.size());
   for (const LinkId link : links) {
-    put(all, link, static_cast<std::uint32_t>(groups_.size()));
+    put(all, link, group);
   }
+}
+
+/// Returns the number of a group for so many links: the last one if a single link continues it, one that is empty, or a
+/// new one.
+std::uint32_t OwnSoftness::group_for(const LinkSoftness& softness, std::size_t links) {
+  if (!groups_.empty() && groups_.back().softness == softness && links == 1) {
+    return static_cast<std::uint32_t>(groups_.size());
+  }
+  if (links > 1) {
+    if (const auto empty = std::ranges::find(groups_, LinkId{0}, &Group::count); empty != groups_.end()) {
+      empty->softness = softness;
+      return static_cast<std::uint32_t>(empty - groups_.begin()) + 1;
+    }
+  }
+  groups_.push_back({softness, 0});
+  return static_cast<std::uint32_t>(groups_.size());
 }
 
 void OwnSoftness::erase(std::span<const LinkId> links) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
@@ -35,6 +36,11 @@ class OwnSoftness {
   class Iterator;
 
   OwnSoftness() = default;
+  OwnSoftness(const OwnSoftness& other);
+  OwnSoftness(OwnSoftness&& other) noexcept;
+  OwnSoftness& operator=(const OwnSoftness& other);
+  OwnSoftness& operator=(OwnSoftness&& other) noexcept;
+  ~OwnSoftness() = default;
   OwnSoftness(std::initializer_list<Entry> entries);
   template <class First>
   OwnSoftness(First first, First last) {
@@ -76,18 +82,22 @@ class OwnSoftness {
     return group_of_ == nullptr || link >= group_of_->size() ? 0 : (*group_of_)[link];
   }
   std::vector<std::uint32_t>& writable(LinkId last);
+  std::uint32_t group_for(const LinkSoftness& softness, std::size_t links);
   void put(std::vector<std::uint32_t>& group_of, LinkId link, std::uint32_t group);
 
   /// Of each link up to the last one that has its own softness: its group, counted from 1; 0 if it has none.
   std::shared_ptr<const std::vector<std::uint32_t>> group_of_;
   std::vector<Group> groups_;
   std::size_t count_ = 0;
+  /// True while no other object has the array. It is not derived from the number of owners: another thread may have
+  /// just read the array before it dropped its share.
+  mutable std::atomic<bool> is_exclusive_ = false;
 };
 
 /// Goes through the links with their own softness, ascending.
 class OwnSoftness::Iterator {
  public:
-  using iterator_category = std::forward_iterator_tag;
+  using iterator_category = std::input_iterator_tag;
   using value_type = Entry;
   using difference_type = std::ptrdiff_t;
   using pointer = const Entry*;

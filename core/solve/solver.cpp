@@ -18,9 +18,9 @@ void Solver::set_algorithm(Algorithm algorithm) {
   if (algorithm == algorithm_.algorithm) {
     return;
   }
+  body_.store_displacements(info(algorithm).from_rest);
   algorithm_ = info(algorithm);
   method_.reset();
-  body_.store_displacements(algorithm_.from_rest);
 }
 
 Method& Solver::method() {

@@ -23,7 +23,8 @@ using Trace = std::vector<TraceRow>;
 struct PassCount {
   std::uint64_t checked = 0;
   std::uint64_t moved = 0;
-  bool stopped = false;      // Exact ChainMail: pins stopped the handle before its target
+  /// Exact ChainMail: pins, or in a rotation links outside the handle, stopped it before its target.
+  bool stopped = false;
   std::uint64_t visits = 0;  // Exact ChainMail: visits of elements, including those before pins stopped the handle
 };
 

@@ -1,5 +1,5 @@
 // Prints the time of a move of a handle of many elements, for every algorithm: bench_handles [FILTER]. The filter is a
-// part of SCENE/ALGORITHM. The handle moves on a circle of eight moves, then rotates to and fro by two degrees.
+// part of SCENE/ALGORITHM. The handle moves on a circle of eight moves, then rotates back and forth by two degrees.
 
 #include <algorithm>
 #include <chrono>

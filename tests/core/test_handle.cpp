@@ -98,6 +98,8 @@ class HandleTest : public QObject {
   void a_bad_handle_is_refused();
   void a_released_handle_may_deform();
   void a_rotated_handle_violates_its_own_links();
+  void handles_in_turns_reach_their_targets();
+  void a_rotation_that_does_not_converge_keeps_its_pose();
 };
 
 void HandleTest::a_rotation_is_that_of_a_matrix() {
@@ -451,7 +453,7 @@ void HandleTest::any_motion_stays_finite() {
 void HandleTest::a_bad_handle_is_refused_data() {
   QTest::addColumn<std::vector<ElementId>>("elements");
   QTest::addColumn<QString>("sentence");
-  QTest::newRow("none") << std::vector<ElementId>{} << "handle: it holds no element; grab at least one";
+  QTest::newRow("none") << std::vector<ElementId>{} << "handle: it has no elements; grab at least one element";
   QTest::newRow("unknown") << std::vector<ElementId>{3, 25}
                            << "element 25: there is no such element; use an id below 25";
   QTest::newRow("twice") << std::vector<ElementId>{4, 7, 4}
@@ -516,6 +518,45 @@ void HandleTest::a_rotated_handle_violates_its_own_links() {
   simulation.refresh_statistics(true);
   QVERIFY(std::abs(simulation.statistics().violation.max - (std::sin(15 * std::numbers::pi / 180) - 0.1)) < 1e-12);
   QCOMPARE(simulation.statistics().violation.fraction, 1.0 / 144);
+}
+
+/// Two handles in turns, with relaxation between them: each finds its elements where the other one or relaxation left
+/// them, and still brings its middle to the target.
+void HandleTest::handles_in_turns_reach_their_targets() {
+  const auto mesh = make_mesh(MeshKind::grid, {11, 11, 1});
+  for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
+    for (const Precision precision : precisions) {
+      Solver solver(mesh, one.algorithm, precision);
+      std::array<Handle, 2> handles{Handle(solver.body(), {13, 14, 24, 25}), Handle(solver.body(), {72, 73, 83, 94})};
+      for (int i = 0; i < 12; ++i) {
+        Handle& handle = handles[std::size_t(i % 2)];
+        const Point by(i % 3 - 1, i % 2 == 0 ? 0 : 0.5, 0);
+        solver.move(handle, {handle.grabbed().pivot + by, Point::Zero()});
+        Point middle = Point::Zero();
+        for (const ElementId element : handle.elements()) {
+          middle += position_of(solver, *mesh, element) / 4;
+        }
+        QVERIFY((middle - handle.grabbed().pivot - by).norm() < 256 * half_ulp(precision) * 20);
+        if (one.holds_links) {
+          QVERIFY(largest_violation_outside(solver, {handle.elements().begin(), handle.elements().end()}) <
+                  counts_as_violated);
+        }
+        solver.wake_all();
+        (void)solver.relax(0.7, 1'000'000, {});
+      }
+    }
+  }
+}
+
+/// After a rotation that fails on its way, the handle is where the last step that converged left it.
+void HandleTest::a_rotation_that_does_not_converge_keeps_its_pose() {
+  const auto mesh = make_mesh(MeshKind::tetra, {4, 4, 4});
+  Solver solver(mesh, Algorithm::neo_hookean, Precision::double_precision);
+  solver.body().pin(layer(*mesh, *find_side("bottom")));
+  Handle handle(solver.body(), layer(*mesh, *find_side("top")));
+  solver.move(handle, {handle.grabbed().pivot, Rotation{Point(0, 1, 0), 2000}.vector()});
+  QVERIFY(!solver.remark().empty());
+  QVERIFY(handle.pose().rotation.norm() < 2000 * std::numbers::pi / 180);
 }
 
 QTEST_APPLESS_MAIN(HandleTest)

@@ -137,7 +137,7 @@ void ElementMove::adapt() {
                                        : QStringLiteral("Target position on this axis (mesh units)"));
   }
   showHow();
-  how_->setToolTip(hasMany() ? QStringLiteral("Several elements move by a distance")
+  how_->setToolTip(hasMany() ? QStringLiteral("Many elements move only by a distance")
                              : QStringLiteral("Moves to a position, or by a distance from the position in panel A"));
   adaptRotation();
   adaptButton();

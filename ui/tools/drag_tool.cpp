@@ -37,14 +37,14 @@ Point axisToEye(const View& view, const Mesh& mesh) {
 QString DragTool::hint() const {
   if (brush_.radius() > 0) {
     return QStringLiteral(
-               "Radius %1 px · %2  ·  Left: drag them as one body  ·  Shift: rotate  ·  R + wheel: radius  ·  "
+               "Radius %1 px · %2  ·  Left: drag these elements as one body  ·  Shift: rotate  ·  R + wheel: radius  · "
+               " "
                "Esc: one element")
         .arg(brush_.radius())
         .arg(counted(brush_.reached(), QStringLiteral("element")));
   }
   return QStringLiteral(
-      "Left: drag an element or the selection  ·  Shift: rotate the selection  ·  R + wheel: grab many  ·  Right: "
-      "orbit "
+      "Left: drag an element or the selection  ·  Shift: rotate the selection  ·  R + wheel: brush  ·  Right: orbit "
       "(3D)  ·  Middle: pan  ·  Wheel: zoom  ·  F: fit");
 }
 
@@ -124,7 +124,7 @@ bool DragTool::wheel(View& view, QPointF position, double notches) {
   return true;
 }
 
-// Press: what the handle holds
+// Press: the elements of the handle
 
 bool DragTool::pressOnPoint(View& view, QPointF position) {
   point_ = controlPoints_.at(view, position);

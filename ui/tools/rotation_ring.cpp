@@ -14,6 +14,8 @@
 namespace chainmail {
 namespace {
 
+// Number of elements of a large selection that decide the size of the ring.
+constexpr std::size_t mostMeasured = 20'000;
 constexpr double smallestRing = 40, ringMargin = 16;  // pixels, radius and distance from the elements
 constexpr double largestRingShare = 0.45;             // of the smaller side of the view
 constexpr double ringReach = 6;                       // pixels, distance at which the cursor finds the ring
@@ -77,8 +79,9 @@ std::optional<RotationRing::Circle> RotationRing::circle(const View& view) const
   Circle circle;
   circle.pivot = middleIn(document_, view.panel(), elements);
   double reach = 0;  // mesh units
-  for (const ElementId element : elements) {
-    reach = std::max(reach, (view.position(element) - circle.pivot).norm());
+  const std::size_t stride = std::max<std::size_t>(1, elements.size() / mostMeasured);
+  for (std::size_t i = 0; i < elements.size(); i += stride) {
+    reach = std::max(reach, (view.position(elements[i]) - circle.pivot).norm());
   }
   const QVector3D across =
       view.pointAt({measuredPixels, 0}, circle.pivot) - view.pointAt({0, 0}, circle.pivot);  // parallel to the view

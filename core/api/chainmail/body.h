@@ -56,11 +56,11 @@ class Body {
  public:
   /// Makes an object at rest, without cuts and pins, with the default softness and that of the file (see read_mesh()).
   explicit Body(const Mesh& mesh, Precision precision = Precision::double_precision);
-  /// Copies the state.
+  /// Copies the state. Elements that cuts or unpinned elements woke for relaxation are not part of it.
   Body(const Body& other);
   /// Moves the state; `other` may then only be assigned to or destroyed.
   Body(Body&& other) noexcept;
-  /// Copies the state.
+  /// Copies the state. Elements that cuts or unpinned elements woke for relaxation are not part of it.
   Body& operator=(const Body& other);
   /// Moves the state; `other` may then only be assigned to or destroyed.
   Body& operator=(Body&& other) noexcept;

@@ -18,7 +18,7 @@ namespace chainmail::api {
 struct MoveResult {
   std::uint64_t checked = 0;  ///< Number of candidates that the method processed.
   std::uint64_t moved = 0;    ///< Number of elements that moved, without the handle.
-  bool stopped = false;       ///< True if pins stopped the handle before its target (Exact ChainMail).
+  bool stopped = false;       ///< True if the handle stopped before its target (see remark and Exact ChainMail).
   Pose reached = {};          ///< Where the handle is now.
   std::string remark = {};    ///< Reason why the move did not end as requested. Usually empty.
 };
@@ -39,7 +39,7 @@ struct RelaxOptions {
 };
 
 /// Deforms one object with one method: it owns a Body and what the method keeps between moves. After the first moves,
-/// a move of a built-in method allocates no memory. One thread at a time may use it.
+/// a translation allocates no memory, except with neo-Hookean FEM or while tracing. One thread at a time may use it.
 class Deformer {
  public:
   /// Takes an object over. Throws Error if there is no such method, or if it does not work on the mesh.

@@ -40,8 +40,8 @@ struct Motion {
 };
 
 /// What is grabbed: one element, or many that move together as one rigid body. The pivot is the mean of the positions
-/// at which they were grabbed. After positions were set, restored or reset, grab anew: a handle moves its elements from
-/// where they were grabbed.
+/// at which they were grabbed. After positions were set, restored or reset, grab again: a handle moves its elements
+/// from where they were grabbed.
 class Handle {
  public:
   /// Grabs elements at their current positions; nothing moves. Throws Error if there is none, or if one does not exist,

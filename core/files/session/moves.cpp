@@ -30,7 +30,7 @@ class MoveFields : public JsonFields {
   /// Return the only member of a command besides `do`.
   std::vector<LinkId> links(const MoveMembers& command) const;
   std::vector<ElementId> elements(const MoveMembers& command, const std::string& key = "elements") const;
-  /// Returns a position or a way of three coordinates (mesh units), and a rotation.
+  /// Returns a position, a displacement or an axis: three coordinates.
   Point coordinates(const Json& members, const std::string& key) const;
   Rotation rotation(const Json& members) const;
   const NumberList& list(const MoveMembers& command, const std::string& key) const;
@@ -164,7 +164,7 @@ Command MovesReader::grab(const Members& of) {
     }
   }
   if (grabbed.empty()) {
-    fields_.fail("the handle holds no element", "grab at least one");
+    fields_.fail("the handle has no elements", "grab at least one element");
   }
   grabbed_ = std::move(grabbed);
   return commands::Grab{elements};

@@ -10,8 +10,9 @@ RecordedMoves with_preparing_move(const Mesh& mesh, RecordedMoves moves) {
       moves.commands, [](const Command& command) { return std::holds_alternative<commands::Grab>(command); });
   if (grab != moves.commands.end()) {
     const auto& handle = std::get<commands::Grab>(*grab).elements;
-    const auto nowhere = commands::Drag{Point::Zero(), {}, true};
-    moves.commands.insert(grab + 1, handle.size() == 1 ? commands::Drag{mesh.rest_position(handle.front())} : nowhere);
+    const auto no_motion = commands::Drag{Point::Zero(), {}, true};
+    moves.commands.insert(grab + 1,
+                          handle.size() == 1 ? commands::Drag{mesh.rest_position(handle.front())} : no_motion);
   }
   return moves;
 }

@@ -47,9 +47,14 @@ ReferenceSolver reference_of(const Case& object, const std::vector<LinkId>& cut)
 ReferenceSolution reference_at_end(ReferenceSolver& solver, const RecordedMoves& moves) {
   Point target = Point::Zero();
   for (const Command& command : moves.commands) {
-    if (const auto* drag = std::get_if<commands::Drag>(&command)) {
-      target = drag->target;
+    const auto* grab = std::get_if<commands::Grab>(&command);
+    const auto* drag = std::get_if<commands::Drag>(&command);
+    if ((drag != nullptr && (drag->relative || drag->rotation.degrees != 0)) ||
+        (grab != nullptr && grab->elements.size() != 1)) {
+      throw Error(moves.name, "it moves many elements, or by a distance",
+                  "compare with physics on drags of one element to a position");
     }
+    target = drag != nullptr ? drag->target : target;
   }
   return solver.at(handle_of(moves), target);
 }

@@ -25,8 +25,7 @@ PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method) {
     factorize_.push_back(1e3 * seconds_of(clocks, [&] { solver = make_elastic(method, problem); }));
     for (const ElementId handle : handles) {
       try {
-        const double seconds =
-            seconds_of(clocks, [&] { solver->hold(ElasticHandle::of(handle)); });
+        const double seconds = seconds_of(clocks, [&] { solver->hold(ElasticHandle::of(handle)); });
         grab_[handle].push_back(1e3 * seconds);
       } catch (const Error&) {
         grab_.erase(handle);  // the drag itself reports the reason
