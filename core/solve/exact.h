@@ -71,7 +71,7 @@ class ExactPropagation {
     if (!handle.has_one()) {
       shape_.begin(body, handle);
       offsets_ = shape_.offsets(rotation_ = handle.pose().rotation);
-      at_ = shape_.at(handle.pose());
+      std::fill_n(at_.at, Dimension, Scalar{0});
     }
     regions_.begin(body, handle.elements(), offsets_);
     made_for_ = conditions;

@@ -131,8 +131,8 @@ void DeformModelTest::what_does_not_fit_is_refused_data() {
     row(act, act);
   }
   row("--pin", "--pin");
-  row("--pin 2 --by 2:1", "--by 2:1: element 2 is pinned");
-  row("--pin 2 --cut 0-1 --move 0:1 --move 2:2", "--move 2:2: element 2 is pinned");
+  row("--pin 2 --by 2:1", "--by 2:1: element 2 is already pinned");
+  row("--pin 2 --cut 0-1 --move 0:1 --move 2:2", "--move 2:2: element 2 is already pinned");
   row("--relaxation links", "--relaxation: 'links'");
   row("--softness none.csv", "none.csv: there is no such file");
   row("--softness bad.csv", "bad.csv:2: ");

@@ -687,7 +687,7 @@ void ApiTest::bad_moves_change_nothing() {
   refused([&] { deformer.move(0, {no_number, 0, 0}); }, "not a finite number");
   refused([&] { deformer.move(0, {1e38, 0, 0}); }, "out of the range of the precision");
   refused([&] { deformer.move(0, {0, 0, 1}); }, "does not extend along z");
-  refused([&] { deformer.grab({}); }, "it holds no element");
+  refused([&] { deformer.grab({}); }, "it has no elements");
   refused([&] { deformer.grab({0, 0}); }, "grabbed twice");
   refused([&] { deformer.grab({16}); }, "element 16");
   refused([&] { deformer.grab({15}); }, "pinned");
@@ -921,7 +921,7 @@ void ApiTest::bad_comparisons_are_refused() {
   refused({drag}, {.repetitions = 0}, "repetitions");
   refused({drag}, {.seconds = no_number}, "seconds");
   refused({{"empty", {0}, {}}}, {}, "its path is empty");
-  refused({{"none", {}, {{{1, 0, 0}, {}}}}}, {}, "it holds no element");
+  refused({{"none", {}, {{{1, 0, 0}, {}}}}}, {}, "it has no elements");
   refused({{"far", {99}, {{{1, 0, 0}, {}}}}}, {}, "element 99");
   refused({{"pinned", {15}, {{{1, 0, 0}, {}}}}}, {}, "pinned");
   refused({{"nan", {0}, {{{no_number, 0, 0}, {}}}}}, {}, "not a finite number");
