@@ -48,9 +48,9 @@ class ElasticDeformation final : public Method {
 };
 
 /// Makes the method of an entry of the algorithm table.
-template <ElasticMethod method>
+template <ElasticMethod Which>
 std::unique_ptr<Method> make_elastic_method(Precision /*precision*/, int /*dimension*/) {
-  return std::make_unique<ElasticDeformation>(method);
+  return std::make_unique<ElasticDeformation>(Which);
 }
 
 }  // namespace chainmail

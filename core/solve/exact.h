@@ -259,12 +259,12 @@ class ExactPropagation {
     return binding;
   }
 
+  Offset at_{};  // of a handle of many: its displacement after the last pass
   HandleRegions<Scalar, Dimension, Schedule> regions_;
   Conditions made_for_;
   RigidHandle<Scalar, Dimension> shape_;  // of a handle of many; the members below too
   std::vector<Offset> offsets_;           // for rotation_; empty for a handle of one
   Point rotation_ = Point::Zero();
-  Offset at_{};  // displacement of the handle after the last pass
   std::string remark_;
   std::uint64_t visits_ = 0;  // in this pass
   int idle_passes_ = 0;       // passes in a row that moved few of the known elements

@@ -97,11 +97,11 @@ class OwnSoftness {
 /// Goes through the links with their own softness, ascending.
 class OwnSoftness::Iterator {
  public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = Entry;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const Entry*;
-  using reference = const Entry&;
+  using iterator_category = std::input_iterator_tag;  // NOLINT(readability-identifier-naming)
+  using value_type = Entry;                           // NOLINT(readability-identifier-naming)
+  using difference_type = std::ptrdiff_t;             // NOLINT(readability-identifier-naming)
+  using pointer = const Entry*;                       // NOLINT(readability-identifier-naming)
+  using reference = const Entry&;                     // NOLINT(readability-identifier-naming)
 
   Iterator() = default;
   Iterator(const OwnSoftness& own, LinkId link) : own_(&own), entry_(link, {}) { settle(); }

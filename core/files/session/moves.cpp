@@ -92,7 +92,7 @@ Rotation MoveFields::rotation(const Json& members) const {
     fail("'rotate' is not an object", "write {\"axis\": [x, y, z], \"degrees\": angle}");
   }
   check_keys(rotate, {"axis", "degrees"});
-  const Rotation rotation{coordinates(rotate, "axis"), number(member(rotate, "degrees"))};
+  Rotation rotation{coordinates(rotate, "axis"), number(member(rotate, "degrees"))};
   if (rotation.axis.isZero(0)) {
     fail("the rotation has no axis: all its coordinates are 0", "write an axis such as [0, 0, 1]");
   }
