@@ -268,16 +268,19 @@ class WindowDocks : public QObject {
     for (int i = 0; i < 12; ++i) {
       there << from + QPoint(i % 2 == 0 ? 120 : 0, -60);
     }
+    const std::array names{"painted0", "painted1", "passes0", "passes1", "median0", "median1", "worst0", "worst1"};
     const auto shown = [&] {
       return std::ranges::all_of(
-          std::array{"painted0", "painted1", "passes0", "passes1", "median0", "median1", "worst0", "worst1"},
-          [&](const char* name) { return QLocale().toDouble(bench.find<QLabel>(name)->text()) > 0; });
+          names, [&](const char* name) { return QLocale().toDouble(bench.find<QLabel>(name)->text()) > 0; });
     };
     for (const QDeadlineTimer limit(20'000); !shown() && !limit.hasExpired();) {
       bench.stroke(0, there);
       QCoreApplication::processEvents();
     }
-    QVERIFY(shown());
+    QStringList texts;
+    std::ranges::transform(names, std::back_inserter(texts),
+                           [&](const char* name) { return bench.find<QLabel>(name)->text(); });
+    QVERIFY2(shown(), qPrintable(texts.join(QStringLiteral(", "))));
     // Nothing is painted while nothing moves.
     QTRY_COMPARE(bench.find<QLabel>("painted0")->text(), QStringLiteral("idle"));
     QTRY_COMPARE(bench.find<QLabel>("painted1")->text(), QStringLiteral("idle"));
