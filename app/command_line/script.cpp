@@ -73,11 +73,9 @@ std::vector<ElementId> elements_of(const Act& act, const Mesh& mesh) {
 
 void check_axes(const Act& act, const Mesh& mesh) {
   for (int k = 0; k < static_cast<int>(act.coordinates.size()); ++k) {
-    const bool carried = std::find(mesh.axes.begin(), mesh.axes.begin() + mesh.space_dimension, k) !=
-                         mesh.axes.begin() + mesh.space_dimension;
     const double coordinate = act.coordinates[k];
     const bool stays = coordinate == 0 || (act.kind == Act::Kind::move && coordinate == mesh.origin[k]);
-    if (!carried && !stays) {
+    if (!mesh.has_axis(k) && !stays) {
       const std::string axis(1, "xyz"[k]);
       throw Error(act.where, "the object does not extend along " + axis,
                   "write 0 for " + axis + ", or use more dimensions with --space");
@@ -139,10 +137,10 @@ Rotation parse_rotation(const std::string& where, std::string_view text) {
     rotation.axis[int(k)] = 1;
     return rotation;
   }
-  const std::vector<double> coordinates = parse_coordinates(where, axis);
-  if (coordinates.size() != 3) {
+  if (std::ranges::count(axis, ',') != 2) {
     throw Error(where, in_quotes(axis) + " is not an axis", "use x, y, z, or three coordinates");
   }
+  const std::vector<double> coordinates = parse_coordinates(where, axis);
   std::ranges::copy(coordinates, rotation.axis.begin());
   if (rotation.axis.isZero(0)) {
     throw Error(where, "the rotation has no axis: all its coordinates are 0", "use x, y, z, or other coordinates");
@@ -154,17 +152,76 @@ bool is_move(const Act& act) {
   return act.kind == Act::Kind::move || act.kind == Act::Kind::by || act.kind == Act::Kind::rotate;
 }
 
-/// Throws Error if an element is grabbed twice, or if check_free(act, element) throws.
-template <class CheckFree>
-void check_grab(const Act& act, const Mesh& mesh, CheckFree check_free) {
-  std::set<ElementId> grabbed;
-  for (const ElementId element : elements_of(act, mesh)) {
-    check_free(act, element);
-    if (!grabbed.insert(element).second) {
-      throw Error(act.where, "element " + std::to_string(element) + " is named twice", "name each element once");
+/// Checks acts one after another, with what the acts before have pinned and grabbed.
+class ActsCheck {
+ public:
+  explicit ActsCheck(const Mesh& mesh) : mesh_(mesh) {}
+
+  void check(const std::vector<Act>& acts) {
+    for (const Act& act : acts) {
+      check_element(act, act.element, mesh_);
+      if (act.of_handle && !is_grabbed_) {
+        throw Error(
+            act.where,
+            "no handle is grabbed at this action: every action except --by without an id and --rotate releases it",
+            "put --grab IDS directly before it, or write --by ID:DX,DY,DZ");
+      }
+      is_grabbed_ = act.kind == Act::Kind::grab || act.of_handle;
+      check_one(act);
     }
   }
-}
+
+ private:
+  void check_one(const Act& act) {
+    switch (act.kind) {
+      case Act::Kind::cut:
+        return check_link(act, mesh_);
+      case Act::Kind::pin:
+        return pinned_.merge(as_set(elements_of(act, mesh_)));
+      case Act::Kind::grab:
+        return check_grab(act);
+      case Act::Kind::rotate:
+        return check_rotation(act);
+      case Act::Kind::move:
+      case Act::Kind::by:
+        check_axes(act, mesh_);
+        return act.of_handle ? void() : check_free(act, act.element);
+    }
+  }
+
+  static std::set<ElementId> as_set(const std::vector<ElementId>& elements) {
+    return {elements.begin(), elements.end()};
+  }
+
+  void check_free(const Act& act, ElementId element) const {
+    if (pinned_.contains(element)) {
+      throw Error(act.where, "element " + std::to_string(element) + " is already pinned and cannot move",
+                  "move another element, or pin it later");
+    }
+  }
+
+  void check_grab(const Act& act) const {
+    std::set<ElementId> grabbed;
+    for (const ElementId element : elements_of(act, mesh_)) {
+      check_free(act, element);
+      if (!grabbed.insert(element).second) {
+        throw Error(act.where, "element " + std::to_string(element) + " is named twice", "name each element once");
+      }
+    }
+  }
+
+  void check_rotation(const Act& act) const {
+    try {
+      chainmail::check(act.rotation, mesh_);
+    } catch (const Error& error) {
+      throw error.at(act.where);
+    }
+  }
+
+  const Mesh& mesh_;
+  std::set<ElementId> pinned_;
+  bool is_grabbed_ = false;
+};
 
 class Runner {
  public:
@@ -323,53 +380,7 @@ Act parse_act(Act::Kind kind, const std::string& option, const std::string& text
   return act;
 }
 
-void check_acts(const std::vector<Act>& acts, const Mesh& mesh) {
-  std::set<ElementId> pinned;
-  bool is_grabbed = false;
-  const auto check_free = [&](const Act& act, ElementId element) {
-    if (pinned.contains(element)) {
-      throw Error(act.where, "element " + std::to_string(element) + " is already pinned and cannot move",
-                  "move another element, or pin it later");
-    }
-  };
-  for (const Act& act : acts) {
-    check_element(act, act.element, mesh);
-    if (act.of_handle && !is_grabbed) {
-      throw Error(
-          act.where,
-          "no handle is grabbed at this action: every action except --by without an id and --rotate releases it",
-          "put --grab IDS directly before it, or write --by ID:DX,DY,DZ");
-    }
-    is_grabbed = act.kind == Act::Kind::grab || act.of_handle;
-    switch (act.kind) {
-      case Act::Kind::cut:
-        check_link(act, mesh);
-        break;
-      case Act::Kind::pin:
-        for (const ElementId pin : elements_of(act, mesh)) {
-          pinned.insert(pin);
-        }
-        break;
-      case Act::Kind::grab:
-        check_grab(act, mesh, check_free);
-        break;
-      case Act::Kind::rotate:
-        try {
-          check(act.rotation, mesh);
-        } catch (const Error& error) {
-          throw error.at(act.where);
-        }
-        break;
-      case Act::Kind::move:
-      case Act::Kind::by:
-        check_axes(act, mesh);
-        if (!act.of_handle) {
-          check_free(act, act.element);
-        }
-        break;
-    }
-  }
-}
+void check_acts(const std::vector<Act>& acts, const Mesh& mesh) { ActsCheck(mesh).check(acts); }
 
 Run carry_out(Simulation& simulation, const std::vector<chainmail::Command>& moves, const std::vector<Act>& acts,
               const Schedule& schedule) {

@@ -8,11 +8,6 @@
 namespace chainmail::api {
 namespace {
 
-bool exists(const inner::Mesh& mesh, int axis) {
-  const auto axes = std::span(mesh.axes).first(static_cast<std::size_t>(mesh.space_dimension));
-  return std::ranges::find(axes, axis) != axes.end();
-}
-
 [[noreturn]] void refuse_axis(const std::string& where, int axis) {
   const std::string name(1, "xyz"[axis]);
   throw Error(where, "the object does not extend along " + name,
@@ -34,24 +29,16 @@ bool Job::is_cancelled() const { return inside_->state.cancelled; }
 
 std::string_view version() { return CHAINMAIL_VERSION; }
 
-void check_element(const inner::Mesh& mesh, ElementId element) {
-  if (element >= mesh.element_count()) {
-    throw Error("element " + std::to_string(element), "there is no such element",
-                "use an id below " + std::to_string(mesh.element_count()));
-  }
+void check_id(const inner::Mesh& mesh, ElementId element) {
+  guarded([&] { inner::check_element(mesh, element); });
 }
 
-void check_elements(const inner::Mesh& mesh, std::span<const ElementId> elements) {
-  std::ranges::for_each(elements, [&](ElementId element) { check_element(mesh, element); });
+void check_ids(const inner::Mesh& mesh, std::span<const ElementId> elements) {
+  std::ranges::for_each(elements, [&](ElementId element) { check_id(mesh, element); });
 }
 
-void check_links(const inner::Mesh& mesh, std::span<const LinkId> links) {
-  for (const LinkId link : links) {
-    if (link >= mesh.link_count()) {
-      throw Error("link " + std::to_string(link), "there is no such link",
-                  "use a number below " + std::to_string(mesh.link_count()));
-    }
-  }
+void check_link_ids(const inner::Mesh& mesh, std::span<const LinkId> links) {
+  guarded([&] { inner::check_links(mesh, links); });
 }
 
 void check_coordinates(const inner::Mesh& mesh, const std::string& where, const Vector3& vector, bool is_displacement) {
@@ -61,7 +48,7 @@ void check_coordinates(const inner::Mesh& mesh, const std::string& where, const 
   }
   for (int k = 0; k < 3; ++k) {
     const bool stays = point[k] == 0 || (!is_displacement && point[k] == mesh.origin[k]);
-    if (!stays && !exists(mesh, k)) {
+    if (!stays && !mesh.has_axis(k)) {
       refuse_axis(where, k);
     }
   }
@@ -104,7 +91,7 @@ std::vector<double> carried_of(const inner::Mesh& mesh, std::span<const double> 
     if (!(std::abs(positions[i]) <= limit)) {
       throw Error(where, "a coordinate is not finite or out of the range of the precision", "give smaller numbers");
     }
-    if (exists(mesh, k)) {
+    if (mesh.has_axis(k)) {
       carried.push_back(positions[i]);
     } else if (positions[i] != mesh.origin[k]) {
       refuse_axis(where, k);

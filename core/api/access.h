@@ -115,9 +115,9 @@ inline inner::LinkSoftness softness_of(const LinkSoftness& softness) {
 inline inner::Rotation rotation_of(const Rotation& rotation) { return {point_of(rotation.axis), rotation.degrees}; }
 
 // These functions throw Error about an argument.
-void check_element(const inner::Mesh& mesh, ElementId element);
-void check_elements(const inner::Mesh& mesh, std::span<const ElementId> elements);
-void check_links(const inner::Mesh& mesh, std::span<const LinkId> links);
+void check_id(const inner::Mesh& mesh, ElementId element);
+void check_ids(const inner::Mesh& mesh, std::span<const ElementId> elements);
+void check_link_ids(const inner::Mesh& mesh, std::span<const LinkId> links);
 /// On axes that do not exist, a coordinate must be 0 or, unless it is a displacement, that of the object.
 void check_coordinates(const inner::Mesh& mesh, const std::string& where, const Vector3& vector, bool is_displacement);
 /// Returns the algorithm with this name; names all of them otherwise.

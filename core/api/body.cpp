@@ -48,7 +48,7 @@ std::unique_ptr<Solver> copy_of(Solver& solver) {
 }
 
 std::vector<LinkId> unique_links(const inner::Mesh& mesh, std::vector<LinkId> links) {
-  check_links(mesh, links);
+  check_link_ids(mesh, links);
   std::ranges::sort(links);
   links.erase(std::unique(links.begin(), links.end()), links.end());
   return links;
@@ -92,7 +92,7 @@ Precision Body::precision() const {
 
 Vector3 Body::position(ElementId element) const {
   const inner::Body& body = inside_->body();
-  check_element(body.mesh(), element);
+  check_id(body.mesh(), element);
   return vector_of(inner::point_of(body.mesh(), body.positions(), element));
 }
 
@@ -140,7 +140,7 @@ void Body::restore(const Snapshot& snapshot) {
 
 void Body::cut(const std::vector<LinkId>& links) {
   inner::Body& body = inside_->body();
-  check_links(body.mesh(), links);
+  check_link_ids(body.mesh(), links);
   body.cut(links);
   for (const LinkId link : links) {
     inside_->solver->wake(body.mesh().links[link]);
@@ -158,7 +158,7 @@ void Body::cut(ElementId a, ElementId b) {
 
 void Body::uncut(const std::vector<LinkId>& links) {
   inner::Body& body = inside_->body();
-  check_links(body.mesh(), links);
+  check_link_ids(body.mesh(), links);
   body.uncut(links);
   for (const LinkId link : links) {
     inside_->solver->wake(body.mesh().links[link]);
@@ -168,17 +168,17 @@ void Body::uncut(const std::vector<LinkId>& links) {
 std::vector<LinkId> Body::cuts() const { return inside_->body().cuts().links(); }
 
 bool Body::is_cut(LinkId link) const {
-  check_links(inside_->body().mesh(), std::span(&link, 1));
+  check_link_ids(inside_->body().mesh(), std::span(&link, 1));
   return inside_->body().cuts().is_cut(link);
 }
 
 void Body::pin(const std::vector<ElementId>& elements) {
-  check_elements(inside_->body().mesh(), elements);
+  check_ids(inside_->body().mesh(), elements);
   inside_->body().pin(elements);
 }
 
 void Body::unpin(const std::vector<ElementId>& elements) {
-  check_elements(inside_->body().mesh(), elements);
+  check_ids(inside_->body().mesh(), elements);
   inside_->body().unpin(elements);
   inside_->solver->wake(elements);
 }
@@ -186,7 +186,7 @@ void Body::unpin(const std::vector<ElementId>& elements) {
 std::span<const ElementId> Body::pins() const { return inside_->body().pins(); }
 
 bool Body::is_pinned(ElementId element) const {
-  check_element(inside_->body().mesh(), element);
+  check_id(inside_->body().mesh(), element);
   return inside_->body().is_pinned(element);
 }
 
@@ -215,7 +215,7 @@ LinkSoftness Body::softness() const {
 }
 
 LinkSoftness Body::softness(LinkId link) const {
-  check_links(inside_->body().mesh(), std::span(&link, 1));
+  check_link_ids(inside_->body().mesh(), std::span(&link, 1));
   const auto& [compression, stretch, shear] = inside_->body().softness().of(link);
   return {compression, stretch, shear};
 }

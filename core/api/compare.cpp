@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <sstream>
 #include <variant>
 
@@ -32,17 +31,9 @@ struct Comparison::Inside {
 
 namespace {
 
-std::string date_in_words() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &parts);
-  return text;
-}
-
 report::Origin this_origin() {
-  return {report::this_machine(), "chainmail::api::compare", date_in_words(), "chainmail " + std::string(version())};
+  return {report::this_machine(), "chainmail::api::compare", report::now_in_words(),
+          "chainmail " + std::string(version())};
 }
 
 report::CompareOptions contest_of(const CompareOptions& options) {

@@ -105,7 +105,7 @@ MoveResult Deformer::move(Handle& handle, const Pose& target) {
 
 MoveResult Deformer::move(ElementId element, const Vector3& target) {
   auto& body = Access::inside(inside_->body);
-  check_element(body.body().mesh(), element);
+  check_id(body.body().mesh(), element);
   check_coordinates(body.body().mesh(), "target", target, false);
   MoveResult result = inside_->run([&](Trace* trace) { return body.solver->move(element, point_of(target), trace); });
   body.handle.assign(1, element);

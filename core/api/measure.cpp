@@ -12,19 +12,6 @@ namespace {
 
 PhysicalError error_of(const inner::PhysicalError& error) { return {error.relative, error.rms, error.max}; }
 
-/// Returns the displacements of elements from rest, on the axes that exist (mesh units).
-std::vector<double> displacements_of(const inner::Body& body, std::span<const ElementId> elements) {
-  const PositionView positions = body.positions();
-  const auto dimension = static_cast<std::size_t>(body.mesh().space_dimension);
-  std::vector<double> displacements;
-  for (const ElementId element : elements) {
-    for (std::size_t k = 0; k < dimension; ++k) {
-      displacements.push_back(positions(element, int(k)) - body.mesh().rest[dimension * element + k]);
-    }
-  }
-  return displacements;
-}
-
 }  // namespace
 
 Violation violation(const Body& body) {
@@ -35,7 +22,7 @@ Violation violation(const Body& body) {
 
 double violation(const Body& body, LinkId link) {
   const inner::Body& inside = Access::body(body);
-  check_links(inside.mesh(), std::span(&link, 1));
+  check_link_ids(inside.mesh(), std::span(&link, 1));
   return link_violation(inside.mesh(), inside.softness(), inside.positions(), link);
 }
 
@@ -84,7 +71,7 @@ ReferenceSolution reference_solution(const Body& body, const std::vector<Element
   return guarded([&] {
     const inner::Body& inside = Access::body(body);
     const inner::Handle grabbed(inside, handle);  // checks the elements
-    const std::vector<double> displacements = displacements_of(inside, grabbed.elements());
+    const std::vector<double> displacements = displacements_of(inside.mesh(), inside.positions(), grabbed.elements());
     if (std::ranges::all_of(displacements, [](double one) { return one == 0; })) {
       throw inner::Error("handle", "it is at rest, so there is nothing to compare with", "move it first");
     }
@@ -96,7 +83,7 @@ ReferenceSolution reference_solution(const Body& body, const std::vector<Element
     ReferenceSolver solver({inside.mesh_pointer(),
                             inside.cuts(),
                             {pins.begin(), pins.end()},
-                            displacements_of(inside, pins),
+                            displacements_of(inside.mesh(), inside.positions(), pins),
                             inside.elastic()},
                            progress.part(0, 0.3));
     const std::vector<ElementId> elements(grabbed.elements().begin(), grabbed.elements().end());

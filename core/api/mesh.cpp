@@ -95,23 +95,23 @@ ElementId Mesh::element_count() const { return inside_->mesh->element_count(); }
 LinkId Mesh::link_count() const { return inside_->mesh->link_count(); }
 
 std::span<const ElementId> Mesh::neighbours(ElementId element) const {
-  check_element(*inside_->mesh, element);
+  check_id(*inside_->mesh, element);
   return inside_->mesh->neighbours_of(element);
 }
 
 std::array<ElementId, 2> Mesh::link(LinkId link) const {
-  check_links(*inside_->mesh, std::span(&link, 1));
+  check_link_ids(*inside_->mesh, std::span(&link, 1));
   return inside_->mesh->links[link];
 }
 
 std::optional<LinkId> Mesh::find_link(ElementId a, ElementId b) const {
-  check_element(*inside_->mesh, a);
-  check_element(*inside_->mesh, b);
+  check_id(*inside_->mesh, a);
+  check_id(*inside_->mesh, b);
   return inner::find_link(*inside_->mesh, a, b);
 }
 
 Vector3 Mesh::rest_position(ElementId element) const {
-  check_element(*inside_->mesh, element);
+  check_id(*inside_->mesh, element);
   return vector_of(inside_->mesh->rest_position(element));
 }
 
@@ -126,7 +126,7 @@ std::vector<double> Mesh::rest_positions() const {
 }
 
 double Mesh::rest_length(LinkId link) const {
-  check_links(*inside_->mesh, std::span(&link, 1));
+  check_link_ids(*inside_->mesh, std::span(&link, 1));
   return inner::rest_length(*inside_->mesh, link);
 }
 

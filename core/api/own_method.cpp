@@ -92,7 +92,7 @@ void MovingBody::Inside::undo() {
 }
 
 void MovingBody::Inside::check_free(ElementId element) const {
-  check_element(body->mesh(), element);
+  check_id(body->mesh(), element);
   if (body->is_pinned(element) || handle->contains(element)) {
     throw Error(element_name(element), body->is_pinned(element) ? "it is pinned" : "it is part of the handle",
                 "move only elements that are not fixed");
@@ -101,8 +101,8 @@ void MovingBody::Inside::check_free(ElementId element) const {
 
 EntryId MovingBody::Inside::entry_of(ElementId sponsor, ElementId element) const {
   const inner::Mesh& links = body->mesh();
-  check_element(links, sponsor);
-  check_element(links, element);
+  check_id(links, sponsor);
+  check_id(links, element);
   for (EntryId entry = links.first_entry[sponsor]; entry < links.first_entry[sponsor + 1]; ++entry) {
     if (links.neighbours[entry] == element && !body->cuts().is_cut(links.entry_link[entry])) {
       return entry;
@@ -127,7 +127,7 @@ bool MovingBody::Inside::change(ElementId element, Change change) {
 const Mesh& MovingBody::mesh() const { return *inside_.mesh; }
 
 std::span<const ElementId> MovingBody::neighbours(ElementId element) {
-  check_element(inside_.body->mesh(), element);
+  check_id(inside_.body->mesh(), element);
   inside_.neighbours.clear();
   for_each_neighbour(inside_.body->mesh(), inside_.body->cuts(), element,
                      [&](ElementId neighbour, EntryId) { inside_.neighbours.push_back(neighbour); });
@@ -135,12 +135,12 @@ std::span<const ElementId> MovingBody::neighbours(ElementId element) {
 }
 
 bool MovingBody::is_fixed(ElementId element) const {
-  check_element(inside_.body->mesh(), element);
+  check_id(inside_.body->mesh(), element);
   return inside_.body->is_pinned(element) || inside_.handle->contains(element);
 }
 
 Vector3 MovingBody::position(ElementId element) const {
-  check_element(inside_.body->mesh(), element);
+  check_id(inside_.body->mesh(), element);
   return vector_of(inner::point_of(inside_.body->mesh(), inside_.body->positions(), element));
 }
 

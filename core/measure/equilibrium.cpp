@@ -178,17 +178,6 @@ class System {
   Columns right_;
 };
 
-std::vector<double> displacements_of(const Mesh& mesh, const PositionView& positions) {
-  std::vector<double> result(mesh.rest.size());
-  for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    for (int k = 0; k < mesh.space_dimension; ++k) {
-      const std::size_t i = std::size_t{e} * mesh.space_dimension + k;
-      result[i] = positions(e, k) - mesh.rest[i];
-    }
-  }
-  return result;
-}
-
 bool binds(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const Equilibrium& equilibrium) {
   const PositionView positions = equilibrium.positions(mesh);
   for (LinkId link = 0; link < mesh.link_count(); ++link) {

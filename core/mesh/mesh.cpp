@@ -186,6 +186,11 @@ Point Lattice::position(ElementId element) const {
   return Point(double(column), double(row), double(plane)) * spacing;
 }
 
+bool Mesh::has_axis(int axis) const {
+  const auto end = axes.begin() + space_dimension;
+  return std::find(axes.begin(), end, axis) != end;
+}
+
 Point Mesh::to_point(const double* carried) const {
   Point point = origin;
   for (int k = 0; k < space_dimension; ++k) {
@@ -253,6 +258,22 @@ MeshPointer build_mesh(MeshParts parts, const Progress& progress) {
   mesh->box = box_of(*mesh);
   mesh->is_grid = is_grid(*mesh);
   return mesh;
+}
+
+void check_element(const Mesh& mesh, ElementId element) {
+  if (element >= mesh.element_count()) {
+    throw Error("element " + std::to_string(element), "there is no such element",
+                "use an id below " + std::to_string(mesh.element_count()));
+  }
+}
+
+void check_links(const Mesh& mesh, std::span<const LinkId> links) {
+  for (const LinkId link : links) {
+    if (link >= mesh.link_count()) {
+      throw Error("link " + std::to_string(link), "there is no such link",
+                  "use a number below " + std::to_string(mesh.link_count()));
+    }
+  }
 }
 
 }  // namespace chainmail

@@ -106,6 +106,8 @@ struct Mesh {
   std::span<const ElementId> neighbours_of(ElementId element) const {
     return {neighbours.data() + first_entry[element], neighbours.data() + first_entry[element + 1]};
   }
+  /// True if a coordinate exists along an axis (0 x, 1 y, 2 z).
+  bool has_axis(int axis) const;
   /// Rest position with all three coordinates.
   Point rest_position(ElementId element) const;
   /// Returns a point with all three coordinates, from the space_dimension ones that exist.
@@ -113,6 +115,10 @@ struct Mesh {
 };
 
 using MeshPointer = std::shared_ptr<const Mesh>;
+
+/// Throw Error if there is no such element or link.
+void check_element(const Mesh& mesh, ElementId element);
+void check_links(const Mesh& mesh, std::span<const LinkId> links);
 
 inline std::array<Point, 2> bounds(const Mesh& mesh) { return mesh.box; }
 

@@ -182,22 +182,6 @@ bool Simulation::measure() {
   return false;
 }
 
-void Simulation::check_element(ElementId element) const {
-  if (element >= mesh_->element_count()) {
-    throw Error("element " + std::to_string(element), "there is no such element",
-                "use an id below " + std::to_string(mesh_->element_count()));
-  }
-}
-
-void Simulation::check_links(std::span<const LinkId> links) const {
-  for (const LinkId link : links) {
-    if (link >= mesh_->link_count()) {
-      throw Error("link " + std::to_string(link), "there is no such link",
-                  "use a number below " + std::to_string(mesh_->link_count()));
-    }
-  }
-}
-
 void Simulation::take_mesh(MeshPointer mesh) {
   const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
   auto solver = make_solver(mesh, algorithm, precision_);  // may run out of memory, so it comes before any change
@@ -278,7 +262,7 @@ void Simulation::carry_out(const commands::Release&) {
 void Simulation::carry_out(const commands::SetSoftness& command) {
   check(command.softness->global);
   for (const auto& [link, softness] : command.softness->links) {
-    check_links(std::span(&link, 1));
+    check_links(*mesh_, std::span(&link, 1));
     check(softness);
   }
   set_softness(command.softness);
@@ -375,13 +359,13 @@ void Simulation::carry_out(const commands::SetAlgorithm& command) {
 }
 
 void Simulation::carry_out(const commands::Cut& command) {
-  check_links(command.links);
+  check_links(*mesh_, command.links);
   solver_->body().cut(command.links);
   wake_ends(command.links);
 }
 
 void Simulation::carry_out(const commands::Uncut& command) {
-  check_links(command.links);
+  check_links(*mesh_, command.links);
   solver_->body().uncut(command.links);
   valid_ = false;  // the ends may have moved too far apart while the link was cut
   wake_ends(command.links);
@@ -389,7 +373,7 @@ void Simulation::carry_out(const commands::Uncut& command) {
 
 void Simulation::carry_out(const commands::Pin& command) {
   for (const ElementId element : command.elements) {
-    check_element(element);
+    check_element(*mesh_, element);
     if (grabbed_ && grabbed_->contains(element)) {
       throw Error("element " + std::to_string(element), "it is grabbed", "release it, then pin it");
     }
@@ -399,7 +383,7 @@ void Simulation::carry_out(const commands::Pin& command) {
 
 void Simulation::carry_out(const commands::Unpin& command) {
   for (const ElementId element : command.elements) {
-    check_element(element);
+    check_element(*mesh_, element);
   }
   solver_->body().unpin(command.elements);
   solver_->wake(command.elements);

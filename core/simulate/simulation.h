@@ -124,8 +124,6 @@ class Simulation {
   void mark(std::span<const ElementId> moved);
   void mark_all();
   State& kept(commands::StateId state);
-  void check_element(ElementId element) const;
-  void check_links(std::span<const LinkId> links) const;
   void take_mesh(MeshPointer mesh);
   void wake(std::span<const ElementId> elements);
   void wake_ends(const std::vector<LinkId>& links);

@@ -10,22 +10,8 @@
 namespace chainmail {
 namespace {
 
-/// Appends the displacement of an element from rest (mesh units).
-void append_displacement(const Body& body, ElementId element, std::vector<double>& to) {
-  const Mesh& mesh = body.mesh();
-  const PositionView positions = body.positions();
-  for (int k = 0; k < mesh.space_dimension; ++k) {
-    to.push_back(positions(element, k) -
-                 mesh.rest[std::size_t{element} * std::size_t(mesh.space_dimension) + std::size_t(k)]);
-  }
-}
-
-std::vector<double> displacements_of(const Body& body, std::span<const ElementId> elements) {
-  std::vector<double> result;
-  for (const ElementId element : elements) {
-    append_displacement(body, element, result);
-  }
-  return result;
+std::vector<double> pin_displacements(const Body& body) {
+  return displacements_of(body.mesh(), body.positions(), body.pins());
 }
 
 /// Returns a handle in the coordinates that exist. The motion of one element is its displacement from rest.
@@ -134,7 +120,7 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
   const Conditions conditions{now.cuts, now.pins, now.elastic};
   const std::uint64_t positions = now.positions + now.relaxed;
   const bool knows_positions = solver_ && positions_ == positions;
-  if (solver_ && conditions == made_for_ && (knows_positions || displacements_of(body, body.pins()) == pinned_)) {
+  if (solver_ && conditions == made_for_ && (knows_positions || pin_displacements(body) == pinned_)) {
     if (!knows_positions) {
       held_ = {};
       solver_->reset();
@@ -145,7 +131,7 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
   }
   solver_.reset();
   held_ = {};
-  pinned_ = displacements_of(body, body.pins());
+  pinned_ = pin_displacements(body);
   solver_ = make_elastic(
       method_, {body.mesh_pointer(), body.cuts(), {body.pins().begin(), body.pins().end()}, pinned_, body.elastic()},
       progress);
@@ -155,11 +141,7 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
 }
 
 void ElasticDeformation::take_positions(const Body& body) {
-  std::vector<double> displacements;
-  for (ElementId e = 0; e < body.mesh().element_count(); ++e) {
-    append_displacement(body, e, displacements);
-  }
-  solver_->start_from(displacements);
+  solver_->start_from(displacements_of(body.mesh(), body.positions()));
 }
 
 /// Sets the position of every element, and collects those that moved.

@@ -152,7 +152,9 @@ class ExactPropagation {
     return possible > 0 ? reached : std::nullopt;
   }
 
-  std::optional<Offset> try_rotation(const State& body, const Handle& handle, const Point& rotation, Offset to) {
+  std::optional<Offset> try_rotation(const State& body, const Handle& handle, const Point& rotation,
+                                     const Offset& target) {
+    Offset to = target;
     rotation_ = rotation;
     offsets_ = shape_.offsets(rotation);
     regions_.begin(body, handle.elements(), offsets_);

@@ -29,18 +29,11 @@ void check_handle(const Body& body, std::span<const ElementId> ascending) {
   if (ascending.empty()) {
     throw Error("handle", "it has no elements", "grab at least one element");
   }
-  const ElementId count = body.mesh().element_count();
-  if (ascending.back() >= count) {
-    throw Error(name_of(*std::ranges::lower_bound(ascending, count)), "there is no such element",
-                "use an id below " + std::to_string(count));
-  }
+  std::ranges::for_each(ascending, [&](ElementId one) { check_element(body.mesh(), one); });
   if (const auto twice = std::ranges::adjacent_find(ascending); twice != ascending.end()) {
     throw Error(name_of(*twice), "it is grabbed twice", "name each element of the handle once");
   }
-  const auto pinned = std::ranges::find_if(ascending, [&](ElementId one) { return body.is_pinned(one); });
-  if (pinned != ascending.end()) {
-    throw Error(name_of(*pinned), "it is pinned and may not move", "unpin it, or grab another element");
-  }
+  check_free(body, ascending);
 }
 
 }  // namespace
@@ -98,15 +91,21 @@ void check(const Rotation& rotation, const Mesh& mesh) {
   if (!(length > 0)) {
     throw Error("rotation", "it has no axis: all its coordinates are 0", "give an axis such as 0, 0, 1");
   }
-  const auto axes = std::span(mesh.axes).first(static_cast<std::size_t>(mesh.space_dimension));
   for (int k = 0; k < 3 && mesh.space_dimension < 3; ++k) {
-    const bool leaves_space = mesh.space_dimension == 1 || std::ranges::find(axes, k) != axes.end();
+    const bool leaves_space = mesh.space_dimension == 1 || mesh.has_axis(k);
     if (rotation.axis[k] != 0 && leaves_space) {
       throw Error("rotation", std::string("about ") + "xyz"[k] + ", it would leave the space of the object",
                   mesh.space_dimension == 1
                       ? "move it without a rotation, or use more space dimensions"
                       : "rotate about the axis across the object's plane, or use more space dimensions");
     }
+  }
+}
+
+void check_free(const Body& body, std::span<const ElementId> elements) {
+  const auto pinned = std::ranges::find_if(elements, [&](ElementId one) { return body.is_pinned(one); });
+  if (pinned != elements.end()) {
+    throw Error(name_of(*pinned), "it is pinned and may not move", "unpin it, or grab another element");
   }
 }
 

@@ -49,6 +49,9 @@ double angle_between(const Point& from, const Point& to);
 /// finite.
 void check(const Rotation& rotation, const Mesh& mesh);
 
+/// Throws Error if one of these elements is pinned.
+void check_free(const Body& body, std::span<const ElementId> elements);
+
 /// What a user has grabbed: one element, or many that move together as one rigid body. Its pivot is the mean of the
 /// positions at which they were grabbed.
 class Handle {

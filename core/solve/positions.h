@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -86,5 +87,11 @@ class PositionView {
 
 /// Returns the position of an element with all three coordinates (mesh units).
 Point point_of(const Mesh& mesh, const PositionView& positions, ElementId element);
+
+/// Returns the displacements of elements from rest, space_dimension coordinates each (mesh units).
+std::vector<double> displacements_of(const Mesh& mesh, const PositionView& positions,
+                                     std::span<const ElementId> elements);
+/// The same for all elements.
+std::vector<double> displacements_of(const Mesh& mesh, const PositionView& positions);
 
 }  // namespace chainmail

@@ -46,12 +46,7 @@ PassCount Solver::run(Pass pass) {
 }
 
 PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
-  for (const ElementId element : handle.elements()) {
-    if (body_.is_pinned(element)) {
-      throw Error("element " + std::to_string(element), "it is pinned and may not move",
-                  "unpin it, or move another element");
-    }
-  }
+  check_free(body_, handle.elements());
   HandleMove move{handle, target};
   const PassCount count = run([&](Method& method) { return method.move(body_, move, {moved_, trace, progress_}); });
   handle.set_pose(move.pose);

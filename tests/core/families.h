@@ -15,6 +15,13 @@ struct MeshFamily {
   MeshPointer mesh;
 };
 
+/// The axis about which a plane object rotates; for others any axis.
+inline Point axis_across(const Mesh& mesh) {
+  return mesh.space_dimension == 3
+             ? Point(0.6, 0, 0.8)
+             : Point(mesh.has_axis(0) ? 0 : 1, mesh.has_axis(1) ? 0 : 1, mesh.has_axis(2) ? 0 : 1);
+}
+
 inline void add_triangle(MeshParts& parts, ElementId a, ElementId b, ElementId c) {
   parts.triangles.push_back({a, b, c});
   parts.links.insert(parts.links.end(), {{a, b}, {b, c}, {c, a}});

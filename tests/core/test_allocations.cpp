@@ -24,14 +24,15 @@ namespace {
 constexpr LinkSoftness stiff{0.999, 1.001, 0.0005};
 constexpr int rounds_to_warm_up = 10;
 
-/// Moves an element around a circle and returns the number of allocations. The first rounds are not counted: lists grow
-/// in them. The list of Generalized still grows in the third round, because that algorithm does not return to its
-/// start.
-std::uint64_t taken_by_drag(Solver& solver, const Mesh& mesh, ElementId element, double radius) {
+/// Calls move(way) for the ways around a circle, round after round, and returns the number of allocations. The first
+/// rounds are not counted: lists grow in them. The list of Generalized still grows in the third round, because that
+/// algorithm does not return to its start.
+template <class Move>
+std::uint64_t taken_around(double radius, Move move) {
   const auto round = [&] {
     for (int i = 0; i < 16; ++i) {
       const double angle = std::numbers::pi * i / 8;
-      solver.move(element, mesh.rest_position(element) + radius * Point(std::cos(angle), std::sin(angle), 0));
+      move(radius * Point(std::cos(angle), std::sin(angle), 0));
     }
   };
   for (int i = 0; i < rounds_to_warm_up; ++i) {
@@ -43,23 +44,15 @@ std::uint64_t taken_by_drag(Solver& solver, const Mesh& mesh, ElementId element,
   return allocations - before;
 }
 
-/// The same for a handle of many elements.
+std::uint64_t taken_by_drag(Solver& solver, const Mesh& mesh, ElementId element, double radius) {
+  return taken_around(radius, [&](const Point& way) { solver.move(element, mesh.rest_position(element) + way); });
+}
+
 std::uint64_t taken_by_handle(Solver& solver, const std::vector<ElementId>& elements, double radius) {
   Handle handle(solver.body(), elements);
-  const auto round = [&] {
-    for (int i = 0; i < 16; ++i) {
-      const double angle = std::numbers::pi * i / 8;
-      solver.move(handle,
-                  {handle.grabbed().pivot + radius * Point(std::cos(angle), std::sin(angle), 0), Point::Zero()});
-    }
-  };
-  for (int i = 0; i < rounds_to_warm_up; ++i) {
-    round();
-  }
-  const std::uint64_t before = allocations;
-  round();
-  round();
-  return allocations - before;
+  return taken_around(radius, [&](const Point& way) {
+    solver.move(handle, {handle.grabbed().pivot + way, Point::Zero()});
+  });
 }
 
 }  // namespace

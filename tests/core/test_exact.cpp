@@ -1,23 +1,14 @@
 #include <QtTest>
 
+#include "core/exact_oracle.h"
 #include "core/scenarios.h"
 #include "measure/violation.h"
-#include "reference/exact.h"
 #include "solve/exact.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
 
 namespace {
-
-reference::LeastAnswer oracle(const MeshPointer& mesh, const Softness& softness, const Cuts& cuts) {
-  const auto factors = [mesh, softness](ElementId a, ElementId b) {
-    const LinkSoftness& link = softness.of(*find_link(*mesh, a, b));
-    return reference::Factors{link.compression, link.stretch, link.shear};
-  };
-  const auto cut = [mesh, cuts](ElementId a, ElementId b) { return cuts.is_cut(*find_link(*mesh, a, b)); };
-  return {mesh, factors, cut};
-}
 
 /// Takes waiting elements in a random order.
 template <class Scalar>
@@ -123,7 +114,7 @@ void ExactTest::agrees_with_bellman_and_ford() {
     const Softness softness = draw_softness(*mesh);
     solver->body().set_softness(softness);
     solver->body().cut(draw_links(*mesh));
-    const auto answer = oracle(mesh, softness, solver->body().cuts());
+    const auto answer = bellman_and_ford(mesh, softness, solver->body().cuts());
     for (const Hand& hand : *any_hands(40)) {
       const auto before = positions_of(*solver, *mesh);
       const ElementId element = hand.of(*mesh);

@@ -3,26 +3,17 @@
 #include <set>
 
 #include "core/elastic_problems.h"
+#include "core/exact_oracle.h"
 #include "core/scenarios.h"
 #include "core/simulations.h"
 #include "elastic/bernstein.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
-#include "reference/exact.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
 
 namespace {
-
-reference::LeastAnswer bellman_and_ford(const MeshPointer& mesh, const Softness& softness, const Cuts& cuts) {
-  const auto factors = [mesh, softness](ElementId a, ElementId b) {
-    const LinkSoftness& link = softness.of(*find_link(*mesh, a, b));
-    return reference::Factors{link.compression, link.stretch, link.shear};
-  };
-  const auto cut = [mesh, cuts](ElementId a, ElementId b) { return cuts.is_cut(*find_link(*mesh, a, b)); };
-  return {mesh, factors, cut};
-}
 
 std::vector<ElementId> draw_handle(const Mesh& mesh, std::size_t most) {
   const auto drawn = *rc::gen::container<std::vector<ElementId>>(rc::gen::inRange<ElementId>(0, mesh.element_count()));
@@ -33,12 +24,7 @@ std::vector<ElementId> draw_handle(const Mesh& mesh, std::size_t most) {
 }
 
 Point draw_axis(const Mesh& mesh) {
-  Point axis(0, 0, 0);
-  const auto axes = std::span(mesh.axes).first(std::size_t(mesh.space_dimension));
-  for (int k = 0; k < 3; ++k) {
-    axis[k] = std::ranges::find(axes, k) == axes.end() ? 1 : 0;
-  }
-  return mesh.space_dimension == 3 ? Point(*rc::gen::inRange(-3, 4), *rc::gen::inRange(-3, 4), 1) : axis;
+  return mesh.space_dimension == 3 ? Point(*rc::gen::inRange(-3, 4), *rc::gen::inRange(-3, 4), 1) : axis_across(mesh);
 }
 
 /// Elements of a square of `width` in a grid of W x H.

@@ -116,16 +116,6 @@ class SideBySide {
     compare(count, trace, move_reference(held));
   }
 
-  /// The axis about which a plane object rotates; for others any axis.
-  static Point axis_across(const Mesh& mesh) {
-    Point axis(0, 0, 0);
-    for (int k = 0; k < 3; ++k) {
-      const auto end = mesh.axes.begin() + mesh.space_dimension;
-      axis[k] = std::find(mesh.axes.begin(), end, k) == end ? 1 : 0;
-    }
-    return mesh.space_dimension == 3 ? Point(0.6, 0, 0.8) : axis;
-  }
-
   std::array<double, 3> random_target(ElementId element, double reach) {
     std::array<double, 3> target{};
     for (int k = 0; k < mesh_->space_dimension; ++k) {

@@ -107,7 +107,7 @@ class LongLife {
     if (handle_.size() == 1) {
       target.pivot = position_of(solver_, *mesh_, handle_[0]) + by;
     } else if (mesh_->space_dimension > 1) {
-      target.rotation += Rotation{axis_across(), degrees}.vector();
+      target.rotation += Rotation{axis_across(*mesh_), degrees}.vector();
     }
     const std::string expected = answer(fresh, of_fresh_solver, target), found = answer(solver_, *held_, target);
     RC_ASSERT(found == expected);
@@ -140,16 +140,6 @@ class LongLife {
     if (!elements.empty()) {
       handle_.assign(elements.begin(), elements.end());
     }
-  }
-
-  /// The axis about which a plane object can rotate; for others any axis.
-  Point axis_across() const {
-    Point axis(0, 0, 0);
-    const auto axes = std::span(mesh_->axes).first(std::size_t(mesh_->space_dimension));
-    for (int k = 0; k < 3; ++k) {
-      axis[k] = std::ranges::find(axes, k) == axes.end() ? 1 : 0;
-    }
-    return mesh_->space_dimension == 3 ? Point(1, 0, 2) : axis;
   }
 
   void soften(const Softness& softness) { solver_.body().set_softness(softness); }

@@ -16,11 +16,6 @@ constexpr int standardSteps = 10;
 constexpr double mostDegrees = 3600;
 constexpr int byDistance = 1;  // index of the choice
 
-bool isCarried(const Mesh& mesh, int axis) {
-  const auto end = mesh.axes.begin() + mesh.space_dimension;
-  return std::find(mesh.axes.begin(), end, axis) != end;
-}
-
 /// Returns the typed number; empty if it is not a number, or beyond the limit.
 std::optional<double> numberIn(const QLineEdit& field, double limit) {
   bool valid = true;
@@ -130,7 +125,7 @@ void ElementMove::setElements(const std::vector<ElementId>& elements) {
 void ElementMove::adapt() {
   const Mesh& mesh = *document_.mesh();
   for (std::size_t k = 0; k < 3; ++k) {
-    const bool carried = isCarried(mesh, int(k));
+    const bool carried = mesh.has_axis(int(k));
     names_[k]->setVisible(carried);
     numbers_[k]->setVisible(carried);
     numbers_[k]->setToolTip(relative() ? QStringLiteral("Distance along this axis (mesh units)")
@@ -164,7 +159,7 @@ void ElementMove::adaptRotation() {
   axis_->setVisible(shown && mesh.space_dimension == 3);
   turn_->setText(QStringLiteral("&Rotate (°)"));
   for (int k = 0; mesh.space_dimension == 2 && k < 3; ++k) {
-    if (!isCarried(mesh, k)) {
+    if (!mesh.has_axis(k)) {
       axis_->setCurrentIndex(k);
       turn_->setText(QStringLiteral("&Rotate about %1 (°)").arg(QLatin1Char("xyz"[k])));
     }

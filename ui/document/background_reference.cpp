@@ -18,13 +18,9 @@ constexpr double atRest = 1e-5;
 /// Returns the displacements of elements from rest in a frame (mesh units), without those that are only rounding.
 std::vector<double> displacementsOf(const Frame& frame, const std::vector<ElementId>& elements) {
   const Mesh& mesh = *frame.mesh;
-  std::vector<double> displacements;
-  for (const ElementId element : elements) {
-    for (int k = 0; k < mesh.space_dimension; ++k) {
-      const std::size_t at = std::size_t{element} * std::size_t(mesh.space_dimension) + std::size_t(k);
-      const double away = double(frame.positions[at]) - mesh.rest[at];
-      displacements.push_back(std::abs(away) > atRest * mesh.mean_link_length ? away : 0);
-    }
+  std::vector<double> displacements = displacements_of(mesh, frame.view(), elements);
+  for (double& away : displacements) {
+    away = std::abs(away) > atRest * mesh.mean_link_length ? away : 0;
   }
   return displacements;
 }

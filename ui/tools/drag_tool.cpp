@@ -22,12 +22,9 @@ Point axisToEye(const View& view, const Mesh& mesh) {
   if (mesh.space_dimension == 3) {
     return pointOf(view.camera()->toView().row(2).toVector3D()).normalized();
   }
-  const auto end = mesh.axes.begin() + mesh.space_dimension;
   Point axis = Point::Zero();
   for (int k = 0; k < 3; ++k) {
-    if (std::find(mesh.axes.begin(), end, k) == end) {
-      axis[k] = 1;  // the camera looks at a plane from the positive side
-    }
+    axis[k] = mesh.has_axis(k) ? 0 : 1;  // the camera looks at a plane from the positive side
   }
   return axis;
 }

@@ -14,8 +14,6 @@
 namespace chainmail {
 namespace {
 
-// Number of elements of a large selection that decide the size of the ring.
-constexpr std::size_t mostMeasured = 20'000;
 constexpr double smallestRing = 40, ringMargin = 16;  // pixels, radius and distance from the elements
 constexpr double largestRingShare = 0.45;             // of the smaller side of the view
 constexpr double ringReach = 6;                       // pixels, distance at which the cursor finds the ring
@@ -32,10 +30,12 @@ RotationRing::RotationRing(const Document& document) : document_(document) {
     connect(&document, signal, this, &RotationRing::followSelection);
   }
   connect(&document, &Document::meshChanged, this, &RotationRing::hideRotation);
+  connect(&document, &Document::frameReady, this, [this](int panel) { extents_[std::size_t(panel)].reset(); });
 }
 
 void RotationRing::followSelection() {
   elements_.clear();
+  extents_.fill({});
   if (active_ && canRotate(*document_.mesh())) {
     std::ranges::set_difference(document_.selection().elements, document_.pins(), std::back_inserter(elements_));
   }
@@ -58,6 +58,9 @@ void RotationRing::setHovered(bool hovered) {
 }
 
 void RotationRing::showRotation(const std::vector<ElementId>& handle, int panel, QPointF cursor, double degrees) {
+  if (!turn_ || turn_->handle != handle) {
+    extents_.fill({});
+  }
   turn_ = Turn{handle, panel, cursor, degrees};
   emit changed();
 }
@@ -65,29 +68,38 @@ void RotationRing::showRotation(const std::vector<ElementId>& handle, int panel,
 void RotationRing::hideRotation() {
   if (turn_) {
     turn_.reset();
+    extents_.fill({});
     emit changed();
   }
+}
+
+/// Returns the extent of the elements, which may be many: it is computed once per frame.
+const RotationRing::Extent& RotationRing::extent(const View& view) const {
+  auto& kept = extents_[std::size_t(view.panel())];
+  if (!kept) {
+    kept.emplace();
+    kept->pivot = middleIn(document_, view.panel(), rotated());
+    for (const ElementId element : rotated()) {
+      kept->reach = std::max(kept->reach, (view.position(element) - kept->pivot).norm());
+    }
+  }
+  return *kept;
 }
 
 /// Returns the ring in a view. It encloses the elements from every side, so that its size does not change while they
 /// rotate. A large ring is limited, so that it stays within reach of the cursor.
 std::optional<RotationRing::Circle> RotationRing::circle(const View& view) const {
-  const auto& elements = turn_ ? turn_->handle : elements_;
-  if (elements.empty()) {
+  if (rotated().empty()) {
     return std::nullopt;
   }
+  const Extent& extent = this->extent(view);
   Circle circle;
-  circle.pivot = middleIn(document_, view.panel(), elements);
-  double reach = 0;  // mesh units
-  const std::size_t stride = std::max<std::size_t>(1, elements.size() / mostMeasured);
-  for (std::size_t i = 0; i < elements.size(); i += stride) {
-    reach = std::max(reach, (view.position(elements[i]) - circle.pivot).norm());
-  }
+  circle.pivot = extent.pivot;
   const QVector3D across =
       view.pointAt({measuredPixels, 0}, circle.pivot) - view.pointAt({0, 0}, circle.pivot);  // parallel to the view
   circle.unitsPerPixel = double(across.length()) / measuredPixels;
   const double largest = std::max(smallestRing, largestRingShare * std::min(view.width(), view.height()));
-  circle.radius = std::clamp(reach / circle.unitsPerPixel + ringMargin, smallestRing, largest);
+  circle.radius = std::clamp(extent.reach / circle.unitsPerPixel + ringMargin, smallestRing, largest);
   return circle;
 }
 
@@ -127,8 +139,10 @@ std::vector<Annotation> RotationRing::annotations(const View& view) const {
   if (!turn_ || turn_->panel != view.panel()) {
     return {};
   }
-  const QPointF pivot = view.placeOf(middleIn(document_, view.panel(), turn_->handle));
-  return {{QLineF(pivot, turn_->cursor), QStringLiteral("%1°").arg(QLocale().toString(std::lround(turn_->degrees)))}};
+  const QPointF pivot = view.placeOf(extent(view).pivot);
+  const long degrees = std::lround(turn_->degrees);
+  const QString sign = degrees < 0 ? QStringLiteral("−") : QString();
+  return {{QLineF(pivot, turn_->cursor), QStringLiteral("%1%2°").arg(sign, QLocale().toString(std::abs(degrees)))}};
 }
 
 }  // namespace chainmail

@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QPointF>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -53,7 +54,15 @@ class RotationRing : public QObject, public Overlay {
     double radius = 0, unitsPerPixel = 1;  // logical pixels, and mesh units per pixel
   };
 
+  /// Middle and size of the elements in a panel (mesh units).
+  struct Extent {
+    Point pivot = Point::Zero();
+    double reach = 0;
+  };
+
   void followSelection();
+  const std::vector<ElementId>& rotated() const { return turn_ ? turn_->handle : elements_; }
+  const Extent& extent(const View& view) const;
   std::optional<Circle> circle(const View& view) const;
 
   const Document& document_;
@@ -61,6 +70,7 @@ class RotationRing : public QObject, public Overlay {
   bool hovered_ = false;
   std::vector<ElementId> elements_;
   std::optional<Turn> turn_;
+  mutable std::array<std::optional<Extent>, Document::mostPanels> extents_;  // of each panel's present frame
 };
 
 }  // namespace chainmail

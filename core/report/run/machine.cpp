@@ -1,5 +1,6 @@
 #include "report/run/machine.h"
 
+#include <ctime>
 #include <fstream>
 #include <thread>
 
@@ -40,5 +41,14 @@ std::string build() {
 }  // namespace
 
 Machine this_machine() { return {processor(), std::thread::hardware_concurrency(), compiler(), build()}; }
+
+std::string now_in_words() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &parts);
+  return text;
+}
 
 }  // namespace chainmail::report

@@ -13,6 +13,9 @@ struct Machine {
 };
 Machine this_machine();
 
+/// Returns the date and the time in words, such as 2004-05-01 12:30 UTC.
+std::string now_in_words();
+
 /// The origin of a report. All texts come from outside, so they must be escaped.
 struct Origin {
   Machine machine;
