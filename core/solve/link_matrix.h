@@ -1,0 +1,99 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// Number of rigid-body motions (translations and rotations) in a space.
+template <int Dimension>
+inline constexpr int rigid_modes = Dimension * (Dimension + 1) / 2;
+
+/// What a link contributes to the matrix of an energy: the block g gᵀ + c I, which multiplies the difference of the
+/// displacements of its two ends. All numbers of a cut link are 0.
+template <class Scalar, int Dimension>
+struct LinkBlock {
+  using Vector = Eigen::Matrix<Scalar, Dimension, 1>;
+  using Square = Eigen::Matrix<Scalar, Dimension, Dimension>;
+
+  Vector along = Vector::Zero();  // g: the link's direction times the root of its axial stiffness
+  Scalar across = 0;              // c: its lateral stiffness
+
+  /// Returns the force in the link, if its deflection is `apart`.
+  Vector times(const Vector& apart) const { return along * along.dot(apart) + across * apart; }
+  Square block() const { return along * along.transpose() + across * Square::Identity(); }
+  bool is_zero() const { return across == 0 && along.isZero(0); }
+};
+
+/// The matrix of an energy of links: one row of blocks per element, one block per link. Rows and columns of fixed
+/// elements are left out: vectors are 0 there, before and after.
+template <class Scalar, int Dimension>
+class LinkMatrix {
+ public:
+  using Block = LinkBlock<Scalar, Dimension>;
+  using Vector = typename Block::Vector;
+  using Square = typename Block::Square;
+  using Vectors = std::vector<Vector>;
+
+  LinkMatrix() = default;
+  explicit LinkMatrix(MeshPointer mesh)
+      : mesh_(std::move(mesh)), links_(mesh_->link_count()), fixed_(mesh_->element_count()) {}
+
+  const Mesh& mesh() const { return *mesh_; }
+  std::uint32_t size() const { return mesh_->element_count(); }
+  const Block& link(LinkId link) const { return links_[link]; }
+  void set_link(LinkId link, const Block& block) { links_[link] = block; }
+  bool is_fixed(ElementId element) const { return fixed_[element] != 0; }
+  void set_fixed(ElementId element, bool fixed) { fixed_[element] = fixed ? 1 : 0; }
+
+  /// Returns the product with a vector, which is 0 at fixed elements.
+  void apply(const Vectors& x, Vectors& product) const {
+    product.assign(x.size(), Vector::Zero());
+    const auto* ends = mesh_->links.data();
+    for (std::size_t l = 0; l < links_.size(); ++l) {
+      const auto [i, j] = ends[l];
+      const Vector force = links_[l].times(x[j] - x[i]);
+      product[i] -= force;
+      product[j] += force;
+    }
+    clear_fixed(product);
+  }
+
+  void clear_fixed(Vectors& x) const {
+    for (std::size_t e = 0; e < x.size(); ++e) {
+      if (fixed_[e] != 0) {
+        x[e].setZero();
+      }
+    }
+  }
+
+  /// Calls visit(column, block) for each block of a row, the one on the diagonal last. A fixed element has none.
+  template <class Visit>
+  void for_each_in_row(std::uint32_t row, Visit visit) const {
+    if (is_fixed(row)) {
+      return;
+    }
+    Square diagonal = Square::Zero();
+    for (EntryId entry = mesh_->first_entry[row]; entry < mesh_->first_entry[row + 1]; ++entry) {
+      const Block& link = links_[mesh_->entry_link[entry]];
+      const Square block = link.block();
+      diagonal += block;
+      if (!is_fixed(mesh_->neighbours[entry]) && !link.is_zero()) {
+        visit(mesh_->neighbours[entry], Square(-block));
+      }
+    }
+    visit(row, diagonal);
+  }
+
+ private:
+  MeshPointer mesh_;
+  std::vector<Block> links_;
+  std::vector<std::uint8_t> fixed_;
+};
+
+}  // namespace chainmail

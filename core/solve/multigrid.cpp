@@ -1,0 +1,650 @@
+#include "solve/multigrid.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solve/block_rows.h"
+
+namespace chainmail {
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// A coarsest level with at most this many unknowns is solved directly.
+constexpr std::uint32_t most_direct_unknowns = 240;
+constexpr std::size_t most_levels = 12;
+/// Two rows whose coupling is below this share of their diagonal blocks do not join an aggregate.
+constexpr float weak_coupling = 0.01F;
+constexpr int power_iterations = 10;
+
+/// A rigid body: the elements below a row of a coarse level.
+template <int Dimension>
+struct RigidFrame {
+  using Point = Eigen::Matrix<float, Dimension, 1>;
+
+  Point centre = Point::Zero();
+  float size = 0;  // by which rotations are divided, so that all unknowns are lengths; 0 for an element
+};
+
+/// Returns how a point at `arm` from the centre moves in a rotation by 1 about each axis.
+template <int Dimension>
+Eigen::Matrix<float, Dimension, rigid_modes<Dimension> - Dimension> rotated(
+    const Eigen::Matrix<float, Dimension, 1>& arm) {
+  Eigen::Matrix<float, Dimension, rigid_modes<Dimension> - Dimension> motion;
+  if constexpr (Dimension == 2) {
+    motion << -arm[1], arm[0];
+  } else if constexpr (Dimension == 3) {
+    motion << 0, arm[2], -arm[1], -arm[2], 0, arm[0], arm[1], -arm[0], 0;
+  }
+  return motion;
+}
+
+/// Returns the motion of a row of `Rows` unknowns if the aggregate around it moves as a rigid body.
+template <int Rows, int Dimension>
+Eigen::Matrix<float, Rows, rigid_modes<Dimension>> rigid_motion(const RigidFrame<Dimension>& row,
+                                                               const RigidFrame<Dimension>& aggregate) {
+  constexpr int rotations = rigid_modes<Dimension> - Dimension;
+  Eigen::Matrix<float, Rows, rigid_modes<Dimension>> motion = Eigen::Matrix<float, Rows, rigid_modes<Dimension>>::Zero();
+  motion.template topLeftCorner<Dimension, Dimension>().setIdentity();
+  if constexpr (rotations > 0) {
+    const Eigen::Matrix<float, Dimension, 1> arm = (row.centre - aggregate.centre) / aggregate.size;
+    motion.template topRightCorner<Dimension, rotations>() = rotated<Dimension>(arm);
+    if constexpr (Rows > Dimension) {
+      motion.template bottomRightCorner<rotations, rotations>().diagonal().setConstant(row.size / aggregate.size);
+    }
+  }
+  return motion;
+}
+
+/// Returns the inverse of a symmetric block, with a little added to its diagonal: it may be singular.
+template <class Square>
+Square safe_inverse(const Square& block) {
+  const float mean = block.trace() / float(Square::RowsAtCompileTime);
+  if (!(mean > std::numeric_limits<float>::min())) {
+    return Square::Zero();
+  }
+  const Square lifted = block / mean + 1e-5F * Square::Identity();
+  return lifted.inverse() / mean;
+}
+
+/// The matrix of a coarse level.
+template <int Rows>
+struct CoarseMatrix {
+  using Square = Eigen::Matrix<float, Rows, Rows>;
+  using Vector = Eigen::Matrix<float, Rows, 1>;
+  using Vectors = std::vector<Vector>;
+
+  std::uint32_t size() const { return rows.size(); }
+  void apply(const Vectors& x, Vectors& product) const {
+    product.resize(x.size());
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+      const auto columns = rows.columns(i);
+      const auto blocks = rows.blocks(i);
+      Vector sum = Vector::Zero();
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        sum.noalias() += blocks[k] * x[columns[k]];
+      }
+      product[i] = sum;
+    }
+  }
+  template <class Visit>
+  void for_each_in_row(std::uint32_t row, Visit visit) const {
+    const auto columns = rows.columns(row);
+    const auto blocks = rows.blocks(row);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      visit(columns[k], blocks[k]);
+    }
+  }
+
+  BlockRows<Square> rows;
+};
+
+/// A row of a sparse matrix while it is being summed up.
+template <class Block>
+struct RowSum {
+  void clear() {
+    columns.clear();
+    blocks.clear();
+  }
+  Block& at(std::uint32_t column) {
+    const auto found = std::ranges::find(columns, column);
+    if (found != columns.end()) {
+      return blocks[static_cast<std::size_t>(found - columns.begin())];
+    }
+    columns.push_back(column);
+    blocks.push_back(Block::Zero());
+    return blocks.back();
+  }
+
+  std::vector<std::uint32_t> columns;
+  std::vector<Block> blocks;
+};
+
+/// The way from one level to the next coarser one, and the smoother. Rows of `Rows` unknowns each.
+template <int Rows, int Dimension>
+class Stage {
+ public:
+  static constexpr int modes = rigid_modes<Dimension>;
+  using Square = Eigen::Matrix<float, Rows, Rows>;
+  using Vector = Eigen::Matrix<float, Rows, 1>;
+  using Vectors = std::vector<Vector>;
+  using Transfer = Eigen::Matrix<float, Rows, modes>;
+  using Frames = std::vector<RigidFrame<Dimension>>;
+  using Coarse = CoarseMatrix<modes>;
+
+  /// Prepares the smoother.
+  template <class Matrix>
+  void build_smoother(const Matrix& matrix) {
+    inverse_.resize(matrix.size());
+    for (std::uint32_t row = 0; row < matrix.size(); ++row) {
+      update_inverse(matrix, row);
+    }
+    radius_ = estimate_radius(matrix);
+  }
+
+  /// Forms the aggregates, and returns their number.
+  template <class Matrix>
+  std::uint32_t aggregate(const Matrix& matrix, Frames frames) {
+    frames_ = std::move(frames);
+    find_aggregates(matrix);
+    return static_cast<std::uint32_t>(members_.size());
+  }
+
+  Frames coarse_frames() const {
+    Frames result(members_.size());
+    for (std::uint32_t a = 0; a < result.size(); ++a) {
+      result[a] = frame_of(a);
+    }
+    return result;
+  }
+
+  template <class Matrix>
+  void build_coarse(const Matrix& matrix, Coarse& coarse) {
+    coarse_frames_ = coarse_frames();
+    transfer_.resize(matrix.size());
+    for (std::uint32_t row = 0; row < matrix.size(); ++row) {
+      update_transfer(matrix, row);
+    }
+    coarse.rows.resize(static_cast<std::uint32_t>(members_.size()));
+    sums_.assign(members_.size(), {});
+    for (std::uint32_t row = 0; row < matrix.size(); ++row) {
+      add_to_coarse(matrix, row);
+    }
+    for (std::uint32_t a = 0; a < sums_.size(); ++a) {
+      coarse.rows.set_row(a, sums_[a].columns, sums_[a].blocks);
+    }
+    sums_.clear();
+    sums_.shrink_to_fit();
+  }
+
+  template <class Matrix>
+  void smooth(const Matrix& matrix, const Vectors& right, Vectors& x, bool from_zero) {
+    // Chebyshev polynomial of degree 2 (Adams et al. 2003).
+    const float high = 1.02F * radius_, low = radius_ / 8;
+    const float middle = (high + low) / 2, half = (high - low) / 2;
+    const float sigma = middle / half;
+    if (from_zero) {
+      x.assign(right.size(), Vector::Zero());
+      residual_ = right;
+    } else {
+      subtract(matrix, right, x);
+    }
+    step_.resize(right.size());
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      step_[i].noalias() = inverse_[i] * residual_[i];
+      step_[i] /= middle;
+      x[i] += step_[i];
+    }
+    const float rho = 1 / sigma, next = 1 / (2 * sigma - rho);
+    subtract(matrix, right, x);
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      const Vector scaled = inverse_[i] * residual_[i];
+      x[i] += next * rho * step_[i] + 2 * next / half * scaled;
+    }
+  }
+
+  /// Writes the residual's coarse right-hand side.
+  template <class Matrix>
+  void restrict_residual(const Matrix& matrix, const Vectors& right, const Vectors& x,
+                         typename Coarse::Vectors& coarse_right) {
+    subtract(matrix, right, x);
+    coarse_right.assign(members_.size(), Coarse::Vector::Zero());
+    for (std::uint32_t row = 0; row < residual_.size(); ++row) {
+      const auto columns = transfer_.columns(row);
+      const auto blocks = transfer_.blocks(row);
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        coarse_right[columns[k]].noalias() += blocks[k].transpose() * residual_[row];
+      }
+    }
+  }
+
+  void prolong(const typename Coarse::Vectors& coarse, Vectors& x) const {
+    for (std::uint32_t row = 0; row < x.size(); ++row) {
+      const auto columns = transfer_.columns(row);
+      const auto blocks = transfer_.blocks(row);
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        x[row].noalias() += blocks[k] * coarse[columns[k]];
+      }
+    }
+  }
+
+  std::uint32_t aggregate_count() const { return static_cast<std::uint32_t>(members_.size()); }
+  std::size_t transfer_blocks() const { return transfer_.block_count(); }
+
+  /// Updates everything that depends on these rows of the matrix. Returns the rows of the coarse matrix that changed.
+  template <class Matrix>
+  std::vector<std::uint32_t> repair(const Matrix& matrix, const std::vector<std::uint32_t>& rows, Coarse& coarse) {
+    for (const std::uint32_t row : rows) {
+      update_inverse(matrix, row);
+    }
+    std::vector<std::uint32_t> touched;  // coarse rows
+    const auto touch = [&](const std::vector<std::uint32_t>& some) {
+      for (const std::uint32_t row : some) {
+        const auto columns = transfer_.columns(row);
+        touched.insert(touched.end(), columns.begin(), columns.end());
+      }
+    };
+    const std::vector<std::uint32_t> around = with_neighbours(matrix, rows);
+    touch(around);
+    for (const std::uint32_t row : rows) {
+      update_transfer(matrix, row);
+    }
+    touch(rows);
+    make_unique(touched);
+    update_coarse_rows(matrix, touched, coarse);
+    return touched;
+  }
+
+ private:
+  static void make_unique(std::vector<std::uint32_t>& ids) {
+    std::ranges::sort(ids);
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  }
+
+  template <class Matrix>
+  static std::vector<std::uint32_t> with_neighbours(const Matrix& matrix, const std::vector<std::uint32_t>& rows) {
+    std::vector<std::uint32_t> result = rows;
+    for (const std::uint32_t row : rows) {
+      matrix.for_each_in_row(row, [&](std::uint32_t column, const Square&) { result.push_back(column); });
+    }
+    make_unique(result);
+    return result;
+  }
+
+  template <class Matrix>
+  void update_coarse_rows(const Matrix& matrix, const std::vector<std::uint32_t>& touched, Coarse& coarse) {
+    std::vector<std::uint32_t> rows;
+    for (const std::uint32_t a : touched) {
+      rows.insert(rows.end(), members_[a].begin(), members_[a].end());
+    }
+    rows = with_neighbours(matrix, rows);
+    sums_.resize(members_.size());
+    std::vector<bool> wanted(members_.size());
+    for (const std::uint32_t a : touched) {
+      wanted[a] = true;
+    }
+    for (const std::uint32_t row : rows) {
+      add_to_coarse(matrix, row, &wanted);
+    }
+    for (const std::uint32_t a : touched) {
+      coarse.rows.set_row(a, sums_[a].columns, sums_[a].blocks);
+    }
+    sums_.clear();
+  }
+
+  template <class Matrix>
+  void update_inverse(const Matrix& matrix, std::uint32_t row) {
+    Square diagonal = Square::Zero();
+    matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
+      if (column == row) {
+        diagonal = block;
+      }
+    });
+    inverse_[row] = safe_inverse(diagonal);
+  }
+
+  /// Returns the largest eigenvalue of the matrix after division by its diagonal blocks.
+  template <class Matrix>
+  float estimate_radius(const Matrix& matrix) {
+    if constexpr (Rows == Dimension) {
+      return 2;  // a bound for every energy of links, since |a − b|² ≤ 2|a|² + 2|b|²
+    }
+    Vectors x(matrix.size()), product;
+    std::uint32_t state = 1;
+    for (Vector& one : x) {
+      for (int k = 0; k < Rows; ++k) {
+        state = state * 1664525U + 1013904223U;
+        one[k] = float(state >> 8) / float(1 << 24) - 0.5F;
+      }
+    }
+    float radius = 1;
+    for (int i = 0; i < power_iterations; ++i) {
+      matrix.apply(x, product);
+      double square = 0;
+      for (std::size_t row = 0; row < x.size(); ++row) {
+        x[row] = inverse_[row] * product[row];
+        square += double(x[row].squaredNorm());
+      }
+      radius = float(std::sqrt(square));
+      if (!(radius > 0)) {
+        return 1;
+      }
+      for (Vector& one : x) {
+        one /= radius;
+      }
+    }
+    return 1.1F * radius;
+  }
+
+  template <class Matrix>
+  void find_aggregates(const Matrix& matrix) {
+    const std::uint32_t size = matrix.size();
+    aggregate_.assign(size, none);
+    std::vector<float> scale(size);
+    for (std::uint32_t row = 0; row < size; ++row) {
+      matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
+        if (column == row) {
+          scale[row] = block.norm();
+        }
+      });
+    }
+    const auto for_each_strong = [&](std::uint32_t row, auto visit) {
+      matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
+        if (column != row && block.squaredNorm() > weak_coupling * weak_coupling * scale[row] * scale[column]) {
+          visit(column, block);
+        }
+      });
+    };
+    members_.clear();
+    for (std::uint32_t row = 0; row < size; ++row) {
+      if (aggregate_[row] != none) {
+        continue;
+      }
+      bool is_free = true, is_alone = true;
+      for_each_strong(row, [&](std::uint32_t column, const Square&) {
+        is_free = is_free && aggregate_[column] == none;
+        is_alone = false;
+      });
+      if (is_free && !is_alone) {
+        const auto a = static_cast<std::uint32_t>(members_.size());
+        aggregate_[row] = a;
+        members_.push_back({row});
+        for_each_strong(row, [&](std::uint32_t column, const Square&) {
+          aggregate_[column] = a;
+          members_[a].push_back(column);
+        });
+      }
+    }
+    std::vector<std::uint32_t> joined(size, none);
+    for (std::uint32_t row = 0; row < size; ++row) {
+      float strongest = 0;
+      if (aggregate_[row] == none) {
+        for_each_strong(row, [&](std::uint32_t column, const Square& block) {
+          const float strength = block.squaredNorm() / scale[column];
+          if (aggregate_[column] != none && strength > strongest) {
+            strongest = strength;
+            joined[row] = aggregate_[column];
+          }
+        });
+      }
+    }
+    for (std::uint32_t row = 0; row < size; ++row) {
+      if (joined[row] != none) {
+        aggregate_[row] = joined[row];
+        members_[joined[row]].push_back(row);
+      }
+    }
+  }
+
+  RigidFrame<Dimension> frame_of(std::uint32_t aggregate) const {
+    RigidFrame<Dimension> frame;
+    for (const std::uint32_t row : members_[aggregate]) {
+      frame.centre += frames_[row].centre;
+    }
+    frame.centre /= float(members_[aggregate].size());
+    float square = 0;
+    for (const std::uint32_t row : members_[aggregate]) {
+      square += (frames_[row].centre - frame.centre).squaredNorm() + frames_[row].size * frames_[row].size;
+    }
+    frame.size = std::sqrt(square / float(members_[aggregate].size()));
+    if (!(frame.size > 0)) {
+      frame.size = 1;
+    }
+    return frame;
+  }
+
+  Transfer rigid(std::uint32_t row) const {
+    return rigid_motion<Rows, Dimension>(frames_[row], coarse_frames_[aggregate_[row]]);
+  }
+
+  /// Rigid motions of the aggregates, smoothed by one step of damped Jacobi.
+  template <class Matrix>
+  void update_transfer(const Matrix& matrix, std::uint32_t row) {
+    transfer_sum_.clear();
+    matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
+      if (aggregate_[column] != none) {
+        const Transfer motion = rigid(column);
+        const Square damped = (-4.0F / 3 / radius_) * (inverse_[row] * block);
+        Transfer& sum = transfer_sum_.at(aggregate_[column]);
+        sum.noalias() += damped * motion;
+        if (column == row) {
+          sum += motion;
+        }
+      }
+    });
+    transfer_.set_row(row, transfer_sum_.columns, transfer_sum_.blocks);
+  }
+
+  /// Adds what a row of the matrix contributes to Pᵀ A P, into the wanted coarse rows.
+  template <class Matrix>
+  void add_to_coarse(const Matrix& matrix, std::uint32_t row, const std::vector<bool>* wanted = nullptr) {
+    if (transfer_.columns(row).empty()) {
+      return;
+    }
+    product_sum_.clear();
+    matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
+      const auto columns = transfer_.columns(column);
+      const auto blocks = transfer_.blocks(column);
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        product_sum_.at(columns[k]).noalias() += block * blocks[k];
+      }
+    });
+    const auto columns = transfer_.columns(row);
+    const auto blocks = transfer_.blocks(row);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      if (wanted == nullptr || (*wanted)[columns[k]]) {
+        for (std::size_t c = 0; c < product_sum_.columns.size(); ++c) {
+          sums_[columns[k]].at(product_sum_.columns[c]).noalias() +=
+              blocks[k].transpose() * product_sum_.blocks[c];
+        }
+      }
+    }
+  }
+
+  template <class Matrix>
+  void subtract(const Matrix& matrix, const Vectors& right, const Vectors& x) {
+    matrix.apply(x, residual_);
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      residual_[i] = right[i] - residual_[i];
+    }
+  }
+
+  std::vector<Square> inverse_;  // of the diagonal blocks
+  float radius_ = 1;             // largest eigenvalue of the matrix after division by the diagonal blocks
+  Frames frames_, coarse_frames_;
+  std::vector<std::uint32_t> aggregate_;             // of each row, or none
+  std::vector<std::vector<std::uint32_t>> members_;  // of each aggregate
+  BlockRows<Transfer> transfer_;
+  Vectors residual_, step_;
+  std::vector<RowSum<typename Coarse::Square>> sums_;
+  RowSum<Transfer> transfer_sum_, product_sum_;
+};
+
+}  // namespace
+
+template <int Dimension>
+class Multigrid<Dimension>::Levels {
+ public:
+  static constexpr int modes = rigid_modes<Dimension>;
+  using Coarse = CoarseMatrix<modes>;
+
+  explicit Levels(const Matrix& matrix) {
+    finest_.build_smoother(matrix);
+    std::uint32_t count = finest_.aggregate(matrix, element_frames(matrix.mesh()));
+    add_level(finest_, matrix, count);
+    while (!is_coarsest(count)) {
+      Level& last = *levels_.back();
+      last.stage.build_smoother(last.matrix);
+      const std::uint32_t next = last.stage.aggregate(last.matrix, frames_);
+      if (next == 0 || next > 0.8 * count) {
+        break;
+      }
+      count = next;
+      add_level(last.stage, last.matrix, count);
+    }
+    factor();
+  }
+
+  void repair(const Matrix& matrix, std::span<const ElementId> rows) {
+    std::vector<std::uint32_t> changed(rows.begin(), rows.end());
+    std::ranges::sort(changed);
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    changed = finest_.repair(matrix, changed, levels_.front()->matrix);
+    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+      changed = levels_[l]->stage.repair(levels_[l]->matrix, changed, levels_[l + 1]->matrix);
+    }
+    factor();
+  }
+
+  void cycle(const Matrix& matrix, const Vectors& right, Vectors& x) {
+    finest_.smooth(matrix, right, x, true);
+    finest_.restrict_residual(matrix, right, x, levels_.front()->right);
+    solve(0);
+    finest_.prolong(levels_.front()->x, x);
+    finest_.smooth(matrix, right, x, false);
+  }
+
+  std::size_t coarse_block_count() const {
+    std::size_t sum = 0;
+    for (const auto& level : levels_) {
+      sum += level->matrix.rows.block_count();
+    }
+    return sum;
+  }
+
+ private:
+  struct Level {
+    Coarse matrix;
+    Stage<modes, Dimension> stage;  // to the next level
+    typename Coarse::Vectors right, x;
+  };
+
+  static bool is_coarsest(std::uint32_t count) { return count * modes <= most_direct_unknowns; }
+
+  static std::vector<RigidFrame<Dimension>> element_frames(const Mesh& mesh) {
+    std::vector<RigidFrame<Dimension>> frames(mesh.element_count());
+    const double length = mesh.mean_link_length > 0 ? mesh.mean_link_length : 1;
+    for (ElementId e = 0; e < frames.size(); ++e) {
+      for (int k = 0; k < Dimension; ++k) {
+        const double from_corner = mesh.rest[std::size_t{e} * Dimension + std::size_t(k)] -
+                                   mesh.box[0][mesh.axes[std::size_t(k)]];
+        frames[e].centre[k] = float(from_corner / length);
+      }
+    }
+    return frames;
+  }
+
+  template <class Finer, class FinerMatrix>
+  void add_level(Finer& finer, const FinerMatrix& matrix, std::uint32_t count) {
+    levels_.push_back(std::make_unique<Level>());
+    finer.build_coarse(matrix, levels_.back()->matrix);
+    frames_ = finer.coarse_frames();
+    levels_.back()->x.resize(count);
+  }
+
+  /// Factors the coarsest matrix, if it is small. Otherwise only the smoother works on it.
+  void factor() {
+    const Coarse& coarsest = levels_.back()->matrix;
+    is_direct_ = is_coarsest(coarsest.size());
+    if (!is_direct_) {
+      levels_.back()->stage.build_smoother(coarsest);
+      return;
+    }
+    const Eigen::Index size = Eigen::Index{coarsest.size()} * modes;
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
+    for (std::uint32_t row = 0; row < coarsest.size(); ++row) {
+      coarsest.for_each_in_row(row, [&](std::uint32_t column, const typename Coarse::Square& block) {
+        dense.block<modes, modes>(Eigen::Index{row} * modes, Eigen::Index{column} * modes) = block.template cast<double>();
+      });
+    }
+    // The matrix may be singular: free parts, and aggregates of elements in a row or of fixed elements.
+    dense.diagonal().array() += size == 0 ? 0 : 1e-6 * std::max(dense.diagonal().maxCoeff(), 1e-30);
+    direct_.compute(dense);
+  }
+
+  void solve(std::size_t l) {
+    Level& level = *levels_[l];
+    if (l + 1 == levels_.size()) {
+      is_direct_ ? solve_directly(level) : level.stage.smooth(level.matrix, level.right, level.x, true);
+      return;
+    }
+    level.stage.smooth(level.matrix, level.right, level.x, true);
+    level.stage.restrict_residual(level.matrix, level.right, level.x, levels_[l + 1]->right);
+    solve(l + 1);
+    level.stage.prolong(levels_[l + 1]->x, level.x);
+    level.stage.smooth(level.matrix, level.right, level.x, false);
+  }
+
+  void solve_directly(Level& level) {
+    const Eigen::Index size = Eigen::Index(level.right.size()) * modes;
+    if (size > 0) {
+      const Eigen::Map<const Eigen::VectorXf> right(level.right.front().data(), size);
+      Eigen::Map<Eigen::VectorXf>(level.x.front().data(), size) = direct_.solve(right.template cast<double>()).template cast<float>();
+    }
+  }
+
+  Stage<Dimension, Dimension> finest_;
+  std::vector<std::unique_ptr<Level>> levels_;  // all but the finest
+  std::vector<RigidFrame<Dimension>> frames_;   // of the last level, while levels are built
+  Eigen::LDLT<Eigen::MatrixXd> direct_;
+  bool is_direct_ = true;
+};
+
+template <int Dimension>
+Multigrid<Dimension>::Multigrid() = default;
+template <int Dimension>
+Multigrid<Dimension>::Multigrid(Multigrid&&) noexcept = default;
+template <int Dimension>
+Multigrid<Dimension>& Multigrid<Dimension>::operator=(Multigrid&&) noexcept = default;
+template <int Dimension>
+Multigrid<Dimension>::~Multigrid() = default;
+
+template <int Dimension>
+void Multigrid<Dimension>::build(const Matrix& matrix) {
+  levels_ = std::make_unique<Levels>(matrix);
+}
+
+template <int Dimension>
+void Multigrid<Dimension>::repair(const Matrix& matrix, std::span<const ElementId> rows) {
+  levels_->repair(matrix, rows);
+}
+
+template <int Dimension>
+void Multigrid<Dimension>::cycle(const Matrix& matrix, const Vectors& right, Vectors& solution) {
+  levels_->cycle(matrix, right, solution);
+}
+
+template <int Dimension>
+double Multigrid<Dimension>::complexity(const Matrix& matrix) const {
+  const double finest = 2.0 * matrix.mesh().link_count() + matrix.size();
+  return 1 + double(levels_->coarse_block_count()) * (Dimension + 1) * (Dimension + 1) / 4 / std::max(finest, 1.0);
+}
+
+template class Multigrid<1>;
+template class Multigrid<2>;
+template class Multigrid<3>;
+
+}  // namespace chainmail

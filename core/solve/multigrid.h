@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "solve/link_matrix.h"
+
+namespace chainmail {
+
+/// An approximate inverse of the matrix of an energy of links: one V-cycle of algebraic multigrid by smoothed
+/// aggregation (Vaněk, Mandel and Brezina 1996). It is symmetric, so that conjugate gradients can use it.
+///
+/// Neighbouring elements form aggregates. On the next coarser level an aggregate moves as a rigid body, so that the
+/// iterations do not grow in number if the lateral stiffness is small. Numbers are float: the result is only a
+/// preconditioner.
+template <int Dimension>
+class Multigrid {
+ public:
+  using Matrix = LinkMatrix<float, Dimension>;
+  using Vectors = typename Matrix::Vectors;
+
+  Multigrid();
+  Multigrid(Multigrid&&) noexcept;
+  Multigrid& operator=(Multigrid&&) noexcept;
+  ~Multigrid();
+
+  /// Builds all levels. The mean over the links of the numbers in the matrix should be near 1.
+  void build(const Matrix& matrix);
+  bool is_built() const { return levels_ != nullptr; }
+  /// Updates the levels after the blocks of links changed, or whether elements are fixed. `rows`: the ends of these
+  /// links, and these elements and their neighbours. Costs about as much as the rows and their surroundings are large.
+  void repair(const Matrix& matrix, std::span<const ElementId> rows);
+  /// Writes into `solution` one cycle's approximation of the matrix's inverse times `right`.
+  void cycle(const Matrix& matrix, const Vectors& right, Vectors& solution);
+
+  /// Number of blocks on all levels, divided by that on the finest one.
+  double complexity(const Matrix& matrix) const;
+
+ private:
+  class Levels;
+
+  std::unique_ptr<Levels> levels_;
+};
+
+}  // namespace chainmail
