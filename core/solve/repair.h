@@ -21,10 +21,13 @@ namespace chainmail {
 /// is the mean of the least and the greatest valid answer about it, so no order of elements or links matters. One axis
 /// at a time, in double. Links are difference constraints, their shortest paths are distances over the bounds, and the
 /// rest shape makes every weight non-negative.
-template <class Scalar, int Dimension>
+///
+/// `State` is a BodyView, or something else with positions, regions, pins and neighbours.
+template <class State>
 class Repair {
  public:
-  using State = BodyView<Scalar, Dimension>;
+  using Scalar = typename State::Scalar;
+  static constexpr int Dimension = State::Dimension;
 
   /// `reach`: the largest displacement or move that led to the state (mesh units). `handle`: its elements, ascending.
   Repair(State& body, PathSearch& search, double reach, std::span<const ElementId> handle)

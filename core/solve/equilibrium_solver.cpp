@@ -1,0 +1,652 @@
+#include "solve/equilibrium_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "mesh/error.h"
+#include "solve/body_view.h"
+#include "solve/multigrid.h"
+#include "solve/path_search.h"
+#include "solve/repair.h"
+#include "solve/valid_projection.h"
+
+namespace chainmail {
+namespace {
+
+// Stiffness against the distance from the valid region, as a share of the link's own stiffness.
+constexpr double penalty = 1;
+constexpr double over_relaxation = 1.6;
+// Steps of conjugate gradients per step of the method of multipliers.
+constexpr int inner_steps = 2;
+// The gradient is computed anew after this many steps, so that rounding does not add up.
+constexpr int steps_per_gradient = 30;
+// Valid regions count from this residual on: before, the iterate may violate links only because it has not converged.
+constexpr double binds_below = 0.2;
+
+/// Displacements from rest, in double, as repair and projection see a body.
+template <int D>
+struct Displacements {
+  using Scalar = double;
+  static constexpr int Dimension = D;
+
+  bool pinned(ElementId element) const { return body->is_pinned(element); }
+  template <class Visit>
+  void for_each_neighbour(ElementId element, Visit visit) const {
+    chainmail::for_each_neighbour(*mesh, body->cuts(), element, visit);
+  }
+
+  const Mesh* mesh = nullptr;
+  const Body* body = nullptr;
+  std::vector<Position<double, D>> positions;
+  RegionTable<double, D> regions;
+};
+
+/// A matrix in float with its multigrid, both brought up to date when they are used.
+template <int D>
+class Preconditioner {
+ public:
+  using Matrix = LinkMatrix<double, D>;
+  using Vectors = typename Matrix::Vectors;
+
+  void reset() { *this = Preconditioner(); }
+  /// Notes that the blocks in these rows, or whether they are fixed, have changed.
+  void outdate(std::span<const ElementId> rows) {
+    if (grid_.is_built()) {
+      outdated_.insert(outdated_.end(), rows.begin(), rows.end());
+    }
+  }
+
+  void update(const MeshPointer& mesh, const Matrix& matrix) {
+    if (!grid_.is_built() || outdated_.size() > matrix.size() / 4) {
+      build(mesh, matrix);
+    } else if (!outdated_.empty()) {
+      for (const ElementId row : outdated_) {
+        copy_row(matrix, row);
+      }
+      grid_.repair(matrix_, outdated_);
+    }
+    outdated_.clear();
+  }
+
+  void apply(const Vectors& right, Vectors& result) {
+    double largest = 0;
+    for (const auto& one : right) {
+      largest = std::max(largest, one.cwiseAbs().maxCoeff());
+    }
+    const double scale = largest > 0 ? 1 / largest : 1;
+    right_.resize(right.size());
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      right_[i] = (right[i] * scale).template cast<float>();
+    }
+    grid_.cycle(matrix_, right_, result_);
+    result.resize(right.size());
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      result[i] = result_[i].template cast<double>() / scale;
+    }
+  }
+
+ private:
+  static LinkBlock<float, D> rounded(const LinkBlock<double, D>& block) {
+    return {block.along.template cast<float>(), static_cast<float>(block.across)};
+  }
+
+  void build(const MeshPointer& mesh, const Matrix& matrix) {
+    matrix_ = LinkMatrix<float, D>(mesh);
+    for (LinkId link = 0; link < mesh->link_count(); ++link) {
+      matrix_.set_link(link, rounded(matrix.link(link)));
+    }
+    for (ElementId e = 0; e < mesh->element_count(); ++e) {
+      matrix_.set_fixed(e, matrix.is_fixed(e));
+    }
+    grid_.build(matrix_);
+  }
+
+  void copy_row(const Matrix& matrix, ElementId row) {
+    const Mesh& mesh = matrix.mesh();
+    matrix_.set_fixed(row, matrix.is_fixed(row));
+    for (EntryId entry = mesh.first_entry[row]; entry < mesh.first_entry[row + 1]; ++entry) {
+      matrix_.set_link(mesh.entry_link[entry], rounded(matrix.link(mesh.entry_link[entry])));
+    }
+  }
+
+  LinkMatrix<float, D> matrix_;
+  Multigrid<D> grid_;
+  std::vector<ElementId> outdated_;
+  std::vector<Eigen::Matrix<float, D, 1>> right_, result_;
+};
+
+/// Conjugate gradients with a preconditioner, one step at a time. The iterate belongs to the caller.
+template <int D>
+class ConjugateGradients {
+ public:
+  using Matrix = LinkMatrix<double, D>;
+  using Vectors = typename Matrix::Vectors;
+
+  /// Begins with this negative gradient.
+  Vectors& begin() {
+    is_fresh_ = true;
+    return rest_;
+  }
+
+  /// Runs a step. Returns by how much the energy decreases.
+  double step(const Matrix& matrix, Preconditioner<D>& preconditioner, Vectors& x) {
+    preconditioner.apply(rest_, scaled_);
+    const double slope = dot(rest_, scaled_);
+    if (!(slope > 0)) {
+      slope_ = 0;
+      return 0;
+    }
+    // After Polak and Ribière, which forgives a preconditioner in float.
+    const double bend = is_fresh_ ? 0 : std::max(0.0, -step_ * dot(product_, scaled_) / slope_);
+    way_.resize(rest_.size());
+    for (std::size_t i = 0; i < way_.size(); ++i) {
+      way_[i] = is_fresh_ ? scaled_[i] : scaled_[i] + bend * way_[i];
+    }
+    slope_ = slope;
+    is_fresh_ = false;
+    matrix.apply(way_, product_);
+    const double curvature = dot(way_, product_), along = dot(rest_, way_);
+    if (!(curvature > 0)) {
+      return 0;
+    }
+    step_ = along / curvature;
+    const double before = dot(rest_, rest_);
+    double after = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      x[i] += step_ * way_[i];
+      rest_[i] -= step_ * product_[i];
+      after += rest_[i].squaredNorm();
+    }
+    shrunk_ = before > 0 ? std::sqrt(after / before) : 0;
+    return step_ * along / 2;
+  }
+
+  /// Estimates the distance of the iterate from the minimum, in the norm of the energy, after the last step.
+  double distance() const { return std::sqrt(std::max(0.0, slope_)) * shrunk_; }
+  /// The same before the last step.
+  double distance_before() const { return std::sqrt(std::max(0.0, slope_)); }
+
+ private:
+  static double dot(const Vectors& a, const Vectors& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      sum += a[i].dot(b[i]);
+    }
+    return sum;
+  }
+
+  bool is_fresh_ = true;
+  double slope_ = 0, step_ = 0, shrunk_ = 1;
+  Vectors rest_, scaled_, way_, product_;
+};
+
+template <int D>
+class Equilibrator final : public EquilibriumSolver {
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+  using Vectors = std::vector<Vector>;
+  using Projection = ValidProjection<Displacements<D>>;
+
+  void iterate(Body& body, std::span<const ElementId> held, const Progress& progress) override {
+    progress.report(0);
+    follow(body, held);
+    constrained_ ? constrained_step() : free_step();
+    ++iterations_;
+    show(body);
+  }
+
+  bool solve(Body& body, std::span<const ElementId> held, double residual, int most,
+             const Progress& progress) override {
+    std::vector<ElementId> all;
+    for (int i = 0; i < most; ++i) {
+      progress.report(double(i) / most);
+      iterate(body, held, {});
+      if (residual_ <= residual && (constrained_ || !violates_)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  double residual() const override { return residual_; }
+  std::span<const ElementId> moved() const override { return moved_; }
+  double largest_step() const override { return largest_step_; }
+
+  EquilibriumCertificate certificate(Body& body) override {
+    EquilibriumCertificate result;
+    result.residual = residual_;
+    result.binds = constrained_;
+    result.iterations = iterations_;
+    read(body);
+    double energy = 0, bound = 0;
+    measure_gap(energy, bound);
+    result.gap = energy > 0 ? std::max(0.0, energy - bound) / energy : 0;
+    result.violation = largest_violation();
+    return result;
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  // What the body was when it was last seen.
+
+  void follow(Body& body, std::span<const ElementId> held) {
+    const Revisions& now = body.revisions();
+    const bool is_new = shown_.mesh != &body.mesh();
+    if (is_new) {
+      begin(body);
+    }
+    shown_.body = &body;
+    if (is_new || now.softness != seen_.softness) {
+      shown_.regions.set(*mesh_, body.softness(), true);
+    }
+    if (is_new || now.softness != seen_.softness || now.cuts != seen_.cuts) {
+      update_links(body);
+    }
+    read(body);
+    if (is_new || now.positions != seen_.positions) {
+      for (std::size_t e = 0; e < iterate_.size(); ++e) {
+        iterate_[e] = vector_of(shown_.positions[e]);
+      }
+      end_constraints();
+    }
+    if (is_new || now.pins != seen_.pins || !std::ranges::equal(held, held_)) {
+      held_.assign(held.begin(), held.end());
+      update_fixed(body);
+    }
+    make_valid(body);
+    hold_fixed();
+    seen_ = body.revisions();
+  }
+
+  void begin(const Body& body) {
+    mesh_ = body.mesh_pointer();
+    shown_.mesh = mesh_.get();
+    shown_.positions.resize(mesh_->element_count());
+    iterate_.resize(mesh_->element_count());
+    energy_ = LinkMatrix<double, D>(mesh_);
+    fixed_.assign(mesh_->element_count(), 0);
+    scale_ = 0;
+    free_.reset();
+    penalised_.reset();
+    constrained_ = false;
+    penalised_matrix_ = {};
+  }
+
+  static Vector vector_of(const Position<double, D>& position) {
+    Vector result;
+    for (int k = 0; k < D; ++k) {
+      result[k] = position[k];
+    }
+    return result;
+  }
+
+  void read(const Body& body) {
+    const PositionView positions = body.positions();
+    for (ElementId e = 0; e < mesh_->element_count(); ++e) {
+      for (int k = 0; k < D; ++k) {
+        shown_.positions[e][k] = positions(e, k) - mesh_->rest[std::size_t{e} * D + std::size_t(k)];
+      }
+    }
+    double largest = 0;
+    for (const auto& position : shown_.positions) {
+      for (int k = 0; k < D; ++k) {
+        largest = std::max(largest, std::abs(position[k]));
+      }
+    }
+    const double epsilon = body.precision() == Precision::single_precision ? std::numeric_limits<float>::epsilon()
+                                                                           : std::numeric_limits<double>::epsilon();
+    tolerance_ = 16 * epsilon * largest;
+  }
+
+  Vector rest_vector(LinkId link) const {
+    const auto [i, j] = mesh_->links[link];
+    Vector r;
+    for (int k = 0; k < D; ++k) {
+      r[k] = mesh_->rest[std::size_t{j} * D + std::size_t(k)] - mesh_->rest[std::size_t{i} * D + std::size_t(k)];
+    }
+    return r;
+  }
+
+  LinkBlock<double, D> block_of(const Body& body, LinkId link) const {
+    if (body.cuts().is_cut(link)) {
+      return {};
+    }
+    const Vector r = rest_vector(link);
+    const double length = r.norm(), unit = mesh_->mean_link_length;
+    const double weight = length > 0 ? unit / length : 1;
+    if (!(length > 0)) {
+      return {Vector::Zero(), lateral * weight};
+    }
+    return {r / length * std::sqrt(weight), lateral * weight};
+  }
+
+  void update_links(const Body& body) {
+    std::vector<ElementId> rows;
+    for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+      const LinkBlock<double, D> block = block_of(body, link);
+      const LinkBlock<double, D>& present = energy_.link(link);
+      if (block.along != present.along || block.across != present.across) {
+        energy_.set_link(link, block);
+        if (penalised_matrix_) {
+          penalised_matrix_->set_link(link, with_penalty(block));
+        }
+        if (constrained_ && block.is_zero()) {
+          multiplier_[link].setZero();
+          inside_[link].setZero();
+        }
+        rows.insert(rows.end(), {mesh_->links[link][0], mesh_->links[link][1]});
+      }
+    }
+    free_.outdate(rows);
+    penalised_.outdate(rows);
+    is_fresh_ = true;
+    iterations_ = 0;
+  }
+
+  static LinkBlock<double, D> with_penalty(LinkBlock<double, D> block) {
+    block.across += penalty_of(block);
+    return block;
+  }
+  static double penalty_of(const LinkBlock<double, D>& block) {
+    return penalty * (block.along.squaredNorm() + block.across);
+  }
+
+  void update_fixed(const Body& body) {
+    std::vector<std::uint8_t> fixed(mesh_->element_count());
+    for (const ElementId pin : body.pins()) {
+      fixed[pin] = 1;
+    }
+    for (const ElementId element : held_) {
+      fixed[element] = 1;
+    }
+    std::vector<ElementId> rows;
+    for (ElementId e = 0; e < fixed.size(); ++e) {
+      if (fixed[e] != fixed_[e]) {
+        energy_.set_fixed(e, fixed[e] != 0);
+        if (penalised_matrix_) {
+          penalised_matrix_->set_fixed(e, fixed[e] != 0);
+        }
+        rows.push_back(e);
+        const auto neighbours = mesh_->neighbours_of(e);
+        rows.insert(rows.end(), neighbours.begin(), neighbours.end());
+      }
+    }
+    fixed_ = std::move(fixed);
+    free_.outdate(rows);
+    penalised_.outdate(rows);
+    is_fresh_ = true;
+    iterations_ = 0;
+  }
+
+  /// Repairs the shown state if an algorithm left it invalid.
+  void make_valid(Body& body) {
+    if (Projection(shown_, fixed_, tolerance_).is_valid(shown_.positions)) {
+      return;
+    }
+    Repair repair(shown_, search_, body.reach().since_rest, held_);
+    repair.run(body.pins());
+  }
+
+  /// Moves the fixed elements of the iterate to where they are.
+  void hold_fixed() {
+    for (std::size_t e = 0; e < fixed_.size(); ++e) {
+      if (fixed_[e] != 0 && iterate_[e] != vector_of(shown_.positions[e])) {
+        iterate_[e] = vector_of(shown_.positions[e]);
+        is_fresh_ = true;
+        iterations_ = 0;
+      }
+    }
+  }
+
+  // Iterations.
+
+  void free_step() {
+    free_.update(mesh_, energy_);
+    if (is_fresh_ || ++steps_since_gradient_ > steps_per_gradient) {
+      energy_of_iterate_ = gradient(energy_, gradients_.begin());
+      is_fresh_ = false;
+      steps_since_gradient_ = 0;
+    }
+    energy_of_iterate_ -= gradients_.step(energy_, free_, iterate_);
+    residual_ = energy_of_iterate_ > 0 ? gradients_.distance() / std::sqrt(2 * energy_of_iterate_) : 0;
+  }
+
+  /// Writes the negative gradient of the energy at the iterate, and returns the energy.
+  double gradient(const LinkMatrix<double, D>& matrix, Vectors& rest) const {
+    rest.assign(iterate_.size(), Vector::Zero());
+    double energy = 0;
+    for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+      const auto [i, j] = mesh_->links[link];
+      const Vector apart = iterate_[j] - iterate_[i], force = matrix.link(link).times(apart);
+      energy += apart.dot(force) / 2;
+      rest[i] += force;
+      rest[j] -= force;
+    }
+    matrix.clear_fixed(rest);
+    return energy;
+  }
+
+  void begin_constraints() {
+    constrained_ = true;
+    multiplier_.assign(mesh_->link_count(), Vector::Zero());
+    inside_.resize(mesh_->link_count());
+    for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>& region) {
+      inside_[link] = clamped_to(region, iterate_[j] - iterate_[i]);
+    });
+    if (!penalised_matrix_) {
+      penalised_matrix_.emplace(energy_);
+      for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+        penalised_matrix_->set_link(link, with_penalty(energy_.link(link)));
+      }
+    }
+  }
+
+  void end_constraints() {
+    constrained_ = false;
+    is_fresh_ = true;
+    iterations_ = 0;
+  }
+
+  /// Calls visit(link, i, j, region) for each link that counts, with i < j and the region of j about i.
+  template <class Visit>
+  void for_each_link(Visit visit) const {
+    for (ElementId i = 0; i < mesh_->element_count(); ++i) {
+      shown_.for_each_neighbour(i, [&](ElementId j, EntryId entry) {
+        if (j > i && (fixed_[i] == 0 || fixed_[j] == 0)) {
+          visit(mesh_->entry_link[entry], i, j, shown_.regions[entry]);
+        }
+      });
+    }
+  }
+
+  static Vector clamped_to(const Region<double, D>& region, Vector apart) {
+    for (int k = 0; k < D; ++k) {
+      apart[k] = std::min(std::max(apart[k], region.low[k]), region.high[k]);
+    }
+    return apart;
+  }
+
+  /// One step of the method of multipliers: an approximate minimum of the energy with springs to where each link was
+  /// inside its region, then clamps into the regions, then the multipliers.
+  void constrained_step() {
+    penalised_.update(mesh_, *penalised_matrix_);
+    Vectors& rest = gradients_.begin();
+    gradient(*penalised_matrix_, rest);
+    for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>&) {
+      const Vector force = penalty_of(energy_.link(link)) * (inside_[link] - multiplier_[link]);
+      rest[i] -= force;
+      rest[j] += force;
+    });
+    energy_.clear_fixed(rest);
+    for (int i = 0; i < inner_steps; ++i) {
+      gradients_.step(*penalised_matrix_, penalised_, iterate_);
+    }
+    is_fresh_ = true;
+    double outside = 0, stepped = 0, size = 0, active = 0;
+    for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>& region) {
+      const double weight = penalty_of(energy_.link(link));
+      const Vector apart = iterate_[j] - iterate_[i];
+      const Vector relaxed = over_relaxation * apart + (1 - over_relaxation) * inside_[link];
+      const Vector before = inside_[link];
+      inside_[link] = clamped_to(region, relaxed + multiplier_[link]);
+      multiplier_[link] += relaxed - inside_[link];
+      outside += weight * (apart - inside_[link]).squaredNorm();
+      stepped += weight * (before - inside_[link]).squaredNorm();
+      size += weight * apart.squaredNorm();
+      active += multiplier_[link].squaredNorm();
+    });
+    residual_ = size > 0 ? std::sqrt(std::max(outside, stepped) / size) : 0;
+    if (active == 0) {
+      end_constraints();
+    }
+  }
+
+  // What the user sees.
+
+  void show(Body& body) {
+    Projection projection(shown_, fixed_, tolerance_);
+    violates_ = !projection.is_valid(iterate_);
+    if (violates_) {
+      projection.run(shown_.positions, iterate_);
+      if (!constrained_ && residual_ < binds_below) {
+        begin_constraints();
+      }
+    } else {
+      for (std::size_t e = 0; e < iterate_.size(); ++e) {
+        for (int k = 0; k < D; ++k) {
+          shown_.positions[e][k] = fixed_[e] != 0 ? shown_.positions[e][k] : iterate_[e][k];
+        }
+      }
+    }
+    write(body);
+  }
+
+  void write(Body& body) {
+    moved_.clear();
+    largest_step_ = 0;
+    body.with_view([&]<class View>(const View& view) {
+      if constexpr (View::Dimension == D) {
+        for (ElementId e = 0; e < shown_.positions.size(); ++e) {
+          const auto before = view.positions[e];
+          double square = 0;
+          for (int k = 0; k < D; ++k) {
+            view.set_position(e, k, mesh_->rest[std::size_t{e} * D + std::size_t(k)] + shown_.positions[e][k]);
+            const double step = double(view.positions[e][k]) - double(before[k]);
+            square += step * step;
+          }
+          if (square > 0) {
+            moved_.push_back(e);
+            largest_step_ = std::max(largest_step_, square);
+          }
+        }
+      }
+    });
+    largest_step_ = std::sqrt(largest_step_);
+    if (!moved_.empty()) {
+      body.note_relaxation();
+    }
+  }
+
+  // The certificate.
+
+  /// Computes the energy of the shown state, and a lower bound of that of all valid states (Lagrange's dual function).
+  void measure_gap(double& energy, double& bound) {
+    Vectors at(iterate_);
+    Vectors rest(at.size(), Vector::Zero());
+    energy = bound = 0;
+    for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+      const auto [i, j] = mesh_->links[link];
+      const Vector shown = vector_of(shown_.positions[j]) - vector_of(shown_.positions[i]);
+      energy += shown.dot(energy_.link(link).times(shown)) / 2;
+      const Vector apart = at[j] - at[i], force = energy_.link(link).times(apart);
+      bound += apart.dot(force) / 2;
+      rest[i] += force;
+      rest[j] -= force;
+    }
+    if (constrained_) {
+      for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>& region) {
+        const Vector force = penalty_of(energy_.link(link)) * multiplier_[link];
+        bound += force.dot(at[j] - at[i]);
+        for (int k = 0; k < D; ++k) {
+          bound -= force[k] > 0 ? force[k] * region.high[k] : force[k] * region.low[k];
+        }
+        rest[i] += force;
+        rest[j] -= force;
+      });
+    }
+    energy_.clear_fixed(rest);
+    free_.update(mesh_, energy_);
+    Vectors step;
+    for (int i = 0; i < 1; ++i) {
+      free_.apply(rest, step);
+      double decrease = 0;
+      for (std::size_t e = 0; e < rest.size(); ++e) {
+        decrease += rest[e].dot(step[e]);
+      }
+      bound -= decrease / 2;
+    }
+  }
+
+  double largest_violation() const {
+    double largest = 0;
+    for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>& region) {
+      const Vector apart = vector_of(shown_.positions[j]) - vector_of(shown_.positions[i]);
+      const double outside = (apart - clamped_to(region, apart)).norm(), length = rest_vector(link).norm();
+      largest = std::max(largest, outside / (length > 0 ? length : mesh_->mean_link_length));
+    });
+    return largest;
+  }
+
+ public:
+  double lateral = 0.1;
+
+ private:
+  MeshPointer mesh_;
+  Revisions seen_;
+  std::vector<ElementId> held_;  // ascending
+  std::vector<std::uint8_t> fixed_;
+  Displacements<D> shown_;  // a valid state
+  double tolerance_ = 0;    // up to which links are valid (mesh units)
+  double scale_ = 0;
+  PathSearch search_;
+
+  LinkMatrix<double, D> energy_;
+  Preconditioner<D> free_;
+  std::optional<LinkMatrix<double, D>> penalised_matrix_;
+  Preconditioner<D> penalised_;
+
+  Vectors iterate_;  // displacements
+  ConjugateGradients<D> gradients_;
+  bool is_fresh_ = true;  // the gradient must be computed anew
+  int steps_since_gradient_ = 0;
+  double energy_of_iterate_ = 0;
+  double residual_ = 0;
+  int iterations_ = 0;
+
+  bool constrained_ = false;  // valid regions bind
+  bool violates_ = false;     // the iterate violates links
+  Vectors inside_;            // of each link: its difference of displacements, clamped into the region
+  Vectors multiplier_;        // of each link: its force, divided by the penalty
+
+  std::vector<ElementId> moved_;
+  double largest_step_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<EquilibriumSolver> EquilibriumSolver::make(int space_dimension) {
+  switch (space_dimension) {
+    case 1:
+      return std::make_unique<Equilibrator<1>>();
+    case 2:
+      return std::make_unique<Equilibrator<2>>();
+    default:
+      return std::make_unique<Equilibrator<3>>();
+  }
+}
+
+}  // namespace chainmail
