@@ -17,10 +17,10 @@ namespace chainmail {
 namespace {
 
 // Stiffness against the distance from the valid region, as a share of the link's own stiffness.
-constexpr double penalty = 1;
-constexpr double over_relaxation = 1.6;
+constexpr double penalty = 4;
+constexpr double over_relaxation = 1.7;
 // Steps of conjugate gradients per step of the method of multipliers.
-constexpr int inner_steps = 2;
+constexpr int inner_steps = 1;
 // The gradient is computed anew after this many steps, so that rounding does not add up.
 constexpr int steps_per_gradient = 30;
 // Valid regions count from this residual on: before, the iterate may violate links only because it has not converged.
