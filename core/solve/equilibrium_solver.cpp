@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "mesh/error.h"
 #include "solve/body_view.h"
+#include "solve/corotated.h"
 #include "solve/multigrid.h"
 #include "solve/path_search.h"
 #include "solve/repair.h"
@@ -23,6 +25,8 @@ constexpr double over_relaxation = 1.7;
 constexpr int inner_steps = 1;
 // The gradient is computed anew after this many steps, so that rounding does not add up.
 constexpr int steps_per_gradient = 30;
+// Lateral stiffness of the preconditioner for the corotated energy, per stiffness along the link.
+constexpr double turned_share = 0.1;
 // Valid regions count from this residual on: before, the iterate may violate links only because it has not converged.
 constexpr double binds_below = 0.2;
 
@@ -59,12 +63,14 @@ class Preconditioner {
     }
   }
 
-  void update(const MeshPointer& mesh, const Matrix& matrix) {
+  /// `change` makes the blocks of the approximated matrix from those of `matrix`.
+  template <class Change>
+  void update(const MeshPointer& mesh, const Matrix& matrix, Change change) {
     if (!grid_.is_built() || outdated_.size() > matrix.size() / 4) {
-      build(mesh, matrix);
+      build(mesh, matrix, change);
     } else if (!outdated_.empty()) {
       for (const ElementId row : outdated_) {
-        copy_row(matrix, row);
+        copy_row(matrix, row, change);
       }
       grid_.repair(matrix_, outdated_);
     }
@@ -93,10 +99,11 @@ class Preconditioner {
     return {block.along.template cast<float>(), static_cast<float>(block.across)};
   }
 
-  void build(const MeshPointer& mesh, const Matrix& matrix) {
+  template <class Change>
+  void build(const MeshPointer& mesh, const Matrix& matrix, Change change) {
     matrix_ = LinkMatrix<float, D>(mesh);
     for (LinkId link = 0; link < mesh->link_count(); ++link) {
-      matrix_.set_link(link, rounded(matrix.link(link)));
+      matrix_.set_link(link, rounded(change(matrix.link(link))));
     }
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
       matrix_.set_fixed(e, matrix.is_fixed(e));
@@ -104,11 +111,12 @@ class Preconditioner {
     grid_.build(matrix_);
   }
 
-  void copy_row(const Matrix& matrix, ElementId row) {
+  template <class Change>
+  void copy_row(const Matrix& matrix, ElementId row, Change change) {
     const Mesh& mesh = matrix.mesh();
     matrix_.set_fixed(row, matrix.is_fixed(row));
     for (EntryId entry = mesh.first_entry[row]; entry < mesh.first_entry[row + 1]; ++entry) {
-      matrix_.set_link(mesh.entry_link[entry], rounded(matrix.link(mesh.entry_link[entry])));
+      matrix_.set_link(mesh.entry_link[entry], rounded(change(matrix.link(mesh.entry_link[entry]))));
     }
   }
 
@@ -183,6 +191,107 @@ class ConjugateGradients {
   Vectors rest_, scaled_, way_, product_;
 };
 
+/// A quasi-Newton method with a preconditioner in place of the first approximation of the inverse (L-BFGS; Nocedal
+/// 1980), one step at a time. What it has learned about the curvature stays when the handle moves.
+template <int D>
+class QuasiNewton {
+ public:
+  using Vectors = std::vector<Eigen::Matrix<double, D, 1>>;
+
+  void forget() { pairs_.clear(); }
+
+  /// Runs a step from `x`, with the energy and its negative gradient there, which are updated. `evaluate(x, force)`
+  /// returns the energy. Returns false if no step lowers the energy.
+  template <class Evaluate>
+  bool step(Evaluate evaluate, Preconditioner<D>& preconditioner, Vectors& x, double& energy, Vectors& force) {
+    find_way(preconditioner, force);
+    const double slope = dot(way_, force);
+    slope_ = std::max(0.0, slope);
+    if (!(slope > 0)) {
+      forget();
+      return false;
+    }
+    before_ = force;
+    start_ = x;
+    double length = 1;
+    for (int i = 0; i < most_tries; ++i, length *= 0.5) {
+      for (std::size_t e = 0; e < x.size(); ++e) {
+        x[e] = start_[e] + length * way_[e];
+      }
+      const double next = evaluate(x, force);
+      if (next <= energy - 1e-4 * length * slope + 1e-13 * energy) {
+        energy = next;
+        learn(length, force);
+        const double was = dot(before_, before_);
+        shrunk_ = was > 0 ? std::min(1.0, std::sqrt(dot(force, force) / was)) : 0;
+        return true;
+      }
+    }
+    x = start_;
+    force = before_;
+    forget();
+    return false;
+  }
+
+  /// Estimates the distance from the minimum in the norm of the energy, after the last step.
+  double distance() const { return std::sqrt(slope_) * shrunk_; }
+
+ private:
+  static constexpr std::size_t most_pairs = 6;
+  static constexpr int most_tries = 12;
+
+  struct Pair {
+    Vectors step, change;  // of the position, and of the gradient
+    double product = 0;    // step · change
+  };
+
+  static double dot(const Vectors& a, const Vectors& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      sum += a[i].dot(b[i]);
+    }
+    return sum;
+  }
+  static void add(Vectors& sum, double factor, const Vectors& other) {
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      sum[i] += factor * other[i];
+    }
+  }
+
+  void find_way(Preconditioner<D>& preconditioner, const Vectors& force) {
+    rest_ = force;
+    std::vector<double> shares(pairs_.size());
+    for (std::size_t i = pairs_.size(); i-- > 0;) {
+      shares[i] = dot(pairs_[i].step, rest_) / pairs_[i].product;
+      add(rest_, -shares[i], pairs_[i].change);
+    }
+    preconditioner.apply(rest_, way_);
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      add(way_, shares[i] - dot(pairs_[i].change, way_) / pairs_[i].product, pairs_[i].step);
+    }
+  }
+
+  void learn(double length, const Vectors& force) {
+    Pair pair;
+    if (pairs_.size() == most_pairs) {
+      pair = std::move(pairs_.front());
+      pairs_.erase(pairs_.begin());
+    }
+    pair.step.assign(way_.size(), Eigen::Matrix<double, D, 1>::Zero());
+    add(pair.step, length, way_);
+    pair.change = before_;
+    add(pair.change, -1, force);
+    pair.product = dot(pair.step, pair.change);
+    if (pair.product > 1e-12 * std::sqrt(dot(pair.step, pair.step) * dot(pair.change, pair.change))) {
+      pairs_.push_back(std::move(pair));
+    }
+  }
+
+  std::vector<Pair> pairs_;  // oldest first
+  Vectors rest_, way_, before_, start_;
+  double slope_ = 0, shrunk_ = 1;
+};
+
 template <int D>
 class Equilibrator final : public EquilibriumSolver {
  public:
@@ -221,9 +330,9 @@ class Equilibrator final : public EquilibriumSolver {
     result.binds = constrained_;
     result.iterations = iterations_;
     read(body);
-    double energy = 0, bound = 0;
-    measure_gap(energy, bound);
-    result.gap = energy > 0 ? std::max(0.0, energy - bound) / energy : 0;
+    if (kind != EnergyKind::corotated) {
+      result.gap = relative_gap();
+    }
     result.violation = largest_violation();
     return result;
   }
@@ -268,12 +377,13 @@ class Equilibrator final : public EquilibriumSolver {
     shown_.positions.resize(mesh_->element_count());
     iterate_.resize(mesh_->element_count());
     energy_ = LinkMatrix<double, D>(mesh_);
+    newton_.forget();
     fixed_.assign(mesh_->element_count(), 0);
     scale_ = 0;
     free_.reset();
     penalised_.reset();
     constrained_ = false;
-    penalised_matrix_ = {};
+    penalised_matrix_.reset();
   }
 
   static Vector vector_of(const Position<double, D>& position) {
@@ -343,12 +453,23 @@ class Equilibrator final : public EquilibriumSolver {
     }
     free_.outdate(rows);
     penalised_.outdate(rows);
+    newton_.forget();
     is_fresh_ = true;
     iterations_ = 0;
   }
 
-  static LinkBlock<double, D> with_penalty(LinkBlock<double, D> block) {
-    block.across += penalty_of(block);
+  /// Returns the block of the matrix that approximates the curvature of the energy.
+  static LinkBlock<double, D> softened(LinkBlock<double, D> block) {
+    // Where the lateral part turns with its neighbourhood, it resists large motions little.
+    block.across = std::min(block.across, turned_share * block.along.squaredNorm());
+    return block;
+  }
+  LinkBlock<double, D> with_penalty(LinkBlock<double, D> block) const {
+    const double all = penalty_of(block);
+    if (kind == EnergyKind::corotated) {  // a bound of the curvature, whatever the rotations are
+      return {Vector::Zero(), block.along.squaredNorm() + block.across + all};
+    }
+    block.across += all;
     return block;
   }
   static double penalty_of(const LinkBlock<double, D>& block) {
@@ -378,6 +499,7 @@ class Equilibrator final : public EquilibriumSolver {
     fixed_ = std::move(fixed);
     free_.outdate(rows);
     penalised_.outdate(rows);
+    newton_.forget();
     is_fresh_ = true;
     iterations_ = 0;
   }
@@ -405,9 +527,13 @@ class Equilibrator final : public EquilibriumSolver {
   // Iterations.
 
   void free_step() {
-    free_.update(mesh_, energy_);
+    update_free();
+    if (kind == EnergyKind::corotated) {
+      newton_step();
+      return;
+    }
     if (is_fresh_ || ++steps_since_gradient_ > steps_per_gradient) {
-      energy_of_iterate_ = gradient(energy_, gradients_.begin());
+      energy_of_iterate_ = gradient(iterate_, gradients_.begin());
       is_fresh_ = false;
       steps_since_gradient_ = 0;
     }
@@ -415,18 +541,52 @@ class Equilibrator final : public EquilibriumSolver {
     residual_ = energy_of_iterate_ > 0 ? gradients_.distance() / std::sqrt(2 * energy_of_iterate_) : 0;
   }
 
-  /// Writes the negative gradient of the energy at the iterate, and returns the energy.
-  double gradient(const LinkMatrix<double, D>& matrix, Vectors& rest) const {
-    rest.assign(iterate_.size(), Vector::Zero());
+  void update_free() {
+    if (kind == EnergyKind::corotated) {
+      free_.update(mesh_, energy_, [](const LinkBlock<double, D>& block) { return softened(block); });
+    } else {
+      free_.update(mesh_, energy_, std::identity());
+    }
+  }
+
+  void newton_step() {
+    if (is_fresh_) {
+      energy_of_iterate_ = gradient(iterate_, force_);
+      is_fresh_ = false;
+    }
+    const auto evaluate = [&](const Vectors& at, Vectors& force) { return gradient(at, force); };
+    const bool lowered = newton_.step(evaluate, free_, iterate_, energy_of_iterate_, force_);
+    residual_ = lowered && energy_of_iterate_ > 0 ? newton_.distance() / std::sqrt(2 * energy_of_iterate_) : 0;
+  }
+
+  /// Writes the negative gradient of the energy at these displacements, and returns the energy.
+  double gradient(const Vectors& at, Vectors& rest) {
+    double energy = 0;
+    if (kind == EnergyKind::corotated) {
+      energy = corotated_.evaluate(
+          *mesh_,
+          [&](LinkId link) {
+            const LinkBlock<double, D>& block = energy_.link(link);
+            return typename CorotatedEnergy<D>::Link{block.along.squaredNorm(), block.across};
+          },
+          at, &rest);
+    } else {
+      energy = linear_gradient(at, rest);
+    }
+    energy_.clear_fixed(rest);
+    return energy;
+  }
+
+  double linear_gradient(const Vectors& at, Vectors& rest) const {
+    rest.assign(at.size(), Vector::Zero());
     double energy = 0;
     for (LinkId link = 0; link < mesh_->link_count(); ++link) {
       const auto [i, j] = mesh_->links[link];
-      const Vector apart = iterate_[j] - iterate_[i], force = matrix.link(link).times(apart);
+      const Vector apart = at[j] - at[i], force = energy_.link(link).times(apart);
       energy += apart.dot(force) / 2;
       rest[i] += force;
       rest[j] -= force;
     }
-    matrix.clear_fixed(rest);
     return energy;
   }
 
@@ -473,11 +633,12 @@ class Equilibrator final : public EquilibriumSolver {
   /// One step of the method of multipliers: an approximate minimum of the energy with springs to where each link was
   /// inside its region, then clamps into the regions, then the multipliers.
   void constrained_step() {
-    penalised_.update(mesh_, *penalised_matrix_);
+    penalised_.update(mesh_, *penalised_matrix_, std::identity());
     Vectors& rest = gradients_.begin();
-    gradient(*penalised_matrix_, rest);
+    energy_of_iterate_ = gradient(iterate_, rest);
     for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>&) {
-      const Vector force = penalty_of(energy_.link(link)) * (inside_[link] - multiplier_[link]);
+      const Vector apart = iterate_[j] - iterate_[i];
+      const Vector force = penalty_of(energy_.link(link)) * (inside_[link] - multiplier_[link] - apart);
       rest[i] -= force;
       rest[j] += force;
     });
@@ -553,11 +714,12 @@ class Equilibrator final : public EquilibriumSolver {
 
   // The certificate.
 
-  /// Computes the energy of the shown state, and a lower bound of that of all valid states (Lagrange's dual function).
-  void measure_gap(double& energy, double& bound) {
-    Vectors at(iterate_);
+  /// Returns by how much the energy of the shown state exceeds a lower bound of that of all valid states (the value of
+  /// Lagrange's dual function), relative to the energy.
+  double relative_gap() {
+    const Vectors& at = iterate_;
     Vectors rest(at.size(), Vector::Zero());
-    energy = bound = 0;
+    double energy = 0, bound = 0;
     for (LinkId link = 0; link < mesh_->link_count(); ++link) {
       const auto [i, j] = mesh_->links[link];
       const Vector shown = vector_of(shown_.positions[j]) - vector_of(shown_.positions[i]);
@@ -579,16 +741,15 @@ class Equilibrator final : public EquilibriumSolver {
       });
     }
     energy_.clear_fixed(rest);
-    free_.update(mesh_, energy_);
+    update_free();
     Vectors step;
-    for (int i = 0; i < 1; ++i) {
-      free_.apply(rest, step);
-      double decrease = 0;
-      for (std::size_t e = 0; e < rest.size(); ++e) {
-        decrease += rest[e].dot(step[e]);
-      }
-      bound -= decrease / 2;
+    free_.apply(rest, step);
+    double decrease = 0;
+    for (std::size_t e = 0; e < rest.size(); ++e) {
+      decrease += rest[e].dot(step[e]);
     }
+    bound -= decrease / 2;
+    return energy > 0 ? std::max(0.0, energy - bound) / energy : 0;
   }
 
   double largest_violation() const {
@@ -602,7 +763,9 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
  public:
-  double lateral = 0.1;
+  double lateral = getenv("LAT") ? atof(getenv("LAT")) : 0.1;
+  enum class EnergyKind { isotropic, axial, corotated };
+  EnergyKind kind = getenv("COR") ? EnergyKind::corotated : EnergyKind::axial;
 
  private:
   MeshPointer mesh_;
@@ -621,6 +784,9 @@ class Equilibrator final : public EquilibriumSolver {
 
   Vectors iterate_;  // displacements
   ConjugateGradients<D> gradients_;
+  CorotatedEnergy<D> corotated_;
+  QuasiNewton<D> newton_;
+  Vectors force_;         // the negative gradient, for the quasi-Newton method
   bool is_fresh_ = true;  // the gradient must be computed anew
   int steps_since_gradient_ = 0;
   double energy_of_iterate_ = 0;

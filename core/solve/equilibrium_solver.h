@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,9 @@ namespace chainmail {
 struct EquilibriumCertificate {
   double violation = 0;  // largest violation of a link, in rest lengths
   double residual = 0;   // estimated distance from the equilibrium in the norm of the energy, relative to its root
-  double gap = 0;        // energy above a lower bound of the energy of all valid states, relative to the energy
+  /// Energy above a lower bound of the energy of all valid states, relative to the energy. None for the corotated
+  /// energy, which is not convex.
+  std::optional<double> gap;
   bool binds = false;    // true if valid regions change the equilibrium
   int iterations = 0;    // since the handle, the pins or the object changed
 };
