@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/link_shares.h"
 #include "mesh/progress.h"
 #include "mesh/texture.h"
 
@@ -100,6 +101,8 @@ struct Mesh {
   double mean_link_length = 0;
   /// Axis-aligned bounds of the rest positions, as two corners (mesh units).
   std::array<Point, 2> box{Point::Zero(), Point::Zero()};
+  /// How much material each link stands for, found when it is first needed.
+  LinkShares shares;
 
   ElementId element_count() const { return static_cast<ElementId>(first_entry.size() - 1); }
   LinkId link_count() const { return static_cast<LinkId>(links.size()); }
