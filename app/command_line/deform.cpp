@@ -119,7 +119,7 @@ DeformSummary summarize(Simulation& simulation, const Run& run) {
           mesh.link_count(),
           run.passes,
           statistics.violation,
-          elastic_energy(mesh, simulation.body().cuts(), positions),
+          elastic_energy(mesh, simulation.softness(), simulation.body().cuts(), positions),
           measure_displacement(mesh, positions)};
 }
 

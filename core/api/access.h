@@ -110,8 +110,15 @@ inline inner::RelaxationScheme scheme_of(RelaxationScheme scheme) {
   return scheme == RelaxationScheme::mean ? inner::RelaxationScheme::mean : inner::RelaxationScheme::link;
 }
 inline inner::LinkSoftness softness_of(const LinkSoftness& softness) {
-  return {softness.compression, softness.stretch, softness.shear};
+  return {softness.compression, softness.stretch,   softness.shear,
+          softness.lateral,     softness.stiffness, softness.exponent};
 }
+inline LinkSoftness softness_of(const inner::LinkSoftness& softness) {
+  return {softness.compression, softness.stretch,   softness.shear,
+          softness.lateral,     softness.stiffness, softness.exponent};
+}
+inline inner::EnergyKind energy_of(EnergyKind kind) { return static_cast<inner::EnergyKind>(kind); }
+inline EnergyKind energy_of(inner::EnergyKind kind) { return static_cast<EnergyKind>(kind); }
 inline inner::Rotation rotation_of(const Rotation& rotation) { return {point_of(rotation.axis), rotation.degrees}; }
 
 // These functions throw Error about an argument.

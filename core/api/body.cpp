@@ -11,7 +11,13 @@ namespace chainmail::api {
 // Public headers cannot include the table of parameters, so its defaults are repeated there.
 static_assert(LinkSoftness().compression == parameters::compression.standard &&
               LinkSoftness().stretch == parameters::stretch.standard &&
-              LinkSoftness().shear == parameters::shear.standard);
+              LinkSoftness().shear == parameters::shear.standard &&
+              LinkSoftness().lateral == parameters::lateral.standard &&
+              LinkSoftness().stiffness == parameters::stiffness.standard &&
+              LinkSoftness().exponent == parameters::exponent.standard);
+static_assert(int(EnergyKind::isotropic) == int(inner::EnergyKind::isotropic) &&
+              int(EnergyKind::axial) == int(inner::EnergyKind::axial) &&
+              int(EnergyKind::corotated) == int(inner::EnergyKind::corotated));
 static_assert(Elasticity().young == parameters::young.standard &&
               Elasticity().poisson == parameters::poisson.standard &&
               Elasticity().control_points[0] == ElasticOptions::control_points &&
@@ -192,7 +198,9 @@ bool Body::is_pinned(ElementId element) const {
 
 void Body::set_softness(const LinkSoftness& softness) {
   guarded([&] { inner::check(softness_of(softness)); });
-  inside_->body().set_softness(Softness{softness_of(softness), inside_->body().softness().links});
+  Softness next = inside_->body().softness();
+  next.global = softness_of(softness);
+  inside_->body().set_softness(next);
 }
 
 void Body::set_softness(const std::vector<LinkId>& links, const LinkSoftness& softness) {
@@ -209,16 +217,20 @@ void Body::clear_softness(const std::vector<LinkId>& links) {
   inside_->body().set_softness(next);
 }
 
-LinkSoftness Body::softness() const {
-  const auto& [compression, stretch, shear] = inside_->body().softness().global;
-  return {compression, stretch, shear};
-}
+LinkSoftness Body::softness() const { return softness_of(inside_->body().softness().global); }
 
 LinkSoftness Body::softness(LinkId link) const {
   check_link_ids(inside_->body().mesh(), std::span(&link, 1));
-  const auto& [compression, stretch, shear] = inside_->body().softness().of(link);
-  return {compression, stretch, shear};
+  return softness_of(inside_->body().softness().of(link));
 }
+
+void Body::set_energy(EnergyKind kind) {
+  Softness next = inside_->body().softness();
+  next.energy = energy_of(kind);
+  inside_->body().set_softness(next);
+}
+
+EnergyKind Body::energy() const { return energy_of(inside_->body().softness().energy); }
 
 void Body::set_elasticity(const Elasticity& elasticity) {
   const ElasticOptions options{{elasticity.young, elasticity.poisson}, elasticity.control_points};

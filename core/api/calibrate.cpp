@@ -53,9 +53,8 @@ Calibration calibrate(const Body& body, const CalibrateOptions& options, const J
     const CalibrationResult found = inner::calibrate(inside.mesh_pointer(), inside.cuts(), how, Access::progress(job));
     std::ostringstream json;
     write_json(json, how, found);
-    const auto& [compression, stretch, shear] = found.softness;
-    return Calibration{{compression, stretch, shear}, found.sweeps, found.evaluations, errors_of(found.fitted),
-                       errors_of(found.held_out),     json.str()};
+    return Calibration{softness_of(found.softness), found.sweeps, found.evaluations, errors_of(found.fitted),
+                       errors_of(found.held_out),   json.str()};
   });
 }
 

@@ -52,7 +52,7 @@ Spread distance(const Body& body, std::span<const double> positions) {
 
 double elastic_energy(const Body& body) {
   const inner::Body& inside = Access::body(body);
-  return inner::elastic_energy(inside.mesh(), inside.cuts(), inside.positions());
+  return inner::elastic_energy(inside.mesh(), inside.softness(), inside.cuts(), inside.positions());
 }
 
 std::vector<double> ReferenceSolution::positions() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/link_energy.h"
 #include "solve/region.h"
 
 namespace chainmail {
@@ -18,6 +19,45 @@ double excess(const Mesh& mesh, const LinkSoftness& softness, const PositionView
     square += outside * outside;
   }
   return std::sqrt(square);
+}
+
+double isotropic_energy(const Mesh& mesh, const Cuts& cuts, const PositionView& position) {
+  double sum = 0;
+  for (LinkId link = 0; link < mesh.link_count(); ++link) {
+    if (cuts.is_cut(link)) {
+      continue;
+    }
+    const auto [a, b] = mesh.links[link];
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      const double rest =
+          mesh.rest[std::size_t{b} * mesh.space_dimension + k] - mesh.rest[std::size_t{a} * mesh.space_dimension + k];
+      const double difference = position.between(a, b, k) - rest;
+      sum += difference * difference;
+    }
+  }
+  return sum / 2;
+}
+
+double axial_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position) {
+  double sum = 0;
+  for (LinkId link = 0; link < mesh.link_count(); ++link) {
+    if (cuts.is_cut(link)) {
+      continue;
+    }
+    const auto [a, b] = mesh.links[link];
+    const double length = rest_length(mesh, link);
+    double along = 0, square = 0;
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      const double rest =
+          mesh.rest[std::size_t{b} * mesh.space_dimension + k] - mesh.rest[std::size_t{a} * mesh.space_dimension + k];
+      const double difference = position.between(a, b, k) - rest;
+      along += length > 0 ? rest / length * difference : 0;
+      square += difference * difference;
+    }
+    const auto [axial, lateral] = link_weights(mesh, softness, link);
+    sum += axial * along * along + lateral * square;
+  }
+  return sum / 2;
 }
 
 }  // namespace
@@ -94,21 +134,15 @@ Violation TouchedViolation::measure(const Mesh& mesh, const Softness& softness, 
   return sum.result();
 }
 
-double elastic_energy(const Mesh& mesh, const Cuts& cuts, const PositionView& position) {
-  double sum = 0;
-  for (LinkId link = 0; link < mesh.link_count(); ++link) {
-    if (cuts.is_cut(link)) {
-      continue;
-    }
-    const auto [a, b] = mesh.links[link];
-    for (int k = 0; k < mesh.space_dimension; ++k) {
-      const double rest =
-          mesh.rest[std::size_t{b} * mesh.space_dimension + k] - mesh.rest[std::size_t{a} * mesh.space_dimension + k];
-      const double difference = position.between(a, b, k) - rest;
-      sum += difference * difference;
-    }
+double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position) {
+  switch (softness.energy) {
+    case EnergyKind::isotropic:
+      return isotropic_energy(mesh, cuts, position);
+    case EnergyKind::axial:
+      return axial_energy(mesh, softness, cuts, position);
+    default:
+      return corotated_energy(mesh, softness, cuts, position);
   }
-  return sum / 2;
 }
 
 Displacement measure_displacement(const Mesh& mesh, const PositionView& position) {

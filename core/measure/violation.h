@@ -68,8 +68,9 @@ class TouchedViolation {
   std::vector<bool> seen_;  // all false between two calls
 };
 
-/// Returns the elastic energy ½ Σ over links |(x_j − x_i) − r_ij|² (mesh units squared), in double.
-double elastic_energy(const Mesh& mesh, const Cuts& cuts, const PositionView& position);
+/// Returns the elastic energy over the uncut links, of the kind that the softness names (see solve/link_energy.h), in
+/// double. The isotropic one, ½ Σ |(x_j − x_i) − r_ij|², is in mesh units squared.
+double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position);
 
 /// Returns the displacement of the elements from rest (mesh units), in double.
 struct Displacement {

@@ -114,9 +114,13 @@ void Body::set_pins(std::vector<ElementId> pins) {
 }
 
 void Body::set_softness(std::shared_ptr<const Softness> softness) {
-  std::visit([&](auto& typed) { typed.regions.set(*mesh_, *softness, stores_displacements_); }, typed_);
+  const SoftnessChange change = softness_ ? change_of(*softness_, *softness) : SoftnessChange{true, true};
+  if (change.regions) {
+    std::visit([&](auto& typed) { typed.regions.set(*mesh_, *softness, stores_displacements_); }, typed_);
+  }
   softness_ = std::move(softness);
-  ++revisions_.softness;
+  revisions_.softness += change.regions ? 1 : 0;
+  revisions_.energy += change.energy ? 1 : 0;
 }
 
 void Body::set_elastic(const ElasticOptions& options) {

@@ -24,7 +24,8 @@ namespace chainmail {
 struct Revisions {
   std::uint64_t cuts = 0;       // links were cut or restored
   std::uint64_t restored = 0;   // cut links were restored
-  std::uint64_t softness = 0;   // softness changed
+  std::uint64_t softness = 0;   // the valid region of a link changed: its compression, stretch or shear
+  std::uint64_t energy = 0;     // the kind of energy changed, or the energy of a link: its stiffness
   std::uint64_t pins = 0;       // elements were pinned or unpinned
   std::uint64_t elastic = 0;    // options of elasticity changed
   std::uint64_t positions = 0;  // positions were set, other than by a move or by relaxation

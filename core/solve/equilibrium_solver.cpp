@@ -10,6 +10,7 @@
 #include "mesh/error.h"
 #include "solve/body_view.h"
 #include "solve/corotated.h"
+#include "solve/link_energy.h"
 #include "solve/multigrid.h"
 #include "solve/path_search.h"
 #include "solve/repair.h"
@@ -330,7 +331,7 @@ class Equilibrator final : public EquilibriumSolver {
     result.binds = constrained_;
     result.iterations = iterations_;
     read(body);
-    if (kind != EnergyKind::corotated) {
+    if (kind_ != EnergyKind::corotated) {
       result.gap = relative_gap();
     }
     result.violation = largest_violation();
@@ -352,7 +353,10 @@ class Equilibrator final : public EquilibriumSolver {
     if (is_new || now.softness != seen_.softness) {
       shown_.regions.set(*mesh_, body.softness(), true);
     }
-    if (is_new || now.softness != seen_.softness || now.cuts != seen_.cuts) {
+    if (is_new || now.energy != seen_.energy) {
+      take_energy(body);
+    }
+    if (is_new || now.energy != seen_.energy || now.cuts != seen_.cuts) {
       update_links(body);
     }
     read(body);
@@ -425,13 +429,34 @@ class Equilibrator final : public EquilibriumSolver {
     if (body.cuts().is_cut(link)) {
       return {};
     }
+    const LinkWeights weights = link_weights(*mesh_, body.softness(), link);
     const Vector r = rest_vector(link);
-    const double length = r.norm(), unit = mesh_->mean_link_length;
-    const double weight = length > 0 ? unit / length : 1;
-    if (!(length > 0)) {
-      return {Vector::Zero(), lateral * weight};
+    const double length = r.norm();
+    return {length > 0 ? Vector(r / length * std::sqrt(weights.axial / scale_)) : Vector(Vector::Zero()),
+            weights.lateral / scale_};
+  }
+
+  /// Returns the mean over the links of their stiffness: it keeps the numbers in float near 1.
+  double mean_weight(const Body& body) const {
+    double sum = 0;
+    for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+      const LinkWeights weights = link_weights(*mesh_, body.softness(), link);
+      sum += (weights.axial + weights.lateral) / mesh_->link_count();
     }
-    return {r / length * std::sqrt(weight), lateral * weight};
+    return sum > 0 && std::isfinite(sum) ? sum : 1;
+  }
+
+  /// A kind of energy, and a stiffness of another order of magnitude, need everything anew.
+  void take_energy(const Body& body) {
+    const double mean = mean_weight(body);
+    if (kind_ != body.softness().energy || !(mean < 10 * scale_ && mean > scale_ / 10)) {
+      kind_ = body.softness().energy;
+      scale_ = mean;
+      free_.reset();
+      penalised_.reset();
+      penalised_matrix_.reset();
+      end_constraints();
+    }
   }
 
   void update_links(const Body& body) {
@@ -466,7 +491,7 @@ class Equilibrator final : public EquilibriumSolver {
   }
   LinkBlock<double, D> with_penalty(LinkBlock<double, D> block) const {
     const double all = penalty_of(block);
-    if (kind == EnergyKind::corotated) {  // a bound of the curvature, whatever the rotations are
+    if (kind_ == EnergyKind::corotated) {  // a bound of the curvature, whatever the rotations are
       return {Vector::Zero(), block.along.squaredNorm() + block.across + all};
     }
     block.across += all;
@@ -528,7 +553,7 @@ class Equilibrator final : public EquilibriumSolver {
 
   void free_step() {
     update_free();
-    if (kind == EnergyKind::corotated) {
+    if (kind_ == EnergyKind::corotated) {
       newton_step();
       return;
     }
@@ -542,7 +567,7 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
   void update_free() {
-    if (kind == EnergyKind::corotated) {
+    if (kind_ == EnergyKind::corotated) {
       free_.update(mesh_, energy_, [](const LinkBlock<double, D>& block) { return softened(block); });
     } else {
       free_.update(mesh_, energy_, std::identity());
@@ -562,7 +587,7 @@ class Equilibrator final : public EquilibriumSolver {
   /// Writes the negative gradient of the energy at these displacements, and returns the energy.
   double gradient(const Vectors& at, Vectors& rest) {
     double energy = 0;
-    if (kind == EnergyKind::corotated) {
+    if (kind_ == EnergyKind::corotated) {
       energy = corotated_.evaluate(
           *mesh_,
           [&](LinkId link) {
@@ -762,19 +787,14 @@ class Equilibrator final : public EquilibriumSolver {
     return largest;
   }
 
- public:
-  double lateral = getenv("LAT") ? atof(getenv("LAT")) : 0.1;
-  enum class EnergyKind { isotropic, axial, corotated };
-  EnergyKind kind = getenv("COR") ? EnergyKind::corotated : EnergyKind::axial;
-
- private:
   MeshPointer mesh_;
   Revisions seen_;
   std::vector<ElementId> held_;  // ascending
   std::vector<std::uint8_t> fixed_;
   Displacements<D> shown_;  // a valid state
   double tolerance_ = 0;    // up to which links are valid (mesh units)
-  double scale_ = 0;
+  EnergyKind kind_ = EnergyKind::isotropic;
+  double scale_ = 0;  // by which the stiffness of links is divided
   PathSearch search_;
 
   LinkMatrix<double, D> energy_;

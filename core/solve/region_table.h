@@ -8,8 +8,9 @@
 
 namespace chainmail {
 
-/// The valid regions of an object. If the mesh has few rest vectors and all links have one softness, there is one
-/// region per rest vector, which fits into the cache; otherwise one per entry of the neighbour table.
+/// The valid regions of an object. If the mesh has few rest vectors and the regions of all links follow from one
+/// softness, there is one region per rest vector, which fits into the cache; otherwise one per entry of the neighbour
+/// table.
 template <class Scalar, int Dimension>
 class RegionTable {
  public:
@@ -18,7 +19,7 @@ class RegionTable {
   using Id = std::uint32_t;
 
   void set(const Mesh& mesh, const Softness& softness, bool about_rest_vector) {
-    const bool by_shape = softness.links.empty() && !mesh.entry_shape.empty();
+    const bool by_shape = !mesh.entry_shape.empty() && has_global_regions(softness);
     const std::size_t count = by_shape ? mesh.shapes.size() / Dimension : mesh.neighbours.size();
     if (count != regions_.size()) {
       std::vector<One>(count).swap(regions_);  // if memory runs out, the old regions stay

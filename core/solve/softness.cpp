@@ -1,14 +1,31 @@
 #include "solve/softness.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace chainmail {
+namespace {
+
+/// True if two softnesses of a link agree in the numbers from `first` to `end`.
+bool agree(const LinkSoftness& one, const LinkSoftness& other, std::size_t first, std::size_t end) {
+  const auto numbers = std::span(softness_numbers).subspan(first, end - first);
+  return std::ranges::all_of(numbers, [&](const SoftnessNumber& it) { return one.*it.value == other.*it.value; });
+}
+
+bool same_region(const LinkSoftness& one, const LinkSoftness& other) { return agree(one, other, 0, region_numbers); }
+
+void add_change(SoftnessChange& change, const LinkSoftness& before, const LinkSoftness& after) {
+  change.regions |= !same_region(before, after);
+  change.energy |= !agree(before, after, region_numbers, softness_numbers.size());
+}
+
+}  // namespace
 
 void check(const LinkSoftness& softness) {
-  check(parameters::compression, softness.compression);
-  check(parameters::stretch, softness.stretch);
-  check(parameters::shear, softness.shear);
+  for (const auto& [parameter, value] : softness_numbers) {
+    check(*parameter, softness.*value);
+  }
 }
 
 OwnSoftness::OwnSoftness(std::initializer_list<Entry> entries) : OwnSoftness(entries.begin(), entries.end()) {}
@@ -125,6 +142,23 @@ void OwnSoftness::Iterator::settle() {
 
 bool OwnSoftness::operator==(const OwnSoftness& other) const {
   return count_ == other.count_ && std::equal(begin(), end(), other.begin(), other.end());
+}
+
+bool has_global_regions(const Softness& softness) {
+  return std::all_of(softness.links.begin(), softness.links.end(),
+                     [&](const OwnSoftness::Entry& own) { return same_region(own.second, softness.global); });
+}
+
+SoftnessChange change_of(const Softness& before, const Softness& after) {
+  SoftnessChange change{.regions = false, .energy = before.energy != after.energy};
+  add_change(change, before.global, after.global);
+  for (const auto& [link, own] : before.links) {
+    add_change(change, own, after.of(link));
+  }
+  for (const auto& [link, own] : after.links) {
+    add_change(change, before.of(link), own);
+  }
+  return change;
 }
 
 }  // namespace chainmail

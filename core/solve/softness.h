@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <initializer_list>
@@ -11,19 +12,43 @@
 
 #include "mesh/mesh.h"
 #include "mesh/parameters.h"
+#include "solve/energy_kind.h"
 
 namespace chainmail {
 
-/// How far a link may shorten, lengthen and lean, relative to its rest vector. See mesh/parameters.h for the ranges.
+/// The softness of a link. The first three numbers say how far it may shorten, lengthen and lean, relative to its rest
+/// vector: they decide on its valid region. The others say how strongly it returns to its rest vector: they decide on
+/// its energy (see solve/link_energy.h). See mesh/parameters.h for the ranges.
 struct LinkSoftness {
   double compression = parameters::compression.standard;
   double stretch = parameters::stretch.standard;
   double shear = parameters::shear.standard;
+  double lateral = parameters::lateral.standard;      // stiffness across the link, per its stiffness along it
+  double stiffness = parameters::stiffness.standard;  // along the link, relative to other links
+  double exponent = parameters::exponent.standard;    // of the rest length, which the stiffness is multiplied by
 
   bool operator==(const LinkSoftness&) const = default;
 };
 
-/// Throws Error, with the name of the parameter, if one of them is out of range.
+/// A number of a link's softness, with its entry in the table of parameters.
+struct SoftnessNumber {
+  const Parameter* parameter;
+  double LinkSoftness::*value;
+};
+
+/// The numbers of a link's softness in the order in which files, docks and help texts have them.
+inline constexpr std::array<SoftnessNumber, 6> softness_numbers{{
+    {&parameters::compression, &LinkSoftness::compression},
+    {&parameters::stretch, &LinkSoftness::stretch},
+    {&parameters::shear, &LinkSoftness::shear},
+    {&parameters::lateral, &LinkSoftness::lateral},
+    {&parameters::stiffness, &LinkSoftness::stiffness},
+    {&parameters::exponent, &LinkSoftness::exponent},
+}};
+/// Those that decide on the valid region come first. The others decide on the energy.
+inline constexpr std::size_t region_numbers = 3;
+
+/// Throws Error, with the name of the parameter, if a number is out of range.
 void check(const LinkSoftness& softness);
 
 /// The softness of links that have their own.
@@ -127,10 +152,11 @@ class OwnSoftness::Iterator {
   Entry entry_;
 };
 
-/// The softness of an object: a global one, and different ones for single links.
+/// The softness of an object: a global one, different ones for single links, and the kind of energy of all links.
 struct Softness {
   LinkSoftness global;
   OwnSoftness links;
+  EnergyKind energy = standard_energy;
 
   const LinkSoftness& of(LinkId link) const {
     const LinkSoftness* own = links.find(link);
@@ -139,5 +165,17 @@ struct Softness {
 
   bool operator==(const Softness&) const = default;
 };
+
+/// True if the valid regions of all links follow from the global softness.
+bool has_global_regions(const Softness& softness);
+
+/// What differs between two softnesses of the same object.
+struct SoftnessChange {
+  bool regions = false;  // the valid region of a link
+  bool energy = false;   // the kind of energy, or the energy of a link
+
+  bool operator==(const SoftnessChange&) const = default;
+};
+SoftnessChange change_of(const Softness& before, const Softness& after);
 
 }  // namespace chainmail

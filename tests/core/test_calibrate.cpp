@@ -207,7 +207,7 @@ void CalibrateTest::it_comes_closer() {
     QVERIFY(result.fitted.after.relative > 0 && result.fitted.after.relative < 0.9 * result.fitted.before.relative);
     QVERIFY(result.fitted.after.relative < result.fitted.nothing.relative);
     QCOMPARE(result.evaluations, 40);
-    const auto& [compression, stretch, shear] = result.softness;
+    const auto& [compression, stretch, shear, lateral, stiffness, exponent] = result.softness;
     QVERIFY(compression >= 0 && compression <= 1 && stretch >= 1 && stretch <= 3 && shear >= 0 && shear <= 2);
     QCOMPARE(result.fitted.drags.size(), std::size_t{2});
     QCOMPARE(result.held_out.drags.size(), std::size_t{4});

@@ -63,7 +63,7 @@ struct ActiveState {
   double violation() const {
     return measure_violation(*mesh, softness, solver->body().cuts(), solver->body().positions()).max;
   }
-  double energy() const { return elastic_energy(*mesh, solver->body().cuts(), solver->body().positions()); }
+  double energy() const { return elastic_energy(*mesh, softness, solver->body().cuts(), solver->body().positions()); }
 
   MeshPointer mesh;
   Softness softness;

@@ -13,14 +13,25 @@ namespace chainmail::api {
 
 struct Access;
 
-/// How far a link may shorten, lengthen and lean, relative to its rest vector (thesis of Dean 2004, 3.1).
+/// How far a link may shorten, lengthen and lean, relative to its rest vector (thesis of Dean 2004, 3.1), and how
+/// strongly relaxation returns it to its rest vector (see elastic_energy).
 struct LinkSoftness {
   double compression = 0.8;  ///< Shortest length along each axis, of rest length: 0 (no limit) to 1 (rigid).
   double stretch = 1.2;      ///< Greatest length along each axis, of rest length: 1 (rigid) or more.
   double shear = 0.1;        ///< How far it may lean, per length along the other axes: 0 or more.
+  double lateral = 0.1;      ///< Stiffness against sideways motion, per stiffness along the link: 0 or more.
+  double stiffness = 1;      ///< Stiffness along the link, relative to other links: above 0.
+  double exponent = -1;      ///< Power of its rest length by which its stiffness is multiplied: -4 to 4.
 
   /// True if all values are equal.
   bool operator==(const LinkSoftness&) const = default;
+};
+
+/// The elastic energy, which relaxation lowers. See elastic_energy for the formulas.
+enum class EnergyKind {
+  isotropic,  ///< Links resist motion along them and across them alike. Their stiffness does not count.
+  axial,     ///< Links resist motion along their rest vectors, and across them in the share of their lateral stiffness.
+  corotated  ///< Like axial, but along the rest vectors turned with the neighbours: for large rotations.
 };
 
 /// Settings of the methods of elasticity and of free-form deformation. The ChainMail family ignores them.
@@ -121,6 +132,11 @@ class Body {
   LinkSoftness softness() const;
   /// The softness of a link.
   LinkSoftness softness(LinkId link) const;
+
+  /// Sets the kind of elastic energy. Nothing moves; relaxation uses it from now on. A new body has axial energy.
+  void set_energy(EnergyKind kind);
+  /// The kind of elastic energy.
+  EnergyKind energy() const;
 
   /// Sets the settings of the methods of elasticity. Throws Error if a value is out of its range.
   void set_elasticity(const Elasticity& elasticity);

@@ -41,8 +41,13 @@ Spread distance(const Body& one, const Body& other);
 /// lengths. Throws Error if the array has the wrong size or a coordinate is not finite.
 Spread distance(const Body& body, std::span<const double> positions);
 
-/// Returns the elastic energy ½ Σ |(x_j − x_i) − r_ij|² over the uncut links, with the positions x and the rest vector
-/// r (mesh units squared).
+/// Returns the elastic energy of the body's kind over the uncut links. With the rest vector r of a link, its direction
+/// r̂, the difference Δ of the displacements of its ends, its stiffness k, exponent p and lateral stiffness b:
+///
+/// - isotropic: ½ Σ |Δ|² (mesh units squared)
+/// - axial: ½ Σ k |r|^p [(r̂·Δ)² + b |Δ|²]
+/// - corotated: ½ Σ k |r|^p [(q·d − |r|)² + b |d − t|²], where d is the vector of the link, t the mean of r turned with
+///   the neighbours of each end (Sorkine and Alexa 2007), and q the direction of t
 double elastic_energy(const Body& body);
 
 /// The positions that a neo-Hookean elastic object has (Bonet and Wood 1997): finite elements on the object's own

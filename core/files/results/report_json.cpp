@@ -120,7 +120,11 @@ Json to_json(const PhysicalError& error) {
 }
 
 Json to_json(const LinkSoftness& softness) {
-  return {{"compression", softness.compression}, {"stretch", softness.stretch}, {"shear", softness.shear}};
+  Json json = Json::object();
+  for (const auto& [parameter, value] : softness_numbers) {
+    json[std::string(parameter->name)] = softness.*value;
+  }
+  return json;
 }
 
 Json begin_with(const report::PhysicsContestant& contestant) {
@@ -266,7 +270,6 @@ void write_json(std::ostream& out, const report::PhysicsReport& report, const re
 
 void write_json(std::ostream& out, const report::Ramp& ramp, const report::Machine& machine) {
   const report::RampOptions& options = ramp.options;
-  const auto& [compression, stretch, shear] = options.softness;
   const Json json{{"machine",
                    {{"processor", machine.processor},
                     {"cores", machine.cores},
@@ -275,7 +278,7 @@ void write_json(std::ostream& out, const report::Ramp& ramp, const report::Machi
                   {"seed", options.seed},
                   {"budget", options.budget},
                   {"precision", options.precision == Precision::single_precision ? "float" : "double"},
-                  {"softness", {{"compression", compression}, {"stretch", stretch}, {"shear", shear}}},
+                  {"softness", to_json(options.softness)},
                   {"drags", options.drags},
                   {"moves", options.moves},
                   {"largest", options.largest},

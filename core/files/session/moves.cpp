@@ -52,7 +52,7 @@ ElementId MoveFields::element(const Json& json) const {
 LinkId MoveFields::link(const Json& json, std::size_t size) const {
   if (!json.is_array() || json.size() != size) {
     fail("a link is not an array of " + std::to_string(size),
-         size == 2 ? "write [a, b]" : "write [a, b, compression, stretch, shear]");
+         size == 2 ? "write [a, b]" : "write [a, b, compression, stretch, shear, lateral, stiffness, exponent]");
   }
   const ElementId a = element(json[0]), b = element(json[1]);
   const auto found = find_link(mesh_, a, b);
@@ -116,11 +116,14 @@ std::vector<ElementId> MoveFields::elements(const MoveMembers& command, const st
 
 constexpr int moves_version = 1;
 constexpr std::uint64_t most_sweeps = 1'000'000;
+// Numbers in the row of a link: its ends and its softness, without or with the numbers of its energy.
+constexpr std::size_t short_row = 2 + region_numbers, long_row = 2 + softness_numbers.size();
 
 /// Checks commands one after another, as a simulation would execute them from rest.
 class MovesReader {
  public:
-  MovesReader(const std::string& where, const Mesh& mesh) : where_(where), fields_(where_, mesh) {}
+  MovesReader(const std::string& where, const Mesh& mesh, EnergyKind absent_energy = standard_energy)
+      : where_(where), fields_(where_, mesh), absent_energy_(absent_energy) {}
 
   std::vector<Command> read(std::string_view text, const std::filesystem::path& path, const Progress& progress);
 
@@ -139,11 +142,13 @@ class MovesReader {
   Command pin(const Members& of);
   Command unpin(const Members& of);
   Command softness(const Members& of);
+  LinkSoftness own_softness(const Json& row) const;
   Command reset(const Members& of);
   Command relax(const Members& of);
 
   std::string where_;
-  MoveFields fields_;  // of the file, then of each command
+  MoveFields fields_;         // of the file, then of each command
+  EnergyKind absent_energy_;  // of a softness that does not say it
   std::vector<Command> commands_;
   std::optional<Error> fault_;  // of the first wrong command; errors of the whole file are reported first
   // The state that the simulation would be in.
@@ -220,22 +225,34 @@ Command MovesReader::unpin(const Members& of) {
 }
 
 Command MovesReader::softness(const Members& of) {
-  fields_.check_keys(of.members, {"do", "compression", "stretch", "shear", "links"});
-  const auto member = [&](const char* key) -> const Json& { return fields_.member(of.members, key); };
-  Softness result{fields_.softness(member("compression"), member("stretch"), member("shear")), {}};
+  auto keys = softness_keys();
+  keys.insert(keys.end(), {"do", "energy", "links"});
+  fields_.check_keys(of.members, keys);
+  Softness result{fields_.softness(of.members), {}, fields_.energy(of.members, absent_energy_)};
   if (!of.members.contains("links")) {
     return commands::SetSoftness{result};
   }
   const NumberList& links = fields_.list(of, "links");
+  const std::size_t row = links.size() > 0 && links.at(0).size() == short_row ? short_row : long_row;
   for (std::size_t i = 0; i < links.size(); ++i) {
     const Json one = links.at(i);
-    const LinkId link = fields_.link(one, 5);
+    const LinkId link = fields_.link(one, row);
     if (result.links.contains(link)) {
       fields_.fail("the link " + one[0].dump() + "-" + one[1].dump() + " is given twice", "remove one of them");
     }
-    result.links.set(link, fields_.softness(one[2], one[3], one[4]));
+    result.links.set(link, own_softness(one));
   }
   return commands::SetSoftness{result};
+}
+
+/// Returns the softness in the row of a link, after the ids of its two ends.
+LinkSoftness MovesReader::own_softness(const Json& row) const {
+  LinkSoftness own;
+  for (std::size_t i = 2; i < row.size(); ++i) {
+    const auto& [parameter, value] = softness_numbers[i - 2];
+    own.*value = fields_.number(row[i], *parameter);
+  }
+  return own;
 }
 
 Command MovesReader::reset(const Members& of) {
@@ -349,11 +366,14 @@ class MoveWriter {
   OrderedJson operator()(const commands::Unpin& one) const { return {{"do", "unpin"}, {"elements", one.elements}}; }
   OrderedJson operator()(const commands::Reset&) const { return {{"do", "reset"}}; }
   OrderedJson operator()(const commands::SetSoftness& one) const {
-    const auto& [compression, stretch, shear] = one.softness->global;
-    OrderedJson json{{"do", "softness"}, {"compression", compression}, {"stretch", stretch}, {"shear", shear}};
+    OrderedJson json{{"do", "softness"}};
+    add_softness(json, *one.softness);
     for (const auto& [link, of_link] : one.softness->links) {
-      const auto [a, b] = mesh_.links[link];
-      json["links"].push_back({a, b, of_link.compression, of_link.stretch, of_link.shear});
+      OrderedJson row{mesh_.links[link][0], mesh_.links[link][1]};
+      for (const auto& [parameter, value] : softness_numbers) {
+        row.push_back(of_link.*value);
+      }
+      json["links"].push_back(std::move(row));
     }
     return json;
   }
@@ -383,8 +403,8 @@ class MoveWriter {
 }  // namespace
 
 std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const std::string& where,
-                                const Mesh& mesh, const Progress& progress) {
-  return MovesReader(where, mesh).read(text, path, progress);
+                                const Mesh& mesh, const Progress& progress, EnergyKind absent_energy) {
+  return MovesReader(where, mesh, absent_energy).read(text, path, progress);
 }
 
 std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const Mesh& mesh,

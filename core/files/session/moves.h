@@ -18,9 +18,11 @@ namespace chainmail {
 ///       {"do": "release"}, {"do": "cut", "links": [[0, 1]]}, {"do": "uncut", "links": [[0, 1]]},
 ///       {"do": "pin", "elements": [3]}, {"do": "unpin", "elements": [3]}, {"do": "reset"},
 ///       {"do": "relax", "sweeps": 3, "step": 1, "scheme": "mean"},
-///       {"do": "softness", "compression": 0.8, "stretch": 1.2, "shear": 0.1, "links": [[0, 1, 1, 1, 0]]}]}
+///       {"do": "softness", "compression": 0.8, "stretch": 1.2, "shear": 0.1, "lateral": 0.1, "stiffness": 1,
+///        "exponent": -1, "energy": "axial", "links": [[0, 1, 1, 1, 0, 0.1, 1, -1]]}]}
 ///
-/// Links are named by their ends. A softness replaces the softness of all links; "links" may be left out.
+/// Links are named by their ends. A softness replaces the softness of all links; "links" may be left out. So may
+/// "lateral", "stiffness", "exponent" and "energy", and the last three numbers of a link: these are standard then.
 
 /// Reads moves of a mesh from the text of a file. `path` appears in errors. Throws Error, with the number of the
 /// command from 0, for any command that a simulation of this mesh could not execute from rest; and Cancelled. Takes
@@ -31,9 +33,10 @@ std::vector<Command> read_moves(std::string_view text, const std::filesystem::pa
 /// Reads moves from a file.
 std::vector<Command> read_moves(const std::filesystem::path& path, const Mesh& mesh, const Progress& progress = {});
 
-/// Reads moves from a part of the text of another file. `where` appears in errors.
+/// Reads moves from a part of the text of another file. `where` appears in errors. A softness that does not say its
+/// energy has `absent_energy`.
 std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const std::string& where,
-                                const Mesh& mesh, const Progress& progress);
+                                const Mesh& mesh, const Progress& progress, EnergyKind absent_energy = standard_energy);
 
 /// Writes moves, one line per command. Commands for the solver (algorithm, relaxation, states for undo) are left out.
 /// Throws Error for a change of mesh or state, which recorded moves cannot contain; and Cancelled.

@@ -55,7 +55,7 @@ bool is_session(const std::filesystem::path& path);
 
 /// Writes a session as JSON, with numbers in the fewest digits that read back exactly:
 ///
-///     {"format": "chainmail session", "version": 1, "name": …,
+///     {"format": "chainmail session", "version": 2, "name": …,
 ///      "mesh": {"elements": n, "space": 1 to 3, "lattice": {"size": [w, h, d], "spacing": s},
 ///        "rest": [x, y, z of each element…], "links": [a, b of each link…], "triangles": [three ids each…],
 ///        "polygons": [count, id…], "tetrahedra": [four ids each…],
@@ -63,7 +63,9 @@ bool is_session(const std::filesystem::path& path);
 ///        "texture": {"size": [w, h, d], "channels": 1 or 4, "box": [lowest x, y, z, highest x, y, z],
 ///          "texels": bytes in base 64}},
 ///      "cuts": [a, b of each cut link…], "pins": [id…],
-///      "softness": {"compression": c, "stretch": s, "shear": h, "own": [a, b, c, s, h of each link with its own…]},
+///      "softness": {"compression": c, "stretch": s, "shear": h, "lateral": b, "stiffness": k, "exponent": p,
+///        "energy": "isotropic", "axial" or "corotated",
+///        "own": [both ends, c, s, h, b, k, p of each link with its own…]},
 ///      "relaxation": {"on": false, "scheme": "mean" or "link", "step": 1},
 ///      "elastic": {"young": E, "poisson": v, "lattice": [control points along each axis]},
 ///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
@@ -73,7 +75,8 @@ bool is_session(const std::filesystem::path& path);
 ///
 /// "moves" are left out above session_moves; "lattice", "hexahedra" and "texture" if there are none; and "elastic" if
 /// it is the standard one. If the neighbours are not in ascending order, "counts" (of each element) and "neighbours"
-/// (its ids) take the place of "links". Throws Error for a number that is not finite, and Cancelled.
+/// (its ids) take the place of "links". In version 1, "softness" has c, s and h only, and its energy is isotropic.
+/// Throws Error for a number that is not finite, and Cancelled.
 void write_session(std::ostream& out, const Session& session, const Progress& progress = {});
 
 /// Writes a session into a file. A failed write leaves the file as it was.

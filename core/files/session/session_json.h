@@ -13,7 +13,7 @@
 
 namespace chainmail {
 
-inline constexpr unsigned session_version = 1;
+inline constexpr unsigned session_version = 2;
 
 /// The JSON of a session. Long arrays of numbers are packed, outside the tree: in the tree, the index in `ids` or
 /// `reals` takes the place of an array. Recorded moves stay in the text, because they are read after the mesh.

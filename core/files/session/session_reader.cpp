@@ -22,7 +22,9 @@ class SessionReader {
   Session read(const Progress& progress);
 
  private:
-  void check_kind() const;
+  /// True if the version knows kinds of energy. Before, all energy was isotropic.
+  bool has_energy() const { return version_ >= 2; }
+  void check_kind();
   void take_cuts();
   void take_pins();
   void take_softness();
@@ -39,15 +41,18 @@ class SessionReader {
   SessionFields fields_;  // of the file, then of each member
   const Json& tree_;
   std::string_view moves_;
+  std::uint64_t version_ = session_version;
+  EnergyKind absent_energy_ = standard_energy;
   Session result_;
 };
 
-void SessionReader::check_kind() const {
+void SessionReader::check_kind() {
   const bool is_session = tree_.is_object() && tree_.contains("format") && tree_["format"] == Json("chainmail session");
   if (!is_session) {
     fields_.fail("it is not a session", "use a file that the workbench saved");
   }
-  fields_.count(tree_, "version", session_version);
+  version_ = fields_.count(tree_, "version", session_version);
+  absent_energy_ = has_energy() ? standard_energy : EnergyKind::isotropic;
   fields_.check_keys(tree_, {"format", "version", "name", "mesh", "cuts", "pins", "softness", "relaxation", "elastic",
                              "panels", "moves", "moves_done", "ui"});
 }
@@ -75,9 +80,10 @@ void SessionReader::take_pins() {
 void SessionReader::take_softness() {
   const Json& object = fields_.object(tree_, "softness");
   fields_.say_at(file_ + ": softness");
-  fields_.check_keys(object, {"compression", "stretch", "shear", "own"});
-  const auto number = [&](const char* key) -> const Json& { return fields_.member(object, key); };
-  Softness softness{fields_.softness(number("compression"), number("stretch"), number("shear")), {}};
+  auto keys = softness_keys();
+  keys.insert(keys.end(), {"energy", "own"});
+  fields_.check_keys(object, keys);
+  Softness softness{fields_.softness(object), {}, fields_.energy(object, absent_energy_)};
   take_own(softness, object);
   try {
     for (const auto& [link, own] : softness.links) {
@@ -91,12 +97,13 @@ void SessionReader::take_softness() {
 
 void SessionReader::take_own(Softness& softness, const Json& object) {
   const auto& own = fields_.reals(object, "own");
-  fields_.check_groups(own.size(), 5, "own");
+  const std::size_t in_row = 2 + (has_energy() ? softness_numbers.size() : region_numbers);
+  fields_.check_groups(own.size(), in_row, "own");
   const double count = result_.mesh->element_count();
-  for (std::size_t i = 0; i < own.size(); i += 5) {
+  for (std::size_t i = 0; i < own.size(); i += in_row) {
     for (const double end : {own[i], own[i + 1]}) {
       if (!(end >= 0 && end < count && end == std::floor(end))) {
-        fields_.fail("'own' names an element that does not exist in its link " + std::to_string(i / 5),
+        fields_.fail("'own' names an element that does not exist in its link " + std::to_string(i / in_row),
                      "ids are whole numbers from 0");
       }
     }
@@ -105,7 +112,11 @@ void SessionReader::take_own(Softness& softness, const Json& object) {
     if (softness.links.contains(link)) {
       fields_.fail("the link " + std::to_string(a) + "-" + std::to_string(b) + " is given twice", "remove one of them");
     }
-    softness.links.set(link, {own[i + 2], own[i + 3], own[i + 4]});
+    LinkSoftness one;
+    for (std::size_t k = 2; k < in_row; ++k) {
+      one.*softness_numbers[k - 2].value = own[i + k];
+    }
+    softness.links.set(link, one);
   }
 }
 
@@ -191,12 +202,16 @@ void SessionReader::take_moves(const Progress& progress) {
     return;
   }
   const std::string_view text = moves_.empty() ? "null" : moves_;  // a number or a text is not a list of moves
-  result_.moves = read_moves(text, path_, file_ + ": moves", *result_.mesh, progress);
+  result_.moves = read_moves(text, path_, file_ + ": moves", *result_.mesh, progress, absent_energy_);
   const Json& done = fields_.member(tree_, "moves_done");
   if (!done.is_number_unsigned() || done.get<std::uint64_t>() > result_.moves.size()) {
     fields_.fail("'moves_done' is not a whole number up to the number of moves", "write how many moves are done");
   }
   result_.moves_done = done.get<std::size_t>();
+  if (!has_energy() && !result_.moves.empty()) {  // its moves began with isotropic energy
+    result_.moves.insert(result_.moves.begin(), commands::SetSoftness{Softness{{}, {}, EnergyKind::isotropic}});
+    result_.moves_done += result_.moves_done > 0 ? 1 : 0;
+  }
 }
 
 Session SessionReader::read(const Progress& progress) {

@@ -10,6 +10,7 @@
 #include "files/session/session.h"
 #include "files/session/session_json.h"
 #include "files/text/base64.h"
+#include "files/text/json_fields.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -186,17 +187,18 @@ void SessionWriter::write_texture(const Texture& texture, const Progress& progre
 }
 
 void SessionWriter::write_softness() {
-  const auto& [global, links] = *session_.softness;
-  const OrderedJson json{{"compression", global.compression}, {"stretch", global.stretch}, {"shear", global.shear}};
+  OrderedJson json;
+  add_softness(json, *session_.softness);
   const std::string text = json.dump();
   out_ << ",\n\"softness\": " << std::string_view(text).substr(0, text.size() - 1);
-  auto own = links.begin();
-  write_array("own", 5 * links.size(), {}, [&](std::size_t i) {
+  constexpr std::size_t in_row = 2 + softness_numbers.size();
+  auto own = session_.softness->links.begin();
+  write_array("own", in_row * session_.softness->links.size(), {}, [&](std::size_t i) {
     const auto& [link, softness] = *own;
-    const std::array values{double(mesh_.links[link][0]), double(mesh_.links[link][1]), softness.compression,
-                            softness.stretch, softness.shear};
-    out_ << digits_(values[i % 5], Precision::double_precision);
-    own = i % 5 == 4 ? std::next(own) : own;
+    const std::size_t column = i % in_row;
+    const double value = column < 2 ? double(mesh_.links[link][column]) : softness.*softness_numbers[column - 2].value;
+    out_ << digits_(value, Precision::double_precision);
+    own = column + 1 == in_row ? std::next(own) : own;
   });
   out_ << "}";
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,12 @@
 namespace chainmail {
 namespace {
 
-constexpr std::array<std::string_view, 5> softness_columns{"a", "b", "compression", "stretch", "shear"};
-constexpr const char* softness_row_form = "write 'a,b,compression,stretch,shear'";
+// A row has the first five fields, or all.
+constexpr std::array<std::string_view, 2 + softness_numbers.size()> softness_columns{
+    "a", "b", "compression", "stretch", "shear", "lateral", "stiffness", "exponent"};
+constexpr std::size_t short_columns = 2 + region_numbers;
+constexpr const char* softness_row_form =
+    "write 'a,b,compression,stretch,shear' or 'a,b,compression,stretch,shear,lateral,stiffness,exponent'";
 
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
@@ -25,6 +30,11 @@ std::vector<std::string_view> fields_of(std::string_view line) {
     }
     line.remove_prefix(end + 1);
   }
+}
+
+bool is_header(std::span<const std::string_view> fields) {
+  const std::span<const std::string_view> all(softness_columns);
+  return std::ranges::equal(fields, all) || std::ranges::equal(fields, all.first(short_columns));
 }
 
 class SoftnessReader {
@@ -80,12 +90,16 @@ LinkId SoftnessReader::read_link(std::string_view first, std::string_view second
 }
 
 void SoftnessReader::read_row(const std::vector<std::string_view>& fields) {
-  if (fields.size() != softness_columns.size()) {
-    fail("the row has " + std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields") + ", not five",
+  if (fields.size() != short_columns && fields.size() != softness_columns.size()) {
+    fail("the row has " + std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields") +
+             ", not five or eight",
          softness_row_form);
   }
   const LinkId link = read_link(fields[0], fields[1]);
-  const LinkSoftness softness{read_number(fields[2]), read_number(fields[3]), read_number(fields[4])};
+  LinkSoftness softness;
+  for (std::size_t i = 2; i < fields.size(); ++i) {
+    softness.*softness_numbers[i - 2].value = read_number(fields[i]);
+  }
   try {
     check(softness);
   } catch (const Error& error) {
@@ -107,7 +121,7 @@ OwnSoftness SoftnessReader::read(std::string_view text) {
       continue;
     }
     const auto fields = fields_of(row);
-    if (!is_first || !std::ranges::equal(fields, softness_columns)) {
+    if (!is_first || !is_header(fields)) {
       read_row(fields);
     }
     is_first = false;

@@ -36,7 +36,9 @@ SoftnessPreset preset_of(const JsonFields& fields, const nlohmann::json& json) {
   if (!json.is_object()) {
     fields.fail("it is not an object", "write {\"name\": …}");
   }
-  fields.check_keys(json, {"name", "compression", "stretch", "shear"});
+  auto keys = softness_keys();
+  keys.emplace_back("name");
+  fields.check_keys(json, keys);
   const auto& name = fields.member(json, "name");
   if (!name.is_string()) {
     fields.fail(in_quotes(text_of(name)) + " is not a name", "write it in quotes");
@@ -45,9 +47,7 @@ SoftnessPreset preset_of(const JsonFields& fields, const nlohmann::json& json) {
   if (const std::string fault = fault_of_name(preset.name); !fault.empty()) {
     fields.fail(in_quotes(preset.name) + " is not a valid name", fault);
   }
-  const auto &compression = fields.member(json, "compression"), &stretch = fields.member(json, "stretch"),
-             &shear = fields.member(json, "shear");
-  preset.softness = fields.softness(compression, stretch, shear);
+  preset.softness = fields.softness(json);
   return preset;
 }
 
@@ -95,10 +95,11 @@ std::vector<SoftnessPreset> read_presets(const std::filesystem::path& path) {
 void write_presets(std::ostream& out, std::span<const SoftnessPreset> presets) {
   auto list = nlohmann::ordered_json::array();
   for (const auto& [name, softness] : presets) {
-    list.push_back({{"name", name},
-                    {"compression", softness.compression},
-                    {"stretch", softness.stretch},
-                    {"shear", softness.shear}});
+    nlohmann::ordered_json one{{"name", name}};
+    for (const auto& [parameter, value] : softness_numbers) {
+      one[std::string(parameter->name)] = softness.*value;
+    }
+    list.push_back(std::move(one));
   }
   const nlohmann::ordered_json json{{"version", presets_version}, {"presets", list}};
   out << json.dump(2) << '\n';

@@ -106,9 +106,42 @@ double JsonFields::number(const Json& json, const Parameter& parameter) const {
   return value;
 }
 
-LinkSoftness JsonFields::softness(const Json& compression, const Json& stretch, const Json& shear) const {
-  return {number(compression, parameters::compression), number(stretch, parameters::stretch),
-          number(shear, parameters::shear)};
+LinkSoftness JsonFields::softness(const Json& object) const {
+  LinkSoftness softness;
+  for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
+    const auto& [parameter, value] = softness_numbers[i];
+    const std::string key(parameter->name);
+    if (i < region_numbers || object.contains(key)) {
+      softness.*value = number(member(object, key), *parameter);
+    }
+  }
+  return softness;
+}
+
+EnergyKind JsonFields::energy(const Json& object, EnergyKind absent) const {
+  if (!object.contains("energy")) {
+    return absent;
+  }
+  try {
+    return energy_kind_of(text(object, "energy"));
+  } catch (const Error& error) {
+    throw error.where() == where_ ? error : error.at(where_);
+  }
+}
+
+std::vector<std::string> softness_keys() {
+  std::vector<std::string> keys;
+  for (const SoftnessNumber& number : softness_numbers) {
+    keys.emplace_back(number.parameter->name);
+  }
+  return keys;
+}
+
+void add_softness(nlohmann::ordered_json& object, const Softness& softness) {
+  for (const auto& [parameter, value] : softness_numbers) {
+    object[std::string(parameter->name)] = softness.global.*value;
+  }
+  object["energy"] = info(softness.energy).name;
 }
 
 }  // namespace chainmail

@@ -39,11 +39,19 @@ class JsonFields {
   double number(const Json& json) const;
   /// Returns a number. Throws Error if it is not in the range of the parameter.
   double number(const Json& json, const Parameter& parameter) const;
-  LinkSoftness softness(const Json& compression, const Json& stretch, const Json& shear) const;
+  /// Returns the numbers of a softness, named as in the table of parameters. Those of the energy may be left out.
+  LinkSoftness softness(const Json& object) const;
+  /// Returns the kind of energy of a softness, or `absent` if it is left out.
+  EnergyKind energy(const Json& object, EnergyKind absent = standard_energy) const;
 
  private:
   std::string where_;
 };
+
+/// Returns the names of the members that JsonFields::softness reads.
+std::vector<std::string> softness_keys();
+/// Adds the global softness and the kind of energy to an object, as JsonFields reads them.
+void add_softness(nlohmann::ordered_json& object, const Softness& softness);
 
 /// Returns a value as text for error messages.
 std::string text_of(const nlohmann::json& json);

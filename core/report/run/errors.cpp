@@ -11,7 +11,8 @@ namespace {
 constexpr ElementId equilibrium_limit = 131'072;
 
 double energy_of(const Simulation& simulation) {
-  return elastic_energy(simulation.mesh(), simulation.body().cuts(), simulation.body().positions());
+  return elastic_energy(simulation.mesh(), simulation.softness(), simulation.body().cuts(),
+                        simulation.body().positions());
 }
 
 Distance between(const Runner& one, const Runner& other) {
