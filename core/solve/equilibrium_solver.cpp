@@ -20,7 +20,7 @@ namespace chainmail {
 namespace {
 
 // Stiffness against the distance from the valid region, as a share of the link's own stiffness.
-constexpr double penalty = 4;
+constexpr double penalty = 8;
 constexpr double over_relaxation = 1.7;
 // Steps of conjugate gradients per step of the method of multipliers.
 constexpr int inner_steps = 1;
@@ -57,10 +57,11 @@ class Preconditioner {
   using Vectors = typename Matrix::Vectors;
 
   void reset() { *this = Preconditioner(); }
-  /// Notes that the blocks in these rows, or whether they are fixed, have changed.
-  void outdate(std::span<const ElementId> rows) {
+  /// Notes that the blocks in these rows, or whether they are fixed, have changed. `cut`: because links were cut.
+  void outdate(std::span<const ElementId> rows, bool cut) {
     if (grid_.is_built()) {
       outdated_.insert(outdated_.end(), rows.begin(), rows.end());
+      cut_ = cut_ || cut;
     }
   }
 
@@ -73,9 +74,10 @@ class Preconditioner {
       for (const ElementId row : outdated_) {
         copy_row(matrix, row, change);
       }
-      grid_.repair(matrix_, outdated_);
+      grid_.repair(matrix_, outdated_, cut_);
     }
     outdated_.clear();
+    cut_ = false;
   }
 
   void apply(const Vectors& right, Vectors& result) {
@@ -124,6 +126,7 @@ class Preconditioner {
   LinkMatrix<float, D> matrix_;
   Multigrid<D> grid_;
   std::vector<ElementId> outdated_;
+  bool cut_ = false;
   std::vector<Eigen::Matrix<float, D, 1>> right_, result_;
 };
 
@@ -303,22 +306,22 @@ class Equilibrator final : public EquilibriumSolver {
   void iterate(Body& body, std::span<const ElementId> held, const Progress& progress) override {
     progress.report(0);
     follow(body, held);
-    constrained_ ? constrained_step() : free_step();
-    ++iterations_;
+    step();
     show(body);
   }
 
   bool solve(Body& body, std::span<const ElementId> held, double residual, int most,
              const Progress& progress) override {
-    std::vector<ElementId> all;
-    for (int i = 0; i < most; ++i) {
+    follow(body, held);
+    bool reached = false;
+    for (int i = 0; i < most && !reached; ++i) {
       progress.report(double(i) / most);
-      iterate(body, held, {});
-      if (residual_ <= residual && (constrained_ || !violates_)) {
-        return true;
-      }
+      const bool was_constrained = constrained_;
+      step();
+      reached = residual_ <= residual && constrained_ == was_constrained;
     }
-    return false;
+    show(body);
+    return reached;
   }
 
   double residual() const override { return residual_; }
@@ -461,6 +464,7 @@ class Equilibrator final : public EquilibriumSolver {
 
   void update_links(const Body& body) {
     std::vector<ElementId> rows;
+    bool cut = false;
     for (LinkId link = 0; link < mesh_->link_count(); ++link) {
       const LinkBlock<double, D> block = block_of(body, link);
       const LinkBlock<double, D>& present = energy_.link(link);
@@ -474,10 +478,11 @@ class Equilibrator final : public EquilibriumSolver {
           inside_[link].setZero();
         }
         rows.insert(rows.end(), {mesh_->links[link][0], mesh_->links[link][1]});
+        cut = cut || block.is_zero();
       }
     }
-    free_.outdate(rows);
-    penalised_.outdate(rows);
+    free_.outdate(rows, cut);
+    penalised_.outdate(rows, cut);
     newton_.forget();
     is_fresh_ = true;
     iterations_ = 0;
@@ -522,8 +527,8 @@ class Equilibrator final : public EquilibriumSolver {
       }
     }
     fixed_ = std::move(fixed);
-    free_.outdate(rows);
-    penalised_.outdate(rows);
+    free_.outdate(rows, false);
+    penalised_.outdate(rows, false);
     newton_.forget();
     is_fresh_ = true;
     iterations_ = 0;
@@ -531,7 +536,7 @@ class Equilibrator final : public EquilibriumSolver {
 
   /// Repairs the shown state if an algorithm left it invalid.
   void make_valid(Body& body) {
-    if (Projection(shown_, fixed_, tolerance_).is_valid(shown_.positions)) {
+    if (projection().is_valid(shown_.positions)) {
       return;
     }
     Repair repair(shown_, search_, body.reach().since_rest, held_);
@@ -550,6 +555,14 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
   // Iterations.
+
+  void step() {
+    constrained_ ? constrained_step() : free_step();
+    ++iterations_;
+    if (!constrained_ && residual_ < binds_below && !projection().is_valid(iterate_)) {
+      begin_constraints();
+    }
+  }
 
   void free_step() {
     update_free();
@@ -633,7 +646,6 @@ class Equilibrator final : public EquilibriumSolver {
   void end_constraints() {
     constrained_ = false;
     is_fresh_ = true;
-    iterations_ = 0;
   }
 
   /// Calls visit(link, i, j, region) for each link that counts, with i < j and the region of j about i.
@@ -686,21 +698,19 @@ class Equilibrator final : public EquilibriumSolver {
       active += multiplier_[link].squaredNorm();
     });
     residual_ = size > 0 ? std::sqrt(std::max(outside, stepped) / size) : 0;
-    if (active == 0) {
+    if (active == 0 && outside == 0) {
       end_constraints();
     }
   }
 
   // What the user sees.
 
+  Projection projection() const { return Projection(shown_, fixed_, tolerance_); }
+
   void show(Body& body) {
-    Projection projection(shown_, fixed_, tolerance_);
-    violates_ = !projection.is_valid(iterate_);
-    if (violates_) {
-      projection.run(shown_.positions, iterate_);
-      if (!constrained_ && residual_ < binds_below) {
-        begin_constraints();
-      }
+    Projection to_valid = projection();
+    if (!to_valid.is_valid(iterate_)) {
+      to_valid.run(shown_.positions, iterate_);
     } else {
       for (std::size_t e = 0; e < iterate_.size(); ++e) {
         for (int k = 0; k < D; ++k) {
@@ -814,7 +824,6 @@ class Equilibrator final : public EquilibriumSolver {
   int iterations_ = 0;
 
   bool constrained_ = false;  // valid regions bind
-  bool violates_ = false;     // the iterate violates links
   Vectors inside_;            // of each link: its difference of displacements, clamped into the region
   Vectors multiplier_;        // of each link: its force, divided by the penalty
 

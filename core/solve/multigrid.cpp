@@ -153,17 +153,12 @@ class Stage {
     return static_cast<std::uint32_t>(members_.size());
   }
 
-  Frames coarse_frames() const {
-    Frames result(members_.size());
-    for (std::uint32_t a = 0; a < result.size(); ++a) {
-      result[a] = frame_of(a);
-    }
-    return result;
-  }
-
   template <class Matrix>
   void build_coarse(const Matrix& matrix, Coarse& coarse) {
-    coarse_frames_ = coarse_frames();
+    coarse_frames_.resize(members_.size());
+    for (std::uint32_t a = 0; a < members_.size(); ++a) {
+      coarse_frames_[a] = frame_of(a);
+    }
     transfer_.resize(matrix.size());
     for (std::uint32_t row = 0; row < matrix.size(); ++row) {
       update_transfer(matrix, row);
@@ -231,31 +226,56 @@ class Stage {
     }
   }
 
-  std::uint32_t aggregate_count() const { return static_cast<std::uint32_t>(members_.size()); }
-  std::size_t transfer_blocks() const { return transfer_.block_count(); }
+  /// Adds rows, each of which joins the aggregate of an older row.
+  void append(const std::vector<std::uint32_t>& like, const Frames& all_frames) {
+    frames_ = all_frames;
+    for (const std::uint32_t row : like) {
+      aggregate_.push_back(aggregate_[row]);
+      if (aggregate_.back() != none) {
+        members_[aggregate_.back()].push_back(static_cast<std::uint32_t>(aggregate_.size() - 1));
+      }
+    }
+    inverse_.resize(aggregate_.size(), Square::Zero());
+    transfer_.resize(static_cast<std::uint32_t>(aggregate_.size()));
+  }
 
-  /// Updates everything that depends on these rows of the matrix. Returns the rows of the coarse matrix that changed.
+  const Frames& frames_of_aggregates() const { return coarse_frames_; }
+
+  /// What a repair changes on the next level.
+  struct Changes {
+    std::vector<std::uint32_t> rows;  // rows of the coarse matrix that changed
+    std::vector<std::uint32_t> like;  // of each new row of the coarse matrix: the row that it was split from
+  };
+
+  /// Updates everything that depends on these rows of the matrix. If links were cut, aggregates that have come apart are
+  /// split.
   template <class Matrix>
-  std::vector<std::uint32_t> repair(const Matrix& matrix, const std::vector<std::uint32_t>& rows, Coarse& coarse) {
+  Changes repair(const Matrix& matrix, const std::vector<std::uint32_t>& rows, bool cut, Coarse& coarse) {
+    Changes changes;
+    std::vector<std::uint32_t> moved = rows;  // rows whose way to the coarse level changes
     for (const std::uint32_t row : rows) {
       update_inverse(matrix, row);
     }
-    std::vector<std::uint32_t> touched;  // coarse rows
+    if (cut) {
+      const std::vector<std::uint32_t> split = with_neighbours(matrix, split_aggregates(matrix, rows, changes.like));
+      moved.insert(moved.end(), split.begin(), split.end());
+      make_unique(moved);
+      coarse.rows.resize(static_cast<std::uint32_t>(members_.size()));
+    }
     const auto touch = [&](const std::vector<std::uint32_t>& some) {
       for (const std::uint32_t row : some) {
         const auto columns = transfer_.columns(row);
-        touched.insert(touched.end(), columns.begin(), columns.end());
+        changes.rows.insert(changes.rows.end(), columns.begin(), columns.end());
       }
     };
-    const std::vector<std::uint32_t> around = with_neighbours(matrix, rows);
-    touch(around);
-    for (const std::uint32_t row : rows) {
+    touch(with_neighbours(matrix, moved));
+    for (const std::uint32_t row : moved) {
       update_transfer(matrix, row);
     }
-    touch(rows);
-    make_unique(touched);
-    update_coarse_rows(matrix, touched, coarse);
-    return touched;
+    touch(moved);
+    make_unique(changes.rows);
+    update_coarse_rows(matrix, changes.rows, coarse);
+    return changes;
   }
 
  private:
@@ -272,6 +292,63 @@ class Stage {
     }
     make_unique(result);
     return result;
+  }
+
+  /// Splits the aggregates of these rows where no couplings hold them together. Returns the rows that got another
+  /// aggregate, and adds to `like` the aggregate that each new one was split from.
+  template <class Matrix>
+  std::vector<std::uint32_t> split_aggregates(const Matrix& matrix, const std::vector<std::uint32_t>& rows,
+                                              std::vector<std::uint32_t>& like) {
+    std::vector<std::uint32_t> suspects, moved;
+    for (const std::uint32_t row : rows) {
+      if (aggregate_[row] != none) {
+        suspects.push_back(aggregate_[row]);
+      }
+    }
+    make_unique(suspects);
+    for (const std::uint32_t a : suspects) {
+      std::vector<std::vector<std::uint32_t>> parts = parts_of(matrix, a);
+      for (std::size_t i = 1; i < parts.size(); ++i) {
+        const auto fresh = static_cast<std::uint32_t>(members_.size());
+        for (const std::uint32_t row : parts[i]) {
+          aggregate_[row] = fresh;
+        }
+        moved.insert(moved.end(), parts[i].begin(), parts[i].end());
+        members_.push_back(std::move(parts[i]));
+        coarse_frames_.push_back(frame_of(fresh));
+        like.push_back(a);
+      }
+      members_[a] = std::move(parts[0]);
+    }
+    return moved;
+  }
+
+  /// Returns the members of an aggregate, in parts that couplings hold together. Fixed rows are in the first part.
+  template <class Matrix>
+  std::vector<std::vector<std::uint32_t>> parts_of(const Matrix& matrix, std::uint32_t aggregate) {
+    std::vector<std::vector<std::uint32_t>> parts(1);
+    std::vector<std::uint32_t> left;
+    for (const std::uint32_t row : members_[aggregate]) {
+      (inverse_[row].isZero(0) ? parts[0] : left).push_back(row);
+    }
+    while (!left.empty()) {
+      std::vector<std::uint32_t> part{left.back()};
+      left.pop_back();
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        matrix.for_each_in_row(part[i], [&](std::uint32_t column, const Square& block) {
+          const auto found = block.isZero(0) ? left.end() : std::ranges::find(left, column);
+          if (found != left.end()) {
+            part.push_back(column);
+            left.erase(found);
+          }
+        });
+      }
+      parts.push_back(std::move(part));
+    }
+    if (parts[0].empty() && parts.size() > 1) {
+      parts.erase(parts.begin());
+    }
+    return parts;
   }
 
   template <class Matrix>
@@ -494,7 +571,7 @@ class Multigrid<Dimension>::Levels {
   explicit Levels(const Matrix& matrix) {
     finest_.build_smoother(matrix);
     std::uint32_t count = finest_.aggregate(matrix, element_frames(matrix.mesh()));
-    add_level(finest_, matrix, count);
+    add_level(finest_, matrix);
     while (!is_coarsest(count)) {
       Level& last = *levels_.back();
       last.stage.build_smoother(last.matrix);
@@ -503,18 +580,24 @@ class Multigrid<Dimension>::Levels {
         break;
       }
       count = next;
-      add_level(last.stage, last.matrix, count);
+      add_level(last.stage, last.matrix);
     }
     factor();
   }
 
-  void repair(const Matrix& matrix, std::span<const ElementId> rows) {
+  void repair(const Matrix& matrix, std::span<const ElementId> rows, bool cut) {
     std::vector<std::uint32_t> changed(rows.begin(), rows.end());
     std::ranges::sort(changed);
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-    changed = finest_.repair(matrix, changed, levels_.front()->matrix);
+    auto [next, like] = finest_.repair(matrix, changed, cut, levels_.front()->matrix);
+    const std::vector<RigidFrame<Dimension>>* frames = &finest_.frames_of_aggregates();
     for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
-      changed = levels_[l]->stage.repair(levels_[l]->matrix, changed, levels_[l + 1]->matrix);
+      Level& level = *levels_[l];
+      level.stage.append(like, *frames);
+      auto changes = level.stage.repair(level.matrix, next, cut, levels_[l + 1]->matrix);
+      next = std::move(changes.rows);
+      like = std::move(changes.like);
+      frames = &level.stage.frames_of_aggregates();
     }
     factor();
   }
@@ -543,6 +626,8 @@ class Multigrid<Dimension>::Levels {
   };
 
   static bool is_coarsest(std::uint32_t count) { return count * modes <= most_direct_unknowns; }
+  /// After cuts, the coarsest level may have grown.
+  static bool can_be_factored(std::uint32_t count) { return count * modes <= 2 * most_direct_unknowns; }
 
   static std::vector<RigidFrame<Dimension>> element_frames(const Mesh& mesh) {
     std::vector<RigidFrame<Dimension>> frames(mesh.element_count());
@@ -558,17 +643,16 @@ class Multigrid<Dimension>::Levels {
   }
 
   template <class Finer, class FinerMatrix>
-  void add_level(Finer& finer, const FinerMatrix& matrix, std::uint32_t count) {
+  void add_level(Finer& finer, const FinerMatrix& matrix) {
     levels_.push_back(std::make_unique<Level>());
     finer.build_coarse(matrix, levels_.back()->matrix);
-    frames_ = finer.coarse_frames();
-    levels_.back()->x.resize(count);
+    frames_ = finer.frames_of_aggregates();
   }
 
   /// Factors the coarsest matrix, if it is small. Otherwise only the smoother works on it.
   void factor() {
     const Coarse& coarsest = levels_.back()->matrix;
-    is_direct_ = is_coarsest(coarsest.size());
+    is_direct_ = can_be_factored(coarsest.size());
     if (!is_direct_) {
       levels_.back()->stage.build_smoother(coarsest);
       return;
@@ -600,6 +684,7 @@ class Multigrid<Dimension>::Levels {
 
   void solve_directly(Level& level) {
     const Eigen::Index size = Eigen::Index(level.right.size()) * modes;
+    level.x.resize(level.right.size());
     if (size > 0) {
       const Eigen::Map<const Eigen::VectorXf> right(level.right.front().data(), size);
       Eigen::Map<Eigen::VectorXf>(level.x.front().data(), size) = direct_.solve(right.template cast<double>()).template cast<float>();
@@ -624,12 +709,24 @@ Multigrid<Dimension>::~Multigrid() = default;
 
 template <int Dimension>
 void Multigrid<Dimension>::build(const Matrix& matrix) {
-  levels_ = std::make_unique<Levels>(matrix);
+  // Aggregates do not depend on what is fixed: another handle or pin changes little then.
+  Matrix bare = matrix;
+  std::vector<ElementId> rows;
+  for (ElementId e = 0; e < matrix.size(); ++e) {
+    if (matrix.is_fixed(e)) {
+      bare.set_fixed(e, false);
+      const auto neighbours = matrix.mesh().neighbours_of(e);
+      rows.insert(rows.end(), neighbours.begin(), neighbours.end());
+      rows.push_back(e);
+    }
+  }
+  levels_ = std::make_unique<Levels>(bare);
+  levels_->repair(matrix, rows, false);
 }
 
 template <int Dimension>
-void Multigrid<Dimension>::repair(const Matrix& matrix, std::span<const ElementId> rows) {
-  levels_->repair(matrix, rows);
+void Multigrid<Dimension>::repair(const Matrix& matrix, std::span<const ElementId> rows, bool cut) {
+  levels_->repair(matrix, rows, cut);
 }
 
 template <int Dimension>
