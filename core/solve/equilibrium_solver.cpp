@@ -19,8 +19,13 @@
 namespace chainmail {
 namespace {
 
-// Stiffness against the distance from the valid region, as a share of the link's own stiffness.
-constexpr double penalty = 8;
+// Stiffness against the distance from the valid region, as a multiple of the link's own stiffness: at the beginning,
+// and its limits. Few binding links converge best with little, many with much.
+constexpr double first_penalty = 2, least_penalty = 0.2, largest_penalty = 100;
+// The penalty changes by this factor after 10, 20, 40, ... steps if one of the two residuals is larger than the other by
+// these ratios (after Boyd et al. 2011, section 3.4.1; the ratios were found by trials on sheets and blocks).
+constexpr double penalty_factor = 3, too_stiff = 1.9, too_soft = 0.4;
+constexpr int first_penalty_check = 10;
 constexpr double over_relaxation = 1.7;
 // Steps of conjugate gradients per step of the method of multipliers.
 constexpr int inner_steps = 1;
@@ -502,8 +507,8 @@ class Equilibrator final : public EquilibriumSolver {
     block.across += all;
     return block;
   }
-  static double penalty_of(const LinkBlock<double, D>& block) {
-    return penalty * (block.along.squaredNorm() + block.across);
+  double penalty_of(const LinkBlock<double, D>& block) const {
+    return penalty_ * (block.along.squaredNorm() + block.across);
   }
 
   void update_fixed(const Body& body) {
@@ -635,10 +640,36 @@ class Equilibrator final : public EquilibriumSolver {
     for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>& region) {
       inside_[link] = clamped_to(region, iterate_[j] - iterate_[i]);
     });
+    constrained_steps_ = 0;
+    next_penalty_check_ = first_penalty_check;
     if (!penalised_matrix_) {
-      penalised_matrix_.emplace(energy_);
-      for (LinkId link = 0; link < mesh_->link_count(); ++link) {
-        penalised_matrix_->set_link(link, with_penalty(energy_.link(link)));
+      set_penalty(first_penalty);
+    }
+  }
+
+  void set_penalty(double penalty) {
+    penalty_ = penalty;
+    penalised_matrix_.emplace(energy_);
+    for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+      penalised_matrix_->set_link(link, with_penalty(energy_.link(link)));
+    }
+    penalised_.reset();
+  }
+
+  void adapt_penalty(double outside, double stepped) {
+    if (++constrained_steps_ < next_penalty_check_) {
+      return;
+    }
+    next_penalty_check_ *= 2;
+    const double ratio = outside > 0 ? std::sqrt(stepped / outside) : 1;
+    const double wanted = ratio > too_stiff ? penalty_ / penalty_factor
+                          : ratio < too_soft ? penalty_ * penalty_factor
+                                             : penalty_;
+    const double before = penalty_;
+    if (wanted != before && wanted >= least_penalty && wanted <= largest_penalty) {
+      set_penalty(wanted);
+      for (Vector& one : multiplier_) {
+        one *= before / wanted;
       }
     }
   }
@@ -700,6 +731,8 @@ class Equilibrator final : public EquilibriumSolver {
     residual_ = size > 0 ? std::sqrt(std::max(outside, stepped) / size) : 0;
     if (active == 0 && outside == 0) {
       end_constraints();
+    } else {
+      adapt_penalty(outside, stepped);
     }
   }
 
@@ -824,6 +857,8 @@ class Equilibrator final : public EquilibriumSolver {
   int iterations_ = 0;
 
   bool constrained_ = false;  // valid regions bind
+  double penalty_ = first_penalty;
+  int constrained_steps_ = 0, next_penalty_check_ = 0;
   Vectors inside_;            // of each link: its difference of displacements, clamped into the region
   Vectors multiplier_;        // of each link: its force, divided by the penalty
 
