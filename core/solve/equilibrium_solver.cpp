@@ -22,10 +22,10 @@ namespace {
 // Stiffness against the distance from the valid region, as a multiple of the link's own stiffness: at the beginning,
 // and its limits. Few binding links converge best with little, many with much.
 constexpr double first_penalty = 2, least_penalty = 0.2, largest_penalty = 100;
-// The penalty changes by this factor after 10, 20, 40, ... steps if one of the two residuals is larger than the other by
+// The penalty changes by this factor after 6, 12, 24, ... steps if one of the two residuals is larger than the other by
 // these ratios (after Boyd et al. 2011, section 3.4.1; the ratios were found by trials on sheets and blocks).
-constexpr double penalty_factor = 3, too_stiff = 1.9, too_soft = 0.4;
-constexpr int first_penalty_check = 10;
+constexpr double penalty_factor = 3, too_stiff = 1.9, too_soft = 0.7;
+constexpr int first_penalty_check = 6;
 constexpr double over_relaxation = 1.7;
 // Steps of conjugate gradients per step of the method of multipliers.
 constexpr int inner_steps = 1;
