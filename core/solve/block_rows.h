@@ -23,7 +23,9 @@ class BlockRows {
   std::span<const std::uint32_t> columns(std::uint32_t row) const {
     return {columns_.data() + rows_[row].first, rows_[row].count};
   }
-  std::span<const Block> blocks(std::uint32_t row) const { return {blocks_.data() + rows_[row].first, rows_[row].count}; }
+  std::span<const Block> blocks(std::uint32_t row) const {
+    return {blocks_.data() + rows_[row].first, rows_[row].count};
+  }
 
   void set_row(std::uint32_t row, std::span<const std::uint32_t> columns, std::span<const Block> blocks) {
     Row& place = rows_[row];

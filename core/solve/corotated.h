@@ -17,8 +17,8 @@ namespace chainmail {
 ///
 ///     min over rotations R_i of  ½ Σ over links  a (|d| − |r|)² + c/2 (|d − R_i r|² + |d − R_j r|²)
 ///
-/// The lateral part is that of as-rigid-as-possible surfaces (Sorkine and Alexa 2007). A rotation of the object does not
-/// change the energy. For small strains and no rotation it is the axial energy without its resistance to rotation.
+/// The lateral part is that of as-rigid-as-possible surfaces (Sorkine and Alexa 2007). A rotation of the object does
+/// not change the energy. For small strains and no rotation it is the axial energy without its resistance to rotation.
 template <int Dimension>
 class CorotatedEnergy {
  public:
@@ -102,8 +102,8 @@ class CorotatedEnergy {
     constexpr int most_steps = 50;
     constexpr double enough = 1e-10;
     for (int i = 0; i < most_steps; ++i) {
-      const Eigen::Vector3d torque = rotation.col(0).cross(sum.col(0)) + rotation.col(1).cross(sum.col(1)) +
-                                     rotation.col(2).cross(sum.col(2));
+      const Eigen::Vector3d torque =
+          rotation.col(0).cross(sum.col(0)) + rotation.col(1).cross(sum.col(1)) + rotation.col(2).cross(sum.col(2));
       const double stiffness = std::abs(rotation.cwiseProduct(sum).sum());
       const double angle = stiffness > 0 ? torque.norm() / stiffness : 0;
       if (angle < enough) {

@@ -662,7 +662,7 @@ class Equilibrator final : public EquilibriumSolver {
     }
     next_penalty_check_ *= 2;
     const double ratio = outside > 0 ? std::sqrt(stepped / outside) : 1;
-    const double wanted = ratio > too_stiff ? penalty_ / penalty_factor
+    const double wanted = ratio > too_stiff  ? penalty_ / penalty_factor
                           : ratio < too_soft ? penalty_ * penalty_factor
                                              : penalty_;
     const double before = penalty_;
@@ -859,8 +859,8 @@ class Equilibrator final : public EquilibriumSolver {
   bool constrained_ = false;  // valid regions bind
   double penalty_ = first_penalty;
   int constrained_steps_ = 0, next_penalty_check_ = 0;
-  Vectors inside_;            // of each link: its difference of displacements, clamped into the region
-  Vectors multiplier_;        // of each link: its force, divided by the penalty
+  Vectors inside_;      // of each link: its difference of displacements, clamped into the region
+  Vectors multiplier_;  // of each link: its force, divided by the penalty
 
   std::vector<ElementId> moved_;
   double largest_step_ = 0;

@@ -17,8 +17,8 @@ struct EquilibriumCertificate {
   /// Energy above a lower bound of the energy of all valid states, relative to the energy. None for the corotated
   /// energy, which is not convex.
   std::optional<double> gap;
-  bool binds = false;    // true if valid regions change the equilibrium
-  int iterations = 0;    // since the handle, the pins or the object changed
+  bool binds = false;  // true if valid regions change the equilibrium
+  int iterations = 0;  // since the handle, the pins or the object changed
 };
 
 /// Finds the equilibrium: the state of least energy among all in which every link is valid, while the handle and the
@@ -28,8 +28,8 @@ struct EquilibriumCertificate {
 /// step of the alternating direction method of multipliers (Glowinski and Marroco 1975; Boyd et al. 2011), whose linear
 /// system has the same form. Each iteration leaves the body in a valid state.
 ///
-/// What is kept between iterations is compared with the body's revisions. A cut, a pin or another softness of some links
-/// updates the levels of the multigrid only around them.
+/// What is kept between iterations is compared with the body's revisions. A cut, a pin or another softness of some
+/// links updates the levels of the multigrid only around them.
 class EquilibriumSolver {
  public:
   static std::unique_ptr<EquilibriumSolver> make(int space_dimension);
@@ -40,8 +40,8 @@ class EquilibriumSolver {
   virtual ~EquilibriumSolver() = default;
 
   /// Runs one iteration. The elements of `held` (ascending) and the pins stay, unless their positions contradict each
-  /// other: then the handle moves to where the pins allow it. Throws Error if pins contradict each other, and Cancelled;
-  /// nothing has moved then.
+  /// other: then the handle moves to where the pins allow it. Throws Error if pins contradict each other, and
+  /// Cancelled; nothing has moved then.
   virtual void iterate(Body& body, std::span<const ElementId> held, const Progress& progress = {}) = 0;
   /// Iterates until the residual is at most this, or `most` iterations were made. Returns true if the residual was
   /// reached.

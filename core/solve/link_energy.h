@@ -19,9 +19,9 @@ namespace chainmail {
 /// | isotropic        | 0          | 1            |
 /// | axial, corotated | k·v·|r|^p | k·v·|r|^p·b |
 ///
-/// with the stiffness k, the exponent p and the lateral stiffness b of the link, and the share v of the material that it
-/// stands for (see LinkShares). For `corotated`, see CorotatedEnergy. A link of zero length has no direction: its axial
-/// stiffness is 0, and the mesh's mean rest length takes the place of |r|.
+/// with the stiffness k, the exponent p and the lateral stiffness b of the link, and the share v of the material that
+/// it stands for (see LinkShares). For `corotated`, see CorotatedEnergy. A link of zero length has no direction: its
+/// axial stiffness is 0, and the mesh's mean rest length takes the place of |r|.
 struct LinkWeights {
   double axial = 0;
   double lateral = 0;

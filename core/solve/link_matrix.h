@@ -12,7 +12,7 @@ namespace chainmail {
 
 /// Number of rigid-body motions (translations and rotations) in a space.
 template <int Dimension>
-inline constexpr int rigid_modes = Dimension * (Dimension + 1) / 2;
+inline constexpr int rigid_modes = Dimension*(Dimension + 1) / 2;
 
 /// What a link contributes to the matrix of an energy: the block g gᵀ + c I, which multiplies the difference of the
 /// displacements of its two ends. All numbers of a cut link are 0.

@@ -45,9 +45,10 @@ Eigen::Matrix<float, Dimension, rigid_modes<Dimension> - Dimension> rotated(
 /// Returns the motion of a row of `Rows` unknowns if the aggregate around it moves as a rigid body.
 template <int Rows, int Dimension>
 Eigen::Matrix<float, Rows, rigid_modes<Dimension>> rigid_motion(const RigidFrame<Dimension>& row,
-                                                               const RigidFrame<Dimension>& aggregate) {
+                                                                const RigidFrame<Dimension>& aggregate) {
   constexpr int rotations = rigid_modes<Dimension> - Dimension;
-  Eigen::Matrix<float, Rows, rigid_modes<Dimension>> motion = Eigen::Matrix<float, Rows, rigid_modes<Dimension>>::Zero();
+  Eigen::Matrix<float, Rows, rigid_modes<Dimension>> motion =
+      Eigen::Matrix<float, Rows, rigid_modes<Dimension>>::Zero();
   motion.template topLeftCorner<Dimension, Dimension>().setIdentity();
   if constexpr (rotations > 0) {
     const Eigen::Matrix<float, Dimension, 1> arm = (row.centre - aggregate.centre) / aggregate.size;
@@ -247,8 +248,8 @@ class Stage {
     std::vector<std::uint32_t> like;  // of each new row of the coarse matrix: the row that it was split from
   };
 
-  /// Updates everything that depends on these rows of the matrix. If links were cut, aggregates that have come apart are
-  /// split.
+  /// Updates everything that depends on these rows of the matrix. If links were cut, aggregates that have come apart
+  /// are split.
   template <class Matrix>
   Changes repair(const Matrix& matrix, const std::vector<std::uint32_t>& rows, bool cut, Coarse& coarse) {
     Changes changes;
@@ -534,8 +535,7 @@ class Stage {
     for (std::size_t k = 0; k < columns.size(); ++k) {
       if (wanted == nullptr || (*wanted)[columns[k]]) {
         for (std::size_t c = 0; c < product_sum_.columns.size(); ++c) {
-          sums_[columns[k]].at(product_sum_.columns[c]).noalias() +=
-              blocks[k].transpose() * product_sum_.blocks[c];
+          sums_[columns[k]].at(product_sum_.columns[c]).noalias() += blocks[k].transpose() * product_sum_.blocks[c];
         }
       }
     }
@@ -634,8 +634,8 @@ class Multigrid<Dimension>::Levels {
     const double length = mesh.mean_link_length > 0 ? mesh.mean_link_length : 1;
     for (ElementId e = 0; e < frames.size(); ++e) {
       for (int k = 0; k < Dimension; ++k) {
-        const double from_corner = mesh.rest[std::size_t{e} * Dimension + std::size_t(k)] -
-                                   mesh.box[0][mesh.axes[std::size_t(k)]];
+        const double from_corner =
+            mesh.rest[std::size_t{e} * Dimension + std::size_t(k)] - mesh.box[0][mesh.axes[std::size_t(k)]];
         frames[e].centre[k] = float(from_corner / length);
       }
     }
@@ -661,7 +661,8 @@ class Multigrid<Dimension>::Levels {
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
     for (std::uint32_t row = 0; row < coarsest.size(); ++row) {
       coarsest.for_each_in_row(row, [&](std::uint32_t column, const typename Coarse::Square& block) {
-        dense.block<modes, modes>(Eigen::Index{row} * modes, Eigen::Index{column} * modes) = block.template cast<double>();
+        dense.block<modes, modes>(Eigen::Index{row} * modes, Eigen::Index{column} * modes) =
+            block.template cast<double>();
       });
     }
     // The matrix may be singular: free parts, and aggregates of elements in a row or of fixed elements.
@@ -687,7 +688,8 @@ class Multigrid<Dimension>::Levels {
     level.x.resize(level.right.size());
     if (size > 0) {
       const Eigen::Map<const Eigen::VectorXf> right(level.right.front().data(), size);
-      Eigen::Map<Eigen::VectorXf>(level.x.front().data(), size) = direct_.solve(right.template cast<double>()).template cast<float>();
+      Eigen::Map<Eigen::VectorXf>(level.x.front().data(), size) =
+          direct_.solve(right.template cast<double>()).template cast<float>();
     }
   }
 
