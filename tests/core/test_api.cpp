@@ -750,7 +750,7 @@ void ApiTest::measures_are_those_of_core() {
   QCOMPARE(cm::elastic_energy(deformer.body()),
            chainmail::elastic_energy(body.mesh(), body.softness(), body.cuts(), body.positions()));
   QVERIFY(deformer.body().energy() == cm::EnergyKind::axial);
-  for (const auto kind : {EnergyKind::isotropic, EnergyKind::corotated}) {
+  for (const auto kind : {chainmail::EnergyKind::isotropic, chainmail::EnergyKind::corotated}) {
     cm::Body turned = deformer.body();
     turned.set_energy(static_cast<cm::EnergyKind>(kind));
     QVERIFY(turned.energy() == static_cast<cm::EnergyKind>(kind));
