@@ -79,21 +79,6 @@ LinkWeights link_weights(const Mesh& mesh, const Softness& softness, LinkId link
   return link_weights(mesh, softness.energy, softness.of(link), rest_length(mesh, link));
 }
 
-void LinkWeightTable::set(const Mesh& mesh, const Softness& softness) {
-  const bool by_shape = softness.links.empty() && !mesh.entry_shape.empty();
-  const auto dimension = std::size_t(mesh.space_dimension);
-  id_of_ = by_shape ? Ids(mesh.entry_shape.data()) : Ids(mesh.entry_link.data());
-  weights_.resize(by_shape ? mesh.shapes.size() / dimension : mesh.link_count());
-  for (std::size_t i = 0; i < weights_.size(); ++i) {
-    const auto link = static_cast<LinkId>(i);
-    const double length =
-        by_shape ? Eigen::Map<const Eigen::VectorXd>(mesh.shapes.data() + i * dimension, mesh.space_dimension).norm()
-                 : rest_length(mesh, link);
-    const LinkSoftness& of_link = by_shape ? softness.global : softness.of(link);
-    weights_[i] = link_weights(mesh, softness.energy, of_link, length);
-  }
-}
-
 LocalRotation local_rotation(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
                              ElementId element) {
   if (mesh.space_dimension == 1) {

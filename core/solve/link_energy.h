@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <vector>
 
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
@@ -32,29 +30,6 @@ struct LinkWeights {
 LinkWeights link_weights(const Mesh& mesh, const Softness& softness, LinkId link);
 /// The same for a link of this softness and rest length (mesh units).
 LinkWeights link_weights(const Mesh& mesh, EnergyKind kind, const LinkSoftness& softness, double rest_length);
-
-/// The weights of all links, for loops over the entries of the neighbour table: one per rest vector if the mesh has few
-/// of them and all links have one softness, otherwise one per link.
-class LinkWeightTable {
- public:
-  void set(const Mesh& mesh, const Softness& softness);
-  const LinkWeights& operator[](EntryId entry) const {
-    return weights_[id_of_.shapes != nullptr ? id_of_.shapes[entry] : id_of_.links[entry]];
-  }
-
- private:
-  /// The index of the weights of each entry, in an array of the mesh. One of the pointers is null.
-  struct Ids {
-    Ids() = default;
-    explicit Ids(const std::uint16_t* of_shapes) : shapes(of_shapes) {}
-    explicit Ids(const LinkId* of_links) : links(of_links) {}
-    const std::uint16_t* shapes = nullptr;
-    const LinkId* links = nullptr;
-  };
-
-  std::vector<LinkWeights> weights_;
-  Ids id_of_;
-};
 
 /// The rotation of an element's neighbourhood, of which the first rows and columns exist in the space.
 using LocalRotation = Eigen::Matrix3d;

@@ -145,7 +145,7 @@ class Relaxation::Slice {
   /// Returns the deflection of a link from its rest vector, without rotation.
   Deflection deflection(ElementId element, ElementId neighbour, EntryId entry) const {
     const Vector rest = rest_vector(element, neighbour);
-    Deflection link{relaxation_.weights_[entry]};
+    Deflection link{relaxation_.weights_[body_.mesh->entry_link[entry]]};
     for (int k = 0; k < Dimension; ++k) {
       const double apart = double(body_.positions[neighbour][k]) - double(body_.positions[element][k]);
       link.all[k] = body_.from_rest ? apart : apart - rest[k];
@@ -295,7 +295,10 @@ void Relaxation::follow(const Body& body) {
 void Relaxation::follow_energy(const Body& body) {
   if (energy_ != body.revisions().energy && body.softness().energy != EnergyKind::isotropic) {
     energy_ = body.revisions().energy;
-    weights_.set(body.mesh(), body.softness());
+    weights_.resize(body.mesh().link_count());
+    for (LinkId link = 0; link < body.mesh().link_count(); ++link) {
+      weights_[link] = link_weights(body.mesh(), body.softness(), link);
+    }
   }
 }
 

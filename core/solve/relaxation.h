@@ -115,10 +115,10 @@ class Relaxation {
   void end_sweep();
 
   RelaxationScheme scheme_ = RelaxationScheme::mean;
-  LinkWeightTable weights_;   // except for isotropic energy
-  std::uint64_t energy_ = 0;  // revision of the energy that the weights belong to
-  ActiveSet current_;         // to be visited in this sweep
-  ActiveSet next_;            // to be visited in the next sweep
+  std::vector<LinkWeights> weights_;  // of each link, except for isotropic energy
+  std::uint64_t energy_ = 0;          // revision of the energy that the weights belong to
+  ActiveSet current_;                 // to be visited in this sweep
+  ActiveSet next_;                    // to be visited in the next sweep
   std::vector<ElementId> moved_;
   bool in_sweep_ = false;
   double largest_step_ = 0;      // of this sweep (mesh units)

@@ -98,6 +98,16 @@ double largest_slope(Solver& solver, const Mesh& mesh, const Softness& softness,
   return largest;
 }
 
+/// Returns the elements and links of a mesh alone.
+MeshPointer without_faces(const Mesh& mesh) {
+  MeshParts parts;
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    parts.rest.push_back(mesh.rest_position(e));
+  }
+  parts.links = mesh.links;
+  return build_mesh(std::move(parts));
+}
+
 /// A random mesh in a random valid state with all elements active, and a random step.
 struct ActiveState {
   ActiveState() : mesh(draw_family().mesh), softness(draw_energy(*mesh)), step(*rc::gen::inRange(1, 101) / 100.0) {
@@ -320,7 +330,7 @@ void RelaxationTest::it_ends_where_the_energy_has_no_slope() {
 
 void RelaxationTest::isotropic_energy_is_axial_with_much_lateral_stiffness() {
   for (const RelaxationScheme scheme : {RelaxationScheme::mean, RelaxationScheme::link}) {
-    const auto mesh = jittered_triangles(6, 5, 3);
+    const auto mesh = without_faces(*jittered_triangles(6, 5, 3));
     std::vector<std::vector<double>> ends;
     for (const Softness& softness : {Softness{{0, 100, 100}, {}, EnergyKind::isotropic},
                                      Softness{{0, 100, 100, 1e9, 1, 0}, {}, EnergyKind::axial}}) {
