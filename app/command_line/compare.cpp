@@ -48,7 +48,7 @@ std::vector<report::RecordedMoves> drags_of(const report::Case& object, const st
 }
 
 std::vector<report::Case> cases_to_compare(const CompareArguments& options) {
-  const LinkSoftness softness = softness_of(options);
+  const Softness softness = softness_of(options);
   const auto recorded = value_of(options.moves);
   if (options.meshes->count() == 0 && recorded) {
     throw Error("--moves", "the mesh of the recorded moves is missing", "add its file");

@@ -92,19 +92,12 @@ report::CompareOptions contest_of(const CompareArguments& options, std::span<con
   return result;
 }
 
-LinkSoftness softness_of(const CompareArguments& arguments) {
+Softness softness_of(const CompareArguments& arguments) {
   const auto preset = value_of(arguments.preset);
-  LinkSoftness softness = preset ? preset_of(*preset) : LinkSoftness();
-  const auto take = [](const CLI::Option* option, const Parameter& parameter, double& value) {
-    value = option->count() > 0 ? value_of(option, parameter) : value;
-  };
-  take(arguments.compression, parameters::compression, softness.compression);
-  take(arguments.stretch, parameters::stretch, softness.stretch);
-  take(arguments.shear, parameters::shear, softness.shear);
-  return softness;
+  return softness_of(arguments.softness, preset ? preset_of(*preset) : LinkSoftness());
 }
 
-report::Case case_of(const std::string& file, const LinkSoftness& softness) {
+report::Case case_of(const std::string& file, const Softness& softness) {
   const std::filesystem::path path = file;
   OpenedMesh opened = chainmail::open_mesh(path);
   return {printable(path.filename().string()),
@@ -112,7 +105,7 @@ report::Case case_of(const std::string& file, const LinkSoftness& softness) {
           opened.mesh,
           {},
           {},
-          {softness, std::move(opened.softness)},
+          {softness.global, std::move(opened.softness), softness.energy},
           {}};
 }
 
@@ -125,9 +118,7 @@ CompareArguments add_compare_arguments(CLI::App& app) {
                        ->allow_extra_args(true)
                        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_contest(app, options);
-  options.compression = add_parameter(app, parameters::compression);
-  options.stretch = add_parameter(app, parameters::stretch);
-  options.shear = add_parameter(app, parameters::shear);
+  options.softness = add_softness(app);
   options.preset = add_value(app, "--preset", "NAME|FILE",
                              "name of a built-in preset, or a preset file (for example from calibrate -o)");
   options.moves =

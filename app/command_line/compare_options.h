@@ -1,6 +1,7 @@
 #pragma once
 
 #include "command_line/elastic.h"
+#include "command_line/softness.h"
 #include "report/run/cases.h"
 #include "report/run/compare.h"
 
@@ -11,7 +12,8 @@ struct CompareArguments {
   CLI::Option *meshes = nullptr, *output = nullptr, *against = nullptr;
   CLI::Option *algorithms = nullptr, *relax = nullptr, *relaxation = nullptr, *relax_step = nullptr,
               *precision = nullptr, *repetitions = nullptr;
-  CLI::Option *compression = nullptr, *stretch = nullptr, *shear = nullptr, *preset = nullptr, *moves = nullptr;
+  SoftnessArguments softness;
+  CLI::Option *preset = nullptr, *moves = nullptr;
   ElasticArguments elastic;
   CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr;
 };
@@ -21,10 +23,10 @@ CompareArguments add_compare_arguments(CLI::App& app);
 /// of sweeps.
 report::CompareOptions contest_of(const CompareArguments& arguments, std::span<const AlgorithmInfo> algorithms,
                                   const std::string& sweeps);
-/// Returns the global softness: that of the preset, where single options override its values.
-LinkSoftness softness_of(const CompareArguments& arguments);
+/// Returns the global softness and the kind of energy: those of the preset, where single options override its values.
+Softness softness_of(const CompareArguments& arguments);
 /// Reads a mesh as a case of the report: at rest, without drags.
-report::Case case_of(const std::string& file, const LinkSoftness& softness);
+report::Case case_of(const std::string& file, const Softness& softness);
 
 /// Runs the comparison with physics and writes the report. Throws Error before it writes anything.
 void compare_with_physics(const CompareArguments& arguments, const std::string& command_line);

@@ -41,7 +41,7 @@ report::PhysicsOptions physics_options(const CompareArguments& arguments) {
 }
 
 std::vector<report::Case> physics_cases(const CompareArguments& arguments) {
-  const LinkSoftness softness = softness_of(arguments);
+  const Softness softness = softness_of(arguments);
   const ElasticOptions elastic = elastic_of(arguments.elastic);
   if (arguments.moves->count() > 0) {
     throw Error("--moves", "the comparison with physics uses its own drags", "leave out the option");
@@ -50,7 +50,7 @@ std::vector<report::Case> physics_cases(const CompareArguments& arguments) {
     if (arguments.pins->count() > 0) {
       throw Error("--pins", "the built-in objects have their own pins", "add a mesh, or leave out the option");
     }
-    return report::physics_cases({softness, {}}, elastic);
+    return report::physics_cases(softness, elastic);
   }
   std::vector<report::Case> cases;
   for (const std::string& file : arguments.meshes->results()) {

@@ -6,6 +6,7 @@
 #include "command_line/elastic.h"
 #include "command_line/progress_line.h"
 #include "command_line/script.h"
+#include "command_line/softness.h"
 #include "files/results/trace_csv.h"
 #include "files/session/moves.h"
 #include "files/session/softness_csv.h"
@@ -20,7 +21,8 @@ struct DeformArguments {
   CLI::App* app = nullptr;
   MeshOptions mesh;
   ElasticArguments elastic;
-  CLI::Option *algorithm, *precision, *compression, *stretch, *shear, *softness;
+  SoftnessArguments global;
+  CLI::Option *algorithm, *precision, *softness;
   CLI::Option *move, *by, *cut, *pin, *grab, *rotate;
   CLI::Option* script;
   CLI::Option *steps, *relax, *relaxation, *relax_step;
@@ -53,11 +55,6 @@ Precision read_precision(const DeformArguments& options) {
   const std::string word = value_of(options.precision).value_or("double");
   check_word("--precision", word, {"double", "float"});
   return word == "float" ? Precision::single_precision : Precision::double_precision;
-}
-
-LinkSoftness read_global_softness(const DeformArguments& options) {
-  return {value_of(options.compression, parameters::compression), value_of(options.stretch, parameters::stretch),
-          value_of(options.shear, parameters::shear)};
 }
 
 RelaxationScheme read_relaxation(const DeformArguments& options) {
@@ -178,7 +175,7 @@ void deform(const DeformArguments& options) {
   const Algorithm algorithm = algorithm_of("--algorithm", *value_of(options.algorithm), every_algorithm());
   const Precision precision = read_precision(options);
   const RelaxationScheme relaxation = read_relaxation(options);
-  Softness softness{read_global_softness(options), {}};
+  Softness softness = softness_of(options.global);
   const ElasticOptions elastic = elastic_of(options.elastic);
   const Targets targets = read_targets(options);
   const Schedule schedule = read_schedule(options, targets);
@@ -232,11 +229,10 @@ void add_model(CLI::App& app, DeformArguments& options) {
     names += (names.empty() ? "" : "|") + name;
   }
   options.algorithm = add_value(app, "--algorithm", "NAME", names)->required();
-  options.compression = add_parameter(app, parameters::compression);
-  options.stretch = add_parameter(app, parameters::stretch);
-  options.shear = add_parameter(app, parameters::shear);
-  options.softness =
-      add_value(app, "--softness", "FILE", "softness of single links: CSV rows a,b,compression,stretch,shear");
+  options.global = add_softness(app);
+  options.softness = add_value(app, "--softness", "FILE",
+                               "softness of single links: CSV rows a,b,compression,stretch,shear or "
+                               "a,b,compression,stretch,shear,lateral,stiffness,exponent");
   options.relax = add_value(app, "--relax", "N", "sweeps of relaxation after each pass [0]");
   options.relaxation = add_value(app, "--relaxation", "mean|link",
                                  "relaxation scheme: toward the mean of the neighbours, or link by link [mean]");

@@ -45,6 +45,14 @@ struct Body::Inside {
 
   inner::Body& body() { return solver->body(); }
   const inner::Body& body() const { return solver->body(); }
+  /// Sets a softness. If the energy changes, relaxation visits all elements again.
+  void set_softness(const inner::Softness& softness) {
+    const std::uint64_t before = body().revisions().energy;
+    body().set_softness(softness);
+    if (body().revisions().energy != before && !body().is_at_rest()) {
+      solver->wake_all();
+    }
+  }
   /// Call this after positions were set.
   void forget_handle() {
     handle.clear();

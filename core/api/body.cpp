@@ -200,7 +200,7 @@ void Body::set_softness(const LinkSoftness& softness) {
   guarded([&] { inner::check(softness_of(softness)); });
   Softness next = inside_->body().softness();
   next.global = softness_of(softness);
-  inside_->body().set_softness(next);
+  inside_->set_softness(next);
 }
 
 void Body::set_softness(const std::vector<LinkId>& links, const LinkSoftness& softness) {
@@ -208,13 +208,13 @@ void Body::set_softness(const std::vector<LinkId>& links, const LinkSoftness& so
   guarded([&] { inner::check(softness_of(softness)); });
   Softness next = inside_->body().softness();
   next.links.set(unique, softness_of(softness));
-  inside_->body().set_softness(next);
+  inside_->set_softness(next);
 }
 
 void Body::clear_softness(const std::vector<LinkId>& links) {
   Softness next = inside_->body().softness();
   next.links.erase(unique_links(inside_->body().mesh(), links));
-  inside_->body().set_softness(next);
+  inside_->set_softness(next);
 }
 
 LinkSoftness Body::softness() const { return softness_of(inside_->body().softness().global); }
@@ -227,7 +227,7 @@ LinkSoftness Body::softness(LinkId link) const {
 void Body::set_energy(EnergyKind kind) {
   Softness next = inside_->body().softness();
   next.energy = energy_of(kind);
-  inside_->body().set_softness(next);
+  inside_->set_softness(next);
 }
 
 EnergyKind Body::energy() const { return energy_of(inside_->body().softness().energy); }

@@ -6,6 +6,7 @@
 
 #include "elastic/cholesky.h"
 #include "measure/violation.h"
+#include "solve/link_energy.h"
 
 namespace chainmail {
 namespace {
@@ -40,20 +41,27 @@ std::vector<bool> joined_to(const Mesh& mesh, const Cuts& cuts, std::span<const 
   return joined;
 }
 
-/// The linear system of the equilibrium. In displacements u the energy is ½ Σ |u_j − u_i|². At its minimum, the
-/// displacement of each free element is the mean of its neighbours'. The matrix is the Laplacian of the free elements;
-/// the fixed elements are on the right-hand side.
+/// The linear system of the equilibrium. In displacements u the isotropic energy is ½ Σ |u_j − u_i|². At its minimum,
+/// the displacement of each free element is the mean of its neighbours', on each axis alone. The matrix is the
+/// Laplacian of the free elements; the fixed elements are on the right-hand side. Axial energy couples the axes: each
+/// element has one unknown per axis, each link a block, and there is one right-hand side.
 class System {
  public:
-  System(const Mesh& mesh, const Cuts& cuts, std::span<const ElementId> fixed, Equilibrium& equilibrium)
-      : mesh_(mesh), cuts_(cuts), equilibrium_(equilibrium), unknown_(mesh.element_count(), none) {
+  System(const Mesh& mesh, const Softness& softness, const Cuts& cuts, std::span<const ElementId> fixed,
+         Equilibrium& equilibrium)
+      : mesh_(mesh),
+        softness_(softness),
+        cuts_(cuts),
+        equilibrium_(equilibrium),
+        width_(softness.energy == EnergyKind::isotropic ? 1 : mesh.space_dimension),
+        unknown_(mesh.element_count(), none) {
     std::vector<bool> is_fixed(mesh.element_count());
     for (const ElementId element : fixed) {
       is_fixed[element] = true;
     }
     for (ElementId e = 0; e < mesh.element_count(); ++e) {
       if (equilibrium.defined[e] && !is_fixed[e]) {
-        unknown_[e] = static_cast<Eigen::Index>(elements_.size());
+        unknown_[e] = static_cast<Eigen::Index>(elements_.size()) * width_;
         elements_.push_back(e);
       }
     }
@@ -73,18 +81,62 @@ class System {
   }
 
   void build() {
-    const auto size = static_cast<Eigen::Index>(elements_.size());
+    const auto size = static_cast<Eigen::Index>(elements_.size()) * width_;
     matrix_.resize(size, size);
-    right_ = Columns::Zero(size, mesh_.space_dimension);
+    right_ = Columns::Zero(size, mesh_.space_dimension / width_);
     Eigen::VectorXi counts(size);
     for (Eigen::Index i = 0; i < size; ++i) {
-      counts[i] = 1 + static_cast<int>(mesh_.neighbours_of(elements_[i]).size());
+      counts[i] = width_ * (1 + static_cast<int>(mesh_.neighbours_of(elements_[i / width_]).size()));
     }
     matrix_.reserve(counts);
-    for (Eigen::Index i = 0; i < size; ++i) {
-      add_row(i);
+    for (Eigen::Index i = 0; i < size; i += width_) {
+      width_ == 1 && softness_.energy == EnergyKind::isotropic ? add_row(i) : add_blocks(i);
     }
     matrix_.makeCompressed();
+  }
+
+  /// Returns the element and the axis of a row and a right-hand side.
+  ElementId element_of(Eigen::Index row) const { return elements_[row / width_]; }
+  int axis_of(Eigen::Index row, int column) const { return width_ == 1 ? column : static_cast<int>(row % width_); }
+
+  /// Writes the blocks of an element whose first row is `row`, only the lower half of each column.
+  void add_blocks(Eigen::Index row) {
+    const int dimension = mesh_.space_dimension;
+    Eigen::MatrixXd diagonal = Eigen::MatrixXd::Zero(dimension, dimension);
+    for_each_neighbour(mesh_, cuts_, element_of(row), [&](ElementId neighbour, EntryId entry) {
+      const Eigen::MatrixXd block = block_of(mesh_.entry_link[entry]);
+      diagonal += block;
+      const Eigen::Index other = unknown_[neighbour];
+      for (int i = 0; i < dimension; ++i) {
+        for (int k = 0; k < dimension; ++k) {
+          if (other == none) {
+            right_(row + i, 0) += block(i, k) * displacement(neighbour, k);
+          } else if (other > row) {
+            matrix_.insert(other + k, row + i) = -block(k, i);
+          }
+        }
+      }
+    });
+    for (int i = 0; i < dimension; ++i) {
+      for (int k = i; k < dimension; ++k) {
+        matrix_.insert(row + k, row + i) = diagonal(k, i);
+      }
+    }
+  }
+
+  /// Returns the stiffness of a link, axial · r̂ r̂ᵀ + lateral.
+  Eigen::MatrixXd block_of(LinkId link) const {
+    const int dimension = mesh_.space_dimension;
+    const auto [a, b] = mesh_.links[link];
+    const Eigen::Map<const Eigen::VectorXd> from(mesh_.rest.data() + std::size_t{a} * dimension, dimension),
+        to(mesh_.rest.data() + std::size_t{b} * dimension, dimension);
+    const auto [axial, lateral] = link_weights(mesh_, softness_, link);
+    Eigen::MatrixXd block = lateral * Eigen::MatrixXd::Identity(dimension, dimension);
+    if (axial > 0) {
+      const Eigen::VectorXd direction = (to - from).normalized();
+      block += axial * direction * direction.transpose();
+    }
+    return block;
   }
 
   /// Writes only the lower half of the row: the matrix is symmetric.
@@ -116,12 +168,13 @@ class System {
   bool solve_by_gradients(const Progress& progress) {
     const Eigen::IncompleteCholesky<double> preconditioner(matrix_);
     Columns solution(right_.rows(), right_.cols());
-    for (int k = 0; k < mesh_.space_dimension; ++k) {
+    const int columns = static_cast<int>(right_.cols());
+    for (int k = 0; k < columns; ++k) {
       Eigen::VectorXd along(right_.rows());
       for (Eigen::Index i = 0; i < along.rows(); ++i) {
-        along[i] = displacement(elements_[i], k);
+        along[i] = displacement(element_of(i), axis_of(i, k));
       }
-      const Progress part = progress.part(double(k) / mesh_.space_dimension, double(k + 1) / mesh_.space_dimension);
+      const Progress part = progress.part(double(k) / columns, double(k + 1) / columns);
       if (preconditioner.info() != Eigen::Success || !descend(preconditioner, right_.col(k), along, part)) {
         return false;
       }
@@ -162,18 +215,20 @@ class System {
 
   bool take(const Columns& solution) {
     for (Eigen::Index i = 0; i < solution.rows(); ++i) {
-      for (int k = 0; k < mesh_.space_dimension; ++k) {
-        displacement(elements_[i], k) = solution(i, k);
+      for (int k = 0; k < static_cast<int>(solution.cols()); ++k) {
+        displacement(element_of(i), axis_of(i, k)) = solution(i, k);
       }
     }
     return solution.allFinite();
   }
 
   const Mesh& mesh_;
+  const Softness& softness_;
   const Cuts& cuts_;
   Equilibrium& equilibrium_;
-  std::vector<Eigen::Index> unknown_;  // index of the unknown of each element, or none
-  std::vector<ElementId> elements_;    // element of each unknown
+  int width_;                          // unknowns per element in a column
+  std::vector<Eigen::Index> unknown_;  // index of the first unknown of each element, or none
+  std::vector<ElementId> elements_;    // the elements with unknowns
   Matrix matrix_;
   Columns right_;
 };
@@ -198,11 +253,11 @@ PositionView Equilibrium::positions(const Mesh& mesh) const {
 std::optional<Equilibrium> equilibrium(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                                        std::span<const ElementId> fixed, const PositionView& positions,
                                        std::uint64_t limit, const Progress& progress) {
-  if (fixed.empty()) {
+  if (fixed.empty() || softness.energy == EnergyKind::corotated) {
     return std::nullopt;
   }
   Equilibrium result{displacements_of(mesh, positions), joined_to(mesh, cuts, fixed)};
-  if (!System(mesh, cuts, fixed, result).solve(limit, progress)) {
+  if (!System(mesh, softness, cuts, fixed, result).solve(limit, progress)) {
     return std::nullopt;
   }
   result.binds = binds(mesh, softness, cuts, result);

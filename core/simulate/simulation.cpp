@@ -265,10 +265,18 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
     check_links(*mesh_, std::span(&link, 1));
     check(softness);
   }
+  const Revisions before = body().revisions();
   set_softness(command.softness);
-  valid_ = false;
-  if (info(algorithm_).uses_softness()) {
-    answer();
+  const bool new_energy = body().revisions().energy != before.energy;
+  if (!new_energy || body().revisions().softness != before.softness) {
+    valid_ = false;
+    if (info(algorithm_).uses_softness()) {
+      answer();
+    }
+  }
+  if (new_energy && last_handle_) {  // otherwise all elements are at rest, where every energy is least
+    solver_->wake_all();
+    wake({});
   }
 }
 
@@ -408,7 +416,8 @@ void Simulation::carry_out(const commands::ReplaceMesh& command) {
   if (!command.mesh) {
     throw Error("replace mesh", "the command contains no mesh", "use a command with a mesh");
   }
-  const auto softness = std::make_shared<const Softness>(Softness{this->softness().global, {}});
+  const auto softness =
+      std::make_shared<const Softness>(Softness{this->softness().global, {}, this->softness().energy});
   take_mesh(command.mesh);
   set_softness(softness);
 }

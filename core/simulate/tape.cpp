@@ -50,12 +50,12 @@ void Tape::begin() {
   ++timeline_number_;
 }
 
-/// Begins the timeline of a new object, which keeps the global softness.
+/// Begins the timeline of a new object, which keeps the global softness and the kind of energy.
 void Tape::begin_mesh() {
-  const LinkSoftness global = object().softness->global;
+  const auto before = object().softness;
   begin();
-  if (global != LinkSoftness()) {
-    add(commands::SetSoftness{Softness{global, {}}});
+  if (const Softness kept{before->global, {}, before->energy}; kept != Softness()) {
+    add(commands::SetSoftness{kept});
   }
 }
 

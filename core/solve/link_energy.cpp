@@ -1,5 +1,6 @@
 #include "solve/link_energy.h"
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,12 @@
 #include "solve/relaxation.h"
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "solve/body_view.h"
+#include "solve/small_quadratic.h"
 
 namespace chainmail {
 
@@ -15,10 +17,29 @@ class Relaxation::Slice {
   using Scalar = typename View::Scalar;
   static constexpr int Dimension = View::Dimension;
 
-  Slice(Relaxation& relaxation, const View& body, double step, std::span<const ElementId> held)
-      : relaxation_(relaxation), body_(body), step_(step), held_(held) {}
+  Slice(Relaxation& relaxation, const View& body, const Softness& softness, double step,
+        std::span<const ElementId> held)
+      : relaxation_(relaxation), body_(body), softness_(softness), step_(step), held_(held) {}
 
   RelaxationResult run(std::uint64_t budget) {
+    const bool by_link = relaxation_.scheme_ == RelaxationScheme::link;
+    return softness_.energy == EnergyKind::isotropic
+               ? run(budget, [&](ElementId element) { by_link ? visit_links(element) : visit(element); })
+               : run(budget,
+                     [&](ElementId element) { by_link ? visit_weighted_links(element) : visit_weighted(element); });
+  }
+
+ private:
+  using Coordinates = std::array<Scalar, Dimension>;
+  using Vector = Eigen::Matrix<double, Dimension, 1>;
+
+  /// The intersection of the valid regions about an element's neighbours.
+  struct Box {
+    Coordinates low, high;
+  };
+
+  template <class Visit>
+  RelaxationResult run(std::uint64_t budget, Visit visit_one) {
     RelaxationResult result;
     for (; result.visited < budget; ++result.visited) {
       const auto element = relaxation_.current_.take();
@@ -26,14 +47,11 @@ class Relaxation::Slice {
         result.sweep_ended = true;
         break;
       }
-      relaxation_.scheme_ == RelaxationScheme::mean ? visit(*element) : visit_links(*element);
+      visit_one(*element);
     }
     result.largest_step = relaxation_.largest_step_;
     return result;
   }
-
- private:
-  using Coordinates = std::array<Scalar, Dimension>;
 
   /// Returns a neighbour's position less the rest vector to it: the position that this link alone implies.
   Coordinates position_by(ElementId element, ElementId neighbour) const {
@@ -74,7 +92,7 @@ class Relaxation::Slice {
     for (Scalar& x : mean) {
       x /= static_cast<Scalar>(count);
     }
-    if (go(element, mean, static_cast<Scalar>(step_), element) && step_ < 1) {
+    if (go(element, mean, box_of(element), static_cast<Scalar>(step_), element) && step_ < 1) {
       wake_next(element);
     }
   }
@@ -88,7 +106,132 @@ class Relaxation::Slice {
       const Coordinates here = position_by(element, neighbour), there = position_by(neighbour, element);
       const Scalar half = static_cast<Scalar>(step_) / 2;
       for (const auto& [one, position] : {std::pair(element, here), std::pair(neighbour, there)}) {
-        if (!stays(one) && go(one, position, half, element)) {
+        if (!stays(one) && go(one, position, box_of(one), half, element)) {
+          wake_next(element);
+        }
+      }
+    });
+  }
+
+  Box box_of(ElementId element) const {
+    Box box;
+    box.low.fill(-std::numeric_limits<Scalar>::infinity());
+    box.high.fill(std::numeric_limits<Scalar>::infinity());
+    body_.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
+      const Scalar* about = body_.positions[neighbour].at;
+      for (int k = 0; k < Dimension; ++k) {
+        box.low[k] = std::max(box.low[k], about[k] - body_.regions[entry].high[k]);
+        box.high[k] = std::min(box.high[k], about[k] - body_.regions[entry].low[k]);
+      }
+    });
+    return box;
+  }
+
+  /// A link as seen from one of its ends: its weights, its direction, and how far its vector is from its rest vector,
+  /// along this direction and in all. Corotated energy turns the rest vector.
+  struct Deflection {
+    LinkWeights weights;
+    Vector direction = Vector::Zero();
+    double along = 0;
+    Vector all = Vector::Zero();
+  };
+
+  Vector rest_vector(ElementId element, ElementId neighbour) const {
+    using Rest = Eigen::Map<const Vector>;
+    const double* rest = body_.mesh->rest.data();
+    return Rest(rest + std::size_t{neighbour} * Dimension) - Rest(rest + std::size_t{element} * Dimension);
+  }
+
+  /// Returns the deflection of a link from its rest vector, without rotation.
+  Deflection deflection(ElementId element, ElementId neighbour, EntryId entry) const {
+    const Vector rest = rest_vector(element, neighbour);
+    Deflection link{relaxation_.weights_[body_.mesh->entry_link[entry]]};
+    for (int k = 0; k < Dimension; ++k) {
+      const double apart = double(body_.positions[neighbour][k]) - double(body_.positions[element][k]);
+      link.all[k] = body_.from_rest ? apart : apart - rest[k];
+    }
+    if (link.weights.axial > 0) {
+      link.direction = rest / rest.norm();
+      link.along = link.direction.dot(link.all);
+    }
+    return link;
+  }
+
+  LocalRotation rotation_of(ElementId element) const {
+    const PositionView positions(
+        body_.positions.data(), sizeof body_.positions[0],
+        sizeof(Scalar) == sizeof(float) ? Precision::single_precision : Precision::double_precision,
+        body_.from_rest ? body_.mesh : nullptr);
+    return local_rotation(*body_.mesh, softness_, body_.cuts, positions, element);
+  }
+
+  /// Turns the rest vector of a link with the mean of the rotations of its ends.
+  void turn(Deflection& link, ElementId element, ElementId neighbour, const LocalRotation& of_element) const {
+    const Vector rest = rest_vector(element, neighbour), vector = rest + link.all;
+    const LocalRotation mean = (of_element + rotation_of(neighbour)) / 2;
+    const Vector turned = mean.topLeftCorner<Dimension, Dimension>() * rest;
+    const double size = turned.norm();
+    link.direction = size > 0 ? Vector(turned / size) : Vector(Vector::Zero());
+    link.along = size > 0 ? link.direction.dot(vector) - rest.norm() : 0;
+    link.all = vector - turned;
+  }
+
+  /// Calls use(neighbour, deflection) for each uncut link of an element.
+  template <class Use>
+  void for_each_deflection(ElementId element, Use use) const {
+    const bool turns = softness_.energy == EnergyKind::corotated;
+    const LocalRotation rotation = turns ? rotation_of(element) : LocalRotation(LocalRotation::Identity());
+    body_.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
+      Deflection link = deflection(element, neighbour, entry);
+      if (turns) {
+        turn(link, element, neighbour, rotation);
+      }
+      use(neighbour, link);
+    });
+  }
+
+  Coordinates moved_by(ElementId element, const Vector& way) const {
+    Coordinates position;
+    for (int k = 0; k < Dimension; ++k) {
+      position[k] = static_cast<Scalar>(double(body_.positions[element][k]) + way[k]);
+    }
+    return position;
+  }
+
+  /// Moves an element toward the position of least energy inside the regions about its neighbours.
+  void visit_weighted(ElementId element) {
+    if (stays(element)) {
+      return;
+    }
+    SmallQuadratic<Dimension> energy;  // of the way that the element goes
+    for_each_deflection(element, [&](ElementId, const Deflection& link) {
+      energy.add(link.weights.axial, link.direction, link.along, link.weights.lateral, link.all);
+    });
+    const Box box = box_of(element);
+    Vector low, high;
+    for (int k = 0; k < Dimension; ++k) {
+      low[k] = double(box.low[k]) - double(body_.positions[element][k]);
+      high[k] = double(box.high[k]) - double(body_.positions[element][k]);
+    }
+    const Coordinates position = moved_by(element, energy.least_inside(low, high));
+    if (go(element, position, box, static_cast<Scalar>(step_), element) && step_ < 1) {
+      wake_next(element);
+    }
+  }
+
+  /// Corrects the links to neighbours of higher id: each link once per sweep, in the order of links.
+  void visit_weighted_links(ElementId element) {
+    for_each_deflection(element, [&](ElementId neighbour, const Deflection& link) {
+      if (neighbour < element) {
+        return;
+      }
+      const auto [axial, lateral] = link.weights;
+      const double share = lateral > 0 ? lateral / (axial + lateral) : 0;
+      const Vector way = (1 - share) * link.along * link.direction + share * link.all;
+      const Coordinates here = moved_by(element, way), there = moved_by(neighbour, -way);
+      const Scalar half = static_cast<Scalar>(step_) / 2;
+      for (const auto& [one, position] : {std::pair(element, here), std::pair(neighbour, there)}) {
+        if (!stays(one) && go(one, position, box_of(one), half, element)) {
           wake_next(element);
         }
       }
@@ -98,8 +241,8 @@ class Relaxation::Slice {
   /// Moves an element a step toward a position, as far as its neighbours' regions allow, and wakes its neighbours.
   /// Returns true if it moved. Elements with a larger id than the visited one are visited in this sweep, the others in
   /// the next.
-  bool go(ElementId element, const Coordinates& position, Scalar step, ElementId visited) {
-    const double taken = take_step(element, position, step);
+  bool go(ElementId element, const Coordinates& position, const Box& box, Scalar step, ElementId visited) {
+    const double taken = take_step(element, position, box, step);
     if (taken == 0) {
       return false;
     }
@@ -115,17 +258,8 @@ class Relaxation::Slice {
   }
 
   /// Returns the length of the step (mesh units), 0 if the element stayed.
-  double take_step(ElementId element, const Coordinates& position, Scalar step) {
-    Coordinates low, high;
-    low.fill(-std::numeric_limits<Scalar>::infinity());
-    high.fill(std::numeric_limits<Scalar>::infinity());
-    body_.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
-      const Scalar* about = body_.positions[neighbour].at;
-      for (int k = 0; k < Dimension; ++k) {
-        low[k] = std::max(low[k], about[k] - body_.regions[entry].high[k]);
-        high[k] = std::min(high[k], about[k] - body_.regions[entry].low[k]);
-      }
-    });
+  double take_step(ElementId element, const Coordinates& position, const Box& box, Scalar step) {
+    const auto& [low, high] = box;
     Scalar* x = body_.positions[element].at;
     Coordinates next;
     double square = 0;
@@ -145,6 +279,7 @@ class Relaxation::Slice {
 
   Relaxation& relaxation_;
   const View body_;
+  const Softness& softness_;
   double step_;
   std::span<const ElementId> held_;
 };
@@ -153,6 +288,17 @@ void Relaxation::follow(const Body& body) {
   if (positions_ != body.revisions().positions) {
     positions_ = body.revisions().positions;
     sleep();
+  }
+}
+
+/// Weighs the links again if their energy has changed.
+void Relaxation::follow_energy(const Body& body) {
+  if (energy_ != body.revisions().energy && body.softness().energy != EnergyKind::isotropic) {
+    energy_ = body.revisions().energy;
+    weights_.resize(body.mesh().link_count());
+    for (LinkId link = 0; link < body.mesh().link_count(); ++link) {
+      weights_[link] = link_weights(body.mesh(), body.softness(), link);
+    }
   }
 }
 
@@ -183,8 +329,9 @@ RelaxationResult Relaxation::sweep(Body& body, double step, std::uint64_t budget
     in_sweep_ = true;
   }
   moved_.clear();
-  const RelaxationResult result =
-      body.with_view([&]<class View>(const View& view) { return Slice<View>(*this, view, step, held).run(budget); });
+  follow_energy(body);
+  const RelaxationResult result = body.with_view(
+      [&]<class View>(const View& view) { return Slice<View>(*this, view, body.softness(), step, held).run(budget); });
   if (result.largest_step > 0) {
     body.note_relaxation();
   }

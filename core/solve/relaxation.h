@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solve/body.h"
+#include "solve/link_energy.h"
 #include "solve/relaxation_result.h"
 
 namespace chainmail {
@@ -61,14 +62,26 @@ class ActiveSet {
   std::size_t last_ = 0;
 };
 
-/// Relaxation of the elastic energy, element by element in ascending id. `mean` moves an element toward the mean, over
-/// its neighbours, of their position less the rest vector to them. `link` moves an element and each neighbour of higher
-/// id half the way each toward their rest vector. Each element stays inside the intersection of its neighbours' valid
-/// regions, axis by axis; on an axis where that is empty it does not move.
+/// Relaxation of the elastic energy (see solve/link_energy.h), element by element in ascending id. Each element stays
+/// inside the intersection of its neighbours' valid regions, axis by axis; on an axis where that is empty it does not
+/// move.
+///
+/// `mean` moves an element toward the position of least energy while all others stay. For isotropic energy that is the
+/// mean, over its neighbours, of their position less the rest vector to them. For the other kinds it is the solution of
+/// a small linear system; where a region limits the element, it is the position of least energy inside the region. If
+/// the system is singular, such as in a straight chain without lateral stiffness, the element stays in the directions
+/// that have no energy.
+///
+/// `link` corrects each link once: the link's two ends go half the way each. With the deflection Δ of the link, its
+/// direction r̂ and the share s = lateral/(axial + lateral) of its weights, the way is (1 − s)(r̂·Δ) r̂ + s Δ: along the
+/// link all of Δ, across it the share b/(1 + b). For isotropic energy s is 1, so the way is Δ.
+///
+/// With corotated energy, the rest vectors are turned with the neighbourhoods as they are at the visit, and count as
+/// constant during it.
 ///
 /// The clamp is this project's: without it, relaxation leaves links outside their regions, and the next pass pulls far
 /// elements abruptly (the jumps of thesis 4.4). From a valid state it keeps every link valid, and `mean` with a step in
-/// (0, 1] never raises the energy. `link` may, and if links contradict each other it may never end.
+/// (0, 1] never raises isotropic or axial energy. `link` may, and if links contradict each other it may never end.
 ///
 /// Only active elements are visited: elements that moved, or a neighbour of which moved, since their last visit. Steps
 /// below `still` mean rest lengths are not taken and make nothing active, so a scene comes to rest.
@@ -98,11 +111,14 @@ class Relaxation {
   class Slice;
 
   void follow(const Body& body);
+  void follow_energy(const Body& body);
   void end_sweep();
 
   RelaxationScheme scheme_ = RelaxationScheme::mean;
-  ActiveSet current_;  // to be visited in this sweep
-  ActiveSet next_;     // to be visited in the next sweep
+  std::vector<LinkWeights> weights_;  // of each link, except for isotropic energy
+  std::uint64_t energy_ = 0;          // revision of the energy that the weights belong to
+  ActiveSet current_;                 // to be visited in this sweep
+  ActiveSet next_;                    // to be visited in the next sweep
   std::vector<ElementId> moved_;
   bool in_sweep_ = false;
   double largest_step_ = 0;      // of this sweep (mesh units)

@@ -69,8 +69,16 @@ void DeformCommandTest::a_chain_follows() {
   QCOMPARE(json["passes"][0]["moved"].toInt(), 2);
   QCOMPARE(json["passes"][0]["checked"].toInt(), 3);  // 0 is near enough to stay
   QVERIFY(json["violation"]["max"].toDouble() < 1e-12);
-  // The links of rest length 1 are now 0.9, 0.8 and 0.8 long.
-  QVERIFY(std::abs(json["energy"].toDouble() - (0.1 * 0.1 + 0.2 * 0.2 + 0.2 * 0.2) / 2) < 1e-12);
+  // The links of rest length 1 are now 0.9, 0.8 and 0.8 long. On a line, axial energy is 1 + b times the isotropic one.
+  const double isotropic = (0.1 * 0.1 + 0.2 * 0.2 + 0.2 * 0.2) / 2;
+  QVERIFY(std::abs(json["energy"].toDouble() - 1.1 * isotropic) < 1e-12);
+  const auto energy = [&](const QByteArray& options) {
+    xs("--by 3:-0.5 " + options);
+    return program_->json("out.json")["energy"].toDouble();
+  };
+  QVERIFY(std::abs(energy("--energy isotropic --stiffness 3") - isotropic) < 1e-12);
+  QVERIFY(std::abs(energy("--energy axial --stiffness 3 --lateral 0.5") - 3 * 1.5 * isotropic) < 1e-12);
+  QVERIFY(std::abs(energy("--energy corotated --lateral 0") - isotropic) < 1e-12);
 }
 
 void DeformCommandTest::every_algorithm_runs_data() {

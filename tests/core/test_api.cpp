@@ -399,7 +399,7 @@ void ApiTest::bodies_are_independent() {
   cm::Body body(cm::make_grid(5, 5));
   body.pin({24});
   body.cut(0, 1);
-  body.set_softness({.compression = 0.7, .stretch = 1.1, .shear = 0.2});
+  body.set_softness({.compression = 0.7, .stretch = 1.1, .shear = 0.2, .lateral = 0.3, .stiffness = 4, .exponent = -2});
   body.set_softness({0, 3}, {.compression = 1, .stretch = 1, .shear = 0});
   body.set_elasticity({.young = 2, .poisson = 0.4, .control_points = {3, 3, 3}});
   cm::Body copy = body;
@@ -478,6 +478,9 @@ void ApiTest::bad_input_of_a_body_changes_nothing() {
   refused([&] { body.set_softness({.shear = no_number}); }, "shear");
   refused([&] { body.set_softness({0, 12}, {}); }, "link 12");
   refused([&] { body.set_softness({0}, {.stretch = 0.9}); }, "stretch");
+  refused([&] { body.set_softness({.lateral = -0.1}); }, "lateral");
+  refused([&] { body.set_softness({.stiffness = 0}); }, "stiffness");
+  refused([&] { body.set_softness({0}, {.exponent = 4.1}); }, "exponent");
   refused([&] { body.clear_softness({12}); }, "link 12");
   refused([&] { (void)body.softness(12); }, "link 12");
   refused([&] { body.set_elasticity({.poisson = 0.5}); }, "poisson");
@@ -746,6 +749,16 @@ void ApiTest::measures_are_those_of_core() {
   QCOMPARE(cm::displacement(deformer.body()).max, measure_displacement(body.mesh(), body.positions()).max);
   QCOMPARE(cm::elastic_energy(deformer.body()),
            chainmail::elastic_energy(body.mesh(), body.softness(), body.cuts(), body.positions()));
+  QVERIFY(deformer.body().energy() == cm::EnergyKind::axial);
+  for (const auto kind : {chainmail::EnergyKind::isotropic, chainmail::EnergyKind::corotated}) {
+    cm::Body turned = deformer.body();
+    turned.set_energy(static_cast<cm::EnergyKind>(kind));
+    QVERIFY(turned.energy() == static_cast<cm::EnergyKind>(kind));
+    chainmail::Softness softness = body.softness();
+    softness.energy = kind;
+    QCOMPARE(cm::elastic_energy(turned),
+             chainmail::elastic_energy(body.mesh(), softness, body.cuts(), body.positions()));
+  }
   const cm::Body rest(deformer.body().mesh());
   const cm::Spread apart = cm::distance(deformer.body(), rest);
   QCOMPARE(apart.max, cm::displacement(deformer.body()).max / deformer.body().mesh().mean_rest_length());

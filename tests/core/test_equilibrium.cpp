@@ -21,13 +21,17 @@ class EquilibriumTest : public QObject {
   void without_fixed_elements_there_is_none();
   void a_far_origin_costs_no_digits();
   void regions_that_bind();
+  void relaxation_comes_to_it_data();
   void relaxation_comes_to_it();
+  void axial_energy_by_hand();
+  void corotated_energy_has_none();
   void gradients_agree_with_cholesky();
 };
 
 namespace {
 
-const Softness wide{{0, 1000, 1000}, {}};
+const Softness wide{{0, 1000, 1000}, {}, EnergyKind::isotropic};
+const Softness wide_axial{{0, 1000, 1000, 0.2, 2, -1.5}, {{5, {0, 1000, 1000, 0.05, 7, 1}}}, EnergyKind::axial};
 
 /// A state of a mesh: from rest, some elements displaced.
 std::unique_ptr<Solver> displaced(const MeshPointer& mesh, const std::vector<std::pair<ElementId, Point>>& by) {
@@ -147,14 +151,22 @@ void EquilibriumTest::regions_that_bind() {
   QVERIFY(!solve(*mesh, *pulled, {0}, {}).binds);
 }
 
+void EquilibriumTest::relaxation_comes_to_it_data() {
+  QTest::addColumn<bool>("axial");
+  QTest::newRow("isotropic") << false;
+  QTest::newRow("axial") << true;
+}
+
 void EquilibriumTest::relaxation_comes_to_it() {
+  QFETCH(bool, axial);
+  const Softness& softness = axial ? wide_axial : wide;
   const auto mesh = jittered_triangles(7, 6, 5);
   Simulation simulation(mesh, Algorithm::natural_queue, Precision::double_precision);
-  simulation.apply(Command(commands::SetSoftness{wide}));
+  simulation.apply(Command(commands::SetSoftness{softness}));
   simulation.apply(Command(commands::Pin{{0, 41}}));
   drag_by(simulation, 17, {1.5, -0.75, 0});
   simulation.apply(Command(commands::SetRelaxation{true, 1, RelaxationScheme::mean}));  // wakes all elements
-  const auto result = solve(*mesh, simulation.solver(), {0, 17, 41});
+  const auto result = solve(*mesh, simulation.solver(), {0, 17, 41}, softness);
   QVERIFY(!result.binds);
   const auto distance = [&] {
     double largest = 0;
@@ -170,6 +182,23 @@ void EquilibriumTest::relaxation_comes_to_it() {
   QVERIFY2(distance() < 1e-4, qPrintable(QString::number(distance())));
 }
 
+void EquilibriumTest::axial_energy_by_hand() {
+  // The middle of a plus, with b = 1/4. On x, the links along x weigh 1 + b and those along y b.
+  const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
+  const auto solver = displaced(mesh, {{1, {0, 0.4, 0}}, {3, {0.8, 0, 0}}, {5, {-0.4, 0.2, 0}}, {7, {0, 0.2, 0}}});
+  const auto result = solve(*mesh, *solver, {0, 1, 2, 3, 5, 6, 7, 8}, {{0, 1000, 1000, 0.25}, {}});
+  QVERIFY(std::abs(result.displacements[8] - 1.25 * 0.4 / 3) < rounding);
+  QVERIFY(std::abs(result.displacements[9] - (1.25 * 0.6 + 0.25 * 0.2) / 3) < rounding);
+}
+
+void EquilibriumTest::corotated_energy_has_none() {
+  const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
+  const auto solver = displaced(mesh, {});
+  const Softness corotated{{}, {}, EnergyKind::corotated};
+  const std::vector<ElementId> fixed{0};
+  QVERIFY(!equilibrium(*mesh, corotated, solver->body().cuts(), fixed, solver->body().positions()));
+}
+
 void EquilibriumTest::gradients_agree_with_cholesky() {
   const auto mesh = make_mesh(MeshKind::cloth, {40, 30, 1}, 3);
   const auto solver = displaced(mesh, {{0, {-3, 1, 2}}, {1199, {2, 5, -4}}, {600, {0, 0, 7}}, {77, {1, 1, 1}}});
@@ -178,6 +207,10 @@ void EquilibriumTest::gradients_agree_with_cholesky() {
   const auto iterated = solve(*mesh, *solver, {0, 600, 1199}, wide, 0);
   // The residual of 1e-12 times the condition number (about 1e4 here) times the deflection.
   QVERIFY(largest_step(direct.displacements, iterated.displacements) < 1e-7);
+  const auto direct_axial = solve(*mesh, *solver, {0, 600, 1199}, wide_axial);
+  const auto iterated_axial = solve(*mesh, *solver, {0, 600, 1199}, wide_axial, 0);
+  QVERIFY(largest_step(direct_axial.displacements, iterated_axial.displacements) < 1e-6);
+  QVERIFY(largest_step(direct_axial.displacements, direct.displacements) > 0.1);
   QVERIFY(largest_coordinate(direct.displacements) > 5);
 }
 

@@ -20,6 +20,8 @@ enum class Event {
   unpin,
   soften,
   soften_links,
+  change_energy,
+  change_energy_of_links,
   harden_material,
   reset,
   set_positions,
@@ -72,6 +74,19 @@ class LongLife {
         return soften({LinkSoftness{1 - which % 5 / 8.0, 1 + which % 8 / 4.0, which % 3 / 10.0}, {}});
       case Event::soften_links:
         return soften({body.softness().global, {{link, LinkSoftness{0.5, 2, 0.5}}}});
+      case Event::change_energy: {
+        Softness next = body.softness();
+        next.energy = EnergyKind(which % 3);
+        next.global.stiffness = 1 + which % 4;
+        return soften(next);
+      }
+      case Event::change_energy_of_links: {
+        Softness next = body.softness();
+        LinkSoftness own = next.of(link);
+        own.lateral = which % 3 / 2.0;
+        next.links.set(link, own);
+        return soften(next);
+      }
       case Event::harden_material:
         return body.set_elastic({{1 + which % 3 * 1.0, 0.25}, {3, 3, 3}});
       case Event::reset:
@@ -209,9 +224,43 @@ class RevisionsTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void energy_and_regions_have_revisions_of_their_own();
   void each_move_is_that_of_a_new_solver();
   void each_elastic_move_is_that_of_a_new_solver();
 };
+
+void RevisionsTest::energy_and_regions_have_revisions_of_their_own() {
+  for (const auto& mesh : {make_mesh(MeshKind::grid, {4, 4, 1}), jittered_triangles(5, 5, 1)}) {
+    Body body(mesh, Precision::double_precision);
+    Revisions expected = body.revisions();
+    Softness softness;
+    const auto change = [&](std::uint64_t regions, std::uint64_t energy) {
+      body.set_softness(softness);
+      expected.softness += regions;
+      expected.energy += energy;
+      QVERIFY(body.revisions() == expected);
+      QVERIFY(body.softness() == softness);
+    };
+    change(0, 0);
+    softness.energy = EnergyKind::isotropic;
+    change(0, 1);
+    softness.global.exponent = 0;
+    change(0, 1);
+    softness.global.shear = 0.5;
+    change(1, 0);
+    LinkSoftness own = softness.global;
+    softness.links.set(3, own);
+    change(0, 0);
+    own.stiffness = 5;
+    softness.links.set(3, own);
+    change(0, 1);
+    own.stretch = 2;
+    softness.links.set(3, own);
+    change(1, 0);
+    softness.links.erase(3);
+    change(1, 1);
+  }
+}
 
 void RevisionsTest::each_move_is_that_of_a_new_solver() {
   const auto holds = [] {

@@ -4,6 +4,7 @@
 #include "core/families.h"
 #include "measure/neighbour_regions.h"
 #include "measure/violation.h"
+#include "solve/link_energy.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
@@ -22,6 +23,9 @@ class ViolationTest : public QObject {
   void of_a_link_without_length();
   void counts_from_1e_4_on();
   void energy_by_hand();
+  void axial_energy_by_hand();
+  void corotated_energy_by_hand();
+  void weights_of_a_link_without_length();
   void displacement_by_hand();
   void regions_of_neighbours_by_hand();
   void regions_agree_with_the_violation();
@@ -134,13 +138,69 @@ void ViolationTest::counts_from_1e_4_on() {
 }
 
 void ViolationTest::energy_by_hand() {
+  const Softness isotropic{{}, {}, EnergyKind::isotropic};
   const auto line = make_mesh(MeshKind::line, {3, 1, 1}, 2);
   const auto solver = at(line, {0, 0, 1.5, 0.5, 2.5, 0.25});
   // Deflections (0.5, 0.5) and (0, −0.25).
-  QCOMPARE(elastic_energy(*line, solver->body().cuts(), solver->body().positions()), (0.25 + 0.25 + 0.0625) / 2);
+  QCOMPARE(elastic_energy(*line, isotropic, solver->body().cuts(), solver->body().positions()),
+           (0.25 + 0.25 + 0.0625) / 2);
   // Translated without deformation, it has no energy.
   const auto carried = at(line, {8, 4, 9, 4, 10, 4});
-  QCOMPARE(elastic_energy(*line, carried->body().cuts(), carried->body().positions()), 0.0);
+  QCOMPARE(elastic_energy(*line, isotropic, carried->body().cuts(), carried->body().positions()), 0.0);
+}
+
+void ViolationTest::axial_energy_by_hand() {
+  // One link with the rest vector (3, 4), whose second end is displaced by (0.5, 0): 0.3 along the link.
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {3, 4, 0}};
+  parts.links = {{0, 1}};
+  const auto mesh = build_mesh(std::move(parts));
+  const auto solver = at(mesh, {0, 0, 3.5, 4});
+  const auto energy = [&](const LinkSoftness& softness, EnergyKind kind) {
+    return elastic_energy(*mesh, {softness, {}, kind}, solver->body().cuts(), solver->body().positions());
+  };
+  // ½ k |r|^p (0.3² + b 0.5²)
+  QVERIFY(close(energy({}, EnergyKind::axial), (0.09 + 0.1 * 0.25) / 5 / 2));
+  QVERIFY(close(energy({0.8, 1.2, 0.1, 0, 3, 0}, EnergyKind::axial), 3 * 0.09 / 2));
+  QVERIFY(close(energy({0.8, 1.2, 0.1, 2, 0.5, 2}, EnergyKind::axial), 0.5 * 25 * (0.09 + 2 * 0.25) / 2));
+  QVERIFY(close(energy({0.8, 1.2, 0.1, 2, 0.5, 2}, EnergyKind::isotropic), 0.25 / 2));
+}
+
+void ViolationTest::corotated_energy_by_hand() {
+  // A link alone turns with its ends, so it has the energy of its length, and of its lateral stiffness on it.
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {3, 4, 0}};
+  parts.links = {{0, 1}};
+  const auto mesh = build_mesh(std::move(parts));
+  const auto solver = at(mesh, {1, 1, 1, 7});  // turned, and 6 long instead of 5
+  const Softness softness{{0.8, 1.2, 0.1, 0.5, 2, 0}, {}, EnergyKind::corotated};
+  QVERIFY(close(elastic_energy(*mesh, softness, solver->body().cuts(), solver->body().positions()), 2 * 1.5 / 2));
+  // A turned cube has none; a stretched one has that of its links along the axis, wherever it is turned.
+  const auto block = make_mesh(MeshKind::block, {2, 2, 2});
+  for (const double stretch : {1.0, 1.5}) {
+    std::vector<double> positions;
+    for (ElementId e = 0; e < 8; ++e) {
+      const Point p = block->rest_position(e);
+      const Point turned(-p.y(), stretch * p.x(), p.z());
+      positions.insert(positions.end(), turned.data(), turned.data() + 3);
+    }
+    const auto moved = at(block, positions);
+    const double energy = elastic_energy(*block, softness, moved->body().cuts(), moved->body().positions());
+    QVERIFY(std::abs(energy - 4 * 2 * 1.5 * (stretch - 1) * (stretch - 1) / 2) < 1e-13);
+  }
+}
+
+void ViolationTest::weights_of_a_link_without_length() {
+  // Two elements at one position, and a third 2 away: the mean rest length is 1.
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {0, 0, 0}, {2, 0, 0}};
+  parts.links = {{0, 1}, {1, 2}};
+  const auto mesh = build_mesh(std::move(parts));
+  const Softness softness{{0.8, 1.2, 0.1, 0.25, 3, -2}, {}};
+  QCOMPARE(link_weights(*mesh, softness, 0).axial, 0.0);
+  QCOMPARE(link_weights(*mesh, softness, 0).lateral, 0.75);
+  QCOMPARE(link_weights(*mesh, softness, 1).axial, 0.75);
+  QCOMPARE(link_weights(*mesh, softness, 1).lateral, 0.1875);
 }
 
 void ViolationTest::displacement_by_hand() {

@@ -105,16 +105,17 @@ void MovesTest::a_handle_of_many_is_read() {
 void MovesTest::what_is_written_reads_back() {
   // Numbers that need many digits.
   const Point odd(0.1, 1.0 / 3, -1e-300), large(1e100, -0.0, 123456789.123456789);
-  const std::vector<Command> moves{commands::Grab{4},
-                                   commands::Drag{odd},
-                                   commands::Drag{large},
-                                   commands::Release{},
-                                   commands::Cut{{0, 6}},
-                                   commands::Uncut{{}},
-                                   commands::SetSoftness{{{1.0 / 3, 1.1, 0.7}, {{2, {0, 1e9, 0}}, {5, {1, 1, 0}}}}},
-                                   commands::SetSoftness{{{0, 1, 0}, {}}},
-                                   commands::Relax{3, 0.1, RelaxationScheme::link},
-                                   commands::Reset{}};
+  const std::vector<Command> moves{
+      commands::Grab{4},
+      commands::Drag{odd},
+      commands::Drag{large},
+      commands::Release{},
+      commands::Cut{{0, 6}},
+      commands::Uncut{{}},
+      commands::SetSoftness{{{1.0 / 3, 1.1, 0.7}, {{2, {0, 1e9, 0}}, {5, {1, 1, 0}}}}},
+      commands::SetSoftness{{{0, 1, 0, 0.3, 2, -2}, {{5, {1, 1, 0, 0, 3, 4}}}, EnergyKind::corotated}},
+      commands::Relax{3, 0.1, RelaxationScheme::link},
+      commands::Reset{}};
   const std::string text = written(moves);
   const auto again = read(text);
   QCOMPARE(again.size(), moves.size());
@@ -223,10 +224,17 @@ void MovesTest::other_commands_are_refused_data() {
   row(R"({"do": "grab", "element": 2}, {"do": "pin", "elements": [1, 2]})", "1: element 2 is grabbed at that time; ");
   row(R"({"do": "softness", "compression": 1, "stretch": 1})", "0: 'shear' is missing; ");
   row(R"({"do": "softness", "compression": 2, "stretch": 1, "shear": 0})", "0: compression: ");
+  row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "stiffness": 0})", "0: stiffness: ");
+  row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "energy": "elastic"})",
+      "0: there is no such kind of energy; use isotropic, axial or corotated");
+  row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "energy": 1})", "0: 'energy' is not a text; ");
   const char* softness = R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "links": )";
   const std::vector<std::pair<std::string, const char*>> links{
-      {"[[0, 1, 1, 1]]}", "0: a link is not an array of 5; "},
+      {"[[0, 1, 1, 1]]}", "0: a link is not an array of 5 or 8; "},
       {"[[0, 1, 1, 0.5, 0]]}", "0: stretch: "},
+      {"[[0, 1, 1, 1, 0, -1, 1, 0]]}", "0: lateral: "},
+      {"[[0, 1, 1, 1, 0, 1, 1, 0], [1, 2, 1, 1, 0], [3, 4, 2, 1, 0, 1, 1, 0]]}",
+       "0: a link is not an array of 5 or 8; "},
       {"[[0, 1, 1, 1, 0], [1, 0, 1, 1, 0]]}", "0: the link 1-0 is given twice; "},
       {"3}", "0: 'links' is not an array; "}};
   for (const auto& [text, said] : links) {

@@ -53,7 +53,7 @@ void PresetsTest::those_built_in_are_softness() {
 void PresetsTest::what_is_written_reads_back() {
   const std::vector<SoftnessPreset> presets{{"felt", {0.1 + 0.2, 1 + std::numeric_limits<double>::epsilon(), 1e-300}},
                                             {"a \"b\" \\ <Grüße>", {0, 1e100, 0}},
-                                            {"x", {1, 1, 1. / 3}}};
+                                            {"x", {1, 1, 1. / 3, 2. / 3, 1e-9, 0.1}}};
   std::ostringstream out;
   write_presets(out, presets);
   QVERIFY(read(out.str()) == presets);
@@ -95,6 +95,8 @@ void PresetsTest::other_files_are_refused_data() {
   row(with(R"({"name": "a", "compression": "1", "stretch": 1, "shear": 0})"),
       "p.json: preset 0: '\"1\"' is not a number; ");
   row(with(R"({"name": "a", "compression": 1, "stretch": 0.9, "shear": 0})"), "p.json: preset 0: stretch: ");
+  row(with(R"({"name": "a", "compression": 1, "stretch": 1, "shear": 0, "exponent": 5})"),
+      "p.json: preset 0: exponent: ");
   row(with(felt + "," + felt), "p.json: preset 1: 'felt' appears twice; ");
   row(std::string(99, '['), "p.json: it is nested too deeply; ");
 }

@@ -25,6 +25,7 @@ class SessionTest : public QObject {
   void bytes_are_written_in_base_64();
   void every_float_comes_back_to_the_bit();
   void what_was_written_once_opens();
+  void moves_of_version_1_are_isotropic();
   void the_file_is_json_as_it_is_documented();
   void moves_without_end_are_left_out();
   void numbers_that_are_none_are_not_written();
@@ -162,7 +163,7 @@ void SessionTest::what_was_written_once_opens() {
   QCOMPARE(session.cuts, (std::vector<LinkId>{*find_link(*session.mesh, 0, 1), *find_link(*session.mesh, 4, 5)}));
   QCOMPARE(session.pins, (std::vector<ElementId>{0, 8}));
   const LinkId own = *find_link(*session.mesh, 3, 4);
-  QVERIFY((*session.softness == Softness{{0.5, 1.25, 0.1}, {{own, {1, 1, 0}}}}));
+  QVERIFY((*session.softness == Softness{{0.5, 1.25, 0.1}, {{own, {1, 1, 0}}}, EnergyKind::isotropic}));
   QVERIFY((session.relaxation == commands::SetRelaxation{false, 0.5, RelaxationScheme::link}));
   QCOMPARE(session.panels.size(), std::size_t{2});
   QVERIFY(session.panels[0].algorithm == Algorithm::exact && session.panels[1].algorithm == Algorithm::natural_queue);
@@ -178,6 +179,23 @@ void SessionTest::what_was_written_once_opens() {
   QCOMPARE(session.ui, std::string(R"({"colour":"plain"})"));
 }
 
+/// Version 1 knew only isotropic energy, which its moves need in order to be replayed as they were.
+void SessionTest::moves_of_version_1_are_isotropic() {
+  std::string text = file_text(fs::path(SESSIONS) / "version1.chainmail");
+  const std::string moves = R"("moves": {"version": 1, "commands": [{"do": "grab", "element": 4},
+      {"do": "softness", "compression": 0.5, "stretch": 2, "shear": 0, "links": [[3, 4, 1, 1, 0]]}]},
+      "moves_done": 1, )";
+  text.insert(text.rfind("\"ui\""), moves);
+  const Session session = parse_session(text, "a.chainmail");
+  QCOMPARE(session.moves.size(), std::size_t{3});
+  QCOMPARE(session.moves_done, std::size_t{2});
+  QVERIFY(*std::get<commands::SetSoftness>(session.moves[0]).softness == (Softness{{}, {}, EnergyKind::isotropic}));
+  QVERIFY(std::holds_alternative<commands::Grab>(session.moves[1]));
+  const LinkId own = *find_link(*session.mesh, 3, 4);
+  QVERIFY(*std::get<commands::SetSoftness>(session.moves[2]).softness ==
+          (Softness{{0.5, 2, 0}, {{own, {1, 1, 0}}}, EnergyKind::isotropic}));
+}
+
 void SessionTest::the_file_is_json_as_it_is_documented() {
   Session session = session_on(made(MeshKind::grid, {3, 3, 1}));
   session.panels.resize(1);
@@ -185,14 +203,17 @@ void SessionTest::the_file_is_json_as_it_is_documented() {
                                             *session.mesh, Precision::single_precision);
   const auto document = QJsonDocument::fromJson(QByteArray::fromStdString(session_text(session)));
   QCOMPARE(document["format"].toString(), QStringLiteral("chainmail session"));
-  QCOMPARE(document["version"].toInt(), 1);
+  QCOMPARE(document["version"].toInt(), 2);
+  QCOMPARE(document["softness"]["energy"].toString(), QStringLiteral("corotated"));
+  QCOMPARE(document["softness"]["stiffness"].toDouble(), 3.5);
   QCOMPARE(document["name"].toString(), QString::fromStdString(session.name));
   QCOMPARE(document["mesh"]["elements"].toInt(), 9);
   QCOMPARE(document["mesh"]["rest"].toArray().size(), 27);
   QCOMPARE(document["mesh"]["links"].toArray().size(), 24);
   QCOMPARE(document["cuts"].toArray(), (QJsonArray{0, 1, 1, 4}));
   QCOMPARE(document["pins"].toArray(), (QJsonArray{1, 8}));
-  QCOMPARE(document["softness"]["own"].toArray(), (QJsonArray{1, 2, 0, 1, 7, 2, 5, 0.8, 1.2, 0.1}));
+  QCOMPARE(document["softness"]["own"].toArray(),
+           (QJsonArray{1, 2, 0, 1, 7, 0.3, 1e-9, 2.5, 2, 5, 0.8, 1.2, 0.1, 0.1, 1, -1}));
   QCOMPARE(document["relaxation"]["scheme"].toString(), QStringLiteral("link"));
   QCOMPARE(document["moves"]["commands"][3]["target"].toArray(), (QJsonArray{0.1, 1.0 / 3, 0}));
   QCOMPARE(document["moves_done"].toInt(), 4);

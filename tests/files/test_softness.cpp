@@ -32,12 +32,15 @@ using Links = OwnSoftness;
 
 void SoftnessFileTest::rows_are_links() {
   QVERIFY(read("3,2,0,1e3,0\n0,1,0.5,1.5,0.25") == (Links{{0, {0.5, 1.5, 0.25}}, {2, {0, 1000, 0}}}));
+  QVERIFY(read("3,2,0,1e3,0,0.5,2,-3\n0,1,0.5,1.5,0.25") ==
+          (Links{{0, {0.5, 1.5, 0.25}}, {2, {0, 1000, 0, 0.5, 2, -3}}}));
   QVERIFY(read(" 1 ,\t2 , 1,1 ,0 \n") == (Links{{1, {1, 1, 0}}}));
 }
 
 void SoftnessFileTest::what_is_skipped() {
   const Links one{{1, {1, 2, 3}}};
   QVERIFY(read("a,b,compression,stretch,shear\n1,2,1,2,3\n") == one);
+  QVERIFY(read("a,b,compression,stretch,shear,lateral,stiffness,exponent\n1,2,1,2,3\n") == one);
   QVERIFY(read("# by hand\n\n  \na, b, compression, stretch, shear\n1,2,1,2,3 # stiff\n\n") == one);
   QVERIFY(read("# nothing\n").empty());
 }
@@ -53,9 +56,9 @@ void SoftnessFileTest::other_rows_are_refused_data() {
   QTest::addColumn<QString>("text");
   QTest::addColumn<QString>("said");
   const auto row = [](const char* text, const char* said) { QTest::newRow(text) << QString(text) << QString(said); };
-  row("1,2,1,2", "a.csv:1: the row has 4 fields, not five; ");
-  row("\n#\n1,2,1,2,3,", "a.csv:3: the row has 6 fields, not five; ");
-  row("1 2 1 2 3", "a.csv:1: the row has 1 field, not five; ");
+  row("1,2,1,2", "a.csv:1: the row has 4 fields, not five or eight; ");
+  row("\n#\n1,2,1,2,3,", "a.csv:3: the row has 6 fields, not five or eight; ");
+  row("1 2 1 2 3", "a.csv:1: the row has 1 field, not five or eight; ");
   row("1,2,1,2,x", "a.csv:1: 'x' is not a finite number; ");
   row("1,2,,2,3", "a.csv:1: '' is not a finite number; ");
   row("1,2,nan,2,3", "a.csv:1: 'nan' is not a finite number; ");
@@ -73,6 +76,10 @@ void SoftnessFileTest::other_rows_are_refused_data() {
   row("1,2,-0.1,2,3", "a.csv:1: compression: ");
   row("1,2,1,0.99,3", "a.csv:1: stretch: ");
   row("1,2,1,2,-1", "a.csv:1: shear: ");
+  row("1,2,1,2,3,0.1,1", "a.csv:1: the row has 7 fields, not five or eight; ");
+  row("1,2,1,2,3,-0.1,1,0", "a.csv:1: lateral: ");
+  row("1,2,1,2,3,0,0,0", "a.csv:1: stiffness: ");
+  row("1,2,1,2,3,0,1,-4.5", "a.csv:1: exponent: ");
   // A line with other names, or after the first row, is not a header.
   row("a,b,stretch,compression,shear", "a.csv:1: 'a' is not an element's id; ");
   row("A,B,compression,stretch,shear", "a.csv:1: 'A' is not an element's id; ");

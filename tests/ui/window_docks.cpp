@@ -107,6 +107,9 @@ class WindowDocks : public QObject {
     QTest::newRow("compression") << QByteArray("compression") << 0.5;
     QTest::newRow("stretch") << QByteArray("stretch") << 1.75;
     QTest::newRow("shear") << QByteArray("shear") << 0.4;
+    QTest::newRow("lateral stiffness") << QByteArray("lateral") << 0.025;
+    QTest::newRow("link stiffness") << QByteArray("stiffness") << 2.5;
+    QTest::newRow("length exponent") << QByteArray("exponent") << -2.25;
   }
   void stiffness() {
     QFETCH(QByteArray, name);
@@ -122,7 +125,7 @@ class WindowDocks : public QObject {
     QCOMPARE(of(bench, name), value);
     QVERIFY(slider->value() != sliderAt);
     QVERIFY(reset->isEnabled());
-    QCOMPARE(bench.document().undoStack().undoText(), QString::fromLatin1(name));
+    QCOMPARE(bench.document().undoStack().undoText(), QLatin1String(QTest::currentDataTag()));
     bench.document().undoStack().undo();
     QCOMPARE(spin->value(), standard);
     QCOMPARE(slider->value(), sliderAt);
@@ -130,6 +133,33 @@ class WindowDocks : public QObject {
     QVERIFY(of(bench, name) != standard);
     reset->click();
     QCOMPARE(of(bench, name), standard);
+  }
+
+  void energy() {
+    Workbench bench;
+    auto* field = bench.find<QComboBox>("energy");
+    auto* lateral = bench.find<QDoubleSpinBox>("lateralSpin");
+    const auto choose = [&](EnergyKind kind) {
+      field->setCurrentIndex(field->findData(int(kind)));
+      emit field->activated(field->currentIndex());
+    };
+    const auto now = [&] { return bench.document().wholeSoftness()->energy; };
+    QCOMPARE(field->count(), int(energy_kinds().size()));
+    QCOMPARE(field->currentData().toInt(), int(EnergyKind::axial));
+    choose(EnergyKind::isotropic);
+    QVERIFY(now() == EnergyKind::isotropic);
+    QVERIFY(!lateral->isEnabled());  // its numbers do not count
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("isotropic energy"));
+    bench.find<QDoubleSpinBox>("shearSpin")->setValue(0.5);
+    QVERIFY(now() == EnergyKind::isotropic);
+    bench.document().undoStack().undo();
+    bench.document().undoStack().undo();
+    QVERIFY(now() == EnergyKind::axial);
+    QCOMPARE(field->currentData().toInt(), int(EnergyKind::axial));
+    QVERIFY(lateral->isEnabled());
+    choose(EnergyKind::corotated);
+    bench.trigger("resetStiffness");
+    QVERIFY(now() == EnergyKind::axial);
   }
 
   void oneDragOfASliderIsOneStepOfUndo() {
@@ -296,8 +326,9 @@ class WindowDocks : public QObject {
     return {};
   }
   static double of(Workbench& bench, const QByteArray& name) {
-    const LinkSoftness& softness = bench.document().softness();
-    return name == "compression" ? softness.compression : name == "stretch" ? softness.stretch : softness.shear;
+    const auto number = std::ranges::find_if(
+        softness_numbers, [&](const SoftnessNumber& one) { return one.parameter->name == name.toStdString(); });
+    return bench.document().softness().*number->value;
   }
 };
 

@@ -36,7 +36,7 @@ ParameterRow::ParameterRow(const Parameter& parameter, const QString& prefix)
   spin_->setDecimals(parameter.decimals);
   // The range ends one digit inside a limit that is itself not accepted: nearer numbers would be shown as that limit.
   const double digit = std::pow(10, -parameter.decimals);
-  const double least = parameter.lowest > 0 ? std::max(parameter.lowest, digit) : 0;
+  const double least = parameter.lowest > 0 ? std::max(parameter.lowest, digit) : parameter.lowest;
   const double most = std::floor(std::min(parameter.highest, largestInField) / digit) * digit;
   spin_->setRange(least, most);
   spin_->setSingleStep(parameter.step);

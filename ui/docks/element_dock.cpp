@@ -253,6 +253,11 @@ void ElementDock::showNeighbour(int row, EntryId entry) {
   put(*neighbours_, row, 1, figure(softness.compression));
   put(*neighbours_, row, 2, figure(softness.stretch));
   put(*neighbours_, row, 3, figure(softness.shear));
+  const QString energy = QStringLiteral("Lateral stiffness %1, link stiffness %2, length exponent %3")
+                             .arg(figure(softness.lateral), figure(softness.stiffness), figure(softness.exponent));
+  for (int column = 1; column <= 3; ++column) {
+    neighbours_->item(row, column)->setToolTip(energy);
+  }
   put(*neighbours_, row, 4, isCut ? QStringLiteral("cut") : QLocale().toString(violation, 'g', 3));
 }
 

@@ -44,7 +44,7 @@ PresetRow::PresetRow(Document& document)
 void PresetRow::arrange() {
   field_->setObjectName(QStringLiteral("preset"));
   field_->setAccessibleName(QStringLiteral("Softness preset"));
-  field_->setToolTip(QStringLiteral("Sets compression, stretch and shear of all links, as one undo step"));
+  field_->setToolTip(QStringLiteral("Sets the softness of all links, as one undo step; the kind of energy stays"));
   field_->setFocusPolicy(Qt::StrongFocus);  // the wheel scrolls the dock, without changing the field
   field_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   field_->setMinimumContentsLength(8);
@@ -87,7 +87,7 @@ QAction* PresetRow::add(const char* name, const QString& text, const QString& he
 
 void PresetRow::addActions() {
   save_ = add("savePreset", QStringLiteral("&Save as preset…"),
-              QStringLiteral("Saves compression, stretch and shear of all links under a name"), &PresetRow::saveAs);
+              QStringLiteral("Saves the softness of all links under a name"), &PresetRow::saveAs);
   rename_ = add("renamePreset", QStringLiteral("&Rename preset…"),
                 QStringLiteral("Renames the selected preset; its values stay"), &PresetRow::rename);
   remove_ = add("deletePreset", QStringLiteral("&Delete preset"),

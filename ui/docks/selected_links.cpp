@@ -15,16 +15,16 @@ SelectedLinks::SelectedLinks(Document& document)
       document_(document),
       description_(new QLabel),
       rows_(new QWidget),
-      compression_(new ParameterRow(parameters::compression, selectedPrefix)),
-      stretch_(new ParameterRow(parameters::stretch, selectedPrefix)),
-      shear_(new ParameterRow(parameters::shear, selectedPrefix)),
       set_(new QPushButton(QStringLiteral("Set"))),
       back_(new QPushButton(QStringLiteral("Reset to global"))) {
   setObjectName(QStringLiteral("selectedLinks"));
   arrange();
   connect(set_, &QPushButton::clicked, this, [this] {
-    document_.setSoftnessOf(document_.selection().links,
-                            LinkSoftness{compression_->value(), stretch_->value(), shear_->value()});
+    LinkSoftness softness;
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+      softness.*softness_numbers[i].value = numbers_[i]->value();
+    }
+    document_.setSoftnessOf(document_.selection().links, softness);
   });
   connect(back_, &QPushButton::clicked, this,
           [this] { document_.setSoftnessOf(document_.selection().links, std::nullopt); });
@@ -48,8 +48,8 @@ void SelectedLinks::arrange() {
   auto* rows = new QVBoxLayout(rows_);
   rows->setContentsMargins(0, 0, 0, 0);
   rows->setSpacing(4);
-  for (ParameterRow* row : {compression_, stretch_, shear_}) {
-    rows->addWidget(row);
+  for (const SoftnessNumber& number : softness_numbers) {
+    rows->addWidget(numbers_.emplace_back(new ParameterRow(*number.parameter, selectedPrefix)));
   }
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(set_);
@@ -68,9 +68,11 @@ void SelectedLinks::refresh() {
   set_->setEnabled(some);
   back_->setEnabled(all.own);
   // If the values differ, the global value is the start value.
-  compression_->show(all.compression ? all.softness.compression : global.compression);
-  stretch_->show(all.stretch ? all.softness.stretch : global.stretch);
-  shear_->show(all.shear ? all.softness.shear : global.shear);
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    const auto value = softness_numbers[i].value;
+    numbers_[i]->show(all.isCommon[i] ? all.softness.*value : global.*value);
+    numbers_[i]->setEnabled(i < region_numbers || document_.wholeSoftness()->energy != EnergyKind::isotropic);
+  }
 }
 
 SelectedLinks::Common SelectedLinks::common() const {
@@ -81,9 +83,10 @@ SelectedLinks::Common SelectedLinks::common() const {
     const LinkSoftness& here = softness.of(links[i]);
     result.softness = i == 0 ? here : result.softness;
     result.own = result.own || softness.links.contains(links[i]);
-    result.compression = result.compression && here.compression == result.softness.compression;
-    result.stretch = result.stretch && here.stretch == result.softness.stretch;
-    result.shear = result.shear && here.shear == result.softness.shear;
+    for (std::size_t k = 0; k < softness_numbers.size(); ++k) {
+      const auto value = softness_numbers[k].value;
+      result.isCommon[k] = result.isCommon[k] && here.*value == result.softness.*value;
+    }
   }
   return result;
 }
@@ -103,7 +106,7 @@ QString SelectedLinks::describe(const Common& all) const {
       some(selection.elements.size(), "element") + QStringLiteral(", ") + some(selection.links.size(), "link");
   if (selection.links.empty()) {
     description += QStringLiteral("<br>No link: select both ends of a link.");
-  } else if (!(all.compression && all.stretch && all.shear)) {
+  } else if (!all.all()) {
     description += QStringLiteral("<br>Their softness differs.");
   }
   return description;

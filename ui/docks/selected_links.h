@@ -3,13 +3,15 @@
 #include <QGroupBox>
 #include <QLabel>
 #include <QPushButton>
+#include <algorithm>
+#include <vector>
 
 #include "common/parameter_row.h"
 #include "document/document.h"
 
 namespace chainmail {
 
-/// Compression, stretch and shear of the selected links only: sets or resets them as one undo step.
+/// Softness of the selected links only: sets or resets its numbers as one undo step.
 class SelectedLinks : public QGroupBox {
   Q_OBJECT
 
@@ -19,9 +21,11 @@ class SelectedLinks : public QGroupBox {
  private:
   /// The values that all selected links share.
   struct Common {
-    LinkSoftness softness;  // of the first link
-    bool compression = true, stretch = true, shear = true;
+    LinkSoftness softness;                                                          // of the first link
+    std::vector<bool> isCommon = std::vector<bool>(softness_numbers.size(), true);  // of each number
     bool own = false;  // true if a link has its own softness
+
+    bool all() const { return std::ranges::find(isCommon, false) == isCommon.end(); }
   };
 
   void arrange();
@@ -32,9 +36,7 @@ class SelectedLinks : public QGroupBox {
   Document& document_;
   QLabel* description_;
   QWidget* rows_;
-  ParameterRow* compression_;
-  ParameterRow* stretch_;
-  ParameterRow* shear_;
+  std::vector<ParameterRow*> numbers_;  // in the order of softness_numbers
   QPushButton* set_;
   QPushButton* back_;
 };

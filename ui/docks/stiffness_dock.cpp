@@ -1,41 +1,70 @@
 #include "docks/stiffness_dock.h"
 
+#include <QHBoxLayout>
+#include <QLabel>
+
 #include "common/dock_scroll.h"
+#include "common/text.h"
 #include "docks/selected_links.h"
 
 namespace chainmail {
 
 StiffnessDock::StiffnessDock(Document& document)
-    : document_(document),
-      column_(new QVBoxLayout),
-      presets_(new PresetRow(document)),
-      compression_(new ParameterRow(parameters::compression)),
-      stretch_(new ParameterRow(parameters::stretch)),
-      shear_(new ParameterRow(parameters::shear)) {
+    : document_(document), column_(new QVBoxLayout), presets_(new PresetRow(document)), energy_(new QComboBox) {
   presets_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   column_->addWidget(presets_);
-  addRow(compression_, &LinkSoftness::compression);
-  addRow(stretch_, &LinkSoftness::stretch);
-  addRow(shear_, &LinkSoftness::shear);
+  for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
+    if (i == region_numbers) {
+      addEnergy();
+    }
+    addRow(softness_numbers[i]);
+  }
   column_->addWidget(new SelectedLinks(document));
   setColumn(*this, *column_);
   connect(&document, &Document::softnessChanged, this, &StiffnessDock::showSoftness);
   showSoftness();
 }
 
-void StiffnessDock::addRow(ParameterRow* row, double LinkSoftness::*member) {
+void StiffnessDock::addRow(const SoftnessNumber& number) {
+  auto* row = rows_.emplace_back(new ParameterRow(*number.parameter));
   column_->addWidget(row);
-  connect(row, &ParameterRow::changed, this, [this, row, member](double value, int gesture) {
+  connect(row, &ParameterRow::changed, this, [this, row, member = number.value](double value, int gesture) {
     LinkSoftness softness = document_.softness();
     softness.*member = value;
     document_.setSoftness(softness, row->label().toLower(), gesture);
   });
 }
 
+/// The kind of energy applies to all links. With isotropic energy, the numbers below it do not count.
+void StiffnessDock::addEnergy() {
+  energy_->setObjectName(QStringLiteral("energy"));
+  energy_->setAccessibleName(QStringLiteral("Energy"));
+  energy_->setFocusPolicy(Qt::StrongFocus);  // the wheel scrolls the dock, without changing the field
+  QString help = QStringLiteral("Elastic energy of all links, which relaxation lowers.");
+  for (const EnergyKindInfo& one : energy_kinds()) {
+    energy_->addItem(text(one.label), int(one.kind));
+    energy_->setItemData(energy_->count() - 1, text(one.help), Qt::ToolTipRole);
+    help += QStringLiteral("\n%1: %2").arg(text(one.label), text(one.help));
+  }
+  energy_->setToolTip(help);
+  auto* label = new QLabel(QStringLiteral("Energy"));
+  label->setBuddy(energy_);
+  label->setToolTip(help);
+  auto* row = new QHBoxLayout;
+  row->addWidget(label);
+  row->addWidget(energy_, 1);
+  column_->addLayout(row);
+  connect(energy_, &QComboBox::activated, this,
+          [this] { document_.setEnergy(EnergyKind(energy_->currentData().toInt())); });
+}
+
 void StiffnessDock::showSoftness() {
-  compression_->show(document_.softness().compression);
-  stretch_->show(document_.softness().stretch);
-  shear_->show(document_.softness().shear);
+  const EnergyKind kind = document_.wholeSoftness()->energy;
+  energy_->setCurrentIndex(energy_->findData(int(kind)));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    rows_[i]->show(document_.softness().*softness_numbers[i].value);
+    rows_[i]->setEnabled(i < region_numbers || kind != EnergyKind::isotropic);
+  }
 }
 
 }  // namespace chainmail

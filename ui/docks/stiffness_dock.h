@@ -1,7 +1,9 @@
 #pragma once
 
+#include <QComboBox>
 #include <QDockWidget>
 #include <QVBoxLayout>
+#include <vector>
 
 #include "common/parameter_row.h"
 #include "docks/preset_row.h"
@@ -9,8 +11,8 @@
 
 namespace chainmail {
 
-/// Softness of all links: compression, stretch and shear, each with a reset button, and presets; below, softness of the
-/// selected links.
+/// Softness of all links: its numbers, each with a reset button, the kind of energy, and presets; below, softness of
+/// the selected links.
 class StiffnessDock : public QDockWidget {
   Q_OBJECT
 
@@ -20,14 +22,14 @@ class StiffnessDock : public QDockWidget {
 
  private:
   void showSoftness();
-  void addRow(ParameterRow* row, double LinkSoftness::*member);
+  void addRow(const SoftnessNumber& number);
+  void addEnergy();
 
   Document& document_;
   QVBoxLayout* column_;
   PresetRow* presets_;
-  ParameterRow* compression_;
-  ParameterRow* stretch_;
-  ParameterRow* shear_;
+  std::vector<ParameterRow*> rows_;  // in the order of softness_numbers
+  QComboBox* energy_;
 };
 
 }  // namespace chainmail

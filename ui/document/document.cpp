@@ -171,7 +171,8 @@ void Document::carryOut(const Change& change, const Contents& before) {
   if (isOther) {
     post(commands::ReplaceMesh{after.object->mesh});  // keeps only the global softness
   }
-  if (after.softness != before.softness && (!isOther || *after.softness != Softness{before.softness->global, {}})) {
+  if (after.softness != before.softness &&
+      (!isOther || *after.softness != Softness{before.softness->global, {}, before.softness->energy})) {
     post(commands::SetSoftness{after.softness});
   }
   const auto links = isOther ? after.object->cuts.links() : change.cut;
@@ -295,7 +296,18 @@ void Document::redo() {
 void Document::setSoftness(const LinkSoftness& global, const QString& text, int gesture) {
   if (global != softness()) {
     Change edit = change(text, gesture);
-    edit.after.softness = std::make_shared<const Softness>(Softness{global, wholeSoftness()->links});
+    edit.after.softness =
+        std::make_shared<const Softness>(Softness{global, wholeSoftness()->links, wholeSoftness()->energy});
+    apply(std::move(edit));
+  }
+}
+
+void Document::setEnergy(EnergyKind kind) {
+  if (kind != wholeSoftness()->energy) {
+    Softness softness = *wholeSoftness();
+    softness.energy = kind;
+    Change edit = change(QString::fromStdString(std::string(info(kind).name)) + QStringLiteral(" energy"));
+    edit.after.softness = std::make_shared<const Softness>(std::move(softness));
     apply(std::move(edit));
   }
 }
@@ -335,7 +347,8 @@ void Document::setSoftnessAndRelaxation(const LinkSoftness& global, const comman
   if (global != softness() || relaxation != contents_.relaxation) {
     Change edit = change(text);
     if (global != softness()) {
-      edit.after.softness = std::make_shared<const Softness>(Softness{global, wholeSoftness()->links});
+      edit.after.softness =
+          std::make_shared<const Softness>(Softness{global, wholeSoftness()->links, wholeSoftness()->energy});
     }
     edit.after.relaxation = relaxation;
     apply(std::move(edit));
@@ -395,7 +408,8 @@ void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const Q
   Change edit = change(text);
   edit.after.object = std::make_shared<DocumentObject>(mesh, name);
   if (own != wholeSoftness()->links) {
-    edit.after.softness = std::make_shared<const Softness>(Softness{softness(), std::move(own)});
+    edit.after.softness =
+        std::make_shared<const Softness>(Softness{softness(), std::move(own), wholeSoftness()->energy});
   }
   apply(std::move(edit));
 }

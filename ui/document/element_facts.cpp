@@ -31,7 +31,7 @@ SoftnessRange softnessOf(const Document& document, ElementId element) {
     if (result.links++ == 0) {
       result.least = result.most = one;
     }
-    for (const auto member : {&LinkSoftness::compression, &LinkSoftness::stretch, &LinkSoftness::shear}) {
+    for (const auto& [parameter, member] : softness_numbers) {
       result.least.*member = std::min(result.least.*member, one.*member);
       result.most.*member = std::max(result.most.*member, one.*member);
     }

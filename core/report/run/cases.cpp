@@ -78,14 +78,18 @@ std::vector<LinkId> slit_and_holes(const Mesh& grid) {
 }
 
 /// Returns a softness in which links within the middle third of each axis are ten times as stiff as the others.
-Softness with_stiff_middle(const Mesh& mesh, const LinkSoftness& soft) {
-  const LinkSoftness stiff{1 - (1 - soft.compression) / 10, 1 + (soft.stretch - 1) / 10, soft.shear / 10};
+Softness with_stiff_middle(const Mesh& mesh, const Softness& soft) {
+  LinkSoftness stiff = soft.global;
+  stiff.compression = 1 - (1 - soft.global.compression) / 10;
+  stiff.stretch = 1 + (soft.global.stretch - 1) / 10;
+  stiff.shear = soft.global.shear / 10;
+  stiff.stiffness = 10 * soft.global.stiffness;
   const auto [low, high] = bounds(mesh);
   const auto inside = [&, a = low, b = high](ElementId element) {
     const Point from_middle = mesh.rest_position(element) - (a + b) / 2;
     return ((6 * from_middle).cwiseAbs().array() <= (b - a).array()).all();
   };
-  Softness softness{soft, {}};
+  Softness softness = soft;
   for (LinkId link = 0; link < mesh.link_count(); ++link) {
     if (const auto [a, b] = mesh.links[link]; inside(a) && inside(b)) {
       softness.links.set(link, stiff);
@@ -96,10 +100,10 @@ Softness with_stiff_middle(const Mesh& mesh, const LinkSoftness& soft) {
 
 }  // namespace
 
-std::vector<Case> default_cases(const LinkSoftness& softness) {
+std::vector<Case> default_cases(const Softness& softness) {
   const auto grid = generate({MeshKind::grid, {32, 32, 1}});
   const auto made = [&](const char* name, const char* description, MeshPointer mesh) -> Case {
-    return {name, description, std::move(mesh), {}, {}, {softness, {}}, {}};
+    return {name, description, std::move(mesh), {}, {}, softness, {}};
   };
   std::vector<Case> cases{
       made("grid", "32 × 32 elements, links along x and y", grid),

@@ -29,6 +29,6 @@ struct Case {
 
 /// Returns the built-in objects of the comparison, each with its three drags. All links have this softness, except
 /// those of the stiff inclusion.
-std::vector<Case> default_cases(const LinkSoftness& softness);
+std::vector<Case> default_cases(const Softness& softness);
 
 }  // namespace chainmail::report

@@ -1,0 +1,49 @@
+#include "command_line/softness.h"
+
+#include <string>
+#include <vector>
+
+namespace chainmail::command_line {
+namespace {
+
+std::vector<std::string> energy_names() {
+  std::vector<std::string> names;
+  for (const EnergyKindInfo& one : energy_kinds()) {
+    names.emplace_back(one.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+SoftnessArguments add_softness(CLI::App& app) {
+  SoftnessArguments arguments;
+  for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
+    arguments.numbers[i] = add_parameter(app, *softness_numbers[i].parameter);
+  }
+  std::string names;
+  for (const std::string& name : energy_names()) {
+    names += (names.empty() ? "" : "|") + name;
+  }
+  arguments.energy = add_value(app, "--energy", names,
+                               "elastic energy that relaxation lowers; isotropic ignores lateral, stiffness and "
+                               "exponent [" +
+                                   std::string(info(standard_energy).name) + "]");
+  return arguments;
+}
+
+Softness softness_of(const SoftnessArguments& arguments, const LinkSoftness& usual) {
+  Softness softness{usual, {}};
+  for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
+    if (arguments.numbers[i]->count() > 0) {
+      softness.global.*softness_numbers[i].value = value_of(arguments.numbers[i], *softness_numbers[i].parameter);
+    }
+  }
+  if (const auto energy = value_of(arguments.energy)) {
+    check_word("--energy", *energy, energy_names());
+    softness.energy = energy_kind_of(*energy);
+  }
+  return softness;
+}
+
+}  // namespace chainmail::command_line

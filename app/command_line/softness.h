@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+
+#include "command_line/common.h"
+#include "solve/softness.h"
+
+namespace chainmail::command_line {
+
+/// The options for the softness of all links and for the kind of energy.
+struct SoftnessArguments {
+  std::array<CLI::Option*, softness_numbers.size()> numbers{};
+  CLI::Option* energy = nullptr;
+};
+SoftnessArguments add_softness(CLI::App& app);
+/// Returns the softness of all links: the numbers of `usual`, where options override them. Throws Error, with the
+/// option, if a value is out of range or the kind of energy is not known.
+Softness softness_of(const SoftnessArguments& arguments, const LinkSoftness& usual = {});
+
+}  // namespace chainmail::command_line
