@@ -14,7 +14,7 @@ namespace {
 using Clock = PassTimes::Clock;
 
 constexpr auto frame_time = std::chrono::milliseconds(16);
-// Time for relaxation per frame. The rest is for drawing and for the other panels.
+// Time for relaxation per frame, also while dragging. The rest is for drawing and for the other panels.
 constexpr auto relaxation_share = std::chrono::milliseconds(8);
 // Interval between updates of the displayed figures.
 constexpr auto violation_time = std::chrono::milliseconds(250);
@@ -164,6 +164,7 @@ void SolverThread::run(const std::stop_token& stop) {
       lock.unlock();
       carry_out(task);
     } else if (simulation_.statistics().relaxing) {
+      work_.cancelled = abandoned_.load();  // the last task may have been cancelled
       lock.unlock();
       relax();
     } else if (!unseen_ && measured_) {

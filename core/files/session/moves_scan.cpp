@@ -14,9 +14,9 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, 2> file_keys{"version", "commands"};
-constexpr std::array<std::string_view, 13> command_keys{"do",     "element",  "target",      "by",      "rotate",
+constexpr std::array<std::string_view, 14> command_keys{"do",     "element",  "target",      "by",      "rotate",
                                                         "links",  "elements", "compression", "stretch", "shear",
-                                                        "sweeps", "step",     "scheme"};
+                                                        "sweeps", "step",     "scheme",      "until"};
 
 bool is_number_array(const Json& json) {
   return json.is_array() && !json.empty() && std::ranges::all_of(json, [](const Json& one) { return one.is_number(); });

@@ -111,4 +111,12 @@ LinkSoftness JsonFields::softness(const Json& compression, const Json& stretch, 
           number(shear, parameters::shear)};
 }
 
+RelaxationScheme JsonFields::relaxation_scheme(const Json& name) const {
+  const auto scheme = name.is_string() ? find_relaxation_scheme(name.get<std::string>()) : std::nullopt;
+  if (!scheme) {
+    fail("'scheme' is not known", "use mean, link or equilibrium");
+  }
+  return *scheme;
+}
+
 }  // namespace chainmail

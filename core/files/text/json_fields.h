@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/parameters.h"
+#include "solve/relaxation_scheme.h"
 #include "solve/softness.h"
 
 namespace chainmail {
@@ -40,6 +41,7 @@ class JsonFields {
   /// Returns a number. Throws Error if it is not in the range of the parameter.
   double number(const Json& json, const Parameter& parameter) const;
   LinkSoftness softness(const Json& compression, const Json& stretch, const Json& shear) const;
+  RelaxationScheme relaxation_scheme(const Json& name) const;
 
  private:
   std::string where_;
