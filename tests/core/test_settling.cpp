@@ -22,6 +22,7 @@ class SettlingTest : public QObject {
   void positions_from_elsewhere_stay();
   void a_cancelled_iteration_moves_nothing_and_goes_on();
   void a_thread_settles_between_passes();
+  void long_iterations_do_not_delay_the_handle();
 };
 
 namespace {
@@ -74,7 +75,7 @@ void SettlingTest::after_a_drag_it_settles_and_sleeps_data() {
   QTest::addColumn<Point>("by");
   QTest::addColumn<bool>("binds");
   QTest::addColumn<bool>("in_float");
-  QTest::newRow("no region binds") << Point(0.4, 0.3, 0) << false << false;
+  QTest::newRow("no region binds") << Point(0.12, 0.09, 0) << false << false;
   QTest::newRow("regions bind") << Point(1.8, 1.1, 0) << true << false;
   QTest::newRow("regions bind, float") << Point(1.8, 1.1, 0) << true << true;
 }
@@ -147,7 +148,7 @@ void SettlingTest::iterations_at_once_end_at_the_residual() {
   const auto relaxed = [](std::uint32_t most, double until) {
     auto simulation = std::make_unique<Simulation>(made_grid(), Algorithm::exact, Precision::double_precision);
     pin_left(*simulation);
-    drag_by(*simulation, handle, Point(0.4, 0.3, 0));
+    drag_by(*simulation, handle, Point(0.12, 0.09, 0));
     carry_out(*simulation, commands::Relax{most, 1, RelaxationScheme::equilibrium, until});
     return simulation;
   };
@@ -186,10 +187,12 @@ void SettlingTest::softness_is_felt_without_a_pass() {
   carry_out(simulation, commands::Release{});
   carry_out(simulation, commands::Pin{{handle}});
   QVERIFY(steps_to_sleep(simulation) > 0);
-  const double before = elastic_energy(simulation.mesh(), simulation.body().cuts(), simulation.body().positions());
+  QVERIFY(simulation.certificate()->binds);
+  const Point before = position_of(simulation, handle - 1);
   carry_out(simulation, commands::SetSoftness{{{0, 100, 100}, {}}});
   QVERIFY(steps_to_sleep(simulation) > 1);
-  QVERIFY(elastic_energy(simulation.mesh(), simulation.body().cuts(), simulation.body().positions()) < 0.99 * before);
+  QVERIFY(!simulation.certificate()->binds);
+  QVERIFY((position_of(simulation, handle - 1) - before).norm() > 0.01);
 }
 
 void SettlingTest::positions_from_elsewhere_stay() {
@@ -199,6 +202,7 @@ void SettlingTest::positions_from_elsewhere_stay() {
   carry_out(simulation, commands::Reset{});
   QVERIFY(!simulation.step() && !simulation.statistics().residual);
   simulation.relax(5, 1);  // nothing is active
+  QVERIFY(!simulation.statistics().residual);
   QVERIFY(same_bits(positions_of(simulation), simulation.mesh().rest));
 }
 
@@ -233,6 +237,45 @@ void SettlingTest::a_thread_settles_between_passes() {
   // The thread ends while the object settles.
   solver.post(commands::Drag{Point(70, 60, 0)});
   QVERIFY(wait_for_passes(solver, 31));
+}
+
+void SettlingTest::long_iterations_do_not_delay_the_handle() {
+  const auto mesh = make_mesh(MeshKind::grid, {500, 500, 1});
+  const ElementId last = mesh->element_count() - 1;
+  const auto time_of = [](const auto& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::steady_clock::now() - start;
+  };
+  Simulation simulation(mesh, Algorithm::exact, Precision::single_precision);
+  carry_out(simulation, on);
+  carry_out(simulation, commands::Pin{{0}});
+  drag_by(simulation, last, Point(1, 1, 0));
+  simulation.step();  // prepares
+  const auto iteration = time_of([&] { simulation.step(); });
+
+  SolverThread solver(mesh, Algorithm::exact, [] {});
+  solver.post(on);
+  solver.post(commands::Pin{{0}});
+  solver.post(commands::Grab{last});
+  constexpr int drags = 12;
+  const auto drag = [&](int i) {
+    solver.post(commands::Drag{Point(499 + 0.1 * i, 499, 0)});
+    return wait_for_passes(solver, std::uint64_t(i));
+  };
+  QVERIFY(drag(1));
+  QVERIFY(wait_until([&] { return solver.latest_frame().statistics.sweeps > 1; }));
+  QVERIFY(drag(2));
+  const auto dragging = time_of([&] {
+    for (int i = 3; i < 3 + drags; ++i) {
+      QVERIFY(drag(i));
+    }
+  });
+  QVERIFY2(dragging < drags * iteration / 2,
+           qPrintable(QString("%1 against %2 ms per iteration")
+                          .arg(std::chrono::duration<double, std::milli>(dragging).count() / drags)
+                          .arg(std::chrono::duration<double, std::milli>(iteration).count())));
+  QVERIFY(wait_until([&] { return solver.latest_frame().statistics.sweeps > 0; }));  // after the pause
 }
 
 QTEST_APPLESS_MAIN(SettlingTest)
