@@ -183,7 +183,7 @@ void DeformCommandTest::relaxation_goes_to_the_equilibrium() {
 }
 
 void DeformCommandTest::the_equilibrium_is_certified() {
-  const QByteArray drag = "--algorithm exact --pin left --by 19:0.4,0.3 ";
+  const QByteArray drag = "--algorithm exact --pin left --by 19:0.08,0.05 ";
   const auto certificate = [&](const QByteArray& options) {
     deform(drag + options, "grid.dat");
     return program_->json("out.json")["equilibrium"].toObject();
