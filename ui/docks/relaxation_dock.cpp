@@ -81,9 +81,7 @@ void RelaxationDock::showRelaxation() {
   scheme_->setCurrentIndex(scheme_->findData(int(relaxation.scheme)));
   step_->show(relaxation.step);
   const bool sweeps = info(relaxation.scheme).sweeps;
-  step_->setEnabled(sweeps);
-  step_->setToolTip(sweeps ? QString()
-                           : QStringLiteral("The equilibrium has no step: it moves the whole object at once"));
+  step_->disable(sweeps ? QString() : QStringLiteral("The equilibrium has no step: it moves the whole object at once"));
   residual_->setVisible(!sweeps);
   showResidual();
 }
