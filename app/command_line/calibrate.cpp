@@ -40,9 +40,7 @@ CalibrationOptions calibration_options(const CalibrateArguments& options, const 
   if (const auto name = value_of(options.algorithm)) {
     result.algorithm = algorithm_of("--algorithm", *name, algorithms());
   }
-  const std::string scheme = value_of(options.relaxation).value_or("mean");
-  check_word("--relaxation", scheme, {"mean", "link"});
-  result.scheme = scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link;
+  result.scheme = relaxation_of(options.relaxation, true);
   result.drags = int(whole_number_of(options.drags, 1, std::uint32_t(result.drags)));
   result.seed = whole_number_of(options.seed, 0, std::uint32_t(result.seed));
   result.evaluations = int(whole_number_of(options.evaluations, 1, std::uint32_t(result.evaluations)));
@@ -134,8 +132,7 @@ Command add_calibrate(CLI::App& root) {
   options.pins = add_pins(*app);
   options.algorithm =
       add_value(*app, "--algorithm", "NAME", "an algorithm of the ChainMail family: see deform --help [natural-queue]");
-  options.relaxation = add_value(*app, "--relaxation", "mean|link",
-                                 "relaxation scheme: toward the mean of the neighbours, or link by link [mean]");
+  options.relaxation = add_relaxation(*app, true);
   options.drags = add_value(*app, "--drags", "N", "number of drags to fit [4]");
   options.seed = add_value(*app, "--seed", "S", "random seed of the drags [1]");
   options.evaluations =

@@ -95,6 +95,29 @@ void check_word(const std::string& where, const std::string& word, const std::ve
   }
 }
 
+CLI::Option* add_relaxation(CLI::App& app, bool sweeps_only) {
+  std::string names, help = "relaxation scheme";
+  for (const RelaxationSchemeInfo& one : relaxation_schemes) {
+    if (one.sweeps || !sweeps_only) {
+      names += (names.empty() ? "" : "|") + std::string(one.name);
+      help += "; " + std::string(one.name) + ": " + std::string(one.summary);
+    }
+  }
+  return add_value(app, "--relaxation", names, help + " [mean]");
+}
+
+RelaxationScheme relaxation_of(const CLI::Option* option, bool sweeps_only) {
+  std::vector<std::string> names;
+  for (const RelaxationSchemeInfo& one : relaxation_schemes) {
+    if (one.sweeps || !sweeps_only) {
+      names.emplace_back(one.name);
+    }
+  }
+  const std::string word = value_of(option).value_or("mean");
+  check_word(option->get_name(), word, names);
+  return *find_relaxation_scheme(word);
+}
+
 std::vector<std::string> words_of(const std::string& where, const std::string& list) {
   std::vector<std::string> words;
   for (std::size_t begin = 0; begin <= list.size();) {

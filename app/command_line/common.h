@@ -13,6 +13,7 @@
 #include "mesh/error.h"
 #include "mesh/parameters.h"
 #include "solve/algorithms.h"
+#include "solve/relaxation_scheme.h"
 
 namespace chainmail::command_line {
 
@@ -53,6 +54,11 @@ double value_of(const CLI::Option* option, const Parameter& parameter);
 std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t standard);
 /// Throws Error, with the list of words, if the word is not one of them.
 void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words);
+/// Adds the option --relaxation, with the schemes that sweep or with all.
+CLI::Option* add_relaxation(CLI::App& app, bool sweeps_only);
+/// Returns the scheme that --relaxation names; `mean` if it is missing. Throws Error, with the list of names, if it is
+/// none of those offered.
+RelaxationScheme relaxation_of(const CLI::Option* option, bool sweeps_only);
 /// Splits a list at its commas. Throws Error if a word occurs twice.
 std::vector<std::string> words_of(const std::string& where, const std::string& list);
 

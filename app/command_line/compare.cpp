@@ -75,7 +75,7 @@ void refuse_physics(const CompareArguments& arguments) {
 }
 
 void compare(const CompareArguments& options, const std::string& command_line) {
-  const report::CompareOptions how = contest_of(options, algorithms(), "0,10");
+  const report::CompareOptions how = contest_of(options, algorithms(), "0,10,equilibrium");
   OutputFolder folder(*value_of(options.output));
   const std::vector<report::Case> cases = cases_to_compare(options);
 

@@ -8,18 +8,22 @@
 namespace chainmail::command_line {
 namespace {
 
-std::vector<int> read_sweeps(const CLI::Option* option, const std::string& usual) {
+/// Reads the relaxation after each move: numbers of sweeps, and whether the equilibrium is one of the choices.
+void read_relax(const CLI::Option* option, const std::string& usual, report::CompareOptions& result) {
   constexpr std::uint32_t most_sweeps = 1'000'000;
-  std::vector<int> sweeps;
+  result.sweeps.clear();
   for (const std::string& word : words_of("--relax", value_of(option).value_or(usual))) {
+    if (word == info(RelaxationScheme::equilibrium).name) {
+      result.equilibrium = true;
+      continue;
+    }
     const auto count = parse_count(word);
     if (!count || *count > most_sweeps) {
       throw Error("--relax", in_quotes(word) + " is not a number of sweeps",
-                  "write whole numbers up to 1000000, separated by commas");
+                  "write whole numbers up to 1000000, or equilibrium, separated by commas");
     }
-    sweeps.push_back(static_cast<int>(*count));
+    result.sweeps.push_back(static_cast<int>(*count));
   }
-  return sweeps;
 }
 
 /// Returns the softness of a built-in preset, or of a file with one preset.
@@ -48,10 +52,11 @@ LinkSoftness preset_of(const std::string& name) {
 void add_contest(CLI::App& app, CompareArguments& options) {
   options.against = add_value(app, "--against", "exact|physics", "reference for the errors [exact]");
   options.algorithms = add_value(app, "--algorithms", "A,B,…", "algorithms to compare: see deform --help [all]");
-  options.relax = add_value(app, "--relax", "N,N,…",
-                            "numbers of relaxation sweeps after each move [0,10; physics: 0,1,3,10,30,100]");
-  options.relaxation = add_value(app, "--relaxation", "mean|link",
-                                 "relaxation scheme: toward the mean of the neighbours, or link by link [mean]");
+  options.relax =
+      add_value(app, "--relax", "N,N,…",
+                "numbers of relaxation sweeps after each move; equilibrium: Natural Queue and Exact also relax "
+                "to the equilibrium [0,10,equilibrium; physics: 0,1,3,10,30,100,equilibrium]");
+  options.relaxation = add_relaxation(app, true);
   options.relax_step = add_parameter(app, parameters::relax_step);
   options.precision = add_value(app, "--precision", "float|double", "precision of the solver [float]");
   options.repetitions = add_value(
@@ -75,13 +80,11 @@ void add_physics(CLI::App& app, CompareArguments& options) {
 }  // namespace
 
 report::CompareOptions contest_of(const CompareArguments& options, std::span<const AlgorithmInfo> algorithms,
-                                  const std::string& sweeps) {
+                                  const std::string& relax) {
   report::CompareOptions result;
   result.algorithms = algorithms_of(options.algorithms, algorithms);
-  result.sweeps = read_sweeps(options.relax, sweeps);
-  const std::string scheme = value_of(options.relaxation).value_or("mean");
-  check_word("--relaxation", scheme, {"mean", "link"});
-  result.scheme = scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link;
+  read_relax(options.relax, relax, result);
+  result.scheme = relaxation_of(options.relaxation, true);
   result.relax_step = value_of(options.relax_step, parameters::relax_step);
   const std::string precision = value_of(options.precision).value_or("float");
   check_word("--precision", precision, {"float", "double"});

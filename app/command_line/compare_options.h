@@ -19,10 +19,9 @@ struct CompareArguments {
 };
 CompareArguments add_compare_arguments(CLI::App& app);
 
-/// Returns the settings of the comparison. `algorithms` are the allowed ones; `sweeps` is the default list of numbers
-/// of sweeps.
+/// Returns the settings of the comparison. `algorithms` are the allowed ones; `relax` is the default of --relax.
 report::CompareOptions contest_of(const CompareArguments& arguments, std::span<const AlgorithmInfo> algorithms,
-                                  const std::string& sweeps);
+                                  const std::string& relax);
 /// Returns the global softness and the kind of energy: those of the preset, where single options override its values.
 Softness softness_of(const CompareArguments& arguments);
 /// Reads a mesh as a case of the report: at rest, without drags.

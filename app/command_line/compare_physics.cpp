@@ -23,7 +23,7 @@ constexpr const char* ink = "#808080";
 report::PhysicsOptions physics_options(const CompareArguments& arguments) {
   report::PhysicsOptions options;
   const double seconds_per_drag = options.contest.seconds;
-  options.contest = contest_of(arguments, every_algorithm(), "0,1,3,10,30,100");
+  options.contest = contest_of(arguments, every_algorithm(), "0,1,3,10,30,100,equilibrium");
   options.contest.seconds = seconds_per_drag;
   std::ranges::sort(options.contest.sweeps);  // in ascending order, because a curve connects them
   const std::string calibrated = value_of(arguments.calibrated).value_or("on");

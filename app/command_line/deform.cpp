@@ -25,7 +25,7 @@ struct DeformArguments {
   CLI::Option *algorithm, *precision, *softness;
   CLI::Option *move, *by, *cut, *pin, *grab, *rotate;
   CLI::Option* script;
-  CLI::Option *steps, *relax, *relaxation, *relax_step;
+  CLI::Option *steps, *relax, *relaxation, *relax_step, *relax_until;
   CLI::Option *positions, *trace, *json;
 };
 
@@ -57,15 +57,14 @@ Precision read_precision(const DeformArguments& options) {
   return word == "float" ? Precision::single_precision : Precision::double_precision;
 }
 
-RelaxationScheme read_relaxation(const DeformArguments& options) {
-  const std::string word = value_of(options.relaxation).value_or("mean");
-  check_word("--relaxation", word, {"mean", "link"});
-  return word == "link" ? RelaxationScheme::link : RelaxationScheme::mean;
-}
-
-Schedule read_schedule(const DeformArguments& options, const Targets& targets) {
-  return {whole_number_of(options.steps, 1, 1), whole_number_of(options.relax, 0, 0),
-          value_of(options.relax_step, parameters::relax_step), targets.trace.has_value()};
+Schedule read_schedule(const DeformArguments& options, RelaxationScheme scheme, const Targets& targets) {
+  if (info(scheme).sweeps && options.relax_until->count() > 0) {
+    throw Error("--relax-until", "it works only with --relaxation equilibrium", "add --relaxation equilibrium");
+  }
+  return {whole_number_of(options.steps, 1, 1),
+          whole_number_of(options.relax, 0, info(scheme).sweeps ? 0 : equilibrium_iterations),
+          value_of(options.relax_step, parameters::relax_step), value_of(options.relax_until, parameters::relax_until),
+          targets.trace.has_value()};
 }
 
 /// Returns the acts in the order of their options on the command line.
@@ -117,7 +116,8 @@ DeformSummary summarize(Simulation& simulation, const Run& run) {
           run.passes,
           statistics.violation,
           elastic_energy(mesh, simulation.softness(), simulation.body().cuts(), positions),
-          measure_displacement(mesh, positions)};
+          measure_displacement(mesh, positions),
+          info(simulation.relaxation().scheme).sweeps ? std::nullopt : simulation.certificate()};
 }
 
 void write_positions(std::ostream& out, const std::string& path, const Simulation& simulation) {
@@ -148,6 +148,11 @@ void write_deformation(std::ostream& out, const AlgorithmInfo& algorithm, const 
   }
   out << "violation: max " << summary.violation.max << " rest lengths, RMS " << summary.violation.rms << ", "
       << 100 * summary.violation.fraction << "% of links\n";
+  if (const auto& found = summary.equilibrium) {
+    out << "equilibrium: residual " << found->residual << " after " << found->iterations
+        << " iterations, energy at most " << 100 * found->gap << "% above the least, largest violation "
+        << found->violation << " rest lengths, valid regions " << (found->binds ? "bind" : "do not bind") << '\n';
+  }
 }
 
 void write_results(const Targets& targets, const Simulation& simulation, const Run& run, const DeformSummary& summary) {
@@ -174,11 +179,11 @@ void write_results(const Targets& targets, const Simulation& simulation, const R
 void deform(const DeformArguments& options) {
   const Algorithm algorithm = algorithm_of("--algorithm", *value_of(options.algorithm), every_algorithm());
   const Precision precision = read_precision(options);
-  const RelaxationScheme relaxation = read_relaxation(options);
+  const RelaxationScheme relaxation = relaxation_of(options.relaxation, false);
   Softness softness = softness_of(options.global);
   const ElasticOptions elastic = elastic_of(options.elastic);
   const Targets targets = read_targets(options);
-  const Schedule schedule = read_schedule(options, targets);
+  const Schedule schedule = read_schedule(options, relaxation, targets);
   const std::vector<Act> acts = read_acts(options);
   OpenedMesh opened = open_mesh(options.mesh);
   const MeshPointer mesh = opened.mesh;
@@ -229,14 +234,10 @@ void add_model(CLI::App& app, DeformArguments& options) {
     names += (names.empty() ? "" : "|") + name;
   }
   options.algorithm = add_value(app, "--algorithm", "NAME", names)->required();
-  options.global = add_softness(app);
-  options.softness = add_value(app, "--softness", "FILE",
-                               "softness of single links: CSV rows a,b,compression,stretch,shear or "
-                               "a,b,compression,stretch,shear,lateral,stiffness,exponent");
-  options.relax = add_value(app, "--relax", "N", "sweeps of relaxation after each pass [0]");
-  options.relaxation = add_value(app, "--relaxation", "mean|link",
-                                 "relaxation scheme: toward the mean of the neighbours, or link by link [mean]");
+  const RelaxationScheme relaxation = relaxation_of(options.relaxation, false);
+  Softness softness = softness_of(options.global);
   options.relax_step = add_parameter(app, parameters::relax_step);
+  options.relax_until = add_parameter(app, parameters::relax_until);
   options.precision = add_value(app, "--precision", "double|float", "precision of the solver [double]");
   options.elastic = add_elastic(app);
   options.mesh.space =

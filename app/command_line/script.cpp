@@ -346,7 +346,7 @@ void Runner::pass(const commands::Drag& drag) {
   if (schedule_.trace) {
     run_.traces.push_back(std::move(trace));
   }
-  simulation_.relax(static_cast<int>(schedule_.relax), schedule_.relax_step);
+  simulation_.relax(static_cast<int>(schedule_.relax), schedule_.relax_step, schedule_.relax_until);
   progress_.advance();
 }
 

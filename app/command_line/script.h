@@ -38,8 +38,9 @@ void check_acts(const std::vector<Act>& acts, const Mesh& mesh);
 /// Settings that apply to each move.
 struct Schedule {
   std::uint32_t steps = 1;  // passes per move
-  std::uint32_t relax = 0;  // sweeps after each pass
+  std::uint32_t relax = 0;  // sweeps, or iterations, after each pass
   double relax_step = 1;
+  double relax_until = 0;  // residual to reach, with the scheme `equilibrium`
   bool trace = false;
 };
 

@@ -115,7 +115,9 @@ inline inner::Precision precision_of(Precision precision) {
                                                   : inner::Precision::double_precision;
 }
 inline inner::RelaxationScheme scheme_of(RelaxationScheme scheme) {
-  return scheme == RelaxationScheme::mean ? inner::RelaxationScheme::mean : inner::RelaxationScheme::link;
+  static_assert(int(RelaxationScheme::equilibrium) == int(inner::RelaxationScheme::equilibrium));
+  static_assert(inner::relaxation_schemes.size() == 3);
+  return inner::RelaxationScheme(int(scheme));
 }
 inline inner::LinkSoftness softness_of(const LinkSoftness& softness) {
   return {softness.compression, softness.stretch,   softness.shear,

@@ -49,6 +49,7 @@ report::CompareOptions contest_of(const CompareOptions& options) {
     throw Error("seconds", "the time is not a number from 0", "use a number of seconds");
   }
   how.sweeps = options.sweeps;
+  how.equilibrium = options.equilibrium;
   how.scheme = scheme_of(options.scheme);
   how.relax_step = options.relax_step;
   how.precision = precision_of(options.precision);
@@ -116,6 +117,7 @@ ComparisonRow row_of(const report::DragResult& drag, const report::Entry& entry)
   row.method = info(entry.contestant.algorithm).offered_name();
   row.label = label(entry.contestant);
   row.sweeps = entry.contestant.sweeps;
+  row.equilibrium = entry.contestant.equilibrium;
   row.refusal = entry.refusal;
   if (const auto& measured = entry.measurement) {
     const report::Errors& errors = measured->errors;
@@ -136,6 +138,7 @@ ComparisonRow row_of(const report::PhysicsDrag& drag, const report::PhysicsEntry
   row.method = entry.contestant.algorithm ? info(*entry.contestant.algorithm).offered_name() : "nothing";
   row.label = label(entry.contestant);
   row.sweeps = entry.contestant.sweeps;
+  row.equilibrium = entry.contestant.equilibrium;
   row.refusal = entry.refusal;
   if (const auto& measured = entry.measurement) {
     if (entry.contestant.algorithm) {

@@ -11,6 +11,7 @@ namespace {
 
 static_assert(no_sponsor == no_element);
 static_assert(RelaxOptions().step == parameters::relax_step.standard);
+static_assert(RelaxOptions().until == parameters::relax_until.standard);
 
 constexpr std::uint64_t elements_between_checks = 20'000;  // about 2 ms, after which a job may cancel
 
@@ -33,7 +34,7 @@ struct Deformer::Inside {
   }
   template <class Move>
   MoveResult run(Move move);
-  std::uint64_t sweep(double step, const Progress& progress);
+  RelaxationResult sweep(double step, const Progress& progress);
 };
 
 template <class Move>
@@ -48,17 +49,18 @@ MoveResult Deformer::Inside::run(Move move) {
   return {count.checked, count.moved, count.stopped, {}, solver().remark()};
 }
 
-/// Runs one sweep, in slices. Returns the number of visited elements.
-std::uint64_t Deformer::Inside::sweep(double step, const Progress& progress) {
+/// Runs one sweep, in slices, or one iteration.
+RelaxationResult Deformer::Inside::sweep(double step, const Progress& progress) {
   const auto& inside = Access::inside(body);
   std::uint64_t visited = 0;
   while (true) {
     progress.report(std::min(1.0, double(visited) / body.mesh().element_count()));
     const auto held = inside.is_held ? std::span(inside.handle) : std::span<const ElementId>();
-    const RelaxationResult slice = solver().relax(step, elements_between_checks, held);
+    RelaxationResult slice = solver().relax(step, elements_between_checks, held);
     visited += slice.visited;
     if (slice.sweep_ended) {
-      return visited;
+      slice.visited = visited;
+      return slice;
     }
   }
 }
@@ -124,6 +126,7 @@ int Deformer::relax(int sweeps, const RelaxOptions& options) {
   }
   return guarded([&] {
     check(parameters::relax_step, options.step);
+    check(parameters::relax_until, options.until);
     if (!info(inside_->algorithm).relaxes()) {
       return 0;
     }
@@ -134,12 +137,27 @@ int Deformer::relax(int sweeps, const RelaxOptions& options) {
       solver.wake(solver.moved());
     }
     const Progress progress = Access::progress(inside_->job);
+    solver.set_progress(progress);
     int run = 0;
-    while (run < sweeps &&
-           inside_->sweep(options.step, progress.part(double(run) / sweeps, (run + 1.0) / sweeps)) > 0) {
+    while (run < sweeps) {
+      const RelaxationResult result =
+          inside_->sweep(options.step, progress.part(double(run) / sweeps, (run + 1.0) / sweeps));
+      if (result.visited == 0) {
+        break;
+      }
       ++run;
+      if (result.residual && *result.residual <= options.until) {
+        break;
+      }
     }
     return run;
+  });
+}
+
+EquilibriumCertificate Deformer::certificate() {
+  return guarded([&] {
+    const auto found = inside_->solver().certificate().value_or(inner::EquilibriumCertificate{});
+    return EquilibriumCertificate{found.violation, found.residual, found.gap, found.binds, found.iterations};
   });
 }
 

@@ -116,6 +116,9 @@ CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) 
   if (!info(options.algorithm).uses_softness()) {
     throw Error("algorithm", "it has no softness to calibrate", "choose one of the ChainMail family");
   }
+  if (!info(options.scheme).sweeps) {
+    throw Error("relaxation", "the equilibrium is not a scheme of sweeps", "use mean or link");
+  }
   if (options.drags < 1 || options.evaluations < 1) {
     throw Error(options.drags < 1 ? "drags" : "evaluations", "it is below 1", "use 1 or more");
   }

@@ -104,6 +104,17 @@ inline constexpr Parameter relax_step{
     .step = 0.05,
     .decimals = 2,
     .help = "share of the way to its relaxed position that an element moves in one sweep"};
+inline constexpr Parameter relax_until{
+    .name = "relax-until",
+    .label = "Residual",
+    .unit = "relative",
+    .standard = 1e-3,
+    .lowest = 0,
+    .highest = 1,
+    .slider_highest = 0.1,
+    .step = 1e-3,
+    .decimals = 4,
+    .help = "residual at which relaxation to the equilibrium ends: 0 runs all iterations"};
 inline constexpr Parameter spacing{.name = "spacing",
                                    .label = "Spacing",
                                    .unit = "mesh units",

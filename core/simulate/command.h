@@ -42,7 +42,8 @@ struct SetSoftness {
 
   std::shared_ptr<const Softness> softness;
 };
-/// Turns relaxation in idle time on or off, with a step: see parameters::relax_step.
+/// Turns relaxation in idle time on or off, with a step: see parameters::relax_step. The scheme `equilibrium` ignores
+/// it.
 struct SetRelaxation {
   bool on = false;
   double step = 1;
@@ -50,11 +51,13 @@ struct SetRelaxation {
 
   bool operator==(const SetRelaxation&) const = default;
 };
-/// Runs up to this many sweeps of relaxation at once, even if relaxation is off.
+/// Runs up to this many sweeps of relaxation at once, even if relaxation is off. The scheme `equilibrium` runs
+/// iterations, and ends earlier if it reaches a residual.
 struct Relax {
   std::uint32_t sweeps = 1;
   double step = 1;
   RelaxationScheme scheme = RelaxationScheme::mean;
+  double until = 0;  // residual to reach: see parameters::relax_until. 0: none
 };
 /// Sets the options of methods of elasticity and free-form deformation.
 struct SetElastic {

@@ -17,6 +17,8 @@ using Clock = PassTimes::Clock;
 // Relaxation stops when no step of a sweep exceeds this share of the mean rest length, or after this time.
 constexpr double asleep_below = 1e-4;
 constexpr auto relaxation_time = std::chrono::seconds(10);
+// The scheme `equilibrium` also needs a residual of at most this.
+constexpr double settled_below = 1e-4;
 // About 2 ms, so that commands never wait longer for a slice of relaxation.
 constexpr std::uint64_t elements_per_slice = 20'000;
 constexpr LinkId links_per_slice = 20'000;
@@ -72,6 +74,7 @@ void Simulation::time_pass(Move move) {
   times_.add(end, statistics_.last_pass_ms);
   ++statistics_.passes;
   statistics_.remark = solver_->remark();
+  relaxation_fails_ = false;
 }
 
 void Simulation::carry_out(const commands::MoveControlPoint& command) {
@@ -108,15 +111,16 @@ bool Simulation::step() {
     return false;
   }
   measure_.reset();
-  const auto slice = solver_->relax(relaxation_step_, elements_per_slice, grabbed());
-  mark(solver_->relaxed());
-  if (slice.sweep_ended) {
-    ++statistics_.sweeps;
-    // Elements that became active during the sweep have not been visited yet.
-    if (!woken_ && slice.largest_step <= asleep_below * mesh_->mean_link_length) {
+  try {
+    if (settle()) {
       fall_asleep();
     }
-    woken_ = false;
+  } catch (const Cancelled&) {
+    // A command waits.
+  } catch (const Error& error) {
+    refuse_relaxation(error.what());
+  } catch (const std::bad_alloc&) {
+    refuse_relaxation("memory: not enough memory to relax the object; use a smaller mesh");
   }
   if (Clock::now() > relaxation_deadline_) {
     fall_asleep();
@@ -124,7 +128,44 @@ bool Simulation::step() {
   return statistics_.relaxing;
 }
 
-void Simulation::relax(int count, double step) {
+/// Runs a slice of relaxation. Returns true if the object has come to rest.
+bool Simulation::settle() {
+  const RelaxationResult slice = relax_slice(relaxation_step_);
+  if (!slice.sweep_ended) {
+    return false;
+  }
+  ++statistics_.sweeps;
+  // Elements that became active during the sweep have not been visited yet.
+  return !std::exchange(woken_, false) && slice.largest_step <= asleep_below * mesh_->mean_link_length &&
+         has_reached(settled_below);
+}
+
+RelaxationResult Simulation::relax_slice(double step) {
+  try {
+    const RelaxationResult slice = solver_->relax(step, elements_per_slice, grabbed());
+    mark(solver_->relaxed());
+    statistics_.residual = slice.residual;  // sweeps have none
+    if (slice.residual && std::exchange(relaxation_fails_, false)) {
+      statistics_.remark.clear();
+    }
+    return slice;
+  } catch (const std::bad_alloc&) {
+    mark_all();  // an iteration may have stopped in the middle
+    throw;
+  }
+}
+
+void Simulation::refuse_relaxation(const std::string& reason) {
+  statistics_.remark = reason;
+  statistics_.residual.reset();
+  relaxation_fails_ = true;
+  fall_asleep();
+}
+
+/// Returns true if the residual is low enough. Sweeps have none.
+bool Simulation::has_reached(double until) const { return !statistics_.residual || *statistics_.residual <= until; }
+
+void Simulation::relax(int count, double step, double until) {
   if (count == 0 || !info(algorithm_).relaxes()) {
     return;
   }
@@ -134,16 +175,19 @@ void Simulation::relax(int count, double step) {
     solver_->wake(solver_->moved());
   }
   for (int i = 0; i < count && sweep(step, progress_.part(double(i) / count, double(i + 1) / count)) > 0; ++i) {
+    if (statistics_.residual && has_reached(until)) {
+      return;
+    }
   }
 }
 
-/// Runs one sweep, in slices, and can be cancelled between them. Returns the number of visited elements.
+/// Runs one sweep, in slices, or one iteration, and can be cancelled between them. Returns the number of visited
+/// elements.
 std::uint64_t Simulation::sweep(double step, const Progress& progress) {
   std::uint64_t visited = 0;
   while (true) {
     progress.report(std::min(1.0, double(visited) / mesh_->element_count()));
-    const RelaxationResult slice = solver_->relax(step, elements_per_slice, grabbed());
-    mark(solver_->relaxed());
+    const RelaxationResult slice = relax_slice(step);
     visited += slice.visited;
     if (slice.sweep_ended) {
       return visited;
@@ -206,6 +250,8 @@ void Simulation::forget_passes() {
   statistics_.last_pass = {};
   statistics_.last_pass_ms = 0;
   statistics_.remark.clear();
+  statistics_.residual.reset();
+  relaxation_fails_ = false;
   times_.clear();
 }
 
@@ -278,6 +324,9 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
     solver_->wake_all();
     wake({});
   }
+  if (!info(relaxation_scheme_).sweeps && last_handle_) {
+    wake({});  // the equilibrium depends on the softness, even if no pass can answer
+  }
 }
 
 /// Equal softness leaves all regions unchanged.
@@ -324,9 +373,10 @@ void Simulation::carry_out(const commands::SetElastic& command) {
 
 void Simulation::carry_out(const commands::Relax& command) {
   check(parameters::relax_step, command.step);
+  check(parameters::relax_until, command.until);
   solver_->set_relaxation(command.scheme);
   try {
-    relax(static_cast<int>(command.sweeps), command.step);
+    relax(static_cast<int>(command.sweeps), command.step, command.until);
   } catch (...) {  // cancelled, or out of memory
     solver_->set_relaxation(relaxation_scheme_);
     throw;
@@ -337,9 +387,13 @@ void Simulation::carry_out(const commands::Relax& command) {
 void Simulation::carry_out(const commands::SetRelaxation& command) {
   check(parameters::relax_step, command.step);
   const bool was_on = std::exchange(relaxation_on_, command.on);
+  const bool is_other = std::exchange(relaxation_scheme_, command.scheme) != command.scheme;
   relaxation_step_ = command.step;
-  solver_->set_relaxation(relaxation_scheme_ = command.scheme);
-  if (command.on && !was_on && info(algorithm_).relaxes()) {
+  solver_->set_relaxation(command.scheme);
+  if (is_other) {
+    statistics_.residual.reset();
+  }
+  if (command.on && (!was_on || is_other) && info(algorithm_).relaxes()) {
     solver_->wake_all();
     wake({});
   } else if (!command.on) {

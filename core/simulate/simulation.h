@@ -26,8 +26,10 @@ struct Statistics {
   Violation violation;
   bool violation_of_whole_mesh = false;  // false: of the links that the last pass touched
   bool relaxing = false;
-  std::uint64_t sweeps = 0;  // since the last pass
-  /// Reason why the last pass did not reach its target or did not converge; usually empty.
+  std::uint64_t sweeps = 0;  // since the last pass; iterations with the scheme `equilibrium`
+  /// After an iteration toward the equilibrium: the estimated distance from it, see EquilibriumCertificate.
+  std::optional<double> residual;
+  /// Reason why the last pass did not reach its target or did not converge, or why relaxation ended; usually empty.
   std::string remark;
 };
 
@@ -40,7 +42,8 @@ class Simulation {
   /// Carries out a command. Throws Error if the command does not fit the object (an element or link that does not
   /// exist, softness out of range, a drag without a grab, a saved state that does not exist); then nothing changes.
   void apply(const Command& command);
-  /// Runs a slice of relaxation of about 2 ms, for idle time. Returns true if there is more to do.
+  /// Runs a slice of relaxation of about 2 ms, or one iteration toward the equilibrium, for idle time. Returns true if
+  /// there is more to do. If there is no equilibrium, or not enough memory, relaxation ends and the remark says why.
   bool step();
 
   /// Returns everything except the algorithm and the statistics. Shares data with the saved states.
@@ -54,9 +57,12 @@ class Simulation {
   void set_progress(const Progress& progress);
   /// Sets the trace that receives every candidate that a pass processes; null: none.
   void set_trace(Trace* trace) { trace_ = trace; }
-  /// Runs sweeps of relaxation at once, with the scheme last set, even if relaxation is off: `count` of them, or until
-  /// nothing moves.
-  void relax(int count, double step);
+  /// Runs sweeps or iterations of relaxation at once, with the scheme last set, even if relaxation is off: `count` of
+  /// them, or until nothing moves or, with the scheme `equilibrium`, the residual is at most `until`. Throws Error if
+  /// pins contradict each other and the scheme is `equilibrium`.
+  void relax(int count, double step, double until = 0);
+  /// Returns how close the object is to the equilibrium; none if the scheme `equilibrium` has not relaxed it.
+  std::optional<EquilibriumCertificate> certificate() { return solver_->certificate(); }
 
   const Mesh& mesh() const { return *mesh_; }
   const MeshPointer& mesh_pointer() const { return mesh_; }
@@ -111,6 +117,10 @@ class Simulation {
   void carry_out(const commands::RestoreState& command);
   void carry_out(const commands::DropState& command);
 
+  bool settle();
+  RelaxationResult relax_slice(double step);
+  void refuse_relaxation(const std::string& reason);
+  bool has_reached(double until) const;
   std::uint64_t sweep(double step, const Progress& progress);
   void answer();
   void forget_passes();
@@ -147,7 +157,8 @@ class Simulation {
   bool relaxation_on_ = false;
   double relaxation_step_ = 1;
   RelaxationScheme relaxation_scheme_ = RelaxationScheme::mean;
-  bool woken_ = false;  // true if elements became active since the last sweep ended
+  bool woken_ = false;             // true if elements became active since the last sweep ended
+  bool relaxation_fails_ = false;  // true if the remark is about relaxation
   PassTimes::Clock::time_point relaxation_deadline_{};
   std::map<commands::StateId, State> kept_;
   PassTimes times_;

@@ -14,8 +14,10 @@ namespace {
 using Clock = PassTimes::Clock;
 
 constexpr auto frame_time = std::chrono::milliseconds(16);
-// Time for relaxation per frame. The rest is for drawing and for the other panels.
+// Time for relaxation per frame, also while dragging. The rest is for drawing and for the other panels.
 constexpr auto relaxation_share = std::chrono::milliseconds(8);
+// While something is grabbed, slices of relaxation that take longer than that wait until no command came for this time.
+constexpr auto pause_of_handle = std::chrono::milliseconds(100);
 // Interval between updates of the displayed figures.
 constexpr auto violation_time = std::chrono::milliseconds(250);
 
@@ -136,6 +138,7 @@ void SolverThread::carry_out(const Task& task) {
   }
   unseen_ = true;
   measured_ = false;
+  last_command_ = Clock::now();
   finish_task();
 }
 
@@ -163,10 +166,11 @@ void SolverThread::run(const std::stop_token& stop) {
       const Task task = take_task(stop);
       lock.unlock();
       carry_out(task);
-    } else if (simulation_.statistics().relaxing) {
+    } else if (may_relax()) {
+      work_.cancelled = abandoned_.load();  // the last task may have been cancelled
       lock.unlock();
       relax();
-    } else if (!unseen_ && measured_) {
+    } else if (!unseen_ && measured_ && !simulation_.statistics().relaxing) {
       changed_.wait(lock, stop, [this] { return !tasks_.empty(); });
       continue;
     } else {
@@ -196,9 +200,18 @@ void SolverThread::answer_questions(std::unique_lock<std::mutex>& lock, const st
   }
 }
 
+/// Returns true if there is something to relax and this does not delay the next move of the handle.
+bool SolverThread::may_relax() const {
+  return simulation_.statistics().relaxing && (slice_time_ <= relaxation_share || simulation_.grabbed().empty() ||
+                                               Clock::now() >= last_command_ + pause_of_handle);
+}
+
 void SolverThread::relax() {
   const auto end = Clock::now() + relaxation_share;
-  while (idle() && Clock::now() < end && simulation_.step()) {
+  for (bool more = true; more && idle() && Clock::now() < end;) {
+    const auto start = Clock::now();
+    more = simulation_.step();
+    slice_time_ = Clock::now() - start;
   }
   unseen_ = true;
   measured_ = false;
@@ -207,8 +220,10 @@ void SolverThread::relax() {
 void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
   const auto has_command = [this] { return !tasks_.empty(); };
   if (unseen_ || simulation_.statistics().relaxing) {
-    const auto share = simulation_.statistics().relaxing ? relaxation_share : frame_time.zero();
-    changed_.wait_until(lock, stop, last_frame_ + frame_time - share, has_command);
+    const auto share = may_relax() ? relaxation_share : frame_time.zero();
+    const bool only_waits = !unseen_ && !may_relax();
+    changed_.wait_until(lock, stop, only_waits ? last_command_ + pause_of_handle : last_frame_ + frame_time - share,
+                        has_command);
   } else if (!measured_ && !changed_.wait_for(lock, stop, violation_time, has_command) && !stop.stop_requested()) {
     // No command came for a while, so the object does not move.
     lock.unlock();

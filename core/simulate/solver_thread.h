@@ -69,6 +69,7 @@ class SolverThread {
   void carry_out(const Task& task);
   void finish_task();
   void relax();
+  bool may_relax() const;
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void answer_questions(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   bool measure(const std::stop_token& stop);
@@ -83,8 +84,10 @@ class SolverThread {
   PassRecorder recorder_;
   PassTimes::Clock::time_point last_frame_{};
   PassTimes::Clock::time_point next_violation_{};
-  std::atomic<bool> unseen_ = false;  // something changed since the last frame
-  bool measured_ = false;             // the last frame shows the violation of the whole mesh
+  PassTimes::Clock::time_point last_command_{};
+  PassTimes::Clock::duration slice_time_{};  // of the last slice of relaxation
+  std::atomic<bool> unseen_ = false;         // something changed since the last frame
+  bool measured_ = false;                    // the last frame shows the violation of the whole mesh
 
   std::atomic<bool> abandoned_ = false;
 

@@ -74,6 +74,61 @@ PassCount Solver::move_control_point(std::size_t point, const Point& target) {
   });
 }
 
+void Solver::wake(std::span<const ElementId> elements) {
+  relaxation_.wake(body_, elements);
+  awake_at_ = body_.revisions().positions;
+}
+
+void Solver::wake_all() {
+  relaxation_.wake_all(body_);
+  awake_at_ = body_.revisions().positions;
+}
+
+void Solver::sleep() {
+  relaxation_.sleep();
+  awake_at_.reset();
+}
+
+void Solver::set_relaxation(RelaxationScheme scheme) {
+  scheme_ = scheme;
+  if (info(scheme).sweeps) {
+    relaxation_.set_scheme(scheme);
+  }
+}
+
+RelaxationResult Solver::relax(double step, std::uint64_t budget, std::span<const ElementId> held) {
+  return info(scheme_).sweeps ? relaxation_.sweep(body_, step, budget, held) : iterate(held);
+}
+
+/// Runs one iteration toward the equilibrium. If memory runs out in the middle of it, the next one uses nothing of it.
+RelaxationResult Solver::iterate(std::span<const ElementId> held) {
+  if (awake_at_ != body_.revisions().positions) {
+    return {0, true, 0};  // asleep, or the positions were set since
+  }
+  try {
+    if (!equilibrium_) {
+      equilibrium_ = EquilibriumSolver::make(body_.mesh().space_dimension);
+    }
+    equilibrium_->iterate(body_, held, progress_);
+  } catch (const std::bad_alloc&) {
+    body_.note_relaxation();
+    equilibrium_.reset();
+    throw;
+  }
+  return {body_.mesh().element_count(), true, equilibrium_->largest_step(), equilibrium_->residual()};
+}
+
+std::span<const ElementId> Solver::relaxed() const {
+  if (info(scheme_).sweeps) {
+    return relaxation_.moved();
+  }
+  return equilibrium_ ? equilibrium_->moved() : std::span<const ElementId>();
+}
+
+std::optional<EquilibriumCertificate> Solver::certificate() {
+  return equilibrium_ ? std::optional(equilibrium_->certificate(body_)) : std::nullopt;
+}
+
 std::unique_ptr<Solver> make_solver(const MeshPointer& mesh, Algorithm algorithm, Precision precision) {
   return std::make_unique<Solver>(mesh, algorithm, precision);
 }

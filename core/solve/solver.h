@@ -10,6 +10,7 @@
 #include "mesh/progress.h"
 #include "solve/algorithms.h"
 #include "solve/body.h"
+#include "solve/equilibrium_solver.h"
 #include "solve/method.h"
 #include "solve/relaxation.h"
 #include "solve/trace.h"
@@ -50,31 +51,38 @@ class Solver {
   /// not exist.
   PassCount move_control_point(std::size_t point, const Point& target);
 
-  /// Makes these elements and their neighbours active: relaxation will visit them.
-  void wake(std::span<const ElementId> elements) { relaxation_.wake(body_, elements); }
-  void wake_all() { relaxation_.wake_all(body_); }
+  /// Makes these elements and their neighbours active: relaxation will visit them. The scheme `equilibrium` then visits
+  /// all elements.
+  void wake(std::span<const ElementId> elements);
+  void wake_all();
   /// Makes all elements inactive.
-  void sleep() { relaxation_.sleep(); }
-  void set_relaxation(RelaxationScheme scheme) { relaxation_.set_scheme(scheme); }
-  /// Relaxes with a step in (0, 1] until a sweep ends or `budget` elements were visited. The elements of `held`
-  /// (ascending) stay. If nothing is active, `visited` is 0 and the sweep has ended.
-  RelaxationResult relax(double step, std::uint64_t budget, std::span<const ElementId> held) {
-    return relaxation_.sweep(body_, step, budget, held);
-  }
+  void sleep();
+  void set_relaxation(RelaxationScheme scheme);
+  /// Relaxes with a step in (0, 1] until a sweep ends or `budget` elements were visited. The scheme `equilibrium` runs
+  /// one iteration; it ignores step and budget, and throws Error if pins contradict each other, and Cancelled. The
+  /// elements of `held` (ascending) stay. If nothing is active, `visited` is 0 and the sweep has ended.
+  RelaxationResult relax(double step, std::uint64_t budget, std::span<const ElementId> held);
   /// The elements that the last call of relax moved, once per move.
-  std::span<const ElementId> relaxed() const { return relaxation_.moved(); }
+  std::span<const ElementId> relaxed() const;
+  /// Returns how close the object is to the equilibrium; none if the scheme `equilibrium` has not relaxed it.
+  std::optional<EquilibriumCertificate> certificate();
 
  private:
   Method& method();
   template <class Pass>
   PassCount run(Pass pass);
+  RelaxationResult iterate(std::span<const ElementId> held);
 
   Body body_;
   AlgorithmInfo algorithm_;
   std::unique_ptr<Method> method_;  // of the algorithm, made by its first pass
   std::vector<ElementId> moved_;
   std::optional<Handle> single_;  // of the last move of a single element
-  Relaxation relaxation_;
+  RelaxationScheme scheme_ = RelaxationScheme::mean;
+  Relaxation relaxation_;                           // the schemes that sweep
+  std::unique_ptr<EquilibriumSolver> equilibrium_;  // made by the first iteration
+  /// Revision of the positions when the object was last woken; none: the scheme `equilibrium` sleeps.
+  std::optional<std::uint64_t> awake_at_;
   Progress progress_;
 };
 

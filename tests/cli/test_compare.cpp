@@ -16,6 +16,7 @@ class CompareCommandTest : public QObject {
   }
   void writes_the_report();
   void options_are_taken();
+  void the_equilibrium_is_compared();
   void recorded_moves_are_carried_out();
   void the_page_names_the_command();
   void prints_the_main_table();
@@ -44,7 +45,7 @@ void CompareCommandTest::writes_the_report() {
   QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
   QCOMPARE(report_files(), (QStringList{"report.csv", "report.html", "report.json"}));
   // Two meshes, three drags each, three algorithms without and with sweeps.
-  QCOMPARE(program_->read("out/report.csv").count('\n'), 1 + 2 * 3 * 3 * 2);
+  QCOMPARE(program_->read("out/report.csv").count('\n'), 1 + 2 * 3 * (3 * 2 + 2));
   const auto objects = report()["objects"].toArray();
   QCOMPARE(objects.size(), 2);
   QCOMPARE(objects[1]["name"].toString(), QString("cloth.obj"));
@@ -82,6 +83,25 @@ void CompareCommandTest::options_are_taken() {
       contestants("--algorithms exact --relax 0 --stretch 1 --compression 1 --shear 0")[0]["moved"].toInt();
   QCOMPARE(stiff, 24 * 29);
   QVERIFY(soft < stiff);
+}
+
+/// Only Exact and Natural Queue also take part with relaxation to the equilibrium.
+void CompareCommandTest::the_equilibrium_is_compared() {
+  const auto outcome = program_->run(
+      "compare cloth.obj --algorithms exact,spiral,natural-queue --relax 5,equilibrium --repetitions 1 -o out");
+  QVERIFY2(outcome.code == 0, outcome.error);
+  const auto entries = report()["objects"][0]["drags"][0]["contestants"].toArray();
+  QCOMPARE(entries.size(), 5);
+  for (int i = 0; i < 5; ++i) {
+    QCOMPARE(entries[i]["equilibrium"].toBool(), i == 1 || i == 4);
+    QCOMPARE(entries[i]["sweeps"].toInt(), i == 1 || i == 4 ? 0 : 5);
+  }
+  QVERIFY(entries[1]["violation"]["fraction"].toDouble(1) == 0);
+  QVERIFY(entries[4]["violation"]["fraction"].toDouble(1) == 0);  // unlike Natural Queue alone
+  QVERIFY(outcome.out.contains("\n  Exact + equilibrium ") && outcome.out.contains("\n  Natural Queue + equilibrium "));
+  const auto rows = program_->read("out/report.csv").split('\n');
+  QVERIFY(rows[0].endsWith(",equilibrium") && rows[1].endsWith(",0") && rows[2].endsWith(",1"));
+  QVERIFY(program_->read("out/report.html").contains("eq.: relaxed to the equilibrium"));
 }
 
 void CompareCommandTest::recorded_moves_are_carried_out() {
@@ -146,6 +166,8 @@ void CompareCommandTest::wrong_usage_data() {
   row("compare grid.dat --relax 1e3 -o out", "--relax: '1e3' ");
   row("compare grid.dat --relax 2000000 -o out", "--relax: '2000000' ");
   row("compare grid.dat --relaxation none -o out", "--relaxation: 'none' is not known; ");
+  row("compare grid.dat --relaxation equilibrium -o out", "--relaxation: 'equilibrium' is not known; use mean or link");
+  row("compare grid.dat --relax equilibrium,equilibrium -o out", "--relax: 'equilibrium' is given twice; ");
   row("compare grid.dat --relax-step 0 -o out", "--relax-step: ");
   row("compare grid.dat --precision half -o out", "--precision: 'half' is not known; ");
   row("compare grid.dat --repetitions 0 -o out", "--repetitions: '0' ");

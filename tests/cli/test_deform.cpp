@@ -26,6 +26,7 @@ class DeformCommandTest : public QObject {
   void coordinates_that_do_not_exist_must_be_0();
   void steps_are_equal_and_end_at_the_target();
   void relaxation_goes_to_the_equilibrium();
+  void the_equilibrium_is_certified();
   void a_script_is_carried_out_before_the_acts();
   void sweeps_are_interrupted_at_once_data();
   void sweeps_are_interrupted_at_once();
@@ -187,6 +188,37 @@ void DeformCommandTest::relaxation_goes_to_the_equilibrium() {
   const auto at_rest = xs("--move 0:-0.3 --relax 1000 --relaxation mean");
   QCOMPARE(at_rest[0], -0.3);
   QVERIFY(std::abs(at_rest[3] - 2.7) < 1e-3);
+}
+
+void DeformCommandTest::the_equilibrium_is_certified() {
+  const QByteArray drag = "--algorithm exact --pin left --by 19:0.08,0.05 ";
+  const auto certificate = [&](const QByteArray& options) {
+    deform(drag + options, "grid.dat");
+    return program_->json("out.json")["equilibrium"].toObject();
+  };
+  QVERIFY(certificate("--relax 50").isEmpty());  // sweeps
+  const auto standard = certificate("--relaxation equilibrium");
+  QCOMPARE(standard.keys(), (QStringList{"energy_gap", "iterations", "regions_bind", "residual", "violation"}));
+  QVERIFY(standard["residual"].toDouble(1) <= 1e-3 && standard["iterations"].toInt() >= 1);
+  QVERIFY(standard["violation"].toDouble(1) < 1e-9);
+  const auto once = certificate("--relaxation equilibrium --relax 1 --relax-until 0");
+  QCOMPARE(once["iterations"].toInt(), 1);
+  const auto exactly = certificate("--relaxation equilibrium --relax-until 1e-8");
+  QVERIFY(exactly["residual"].toDouble(1) <= 1e-8 && exactly["iterations"].toInt() > standard["iterations"].toInt());
+  const auto printed = program_->run("deform " + drag + "--relaxation equilibrium grid.dat");
+  QVERIFY(printed.code == 0 && printed.out.contains("\nequilibrium: residual "));
+  // A script carries it too.
+  program_->write("moves.json", R"({"version": 1, "commands": [{"do": "grab", "element": 3},
+    {"do": "drag", "target": [4, 0, 0]},
+    {"do": "relax", "sweeps": 200, "scheme": "equilibrium", "until": 1e-9}]})");
+  // 1 and 2 share the stretch of the drag: no region binds.
+  const auto settled = xs("--script moves.json");
+  QVERIFY(std::abs(settled[0] - 1) < 1e-6 && std::abs(settled[1] - 2) < 1e-6 && settled[3] == 4);
+  program_->write("bad.json",
+                  R"({"version": 1, "commands": [{"do": "relax", "sweeps": 1, "scheme": "link", "until": 0.1}]})");
+  const auto outcome = program_->run("deform --algorithm exact --script bad.json line.dat");
+  QCOMPARE(outcome.code, 2);
+  QVERIFY(is_one_sentence(outcome) && outcome.error.contains("bad.json: command 0: 'until' works only with "));
 }
 
 void DeformCommandTest::a_script_is_carried_out_before_the_acts() {

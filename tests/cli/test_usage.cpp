@@ -82,6 +82,10 @@ void UsageTest::wrong_arguments_data() {
     const QByteArray text = option;
     row("deform grid.dat --algorithm spiral " + text, text.left(text.indexOf(' ')) + ": ");
   }
+  row("deform grid.dat --algorithm spiral --relax-until 1e-3",
+      "--relax-until: it works only with --relaxation equilibrium; add --relaxation equilibrium\n");
+  row("deform grid.dat --algorithm spiral --relaxation link --relax-until 0.1", "--relax-until: it works only with ");
+  row("deform grid.dat --algorithm spiral --relaxation equilibrium --relax-until 2", "--relax-until: Residual 2 ");
   for (const char* option : {"--compression nan", "--stretch inf", "--shear 1e999", "--shear 0.1x", "--stretch 1,5"}) {
     const QByteArray text = option;
     row("deform grid.dat --algorithm spiral " + text, text.left(text.indexOf(' ')) + ": '");

@@ -28,7 +28,7 @@ class AnyCommand {
         return SetSoftness{{{between(-0.05, 1), between(1, 2), between(0, 1)}, {{below(links_), {1, 1, 0}}}}};
       case 3:
         return SetRelaxation{relaxed_ && below(4) != 0, between(0.1, 1),
-                             below(2) == 0 ? RelaxationScheme::mean : RelaxationScheme::link};
+                             relaxation_schemes[below(std::uint32_t(relaxation_schemes.size()))].scheme};
       case 4:
         return SetAlgorithm{algorithms()[below(std::uint32_t(algorithms().size()))].algorithm};
       case 5:

@@ -51,6 +51,7 @@ class ApiTest : public QObject {
   void moves_equal_those_of_the_solver();
   void a_copied_body_continues_alike();
   void relaxation_equals_that_of_a_simulation();
+  void the_equilibrium_is_certified();
   void moves_are_traced();
   void control_points_move();
   void a_handle_of_many_moves_as_one();
@@ -612,6 +613,21 @@ void ApiTest::relaxation_equals_that_of_a_simulation() {
   QCOMPARE(elastic.relax(3), 0);
 }
 
+void ApiTest::the_equilibrium_is_certified() {
+  cm::Deformer deformer(cm::make_grid(8, 8), "natural-queue");
+  QCOMPARE(deformer.certificate().iterations, 0);
+  deformer.body().pin({0});
+  deformer.move(63, {9, 8, 0});
+  const int close = deformer.relax(200, {.scheme = cm::RelaxationScheme::equilibrium});
+  QVERIFY(close > 1 && close < 200);
+  const cm::EquilibriumCertificate found = deformer.certificate();
+  QCOMPARE(found.iterations, close);
+  QVERIFY(found.residual <= 1e-3 && found.violation < 1e-9 && found.energy_gap >= 0);
+  QVERIFY((deformer.body().position(63) == cm::Vector3{9, 8, 0}));
+  QCOMPARE(deformer.relax(7, {.scheme = cm::RelaxationScheme::equilibrium, .until = 0}), 7);
+  QVERIFY(deformer.certificate().residual < found.residual);
+}
+
 void ApiTest::moves_are_traced() {
   cm::Deformer deformer(cm::make_grid(4, 4), "natural-queue");
   deformer.move(0, {-2, 0, 0});
@@ -701,6 +717,7 @@ void ApiTest::bad_moves_change_nothing() {
   refused([&] { deformer.move(handle, handle.after({{}, {{0, 0, 1}, no_number}})); }, "not a finite number");
   refused([&] { deformer.relax(-1); }, "below 0");
   refused([&] { deformer.relax(1, {.step = 0}); }, "relax-step");
+  refused([&] { deformer.relax(1, {.until = 2}); }, "relax-until");
   QVERIFY(handle.pose() == pinned.pose());
 }
 
@@ -931,6 +948,7 @@ void ApiTest::bad_comparisons_are_refused() {
   refused({drag}, {.methods = {"magic"}}, "there is no such method");
   refused({drag}, {.methods = {"exact", "exact"}}, "given twice");
   refused({drag}, {.sweeps = {-1}}, "relax");
+  refused({drag}, {.scheme = cm::RelaxationScheme::equilibrium}, "relaxation");
   refused({drag}, {.relax_step = no_number}, "relax-step");
   refused({drag}, {.repetitions = 0}, "repetitions");
   refused({drag}, {.seconds = no_number}, "seconds");

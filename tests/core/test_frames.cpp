@@ -83,7 +83,7 @@ void FramesTest::whoever_copies_what_changed_has_it_all() {
         scene.simulation.step();
       }
       if (any.below(20) == 0) {
-        scene.simulation.relax(1, 0.5);
+        carry_out_if_it_fits(scene.simulation, commands::Relax{1, 0.5, scene.simulation.relaxation().scheme});
       }
       if (any.below(2) == 0) {
         scene.writer.publish(scene.simulation);  // the reader may miss frames

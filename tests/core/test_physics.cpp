@@ -455,7 +455,8 @@ void PhysicsTest::csv_and_text_have_a_row_for_each() {
   std::string line;
   std::getline(lines, line);
   const QStringList names = QString::fromStdString(line).split(',');
-  for (const char* name : {"relative", "first_ms", "after_cut_ms", "factorize_ms", "grab_ms", "handle", "calibrated"}) {
+  for (const char* name :
+       {"relative", "first_ms", "after_cut_ms", "factorize_ms", "grab_ms", "handle", "calibrated", "equilibrium"}) {
     QVERIFY2(names.contains(QLatin1String(name)), name);
   }
   const auto columns = std::ranges::count(line, ',');

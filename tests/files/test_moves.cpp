@@ -115,7 +115,8 @@ void MovesTest::what_is_written_reads_back() {
       commands::SetSoftness{{{1.0 / 3, 1.1, 0.7}, {{2, {0, 1e9, 0}}, {5, {1, 1, 0}}}}},
       commands::SetSoftness{{{0, 1, 0, 0.3, 2, -2}, {{5, {1, 1, 0, 0, 3, 4}}}, EnergyKind::corotated}},
       commands::Relax{3, 0.1, RelaxationScheme::link},
-      commands::Reset{}};
+      commands::Reset{},
+      commands::Relax{200, 1, RelaxationScheme::equilibrium, 1.0 / 3}};
   const std::string text = written(moves);
   const auto again = read(text);
   QCOMPARE(again.size(), moves.size());
@@ -125,6 +126,8 @@ void MovesTest::what_is_written_reads_back() {
   QVERIFY(*std::get<commands::SetSoftness>(again[6]).softness == *std::get<commands::SetSoftness>(moves[6]).softness);
   QVERIFY(*std::get<commands::SetSoftness>(again[7]).softness == *std::get<commands::SetSoftness>(moves[7]).softness);
   QCOMPARE(written(read(written(read(every_command)))), written(read(every_command)));
+  QVERIFY(std::get<commands::Relax>(again[10]).scheme == RelaxationScheme::equilibrium);
+  QCOMPARE(std::get<commands::Relax>(again[10]).until, 1.0 / 3);
 }
 
 void MovesTest::what_is_not_the_objects_is_left_out() {

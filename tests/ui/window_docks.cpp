@@ -291,6 +291,34 @@ class WindowDocks : public QObject {
     QCOMPARE(scheme->currentText(), QStringLiteral("mean"));
   }
 
+  void theEquilibriumShowsItsResidual() {
+    Workbench bench;
+    auto* scheme = bench.find<QComboBox>("relaxationScheme");
+    auto* residual = bench.find<QLabel>("residual");
+    auto* step = bench.find<QDoubleSpinBox>("relax-stepSpin");
+    QVERIFY(residual->isHidden() && step->isEnabled());
+    scheme->setCurrentText(QStringLiteral("equilibrium"));
+    QVERIFY(bench.document().relaxation().scheme == RelaxationScheme::equilibrium);
+    QVERIFY(!residual->isHidden() && !step->isEnabled());
+    QVERIFY(step->toolTip().contains(QStringLiteral("no step")));
+    QTRY_COMPARE(residual->text(), QStringLiteral("Residual (relative): A –, B –"));
+    bench.find<QCheckBox>("relaxationOn")->click();
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(100, -100)}, false);
+    const auto shown = [&] {
+      return residual->text().section(QStringLiteral(": A "), 1).section(QLatin1Char(','), 0, 0);
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(shown() != QStringLiteral("–") && shown().toDouble() < 1e-3, 12'000);
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from + QPoint(100, -100));
+    QTRY_VERIFY_WITH_TIMEOUT(
+        !bench.document().frame(0)->statistics.relaxing && !bench.document().frame(1)->statistics.relaxing, 12'000);
+    scheme->setCurrentText(QStringLiteral("link"));
+    QVERIFY(residual->isHidden() && step->isEnabled() && !step->toolTip().contains(QStringLiteral("no step")));
+    bench.trigger("undo");
+    QVERIFY(!residual->isHidden() && !step->isEnabled());
+    QCOMPARE(scheme->currentText(), QStringLiteral("equilibrium"));
+  }
+
   void frameRatesAreShownAndRest() {
     Workbench bench;
     const QPoint from = bench.place(0, 31);

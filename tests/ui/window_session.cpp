@@ -50,7 +50,7 @@ class WindowSession : public QObject {
   void theSolversTakeTheSettingsOfASession() {
     const QString path = folder_.filePath(QStringLiteral("settings.chainmail"));
     const SolverSettings saved{{true, 0.5, RelaxationScheme::link}, {{2, 0.4}, {3, 4, 5}}};
-    const SolverSettings other{{false, 0.75, RelaxationScheme::mean}, {{3, 0.2}, {2, 2, 2}}};
+    const SolverSettings other{{false, 0.75, RelaxationScheme::equilibrium}, {{3, 0.2}, {2, 2, 2}}};
     const auto set = [](Workbench& bench, const SolverSettings& settings) {
       bench.document().setRelaxation(settings.relaxation);
       bench.document().setElastic(settings.elastic, QStringLiteral("material"));

@@ -69,7 +69,7 @@ ParameterRow::ParameterRow(const Parameter& parameter, const QString& prefix)
 /// Sets object names, names for screen readers, and tooltips.
 void ParameterRow::describe(const QString& prefix) {
   const QString name = prefix + text(parameter_.name), label = text(parameter_.label);
-  const QString help = QStringLiteral("%1 (%2): %3").arg(label, text(parameter_.unit), text(parameter_.help));
+  help_ = QStringLiteral("%1 (%2): %3").arg(label, text(parameter_.unit), text(parameter_.help));
   slider_->setObjectName(name + QStringLiteral("Slider"));
   slider_->setAccessibleName(label);
   spin_->setObjectName(name + QStringLiteral("Spin"));
@@ -77,8 +77,13 @@ void ParameterRow::describe(const QString& prefix) {
   reset_->setObjectName(name + QStringLiteral("Reset"));
   reset_->setToolTip(QStringLiteral("Resets to the default, %1").arg(parameter_.standard));
   reset_->setAccessibleName(QStringLiteral("Reset %1").arg(label));
+  disable({});
+}
+
+void ParameterRow::disable(const QString& why) {
+  setEnabled(why.isEmpty());
   for (QWidget* widget : std::initializer_list<QWidget*>{label_, slider_, spin_}) {
-    widget->setToolTip(help);
+    widget->setToolTip(why.isEmpty() ? help_ : why);
   }
 }
 

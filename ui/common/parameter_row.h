@@ -26,6 +26,8 @@ class ParameterRow : public QWidget {
   QString label() const { return label_->text(); }
   /// Shows a value without emitting changed().
   void show(double value);
+  /// Disables the row and shows the reason as its tooltip. Without a reason, enables it.
+  void disable(const QString& why);
 
  signals:
   /// Emitted when the user changes the value. All changes of one gesture (a drag of the slider, a series of wheel
@@ -38,6 +40,7 @@ class ParameterRow : public QWidget {
   int toSlider(double value) const;
 
   const Parameter& parameter_;
+  QString help_;  // tooltip while enabled
   QLabel* label_;
   QSlider* slider_;
   QDoubleSpinBox* spin_;

@@ -105,7 +105,7 @@ void CalibrationBox::start() {
   options.elastic = document_.elastic();
   options.pins = document_.pins();
   options.algorithm = algorithm();
-  options.scheme = document_.relaxation().scheme;
+  options.scheme = document_.sweepScheme();
   jobs_.start(
       Jobs::Kind::load, QStringLiteral("Calibrating softness"),
       [this, options, mesh = document_.mesh(), cuts = document_.cuts()](const Progress& progress) -> Jobs::Finish {

@@ -3,16 +3,26 @@
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
+#include "common/panel_names.h"
+#include "common/text.h"
+#include "report/page/format.h"
+
 namespace chainmail {
+namespace {
+
+constexpr int residualMilliseconds = 100;  // interval between updates of the residual
+
+}  // namespace
 
 RelaxationDock::RelaxationDock(Document& document)
     : document_(document),
       on_(new QCheckBox(QStringLiteral("Relax in idle time"))),
       scheme_(new QComboBox),
-      step_(new ParameterRow(parameters::relax_step)) {
+      step_(new ParameterRow(parameters::relax_step)),
+      residual_(new QLabel) {
   on_->setObjectName(QStringLiteral("relaxationOn"));
   on_->setToolTip(
-      QStringLiteral("Moves elements toward their rest shape while nothing is dragged, "
+      QStringLiteral("Moves elements toward their rest shape in the time that passes leave, "
                      "within their valid regions"));
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
@@ -23,6 +33,13 @@ RelaxationDock::RelaxationDock(Document& document)
   row->addWidget(scheme_);
   column->addLayout(row);
   column->addWidget(step_);
+  column->addWidget(residual_);
+  residual_->setObjectName(QStringLiteral("residual"));
+  residual_->setToolTip(QStringLiteral(
+      "Estimated distance of each panel from the equilibrium, in the norm of the energy, relative to its "
+      "root:\n1 far away, 0.001 close, 0 at the equilibrium. The object sleeps below 0.0001."));
+  refresh_.setSingleShot(true);
+  refresh_.setInterval(residualMilliseconds);
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);  // leaves the height to other docks
   setWidget(content);
   connect(on_, &QCheckBox::toggled, this, [this] { document_.setRelaxation(chosen()); });
@@ -30,22 +47,27 @@ RelaxationDock::RelaxationDock(Document& document)
   connect(step_, &ParameterRow::changed, this,
           [this](double /*value*/, int gesture) { document_.setRelaxation(chosen(), gesture); });
   connect(&document, &Document::relaxationChanged, this, &RelaxationDock::showRelaxation);
+  connect(&refresh_, &QTimer::timeout, this, &RelaxationDock::showResidual);
+  const auto refreshSoon = [this] {
+    if (!refresh_.isActive()) {
+      refresh_.start();
+    }
+  };
+  connect(&document, &Document::frameReady, this, refreshSoon);
+  connect(&document, &Document::panelsChanged, this, refreshSoon);
+  showRelaxation();
 }
 
 void RelaxationDock::fillSchemes() {
   scheme_->setObjectName(QStringLiteral("relaxationScheme"));
   scheme_->setAccessibleName(QStringLiteral("Relaxation scheme"));
-  const auto add = [this](const QString& label, RelaxationScheme scheme, const QString& help) {
-    scheme_->addItem(label, int(scheme));
-    scheme_->setItemData(scheme_->count() - 1, help, Qt::ToolTipRole);
-  };
-  add(QStringLiteral("mean"), RelaxationScheme::mean,
-      QStringLiteral("Moves element by element toward the mean of the positions that its neighbours suggest"));
-  add(QStringLiteral("link"), RelaxationScheme::link,
-      QStringLiteral("Corrects link by link; both ends share the error (Schill 2001)"));
-  scheme_->setToolTip(
-      QStringLiteral("mean: element by element, toward the mean of the positions that its neighbours suggest.\n"
-                     "link: link by link, both ends share the error (Schill 2001)."));
+  QStringList help;
+  for (const RelaxationSchemeInfo& one : relaxation_schemes) {
+    scheme_->addItem(text(one.label), int(one.scheme));
+    help << QStringLiteral("%1: %2.").arg(text(one.label), text(one.summary));
+    scheme_->setItemData(scheme_->count() - 1, help.back(), Qt::ToolTipRole);
+  }
+  scheme_->setToolTip(help.join(QLatin1Char('\n')));
 }
 
 commands::SetRelaxation RelaxationDock::chosen() const {
@@ -58,6 +80,21 @@ void RelaxationDock::showRelaxation() {
   on_->setChecked(relaxation.on);
   scheme_->setCurrentIndex(scheme_->findData(int(relaxation.scheme)));
   step_->show(relaxation.step);
+  const bool sweeps = info(relaxation.scheme).sweeps;
+  step_->disable(sweeps ? QString() : QStringLiteral("The equilibrium has no step: it moves the whole object at once"));
+  residual_->setVisible(!sweeps);
+  showResidual();
+}
+
+void RelaxationDock::showResidual() {
+  QStringList residuals;
+  for (int panel = 0; panel < document_.panels(); ++panel) {
+    const Frame* frame = document_.frame(panel);
+    const auto residual = frame != nullptr ? frame->statistics.residual : std::nullopt;
+    const QString figure = residual ? QString::fromStdString(report::figure(*residual)) : QStringLiteral("–");
+    residuals << QStringLiteral("%1 %2").arg(panelName(panel), figure);
+  }
+  residual_->setText(QStringLiteral("Residual (relative): ") + residuals.join(QStringLiteral(", ")));
 }
 
 }  // namespace chainmail

@@ -3,13 +3,15 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QLabel>
+#include <QTimer>
 
 #include "common/parameter_row.h"
 #include "document/document.h"
 
 namespace chainmail {
 
-/// Relaxation in idle time: on or off, its scheme and its step.
+/// Relaxation in idle time: on or off, its scheme, its step, and how far the panels are from the equilibrium.
 class RelaxationDock : public QDockWidget {
   Q_OBJECT
 
@@ -20,11 +22,14 @@ class RelaxationDock : public QDockWidget {
   void fillSchemes();
   commands::SetRelaxation chosen() const;
   void showRelaxation();
+  void showResidual();
 
   Document& document_;
   QCheckBox* on_;
   QComboBox* scheme_;
   ParameterRow* step_;
+  QLabel* residual_;
+  QTimer refresh_;
 };
 
 }  // namespace chainmail

@@ -56,6 +56,10 @@ class Document : public QObject {
   const LinkSoftness& softness() const { return contents_.softness->global; }
   const std::shared_ptr<const Softness>& wholeSoftness() const { return contents_.softness; }
   const commands::SetRelaxation& relaxation() const { return contents_.relaxation; }
+  /// The scheme for a number of sweeps: that of relaxation(), or `mean` if that is the equilibrium.
+  RelaxationScheme sweepScheme() const {
+    return info(relaxation().scheme).sweeps ? relaxation().scheme : RelaxationScheme::mean;
+  }
   const ElasticOptions& elastic() const { return contents_.elastic; }
 
   // Panels: each has a solver and an algorithm.

@@ -168,7 +168,8 @@ QStringList Panel::states(const Statistics& statistics) const {
     states << QStringLiteral("%L1 pinned").arg(document_.pins().size());
   }
   if (statistics.relaxing) {
-    states << QStringLiteral("relaxing, sweep %L1").arg(statistics.sweeps);
+    states << (statistics.residual ? QStringLiteral("settling, iteration %L1") : QStringLiteral("relaxing, sweep %L1"))
+                  .arg(statistics.sweeps);
   }
   if (const Ghost& ghost = view_->ghost(); ghost.of) {
     states << QStringLiteral("ghost of %1, %2 %").arg(panelName(*ghost.of)).arg(std::lround(100 * ghost.blend));

@@ -20,7 +20,7 @@ struct CalibrateOptions {
   int held_out = 4;                      ///< Number of drags that only test the result, at least 1.
   int evaluations = 200;                 ///< Largest number of evaluations, at least 1; each runs all drags.
   int most_sweeps = 100;                 ///< Largest number of sweeps that is tried, of 0, 1, 3, 10, 30 and 100.
-  RelaxationScheme scheme = RelaxationScheme::mean;  ///< Relaxation scheme.
+  RelaxationScheme scheme = RelaxationScheme::mean;  ///< Relaxation scheme: mean or link.
 };
 
 /// Errors against the reference solution, means over drags; the maxima are the largest.

@@ -35,8 +35,9 @@ struct CompareOptions {
   std::string title = "object";           ///< Name of the object in the report.
   std::vector<std::string> methods = {};  ///< Names of methods. Empty: the ChainMail family; against physics, all.
   std::vector<int> sweeps{0};             ///< Numbers of sweeps of relaxation after each move; one row for each.
-  double relax_step = 1;                  ///< Share of the way that an element moves per sweep: above 0, to 1.
-  RelaxationScheme scheme = RelaxationScheme::mean;   ///< Relaxation scheme.
+  bool equilibrium = false;  ///< Whether Natural Queue and Exact also relax to the equilibrium; a row each.
+  double relax_step = 1;     ///< Share of the way that an element moves per sweep: above 0, to 1.
+  RelaxationScheme scheme = RelaxationScheme::mean;   ///< Relaxation scheme of the sweeps: mean or link.
   Precision precision = Precision::single_precision;  ///< Precision of the methods. References are in double.
   /// Number of runs of each drag, for times. Default: as many as fit in `seconds`.
   std::optional<int> repetitions = {};
@@ -50,6 +51,7 @@ struct ComparisonRow {
   std::string method = {};   ///< Name of the method; `nothing` for an object of which only handle and pins move.
   std::string label = {};    ///< Title of the method, with its sweeps.
   int sweeps = 0;            ///< Sweeps of relaxation after each move.
+  bool equilibrium = false;  ///< True: relaxed to the equilibrium after each move.
   std::string refusal = {};  ///< Reason why there is no result; empty if there is one.
 
   std::optional<double> ms_per_move = {};     ///< Median time of a pass with its sweeps (ms).

@@ -36,6 +36,18 @@ inline constexpr ElementId no_sponsor = 0xffffffff;
 struct RelaxOptions {
   double step = 1;  ///< Share of the way that an element moves per sweep: above 0, to 1.
   RelaxationScheme scheme = RelaxationScheme::mean;  ///< Which elements move where.
+  /// With the scheme `equilibrium`: distance from the equilibrium at which it ends, in the norm of the energy, relative
+  /// to its root; 0 to 1. With 0, all iterations run.
+  double until = 1e-3;
+};
+
+/// How close an object is to the equilibrium.
+struct EquilibriumCertificate {
+  double violation = 0;       ///< Largest violation of a link, in rest lengths.
+  double residual = 0;        ///< Estimated distance from the equilibrium, as RelaxOptions::until.
+  double energy_gap = 0;      ///< Energy above a lower bound of the energy of all valid states, relative to the energy.
+  bool regions_bind = false;  ///< True if valid regions change the equilibrium.
+  int iterations = 0;         ///< Iterations since the handle, the pins or the object changed.
 };
 
 /// Deforms one object with one method: it owns a Body and what the method keeps between moves. After the first moves,
@@ -78,9 +90,13 @@ class Deformer {
 
   /// Runs sweeps of relaxation about the elements of the last move, until nothing moves or this many have run; the
   /// handle and the pins stay. Each element stays in the valid regions of its neighbours. Returns the number of sweeps
-  /// that ran; 0 for methods of elasticity, whose answers are equilibria. Throws Error for a step out of its range or a
-  /// number below 0; and Cancelled, which keeps the positions that were reached.
+  /// that ran; 0 for methods of elasticity, whose answers are equilibria. The scheme `equilibrium` runs iterations
+  /// instead, for all elements. Throws Error for a step out of its range or a number below 0, and if pins contradict
+  /// each other and the scheme is `equilibrium`; and Cancelled, which keeps the positions that were reached.
   int relax(int sweeps, const RelaxOptions& options = {});
+  /// Returns how close the object is to the equilibrium; all zeros if it was not relaxed to it. Costs about two
+  /// iterations.
+  EquilibriumCertificate certificate();
 
   /// Sets the job that long preparations, solutions and sweeps report to, and that can cancel them.
   void set_job(const Job& job);

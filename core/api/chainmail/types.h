@@ -37,8 +37,9 @@ enum class Precision {
 
 /// Relaxation scheme.
 enum class RelaxationScheme {
-  mean,  ///< Moves each element toward the mean of the positions that its neighbours imply (Frisken-Gibson 1999).
-  link   ///< Moves the two ends of each link, which share its deflection (Schill 2001).
+  mean,        ///< Moves each element toward the mean of the positions that its neighbours imply (Frisken-Gibson 1999).
+  link,        ///< Moves the two ends of each link, which share its deflection (Schill 2001).
+  equilibrium  ///< Moves the whole object at once, to the valid state of least energy.
 };
 
 /// Returns the version of the library, like `0.1.0`.

@@ -42,7 +42,7 @@ Json to_json(const TimeSpread& ms) {
 }
 
 Json to_json(const report::CompareOptions& options) {
-  return {{"relaxation", options.scheme == RelaxationScheme::mean ? "mean" : "link"},
+  return {{"relaxation", info(options.scheme).name},
           {"relax_step", options.relax_step},
           {"precision", options.precision == Precision::single_precision ? "float" : "double"}};
 }
@@ -80,7 +80,9 @@ Json to_json(const report::Errors& errors) {
 }
 
 Json to_json(const report::Entry& entry) {
-  Json json{{"algorithm", info(entry.contestant.algorithm).name}, {"sweeps", entry.contestant.sweeps}};
+  Json json{{"algorithm", info(entry.contestant.algorithm).name},
+            {"sweeps", entry.contestant.sweeps},
+            {"equilibrium", entry.contestant.equilibrium}};
   if (!entry.measurement) {
     json["refusal"] = entry.refusal;
     return json;
@@ -131,6 +133,7 @@ Json begin_with(const report::PhysicsContestant& contestant) {
   return {{"algorithm", name(contestant)},
           {"label", label(contestant)},
           {"sweeps", contestant.sweeps},
+          {"equilibrium", contestant.equilibrium},
           {"calibrated", contestant.calibrated ? to_json(*contestant.calibrated) : Json()}};
 }
 
@@ -291,7 +294,7 @@ void write_json(std::ostream& out, const report::Ramp& ramp, const report::Machi
 
 void write_json(std::ostream& out, const CalibrationOptions& options, const CalibrationResult& result) {
   Json json{{"algorithm", info(options.algorithm).name},
-            {"relaxation", options.scheme == RelaxationScheme::mean ? "mean" : "link"},
+            {"relaxation", info(options.scheme).name},
             {"young", options.elastic.material.young},
             {"poisson", options.elastic.material.poisson},
             {"seed", options.seed},

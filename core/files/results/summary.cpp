@@ -70,13 +70,20 @@ void write_json(std::ostream& out, const DeformSummary& summary) {
     passes.push_back(std::move(one));
   }
   const auto& violation = summary.violation;
-  const Json json{{"algorithm", summary.algorithm},
-                  {"elements", summary.elements},
-                  {"links", summary.links},
-                  {"passes", std::move(passes)},
-                  {"violation", {{"max", violation.max}, {"rms", violation.rms}, {"fraction", violation.fraction}}},
-                  {"energy", summary.energy},
-                  {"displacement", {{"max", summary.displacement.max}, {"rms", summary.displacement.rms}}}};
+  Json json{{"algorithm", summary.algorithm},
+            {"elements", summary.elements},
+            {"links", summary.links},
+            {"passes", std::move(passes)},
+            {"violation", {{"max", violation.max}, {"rms", violation.rms}, {"fraction", violation.fraction}}},
+            {"energy", summary.energy},
+            {"displacement", {{"max", summary.displacement.max}, {"rms", summary.displacement.rms}}}};
+  if (const auto& found = summary.equilibrium) {
+    json["equilibrium"] = {{"violation", found->violation},
+                           {"residual", found->residual},
+                           {"energy_gap", found->gap},
+                           {"regions_bind", found->binds},
+                           {"iterations", found->iterations}};
+  }
   out << json.dump(2) << '\n';
 }
 

@@ -10,6 +10,7 @@
 #include "files/mesh/open_mesh.h"
 #include "measure/violation.h"
 #include "mesh/mesh.h"
+#include "solve/equilibrium_solver.h"
 #include "solve/handle.h"
 
 namespace chainmail {
@@ -53,6 +54,7 @@ struct DeformSummary {
   Violation violation;
   double energy = 0;
   Displacement displacement;
+  std::optional<EquilibriumCertificate> equilibrium = {};  // if it was relaxed to the equilibrium
 };
 void write_json(std::ostream& out, const DeformSummary& summary);
 

@@ -261,18 +261,19 @@ Command MovesReader::reset(const Members& of) {
 }
 
 Command MovesReader::relax(const Members& of) {
-  fields_.check_keys(of.members, {"do", "sweeps", "step", "scheme"});
+  fields_.check_keys(of.members, {"do", "sweeps", "step", "scheme", "until"});
   const Json& sweeps = fields_.member(of.members, "sweeps");
   if (!sweeps.is_number_unsigned() || sweeps.get<std::uint64_t>() > most_sweeps) {
     fields_.fail("'sweeps' is not a whole number up to " + std::to_string(most_sweeps), "write the number of sweeps");
   }
   const double step = of.members.contains("step") ? fields_.number(of.members["step"], parameters::relax_step) : 1;
-  const Json scheme = of.members.value("scheme", Json("mean"));
-  if (scheme != "mean" && scheme != "link") {
-    fields_.fail("'scheme' is not known", "use mean or link");
+  const RelaxationScheme scheme =
+      of.members.contains("scheme") ? fields_.relaxation_scheme(of.members["scheme"]) : RelaxationScheme::mean;
+  if (of.members.contains("until") && info(scheme).sweeps) {
+    fields_.fail("'until' works only with the scheme equilibrium", "leave it out, or choose this scheme");
   }
-  return commands::Relax{sweeps.get<std::uint32_t>(), step,
-                         scheme == "link" ? RelaxationScheme::link : RelaxationScheme::mean};
+  const double until = of.members.contains("until") ? fields_.number(of.members["until"], parameters::relax_until) : 0;
+  return commands::Relax{sweeps.get<std::uint32_t>(), step, scheme, until};
 }
 
 Command MovesReader::command(const Members& of) {
@@ -378,8 +379,11 @@ class MoveWriter {
     return json;
   }
   OrderedJson operator()(const commands::Relax& one) const {
-    const char* scheme = one.scheme == RelaxationScheme::link ? "link" : "mean";
-    return {{"do", "relax"}, {"sweeps", one.sweeps}, {"step", one.step}, {"scheme", scheme}};
+    OrderedJson json{{"do", "relax"}, {"sweeps", one.sweeps}, {"step", one.step}, {"scheme", info(one.scheme).name}};
+    if (one.until > 0) {
+      json["until"] = one.until;
+    }
+    return json;
   }
   OrderedJson operator()(const commands::ReplaceMesh&) const { refuse(); }
   OrderedJson operator()(const commands::SetPositions&) const { refuse(); }

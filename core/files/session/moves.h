@@ -18,6 +18,7 @@ namespace chainmail {
 ///       {"do": "release"}, {"do": "cut", "links": [[0, 1]]}, {"do": "uncut", "links": [[0, 1]]},
 ///       {"do": "pin", "elements": [3]}, {"do": "unpin", "elements": [3]}, {"do": "reset"},
 ///       {"do": "relax", "sweeps": 3, "step": 1, "scheme": "mean"},
+///       {"do": "relax", "sweeps": 200, "scheme": "equilibrium", "until": 0.001},
 ///       {"do": "softness", "compression": 0.8, "stretch": 1.2, "shear": 0.1, "lateral": 0.1, "stiffness": 1,
 ///        "exponent": -1, "energy": "axial", "links": [[0, 1, 1, 1, 0, 0.1, 1, -1]]}]}
 ///

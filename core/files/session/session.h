@@ -66,7 +66,7 @@ bool is_session(const std::filesystem::path& path);
 ///      "softness": {"compression": c, "stretch": s, "shear": h, "lateral": b, "stiffness": k, "exponent": p,
 ///        "energy": "isotropic", "axial" or "corotated",
 ///        "own": [both ends, c, s, h, b, k, p of each link with its own…]},
-///      "relaxation": {"on": false, "scheme": "mean" or "link", "step": 1},
+///      "relaxation": {"on": false, "scheme": "mean", "link" or "equilibrium", "step": 1},
 ///      "elastic": {"young": E, "poisson": v, "lattice": [control points along each axis]},
 ///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
 ///        "runs": [first, end of each run of elements that are given…], "held": [their coordinates…]}],

@@ -124,13 +124,9 @@ void SessionReader::take_relaxation() {
   const Json& object = fields_.object(tree_, "relaxation");
   fields_.say_at(file_ + ": relaxation");
   fields_.check_keys(object, {"on", "scheme", "step"});
-  const std::string scheme = fields_.text(object, "scheme");
-  if (scheme != "mean" && scheme != "link") {
-    fields_.fail("'scheme' is not known", "use mean or link");
-  }
+  const RelaxationScheme scheme = fields_.relaxation_scheme(fields_.member(object, "scheme"));
   const double step = fields_.number(fields_.member(object, "step"), parameters::relax_step);
-  result_.relaxation = {fields_.boolean(object, "on"), step,
-                        scheme == "mean" ? RelaxationScheme::mean : RelaxationScheme::link};
+  result_.relaxation = {fields_.boolean(object, "on"), step, scheme};
 }
 
 void SessionReader::take_elastic() {

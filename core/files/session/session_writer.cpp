@@ -209,7 +209,7 @@ void SessionWriter::write_state() {
   write_ids("pins", session_.pins);
   write_softness();
   const OrderedJson relaxation{{"on", session_.relaxation.on},
-                               {"scheme", session_.relaxation.scheme == RelaxationScheme::mean ? "mean" : "link"},
+                               {"scheme", info(session_.relaxation.scheme).name},
                                {"step", session_.relaxation.step}};
   out_ << ",\n\"relaxation\": " << relaxation.dump();
   if (session_.elastic != ElasticOptions()) {

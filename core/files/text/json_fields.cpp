@@ -144,4 +144,12 @@ void add_softness(nlohmann::ordered_json& object, const Softness& softness) {
   object["energy"] = info(softness.energy).name;
 }
 
+RelaxationScheme JsonFields::relaxation_scheme(const Json& name) const {
+  const auto scheme = name.is_string() ? find_relaxation_scheme(name.get<std::string>()) : std::nullopt;
+  if (!scheme) {
+    fail("'scheme' is not known", "use mean, link or equilibrium");
+  }
+  return *scheme;
+}
+
 }  // namespace chainmail

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/parameters.h"
+#include "solve/relaxation_scheme.h"
 #include "solve/softness.h"
 
 namespace chainmail {
@@ -43,6 +44,7 @@ class JsonFields {
   LinkSoftness softness(const Json& object) const;
   /// Returns the kind of energy of a softness, or `absent` if it is left out.
   EnergyKind energy(const Json& object, EnergyKind absent = standard_energy) const;
+  RelaxationScheme relaxation_scheme(const Json& name) const;
 
  private:
   std::string where_;

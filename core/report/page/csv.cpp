@@ -37,7 +37,7 @@ void write_csv(std::ostream& out, const Comparison& comparison) {
   out << "object,elements,links,drag,moves,algorithm,sweeps,refusal,repetitions,ms,ms_lower_quartile,"
          "ms_upper_quartile,ms_min,ms_max,worst_move_ms,checked,moved,violation_max,violation_rms,violation_fraction,"
          "exact_distance_max,exact_distance_rms,energy_over_exact,float_double_max,float_double_rms,largest_over_hand,"
-         "equilibrium_distance_max,equilibrium_distance_rms\n";
+         "equilibrium_distance_max,equilibrium_distance_rms,equilibrium\n";
   for (const CaseResult& object : comparison.cases) {
     for (const DragResult& drag : object.drags) {
       for (const Entry& entry : drag.entries) {
@@ -49,7 +49,7 @@ void write_csv(std::ostream& out, const Comparison& comparison) {
         } else {
           out << std::string(comparison_figures, ',');
         }
-        out << '\n';
+        out << ',' << (entry.contestant.equilibrium ? 1 : 0) << '\n';
       }
     }
   }

@@ -19,7 +19,8 @@ follow it, as a mean over the moves of a drag: the median over the repetitions. 
 <b>distance to Exact</b> is the distance to the final positions of Exact ChainMail in double precision, on the same moves
 and without relaxation, in mean rest lengths: Exact moves every element as little as a valid object allows. Relaxation
 moves elements toward the equilibrium and so away from Exact: for a contestant with relaxation, the violation shows the
-quality and the distance shows how far it moved. Errors are measured in double precision at the end of a drag, while the
+quality and the distance shows how far it moved. <b>+ equilibrium</b> relaxes after each move to the valid state of least
+energy, until the residual is at most 0.001, in at most 200 iterations. Errors are measured in double precision at the end of a drag, while the
 handle is still held; figures near 10⁻⁶ are the rounding of single precision. In the plots, lower is better and further
 left is faster: a contestant with no other one below and left of it is a good choice. In the tables, <b>float to
 double</b> is the distance between a contestant in both precisions, and <b>farthest / handle</b> is the largest

@@ -69,8 +69,7 @@ void end_page(std::ostream& out, const Origin& origin, const CompareOptions& opt
   item("compiler", escaped(machine.compiler));
   item("build", escaped(machine.build));
   item("precision", options.precision == Precision::single_precision ? "float" : "double");
-  item("relaxation", (options.scheme == RelaxationScheme::mean ? "toward the mean of the neighbours" : "link by link") +
-                         (", step " + figure(options.relax_step)));
+  item("relaxation", escaped(std::string(info(options.scheme).summary)) + ", step " + figure(options.relax_step));
   for (const auto& [term, what] : more) {
     item(escaped(term), escaped(what));
   }

@@ -41,7 +41,7 @@ void write_growth(std::ostream& out, const PhysicsGrowth& growth) {
           << series.contestant.sweeps << ",,1," << all_digits(point.ms_per_move) << ",,,,,"
           << all_digits(point.prepare_ms) << ',' << known(error.rms) << ',' << known(error.max) << ','
           << known(error.moving_rms) << ',' << known(error.moving_max) << ",," << known(error.relative)
-          << std::string(16, ',') << ",,\n";
+          << std::string(16, ',') << ",,," << (series.contestant.equilibrium ? 1 : 0) << '\n';
     }
   }
 }
@@ -54,7 +54,7 @@ void write_csv(std::ostream& out, const PhysicsReport& report) {
          "first_ms,first_lower_quartile,first_upper_quartile,first_repetitions,"
          "after_cut_ms,after_cut_lower_quartile,after_cut_upper_quartile,after_cut_repetitions,"
          "factorize_ms,factorize_lower_quartile,factorize_upper_quartile,factorize_repetitions,"
-         "grab_ms,grab_lower_quartile,grab_upper_quartile,grab_repetitions,handle,calibrated\n";
+         "grab_ms,grab_lower_quartile,grab_upper_quartile,grab_repetitions,handle,calibrated,equilibrium\n";
   for (const PhysicsObject& object : report.objects) {
     for (const PhysicsDrag& drag : object.drags) {
       for (const PhysicsEntry& entry : drag.entries) {
@@ -66,7 +66,8 @@ void write_csv(std::ostream& out, const PhysicsReport& report) {
         } else {
           out << std::string(physics_figures, ',');
         }
-        out << ',' << drag.handle << ',' << (entry.contestant.calibrated ? 1 : 0) << '\n';
+        out << ',' << drag.handle << ',' << (entry.contestant.calibrated ? 1 : 0) << ','
+            << (entry.contestant.equilibrium ? 1 : 0) << '\n';
       }
     }
   }

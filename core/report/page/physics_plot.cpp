@@ -32,7 +32,7 @@ std::size_t series_of(Plot& plot, const PhysicsContestant& contestant) {
 }
 
 /// Returns a panel with a mark for each contestant, and a line through the marks of each algorithm with sweeps.
-/// Calibrated contestants are not on a line.
+/// Contestants that are calibrated or at equilibrium are not on a line.
 PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag, const std::string& title) {
   PlotPanel panel{drag.no_reference.empty() ? title : title + ": no reference", {}, {}};
   for (const PhysicsEntry& entry : drag.entries) {
@@ -46,10 +46,14 @@ PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag, const std::string& title
     }
     const TimeSpread& ms = time_of(drag, *entry.measurement);
     const std::size_t series = series_of(plot, entry.contestant);
-    const bool calibrated = entry.contestant.calibrated.has_value();
-    panel.marks.push_back({ms.median, ms.lower_quartile, ms.upper_quartile, error, series, entry.contestant.sweeps > 0,
-                           calibrated ? "cal." : "", in_words(drag, entry)});
-    if (!prepares(entry.contestant) && !calibrated) {
+    const bool calibrated = entry.contestant.calibrated.has_value(), equilibrium = entry.contestant.equilibrium;
+    panel.marks.push_back({ms.median, ms.lower_quartile, ms.upper_quartile, error, series,
+                           entry.contestant.sweeps > 0 || equilibrium,
+                           calibrated    ? "cal."
+                           : equilibrium ? equilibrium_mark
+                                         : "",
+                           in_words(drag, entry)});
+    if (!prepares(entry.contestant) && !calibrated && !equilibrium) {
       if (panel.curves.empty() || panel.curves.back().series != series) {
         panel.curves.push_back({series, {}});
       }
@@ -74,8 +78,14 @@ std::string sweeps_in_words(const PhysicsObject& object) {
   return text;
 }
 
-/// Returns a plot with one panel per kind of object and one curve per contestant. Contestants with sweeps have hollow
-/// marks.
+bool has_equilibrium(const PhysicsObject& object) {
+  return std::ranges::any_of(object.drags, [](const PhysicsDrag& drag) {
+    return std::ranges::any_of(drag.entries, [](const PhysicsEntry& entry) { return entry.contestant.equilibrium; });
+  });
+}
+
+/// Returns a plot with one panel per kind of object and one curve per contestant. Contestants with relaxation have
+/// hollow marks.
 Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& what,
                  std::optional<double> (*value_of)(const GrowthPoint&)) {
   Plot plot;
@@ -83,6 +93,10 @@ Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& w
   plot.x.title = "elements";
   plot.y.title = what;
   plot.legend_notes = {"filled: without relaxation", "hollow: 10 sweeps per move"};
+  const auto is_at_equilibrium = [](const GrowthSeries& series) { return series.contestant.equilibrium; };
+  if (!growths.empty() && std::ranges::any_of(growths.front().series, is_at_equilibrium)) {
+    plot.legend_notes.emplace_back(equilibrium_note);
+  }
   for (const PhysicsGrowth& growth : growths) {
     PlotPanel& panel = plot.panels.emplace_back();
     panel.title = growth.name;
@@ -96,7 +110,9 @@ Plot growth_plot(const std::vector<PhysicsGrowth>& growths, const std::string& w
           const auto elements = double(point.elements);
           curve.points.push_back({elements, *value});
           panel.marks.push_back(
-              {elements, elements, elements, *value, curve.series, series.contestant.sweeps > 0, "",
+              {elements, elements, elements, *value, curve.series,
+               series.contestant.sweeps > 0 || series.contestant.equilibrium,
+               series.contestant.equilibrium ? equilibrium_mark : "",
                label(series.contestant) + ", " + std::to_string(point.elements) + " elements: " + figure(*value)});
         }
       }
@@ -115,6 +131,9 @@ Plot empty_plot(const std::string& title, const PhysicsObject& object) {
   plot.legend_notes = {"filled: without relaxation"};
   if (const std::string sweeps = sweeps_in_words(object); !sweeps.empty()) {
     plot.legend_notes.push_back("line: " + sweeps + " sweeps per move");
+  }
+  if (has_equilibrium(object)) {
+    plot.legend_notes.emplace_back(equilibrium_note);
   }
   plot.legend_notes.emplace_back("cal.: calibrated on other drags");
   plot.legend_notes.emplace_back("0: the reference, neo-Hookean FEM");

@@ -244,8 +244,9 @@ FigureTable physics_table(const PhysicsObject& object, bool for_text) {
 }
 
 FigureTable physics_summary(const PhysicsReport& report) {
-  FigureTable table{"Summary", "contestants without sweeps, and calibrated ones", "detail", "object, contestant", {},
-                    {}};
+  FigureTable table{"Summary", "contestants without sweeps, at equilibrium, and calibrated ones",
+                    "detail",  "object, contestant",
+                    {},        {}};
   for (const PhysicsObject& object : report.objects) {
     if (auto columns = columns_of(Means(object), true); columns.size() > table.columns.size()) {
       table.columns = std::move(columns);

@@ -27,10 +27,18 @@ std::set<int> sweeps_of(std::span<const DragResult> drags) {
   std::set<int> sweeps;
   for (const DragResult& drag : drags) {
     for (const Entry& entry : drag.entries) {
-      sweeps.insert(entry.contestant.sweeps);
+      if (!entry.contestant.equilibrium) {
+        sweeps.insert(entry.contestant.sweeps);
+      }
     }
   }
   return sweeps;
+}
+
+bool has_equilibrium(std::span<const DragResult> drags) {
+  return std::ranges::any_of(drags, [](const DragResult& drag) {
+    return std::ranges::any_of(drag.entries, [](const Entry& entry) { return entry.contestant.equilibrium; });
+  });
 }
 
 std::string in_words(const Entry& entry, const PlottedError& error, double value) {
@@ -40,7 +48,7 @@ std::string in_words(const Entry& entry, const PlottedError& error, double value
          std::string(error.unit);
 }
 
-void add_legend_notes(Plot& plot, const std::set<int>& sweeps) {
+void add_legend_notes(Plot& plot, const std::set<int>& sweeps, bool equilibrium) {
   if (sweeps.contains(0)) {
     plot.legend_notes.emplace_back("filled: without relaxation");
   }
@@ -49,7 +57,17 @@ void add_legend_notes(Plot& plot, const std::set<int>& sweeps) {
     plot.legend_notes.push_back(one ? "hollow: " + std::to_string(*sweeps.rbegin()) + " sweeps per move"
                                     : std::string("hollow: with that many sweeps per move"));
   }
+  if (equilibrium) {
+    plot.legend_notes.emplace_back(equilibrium_note);
+  }
   plot.legend_notes.emplace_back("bars: quartiles of the time");
+}
+
+std::string note_of(Relaxing relaxing, bool with_sweeps) {
+  if (relaxing.equilibrium) {
+    return equilibrium_mark;
+  }
+  return with_sweeps && relaxing.sweeps > 0 ? std::to_string(relaxing.sweeps) : "";
 }
 
 /// Adds a panel with the marks of a drag's contestants. With `with_notes`, each mark shows its number of sweeps.
@@ -62,10 +80,10 @@ void add_panel(Plot& plot, const DragResult& drag, const PlottedError& error, bo
       continue;
     }
     const TimeSpread& ms = entry.measurement->ms_per_move;
-    const int sweeps = entry.contestant.sweeps;
+    const Relaxing relaxing = entry.contestant.relaxing();
     panel.marks.push_back({ms.median, ms.lower_quartile, ms.upper_quartile, *value,
-                           series_of(plot, entry.contestant.algorithm), sweeps > 0,
-                           with_notes && sweeps > 0 ? std::to_string(sweeps) : "", in_words(entry, error, *value)});
+                           series_of(plot, entry.contestant.algorithm), !relaxing.is_none(),
+                           note_of(relaxing, with_notes), in_words(entry, error, *value)});
   }
 }
 
@@ -81,7 +99,7 @@ Plot plot_of(std::span<const DragResult> drags, const std::string& name, const P
   for (const DragResult& drag : drags) {
     add_panel(plot, drag, error, sweeps.size() - sweeps.count(0) > 1);
   }
-  add_legend_notes(plot, sweeps);
+  add_legend_notes(plot, sweeps, has_equilibrium(drags));
   plot.good_below = error.good_below;
   plot.good_label = "counts as valid";
   return plot;

@@ -13,6 +13,10 @@
 namespace chainmail::report {
 
 /// A point of a plot, with the quartiles of x as its error bar.
+/// Note of a contestant that is relaxed to the equilibrium, and its explanation in the legend.
+inline constexpr const char* equilibrium_mark = "eq.";
+inline constexpr const char* equilibrium_note = "eq.: relaxed to the equilibrium";
+
 struct PlotMark {
   double x = 0, x_low = 0, x_high = 0;
   double y = 0;

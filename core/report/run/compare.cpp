@@ -67,9 +67,12 @@ class Experiment {
   Experiment(const Case& object, const RecordedMoves& moves, const CompareOptions& options, const std::stop_token& stop)
       : object_(object), moves_(moves), options_(options), stop_(stop) {
     result_ = {moves.name, moves.description, count_moves(moves), {}, {}};
-    for (const Algorithm algorithm : options.algorithms) {
+    for (std::size_t i = 0; i < options.algorithms.size(); ++i) {
       for (const int sweeps : options.sweeps) {
-        result_.entries.push_back({{algorithm, sweeps}, std::nullopt, {}});
+        add(i, {options.algorithms[i], sweeps});
+      }
+      if (options.equilibrium && takes_part_at_equilibrium(options.algorithms[i])) {
+        add(i, {options.algorithms[i], 0, true});
       }
     }
     times_.resize(result_.entries.size());
@@ -93,7 +96,12 @@ class Experiment {
   }
 
  private:
-  Participant& participant_of(std::size_t entry) { return participants_[entry / options_.sweeps.size()]; }
+  void add(std::size_t participant, const Contestant& contestant) {
+    result_.entries.push_back({contestant, std::nullopt, {}});
+    participant_of_.push_back(participant);
+  }
+
+  Participant& participant_of(std::size_t entry) { return participants_[participant_of_[entry]]; }
 
   void make_runners() {
     for (const Algorithm algorithm : options_.algorithms) {
@@ -127,7 +135,7 @@ class Experiment {
   double try_out(Entry& entry, Runner& runner, References& references) {
     const auto start = Clock::now();
     try {
-      const Runner::Run run = runner.run(moves_, entry.contestant.sweeps, stop_);
+      const Runner::Run run = runner.run(moves_, entry.contestant.relaxing(), stop_);
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
       if (!run.stopped) {
         entry.measurement = Measurement{{}, 0, run.checked, run.moved, references.errors_of(runner, entry.contestant)};
@@ -145,7 +153,7 @@ class Experiment {
     for (std::size_t turn = 0; turn < count && !stop_.stop_requested(); ++turn) {
       const std::size_t i = (turn + repetition) % count;
       if (result_.entries[i].measurement) {
-        auto run = participant_of(i).runner->run(moves_, result_.entries[i].contestant.sweeps, stop_);
+        auto run = participant_of(i).runner->run(moves_, result_.entries[i].contestant.relaxing(), stop_);
         if (!run.stopped) {
           times_[i].add(std::move(run.ms));
         }
@@ -158,8 +166,9 @@ class Experiment {
   const CompareOptions& options_;
   const std::stop_token& stop_;
   DragResult result_;
-  std::vector<Participant> participants_;  // one per algorithm
-  std::vector<MoveTimes> times_;           // one per contestant
+  std::vector<Participant> participants_;    // one per algorithm
+  std::vector<std::size_t> participant_of_;  // of each contestant: the index of its participant
+  std::vector<MoveTimes> times_;             // one per contestant
   int repetitions_ = 0;
 };
 
@@ -179,8 +188,13 @@ CompareOptions checked(const std::vector<Case>& cases, CompareOptions options) {
 }  // namespace
 
 void check(const CompareOptions& options) {
-  if (options.sweeps.empty() || *std::ranges::min_element(options.sweeps) < 0) {
+  const bool is_empty = options.sweeps.empty() && !options.equilibrium;
+  if (is_empty || std::ranges::any_of(options.sweeps, [](int sweeps) { return sweeps < 0; })) {
     throw Error("relax", "there is no number of sweeps, or a number below 0", "use numbers from 0");
+  }
+  if (!info(options.scheme).sweeps) {
+    throw Error("relaxation", "the equilibrium is not a scheme of sweeps",
+                "use mean or link, and list the equilibrium next to the numbers of sweeps");
   }
   check(parameters::relax_step, options.relax_step);
   if (options.repetitions && *options.repetitions < 1) {
@@ -188,7 +202,19 @@ void check(const CompareOptions& options) {
   }
 }
 
+bool takes_part_at_equilibrium(Algorithm algorithm) {
+  return algorithm == Algorithm::exact || algorithm == Algorithm::natural_queue;
+}
+
 std::string label(const Contestant& contestant) {
+  if (contestant.equilibrium) {
+    std::string name(info(contestant.algorithm).label);
+    constexpr std::string_view family = " ChainMail";
+    if (name.ends_with(family)) {
+      name.resize(name.size() - family.size());
+    }
+    return name + " + equilibrium";
+  }
   return std::string(info(contestant.algorithm).label) + (contestant.sweeps == 0 ? ""
                                                           : contestant.sweeps == 1
                                                               ? ", 1 sweep"

@@ -14,18 +14,35 @@
 
 namespace chainmail::report {
 
-/// An algorithm with a number of relaxation sweeps after each pass.
+/// The relaxation after each pass: a number of sweeps, or iterations to the equilibrium.
+struct Relaxing {
+  Relaxing(int count = 0, bool to_equilibrium = false) : sweeps(count), equilibrium(to_equilibrium) {}
+
+  int sweeps;        // 0 with `equilibrium`
+  bool equilibrium;  // until equilibrium_residual is reached, but not more than equilibrium_iterations
+
+  bool is_none() const { return sweeps == 0 && !equilibrium; }
+};
+
+/// An algorithm with the relaxation after each pass.
 struct Contestant {
   Algorithm algorithm = Algorithm::natural_queue;
   int sweeps = 0;
+  bool equilibrium = false;
+
+  Relaxing relaxing() const { return {sweeps, equilibrium}; }
 };
-/// Returns the name of a contestant in a table: `Natural Queue ChainMail, 10 sweeps`.
+/// Returns the name of a contestant in a table: `Natural Queue ChainMail, 10 sweeps`, `Exact + equilibrium`.
 std::string label(const Contestant& contestant);
+/// Returns true if the algorithm also takes part with relaxation to the equilibrium.
+bool takes_part_at_equilibrium(Algorithm algorithm);
 
 struct CompareOptions {
   /// Algorithms to compare; empty: the ChainMail family, in the order of algorithms().
   std::vector<Algorithm> algorithms;
   std::vector<int> sweeps{0, 10};
+  bool equilibrium = false;  // true: some algorithms also take part with the equilibrium after each move
+  /// Scheme of the sweeps.
   RelaxationScheme scheme = RelaxationScheme::mean;
   double relax_step = 1;
   /// Precision of the contestants. The references are always in double.
@@ -55,7 +72,7 @@ struct Errors {
 
 /// Times and errors of a contestant on one drag.
 struct Measurement {
-  TimeSpread ms_per_move;     // time of a pass and its sweeps, over the repetitions
+  TimeSpread ms_per_move;     // time of a pass and its relaxation, over the repetitions
   double worst_move_ms = 0;   // time of the slowest move, by its median over the repetitions
   std::uint64_t checked = 0;  // number of checked elements in all moves
   std::uint64_t moved = 0;    // number of moved elements in all moves, without the handle
@@ -105,7 +122,7 @@ using Progress = std::function<void(double fraction, const std::string& text)>;
 /// RestoreState), or if a number in the options is out of its range. A contestant that cannot run the moves is listed
 /// with the reason.
 ///
-/// `stop` is checked between passes and between sweeps.
+/// `stop` is checked between passes, between sweeps and between iterations.
 Comparison compare(const std::vector<Case>& cases, const CompareOptions& options, const Progress& progress = {},
                    const std::stop_token& stop = {});
 

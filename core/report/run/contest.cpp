@@ -91,7 +91,7 @@ class Contest::Participant {
 
   void run(const std::stop_token& stop) {
     const double start = clocks_.wall();
-    const Runner::Run run = runner_->run(moves_, contestant_.sweeps, stop);
+    const Runner::Run run = runner_->run(moves_, {contestant_.sweeps, contestant_.equilibrium}, stop);
     stopped_ = run.stopped;
     if (run.stopped) {
       return;

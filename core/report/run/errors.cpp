@@ -84,7 +84,7 @@ Distance References::float_to_double(const Runner& runner, const Contestant& con
     other_ = std::make_unique<Runner>(object_, contestant.algorithm,
                                       in_float ? Precision::double_precision : Precision::single_precision, options_);
   }
-  other_->run(moves_, contestant.sweeps, stop_);
+  other_->run(moves_, contestant.relaxing(), stop_);
   return between(runner, *other_);
 }
 

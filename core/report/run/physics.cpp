@@ -162,7 +162,7 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
     ReferenceSolver solver = reference_of(object, {});
     const CompareOptions& how = report.options.contest;
     result.calibrations = calibrations_of(object, report.options, teller.of_drag(object.name + ", calibrating"), stop);
-    Contest contest(object, contestants_of(how.algorithms, how.sweeps, result.calibrations), how);
+    Contest contest(object, contestants_of(how.algorithms, how.sweeps, how.equilibrium, result.calibrations), how);
     for (const RecordedMoves& moves : object.drags) {
       const auto tell = teller.of_drag(object.name + ", " + moves.name);
       tell(0);

@@ -30,7 +30,8 @@ std::string label(const PhysicsContestant& contestant) {
     return "Nothing moves";
   }
   if (!contestant.calibrated) {
-    return label(Contestant{*contestant.algorithm, contestant.sweeps}) + cells_of(*contestant.algorithm);
+    return label(Contestant{*contestant.algorithm, contestant.sweeps, contestant.equilibrium}) +
+           cells_of(*contestant.algorithm);
   }
   return label(Contestant{*contestant.algorithm, 0}) + ", calibrated" +
          (contestant.sweeps == 0 ? "" : " (" + std::to_string(contestant.sweeps) + " sweeps)");
@@ -41,7 +42,7 @@ bool prepares(const PhysicsContestant& contestant) {
 }
 
 std::vector<PhysicsContestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps,
-                                              const std::vector<Calibration>& calibrations) {
+                                              bool equilibrium, const std::vector<Calibration>& calibrations) {
   std::vector<PhysicsContestant> contestants{{std::nullopt, 0}};
   for (const Algorithm algorithm : algorithms) {
     if (info(algorithm).elastic) {
@@ -50,6 +51,9 @@ std::vector<PhysicsContestant> contestants_of(const std::vector<Algorithm>& algo
     }
     for (const int count : sweeps) {
       contestants.push_back({algorithm, count});
+    }
+    if (equilibrium && takes_part_at_equilibrium(algorithm)) {
+      contestants.push_back({algorithm, 0, {}, true});
     }
     const auto found = std::ranges::find(calibrations, algorithm, &Calibration::algorithm);
     if (found != calibrations.end() && found->refusal.empty()) {

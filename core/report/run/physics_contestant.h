@@ -16,7 +16,8 @@ struct PhysicsContestant {
   std::optional<Algorithm> algorithm;  // none: only the handle and the pins move
   int sweeps = 0;                      // number of relaxation sweeps after each move
   std::optional<LinkSoftness> calibrated =
-      {};  // result of the calibration on this object; none: the object's own softness
+      {};                    // result of the calibration on this object; none: the object's own softness
+  bool equilibrium = false;  // true: relaxed to the equilibrium after each move, instead of sweeps
 };
 /// Returns the name in files: `nothing`, or that of the algorithm.
 std::string name(const PhysicsContestant& contestant);
@@ -41,9 +42,9 @@ struct Calibration {
 using Calibrator = std::function<Calibration(const Case& object, Algorithm algorithm,
                                              const std::vector<ElementId>& handles, const std::stop_token& stop)>;
 
-/// Returns all contestants: first the object that does not move, then the ChainMail family with each number of sweeps
-/// and calibrated, then the methods of elasticity without sweeps.
+/// Returns all contestants: first the object that does not move, then the ChainMail family with each number of sweeps,
+/// with the equilibrium if `equilibrium`, and calibrated, then the methods of elasticity without sweeps.
 std::vector<PhysicsContestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps,
-                                              const std::vector<Calibration>& calibrations);
+                                              bool equilibrium, const std::vector<Calibration>& calibrations);
 
 }  // namespace chainmail::report

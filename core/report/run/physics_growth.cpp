@@ -110,7 +110,8 @@ PhysicsGrowth grow(const std::string& name, const std::string& description,
                    const std::function<void(double)>& tell, const std::stop_token& stop) {
   PhysicsGrowth growth{name, description, {}};
   std::vector<Budget> budgets;
-  for (const PhysicsContestant& contestant : contestants_of(options.contest.algorithms, sweeps_grown, {})) {
+  for (const PhysicsContestant& contestant :
+       contestants_of(options.contest.algorithms, sweeps_grown, options.contest.equilibrium, {})) {
     if (!contestant.algorithm) {
       continue;  // its relative error is about 1 at every size, and it has no times
     }

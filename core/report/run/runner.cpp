@@ -49,11 +49,11 @@ void Runner::go_to_rest() {
   handle_.clear();
 }
 
-Runner::Run Runner::run(const RecordedMoves& moves, int sweeps, const std::stop_token& stop) {
+Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const std::stop_token& stop) {
   job_.cancelled = false;
   const std::stop_callback cancel(stop, [this] { job_.cancelled = true; });
   try {
-    return run(moves, sweeps, chainmail::Progress(job_));
+    return run(moves, relaxing, chainmail::Progress(job_));
   } catch (const Cancelled&) {
     Run stopped;
     stopped.stopped = true;
@@ -61,19 +61,28 @@ Runner::Run Runner::run(const RecordedMoves& moves, int sweeps, const std::stop_
   }
 }
 
-Runner::Run Runner::run(const RecordedMoves& moves, int sweeps, const chainmail::Progress& progress) {
+Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const chainmail::Progress& progress) {
   Run run;
   simulation_.set_progress(progress);
   go_to_rest();
   for (const Command& command : moves.commands) {
     progress.report(0);
-    carry_out(command, sweeps, run);
+    carry_out(command, relaxing, run);
   }
   progress.report(1);
   return run;
 }
 
-void Runner::carry_out(const Command& command, int sweeps, Run& run) {
+void Runner::relax(Relaxing relaxing) {
+  if (relaxing.equilibrium) {
+    simulation_.apply(
+        commands::Relax{equilibrium_iterations, relax_step_, RelaxationScheme::equilibrium, equilibrium_residual});
+  } else {
+    simulation_.relax(relaxing.sweeps, relax_step_);
+  }
+}
+
+void Runner::carry_out(const Command& command, Relaxing relaxing, Run& run) {
   using namespace commands;
   if (is_one_of<SetAlgorithm, SetRelaxation, SetElastic, MoveControlPoint, KeepState, DropState>(command)) {
     return;
@@ -86,8 +95,8 @@ void Runner::carry_out(const Command& command, int sweeps, Run& run) {
     return;
   }
   double ms = std::min(applying, simulation_.statistics().last_pass_ms);
-  if (sweeps > 0) {
-    ms += 1e3 * seconds_of(clocks_, [&] { simulation_.relax(sweeps, relax_step_); });
+  if (!relaxing.is_none()) {
+    ms += 1e3 * seconds_of(clocks_, [&] { relax(relaxing); });
   }
   run.ms.push_back(ms);
   run.checked += simulation_.statistics().last_pass.checked;

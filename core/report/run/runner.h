@@ -16,16 +16,16 @@ class Runner {
 
   /// Times and counts of a run.
   struct Run {
-    std::vector<double> ms;  // time of each move: its pass and its sweeps, without the time of other programs
+    std::vector<double> ms;  // time of each move: its pass and its relaxation, without the time of other programs
     std::uint64_t checked = 0;
     std::uint64_t moved = 0;
     bool stopped = false;
   };
   /// Runs the moves. A stop request takes effect within a pass of a method of elasticity, between passes of other
-  /// algorithms, and within sweeps.
-  Run run(const RecordedMoves& moves, int sweeps, const std::stop_token& stop);
+  /// algorithms, within sweeps, and between iterations.
+  Run run(const RecordedMoves& moves, Relaxing relaxing, const std::stop_token& stop);
   /// Does the same, and throws Cancelled when it is cancelled.
-  Run run(const RecordedMoves& moves, int sweeps, const chainmail::Progress& progress);
+  Run run(const RecordedMoves& moves, Relaxing relaxing, const chainmail::Progress& progress);
 
   const Simulation& simulation() const { return simulation_; }
   /// Returns the elements of the last handle; none before the first run.
@@ -33,7 +33,8 @@ class Runner {
 
  private:
   void go_to_rest();
-  void carry_out(const Command& command, int sweeps, Run& run);
+  void carry_out(const Command& command, Relaxing relaxing, Run& run);
+  void relax(Relaxing relaxing);
 
   const Case& object_;
   std::vector<LinkId> cuts_;     // ascending, as in the solver

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int generatedDrags = 0, lastDrag = 1;  // rows of the list of drags
 constexpr int sweepsPerMove = 10;
-constexpr int listMarkSize = 13;  // logical pixels
+constexpr int withEquilibrium = 3;  // row of the list of sweeps
+constexpr int listMarkSize = 13;    // logical pixels
 
 void name(QWidget* widget, const char* object, const QString& accessible, const QString& help) {
   widget->setObjectName(QLatin1String(object));
@@ -88,9 +89,12 @@ void ReportChoices::fillAlgorithms() {
 void ReportChoices::fillRest() {
   name(sweeps_, "reportSweeps", QStringLiteral("Sweeps of relaxation"),
        QStringLiteral("Each algorithm without relaxation, with 10 sweeps after each move, or both.\n"
-                      "Scheme and step are those of the Relaxation dock."));
+                      "Scheme and step are those of the Relaxation dock; the scheme is mean if it is the equilibrium "
+                      "there.\n"
+                      "With equilibrium, Natural Queue and Exact also relax to the equilibrium after each move."));
   sweeps_->addItems({QStringLiteral("off"), QStringLiteral("%1 per move").arg(sweepsPerMove),
-                     QStringLiteral("off, and %1 per move").arg(sweepsPerMove)});
+                     QStringLiteral("off, and %1 per move").arg(sweepsPerMove),
+                     QStringLiteral("off, %1 per move, and equilibrium").arg(sweepsPerMove)});
   sweeps_->setCurrentIndex(2);
   name(precision_, "reportPrecision", QStringLiteral("Precision of the contestants"),
        QStringLiteral("Number type that the algorithms use (float or double). Reference solutions always use double"));
@@ -159,7 +163,8 @@ ReportThread::Order ReportChoices::order() const {
   order.options.sweeps = sweeps_->currentIndex() == 0   ? std::vector{0}
                          : sweeps_->currentIndex() == 1 ? std::vector{sweepsPerMove}
                                                         : std::vector{0, sweepsPerMove};
-  order.options.scheme = document_.relaxation().scheme;
+  order.options.equilibrium = sweeps_->currentIndex() == withEquilibrium;
+  order.options.scheme = document_.sweepScheme();
   order.options.relax_step = document_.relaxation().step;
   order.options.precision = precision_->currentIndex() == 0 ? Precision::single_precision : Precision::double_precision;
   order.options.seconds = seconds_->value();

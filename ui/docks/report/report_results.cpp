@@ -196,6 +196,9 @@ void ReportResults::showPlot(const report::DragResult& drag) {
   if (const int most = std::ranges::max(sweeps); most > 0) {
     plot.legend_notes.push_back("hollow: " + std::to_string(most) + " sweeps");
   }
+  if (result_->options.equilibrium) {
+    plot.legend_notes.emplace_back(report::equilibrium_note);
+  }
   legend_->show(plot);
   plot_->show(std::move(plot));
 }

@@ -47,7 +47,7 @@ std::optional<double> of(const std::optional<Distance>& distance) {
 }
 
 constexpr std::array columns{
-    Column{"Time\n(ms per move)", "Median over the repetitions: a pass and its sweeps",
+    Column{"Time\n(ms per move)", "Median over the repetitions: a pass and its relaxation",
            [](auto& one) { return std::optional(one.ms_per_move.median); }},
     Column{"Quartiles\n(ms per move)", "Lower and upper quartile of the repetitions (ms per move)",
            [](auto& one) { return std::optional(one.ms_per_move.lower_quartile); },
@@ -96,7 +96,7 @@ ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   verticalHeader()->setDefaultSectionSize(21);
   verticalHeader()->setMinimumSectionSize(21);
   auto* contestant = new QTableWidgetItem(QStringLiteral("Contestant"));
-  contestant->setToolTip(QStringLiteral("Algorithm, and sweeps of relaxation after each move"));
+  contestant->setToolTip(QStringLiteral("Algorithm, and relaxation after each move"));
   setHorizontalHeaderItem(0, contestant);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     auto* head = new QTableWidgetItem(QLatin1String(columns[i].head));
@@ -117,7 +117,7 @@ void ReportTable::show(const report::DragResult& drag) {
     }
     const int row = rowCount();
     insertRow(row);
-    auto* name = new QTableWidgetItem(QIcon(plotMark(entry.contestant.algorithm, entry.contestant.sweeps > 0,
+    auto* name = new QTableWidgetItem(QIcon(plotMark(entry.contestant.algorithm, !entry.contestant.relaxing().is_none(),
                                                      tableMarkSize, devicePixelRatioF(), QGuiApplication::palette())),
                                       shortName(report::label(entry.contestant)));
     name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);

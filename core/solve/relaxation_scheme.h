@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace chainmail {
+
+/// Names a relaxation scheme in code. Each one has exactly one row in the table below.
+enum class RelaxationScheme { mean, link, equilibrium };
+
+/// One row of the table of relaxation schemes: everything that other code knows about a scheme.
+struct RelaxationSchemeInfo {
+  RelaxationScheme scheme;
+  std::string_view name;     // on the command line, in JSON and in session files
+  std::string_view label;    // in the window
+  std::string_view summary;  // what it does, in a few words, for help texts
+  bool sweeps;               // true: it moves element by element, with a step; false: it solves for the whole object
+};
+
+inline constexpr std::array relaxation_schemes{
+    RelaxationSchemeInfo{RelaxationScheme::mean, "mean", "mean",
+                         "element by element, toward the mean of the positions that its neighbours suggest", true},
+    RelaxationSchemeInfo{RelaxationScheme::link, "link", "link",
+                         "link by link, both ends share the error (Schill 2001)", true},
+    RelaxationSchemeInfo{RelaxationScheme::equilibrium, "equilibrium", "equilibrium",
+                         "the whole object at once, to the valid state of least energy", false}};
+
+/// Returns the row of a scheme.
+constexpr const RelaxationSchemeInfo& info(RelaxationScheme scheme) {
+  return relaxation_schemes[static_cast<std::size_t>(scheme)];
+}
+
+/// Returns the scheme with this name, if any.
+constexpr std::optional<RelaxationScheme> find_relaxation_scheme(std::string_view name) {
+  for (const RelaxationSchemeInfo& one : relaxation_schemes) {
+    if (one.name == name) {
+      return one.scheme;
+    }
+  }
+  return std::nullopt;
+}
+
+/// When the scheme `equilibrium` ends, where a user does not choose.
+inline constexpr double equilibrium_residual = 1e-3;
+inline constexpr int equilibrium_iterations = 200;
+
+}  // namespace chainmail

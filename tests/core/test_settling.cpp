@@ -1,0 +1,282 @@
+#include <QtTest>
+
+#include "core/threads.h"
+#include "measure/violation.h"
+#include "mesh/error.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+/// The relaxation scheme `equilibrium` in a simulation: the object settles, stays valid, and sleeps.
+class SettlingTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void after_a_drag_it_settles_and_sleeps_data();
+  void after_a_drag_it_settles_and_sleeps();
+  void a_drag_while_it_settles_is_followed();
+  void pins_that_contradict_each_other_leave_a_remark();
+  void iterations_at_once_end_at_the_residual();
+  void another_scheme_begins_at_once();
+  void softness_is_felt_without_a_pass();
+  void positions_from_elsewhere_stay();
+  void a_cancelled_iteration_moves_nothing_and_goes_on();
+  void a_thread_settles_between_passes();
+  void long_iterations_do_not_delay_the_handle();
+};
+
+namespace {
+
+constexpr ElementId handle = 119;  // the last element of the grid
+constexpr commands::SetRelaxation on{true, 1, RelaxationScheme::equilibrium};
+
+MeshPointer made_grid() { return make_mesh(MeshKind::grid, {12, 10, 1}); }
+
+/// Pins the left side.
+void pin_left(Simulation& simulation) {
+  std::vector<ElementId> left;
+  for (ElementId row = 0; row < 10; ++row) {
+    left.push_back(12 * row);
+  }
+  carry_out(simulation, commands::Pin{left});
+}
+
+Simulation held_grid(Algorithm algorithm, Precision precision = Precision::double_precision) {
+  Simulation simulation(made_grid(), algorithm, precision);
+  pin_left(simulation);
+  carry_out(simulation, on);
+  return simulation;
+}
+
+bool is_valid(const Simulation& simulation) {
+  return measure_violation(simulation.mesh(), simulation.softness(), simulation.body().cuts(),
+                           simulation.body().positions())
+             .fraction == 0;
+}
+
+/// Steps until it sleeps. Returns the number of steps; 0 if that takes too many, or if a state on the way is not valid.
+int steps_to_sleep(Simulation& simulation) {
+  constexpr int most = 1000;
+  for (int steps = 1; steps < most; ++steps) {
+    const bool more = simulation.step();
+    if (!is_valid(simulation)) {
+      return 0;
+    }
+    if (!more) {
+      return steps;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+void SettlingTest::after_a_drag_it_settles_and_sleeps_data() {
+  QTest::addColumn<Point>("by");
+  QTest::addColumn<bool>("binds");
+  QTest::addColumn<bool>("in_float");
+  QTest::newRow("no region binds") << Point(0.12, 0.09, 0) << false << false;
+  QTest::newRow("regions bind") << Point(1.8, 1.1, 0) << true << false;
+  QTest::newRow("regions bind, float") << Point(1.8, 1.1, 0) << true << true;
+}
+
+void SettlingTest::after_a_drag_it_settles_and_sleeps() {
+  QFETCH(Point, by);
+  QFETCH(bool, binds);
+  QFETCH(bool, in_float);
+  Simulation simulation =
+      held_grid(Algorithm::exact, in_float ? Precision::single_precision : Precision::double_precision);
+  QVERIFY(steps_to_sleep(simulation) > 0);  // a scene at rest comes to rest
+  QVERIFY(!simulation.step());
+  drag_by(simulation, handle, by);
+  const Point target = position_of(simulation, handle);
+  const double energy = elastic_energy(simulation.mesh(), simulation.body().cuts(), simulation.body().positions());
+  const int steps = steps_to_sleep(simulation);
+  QVERIFY(steps > 1);
+  QVERIFY(simulation.statistics().residual.value_or(1) <= 1e-4);
+  QVERIFY(elastic_energy(simulation.mesh(), simulation.body().cuts(), simulation.body().positions()) < energy);
+  QVERIFY(position_of(simulation, handle) == target);
+  const auto certificate = simulation.certificate();
+  QVERIFY(certificate && certificate->binds == binds);
+  QCOMPARE(simulation.statistics().sweeps, std::uint64_t(steps));
+  // Asleep, it costs nothing and nothing moves.
+  const auto asleep = positions_of(simulation);
+  QVERIFY(!simulation.step() && !simulation.statistics().relaxing);
+  QVERIFY(same_bits(positions_of(simulation), asleep));
+}
+
+void SettlingTest::a_drag_while_it_settles_is_followed() {
+  for (const Algorithm algorithm : {Algorithm::exact, Algorithm::natural_queue}) {
+    Simulation simulation = held_grid(algorithm);
+    carry_out(simulation, commands::Grab{handle});
+    const Point start = position_of(simulation, handle);
+    for (int i = 1; i <= 20; ++i) {
+      const Point target = start + i * Point(0.08, 0.05, 0);
+      carry_out(simulation, commands::Drag{target});
+      QVERIFY(position_of(simulation, handle) == target);
+      QVERIFY(simulation.step());
+      QVERIFY(position_of(simulation, handle) == target);
+      QVERIFY(is_valid(simulation));
+    }
+    QVERIFY(steps_to_sleep(simulation) > 0);
+    QVERIFY(simulation.statistics().residual.value_or(1) <= 1e-4);
+    carry_out(simulation, commands::Release{});
+    QVERIFY(steps_to_sleep(simulation) > 0);  // back to rest
+    QVERIFY((position_of(simulation, handle) - start).norm() < 0.01);
+  }
+}
+
+void SettlingTest::pins_that_contradict_each_other_leave_a_remark() {
+  Simulation simulation(make_mesh(MeshKind::line, {4, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
+  carry_out(simulation, commands::Pin{{3}});
+  drag_by(simulation, 0, Point(-5, 0, 0));
+  carry_out(simulation, commands::Release{});
+  carry_out(simulation, commands::Pin{{0}});
+  const auto before = positions_of(simulation);
+  carry_out(simulation, on);
+  QVERIFY(!simulation.step());
+  QVERIFY(!simulation.statistics().remark.empty() && !simulation.statistics().residual);
+  QVERIFY(same_bits(positions_of(simulation), before));
+  QVERIFY_THROWS_EXCEPTION(Error, carry_out(simulation, commands::Relax{5, 1, RelaxationScheme::equilibrium}));
+  // Without the contradiction, the remark goes.
+  carry_out(simulation, commands::Unpin{{0}});
+  QVERIFY(simulation.step());
+  QVERIFY(simulation.statistics().remark.empty() && simulation.statistics().residual);
+}
+
+void SettlingTest::iterations_at_once_end_at_the_residual() {
+  const auto relaxed = [](std::uint32_t most, double until) {
+    auto simulation = std::make_unique<Simulation>(made_grid(), Algorithm::exact, Precision::double_precision);
+    pin_left(*simulation);
+    drag_by(*simulation, handle, Point(0.12, 0.09, 0));
+    carry_out(*simulation, commands::Relax{most, 1, RelaxationScheme::equilibrium, until});
+    return simulation;
+  };
+  const auto few = relaxed(200, 1e-2), many = relaxed(200, 1e-6), all = relaxed(7, 0);
+  QVERIFY(few->certificate()->residual <= 1e-2);
+  QVERIFY(many->certificate()->residual <= 1e-6);
+  QVERIFY(few->certificate()->iterations < many->certificate()->iterations);
+  QVERIFY(many->certificate()->iterations < 200);
+  QVERIFY(many->certificate()->gap < 1e-6);
+  QCOMPARE(all->certificate()->iterations, 7);
+  QVERIFY(!few->statistics().relaxing);
+  QVERIFY(few->relaxation().scheme == RelaxationScheme::mean);  // the command has its own scheme
+}
+
+void SettlingTest::another_scheme_begins_at_once() {
+  Simulation simulation(made_grid(), Algorithm::exact, Precision::double_precision);
+  pin_left(simulation);
+  carry_out(simulation, commands::SetRelaxation{true, 1, RelaxationScheme::mean});
+  drag_by(simulation, handle, Point(0.4, 0.3, 0));
+  while (simulation.step()) {
+  }
+  QVERIFY(!simulation.statistics().residual);
+  carry_out(simulation, on);
+  QVERIFY(simulation.step());
+  QVERIFY(simulation.statistics().residual);
+  carry_out(simulation, commands::SetRelaxation{true, 1, RelaxationScheme::link});
+  QVERIFY(!simulation.statistics().residual);
+  QVERIFY(simulation.step());
+  QVERIFY(!simulation.statistics().residual);
+}
+
+/// The handle of the last pass is pinned, so no pass answers the change.
+void SettlingTest::softness_is_felt_without_a_pass() {
+  Simulation simulation = held_grid(Algorithm::exact);
+  drag_by(simulation, handle, Point(1.8, 1.1, 0));
+  carry_out(simulation, commands::Release{});
+  carry_out(simulation, commands::Pin{{handle}});
+  QVERIFY(steps_to_sleep(simulation) > 0);
+  QVERIFY(simulation.certificate()->binds);
+  const Point before = position_of(simulation, handle - 1);
+  carry_out(simulation, commands::SetSoftness{{{0, 100, 100}, {}}});
+  QVERIFY(steps_to_sleep(simulation) > 1);
+  QVERIFY(!simulation.certificate()->binds);
+  QVERIFY((position_of(simulation, handle - 1) - before).norm() > 0.01);
+}
+
+void SettlingTest::positions_from_elsewhere_stay() {
+  Simulation simulation = held_grid(Algorithm::exact);
+  drag_by(simulation, handle, Point(0.4, 0.3, 0));
+  QVERIFY(simulation.step());
+  carry_out(simulation, commands::Reset{});
+  QVERIFY(!simulation.step() && !simulation.statistics().residual);
+  simulation.relax(5, 1);  // nothing is active
+  QVERIFY(!simulation.statistics().residual);
+  QVERIFY(same_bits(positions_of(simulation), simulation.mesh().rest));
+}
+
+void SettlingTest::a_cancelled_iteration_moves_nothing_and_goes_on() {
+  JobState job;
+  Simulation simulation = held_grid(Algorithm::exact);
+  simulation.set_progress(Progress(job));
+  drag_by(simulation, handle, Point(0.4, 0.3, 0));
+  const auto before = positions_of(simulation);
+  job.cancelled = true;
+  QVERIFY(simulation.step());
+  QVERIFY(same_bits(positions_of(simulation), before));
+  job.cancelled = false;
+  QVERIFY(simulation.step());
+  QVERIFY(!same_bits(positions_of(simulation), before));
+}
+
+void SettlingTest::a_thread_settles_between_passes() {
+  SolverThread solver(make_mesh(MeshKind::grid, {60, 50, 1}), Algorithm::exact, [] {});
+  solver.post(on);
+  solver.post(commands::Pin{{0}});
+  solver.post(commands::Grab{2999});
+  for (int i = 1; i <= 30; ++i) {
+    solver.post(commands::Drag{Point(59 + 0.2 * i, 49 + 0.1 * i, 0)});
+    QVERIFY(wait_for_passes(solver, std::uint64_t(i)));
+    const Frame& frame = solver.latest_frame();
+    QCOMPARE(frame.positions[5998], float(59 + 0.2 * i));  // the handle is where it was dragged
+  }
+  QVERIFY(wait_until([&] { return !solver.latest_frame().statistics.relaxing && solver.settled(); }));
+  QVERIFY(solver.latest_frame().statistics.residual.has_value());
+  QCOMPARE(solver.take_error(), std::string());
+  // The thread ends while the object settles.
+  solver.post(commands::Drag{Point(70, 60, 0)});
+  QVERIFY(wait_for_passes(solver, 31));
+}
+
+void SettlingTest::long_iterations_do_not_delay_the_handle() {
+  const auto mesh = make_mesh(MeshKind::grid, {500, 500, 1});
+  const ElementId last = mesh->element_count() - 1;
+  const auto time_of = [](const auto& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::steady_clock::now() - start;
+  };
+  Simulation simulation(mesh, Algorithm::exact, Precision::single_precision);
+  carry_out(simulation, on);
+  carry_out(simulation, commands::Pin{{0}});
+  drag_by(simulation, last, Point(1, 1, 0));
+  simulation.step();  // prepares
+  const auto iteration = time_of([&] { simulation.step(); });
+
+  SolverThread solver(mesh, Algorithm::exact, [] {});
+  solver.post(on);
+  solver.post(commands::Pin{{0}});
+  solver.post(commands::Grab{last});
+  constexpr int drags = 12;
+  const auto drag = [&](int i) {
+    solver.post(commands::Drag{Point(499 + 0.1 * i, 499, 0)});
+    return wait_for_passes(solver, std::uint64_t(i));
+  };
+  QVERIFY(drag(1));
+  QVERIFY(wait_until([&] { return solver.latest_frame().statistics.sweeps > 1; }));
+  QVERIFY(drag(2));
+  const auto dragging = time_of([&] {
+    for (int i = 3; i < 3 + drags; ++i) {
+      QVERIFY(drag(i));
+    }
+  });
+  QVERIFY2(dragging < drags * iteration / 2,
+           qPrintable(QString("%1 against %2 ms per iteration")
+                          .arg(std::chrono::duration<double, std::milli>(dragging).count() / drags)
+                          .arg(std::chrono::duration<double, std::milli>(iteration).count())));
+  QVERIFY(wait_until([&] { return solver.latest_frame().statistics.sweeps > 0; }));  // after the pause
+}
+
+QTEST_APPLESS_MAIN(SettlingTest)
+#include "test_settling.moc"
