@@ -34,14 +34,14 @@ SoftnessArguments add_softness(CLI::App& app) {
 
 Softness softness_of(const SoftnessArguments& arguments, const LinkSoftness& usual) {
   Softness softness{usual, {}};
+  if (const auto energy = value_of(arguments.energy)) {
+    check_word("--energy", *energy, energy_names());
+    set_energy(softness, energy_kind_of(*energy));
+  }
   for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
     if (arguments.numbers[i]->count() > 0) {
       softness.global.*softness_numbers[i].value = value_of(arguments.numbers[i], *softness_numbers[i].parameter);
     }
-  }
-  if (const auto energy = value_of(arguments.energy)) {
-    check_word("--energy", *energy, energy_names());
-    softness.energy = energy_kind_of(*energy);
   }
   return softness;
 }

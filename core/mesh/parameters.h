@@ -65,10 +65,10 @@ inline constexpr Parameter lateral{
     .name = "lateral",
     .label = "Lateral stiffness",
     .unit = "of stiffness along the link",
-    .standard = 0.1,
+    .standard = 1,
     .lowest = 0,
     .highest = no_highest,
-    .slider_highest = 1,
+    .slider_highest = 2,
     .step = 0.01,
     .decimals = 3,
     .help = "stiffness of a link against sideways motion, per its stiffness along it: 0 turns freely"};

@@ -5,19 +5,24 @@
 #include <string>
 
 #include "mesh/error.h"
+#include "mesh/parameters.h"
 
 namespace chainmail {
 namespace {
 
 constexpr std::array all_energy_kinds{
     EnergyKindInfo{EnergyKind::isotropic, "isotropic", "Isotropic",
-                   "Each link resists motion along it and across it alike; the numbers of its stiffness do not count."},
+                   "Each link resists motion along it and across it alike; the numbers of its stiffness do not count.",
+                   parameters::lateral.standard},
     EnergyKindInfo{EnergyKind::axial, "axial", "Axial",
                    "Each link resists motion along its rest vector, and across it in the share of its lateral "
-                   "stiffness."},
-    EnergyKindInfo{EnergyKind::corotated, "corotated", "Co-rotated",
-                   "Like axial, but along the rest vector turned with the neighbours of the link's ends: for large "
-                   "rotations."}};
+                   "stiffness. It suits small rotations.",
+                   0.03},
+    EnergyKindInfo{
+        EnergyKind::corotated, "corotated", "Co-rotated",
+        "Each link is a spring, and resists motion across its rest vector turned with its surroundings: close "
+        "to an elastic solid, also in large rotations.",
+        parameters::lateral.standard}};
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace chainmail {
 enum class EnergyKind { isotropic, axial, corotated };
 
 /// The energy of a new object.
-inline constexpr EnergyKind standard_energy = EnergyKind::axial;
+inline constexpr EnergyKind standard_energy = EnergyKind::corotated;
 
 /// One row of the table: everything that other code knows about a kind of energy.
 struct EnergyKindInfo {
@@ -18,6 +18,7 @@ struct EnergyKindInfo {
   std::string_view name;   // on the command line and in files
   std::string_view label;  // in the window
   std::string_view help;   // one sentence
+  double lateral;          // lateral stiffness that suits most objects
 };
 
 /// All kinds, in the order of the constants.

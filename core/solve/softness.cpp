@@ -144,6 +144,13 @@ bool OwnSoftness::operator==(const OwnSoftness& other) const {
   return count_ == other.count_ && std::equal(begin(), end(), other.begin(), other.end());
 }
 
+void set_energy(Softness& softness, EnergyKind kind) {
+  if (softness.global.lateral == info(softness.energy).lateral) {
+    softness.global.lateral = info(kind).lateral;
+  }
+  softness.energy = kind;
+}
+
 bool has_global_regions(const Softness& softness) {
   return std::all_of(softness.links.begin(), softness.links.end(),
                      [&](const OwnSoftness::Entry& own) { return same_region(own.second, softness.global); });

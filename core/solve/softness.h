@@ -166,6 +166,9 @@ struct Softness {
   bool operator==(const Softness&) const = default;
 };
 
+/// Sets the kind of energy. A global lateral stiffness that was the suggested one stays so.
+void set_energy(Softness& softness, EnergyKind kind);
+
 /// True if the valid regions of all links follow from the global softness.
 bool has_global_regions(const Softness& softness);
 

@@ -305,7 +305,7 @@ void Document::setSoftness(const LinkSoftness& global, const QString& text, int 
 void Document::setEnergy(EnergyKind kind) {
   if (kind != wholeSoftness()->energy) {
     Softness softness = *wholeSoftness();
-    softness.energy = kind;
+    set_energy(softness, kind);
     Change edit = change(QString::fromStdString(std::string(info(kind).name)) + QStringLiteral(" energy"));
     edit.after.softness = std::make_shared<const Softness>(std::move(softness));
     apply(std::move(edit));

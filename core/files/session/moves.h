@@ -19,8 +19,8 @@ namespace chainmail {
 ///       {"do": "pin", "elements": [3]}, {"do": "unpin", "elements": [3]}, {"do": "reset"},
 ///       {"do": "relax", "sweeps": 3, "step": 1, "scheme": "mean"},
 ///       {"do": "relax", "sweeps": 200, "scheme": "equilibrium", "until": 0.001},
-///       {"do": "softness", "compression": 0.8, "stretch": 1.2, "shear": 0.1, "lateral": 0.1, "stiffness": 1,
-///        "exponent": -1, "energy": "axial", "links": [[0, 1, 1, 1, 0, 0.1, 1, -1]]}]}
+///       {"do": "softness", "compression": 0.8, "stretch": 1.2, "shear": 0.1, "lateral": 1, "stiffness": 1,
+///        "exponent": -1, "energy": "corotated", "links": [[0, 1, 1, 1, 0, 1, 1, -1]]}]}
 ///
 /// Links are named by their ends. A softness replaces the softness of all links; "links" may be left out. So may
 /// "lateral", "stiffness", "exponent" and "energy", and the last three numbers of a link: these are standard then.
