@@ -28,7 +28,7 @@ class SmallQuadratic {
   Vector least_inside(const Vector& low, const Vector& high) const {
     const Vector free = solved(matrix_, force_);
     const bool is_inside = (low.array() <= free.array()).all() && (free.array() <= high.array()).all();
-    return is_inside ? free : least_on_side(low, high);
+    return is_inside ? free : least_on_side(free, low, high);
   }
 
  private:
@@ -52,20 +52,43 @@ class SmallQuadratic {
   }
 
   /// Returns the best of the minimisers over the sides, edges and corners of the box: on each axis the way is free, at
-  /// the lower or at the upper bound.
-  Vector least_on_side(const Vector& low, const Vector& high) const {
+  /// the lower or at the upper bound. Most often it is on the bounds that the free minimiser is beyond.
+  Vector least_on_side(const Vector& free, const Vector& low, const Vector& high) const {
+    const int nearest = side_of(free, low, high);
+    if (const Vector way = least_on(nearest, low, high); is_least(way, nearest)) {
+      return way;
+    }
     Vector best = Vector::Zero();
     double least = std::numeric_limits<double>::infinity();
     constexpr int sides = Dimension == 1 ? 3 : Dimension == 2 ? 9 : 27;
     for (int side = 0; side < sides; ++side) {
-      const Vector way = least_on(side, low, high);
-      // NaN stands for a way outside the box
+      const Vector way = least_on(side, low, high);  // not a number if it is outside the box
       if (const double value = way.dot(matrix_ * way / 2 - force_); value < least) {
         least = value;
         best = way;
       }
     }
     return best;
+  }
+
+  static int side_of(const Vector& free, const Vector& low, const Vector& high) {
+    int side = 0;
+    for (int k = Dimension - 1; k >= 0; --k) {
+      const bool is_empty = low[k] > high[k];
+      side = 3 * side + (is_empty ? 0 : free[k] < low[k] ? 1 : free[k] > high[k] ? 2 : 0);
+    }
+    return side;
+  }
+
+  /// True if the function rises from the minimiser on a side to the inside of the box, which has no lower value then
+  /// (the conditions of Karush, Kuhn and Tucker).
+  bool is_least(const Vector& way, int side) const {
+    const Vector slope = matrix_ * way - force_;
+    bool rises = !way.hasNaN();
+    for (int k = 0; k < Dimension; ++k, side /= 3) {
+      rises = rises && (side % 3 == 0 || (side % 3 == 1 ? slope[k] >= 0 : slope[k] <= 0));
+    }
+    return rises;
   }
 
   /// Returns the minimiser on one side, whose digits to base 3 are 0 for an axis that is free, 1 for the lower and 2

@@ -25,7 +25,9 @@ class AnyCommand {
       case 1:
         return Uncut{{below(links_), below(links_)}};
       case 2:
-        return SetSoftness{{{between(-0.05, 1), between(1, 2), between(0, 1)}, {{below(links_), {1, 1, 0}}}}};
+        return SetSoftness{{{between(-0.05, 1), between(1, 2), between(0, 1), between(0, 1), 2, between(-1, 1)},
+                            {{below(links_), {1, 1, 0}}},
+                            EnergyKind(below(3))}};
       case 3:
         return SetRelaxation{relaxed_ && below(4) != 0, between(0.1, 1),
                              relaxation_schemes[below(std::uint32_t(relaxation_schemes.size()))].scheme};
