@@ -150,8 +150,11 @@ void write_deformation(std::ostream& out, const AlgorithmInfo& algorithm, const 
       << 100 * summary.violation.fraction << "% of links\n";
   if (const auto& found = summary.equilibrium) {
     out << "equilibrium: residual " << found->residual << " after " << found->iterations
-        << " iterations, energy at most " << 100 * found->gap << "% above the least, largest violation "
-        << found->violation << " rest lengths, valid regions " << (found->binds ? "bind" : "do not bind") << '\n';
+        << " iterations, ";
+    if (found->gap) {
+      out << "energy at most " << 100 * *found->gap << "% above the least, ";
+    }
+    out << "largest violation " << found->violation << " rest lengths, valid regions " << (found->binds ? "bind" : "do not bind") << '\n';
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "elastic/cholesky.h"
 #include "measure/violation.h"
+#include "solve/equilibrium_solver.h"
 #include "solve/link_energy.h"
 
 namespace chainmail {
@@ -233,6 +234,47 @@ class System {
   Columns right_;
 };
 
+/// Returns a softness with the same energy, and with regions that never bind.
+Softness without_regions(const Softness& softness) {
+  const auto widened = [](LinkSoftness one) {
+    one.compression = 0;
+    one.stretch = one.shear = 1e9;
+    return one;
+  };
+  Softness wide{widened(softness.global), {}, softness.energy};
+  for (const auto& [link, own] : softness.links) {
+    wide.links.set(link, widened(own));
+  }
+  return wide;
+}
+
+/// The corotated energy is not quadratic: its minimum is found by iterations from the present positions on.
+bool settle(const Mesh& mesh, const Softness& softness, const Cuts& cuts, std::span<const ElementId> fixed,
+            const PositionView& positions, Equilibrium& equilibrium, const Progress& progress) {
+  constexpr double enough = 1e-8;
+  constexpr int most_iterations = 1000;
+  Body body(MeshPointer(std::shared_ptr<void>(), &mesh), Precision::double_precision);
+  std::vector<double> at(mesh.rest.size());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    at[i] = positions(ElementId(i / std::size_t(mesh.space_dimension)), int(i % std::size_t(mesh.space_dimension)));
+  }
+  body.store_displacements(true);
+  body.set_positions(at);
+  body.set_softness(without_regions(softness));
+  body.cut(cuts.links());
+  body.pin(fixed);
+  if (!EquilibriumSolver::make(mesh.space_dimension)->solve(body, {}, enough, most_iterations, progress)) {
+    return false;
+  }
+  const std::vector<double> found = displacements_of(mesh, body.positions());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (equilibrium.defined[i / std::size_t(mesh.space_dimension)]) {
+      equilibrium.displacements[i] = found[i];
+    }
+  }
+  return true;
+}
+
 bool binds(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const Equilibrium& equilibrium) {
   const PositionView positions = equilibrium.positions(mesh);
   for (LinkId link = 0; link < mesh.link_count(); ++link) {
@@ -253,11 +295,14 @@ PositionView Equilibrium::positions(const Mesh& mesh) const {
 std::optional<Equilibrium> equilibrium(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                                        std::span<const ElementId> fixed, const PositionView& positions,
                                        std::uint64_t limit, const Progress& progress) {
-  if (fixed.empty() || softness.energy == EnergyKind::corotated) {
+  if (fixed.empty()) {
     return std::nullopt;
   }
   Equilibrium result{displacements_of(mesh, positions), joined_to(mesh, cuts, fixed)};
-  if (!System(mesh, softness, cuts, fixed, result).solve(limit, progress)) {
+  const bool is_solved = softness.energy == EnergyKind::corotated
+                             ? settle(mesh, softness, cuts, fixed, positions, result, progress)
+                             : System(mesh, softness, cuts, fixed, result).solve(limit, progress);
+  if (!is_solved) {
     return std::nullopt;
   }
   result.binds = binds(mesh, softness, cuts, result);

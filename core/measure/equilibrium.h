@@ -13,8 +13,8 @@
 
 namespace chainmail {
 
-/// The relaxed equilibrium: the minimum of the isotropic or axial energy (see solve/link_energy.h) while some elements
-/// are fixed. Valid regions are ignored.
+/// The relaxed equilibrium: the minimum of the elastic energy (see solve/link_energy.h) while some elements are fixed.
+/// Valid regions are ignored.
 struct Equilibrium {
   /// Displacements from rest, element by element, space_dimension coordinates each (mesh units). Unlike positions, they
   /// lose no digits if the origin is far away or the object is large.
@@ -34,8 +34,8 @@ struct Equilibrium {
 inline constexpr std::uint64_t cholesky_limit = 65'536;
 
 /// Returns the equilibrium with these elements fixed at their positions; the positions of the others are only the start
-/// of conjugate gradients. None if no element is fixed, if the energy has no single minimum, if it is
-/// corotated, or if conjugate gradients do not converge. May throw Cancelled.
+/// of the iterations. The corotated energy may have several minima: this is the one that they find. None if no element
+/// is fixed, if the energy has no single minimum, or if the iterations do not converge. May throw Cancelled.
 std::optional<Equilibrium> equilibrium(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                                        std::span<const ElementId> fixed, const PositionView& positions,
                                        std::uint64_t limit = cholesky_limit, const Progress& progress = {});

@@ -11,6 +11,35 @@
 
 namespace chainmail {
 
+/// Turns a rotation to the one R closest to a matrix, which minimises Σ |d − R r|² if the matrix is Σ d rᵀ: the
+/// rotation in its polar decomposition. On a line it is 1.
+inline void turn_toward(const Eigen::Matrix<double, 1, 1>& /*sum*/, Eigen::Matrix<double, 1, 1>& rotation) {
+  rotation.setOnes();
+}
+
+inline void turn_toward(const Eigen::Matrix2d& sum, Eigen::Matrix2d& rotation) {
+  const double cosine = sum(0, 0) + sum(1, 1), sine = sum(1, 0) - sum(0, 1), size = std::hypot(cosine, sine);
+  if (size > 0) {
+    rotation << cosine / size, -sine / size, sine / size, cosine / size;
+  }
+}
+
+/// In space, by steps from the present rotation on (Müller, Bender, Chentanez and Macklin 2016).
+inline void turn_toward(const Eigen::Matrix3d& sum, Eigen::Matrix3d& rotation) {
+  constexpr int most_steps = 50;
+  constexpr double enough = 1e-10;
+  for (int i = 0; i < most_steps; ++i) {
+    const Eigen::Vector3d torque =
+        rotation.col(0).cross(sum.col(0)) + rotation.col(1).cross(sum.col(1)) + rotation.col(2).cross(sum.col(2));
+    const double stiffness = std::abs(rotation.cwiseProduct(sum).sum());
+    const double angle = stiffness > 0 ? torque.norm() / stiffness : 0;
+    if (angle < enough) {
+      return;
+    }
+    rotation = Eigen::AngleAxisd(angle, torque.normalized()).toRotationMatrix() * rotation;
+  }
+}
+
 /// The corotated energy of links: springs of the links' rest lengths, and a lateral part in the turned frame of each
 /// element's neighbourhood. With the vector d of a link, its rest vector r, its axial stiffness a and its lateral
 /// stiffness c, it is
@@ -86,30 +115,6 @@ class CorotatedEnergy {
       for (std::size_t e = 0; e < sums_.size(); ++e) {
         turn_toward(sums_[e], rotations_[e]);
       }
-    }
-  }
-
-  /// Sets a rotation to the one closest to a matrix of the plane.
-  static void turn_toward(const Eigen::Matrix2d& sum, Eigen::Matrix2d& rotation) {
-    const double cosine = sum(0, 0) + sum(1, 1), sine = sum(1, 0) - sum(0, 1), size = std::hypot(cosine, sine);
-    if (size > 0) {
-      rotation << cosine / size, -sine / size, sine / size, cosine / size;
-    }
-  }
-
-  /// The same in space, from the present rotation on (Müller, Bender, Chentanez and Macklin 2016).
-  static void turn_toward(const Eigen::Matrix3d& sum, Eigen::Matrix3d& rotation) {
-    constexpr int most_steps = 50;
-    constexpr double enough = 1e-10;
-    for (int i = 0; i < most_steps; ++i) {
-      const Eigen::Vector3d torque =
-          rotation.col(0).cross(sum.col(0)) + rotation.col(1).cross(sum.col(1)) + rotation.col(2).cross(sum.col(2));
-      const double stiffness = std::abs(rotation.cwiseProduct(sum).sum());
-      const double angle = stiffness > 0 ? torque.norm() / stiffness : 0;
-      if (angle < enough) {
-        return;
-      }
-      rotation = Eigen::AngleAxisd(angle, torque.normalized()).toRotationMatrix() * rotation;
     }
   }
 

@@ -1,7 +1,6 @@
 #include "solve/link_energy.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -16,47 +15,6 @@ double power_of(double length, double p) {
   constexpr double largest = 1e100;
   const double power = p == 0 ? 1 : p == -1 ? 1 / length : std::pow(length, p);
   return std::clamp(power, 1 / largest, largest);
-}
-
-Eigen::Vector3d rest_vector(const Mesh& mesh, ElementId from, ElementId to) {
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-  for (int k = 0; k < mesh.space_dimension; ++k) {
-    vector[k] =
-        mesh.rest[std::size_t{to} * mesh.space_dimension + k] - mesh.rest[std::size_t{from} * mesh.space_dimension + k];
-  }
-  return vector;
-}
-
-Eigen::Vector3d vector_between(const Mesh& mesh, const PositionView& position, ElementId from, ElementId to) {
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-  for (int k = 0; k < mesh.space_dimension; ++k) {
-    vector[k] = position.between(from, to, k);
-  }
-  return vector;
-}
-
-/// Returns the rotation closest to a matrix of the plane.
-LocalRotation closest_in_plane(const Eigen::Matrix3d& sum) {
-  const double cosine = sum(0, 0) + sum(1, 1), sine = sum(1, 0) - sum(0, 1);
-  const double size = std::hypot(cosine, sine);
-  LocalRotation rotation = LocalRotation::Identity();
-  if (size > 0) {
-    rotation.topLeftCorner<2, 2>() << cosine / size, -sine / size, sine / size, cosine / size;
-  }
-  return rotation;
-}
-
-/// Returns the rotation closest to a matrix of space. A reflection is avoided along the axis that matters least.
-LocalRotation closest_in_space(const Eigen::Matrix3d& sum) {
-  if (sum.isZero(0)) {
-    return LocalRotation::Identity();
-  }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> parts(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d left = parts.matrixU();
-  if ((left * parts.matrixV().transpose()).determinant() < 0) {
-    left.col(2) = -left.col(2);
-  }
-  return left * parts.matrixV().transpose();
 }
 
 template <int Dimension>
@@ -92,24 +50,6 @@ LinkWeights link_weights(const Mesh& mesh, const Softness& softness, LinkId link
     weights.lateral *= double(shares[link]);
   }
   return weights;
-}
-
-LocalRotation local_rotation(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
-                             ElementId element) {
-  if (mesh.space_dimension == 1) {
-    return LocalRotation::Identity();
-  }
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for_each_neighbour(mesh, cuts, element, [&](ElementId neighbour, EntryId entry) {
-    const double axial = link_weights(mesh, softness, mesh.entry_link[entry]).axial;
-    sum +=
-        axial * vector_between(mesh, position, element, neighbour) * rest_vector(mesh, element, neighbour).transpose();
-  });
-  return mesh.space_dimension == 2 ? closest_in_plane(sum) : closest_in_space(sum);
-}
-
-Eigen::Vector3d turned_rest_vector(const Mesh& mesh, LinkId link, const LocalRotation& a, const LocalRotation& b) {
-  return (a + b) / 2 * rest_vector(mesh, mesh.links[link][0], mesh.links[link][1]);
 }
 
 double corotated_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "solve/positions.h"
@@ -30,18 +28,6 @@ struct LinkWeights {
 LinkWeights link_weights(const Mesh& mesh, const Softness& softness, LinkId link);
 /// The same for a link of this softness and rest length (mesh units) that stands for a mean share of material.
 LinkWeights link_weights(const Mesh& mesh, EnergyKind kind, const LinkSoftness& softness, double rest_length);
-
-/// The rotation of an element's neighbourhood, of which the first rows and columns exist in the space.
-using LocalRotation = Eigen::Matrix3d;
-
-/// Returns the rotation R that brings the rest vectors r of the links of an element closest to their vectors d: it
-/// minimises Σ lateral |d − R r|² over its uncut links (Sorkine and Alexa 2007). It is the rotation in the polar
-/// decomposition of Σ lateral d rᵀ. On a line it is 1. If the links do not determine it, it is one of the closest.
-LocalRotation local_rotation(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
-                             ElementId element);
-
-/// Returns the mean of the rest vectors of a link as the neighbourhoods of its ends turn them, ½ (R_a + R_b) r.
-Eigen::Vector3d turned_rest_vector(const Mesh& mesh, LinkId link, const LocalRotation& a, const LocalRotation& b);
 
 /// Returns the corotated energy (see CorotatedEnergy). It does not change under rotations of the object.
 double corotated_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position);

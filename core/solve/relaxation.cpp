@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solve/body_view.h"
+#include "solve/corotated.h"
 #include "solve/small_quadratic.h"
 
 namespace chainmail {
@@ -17,13 +18,12 @@ class Relaxation::Slice {
   using Scalar = typename View::Scalar;
   static constexpr int Dimension = View::Dimension;
 
-  Slice(Relaxation& relaxation, const View& body, const Softness& softness, double step,
-        std::span<const ElementId> held)
-      : relaxation_(relaxation), body_(body), softness_(softness), step_(step), held_(held) {}
+  Slice(Relaxation& relaxation, const View& body, EnergyKind energy, double step, std::span<const ElementId> held)
+      : relaxation_(relaxation), body_(body), energy_(energy), step_(step), held_(held) {}
 
   RelaxationResult run(std::uint64_t budget) {
     const bool by_link = relaxation_.scheme_ == RelaxationScheme::link;
-    return softness_.energy == EnergyKind::isotropic
+    return energy_ == EnergyKind::isotropic
                ? run(budget, [&](ElementId element) { by_link ? visit_links(element) : visit(element); })
                : run(budget,
                      [&](ElementId element) { by_link ? visit_weighted_links(element) : visit_weighted(element); });
@@ -157,34 +157,51 @@ class Relaxation::Slice {
     return link;
   }
 
-  LocalRotation rotation_of(ElementId element) const {
-    const PositionView positions(
-        body_.positions.data(), sizeof body_.positions[0],
-        sizeof(Scalar) == sizeof(float) ? Precision::single_precision : Precision::double_precision,
-        body_.from_rest ? body_.mesh : nullptr);
-    return local_rotation(*body_.mesh, softness_, body_.cuts, positions, element);
+  using Square = Eigen::Matrix<double, Dimension, Dimension>;
+
+  /// Returns the rotation of an element's neighbourhood: the one found last since the object was woken, or a new one.
+  auto rotation_of(ElementId element) const {
+    if (relaxation_.turned_[element] != relaxation_.wakes_) {
+      find_rotation(element);
+    }
+    return relaxation_.rotations_[element].topLeftCorner<Dimension, Dimension>();
   }
 
-  /// Turns the rest vector of a link with the mean of the rotations of its ends.
-  void turn(Deflection& link, ElementId element, ElementId neighbour, const LocalRotation& of_element) const {
+  void find_rotation(ElementId element) const {
+    Square sum = Square::Zero();
+    body_.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
+      const Deflection link = deflection(element, neighbour, entry);
+      const Vector rest = rest_vector(element, neighbour);
+      sum += link.weights.lateral * (rest + link.all) * rest.transpose();
+    });
+    auto present = relaxation_.rotations_[element].template topLeftCorner<Dimension, Dimension>();
+    Square rotation = present;
+    turn_toward(sum, rotation);
+    present = rotation;
+    relaxation_.turned_[element] = relaxation_.wakes_;
+  }
+
+  /// Turns the rest vector of a link with the mean of the rotations of its ends, and its direction with the link.
+  void turn(Deflection& link, ElementId element, ElementId neighbour) const {
     const Vector rest = rest_vector(element, neighbour), vector = rest + link.all;
-    const LocalRotation mean = (of_element + rotation_of(neighbour)) / 2;
-    const Vector turned = mean.topLeftCorner<Dimension, Dimension>() * rest;
-    const double size = turned.norm();
-    link.direction = size > 0 ? Vector(turned / size) : Vector(Vector::Zero());
-    link.along = size > 0 ? link.direction.dot(vector) - rest.norm() : 0;
-    link.all = vector - turned;
+    const Square mean = (rotation_of(element) + rotation_of(neighbour)) / 2;
+    const double size = vector.norm();
+    link.direction = size > 0 && link.weights.axial > 0 ? Vector(vector / size) : Vector(Vector::Zero());
+    link.along = size - rest.norm();
+    link.all = vector - mean * rest;
   }
 
   /// Calls use(neighbour, deflection) for each uncut link of an element.
   template <class Use>
   void for_each_deflection(ElementId element, Use use) const {
-    const bool turns = softness_.energy == EnergyKind::corotated;
-    const LocalRotation rotation = turns ? rotation_of(element) : LocalRotation(LocalRotation::Identity());
+    const bool turns = energy_ == EnergyKind::corotated;
+    if (turns) {
+      find_rotation(element);
+    }
     body_.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
       Deflection link = deflection(element, neighbour, entry);
       if (turns) {
-        turn(link, element, neighbour, rotation);
+        turn(link, element, neighbour);
       }
       use(neighbour, link);
     });
@@ -279,7 +296,7 @@ class Relaxation::Slice {
 
   Relaxation& relaxation_;
   const View body_;
-  const Softness& softness_;
+  EnergyKind energy_;
   double step_;
   std::span<const ElementId> held_;
 };
@@ -300,10 +317,15 @@ void Relaxation::follow_energy(const Body& body) {
       weights_[link] = link_weights(body.mesh(), body.softness(), link);
     }
   }
+  if (body.softness().energy == EnergyKind::corotated && rotations_.empty()) {
+    rotations_.assign(body.mesh().element_count(), Eigen::Matrix3d::Identity());
+    turned_.assign(body.mesh().element_count(), 0);
+  }
 }
 
 void Relaxation::wake(const Body& body, std::span<const ElementId> elements) {
   follow(body);
+  ++wakes_;
   for (const ElementId element : elements) {
     next_.insert(element, body.mesh().element_count());
     for_each_neighbour(body.mesh(), body.cuts(), element,
@@ -313,6 +335,7 @@ void Relaxation::wake(const Body& body, std::span<const ElementId> elements) {
 
 void Relaxation::wake_all(const Body& body) {
   follow(body);
+  ++wakes_;
   next_.insert_all(body.mesh().element_count());
 }
 
@@ -330,8 +353,9 @@ RelaxationResult Relaxation::sweep(Body& body, double step, std::uint64_t budget
   }
   moved_.clear();
   follow_energy(body);
-  const RelaxationResult result = body.with_view(
-      [&]<class View>(const View& view) { return Slice<View>(*this, view, body.softness(), step, held).run(budget); });
+  const RelaxationResult result = body.with_view([&]<class View>(const View& view) {
+    return Slice<View>(*this, view, body.softness().energy, step, held).run(budget);
+  });
   if (result.largest_step > 0) {
     body.note_relaxation();
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -76,8 +77,8 @@ class ActiveSet {
 /// direction r̂ and the share s = lateral/(axial + lateral) of its weights, the way is (1 − s)(r̂·Δ) r̂ + s Δ: along the
 /// link all of Δ, across it the share b/(1 + b). For isotropic energy s is 1, so the way is Δ.
 ///
-/// With corotated energy, the rest vectors are turned with the neighbourhoods as they are at the visit, and count as
-/// constant during it.
+/// With corotated energy, an element is visited together with its rotation: first its neighbourhood is turned, then it
+/// moves, as if the rotations and the directions of links were constant.
 ///
 /// The clamp is this project's: without it, relaxation leaves links outside their regions, and the next pass pulls far
 /// elements abruptly (the jumps of thesis 4.4). From a valid state it keeps every link valid, and `mean` with a step in
@@ -117,8 +118,13 @@ class Relaxation {
   RelaxationScheme scheme_ = RelaxationScheme::mean;
   std::vector<LinkWeights> weights_;  // of each link, except for isotropic energy
   std::uint64_t energy_ = 0;          // revision of the energy that the weights belong to
-  ActiveSet current_;                 // to be visited in this sweep
-  ActiveSet next_;                    // to be visited in the next sweep
+  /// For corotated energy, of each element: the rotation of its neighbourhood, and when it was found. Passes move
+  /// elements, so rotations of before the last call of wake count no more.
+  std::vector<Eigen::Matrix3d> rotations_;
+  std::vector<std::uint32_t> turned_;
+  std::uint32_t wakes_ = 1;
+  ActiveSet current_;  // to be visited in this sweep
+  ActiveSet next_;     // to be visited in the next sweep
   std::vector<ElementId> moved_;
   bool in_sweep_ = false;
   double largest_step_ = 0;      // of this sweep (mesh units)

@@ -622,7 +622,7 @@ void ApiTest::the_equilibrium_is_certified() {
   QVERIFY(close > 1 && close < 200);
   const cm::EquilibriumCertificate found = deformer.certificate();
   QCOMPARE(found.iterations, close);
-  QVERIFY(found.residual <= 1e-3 && found.violation < 1e-9 && found.energy_gap >= 0);
+  QVERIFY(found.residual <= 1e-3 && found.violation < 1e-9 && (!found.energy_gap || *found.energy_gap >= 0));
   QVERIFY((deformer.body().position(63) == cm::Vector3{9, 8, 0}));
   QCOMPARE(deformer.relax(7, {.scheme = cm::RelaxationScheme::equilibrium, .until = 0}), 7);
   QVERIFY(deformer.certificate().residual < found.residual);

@@ -19,7 +19,7 @@ struct LinkSoftness {
   double compression = 0.8;  ///< Shortest length along each axis, of rest length: 0 (no limit) to 1 (rigid).
   double stretch = 1.2;      ///< Greatest length along each axis, of rest length: 1 (rigid) or more.
   double shear = 0.1;        ///< How far it may lean, per length along the other axes: 0 or more.
-  double lateral = 0.1;      ///< Stiffness against sideways motion, per stiffness along the link: 0 or more.
+  double lateral = 1;        ///< Stiffness against sideways motion, per stiffness along the link: 0 or more.
   double stiffness = 1;      ///< Stiffness along the link, relative to other links: above 0.
   double exponent = -1;      ///< Power of its rest length by which its stiffness is multiplied: -4 to 4.
 
@@ -31,7 +31,7 @@ struct LinkSoftness {
 enum class EnergyKind {
   isotropic,  ///< Links resist motion along them and across them alike. Their stiffness does not count.
   axial,     ///< Links resist motion along their rest vectors, and across them in the share of their lateral stiffness.
-  corotated  ///< Like axial, but along the rest vectors turned with the neighbours: for large rotations.
+  corotated  ///< Links are springs, and resist motion across their rest vectors turned with their surroundings.
 };
 
 /// Settings of the methods of elasticity and of free-form deformation. The ChainMail family ignores them.
@@ -133,7 +133,9 @@ class Body {
   /// The softness of a link.
   LinkSoftness softness(LinkId link) const;
 
-  /// Sets the kind of elastic energy. Nothing moves; relaxation uses it from now on. A new body has axial energy.
+  /// Sets the kind of elastic energy. Nothing moves; relaxation uses it from now on. A new body has corotated energy.
+  /// A global lateral stiffness that was the usual one of the old kind becomes that of the new kind: 1 for corotated,
+  /// 0.03 for axial energy.
   void set_energy(EnergyKind kind);
   /// The kind of elastic energy.
   EnergyKind energy() const;

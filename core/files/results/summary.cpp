@@ -80,7 +80,7 @@ void write_json(std::ostream& out, const DeformSummary& summary) {
   if (const auto& found = summary.equilibrium) {
     json["equilibrium"] = {{"violation", found->violation},
                            {"residual", found->residual},
-                           {"energy_gap", found->gap},
+                           {"energy_gap", found->gap ? Json(*found->gap) : Json()},
                            {"regions_bind", found->binds},
                            {"iterations", found->iterations}};
   }
