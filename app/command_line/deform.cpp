@@ -149,12 +149,12 @@ void write_deformation(std::ostream& out, const AlgorithmInfo& algorithm, const 
   out << "violation: max " << summary.violation.max << " rest lengths, RMS " << summary.violation.rms << ", "
       << 100 * summary.violation.fraction << "% of links\n";
   if (const auto& found = summary.equilibrium) {
-    out << "equilibrium: residual " << found->residual << " after " << found->iterations
-        << " iterations, ";
+    out << "equilibrium: residual " << found->residual << " after " << found->iterations << " iterations, ";
     if (found->gap) {
       out << "energy at most " << 100 * *found->gap << "% above the least, ";
     }
-    out << "largest violation " << found->violation << " rest lengths, valid regions " << (found->binds ? "bind" : "do not bind") << '\n';
+    out << "largest violation " << found->violation << " rest lengths, valid regions "
+        << (found->binds ? "bind" : "do not bind") << '\n';
   }
 }
 
@@ -237,8 +237,14 @@ void add_model(CLI::App& app, DeformArguments& options) {
     names += (names.empty() ? "" : "|") + name;
   }
   options.algorithm = add_value(app, "--algorithm", "NAME", names)->required();
-  const RelaxationScheme relaxation = relaxation_of(options.relaxation, false);
-  Softness softness = softness_of(options.global);
+  options.global = add_softness(app);
+  options.softness = add_value(app, "--softness", "FILE",
+                               "softness of single links: CSV rows a,b,compression,stretch,shear or "
+                               "a,b,compression,stretch,shear,lateral,stiffness,exponent");
+  options.relax = add_value(app, "--relax", "N",
+                            "sweeps of relaxation after each pass, or largest number of iterations [0; equilibrium: " +
+                                std::to_string(equilibrium_iterations) + "]");
+  options.relaxation = add_relaxation(app, false);
   options.relax_step = add_parameter(app, parameters::relax_step);
   options.relax_until = add_parameter(app, parameters::relax_until);
   options.precision = add_value(app, "--precision", "double|float", "precision of the solver [double]");

@@ -226,7 +226,7 @@ LinkSoftness Body::softness(LinkId link) const {
 
 void Body::set_energy(EnergyKind kind) {
   Softness next = inside_->body().softness();
-  next.energy = energy_of(kind);
+  inner::set_energy(next, energy_of(kind));
   inside_->set_softness(next);
 }
 

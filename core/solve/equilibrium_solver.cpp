@@ -598,7 +598,9 @@ class Equilibrator final : public EquilibriumSolver {
       is_fresh_ = false;
     }
     const auto evaluate = [&](const Vectors& at, Vectors& force) { return gradient(at, force); };
-    const bool lowered = newton_.step(evaluate, free_, iterate_, energy_of_iterate_, force_);
+    // Without what it has learned, a step fails only where rounding hides the way down.
+    const bool lowered = newton_.step(evaluate, free_, iterate_, energy_of_iterate_, force_) ||
+                         newton_.step(evaluate, free_, iterate_, energy_of_iterate_, force_);
     residual_ = lowered && energy_of_iterate_ > 0 ? newton_.distance() / std::sqrt(2 * energy_of_iterate_) : 0;
   }
 
@@ -641,6 +643,7 @@ class Equilibrator final : public EquilibriumSolver {
       inside_[link] = clamped_to(region, iterate_[j] - iterate_[i]);
     });
     constrained_steps_ = 0;
+    residual_ = 1;  // of the free minimum, it says nothing now
     next_penalty_check_ = first_penalty_check;
     if (!penalised_matrix_) {
       set_penalty(first_penalty);

@@ -6,6 +6,7 @@
 
 #include "core/scenarios.h"
 #include "measure/violation.h"
+#include "mesh/error.h"
 #include "reference/quadratic_program.h"
 #include "solve/equilibrium_solver.h"
 #include "solve/link_energy.h"
@@ -121,7 +122,7 @@ Softness draw_elastic_softness(const Mesh& mesh) {
 }  // namespace
 
 void EquilibriumSolverTest::it_equals_a_dense_quadratic_program() {
-  QVERIFY(holds("the state of least energy", [] {
+  QVERIFY(check_property("the state has the least energy of all valid ones", [] {
     const MeshPointer mesh = draw_family().mesh;
     const Softness softness = draw_elastic_softness(*mesh);
     const Hand hand = *any_hand(8);
@@ -197,7 +198,7 @@ void EquilibriumSolverTest::where_no_region_binds_it_equals_cholesky() {
 }
 
 void EquilibriumSolverTest::every_iterate_is_valid() {
-  QVERIFY(holds("valid after each iteration", [] {
+  QVERIFY(check_property("every link is valid after each iteration", [] {
     const MeshPointer mesh = draw_family().mesh;
     Softness softness = draw_elastic_softness(*mesh);
     softness.energy = *rc::gen::element(EnergyKind::isotropic, EnergyKind::axial, EnergyKind::corotated);

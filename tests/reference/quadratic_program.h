@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -10,7 +11,7 @@
 #include "reference/object.h"
 #include "solve/softness.h"
 
-namespace chainmail::reference {
+namespace chainmail::test::reference {
 
 /// The state of least axial or isotropic energy among all valid states, by a dense primal-dual interior-point method
 /// (Nocedal and Wright 2006, chapter 16.6). It shares no code with the solver: slow, and only for a few hundred
@@ -182,4 +183,4 @@ class QuadraticProgram {
   Eigen::VectorXd linear_, limits_, x_;
 };
 
-}  // namespace chainmail::reference
+}  // namespace chainmail::test::reference

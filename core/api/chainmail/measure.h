@@ -42,12 +42,13 @@ Spread distance(const Body& one, const Body& other);
 Spread distance(const Body& body, std::span<const double> positions);
 
 /// Returns the elastic energy of the body's kind over the uncut links. With the rest vector r of a link, its direction
-/// r̂, the difference Δ of the displacements of its ends, its stiffness k, exponent p and lateral stiffness b:
+/// r̂, the difference Δ of the displacements of its ends, its stiffness k, exponent p and lateral stiffness b, and the
+/// volume v of the cells at the link, divided by its mean (1 without cells):
 ///
 /// - isotropic: ½ Σ |Δ|² (mesh units squared)
-/// - axial: ½ Σ k |r|^p [(r̂·Δ)² + b |Δ|²]
-/// - corotated: ½ Σ k |r|^p [(q·d − |r|)² + b |d − t|²], where d is the vector of the link, t the mean of r turned with
-///   the neighbours of each end (Sorkine and Alexa 2007), and q the direction of t
+/// - axial: ½ Σ k v |r|^p [(r̂·Δ)² + b |Δ|²]
+/// - corotated: ½ Σ k v |r|^p [(|d| − |r|)² + b/2 (|d − R_i r|² + |d − R_j r|²)], where d is the vector of the link and
+///   R_i the rotation of the surroundings of its end i (Sorkine and Alexa 2007)
 double elastic_energy(const Body& body);
 
 /// The positions that a neo-Hookean elastic object has (Bonet and Wood 1997): finite elements on the object's own
