@@ -88,7 +88,7 @@ class ShareSum {
       const auto [a, b] = mesh_.links[link];
       const std::array<std::uint32_t, 3> place{a % size[0], a / size[0] % size[1], a / (size[0] * size[1])};
       const ElementId step = b - a;
-      const int along = step == 1 ? 0 : step == size[0] ? 1 : 2;
+      const int along = step == 1 && size[0] > 1 ? 0 : step == size[0] && size[1] > 1 ? 1 : 2;
       sums_[link] = 1;
       for (int k = 0; k < 3; ++k) {
         if (k != along && size[std::size_t(k)] > 1) {

@@ -14,10 +14,6 @@ class BlockRows {
  public:
   std::uint32_t size() const { return static_cast<std::uint32_t>(rows_.size()); }
   void resize(std::uint32_t rows) { rows_.resize(rows); }
-  void reserve(std::size_t blocks) {
-    columns_.reserve(blocks);
-    blocks_.reserve(blocks);
-  }
   std::size_t block_count() const { return blocks_.size(); }
 
   std::span<const std::uint32_t> columns(std::uint32_t row) const {
@@ -29,8 +25,9 @@ class BlockRows {
 
   void set_row(std::uint32_t row, std::span<const std::uint32_t> columns, std::span<const Block> blocks) {
     Row& place = rows_[row];
-    if (columns.size() > place.count) {
+    if (columns.size() > place.capacity) {
       place.first = columns_.size();
+      place.capacity = static_cast<std::uint32_t>(columns.size());
       columns_.resize(columns_.size() + columns.size());
       blocks_.resize(columns_.size());
     }
@@ -42,7 +39,7 @@ class BlockRows {
  private:
   struct Row {
     std::size_t first = 0;
-    std::uint32_t count = 0;
+    std::uint32_t count = 0, capacity = 0;
   };
 
   std::vector<Row> rows_;

@@ -2,8 +2,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -24,19 +25,29 @@ inline void turn_toward(const Eigen::Matrix2d& sum, Eigen::Matrix2d& rotation) {
   }
 }
 
-/// In space, by steps from the present rotation on (Müller, Bender, Chentanez and Macklin 2016).
+/// In space, by Newton's method from the present rotation on. Where the curvature has no inverse, it takes the step of
+/// Müller, Bender, Chentanez and Macklin (2016), which always turns toward the answer.
 inline void turn_toward(const Eigen::Matrix3d& sum, Eigen::Matrix3d& rotation) {
   constexpr int most_steps = 50;
-  constexpr double enough = 1e-10;
+  constexpr double enough = 1e-13;  // radians
   for (int i = 0; i < most_steps; ++i) {
-    const Eigen::Vector3d torque =
-        rotation.col(0).cross(sum.col(0)) + rotation.col(1).cross(sum.col(1)) + rotation.col(2).cross(sum.col(2));
-    const double stiffness = std::abs(rotation.cwiseProduct(sum).sum());
-    const double angle = stiffness > 0 ? torque.norm() / stiffness : 0;
+    const Eigen::Matrix3d product = sum * rotation.transpose();
+    const Eigen::Vector3d torque(product(2, 1) - product(1, 2), product(0, 2) - product(2, 0),
+                                 product(1, 0) - product(0, 1));
+    const double trace = product.trace();
+    const Eigen::Matrix3d curvature = trace * Eigen::Matrix3d::Identity() - (product + product.transpose()) / 2;
+    Eigen::Matrix3d inverse;
+    bool is_invertible = false;
+    curvature.computeInverseWithCheck(inverse, is_invertible, 1e-12 * std::abs(trace * trace * trace));
+    Eigen::Vector3d turn = is_invertible ? Eigen::Vector3d(inverse * torque) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    if (!(turn.dot(torque) > 0) || !(turn.norm() < 1)) {
+      turn = trace != 0 ? Eigen::Vector3d(torque / std::abs(trace)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    }
+    const double angle = turn.norm();
     if (angle < enough) {
       return;
     }
-    rotation = Eigen::AngleAxisd(angle, torque.normalized()).toRotationMatrix() * rotation;
+    rotation = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * rotation;
   }
 }
 
@@ -54,6 +65,11 @@ class CorotatedEnergy {
   using Vector = Eigen::Matrix<double, Dimension, 1>;
   using Square = Eigen::Matrix<double, Dimension, Dimension>;
   using Vectors = std::vector<Vector>;
+
+  /// Forgets the rotations, for another state of the object.
+  void reset() { rotations_.clear(); }
+  /// Holds the frames of these elements as they are at rest, instead of turning them with their surroundings.
+  void hold_frames(std::vector<ElementId> elements) { held_ = std::move(elements); }
 
   /// Stiffness of a link; 0 for a cut one.
   struct Link {
@@ -115,10 +131,14 @@ class CorotatedEnergy {
       for (std::size_t e = 0; e < sums_.size(); ++e) {
         turn_toward(sums_[e], rotations_[e]);
       }
+      for (const ElementId element : held_) {
+        rotations_[element].setIdentity();
+      }
     }
   }
 
   std::vector<Square> rotations_;  // of each element's neighbourhood
+  std::vector<ElementId> held_;    // elements whose frames stay
   std::vector<Square> sums_;       // Σ c d rᵀ over the links of each element
 };
 

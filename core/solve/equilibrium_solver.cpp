@@ -35,6 +35,8 @@ constexpr int steps_per_gradient = 30;
 constexpr double turned_share = 0.1;
 // Valid regions count from this residual on: before, the iterate may violate links only because it has not converged.
 constexpr double binds_below = 0.2;
+// They count no more if none has a force while the residual is below this.
+constexpr double frees_below = 0.01;
 
 /// Displacements from rest, in double, as repair and projection see a body.
 template <int D>
@@ -67,6 +69,9 @@ class Preconditioner {
     if (grid_.is_built()) {
       outdated_.insert(outdated_.end(), rows.begin(), rows.end());
       cut_ = cut_ || cut;
+    }
+    if (outdated_.size() > std::size_t{matrix_.size()}) {
+      reset();  // it is built anew when it is needed
     }
   }
 
@@ -372,11 +377,17 @@ class Equilibrator final : public EquilibriumSolver {
       for (std::size_t e = 0; e < iterate_.size(); ++e) {
         iterate_[e] = vector_of(shown_.positions[e]);
       }
+      corotated_.reset();
+      newton_.forget();
       end_constraints();
     }
-    if (is_new || now.pins != seen_.pins || !std::ranges::equal(held, held_)) {
+    const bool other_fixed = is_new || now.pins != seen_.pins || !std::ranges::equal(held, held_);
+    if (other_fixed) {
       held_.assign(held.begin(), held.end());
       update_fixed(body);
+    }
+    if (other_fixed || now.positions != seen_.positions || now.energy != seen_.energy || now.cuts != seen_.cuts) {
+      hold_lone_frames();
     }
     make_valid(body);
     hold_fixed();
@@ -413,15 +424,16 @@ class Equilibrator final : public EquilibriumSolver {
         shown_.positions[e][k] = positions(e, k) - mesh_->rest[std::size_t{e} * D + std::size_t(k)];
       }
     }
-    double largest = 0;
-    for (const auto& position : shown_.positions) {
+    epsilon_ = body.precision() == Precision::single_precision ? std::numeric_limits<float>::epsilon()
+                                                               : std::numeric_limits<double>::epsilon();
+    largest_ = 0;
+    for (ElementId e = 0; e < mesh_->element_count(); ++e) {
       for (int k = 0; k < D; ++k) {
-        largest = std::max(largest, std::abs(position[k]));
+        const double stored = body.stores_displacements() ? shown_.positions[e][k] : positions(e, k);
+        largest_ = std::max(largest_, std::abs(stored));
       }
     }
-    const double epsilon = body.precision() == Precision::single_precision ? std::numeric_limits<float>::epsilon()
-                                                                           : std::numeric_limits<double>::epsilon();
-    tolerance_ = 16 * epsilon * largest;
+    tolerance_ = 16 * epsilon_ * largest_;
   }
 
   Vector rest_vector(LinkId link) const {
@@ -440,6 +452,9 @@ class Equilibrator final : public EquilibriumSolver {
     const LinkWeights weights = link_weights(*mesh_, body.softness(), link);
     const Vector r = rest_vector(link);
     const double length = r.norm();
+    if (!(length > 0) && weights.lateral == 0) {
+      return {Vector::Zero(), 1};  // its region leaves no room for a deflection, so any stiffness will do
+    }
     return {length > 0 ? Vector(r / length * std::sqrt(weights.axial / scale_)) : Vector(Vector::Zero()),
             weights.lateral / scale_};
   }
@@ -483,7 +498,7 @@ class Equilibrator final : public EquilibriumSolver {
           inside_[link].setZero();
         }
         rows.insert(rows.end(), {mesh_->links[link][0], mesh_->links[link][1]});
-        cut = cut || block.is_zero();
+        cut = cut || body.cuts().is_cut(link);
       }
     }
     free_.outdate(rows, cut);
@@ -539,12 +554,39 @@ class Equilibrator final : public EquilibriumSolver {
     iterations_ = 0;
   }
 
+  /// A part that only one element holds could turn about it without energy. The frame of this element holds it then.
+  void hold_lone_frames() {
+    std::vector<ElementId> alone;
+    std::vector<std::uint8_t> seen(fixed_.size());
+    std::vector<ElementId> part;
+    for (ElementId first = 0; kind_ == EnergyKind::corotated && first < seen.size(); ++first) {
+      if (fixed_[first] == 0 || seen[first] != 0) {
+        continue;
+      }
+      part.assign(1, first);
+      seen[first] = 1;
+      std::size_t fixed = 0;
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        fixed += fixed_[part[i]];
+        shown_.for_each_neighbour(part[i], [&](ElementId neighbour, EntryId) {
+          if (std::exchange(seen[neighbour], 1) == 0) {
+            part.push_back(neighbour);
+          }
+        });
+      }
+      if (fixed == 1) {
+        alone.push_back(first);
+      }
+    }
+    corotated_.hold_frames(std::move(alone));
+  }
+
   /// Repairs the shown state if an algorithm left it invalid.
   void make_valid(Body& body) {
     if (projection().is_valid(shown_.positions)) {
       return;
     }
-    Repair repair(shown_, search_, body.reach().since_rest, held_);
+    Repair repair(shown_, search_, std::max(largest_, body.reach().since_rest), held_, epsilon_);
     repair.run(body.pins());
   }
 
@@ -581,7 +623,17 @@ class Equilibrator final : public EquilibriumSolver {
       steps_since_gradient_ = 0;
     }
     energy_of_iterate_ -= gradients_.step(energy_, free_, iterate_);
-    residual_ = energy_of_iterate_ > 0 ? gradients_.distance() / std::sqrt(2 * energy_of_iterate_) : 0;
+    note_distance(gradients_.distance());
+  }
+
+  /// The energy of deflections that nobody sees: the residual of an object at rest is relative to this.
+  double unseen_energy() const {
+    const double deflection = 1e-5 * mesh_->mean_link_length;
+    return mesh_->link_count() * deflection * deflection + std::numeric_limits<double>::min();
+  }
+  void note_distance(double distance) {
+    const double relative = distance / std::sqrt(2 * std::max(0.0, energy_of_iterate_) + unseen_energy());
+    residual_ = std::isfinite(relative) ? relative : 1;
   }
 
   void update_free() {
@@ -601,7 +653,7 @@ class Equilibrator final : public EquilibriumSolver {
     // Without what it has learned, a step fails only where rounding hides the way down.
     const bool lowered = newton_.step(evaluate, free_, iterate_, energy_of_iterate_, force_) ||
                          newton_.step(evaluate, free_, iterate_, energy_of_iterate_, force_);
-    residual_ = lowered && energy_of_iterate_ > 0 ? newton_.distance() / std::sqrt(2 * energy_of_iterate_) : 0;
+    note_distance(lowered ? newton_.distance() : 0);
   }
 
   /// Writes the negative gradient of the energy at these displacements, and returns the energy.
@@ -723,16 +775,16 @@ class Equilibrator final : public EquilibriumSolver {
       const double weight = penalty_of(energy_.link(link));
       const Vector apart = iterate_[j] - iterate_[i];
       const Vector relaxed = over_relaxation * apart + (1 - over_relaxation) * inside_[link];
-      const Vector before = inside_[link];
-      inside_[link] = clamped_to(region, relaxed + multiplier_[link]);
-      multiplier_[link] += relaxed - inside_[link];
+      const Vector before = inside_[link], wanted = relaxed + multiplier_[link];
+      inside_[link] = clamped_to(region, wanted);
+      multiplier_[link] = wanted - inside_[link];  // exactly 0 inside the region
       outside += weight * (apart - inside_[link]).squaredNorm();
       stepped += weight * (before - inside_[link]).squaredNorm();
       size += weight * apart.squaredNorm();
       active += multiplier_[link].squaredNorm();
     });
-    residual_ = size > 0 ? std::sqrt(std::max(outside, stepped) / size) : 0;
-    if (active == 0 && outside == 0) {
+    residual_ = std::sqrt(std::max(outside, stepped) / (size + unseen_energy()));
+    if (active == 0 && residual_ < frees_below && projection().is_valid(iterate_)) {
       end_constraints();
     } else {
       adapt_penalty(outside, stepped);
@@ -838,6 +890,8 @@ class Equilibrator final : public EquilibriumSolver {
   std::vector<ElementId> held_;  // ascending
   std::vector<std::uint8_t> fixed_;
   Displacements<D> shown_;  // a valid state
+  double epsilon_ = 0;      // relative rounding error of the body's numbers
+  double largest_ = 0;      // largest of these numbers (mesh units)
   double tolerance_ = 0;    // up to which links are valid (mesh units)
   EnergyKind kind_ = EnergyKind::isotropic;
   double scale_ = 0;  // by which the stiffness of links is divided

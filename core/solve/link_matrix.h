@@ -45,7 +45,7 @@ class LinkMatrix {
       : mesh_(std::move(mesh)), links_(mesh_->link_count()), fixed_(mesh_->element_count()) {}
 
   const Mesh& mesh() const { return *mesh_; }
-  std::uint32_t size() const { return mesh_->element_count(); }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(fixed_.size()); }
   const Block& link(LinkId link) const { return links_[link]; }
   void set_link(LinkId link, const Block& block) { links_[link] = block; }
   bool is_fixed(ElementId element) const { return fixed_[element] != 0; }

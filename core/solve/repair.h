@@ -30,8 +30,10 @@ class Repair {
   static constexpr int Dimension = State::Dimension;
 
   /// `reach`: the largest displacement or move that led to the state (mesh units). `handle`: its elements, ascending.
-  Repair(State& body, PathSearch& search, double reach, std::span<const ElementId> handle)
-      : body_(body), search_(search), reach_(reach), handle_(handle) {}
+  /// `epsilon`: relative rounding error of the numbers that the state was made of.
+  Repair(State& body, PathSearch& search, double reach, std::span<const ElementId> handle,
+         double epsilon = std::numeric_limits<Scalar>::epsilon())
+      : body_(body), search_(search), reach_(reach), handle_(handle), epsilon_(epsilon) {}
 
   /// Returns true if every link is valid, up to rounding of displacements of this size and, within an invisible
   /// tolerance, up to rounding of the displacements that led to the state.
@@ -65,7 +67,6 @@ class Repair {
  private:
   using Labels = std::vector<double>;
   enum class Way { up, down };
-  static constexpr double epsilon = std::numeric_limits<Scalar>::epsilon();
 
   bool is_inner(ElementId a, ElementId b) const { return handle_.size() > 1 && is_held(a) && is_held(b); }
   bool is_held(ElementId element) const { return std::ranges::binary_search(handle_, element); }
@@ -77,7 +78,7 @@ class Repair {
     for (int k = 0; k < Dimension; ++k) {
       const Scalar from = body_.positions[a][k], to = body_.positions[b][k];
       const double size = std::max(std::abs(double(from)), std::abs(double(to)));
-      const double rounding = std::max(8 * epsilon * size, std::min(8 * epsilon * reach_, unseen()));
+      const double rounding = std::max(8 * epsilon_ * size, std::min(8 * epsilon_ * reach_, unseen()));
       const auto& region = body_.regions[entry];
       // NaN counts as a violation.
       const double apart = double(to) - double(from);
@@ -170,7 +171,7 @@ class Repair {
       search(u, std::span(&pin, 1), way, k);
       for (const ElementId other : pins) {
         const double size = std::max({std::abs(u[pin]), std::abs(u[other]), reach_});
-        const double rounding = epsilon * size * (search_.hops(other) + 8.0);
+        const double rounding = epsilon_ * size * (search_.hops(other) + 8.0);
         const double outside = (way == Way::up ? u[other] : -u[other]) - search_.label(other);
         if (outside > std::max(rounding, most)) {
           most = outside;
@@ -189,6 +190,7 @@ class Repair {
   PathSearch& search_;
   double reach_;
   std::span<const ElementId> handle_;
+  double epsilon_;
 };
 
 }  // namespace chainmail

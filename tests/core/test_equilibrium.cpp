@@ -24,7 +24,7 @@ class EquilibriumTest : public QObject {
   void relaxation_comes_to_it_data();
   void relaxation_comes_to_it();
   void axial_energy_by_hand();
-  void corotated_energy_has_none();
+  void corotated_energy_follows_a_turned_side();
   void gradients_agree_with_cholesky();
 };
 
@@ -186,17 +186,29 @@ void EquilibriumTest::axial_energy_by_hand() {
   // The middle of a plus, with b = 1/4. On x, the links along x weigh 1 + b and those along y b.
   const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
   const auto solver = displaced(mesh, {{1, {0, 0.4, 0}}, {3, {0.8, 0, 0}}, {5, {-0.4, 0.2, 0}}, {7, {0, 0.2, 0}}});
-  const auto result = solve(*mesh, *solver, {0, 1, 2, 3, 5, 6, 7, 8}, {{0, 1000, 1000, 0.25}, {}});
+  const auto result = solve(*mesh, *solver, {0, 1, 2, 3, 5, 6, 7, 8}, {{0, 1000, 1000, 0.25}, {}, EnergyKind::axial});
   QVERIFY(std::abs(result.displacements[8] - 1.25 * 0.4 / 3) < rounding);
   QVERIFY(std::abs(result.displacements[9] - (1.25 * 0.6 + 0.25 * 0.2) / 3) < rounding);
 }
 
-void EquilibriumTest::corotated_energy_has_none() {
-  const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
-  const auto solver = displaced(mesh, {});
+void EquilibriumTest::corotated_energy_follows_a_turned_side() {
+  // A square of which one side is turned by 90 degrees: all of it turns, without energy. Valid regions do not count.
+  const auto mesh = make_mesh(MeshKind::cloth, {4, 4, 1});
+  std::vector<double> positions = mesh->rest;
+  const std::vector<ElementId> side{0, 1, 2, 3};
+  for (const ElementId e : side) {
+    positions[2 * e] = 0;
+    positions[2 * e + 1] = e;
+  }
+  Solver solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  solver.body().set_positions(positions);
   const Softness corotated{{}, {}, EnergyKind::corotated};
-  const std::vector<ElementId> fixed{0};
-  QVERIFY(!equilibrium(*mesh, corotated, solver->body().cuts(), fixed, solver->body().positions()));
+  const auto found = equilibrium(*mesh, corotated, solver.body().cuts(), side, solver.body().positions());
+  QVERIFY(found && found->binds);
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    const Point rest = mesh->rest_position(e), turned(-rest[1], rest[0], 0);
+    QVERIFY((point_of(*mesh, found->positions(*mesh), e) - turned).norm() < 1e-5);
+  }
 }
 
 void EquilibriumTest::gradients_agree_with_cholesky() {

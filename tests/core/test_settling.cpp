@@ -120,7 +120,7 @@ void SettlingTest::a_drag_while_it_settles_is_followed() {
       QVERIFY(position_of(simulation, handle) == target);
       QVERIFY(is_valid(simulation));
     }
-    QVERIFY(steps_to_sleep(simulation) > 0);
+    QVERIFY2(steps_to_sleep(simulation) > 0, qPrintable(QString::number(simulation.statistics().residual.value_or(1))));
     QVERIFY(simulation.statistics().residual.value_or(1) <= 1e-4);
     carry_out(simulation, commands::Release{});
     QVERIFY(steps_to_sleep(simulation) > 0);  // back to rest

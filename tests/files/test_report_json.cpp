@@ -85,7 +85,7 @@ void ReportJsonTest::holds_null_where_there_is_none() {
   QVERIFY(drag["contestants"][0]["distance_to_equilibrium"].isNull());
   const auto refused = drag["contestants"][1].toObject();
   QCOMPARE(refused["refusal"].toString(), QString("no grid"));
-  QCOMPARE(refused.keys(), (QStringList{"algorithm", "refusal", "sweeps"}));
+  QCOMPARE(refused.keys(), (QStringList{"algorithm", "equilibrium", "refusal", "sweeps"}));
 }
 
 void ReportJsonTest::names_from_outside_do_no_harm() {

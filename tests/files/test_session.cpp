@@ -213,7 +213,7 @@ void SessionTest::the_file_is_json_as_it_is_documented() {
   QCOMPARE(document["cuts"].toArray(), (QJsonArray{0, 1, 1, 4}));
   QCOMPARE(document["pins"].toArray(), (QJsonArray{1, 8}));
   QCOMPARE(document["softness"]["own"].toArray(),
-           (QJsonArray{1, 2, 0, 1, 7, 0.3, 1e-9, 2.5, 2, 5, 0.8, 1.2, 0.1, 0.1, 1, -1}));
+           (QJsonArray{1, 2, 0, 1, 7, 0.3, 1e-9, 2.5, 2, 5, 0.8, 1.2, 0.1, 1, 1, -1}));
   QCOMPARE(document["relaxation"]["scheme"].toString(), QStringLiteral("link"));
   QCOMPARE(document["moves"]["commands"][3]["target"].toArray(), (QJsonArray{0.1, 1.0 / 3, 0}));
   QCOMPARE(document["moves_done"].toInt(), 4);

@@ -11,7 +11,14 @@
 #include "reference/object.h"
 #include "solve/softness.h"
 
-namespace chainmail::test::reference {
+namespace reference {
+
+using chainmail::Cuts;
+using chainmail::EnergyKind;
+using chainmail::LinkId;
+using chainmail::LinkSoftness;
+using chainmail::Mesh;
+using chainmail::Softness;
 
 /// The state of least axial or isotropic energy among all valid states, by a dense primal-dual interior-point method
 /// (Nocedal and Wright 2006, chapter 16.6). It shares no code with the solver: slow, and only for a few hundred
@@ -139,7 +146,9 @@ class QuadraticProgram {
     }
     if (!row.isZero(0)) {
       rows.insert(rows.end(), {row, -row});
-      limits.insert(limits.end(), {high - constant, constant - low});
+      // The method needs some room inside the bounds, also for rigid links and for taut chains.
+      const double room = 1e-6 * mesh_.mean_link_length;
+      limits.insert(limits.end(), {high - constant + room, constant - low + room});
     }
   }
 
@@ -159,6 +168,9 @@ class QuadraticProgram {
       const Eigen::VectorXd target = Eigen::VectorXd::Constant(bounds, 0.15 * gap);
       const Eigen::MatrixXd system = matrix_ + bounds_.transpose() * ratio.asDiagonal() * bounds_;
       const Eigen::VectorXd push = target.cwiseQuotient(slack) - force + ratio.cwiseProduct(primal);
+      if (!system.allFinite() || gap < 1e-15) {
+        break;  // rounding: some links have no room at all
+      }
       const Eigen::VectorXd step = system.ldlt().solve(-dual - bounds_.transpose() * push);
       const Eigen::VectorXd slack_step = -primal - bounds_ * step;
       const Eigen::VectorXd force_step = target.cwiseQuotient(slack) - force - ratio.cwiseProduct(slack_step);
@@ -183,4 +195,4 @@ class QuadraticProgram {
   Eigen::VectorXd linear_, limits_, x_;
 };
 
-}  // namespace chainmail::test::reference
+}  // namespace reference
