@@ -1,8 +1,8 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -25,7 +25,7 @@ inline void turn_toward(const Eigen::Matrix2d& sum, Eigen::Matrix2d& rotation) {
   }
 }
 
-/// In space, by Newton's method from the present rotation on. Where the curvature has no inverse, it takes the step of
+/// In space, by Newton's method from the present rotation on. Far from the answer, it takes the step of
 /// Müller, Bender, Chentanez and Macklin (2016), which always turns toward the answer.
 inline void turn_toward(const Eigen::Matrix3d& sum, Eigen::Matrix3d& rotation) {
   constexpr int most_steps = 50;
@@ -36,11 +36,9 @@ inline void turn_toward(const Eigen::Matrix3d& sum, Eigen::Matrix3d& rotation) {
                                  product(1, 0) - product(0, 1));
     const double trace = product.trace();
     const Eigen::Matrix3d curvature = trace * Eigen::Matrix3d::Identity() - (product + product.transpose()) / 2;
-    Eigen::Matrix3d inverse;
-    bool is_invertible = false;
-    curvature.computeInverseWithCheck(inverse, is_invertible, 1e-12 * std::abs(trace * trace * trace));
-    Eigen::Vector3d turn = is_invertible ? Eigen::Vector3d(inverse * torque) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    if (!(turn.dot(torque) > 0) || !(turn.norm() < 1)) {
+    const Eigen::LLT<Eigen::Matrix3d> factor(curvature);
+    Eigen::Vector3d turn = factor.info() == Eigen::Success ? Eigen::Vector3d(factor.solve(torque)) : torque;
+    if (factor.info() != Eigen::Success || !(turn.norm() < 1)) {
       turn = trace != 0 ? Eigen::Vector3d(torque / std::abs(trace)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
     }
     const double angle = turn.norm();

@@ -145,7 +145,7 @@ class WindowDocks : public QObject {
     };
     const auto now = [&] { return bench.document().wholeSoftness()->energy; };
     QCOMPARE(field->count(), int(energy_kinds().size()));
-    QCOMPARE(field->currentData().toInt(), int(EnergyKind::axial));
+    QCOMPARE(field->currentData().toInt(), int(EnergyKind::corotated));
     choose(EnergyKind::isotropic);
     QVERIFY(now() == EnergyKind::isotropic);
     QVERIFY(!lateral->isEnabled());  // its numbers do not count
@@ -154,12 +154,14 @@ class WindowDocks : public QObject {
     QVERIFY(now() == EnergyKind::isotropic);
     bench.document().undoStack().undo();
     bench.document().undoStack().undo();
-    QVERIFY(now() == EnergyKind::axial);
-    QCOMPARE(field->currentData().toInt(), int(EnergyKind::axial));
+    QVERIFY(now() == EnergyKind::corotated);
+    QCOMPARE(field->currentData().toInt(), int(EnergyKind::corotated));
     QVERIFY(lateral->isEnabled());
-    choose(EnergyKind::corotated);
+    QCOMPARE(lateral->value(), info(EnergyKind::corotated).lateral);
+    choose(EnergyKind::axial);
+    QCOMPARE(lateral->value(), info(EnergyKind::axial).lateral);  // the one that suits it
     bench.trigger("resetStiffness");
-    QVERIFY(now() == EnergyKind::axial);
+    QVERIFY(now() == EnergyKind::corotated);
   }
 
   void oneDragOfASliderIsOneStepOfUndo() {

@@ -30,7 +30,6 @@ RotationRing::RotationRing(const Document& document) : document_(document) {
     connect(&document, signal, this, &RotationRing::followSelection);
   }
   connect(&document, &Document::meshChanged, this, &RotationRing::hideRotation);
-  connect(&document, &Document::frameReady, this, [this](int panel) { extents_[std::size_t(panel)].reset(); });
 }
 
 void RotationRing::followSelection() {
@@ -76,8 +75,12 @@ void RotationRing::hideRotation() {
 /// Returns the extent of the elements, which may be many: it is computed once per frame.
 const RotationRing::Extent& RotationRing::extent(const View& view) const {
   auto& kept = extents_[std::size_t(view.panel())];
-  if (!kept) {
+  const Frame* frame = document_.frame(view.panel());
+  const std::uint64_t number = frame == nullptr ? 0 : frame->number, series = frame == nullptr ? 0 : frame->series;
+  if (!kept || kept->frame != number || kept->series != series) {
     kept.emplace();
+    kept->frame = number;
+    kept->series = series;
     kept->pivot = middleIn(document_, view.panel(), rotated());
     for (const ElementId element : rotated()) {
       kept->reach = std::max(kept->reach, (view.position(element) - kept->pivot).norm());

@@ -58,6 +58,7 @@ class RotationRing : public QObject, public Overlay {
   struct Extent {
     Point pivot = Point::Zero();
     double reach = 0;
+    std::uint64_t frame = 0, series = 0;  // that it was computed in
   };
 
   void followSelection();
