@@ -55,7 +55,7 @@ class SmallQuadratic {
   /// the lower or at the upper bound. Most often it is on the bounds that the free minimiser is beyond.
   Vector least_on_side(const Vector& free, const Vector& low, const Vector& high) const {
     const int nearest = side_of(free, low, high);
-    if (const Vector way = least_on(nearest, low, high); is_least(way, nearest)) {
+    if (Vector way = least_on(nearest, low, high); is_least(way, nearest)) {
       return way;
     }
     Vector best = Vector::Zero();
@@ -107,7 +107,7 @@ class SmallQuadratic {
     if (!way.allFinite()) {
       return nowhere();
     }
-    const Vector found = with_fixed(way, is_free);
+    Vector found = with_fixed(way, is_free);
     for (int k = 0; k < Dimension; ++k) {
       if (is_free[k] && !(low[k] <= found[k] && found[k] <= high[k])) {
         return nowhere();

@@ -73,7 +73,7 @@ void RotationRing::hideRotation() {
 }
 
 /// Returns the extent of the elements, which may be many: it is computed once per frame.
-const RotationRing::Extent& RotationRing::extent(const View& view) const {
+const RotationExtent& RotationRing::extent(const View& view) const {
   auto& kept = extents_[std::size_t(view.panel())];
   const Frame* frame = document_.frame(view.panel());
   const std::uint64_t number = frame == nullptr ? 0 : frame->number, series = frame == nullptr ? 0 : frame->series;
@@ -95,7 +95,7 @@ std::optional<RotationRing::Circle> RotationRing::circle(const View& view) const
   if (rotated().empty()) {
     return std::nullopt;
   }
-  const Extent& extent = this->extent(view);
+  const RotationExtent& extent = this->extent(view);
   Circle circle;
   circle.pivot = extent.pivot;
   const QVector3D across =

@@ -11,6 +11,13 @@
 
 namespace chainmail {
 
+/// Middle and size of the elements that rotate, in a panel (mesh units).
+struct RotationExtent {
+  Point pivot = Point::Zero();
+  double reach = 0;
+  std::uint64_t frame = 0, series = 0;  // that it was computed in
+};
+
 /// The ring with which the Drag tool rotates the selection. Each view shows it around the selection's pivot, if the
 /// Drag tool is active and at least two selected elements are not pinned. While a handle rotates, the view under the
 /// cursor also shows the angle.
@@ -54,16 +61,9 @@ class RotationRing : public QObject, public Overlay {
     double radius = 0, unitsPerPixel = 1;  // logical pixels, and mesh units per pixel
   };
 
-  /// Middle and size of the elements in a panel (mesh units).
-  struct Extent {
-    Point pivot = Point::Zero();
-    double reach = 0;
-    std::uint64_t frame = 0, series = 0;  // that it was computed in
-  };
-
   void followSelection();
   const std::vector<ElementId>& rotated() const { return turn_ ? turn_->handle : elements_; }
-  const Extent& extent(const View& view) const;
+  const RotationExtent& extent(const View& view) const;
   std::optional<Circle> circle(const View& view) const;
 
   const Document& document_;
@@ -71,7 +71,7 @@ class RotationRing : public QObject, public Overlay {
   bool hovered_ = false;
   std::vector<ElementId> elements_;
   std::optional<Turn> turn_;
-  mutable std::array<std::optional<Extent>, Document::mostPanels> extents_;  // of each panel's present frame
+  mutable std::array<std::optional<RotationExtent>, Document::mostPanels> extents_;  // of each panel's present frame
 };
 
 }  // namespace chainmail

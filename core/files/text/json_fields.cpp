@@ -131,6 +131,7 @@ EnergyKind JsonFields::energy(const Json& object, EnergyKind absent) const {
 
 std::vector<std::string> softness_keys() {
   std::vector<std::string> keys;
+  keys.reserve(softness_numbers.size());
   for (const SoftnessNumber& number : softness_numbers) {
     keys.emplace_back(number.parameter->name);
   }
