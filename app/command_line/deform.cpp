@@ -151,7 +151,7 @@ void write_deformation(std::ostream& out, const AlgorithmInfo& algorithm, const 
   if (const auto& found = summary.equilibrium) {
     out << "equilibrium: residual " << found->residual << " after " << found->iterations << " iterations, ";
     if (found->gap) {
-      out << "energy at most " << 100 * *found->gap << "% above the least, ";
+      out << "energy about " << 100 * *found->gap << "% above the least, ";
     }
     out << "largest violation " << found->violation << " rest lengths, valid regions "
         << (found->binds ? "bind" : "do not bind") << '\n';

@@ -43,10 +43,10 @@ struct RelaxOptions {
 
 /// How close an object is to the equilibrium.
 struct EquilibriumCertificate {
-  double violation = 0;       ///< Largest violation of a link, in rest lengths.
-  double residual = 0;        ///< Estimated distance from the equilibrium, as RelaxOptions::until.
-  /// Energy above a lower bound of the energy of all valid states, relative to the energy. None for the corotated energy,
-  /// which is not convex.
+  double violation = 0;  ///< Largest violation of a link, in rest lengths.
+  double residual = 0;   ///< Estimated distance from the equilibrium, as RelaxOptions::until.
+  /// Energy above a lower bound of the energy of all valid states, relative to the energy. None for the corotated
+  /// energy, which is not convex.
   std::optional<double> energy_gap;
   bool regions_bind = false;  ///< True if valid regions change the equilibrium.
   int iterations = 0;         ///< Iterations since the handle, the pins or the object changed.

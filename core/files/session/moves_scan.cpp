@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 constexpr std::array<std::string_view, 2> file_keys{"version", "commands"};
 constexpr std::array<std::string_view, 18> command_keys{
     "do",    "element", "target",    "by",       "rotate", "links",  "elements", "compression", "stretch",
-    "shear", "lateral", "stiffness", "exponent", "energy", "sweeps", "step",     "scheme", "until"};
+    "shear", "lateral", "stiffness", "exponent", "energy", "sweeps", "step",     "scheme",      "until"};
 
 bool is_number_array(const Json& json) {
   return json.is_array() && !json.empty() && std::ranges::all_of(json, [](const Json& one) { return one.is_number(); });
