@@ -14,7 +14,6 @@ class BlockRows {
  public:
   std::uint32_t size() const { return static_cast<std::uint32_t>(rows_.size()); }
   void resize(std::uint32_t rows) { rows_.resize(rows); }
-  std::size_t block_count() const { return blocks_.size(); }
 
   std::span<const std::uint32_t> columns(std::uint32_t row) const {
     return {columns_.data() + rows_[row].first, rows_[row].count};

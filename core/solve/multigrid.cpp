@@ -15,7 +15,6 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// A coarsest level with at most this many unknowns is solved directly.
 constexpr std::uint32_t most_direct_unknowns = 240;
-constexpr std::size_t most_levels = 12;
 /// Two rows whose coupling is below this share of their diagonal blocks do not join an aggregate.
 constexpr float weak_coupling = 0.01F;
 constexpr int power_iterations = 10;
@@ -610,14 +609,6 @@ class Multigrid<Dimension>::Levels {
     finest_.smooth(matrix, right, x, false);
   }
 
-  std::size_t coarse_block_count() const {
-    std::size_t sum = 0;
-    for (const auto& level : levels_) {
-      sum += level->matrix.rows.block_count();
-    }
-    return sum;
-  }
-
  private:
   struct Level {
     Coarse matrix;
@@ -734,12 +725,6 @@ void Multigrid<Dimension>::repair(const Matrix& matrix, std::span<const ElementI
 template <int Dimension>
 void Multigrid<Dimension>::cycle(const Matrix& matrix, const Vectors& right, Vectors& solution) {
   levels_->cycle(matrix, right, solution);
-}
-
-template <int Dimension>
-double Multigrid<Dimension>::complexity(const Matrix& matrix) const {
-  const double finest = 2.0 * matrix.mesh().link_count() + matrix.size();
-  return 1 + double(levels_->coarse_block_count()) * (Dimension + 1) * (Dimension + 1) / 4 / std::max(finest, 1.0);
 }
 
 template class Multigrid<1>;

@@ -34,9 +34,6 @@ class Multigrid {
   /// Writes into `solution` one cycle's approximation of the matrix's inverse times `right`.
   void cycle(const Matrix& matrix, const Vectors& right, Vectors& solution);
 
-  /// Number of blocks on all levels, divided by that on the finest one.
-  double complexity(const Matrix& matrix) const;
-
  private:
   class Levels;
 
