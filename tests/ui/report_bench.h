@@ -40,7 +40,7 @@ struct ReportBench : Workbench {
   void runForLong() {
     effort(60);
     click("reportRun");
-    QTRY_VERIFY(find<QProgressBar>("reportProgress")->value() > 0);
+    QTRY_VERIFY_WITH_TIMEOUT(find<QProgressBar>("reportProgress")->value() > 0, 60'000);
     QVERIFY(thread().atWork());
   }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <QApplication>
+#include <QCursor>
 #include <QMenu>
 #include <QPointer>
+#include <QScreen>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QTemporaryDir>
@@ -34,6 +36,7 @@ struct SolverSettings {
 struct Workbench {
   explicit Workbench(const MeshPointer& mesh = generate({MeshKind::grid, {9, 7, 1}, 1, {}}))
       : window(mesh, QStringLiteral("sample")) {
+    QCursor::setPos(QGuiApplication::primaryScreen()->geometry().topLeft());  // else a view below it shows the hover
     window.show();
     window.activateWindow();  // shortcuts go to the active window
     shown = QTest::qWaitForWindowExposed(&window) && QTest::qWaitForWindowActive(&window);
