@@ -234,20 +234,6 @@ class System {
   Columns right_;
 };
 
-/// Returns a softness with the same energy, and with regions that never bind.
-Softness without_regions(const Softness& softness) {
-  const auto widened = [](LinkSoftness one) {
-    one.compression = 0;
-    one.stretch = one.shear = 1e9;
-    return one;
-  };
-  Softness wide{widened(softness.global), {}, softness.energy};
-  for (const auto& [link, own] : softness.links) {
-    wide.links.set(link, widened(own));
-  }
-  return wide;
-}
-
 /// The corotated energy is not quadratic: its minimum is found by iterations from the present positions on.
 bool settle(const Mesh& mesh, const Softness& softness, const Cuts& cuts, std::span<const ElementId> fixed,
             const PositionView& positions, Equilibrium& equilibrium, const Progress& progress) {
@@ -260,10 +246,10 @@ bool settle(const Mesh& mesh, const Softness& softness, const Cuts& cuts, std::s
   }
   body.store_displacements(true);
   body.set_positions(at);
-  body.set_softness(without_regions(softness));
+  body.set_softness(softness);
   body.cut(cuts.links());
   body.pin(fixed);
-  if (!EquilibriumSolver::make(mesh.space_dimension)->solve(body, {}, enough, most_iterations, progress)) {
+  if (!EquilibriumSolver::make(mesh.space_dimension, false)->solve(body, {}, enough, most_iterations, progress)) {
     return false;
   }
   const std::vector<double> found = displacements_of(mesh, body.positions());

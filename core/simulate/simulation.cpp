@@ -131,18 +131,25 @@ bool Simulation::step() {
 /// Runs a slice of relaxation. Returns true if the object has come to rest.
 bool Simulation::settle() {
   const RelaxationResult slice = relax_slice(relaxation_step_);
+  prepared_ = slice.has_prepared;
   if (!slice.sweep_ended) {
     return false;
   }
   ++statistics_.sweeps;
   // Elements that became active during the sweep have not been visited yet.
   return !std::exchange(woken_, false) && slice.largest_step <= asleep_below * mesh_->mean_link_length &&
-         has_reached(settled_below);
+         (!slice.residual || *slice.residual <= settled_below);
 }
 
 RelaxationResult Simulation::relax_slice(double step) {
+  return take_relaxed([&] { return solver_->relax(step, elements_per_slice, grabbed()); });
+}
+
+/// Takes over the result of some relaxation.
+template <class Relax>
+RelaxationResult Simulation::take_relaxed(Relax relax) {
   try {
-    const RelaxationResult slice = solver_->relax(step, elements_per_slice, grabbed());
+    const RelaxationResult slice = relax();
     mark(solver_->relaxed());
     statistics_.residual = slice.residual;  // sweeps have none
     if (slice.residual && std::exchange(relaxation_fails_, false)) {
@@ -162,26 +169,24 @@ void Simulation::refuse_relaxation(const std::string& reason) {
   fall_asleep();
 }
 
-/// Returns true if the residual is low enough. Sweeps have none.
-bool Simulation::has_reached(double until) const { return !statistics_.residual || *statistics_.residual <= until; }
-
 void Simulation::relax(int count, double step, double until) {
   if (count == 0 || !info(algorithm_).relaxes()) {
     return;
   }
   measure_.reset();
+  if (!info(solver_->relaxation()).sweeps) {
+    take_relaxed([&] { return solver_->settle(until, count, grabbed(), progress_); });
+    return;
+  }
   if (last_handle_) {
     solver_->wake(last_handle_->elements());
     solver_->wake(solver_->moved());
   }
   for (int i = 0; i < count && sweep(step, progress_.part(double(i) / count, double(i + 1) / count)) > 0; ++i) {
-    if (statistics_.residual && has_reached(until)) {
-      return;
-    }
   }
 }
 
-/// Runs one sweep, in slices, or one iteration, and can be cancelled between them. Returns the number of visited
+/// Runs one sweep, in slices, and can be cancelled between them. Returns the number of visited
 /// elements.
 std::uint64_t Simulation::sweep(double step, const Progress& progress) {
   std::uint64_t visited = 0;

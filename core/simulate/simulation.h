@@ -45,6 +45,8 @@ class Simulation {
   /// Runs a slice of relaxation of about 2 ms, or one iteration toward the equilibrium, for idle time. Returns true if
   /// there is more to do. If there is no equilibrium, or not enough memory, relaxation ends and the remark says why.
   bool step();
+  /// True if the last slice prepared later ones, which are much faster.
+  bool has_prepared() const { return prepared_; }
 
   /// Returns everything except the algorithm and the statistics. Shares data with the saved states.
   Handover hand_over();
@@ -119,8 +121,9 @@ class Simulation {
 
   bool settle();
   RelaxationResult relax_slice(double step);
+  template <class Relax>
+  RelaxationResult take_relaxed(Relax relax);
   void refuse_relaxation(const std::string& reason);
-  bool has_reached(double until) const;
   std::uint64_t sweep(double step, const Progress& progress);
   void answer();
   void forget_passes();
@@ -158,6 +161,7 @@ class Simulation {
   double relaxation_step_ = 1;
   RelaxationScheme relaxation_scheme_ = RelaxationScheme::mean;
   bool woken_ = false;             // true if elements became active since the last sweep ended
+  bool prepared_ = false;
   bool relaxation_fails_ = false;  // true if the remark is about relaxation
   PassTimes::Clock::time_point relaxation_deadline_{};
   std::map<commands::StateId, State> kept_;

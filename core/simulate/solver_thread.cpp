@@ -167,7 +167,7 @@ void SolverThread::run(const std::stop_token& stop) {
       lock.unlock();
       carry_out(task);
     } else if (may_relax()) {
-      work_.cancelled = abandoned_.load();  // the last task may have been cancelled
+      work_.cancelled = abandoned_ || stop.stop_requested();  // the last task may have been cancelled
       lock.unlock();
       relax();
     } else if (!unseen_ && measured_ && !simulation_.statistics().relaxing) {
@@ -211,7 +211,9 @@ void SolverThread::relax() {
   for (bool more = true; more && idle() && Clock::now() < end;) {
     const auto start = Clock::now();
     more = simulation_.step();
-    slice_time_ = Clock::now() - start;
+    if (!simulation_.has_prepared()) {  // what happens once says nothing about the next slice
+      slice_time_ = Clock::now() - start;
+    }
   }
   unseen_ = true;
   measured_ = false;

@@ -9,30 +9,22 @@
 
 #include "mesh/error.h"
 #include "solve/body_view.h"
+#include "solve/conjugate_gradients.h"
 #include "solve/corotated.h"
 #include "solve/link_energy.h"
-#include "solve/multigrid.h"
 #include "solve/path_search.h"
+#include "solve/quasi_newton.h"
+#include "solve/region_multipliers.h"
 #include "solve/repair.h"
 #include "solve/valid_projection.h"
 
 namespace chainmail {
 namespace {
 
-// Stiffness against the distance from the valid region, as a multiple of the link's own stiffness: at the beginning,
-// and its limits. Few binding links converge best with little, many with much.
-constexpr double first_penalty = 2, least_penalty = 0.2, largest_penalty = 100;
-// The penalty changes by this factor after 6, 12, 24, ... steps if one of the two residuals is larger than the other by
-// these ratios (after Boyd et al. 2011, section 3.4.1; the ratios were found by trials on sheets and blocks).
-constexpr double penalty_factor = 3, too_stiff = 1.9, too_soft = 0.7;
-constexpr int first_penalty_check = 6;
-constexpr double over_relaxation = 1.7;
-// Steps of conjugate gradients per step of the method of multipliers.
-constexpr int inner_steps = 1;
 // The gradient is computed anew after this many steps, so that rounding does not add up.
 constexpr int steps_per_gradient = 30;
 // Lateral stiffness of the preconditioner for the corotated energy, per stiffness along the link.
-constexpr double turned_share = 0.1;
+constexpr double turned_share = 0.3;
 // Valid regions count from this residual on: before, the iterate may violate links only because it has not converged.
 constexpr double binds_below = 0.2;
 // They count no more if none has a force while the residual is below this.
@@ -56,256 +48,6 @@ struct Displacements {
   RegionTable<double, D> regions;
 };
 
-/// A matrix in float with its multigrid, both brought up to date when they are used.
-template <int D>
-class Preconditioner {
- public:
-  using Matrix = LinkMatrix<double, D>;
-  using Vectors = typename Matrix::Vectors;
-
-  void reset() { *this = Preconditioner(); }
-  /// Notes that the blocks in these rows, or whether they are fixed, have changed. `cut`: because links were cut.
-  void outdate(std::span<const ElementId> rows, bool cut) {
-    if (grid_.is_built()) {
-      outdated_.insert(outdated_.end(), rows.begin(), rows.end());
-      cut_ = cut_ || cut;
-    }
-    if (outdated_.size() > std::size_t{matrix_.size()}) {
-      reset();  // it is built anew when it is needed
-    }
-  }
-
-  /// `change` makes the blocks of the approximated matrix from those of `matrix`.
-  template <class Change>
-  void update(const MeshPointer& mesh, const Matrix& matrix, Change change) {
-    if (!grid_.is_built() || outdated_.size() > matrix.size() / 4) {
-      build(mesh, matrix, change);
-    } else if (!outdated_.empty()) {
-      for (const ElementId row : outdated_) {
-        copy_row(matrix, row, change);
-      }
-      grid_.repair(matrix_, outdated_, cut_);
-    }
-    outdated_.clear();
-    cut_ = false;
-  }
-
-  void apply(const Vectors& right, Vectors& result) {
-    double largest = 0;
-    for (const auto& one : right) {
-      largest = std::max(largest, one.cwiseAbs().maxCoeff());
-    }
-    const double scale = largest > 0 ? 1 / largest : 1;
-    right_.resize(right.size());
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      right_[i] = (right[i] * scale).template cast<float>();
-    }
-    grid_.cycle(matrix_, right_, result_);
-    result.resize(right.size());
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      result[i] = result_[i].template cast<double>() / scale;
-    }
-  }
-
- private:
-  static LinkBlock<float, D> rounded(const LinkBlock<double, D>& block) {
-    return {block.along.template cast<float>(), static_cast<float>(block.across)};
-  }
-
-  template <class Change>
-  void build(const MeshPointer& mesh, const Matrix& matrix, Change change) {
-    matrix_ = LinkMatrix<float, D>(mesh);
-    for (LinkId link = 0; link < mesh->link_count(); ++link) {
-      matrix_.set_link(link, rounded(change(matrix.link(link))));
-    }
-    for (ElementId e = 0; e < mesh->element_count(); ++e) {
-      matrix_.set_fixed(e, matrix.is_fixed(e));
-    }
-    grid_.build(matrix_);
-  }
-
-  template <class Change>
-  void copy_row(const Matrix& matrix, ElementId row, Change change) {
-    const Mesh& mesh = matrix.mesh();
-    matrix_.set_fixed(row, matrix.is_fixed(row));
-    for (EntryId entry = mesh.first_entry[row]; entry < mesh.first_entry[row + 1]; ++entry) {
-      matrix_.set_link(mesh.entry_link[entry], rounded(change(matrix.link(mesh.entry_link[entry]))));
-    }
-  }
-
-  LinkMatrix<float, D> matrix_;
-  Multigrid<D> grid_;
-  std::vector<ElementId> outdated_;
-  bool cut_ = false;
-  std::vector<Eigen::Matrix<float, D, 1>> right_, result_;
-};
-
-/// Conjugate gradients with a preconditioner, one step at a time. The iterate belongs to the caller.
-template <int D>
-class ConjugateGradients {
- public:
-  using Matrix = LinkMatrix<double, D>;
-  using Vectors = typename Matrix::Vectors;
-
-  /// Begins with this negative gradient.
-  Vectors& begin() {
-    is_fresh_ = true;
-    return rest_;
-  }
-
-  /// Runs a step. Returns by how much the energy decreases.
-  double step(const Matrix& matrix, Preconditioner<D>& preconditioner, Vectors& x) {
-    preconditioner.apply(rest_, scaled_);
-    const double slope = dot(rest_, scaled_);
-    if (!(slope > 0)) {
-      slope_ = 0;
-      return 0;
-    }
-    // After Polak and Ribière, which forgives a preconditioner in float.
-    const double bend = is_fresh_ ? 0 : std::max(0.0, -step_ * dot(product_, scaled_) / slope_);
-    way_.resize(rest_.size());
-    for (std::size_t i = 0; i < way_.size(); ++i) {
-      way_[i] = is_fresh_ ? scaled_[i] : scaled_[i] + bend * way_[i];
-    }
-    slope_ = slope;
-    is_fresh_ = false;
-    matrix.apply(way_, product_);
-    const double curvature = dot(way_, product_), along = dot(rest_, way_);
-    if (!(curvature > 0)) {
-      return 0;
-    }
-    step_ = along / curvature;
-    const double before = dot(rest_, rest_);
-    double after = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      x[i] += step_ * way_[i];
-      rest_[i] -= step_ * product_[i];
-      after += rest_[i].squaredNorm();
-    }
-    shrunk_ = before > 0 ? std::sqrt(after / before) : 0;
-    return step_ * along / 2;
-  }
-
-  /// Estimates the distance of the iterate from the minimum, in the norm of the energy, after the last step.
-  double distance() const { return std::sqrt(std::max(0.0, slope_)) * shrunk_; }
-  /// The same before the last step.
-  double distance_before() const { return std::sqrt(std::max(0.0, slope_)); }
-
- private:
-  static double dot(const Vectors& a, const Vectors& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      sum += a[i].dot(b[i]);
-    }
-    return sum;
-  }
-
-  bool is_fresh_ = true;
-  double slope_ = 0, step_ = 0, shrunk_ = 1;
-  Vectors rest_, scaled_, way_, product_;
-};
-
-/// A quasi-Newton method with a preconditioner in place of the first approximation of the inverse (L-BFGS; Nocedal
-/// 1980), one step at a time. What it has learned about the curvature stays when the handle moves.
-template <int D>
-class QuasiNewton {
- public:
-  using Vectors = std::vector<Eigen::Matrix<double, D, 1>>;
-
-  void forget() { pairs_.clear(); }
-
-  /// Runs a step from `x`, with the energy and its negative gradient there, which are updated. `evaluate(x, force)`
-  /// returns the energy. Returns false if no step lowers the energy.
-  template <class Evaluate>
-  bool step(Evaluate evaluate, Preconditioner<D>& preconditioner, Vectors& x, double& energy, Vectors& force) {
-    find_way(preconditioner, force);
-    const double slope = dot(way_, force);
-    slope_ = std::max(0.0, slope);
-    if (!(slope > 0)) {
-      forget();
-      return false;
-    }
-    before_ = force;
-    start_ = x;
-    double length = 1;
-    for (int i = 0; i < most_tries; ++i, length *= 0.5) {
-      for (std::size_t e = 0; e < x.size(); ++e) {
-        x[e] = start_[e] + length * way_[e];
-      }
-      const double next = evaluate(x, force);
-      if (next <= energy - 1e-4 * length * slope + 1e-13 * energy) {
-        energy = next;
-        learn(length, force);
-        const double was = dot(before_, before_);
-        shrunk_ = was > 0 ? std::min(1.0, std::sqrt(dot(force, force) / was)) : 0;
-        return true;
-      }
-    }
-    x = start_;
-    force = before_;
-    forget();
-    return false;
-  }
-
-  /// Estimates the distance from the minimum in the norm of the energy, after the last step.
-  double distance() const { return std::sqrt(slope_) * shrunk_; }
-
- private:
-  static constexpr std::size_t most_pairs = 6;
-  static constexpr int most_tries = 12;
-
-  struct Pair {
-    Vectors step, change;  // of the position, and of the gradient
-    double product = 0;    // step · change
-  };
-
-  static double dot(const Vectors& a, const Vectors& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      sum += a[i].dot(b[i]);
-    }
-    return sum;
-  }
-  static void add(Vectors& sum, double factor, const Vectors& other) {
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-      sum[i] += factor * other[i];
-    }
-  }
-
-  void find_way(Preconditioner<D>& preconditioner, const Vectors& force) {
-    rest_ = force;
-    std::vector<double> shares(pairs_.size());
-    for (std::size_t i = pairs_.size(); i-- > 0;) {
-      shares[i] = dot(pairs_[i].step, rest_) / pairs_[i].product;
-      add(rest_, -shares[i], pairs_[i].change);
-    }
-    preconditioner.apply(rest_, way_);
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      add(way_, shares[i] - dot(pairs_[i].change, way_) / pairs_[i].product, pairs_[i].step);
-    }
-  }
-
-  void learn(double length, const Vectors& force) {
-    Pair pair;
-    if (pairs_.size() == most_pairs) {
-      pair = std::move(pairs_.front());
-      pairs_.erase(pairs_.begin());
-    }
-    pair.step.assign(way_.size(), Eigen::Matrix<double, D, 1>::Zero());
-    add(pair.step, length, way_);
-    pair.change = before_;
-    add(pair.change, -1, force);
-    pair.product = dot(pair.step, pair.change);
-    if (pair.product > 1e-12 * std::sqrt(dot(pair.step, pair.step) * dot(pair.change, pair.change))) {
-      pairs_.push_back(std::move(pair));
-    }
-  }
-
-  std::vector<Pair> pairs_;  // oldest first
-  Vectors rest_, way_, before_, start_;
-  double slope_ = 0, shrunk_ = 1;
-};
-
 template <int D>
 class Equilibrator final : public EquilibriumSolver {
  public:
@@ -313,32 +55,39 @@ class Equilibrator final : public EquilibriumSolver {
   using Vectors = std::vector<Vector>;
   using Projection = ValidProjection<Displacements<D>>;
 
+  explicit Equilibrator(bool uses_regions) : uses_regions_(uses_regions) {}
+
   void iterate(Body& body, std::span<const ElementId> held, const Progress& progress) override {
     progress.report(0);
+    prepared_ = false;
     follow(body, held);
-    step();
+    step(progress);
     show(body);
   }
 
   bool solve(Body& body, std::span<const ElementId> held, double residual, int most,
              const Progress& progress) override {
+    prepared_ = false;
     follow(body, held);
     bool reached = false;
     for (int i = 0; i < most && !reached; ++i) {
       progress.report(double(i) / most);
-      const bool was_constrained = constrained_;
-      step();
-      reached = residual_ <= residual && constrained_ == was_constrained;
+      step(progress);
+      reached = residual_ <= residual;
     }
     show(body);
     return reached;
   }
 
   double residual() const override { return residual_; }
+  bool has_prepared() const override { return prepared_; }
   std::span<const ElementId> moved() const override { return moved_; }
   double largest_step() const override { return largest_step_; }
 
-  EquilibriumCertificate certificate(Body& body) override {
+  std::optional<EquilibriumCertificate> certificate(const Body& body) override {
+    if (shown_.mesh != &body.mesh() || seen_ != body.revisions() || has_moved(body)) {
+      return std::nullopt;
+    }
     EquilibriumCertificate result;
     result.residual = residual_;
     result.binds = constrained_;
@@ -363,7 +112,7 @@ class Equilibrator final : public EquilibriumSolver {
       begin(body);
     }
     shown_.body = &body;
-    if (is_new || now.softness != seen_.softness) {
+    if (uses_regions_ && (is_new || now.softness != seen_.softness)) {
       shown_.regions.set(*mesh_, body.softness(), true);
     }
     if (is_new || now.energy != seen_.energy) {
@@ -494,8 +243,7 @@ class Equilibrator final : public EquilibriumSolver {
           penalised_matrix_->set_link(link, with_penalty(block));
         }
         if (constrained_ && block.is_zero()) {
-          multiplier_[link].setZero();
-          inside_[link].setZero();
+          regions_.drop(link);
         }
         rows.insert(rows.end(), {mesh_->links[link][0], mesh_->links[link][1]});
         cut = cut || body.cuts().is_cut(link);
@@ -515,16 +263,14 @@ class Equilibrator final : public EquilibriumSolver {
     return block;
   }
   LinkBlock<double, D> with_penalty(LinkBlock<double, D> block) const {
-    const double all = penalty_of(block);
+    const double all = stiffness_of(block);
     if (kind_ == EnergyKind::corotated) {  // a bound of the curvature, whatever the rotations are
-      return {Vector::Zero(), block.along.squaredNorm() + block.across + all};
+      return {Vector::Zero(), (1 + regions_.penalty()) * all};
     }
-    block.across += all;
+    block.across += regions_.penalty() * all;
     return block;
   }
-  double penalty_of(const LinkBlock<double, D>& block) const {
-    return penalty_ * (block.along.squaredNorm() + block.across);
-  }
+  static double stiffness_of(const LinkBlock<double, D>& block) { return block.along.squaredNorm() + block.across; }
 
   void update_fixed(const Body& body) {
     std::vector<std::uint8_t> fixed(mesh_->element_count());
@@ -583,7 +329,7 @@ class Equilibrator final : public EquilibriumSolver {
 
   /// Repairs the shown state if an algorithm left it invalid.
   void make_valid(Body& body) {
-    if (projection().is_valid(shown_.positions)) {
+    if (is_valid(shown_.positions)) {
       return;
     }
     Repair repair(shown_, search_, std::max(largest_, body.reach().since_rest), held_, epsilon_);
@@ -603,16 +349,16 @@ class Equilibrator final : public EquilibriumSolver {
 
   // Iterations.
 
-  void step() {
-    constrained_ ? constrained_step() : free_step();
+  void step(const Progress& progress) {
+    constrained_ ? constrained_step(progress) : free_step(progress);
     ++iterations_;
-    if (!constrained_ && residual_ < binds_below && !projection().is_valid(iterate_)) {
+    if (!constrained_ && residual_ < binds_below && !is_valid(iterate_)) {
       begin_constraints();
     }
   }
 
-  void free_step() {
-    update_free();
+  void free_step(const Progress& progress) {
+    update_free(progress);
     if (kind_ == EnergyKind::corotated) {
       newton_step();
       return;
@@ -636,12 +382,10 @@ class Equilibrator final : public EquilibriumSolver {
     residual_ = std::isfinite(relative) ? relative : 1;
   }
 
-  void update_free() {
-    if (kind_ == EnergyKind::corotated) {
-      free_.update(mesh_, energy_, [](const LinkBlock<double, D>& block) { return softened(block); });
-    } else {
-      free_.update(mesh_, energy_, std::identity());
-    }
+  void update_free(const Progress& progress) {
+    const bool is_built = kind_ == EnergyKind::corotated ? free_.update(mesh_, energy_, softened, progress)
+                                                         : free_.update(mesh_, energy_, std::identity(), progress);
+    prepared_ = prepared_ || is_built;
   }
 
   void newton_step() {
@@ -689,43 +433,21 @@ class Equilibrator final : public EquilibriumSolver {
 
   void begin_constraints() {
     constrained_ = true;
-    multiplier_.assign(mesh_->link_count(), Vector::Zero());
-    inside_.resize(mesh_->link_count());
-    for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>& region) {
-      inside_[link] = clamped_to(region, iterate_[j] - iterate_[i]);
-    });
-    constrained_steps_ = 0;
+    regions_.begin(mesh_->link_count(), links(), iterate_);
     residual_ = 1;  // of the free minimum, it says nothing now
-    next_penalty_check_ = first_penalty_check;
     if (!penalised_matrix_) {
-      set_penalty(first_penalty);
+      penalise();
     }
   }
 
-  void set_penalty(double penalty) {
-    penalty_ = penalty;
+  /// Makes the matrix with the present penalty.
+  void penalise() {
     penalised_matrix_.emplace(energy_);
     for (LinkId link = 0; link < mesh_->link_count(); ++link) {
       penalised_matrix_->set_link(link, with_penalty(energy_.link(link)));
     }
-    penalised_.reset();
-  }
-
-  void adapt_penalty(double outside, double stepped) {
-    if (++constrained_steps_ < next_penalty_check_) {
-      return;
-    }
-    next_penalty_check_ *= 2;
-    const double ratio = outside > 0 ? std::sqrt(stepped / outside) : 1;
-    const double wanted = ratio > too_stiff  ? penalty_ / penalty_factor
-                          : ratio < too_soft ? penalty_ * penalty_factor
-                                             : penalty_;
-    const double before = penalty_;
-    if (wanted != before && wanted >= least_penalty && wanted <= largest_penalty) {
-      set_penalty(wanted);
-      for (Vector& one : multiplier_) {
-        one *= before / wanted;
-      }
+    if (kind_ != EnergyKind::corotated) {  // there, the penalty is a factor of the whole matrix, which does not matter
+      penalised_.reset();
     }
   }
 
@@ -734,71 +456,51 @@ class Equilibrator final : public EquilibriumSolver {
     is_fresh_ = true;
   }
 
-  /// Calls visit(link, i, j, region) for each link that counts, with i < j and the region of j about i.
-  template <class Visit>
-  void for_each_link(Visit visit) const {
-    for (ElementId i = 0; i < mesh_->element_count(); ++i) {
-      shown_.for_each_neighbour(i, [&](ElementId j, EntryId entry) {
-        if (j > i && (fixed_[i] == 0 || fixed_[j] == 0)) {
-          visit(mesh_->entry_link[entry], i, j, shown_.regions[entry]);
-        }
-      });
-    }
+  /// Returns a function that calls visit(link, i, j, region, stiffness) for each link that counts, with i < j and the
+  /// region of j about i.
+  auto links() const {
+    return [this](auto visit) {
+      for (ElementId i = 0; i < mesh_->element_count(); ++i) {
+        shown_.for_each_neighbour(i, [&](ElementId j, EntryId entry) {
+          if (j > i && (fixed_[i] == 0 || fixed_[j] == 0)) {
+            const LinkId link = mesh_->entry_link[entry];
+            visit(link, i, j, shown_.regions[entry], stiffness_of(energy_.link(link)));
+          }
+        });
+      }
+    };
   }
 
-  static Vector clamped_to(const Region<double, D>& region, Vector apart) {
-    for (int k = 0; k < D; ++k) {
-      apart[k] = std::min(std::max(apart[k], region.low[k]), region.high[k]);
-    }
-    return apart;
-  }
-
-  /// One step of the method of multipliers: an approximate minimum of the energy with springs to where each link was
-  /// inside its region, then clamps into the regions, then the multipliers.
-  void constrained_step() {
-    penalised_.update(mesh_, *penalised_matrix_, std::identity());
+  /// One step of the method of multipliers: an approximate minimum of the energy with springs to the links' copies,
+  /// then copies and multipliers.
+  void constrained_step(const Progress& progress) {
+    prepared_ = penalised_.update(mesh_, *penalised_matrix_, std::identity(), progress) || prepared_;
     Vectors& rest = gradients_.begin();
     energy_of_iterate_ = gradient(iterate_, rest);
-    for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>&) {
-      const Vector apart = iterate_[j] - iterate_[i];
-      const Vector force = penalty_of(energy_.link(link)) * (inside_[link] - multiplier_[link] - apart);
-      rest[i] -= force;
-      rest[j] += force;
-    });
+    regions_.add_forces(links(), iterate_, rest);
     energy_.clear_fixed(rest);
-    for (int i = 0; i < inner_steps; ++i) {
-      gradients_.step(*penalised_matrix_, penalised_, iterate_);
-    }
+    gradients_.step(*penalised_matrix_, penalised_, iterate_);
     is_fresh_ = true;
-    double outside = 0, stepped = 0, size = 0, active = 0;
-    for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>& region) {
-      const double weight = penalty_of(energy_.link(link));
-      const Vector apart = iterate_[j] - iterate_[i];
-      const Vector relaxed = over_relaxation * apart + (1 - over_relaxation) * inside_[link];
-      const Vector before = inside_[link], wanted = relaxed + multiplier_[link];
-      inside_[link] = clamped_to(region, wanted);
-      multiplier_[link] = wanted - inside_[link];  // exactly 0 inside the region
-      outside += weight * (apart - inside_[link]).squaredNorm();
-      stepped += weight * (before - inside_[link]).squaredNorm();
-      size += weight * apart.squaredNorm();
-      active += multiplier_[link].squaredNorm();
-    });
-    residual_ = std::sqrt(std::max(outside, stepped) / (size + unseen_energy()));
-    if (active == 0 && residual_ < frees_below && projection().is_valid(iterate_)) {
+    const auto step = regions_.step(links(), iterate_);
+    residual_ = std::sqrt(std::max(step.outside, step.stepped) / (step.size + unseen_energy()));
+    if (!step.forced && residual_ < frees_below && is_valid(iterate_)) {
       end_constraints();
-    } else {
-      adapt_penalty(outside, stepped);
+    } else if (regions_.adapt(step)) {
+      penalise();
     }
   }
 
   // What the user sees.
 
   Projection projection() const { return Projection(shown_, fixed_, tolerance_); }
+  template <class Positions>
+  bool is_valid(const Positions& positions) const {
+    return !uses_regions_ || projection().is_valid(positions);
+  }
 
   void show(Body& body) {
-    Projection to_valid = projection();
-    if (!to_valid.is_valid(iterate_)) {
-      to_valid.run(shown_.positions, iterate_);
+    if (!is_valid(iterate_)) {
+      projection().run(shown_.positions, iterate_);
     } else {
       for (std::size_t e = 0; e < iterate_.size(); ++e) {
         for (int k = 0; k < D; ++k) {
@@ -832,7 +534,22 @@ class Equilibrator final : public EquilibriumSolver {
     largest_step_ = std::sqrt(largest_step_);
     if (!moved_.empty()) {
       body.note_relaxation();
+      seen_ = body.revisions();
     }
+  }
+
+  /// Returns true if elements have moved since the last call of write.
+  bool has_moved(const Body& body) const {
+    const PositionView positions = body.positions();
+    for (ElementId e = 0; e < mesh_->element_count(); ++e) {
+      for (int k = 0; k < D; ++k) {
+        const double at = positions(e, k), rest = mesh_->rest[std::size_t{e} * D + std::size_t(k)];
+        if (!(std::abs(at - rest - shown_.positions[e][k]) <= tolerance_ + 4 * epsilon_ * std::abs(at))) {
+          return true;
+        }
+      }
+    }
+    return false;
   }
 
   // The certificate.
@@ -853,8 +570,8 @@ class Equilibrator final : public EquilibriumSolver {
       rest[j] -= force;
     }
     if (constrained_) {
-      for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>& region) {
-        const Vector force = penalty_of(energy_.link(link)) * multiplier_[link];
+      links()([&](LinkId link, ElementId i, ElementId j, const Region<double, D>& region, double stiffness) {
+        const Vector force = regions_.force(link, stiffness);
         bound += force.dot(at[j] - at[i]);
         for (int k = 0; k < D; ++k) {
           bound -= force[k] > 0 ? force[k] * region.high[k] : force[k] * region.low[k];
@@ -864,27 +581,25 @@ class Equilibrator final : public EquilibriumSolver {
       });
     }
     energy_.clear_fixed(rest);
-    update_free();
+    update_free({});
     Vectors step;
     free_.apply(rest, step);
-    double decrease = 0;
-    for (std::size_t e = 0; e < rest.size(); ++e) {
-      decrease += rest[e].dot(step[e]);
-    }
-    bound -= decrease / 2;
+    bound -= dot(rest, step) / 2;
     return energy > 0 ? std::max(0.0, energy - bound) / energy : 0;
   }
 
   double largest_violation() const {
     double largest = 0;
-    for_each_link([&](LinkId link, ElementId i, ElementId j, const Region<double, D>& region) {
+    links()([&](LinkId link, ElementId i, ElementId j, const Region<double, D>& region, double) {
       const Vector apart = vector_of(shown_.positions[j]) - vector_of(shown_.positions[i]);
-      const double outside = (apart - clamped_to(region, apart)).norm(), length = rest_vector(link).norm();
+      const double outside = (apart - regions_.clamped_to(region, apart)).norm(), length = rest_vector(link).norm();
       largest = std::max(largest, outside / (length > 0 ? length : mesh_->mean_link_length));
     });
     return largest;
   }
 
+  const bool uses_regions_;
+  bool prepared_ = false;
   MeshPointer mesh_;
   Revisions seen_;
   std::vector<ElementId> held_;  // ascending
@@ -914,10 +629,7 @@ class Equilibrator final : public EquilibriumSolver {
   int iterations_ = 0;
 
   bool constrained_ = false;  // valid regions bind
-  double penalty_ = first_penalty;
-  int constrained_steps_ = 0, next_penalty_check_ = 0;
-  Vectors inside_;      // of each link: its difference of displacements, clamped into the region
-  Vectors multiplier_;  // of each link: its force, divided by the penalty
+  RegionMultipliers<D> regions_;
 
   std::vector<ElementId> moved_;
   double largest_step_ = 0;
@@ -925,14 +637,14 @@ class Equilibrator final : public EquilibriumSolver {
 
 }  // namespace
 
-std::unique_ptr<EquilibriumSolver> EquilibriumSolver::make(int space_dimension) {
+std::unique_ptr<EquilibriumSolver> EquilibriumSolver::make(int space_dimension, bool uses_regions) {
   switch (space_dimension) {
     case 1:
-      return std::make_unique<Equilibrator<1>>();
+      return std::make_unique<Equilibrator<1>>(uses_regions);
     case 2:
-      return std::make_unique<Equilibrator<2>>();
+      return std::make_unique<Equilibrator<2>>(uses_regions);
     default:
-      return std::make_unique<Equilibrator<3>>();
+      return std::make_unique<Equilibrator<3>>(uses_regions);
   }
 }
 

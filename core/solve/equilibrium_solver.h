@@ -10,12 +10,13 @@
 
 namespace chainmail {
 
-/// How close the positions of a body are to the equilibrium.
+/// How close the positions of a body are to the equilibrium. The residual and the gap are estimates: they use the
+/// preconditioner in place of the inverse of the matrix.
 struct EquilibriumCertificate {
   double violation = 0;  // largest violation of a link, in rest lengths
-  double residual = 0;   // estimated distance from the equilibrium in the norm of the energy, relative to its root
-  /// Energy above a lower bound of the energy of all valid states, relative to the energy. None for the corotated
-  /// energy, which is not convex.
+  double residual = 0;   // distance d from the equilibrium, as √(energy of d / energy)
+  /// Energy above a lower bound (Lagrange's dual function) of the energy of all valid states, relative to the energy.
+  /// None for the corotated energy, which is not convex.
   std::optional<double> gap;
   bool binds = false;  // true if valid regions change the equilibrium
   int iterations = 0;  // since the handle, the pins or the object changed
@@ -24,15 +25,16 @@ struct EquilibriumCertificate {
 /// Finds the equilibrium: the state of least energy among all in which every link is valid, while the handle and the
 /// pins stay.
 ///
-/// An iteration is one step of conjugate gradients, preconditioned by multigrid. Where valid regions bind, it is one
-/// step of the alternating direction method of multipliers (Glowinski and Marroco 1975; Boyd et al. 2011), whose linear
-/// system has the same form. Each iteration leaves the body in a valid state.
+/// An iteration is one step, preconditioned by multigrid, of conjugate gradients, or of a quasi-Newton method (L-BFGS)
+/// for the corotated energy. Where valid regions bind, it is one step of the method of multipliers, see
+/// region_multipliers.h. Each iteration leaves the body in a valid state.
 ///
 /// What is kept between iterations is compared with the body's revisions. A cut, a pin or another softness of some
 /// links updates the levels of the multigrid only around them.
 class EquilibriumSolver {
  public:
-  static std::unique_ptr<EquilibriumSolver> make(int space_dimension);
+  /// `uses_regions`: false to find the state of least energy among all states, valid or not.
+  static std::unique_ptr<EquilibriumSolver> make(int space_dimension, bool uses_regions = true);
 
   EquilibriumSolver() = default;
   EquilibriumSolver(const EquilibriumSolver&) = delete;
@@ -50,11 +52,14 @@ class EquilibriumSolver {
 
   /// Estimated distance of the last iterate from the equilibrium: see EquilibriumCertificate.
   virtual double residual() const = 0;
+  /// True if the last call built a multigrid, which takes as long as tens of iterations.
+  virtual bool has_prepared() const = 0;
   /// The elements that the last call moved, ascending, and the length of the largest step (mesh units).
   virtual std::span<const ElementId> moved() const = 0;
   virtual double largest_step() const = 0;
-  /// Returns the certificate of the present positions. Costs as much as about two iterations.
-  virtual EquilibriumCertificate certificate(Body& body) = 0;
+  /// Returns the certificate of the present positions; none if the body has changed since the last call. Costs as much
+  /// as about two iterations.
+  virtual std::optional<EquilibriumCertificate> certificate(const Body& body) = 0;
 };
 
 }  // namespace chainmail

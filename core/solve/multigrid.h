@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 
+#include "mesh/progress.h"
 #include "solve/link_matrix.h"
 
 namespace chainmail {
@@ -24,8 +25,9 @@ class Multigrid {
   Multigrid& operator=(Multigrid&&) noexcept;
   ~Multigrid();
 
-  /// Builds all levels. The mean over the links of the numbers in the matrix should be near 1.
-  void build(const Matrix& matrix);
+  /// Builds all levels. The mean over the links of the numbers in the matrix should be near 1. If it is cancelled, the
+  /// levels are as before.
+  void build(const Matrix& matrix, const Progress& progress = {});
   bool is_built() const { return levels_ != nullptr; }
   /// Updates the levels after the blocks of links changed, or whether elements are fixed. `rows`: the ends of these
   /// links, and these elements and their neighbours; `cut`: true if one of the links was cut. Costs about as much as

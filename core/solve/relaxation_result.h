@@ -14,6 +14,7 @@ struct RelaxationResult {
   double largest_step = 0;    // of the sweep so far, Euclidean norm (mesh units)
   /// After an iteration: the estimated distance from the equilibrium, see EquilibriumCertificate.
   std::optional<double> residual = {};
+  bool has_prepared = false;  // true if this iteration prepared later ones, which are much faster
 };
 
 }  // namespace chainmail

@@ -97,25 +97,34 @@ void Solver::set_relaxation(RelaxationScheme scheme) {
 }
 
 RelaxationResult Solver::relax(double step, std::uint64_t budget, std::span<const ElementId> held) {
-  return info(scheme_).sweeps ? relaxation_.sweep(body_, step, budget, held) : iterate(held);
-}
-
-/// Runs one iteration toward the equilibrium. If memory runs out in the middle of it, the next one uses nothing of it.
-RelaxationResult Solver::iterate(std::span<const ElementId> held) {
+  if (info(scheme_).sweeps) {
+    return relaxation_.sweep(body_, step, budget, held);
+  }
   if (awake_at_ != body_.revisions().positions) {
     return {0, true, 0};  // asleep, or the positions were set since
   }
+  return equilibrate([&] { equilibrium_->iterate(body_, held, progress_); });
+}
+
+RelaxationResult Solver::settle(double until, int most, std::span<const ElementId> held, const Progress& progress) {
+  return equilibrate([&] { equilibrium_->solve(body_, held, until, most, progress); });
+}
+
+/// Runs iterations toward the equilibrium. If memory runs out in the middle, the next ones use nothing of them.
+template <class Solve>
+RelaxationResult Solver::equilibrate(Solve solve) {
   try {
     if (!equilibrium_) {
       equilibrium_ = EquilibriumSolver::make(body_.mesh().space_dimension);
     }
-    equilibrium_->iterate(body_, held, progress_);
+    solve();
   } catch (const std::bad_alloc&) {
     body_.note_relaxation();
     equilibrium_.reset();
     throw;
   }
-  return {body_.mesh().element_count(), true, equilibrium_->largest_step(), equilibrium_->residual()};
+  return {body_.mesh().element_count(), true, equilibrium_->largest_step(), equilibrium_->residual(),
+          equilibrium_->has_prepared()};
 }
 
 std::span<const ElementId> Solver::relaxed() const {
@@ -126,7 +135,7 @@ std::span<const ElementId> Solver::relaxed() const {
 }
 
 std::optional<EquilibriumCertificate> Solver::certificate() {
-  return equilibrium_ ? std::optional(equilibrium_->certificate(body_)) : std::nullopt;
+  return equilibrium_ ? equilibrium_->certificate(body_) : std::nullopt;
 }
 
 std::unique_ptr<Solver> make_solver(const MeshPointer& mesh, Algorithm algorithm, Precision precision) {

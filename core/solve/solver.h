@@ -58,20 +58,25 @@ class Solver {
   /// Makes all elements inactive.
   void sleep();
   void set_relaxation(RelaxationScheme scheme);
+  RelaxationScheme relaxation() const { return scheme_; }
   /// Relaxes with a step in (0, 1] until a sweep ends or `budget` elements were visited. The scheme `equilibrium` runs
   /// one iteration; it ignores step and budget, and throws Error if pins contradict each other, and Cancelled. The
   /// elements of `held` (ascending) stay. If nothing is active, `visited` is 0 and the sweep has ended.
   RelaxationResult relax(double step, std::uint64_t budget, std::span<const ElementId> held);
-  /// The elements that the last call of relax moved, once per move.
+  /// Runs iterations of the scheme `equilibrium` until the residual is at most `until`, but at most `most`. Moves the
+  /// elements once, at the end. Throws Error if pins contradict each other, and Cancelled; nothing has moved then.
+  RelaxationResult settle(double until, int most, std::span<const ElementId> held, const Progress& progress);
+  /// The elements that the last call of relax or settle moved, once per move.
   std::span<const ElementId> relaxed() const;
-  /// Returns how close the object is to the equilibrium; none if the scheme `equilibrium` has not relaxed it.
+  /// Returns how close the object is to the equilibrium; none if the scheme `equilibrium` has not relaxed it as it is.
   std::optional<EquilibriumCertificate> certificate();
 
  private:
   Method& method();
   template <class Pass>
   PassCount run(Pass pass);
-  RelaxationResult iterate(std::span<const ElementId> held);
+  template <class Solve>
+  RelaxationResult equilibrate(Solve solve);
 
   Body body_;
   AlgorithmInfo algorithm_;

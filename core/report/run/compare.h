@@ -14,12 +14,16 @@
 
 namespace chainmail::report {
 
+/// Residual at which a comparison ends the iterations to the equilibrium: the error that is left is well below the
+/// physical error of every method.
+inline constexpr double compared_residual = 1e-2;
+
 /// The relaxation after each pass: a number of sweeps, or iterations to the equilibrium.
 struct Relaxing {
   Relaxing(int count = 0, bool to_equilibrium = false) : sweeps(count), equilibrium(to_equilibrium) {}
 
   int sweeps;        // 0 with `equilibrium`
-  bool equilibrium;  // until equilibrium_residual is reached, but not more than equilibrium_iterations
+  bool equilibrium;  // until the residual is below compared_residual, but at most equilibrium_iterations
 
   bool is_none() const { return sweeps == 0 && !equilibrium; }
 };
