@@ -5,6 +5,7 @@
 #include "command_line/common.h"
 #include "command_line/elastic.h"
 #include "command_line/progress_line.h"
+#include "command_line/softness.h"
 #include "files/results/report_json.h"
 #include "files/session/softness_presets.h"
 #include "files/text/outputs.h"
@@ -20,7 +21,7 @@ using report::figure;
 struct CalibrateArguments {
   MeshOptions mesh;
   ElasticArguments elastic;
-  CLI::Option *pins, *algorithm, *relaxation, *drags, *seed, *evaluations;
+  CLI::Option *pins, *algorithm, *relaxation, *energy, *drags, *seed, *evaluations;
   CLI::Option *name, *preset, *json;
 };
 
@@ -28,8 +29,8 @@ constexpr const char* calibrate_footer =
     "The reference solution is neo-Hookean FEM on the same cells. Drags are random: elements away from the pins, by\n"
     "5 to 20 % of the object's size. The search lowers the relative error at the end of the drags: the RMS of the\n"
     "error over the RMS of the reference's displacements. The result is also tested on drags that the search did not\n"
-    "use. The saved preset opens in the workbench and in compare --preset. It contains the softness, not the "
-    "sweeps.\n\n"
+    "use. The saved preset opens in the workbench and in compare --preset. It contains the softness, not the\n"
+    "relaxation and the kind of energy. With --relaxation equilibrium, the search also varies lateral and exponent.\n\n"
     "Example:\n"
     "  chainmail calibrate organ.msh --young 3000 --poisson 0.45 --pins bottom -o liver.json";
 
@@ -40,7 +41,8 @@ CalibrationOptions calibration_options(const CalibrateArguments& options, const 
   if (const auto name = value_of(options.algorithm)) {
     result.algorithm = algorithm_of("--algorithm", *name, algorithms());
   }
-  result.scheme = relaxation_of(options.relaxation, true);
+  result.scheme = relaxation_of(options.relaxation, false);
+  result.energy = energy_of(options.energy);
   result.drags = int(whole_number_of(options.drags, 1, std::uint32_t(result.drags)));
   result.seed = whole_number_of(options.seed, 0, std::uint32_t(result.seed));
   result.evaluations = int(whole_number_of(options.evaluations, 1, std::uint32_t(result.evaluations)));
@@ -58,13 +60,13 @@ std::string read_name(const CalibrateArguments& options, const CalibrationOption
 }
 
 /// Writes rows of residuals: relative, RMS and max.
-void write_residuals(std::ostream& out, const TestedDrags& tested) {
+void write_residuals(std::ostream& out, const TestedDrags& tested, bool at_equilibrium) {
   std::vector<std::vector<std::string>> rows{{"", "relative", "RMS", "max"}};
   const auto add = [&](const std::string& what, const Residual& residual) {
     rows.push_back({what, figure(residual.relative), figure(residual.rms), figure(residual.max)});
   };
   add("nothing moves", tested.nothing);
-  add("defaults, no sweeps", tested.before);
+  add(at_equilibrium ? "defaults" : "defaults, no sweeps", tested.before);
   add("calibrated", tested.after);
   for (const CalibrationDrag& drag : tested.drags) {
     add("  element " + std::to_string(drag.element) + ", before", drag.before);
@@ -74,17 +76,23 @@ void write_residuals(std::ostream& out, const TestedDrags& tested) {
 }
 
 void write_calibration(std::ostream& out, const CalibrationOptions& how, const CalibrationResult& result) {
+  const bool at_equilibrium = !info(how.scheme).sweeps;
   out << info(how.algorithm).label << " comes closest to neo-Hookean FEM on the same cells (Young's modulus "
       << figure(how.elastic.material.young) << ", Poisson's ratio " << figure(how.elastic.material.poisson)
       << ") with\n  compression " << figure(result.softness.compression) << ", stretch "
-      << figure(result.softness.stretch) << ", shear " << figure(result.softness.shear) << ", " << result.sweeps
-      << " sweeps per move\nRelative error, and RMS and max over the handle's displacement. An object that does not "
-         "move "
-         "has a\nrelative error of about 1.\nDrags used by the search ("
+      << figure(result.softness.stretch) << ", shear " << figure(result.softness.shear) << ", ";
+  if (at_equilibrium) {
+    out << "lateral " << figure(result.softness.lateral) << ", exponent " << figure(result.softness.exponent)
+        << ", at equilibrium (" << info(how.energy).name << " energy)";
+  } else {
+    out << result.sweeps << " sweeps per move";
+  }
+  out << "\nRelative error, and RMS and max over the handle's displacement. An object that does not move has a\n"
+         "relative error of about 1.\nDrags used by the search ("
       << result.fitted.drags.size() << ", " << result.evaluations << " evaluations):\n";
-  write_residuals(out, result.fitted);
+  write_residuals(out, result.fitted, at_equilibrium);
   out << "Drags not used by the search (" << result.held_out.drags.size() << "):\n";
-  write_residuals(out, result.held_out);
+  write_residuals(out, result.held_out, at_equilibrium);
 }
 
 void calibrate(const CalibrateArguments& options) {
@@ -132,7 +140,8 @@ Command add_calibrate(CLI::App& root) {
   options.pins = add_pins(*app);
   options.algorithm =
       add_value(*app, "--algorithm", "NAME", "an algorithm of the ChainMail family: see deform --help [natural-queue]");
-  options.relaxation = add_relaxation(*app, true);
+  options.relaxation = add_relaxation(*app, false);
+  options.energy = add_energy(*app);
   options.drags = add_value(*app, "--drags", "N", "number of drags to fit [4]");
   options.seed = add_value(*app, "--seed", "S", "random seed of the drags [1]");
   options.evaluations =

@@ -16,28 +16,37 @@ std::vector<std::string> energy_names() {
 
 }  // namespace
 
+CLI::Option* add_energy(CLI::App& app) {
+  std::string names;
+  for (const std::string& name : energy_names()) {
+    names += (names.empty() ? "" : "|") + name;
+  }
+  return add_value(app, "--energy", names,
+                   "elastic energy that relaxation lowers; isotropic ignores lateral, stiffness and exponent [" +
+                       std::string(info(standard_energy).name) + "]");
+}
+
+EnergyKind energy_of(const CLI::Option* option) {
+  const auto name = value_of(option);
+  if (!name) {
+    return standard_energy;
+  }
+  check_word("--energy", *name, energy_names());
+  return energy_kind_of(*name);
+}
+
 SoftnessArguments add_softness(CLI::App& app) {
   SoftnessArguments arguments;
   for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
     arguments.numbers[i] = add_parameter(app, *softness_numbers[i].parameter);
   }
-  std::string names;
-  for (const std::string& name : energy_names()) {
-    names += (names.empty() ? "" : "|") + name;
-  }
-  arguments.energy = add_value(app, "--energy", names,
-                               "elastic energy that relaxation lowers; isotropic ignores lateral, stiffness and "
-                               "exponent [" +
-                                   std::string(info(standard_energy).name) + "]");
+  arguments.energy = add_energy(app);
   return arguments;
 }
 
 Softness softness_of(const SoftnessArguments& arguments, const LinkSoftness& usual) {
   Softness softness{usual, {}};
-  if (const auto energy = value_of(arguments.energy)) {
-    check_word("--energy", *energy, energy_names());
-    set_energy(softness, energy_kind_of(*energy));
-  }
+  set_energy(softness, energy_of(arguments.energy));
   for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
     if (arguments.numbers[i]->count() > 0) {
       softness.global.*softness_numbers[i].value = value_of(arguments.numbers[i], *softness_numbers[i].parameter);

@@ -7,6 +7,11 @@
 
 namespace chainmail::command_line {
 
+/// The option for the kind of energy.
+CLI::Option* add_energy(CLI::App& app);
+/// Returns the kind of energy; the standard one without the option. Throws Error if it is not known.
+EnergyKind energy_of(const CLI::Option* option);
+
 /// The options for the softness of all links and for the kind of energy.
 struct SoftnessArguments {
   std::array<CLI::Option*, softness_numbers.size()> numbers{};

@@ -35,6 +35,7 @@ CalibrationOptions calibration_of(const inner::Body& body, const CalibrateOption
   how.evaluations = options.evaluations;
   how.most_sweeps = options.most_sweeps;
   how.scheme = scheme_of(options.scheme);
+  how.energy = body.softness().energy;
   return how;
 }
 

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <future>
+#include <iterator>
+#include <memory>
 #include <span>
 
 #include "calibrate/drags.h"
@@ -9,20 +13,16 @@
 #include "measure/physical_error.h"
 #include "mesh/error.h"
 #include "report/run/runner.h"
+#include "simulate/simulation.h"
 
 namespace chainmail {
 namespace {
 
-// Bounds of compression, stretch and shear. Beyond these, a link does not limit a drag of a fifth of the object.
-const std::vector<double> low{0, 1, 0}, high{1, 3, 2};
 constexpr std::array every_sweeps{0, 1, 3, 10, 30, 100};
 constexpr double share_everywhere = 0.6;     // share of the evaluations; the others search near the best point
 constexpr double share_of_references = 0.2;  // share of the progress
-
-LinkSoftness softness_at(const std::vector<double>& x) { return {x[0], x[1], x[2]}; }
-std::vector<double> point_of(const LinkSoftness& softness) {
-  return {softness.compression, softness.stretch, softness.shear};
-}
+// Residual of the equilibrium in a search: with a larger one, the error is not smooth enough for it.
+constexpr double smooth_residual = 1e-3;
 
 Residual residual_of(const PhysicalError& error) { return {error.rms, error.max, error.relative}; }
 
@@ -36,6 +36,65 @@ Residual together(const std::vector<Residual>& residuals) {
   }
   return mean;
 }
+
+/// The numbers that a search varies, as a point. Lateral stiffness is there as its decimal logarithm.
+class Variables {
+ public:
+  explicit Variables(const CalibrationOptions& options)
+      : usual_(usual_of(options.energy)),
+        with_energy_(!info(options.scheme).sweeps && options.energy != EnergyKind::isotropic) {}
+
+  // Beyond these bounds, a link does not limit a drag of a fifth of the object.
+  std::vector<double> low() const { return cut({0, 1, 0, -3, -3}); }
+  std::vector<double> high() const { return cut({1, 3, 2, 1.5, 1}); }
+
+  const LinkSoftness& usual() const { return usual_; }
+  LinkSoftness softness_at(const std::vector<double>& x) const {
+    LinkSoftness softness = usual_;
+    softness.compression = x[0];
+    softness.stretch = x[1];
+    softness.shear = x[2];
+    if (with_energy_) {
+      softness.lateral = std::pow(10.0, x[3]);
+      softness.exponent = x[4];
+    }
+    return softness;
+  }
+  std::vector<double> point_of(const LinkSoftness& softness) const {
+    return cut({softness.compression, softness.stretch, softness.shear, std::log10(softness.lateral),
+                softness.exponent});
+  }
+
+  /// Returns where a search with the equilibrium starts: with regions that bind in every drag, in far drags and in
+  /// none, and with an energy that resists rotation less or more.
+  std::vector<LinkSoftness> starts() const {
+    LinkSoftness open = usual_, far = usual_;
+    open.compression = 0;
+    open.stretch = 3;
+    open.shear = 2;
+    far.compression = 0.4;
+    far.stretch = 1.8;
+    far.shear = 0.6;
+    LinkSoftness other = open;
+    other.lateral *= 0.2;
+    other.exponent = -2;
+    return {usual_, far, open, other};
+  }
+
+ private:
+  static LinkSoftness usual_of(EnergyKind kind) {
+    LinkSoftness softness;
+    softness.lateral = info(kind).lateral;
+    return softness;
+  }
+  std::vector<double> cut(std::vector<double> x) const {
+    x.resize(with_energy_ ? x.size() : region_numbers);
+    return x;
+  }
+
+  LinkSoftness usual_;
+  bool with_energy_;
+};
 
 /// A softness and a number of sweeps, with their residuals.
 struct Trial {
@@ -52,6 +111,11 @@ report::CompareOptions options_of(const CalibrationOptions& options) {
   return how;
 }
 
+/// Returns a drag without the moves between its first and its last command: the equilibrium depends on the last alone.
+report::RecordedMoves in_one_move(const report::RecordedMoves& moves) {
+  return {moves.name, moves.description, {moves.commands.front(), moves.commands.back()}};
+}
+
 /// Runs drags with one algorithm.
 class Bench {
  public:
@@ -60,6 +124,9 @@ class Bench {
         object_{"", "", mesh, cuts.links(), options.pins, {}, {}, options.elastic},
         how_(options_of(options)),
         runner_(object_, options.algorithm, Precision::double_precision, how_),
+        algorithm_(options.algorithm),
+        at_equilibrium_(!info(options.scheme).sweeps),
+        energy_(options.energy),
         wanted_(options.evaluations),
         progress_(progress.part(share_of_references, 1)) {}
 
@@ -69,16 +136,17 @@ class Bench {
 
   Trial evaluate(const LinkSoftness& softness, int sweeps) {
     ++evaluations_;
-    return {softness, sweeps, residuals(drags_.fitted, softness, sweeps)};
+    return {softness, sweeps, at_equilibrium_ ? next_residuals(softness) : residuals(drags_.fitted, softness, sweeps)};
   }
 
   /// Returns the residuals of a softness and a number of sweeps on some drags.
   std::vector<Residual> residuals(const std::vector<ReferenceDrag>& drags, const LinkSoftness& softness, int sweeps) {
     std::vector<Residual> residuals;
-    object_.softness.global = softness;
+    object_.softness = {softness, {}, energy_};
     const double done = std::min(1.0, double(evaluations_) / wanted_);
     for (const ReferenceDrag& drag : drags) {
-      runner_.run(drag.moves, sweeps, progress_.part(done, done));
+      runner_.run(at_equilibrium_ ? in_one_move(drag.moves) : drag.moves, {sweeps, at_equilibrium_},
+                  progress_.part(done, done));
       residuals.push_back(
           residual_of(measure_physical_error(*object_.mesh, runner_.simulation().body().positions(), drag.reference)));
     }
@@ -86,28 +154,89 @@ class Bench {
   }
 
  private:
+  /// Goes on from the equilibria of the last evaluation, which are often close, with one thread per drag. The
+  /// corotated energy may have several minima, so these residuals may differ a little from those of drags from rest.
+  std::vector<Residual> next_residuals(const LinkSoftness& softness) {
+    begin_drags();
+    std::vector<std::future<Residual>> running;
+    for (std::size_t i = 0; i < dragged_.size(); ++i) {
+      running.push_back(std::async(std::launch::async, [&, i] { return next_residual(i, softness); }));
+    }
+    std::vector<Residual> residuals;
+    std::ranges::for_each(running, [](auto& one) { one.wait(); });
+    std::ranges::transform(running, std::back_inserter(residuals), [](auto& one) { return one.get(); });
+    return residuals;
+  }
+
+  Residual next_residual(std::size_t i, const LinkSoftness& softness) {
+    Simulation& simulation = *dragged_[i];
+    const double done = std::min(1.0, double(evaluations_) / wanted_);
+    simulation.set_progress(progress_.part(done, done));
+    simulation.apply(commands::SetSoftness{Softness{softness, {}, energy_}});
+    simulation.apply(commands::Drag{drags_.fitted[i].target});
+    simulation.apply(commands::Relax{equilibrium_iterations, 1, RelaxationScheme::equilibrium, smooth_residual});
+    return residual_of(
+        measure_physical_error(*object_.mesh, simulation.body().positions(), drags_.fitted[i].reference));
+  }
+
+  void begin_drags() {
+    for (std::size_t i = dragged_.size(); i < drags_.fitted.size(); ++i) {
+      Simulation& simulation = *dragged_.emplace_back(
+          std::make_unique<Simulation>(object_.mesh, algorithm_, Precision::double_precision));
+      simulation.apply(commands::Cut{object_.cuts});
+      simulation.apply(commands::Pin{object_.pins});
+      simulation.apply(commands::Grab{{drags_.fitted[i].element}});
+    }
+  }
+
   ReferenceDrags drags_;
   report::Case object_;
   report::CompareOptions how_;
   report::Runner runner_;
+  std::vector<std::unique_ptr<Simulation>> dragged_;  // one per drag for the search, at equilibrium
+  Algorithm algorithm_;
+  bool at_equilibrium_;
+  EnergyKind energy_;
   int evaluations_ = 0;
   int wanted_;
   Progress progress_;
 };
 
-/// Continues the search from the best result so far, with this number of sweeps.
-void look(Search search, Bench& bench, int sweeps, int evaluations, Trial& best) {
+/// Searches from `start` with this number of sweeps, and updates the best result so far.
+void look(Search search, const Variables& variables, Bench& bench, const Trial& start, int evaluations, Trial& best) {
   if (evaluations < 1) {
     return;
   }
-  find_optimum(search, low, high, point_of(best.softness), evaluations, [&](const std::vector<double>& x) {
-    Trial trial = bench.evaluate(softness_at(x), sweeps);
-    const double relative = trial.relative();
-    if (relative < best.relative()) {
-      best = std::move(trial);
-    }
-    return relative;
-  });
+  find_optimum(search, variables.low(), variables.high(), variables.point_of(start.softness), evaluations,
+               [&](const std::vector<double>& x) {
+                 Trial trial = bench.evaluate(variables.softness_at(x), start.sweeps);
+                 const double relative = trial.relative();
+                 if (relative < best.relative()) {
+                   best = std::move(trial);
+                 }
+                 return relative;
+               });
+}
+
+/// Sweeps are whole numbers, and their effect grows with their logarithm, so each number gets its own search.
+void search_with_sweeps(const Variables& variables, Bench& bench, const CalibrationOptions& options, Trial& best) {
+  const auto end = std::ranges::upper_bound(every_sweeps, options.most_sweeps);
+  const std::span tried(every_sweeps.begin(), end);
+  const int each = static_cast<int>(share_everywhere * options.evaluations) / std::max(1, int(tried.size()));
+  for (const int sweeps : tried) {
+    look(Search::everywhere, variables, bench, {best.softness, sweeps, {}},
+         std::min(each, options.evaluations - bench.evaluations()), best);
+  }
+}
+
+/// Searches near several starts.
+void search_at_equilibrium(const Variables& variables, Bench& bench, const CalibrationOptions& options, Trial& best) {
+  const std::vector<LinkSoftness> starts = variables.starts();
+  const int each = static_cast<int>(share_everywhere * options.evaluations) / int(starts.size());
+  for (const LinkSoftness& start : starts) {
+    look(Search::about_a_point, variables, bench, {start, 0, {}},
+         std::min(each, options.evaluations - bench.evaluations()), best);
+  }
 }
 
 CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) {
@@ -115,9 +244,6 @@ CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) 
   check(options.algorithm, *mesh);
   if (!info(options.algorithm).uses_softness()) {
     throw Error("algorithm", "it has no softness to calibrate", "choose one of the ChainMail family");
-  }
-  if (!info(options.scheme).sweeps) {
-    throw Error("relaxation", "the equilibrium is not a scheme of sweeps", "use mean or link");
   }
   if (options.drags < 1 || options.evaluations < 1) {
     throw Error(options.drags < 1 ? "drags" : "evaluations", "it is below 1", "use 1 or more");
@@ -151,10 +277,12 @@ TestedDrags tested(const Mesh& mesh, const std::vector<ReferenceDrag>& drags, co
 
 CalibrationResult result_of(Bench& bench, const Trial& before, const Trial& best) {
   CalibrationResult result{best.softness, best.sweeps, bench.evaluations(), {}, {}};
-  result.fitted = tested(bench.mesh(), bench.drags().fitted, before.residuals, best.residuals);
-  const auto& held_out = bench.drags().held_out;
-  result.held_out = tested(bench.mesh(), held_out, bench.residuals(held_out, before.softness, before.sweeps),
-                           bench.residuals(held_out, best.softness, best.sweeps));
+  const auto test = [&](const std::vector<ReferenceDrag>& drags) {
+    return tested(bench.mesh(), drags, bench.residuals(drags, before.softness, before.sweeps),
+                  bench.residuals(drags, best.softness, best.sweeps));
+  };
+  result.fitted = test(bench.drags().fitted);
+  result.held_out = test(bench.drags().held_out);
   return result;
 }
 
@@ -163,17 +291,13 @@ CalibrationResult result_of(Bench& bench, const Trial& before, const Trial& best
 CalibrationResult calibrate(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& asked,
                             const Progress& progress) {
   const CalibrationOptions options = checked(mesh, asked);
+  const Variables variables(options);
   Bench bench(mesh, cuts, options, progress);
-  const Trial before = bench.evaluate({}, 0);
-  // Sweeps are whole numbers, and their effect grows with their logarithm, so each number gets its own search.
+  const Trial before = bench.evaluate(variables.usual(), 0);
   Trial best = before;
-  const auto end = std::ranges::upper_bound(every_sweeps, options.most_sweeps);
-  const std::span tried(every_sweeps.begin(), end);
-  const int each = static_cast<int>(share_everywhere * options.evaluations) / std::max(1, int(tried.size()));
-  for (const int sweeps : tried) {
-    look(Search::everywhere, bench, sweeps, std::min(each, options.evaluations - bench.evaluations()), best);
-  }
-  look(Search::about_a_point, bench, best.sweeps, options.evaluations - bench.evaluations(), best);
+  info(options.scheme).sweeps ? search_with_sweeps(variables, bench, options, best)
+                              : search_at_equilibrium(variables, bench, options, best);
+  look(Search::about_a_point, variables, bench, Trial(best), options.evaluations - bench.evaluations(), best);
   CalibrationResult result = result_of(bench, before, best);
   progress.report(1.0);
   return result;

@@ -27,6 +27,7 @@ struct CalibrationOptions {
   int most_sweeps = 100;             // largest number of sweeps tried, of 0, 1, 3, 10, 30 and 100
   std::vector<ElementId> not_these;  // elements that no drag grabs, in any order
   RelaxationScheme scheme = RelaxationScheme::mean;
+  EnergyKind energy = standard_energy;
 };
 
 /// Distance of the elements from the reference solution at the end of a drag.
@@ -50,7 +51,7 @@ struct CalibrationDrag {
 /// Drags, and their residuals: the means over the drags, and the largest of the maxima.
 struct TestedDrags {
   std::vector<CalibrationDrag> drags;
-  Residual before, after, nothing;  // default softness without sweeps; calibrated; if nothing moves
+  Residual before, after, nothing;  // default softness without sweeps, or at equilibrium; calibrated; if nothing moves
 
   bool operator==(const TestedDrags&) const = default;
 };
@@ -58,7 +59,7 @@ struct TestedDrags {
 /// The best softness, and the best number of sweeps of relaxation after each move.
 struct CalibrationResult {
   LinkSoftness softness;
-  int sweeps = 0;
+  int sweeps = 0;        // 0 with the scheme `equilibrium`
   int evaluations = 0;   // number of evaluations made
   TestedDrags fitted;    // drags used by the search
   TestedDrags held_out;  // drags not used by the search
@@ -69,6 +70,9 @@ struct CalibrationResult {
 /// Finds one softness for all links and the number of sweeps that together have the lowest mean relative error against
 /// neo-Hookean FEM on the same cells. Each drag moves a random element by `shortest_drag` to `farthest_drag` of the
 /// object's size. The same options give the same result.
+///
+/// With sweeps, the search varies compression, stretch and shear. With the scheme `equilibrium`, it also varies the
+/// lateral stiffness and the exponent; then it starts at several points, because the error has several minima.
 ///
 /// Throws Error if nothing is pinned, a number is out of range, the object has no static solution, or no reference
 /// converges. Throws Cancelled if it is cancelled.

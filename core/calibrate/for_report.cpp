@@ -1,36 +1,41 @@
 #include "calibrate/for_report.h"
 
+#include <chrono>
+
 #include "calibrate/calibrate.h"
-#include "report/run/clocks.h"
 
 namespace chainmail {
 namespace {
 
 // A hundred sweeps would take most of the time of a comparison.
 constexpr int drags = 3, evaluations = 60, most_sweeps = 10;
+// The equilibrium has more numbers to find, and its evaluations are short.
+constexpr int evaluations_at_equilibrium = 150;
 
 report::Calibration run(const report::Case& object, CalibrationOptions options, const std::stop_token& stop) {
   JobState job;
   const std::stop_callback cancel(stop, [&job] { job.cancelled = true; });
-  CalibrationResult result;
-  const double seconds = report::seconds_of(
-      report::machine_clocks(), [&] { result = calibrate(object.mesh, Cuts(object.mesh), options, Progress(job)); });
-  return {options.algorithm, result.softness, result.sweeps, options.drags, result.evaluations, seconds, {}};
+  const auto start = std::chrono::steady_clock::now();
+  const CalibrationResult result = calibrate(object.mesh, Cuts(object.mesh), options, Progress(job));
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return {options.algorithm,  !info(options.scheme).sweeps, result.softness, result.sweeps, options.drags,
+          result.evaluations, seconds,                      {}};
 }
 
 }  // namespace
 
 report::Calibrator calibrator_for_reports(RelaxationScheme scheme) {
-  return [scheme](const report::Case& object, Algorithm algorithm, const std::vector<ElementId>& handles,
-                  const std::stop_token& stop) {
+  return [scheme](const report::Case& object, Algorithm algorithm, bool equilibrium,
+                  const std::vector<ElementId>& handles, const std::stop_token& stop) {
     CalibrationOptions options;
     options.elastic = object.elastic;
     options.pins = object.pins;
     options.algorithm = algorithm;
-    options.scheme = scheme;
+    options.scheme = equilibrium ? RelaxationScheme::equilibrium : scheme;
+    options.energy = object.softness.energy;
     options.drags = drags;
     options.held_out = 0;
-    options.evaluations = evaluations;
+    options.evaluations = equilibrium ? evaluations_at_equilibrium : evaluations;
     options.most_sweeps = most_sweeps;
     options.not_these = handles;
     return run(object, options, stop);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
@@ -25,27 +24,40 @@ inline void turn_toward(const Eigen::Matrix2d& sum, Eigen::Matrix2d& rotation) {
   }
 }
 
+/// Solves a symmetric system by Cramer's rule. Returns false if the matrix is not positive definite.
+inline bool solve_positive(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& right, Eigen::Vector3d& solution) {
+  Eigen::Matrix3d adjugate;
+  adjugate.col(0) = matrix.col(1).cross(matrix.col(2));
+  adjugate.col(1) = matrix.col(2).cross(matrix.col(0));
+  adjugate.col(2) = matrix.col(0).cross(matrix.col(1));
+  const double determinant = matrix.col(0).dot(adjugate.col(0));
+  if (!(matrix(0, 0) > 0 && adjugate(2, 2) > 0 && determinant > 0)) {
+    return false;
+  }
+  solution = adjugate * right / determinant;
+  return true;
+}
+
 /// In space, by Newton's method from the present rotation on. Far from the answer, it takes the step of
 /// Müller, Bender, Chentanez and Macklin (2016), which always turns toward the answer.
 inline void turn_toward(const Eigen::Matrix3d& sum, Eigen::Matrix3d& rotation) {
   constexpr int most_steps = 50;
-  constexpr double enough = 1e-13;  // radians
+  constexpr double enough = 1e-7;  // radians; the error after a step of Newton's method is the square of the step
   for (int i = 0; i < most_steps; ++i) {
     const Eigen::Matrix3d product = sum * rotation.transpose();
     const Eigen::Vector3d torque(product(2, 1) - product(1, 2), product(0, 2) - product(2, 0),
                                  product(1, 0) - product(0, 1));
     const double trace = product.trace();
     const Eigen::Matrix3d curvature = trace * Eigen::Matrix3d::Identity() - (product + product.transpose()) / 2;
-    const Eigen::LLT<Eigen::Matrix3d> factor(curvature);
-    Eigen::Vector3d turn = factor.info() == Eigen::Success ? Eigen::Vector3d(factor.solve(torque)) : torque;
-    if (factor.info() != Eigen::Success || !(turn.norm() < 1)) {
+    Eigen::Vector3d turn;
+    if (!solve_positive(curvature, torque, turn) || !(turn.squaredNorm() < 1)) {
       turn = trace != 0 ? Eigen::Vector3d(torque / std::abs(trace)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
     }
-    const double angle = turn.norm();
-    if (angle < enough) {
+    // Differs from a turn by this angle in the third order only.
+    rotation = Eigen::Quaterniond(1, turn[0] / 2, turn[1] / 2, turn[2] / 2).normalized().toRotationMatrix() * rotation;
+    if (turn.squaredNorm() < enough * enough) {
       return;
     }
-    rotation = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * rotation;
   }
 }
 

@@ -31,6 +31,7 @@ class CalibrateTest : public QObject {
   void the_plane_of_a_sheet_does_not_matter();
   void it_comes_closer();
   void its_residuals_are_those_of_its_softness_and_sweeps();
+  void the_equilibrium_comes_closer();
   void drags_go_as_far_as_documented();
   void drags_held_out_are_others();
   void it_is_the_same_each_time();
@@ -256,6 +257,39 @@ void CalibrateTest::its_residuals_are_those_of_its_softness_and_sweeps() {
       QVERIFY(same(drag.before, measured(drag, {}, 0)));
       QVERIFY(same(drag.after, measured(drag, result.softness, result.sweeps)));
     }
+  }
+}
+
+/// Its lateral stiffness and exponent are found too, and its residuals are those of an equilibrium.
+void CalibrateTest::the_equilibrium_comes_closer() {
+  CalibrationOptions options = quick();
+  options.algorithm = Algorithm::exact;
+  const CalibrationResult sweeps = found(options);
+  options.scheme = RelaxationScheme::equilibrium;
+  options.evaluations = 120;
+  for (const EnergyKind energy : {EnergyKind::corotated, EnergyKind::axial, EnergyKind::isotropic}) {
+    options.energy = energy;
+    const CalibrationResult result = found(options);
+    QCOMPARE(result.sweeps, 0);
+    QVERIFY(result.evaluations <= 120);
+    const LinkSoftness usual;
+    const bool varies = result.softness.exponent != usual.exponent && result.softness.lateral != info(energy).lateral;
+    QCOMPARE(varies, energy != EnergyKind::isotropic);
+    if (energy != EnergyKind::isotropic) {
+      QVERIFY(result.fitted.after.relative < sweeps.fitted.after.relative);
+      QVERIFY(result.held_out.after.relative < 0.5 * result.held_out.nothing.relative);
+    }
+    ReferenceSolver reference({sheet, Cuts(sheet), options.pins, std::vector<double>(2 * options.pins.size(), 0), {}});
+    const CalibrationDrag& drag = result.held_out.drags.front();
+    Simulation simulation(sheet, options.algorithm, Precision::double_precision);
+    simulation.apply(commands::Pin{options.pins});
+    simulation.apply(commands::SetSoftness{Softness{result.softness, {}, energy}});
+    simulation.apply(commands::Grab{{drag.element}});
+    simulation.apply(commands::Drag{drag.target});
+    simulation.apply(commands::Relax{1000, 1, RelaxationScheme::equilibrium, 1e-6});
+    const PhysicalError error = measure_physical_error(*sheet, simulation.body().positions(),
+                                                       reference.at(drag.element, drag.target));
+    QVERIFY(std::abs(error.relative - drag.after.relative) < 0.03);
   }
 }
 

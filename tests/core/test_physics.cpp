@@ -36,6 +36,7 @@ class PhysicsTest : public QObject {
   void preparation_is_no_part_of_a_move();
   void a_cut_in_the_middle_is_measured_against_the_same_cut();
   void calibrated_contestants_have_their_softness_and_sweeps();
+  void calibrated_contestants_go_to_the_equilibrium();
   void the_reference_solution_knows_nothing_of_the_last_one();
   void everyone_takes_part();
   void the_truth_has_no_error_and_linear_elasticity_less_for_less();
@@ -248,10 +249,10 @@ void PhysicsTest::calibrated_contestants_have_their_softness_and_sweeps() {
   const LinkSoftness stiff{0.95, 1.05, 0.02};
   PhysicsOptions options = quick({Algorithm::generalized, Algorithm::exact}, {0, 7});
   std::vector<ElementId> avoided;
-  options.calibrate = [&](const Case&, Algorithm algorithm, const std::vector<ElementId>& handles,
+  options.calibrate = [&](const Case&, Algorithm algorithm, bool equilibrium, const std::vector<ElementId>& handles,
                           const std::stop_token&) {
     avoided = handles;
-    return Calibration{algorithm, stiff, 7, 3, 60, 1.5, {}};
+    return Calibration{algorithm, equilibrium, stiff, 7, 3, 60, 1.5, {}};
   };
   const PhysicsReport calibrated = compare_with_physics({sheet}, options);
   QCOMPARE(avoided, physics_handles(sheet));
@@ -267,12 +268,35 @@ void PhysicsTest::calibrated_contestants_have_their_softness_and_sweeps() {
     QVERIFY(entry.measurement.value().error == expected.measurement.value().error);
     QVERIFY(usual.contestant.sweeps == 7 && entry.measurement->error != usual.measurement.value().error);
   }
-  options.calibrate = [](const Case&, Algorithm, const auto&, const std::stop_token&) -> Calibration {
+  options.calibrate = [](const Case&, Algorithm, bool, const auto&, const std::stop_token&) -> Calibration {
     throw Error("object", "it does not converge", "use another");
   };
   const PhysicsReport refused = compare_with_physics({sheet}, options);
   QCOMPARE(refused.objects[0].drags[0].entries.size(), std::size_t{1 + 4});
   QVERIFY(refused.objects[0].calibrations.at(0).refusal.find("does not converge") != std::string::npos);
+}
+
+void PhysicsTest::calibrated_contestants_go_to_the_equilibrium() {
+  const Case sheet = pinned_sheet(25, {}, {});
+  LinkSoftness found{0, 3, 2};
+  found.lateral = 0.4;
+  PhysicsOptions options = quick({Algorithm::exact}, {});
+  options.contest.equilibrium = true;
+  options.calibrate = [&](const Case&, Algorithm algorithm, bool equilibrium, const auto&, const std::stop_token&) {
+    return Calibration{algorithm, equilibrium, found, 0, 3, 60, 1.5, {}};
+  };
+  const PhysicsReport calibrated = compare_with_physics({sheet}, options);
+  QCOMPARE(calibrated.objects[0].calibrations.size(), std::size_t{1});  // no sweeps take part
+  Case softer = sheet;
+  softer.softness.global = found;
+  options.calibrate = {};
+  const PhysicsReport by_hand = compare_with_physics({softer}, options);
+  for (std::size_t i = 0; i < sheet.drags.size(); ++i) {
+    const auto &entries = calibrated.objects[0].drags[i].entries, &expected = by_hand.objects[0].drags[i].entries;
+    QCOMPARE(label(entries.back().contestant), std::string("Exact + equilibrium, calibrated"));
+    QVERIFY(entries.back().measurement.value().error == expected.back().measurement.value().error);
+    QVERIFY(entries.back().measurement->error != entries[1].measurement.value().error);
+  }
 }
 
 /// Newton's method starts from rest each time, so the answer is the same to the bit for any previous target.

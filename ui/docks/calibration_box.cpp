@@ -47,7 +47,7 @@ CalibrationBox::CalibrationBox(Document& document, Jobs& jobs)
 void CalibrationBox::arrange() {
   start_->setObjectName(QStringLiteral("calibrate"));
   keep_->setObjectName(QStringLiteral("calibrationKeep"));
-  keep_->setToolTip(QStringLiteral("Saves the present compression, stretch and shear under a name"));
+  keep_->setToolTip(QStringLiteral("Saves the present softness under a name"));
   result_->setObjectName(QStringLiteral("calibrationResult"));
   result_->setWordWrap(true);
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -105,7 +105,8 @@ void CalibrationBox::start() {
   options.elastic = document_.elastic();
   options.pins = document_.pins();
   options.algorithm = algorithm();
-  options.scheme = document_.sweepScheme();
+  options.scheme = document_.relaxation().scheme;
+  options.energy = document_.wholeSoftness()->energy;
   jobs_.start(
       Jobs::Kind::load, QStringLiteral("Calibrating softness"),
       [this, options, mesh = document_.mesh(), cuts = document_.cuts()](const Progress& progress) -> Jobs::Finish {
@@ -119,9 +120,11 @@ void CalibrationBox::start() {
 }
 
 void CalibrationBox::take(const CalibrationResult& result, const CalibrationOptions& options) {
-  document_.setSoftnessAndRelaxation(result.softness, {result.sweeps > 0, 1, options.scheme},
+  const bool atEquilibrium = !info(options.scheme).sweeps;
+  document_.setSoftnessAndRelaxation(result.softness, {atEquilibrium || result.sweeps > 0, 1, options.scheme},
                                      QStringLiteral("calibrated softness"));
-  const QString sweeps = result.sweeps == 0 ? QStringLiteral("without relaxation")
+  const QString sweeps = atEquilibrium        ? QStringLiteral("at equilibrium")
+                         : result.sweeps == 0 ? QStringLiteral("without relaxation")
                                             : QStringLiteral("with %1 of relaxation after each move")
                                                   .arg(counted(std::size_t(result.sweeps), QStringLiteral("sweep")));
   const QLocale locale;

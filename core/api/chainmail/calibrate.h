@@ -20,20 +20,20 @@ struct CalibrateOptions {
   int held_out = 4;                      ///< Number of drags that only test the result, at least 1.
   int evaluations = 200;                 ///< Largest number of evaluations, at least 1; each runs all drags.
   int most_sweeps = 100;                 ///< Largest number of sweeps that is tried, of 0, 1, 3, 10, 30 and 100.
-  RelaxationScheme scheme = RelaxationScheme::mean;  ///< Relaxation scheme: mean or link.
+  RelaxationScheme scheme = RelaxationScheme::mean;  ///< Relaxation scheme; `equilibrium` needs no sweeps.
 };
 
 /// Errors against the reference solution, means over drags; the maxima are the largest.
 struct CalibrationErrors {
   PhysicalError nothing = {};  ///< If only the handle moves.
-  PhysicalError before = {};   ///< With the default softness, without sweeps.
+  PhysicalError before = {};   ///< With the default softness, without sweeps or at equilibrium.
   PhysicalError after = {};    ///< With the result.
 };
 
 /// The softness that comes closest to an elastic material.
 struct Calibration {
   LinkSoftness softness = {};       ///< Softness of all links.
-  int sweeps = 0;                   ///< Sweeps of relaxation after each move.
+  int sweeps = 0;                   ///< Sweeps of relaxation after each move; 0 with the scheme `equilibrium`.
   int evaluations = 0;              ///< Number of evaluations that were made.
   CalibrationErrors fitted = {};    ///< On the drags that the search used.
   CalibrationErrors held_out = {};  ///< On drags that the search did not use.
@@ -42,8 +42,9 @@ struct Calibration {
 
 /// Finds one softness for all links, and the number of sweeps, that together have the lowest mean relative error
 /// against neo-Hookean finite elements on the same cells (search by DIRECT-L, Gablonsky and Kelley 2001, then Sbplx,
-/// Rowan 1990). Each drag moves a random element by 5 to 20 % of the object's size. The object gives its mesh, cuts,
-/// pins and elasticity; it does not change.
+/// Rowan 1990). With the scheme `equilibrium`, it also finds the lateral stiffness and the exponent, by Sbplx from
+/// several starts. Each drag moves a random element by 5 to 20 % of the object's size. The object gives its mesh, cuts,
+/// pins, elasticity and kind of energy; it does not change.
 ///
 /// Throws Error if nothing is pinned, if the method is unknown or not of the ChainMail family, if an option is out of
 /// its range, if the object has no static solution, and if no reference solution converges; and Cancelled.

@@ -169,7 +169,7 @@ Json to_json(const report::PhysicsDrag& drag) {
 }
 
 Json to_json(const report::Calibration& calibration) {
-  Json json{{"algorithm", info(calibration.algorithm).name}};
+  Json json{{"algorithm", info(calibration.algorithm).name}, {"equilibrium", calibration.equilibrium}};
   if (!calibration.refusal.empty()) {
     json["refusal"] = calibration.refusal;
     return json;
@@ -299,12 +299,11 @@ void write_json(std::ostream& out, const CalibrationOptions& options, const Cali
             {"poisson", options.elastic.material.poisson},
             {"seed", options.seed},
             {"pins", options.pins.size()},
-            {"compression", result.softness.compression},
-            {"stretch", result.softness.stretch},
-            {"shear", result.softness.shear},
+            {"energy", info(options.energy).name},
             {"sweeps", result.sweeps},
             {"evaluations", result.evaluations},
             {"held_out", to_json(result.held_out)}};
+  json.update(to_json(result.softness));
   json.update(to_json(result.fitted));
   out << json.dump(2) << '\n';
 }

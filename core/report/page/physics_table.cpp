@@ -135,13 +135,15 @@ std::vector<std::string> cells_under(const std::vector<FigureTable::Column>& col
 }
 
 std::string about(const Calibration& calibration) {
-  const std::string who = std::string(info(calibration.algorithm).label) + " calibrated";
+  const std::string who = label(Contestant{calibration.algorithm, 0, calibration.equilibrium}) + " calibrated";
   return !calibration.refusal.empty()
              ? who + ": left out, " + calibration.refusal
              : who + " in " + figure(calibration.seconds) + " s on " + std::to_string(calibration.drags) +
                    " drags of other elements: compression " + figure(calibration.softness.compression) + ", stretch " +
                    figure(calibration.softness.stretch) + ", shear " + figure(calibration.softness.shear) + ", " +
-                   std::to_string(calibration.sweeps) + " sweeps";
+                   (calibration.equilibrium ? "lateral " + figure(calibration.softness.lateral) + ", exponent " +
+                                                  figure(calibration.softness.exponent)
+                                            : std::to_string(calibration.sweeps) + " sweeps");
 }
 
 /// Returns the description of a drag without its handle.

@@ -84,16 +84,20 @@ std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOption
   const std::vector<ElementId> handles = handles_of(object);
   for (const Algorithm algorithm : calibrated_algorithms) {
     const bool takes_part = std::ranges::count(options.contest.algorithms, algorithm) != 0;
-    if (!options.calibrate || !takes_part || !fits(algorithm, *object.mesh) || stop.stop_requested()) {
-      continue;
-    }
-    tell(0);
-    try {
-      found.push_back(options.calibrate(object, algorithm, handles, stop));
-    } catch (const Error& error) {
-      found.push_back({algorithm, {}, 0, 0, 0, 0, error.what()});
-    } catch (const Cancelled&) {
-      break;
+    for (const bool equilibrium : {false, true}) {
+      const bool wanted = equilibrium ? options.contest.equilibrium && takes_part_at_equilibrium(algorithm)
+                                      : !options.contest.sweeps.empty();
+      if (!options.calibrate || !wanted || !takes_part || !fits(algorithm, *object.mesh) || stop.stop_requested()) {
+        continue;
+      }
+      tell(0);
+      try {
+        found.push_back(options.calibrate(object, algorithm, equilibrium, handles, stop));
+      } catch (const Error& error) {
+        found.push_back({algorithm, equilibrium, {}, 0, 0, 0, 0, error.what()});
+      } catch (const Cancelled&) {
+        return found;
+      }
     }
   }
   return found;

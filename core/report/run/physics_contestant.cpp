@@ -33,7 +33,7 @@ std::string label(const PhysicsContestant& contestant) {
     return label(Contestant{*contestant.algorithm, contestant.sweeps, contestant.equilibrium}) +
            cells_of(*contestant.algorithm);
   }
-  return label(Contestant{*contestant.algorithm, 0}) + ", calibrated" +
+  return label(Contestant{*contestant.algorithm, 0, contestant.equilibrium}) + ", calibrated" +
          (contestant.sweeps == 0 ? "" : " (" + std::to_string(contestant.sweeps) + " sweeps)");
 }
 
@@ -55,9 +55,10 @@ std::vector<PhysicsContestant> contestants_of(const std::vector<Algorithm>& algo
     if (equilibrium && takes_part_at_equilibrium(algorithm)) {
       contestants.push_back({algorithm, 0, {}, true});
     }
-    const auto found = std::ranges::find(calibrations, algorithm, &Calibration::algorithm);
-    if (found != calibrations.end() && found->refusal.empty()) {
-      contestants.push_back({algorithm, found->sweeps, found->softness});
+    for (const Calibration& found : calibrations) {
+      if (found.algorithm == algorithm && found.refusal.empty()) {
+        contestants.push_back({algorithm, found.sweeps, found.softness, found.equilibrium});
+      }
     }
   }
   return contestants;

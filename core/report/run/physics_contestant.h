@@ -29,7 +29,8 @@ bool prepares(const PhysicsContestant& contestant);
 /// The softness and the sweeps with which an algorithm is closest to the reference solution on one object.
 struct Calibration {
   Algorithm algorithm = Algorithm::natural_queue;
-  LinkSoftness softness;
+  bool equilibrium = false;  // true: relaxed to the equilibrium, instead of sweeps
+  LinkSoftness softness = {};
   int sweeps = 0;
   int drags = 0,
       evaluations = 0;  // number of drags for the search, and number of evaluations, each of which runs all drags
@@ -37,9 +38,9 @@ struct Calibration {
   std::string refusal;  // reason why there is no result; empty if there is one
 };
 
-/// Calibrates an algorithm on an object, with drags of elements that are not in `handles`. Throws Error, and Cancelled
-/// if it is stopped.
-using Calibrator = std::function<Calibration(const Case& object, Algorithm algorithm,
+/// Calibrates an algorithm on an object, with sweeps or at equilibrium, with drags of elements that are not in
+/// `handles`. Throws Error, and Cancelled if it is stopped.
+using Calibrator = std::function<Calibration(const Case& object, Algorithm algorithm, bool equilibrium,
                                              const std::vector<ElementId>& handles, const std::stop_token& stop)>;
 
 /// Returns all contestants: first the object that does not move, then the ChainMail family with each number of sweeps,
