@@ -42,13 +42,14 @@ void PhysicsCommandTest::the_report_is_written() {
     }
     QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
   }
-  // Drags: three for each of three handles, and one with a cut. Contestants: the object that does not move, Exact
-  // without sweeps, with sweeps, at equilibrium and calibrated, and the three methods of elasticity.
-  QCOMPARE(rows_of(program_->read("out/report.csv")).size(), 10 * 8);
+  // Drags: four for each of three handles, and one with a cut. Contestants: the object that does not move, Exact
+  // without sweeps, with sweeps, at equilibrium, calibrated with sweeps and calibrated at equilibrium, and the three
+  // methods of elasticity.
+  QCOMPARE(rows_of(program_->read("out/report.csv")).size(), 13 * 9);
   const auto object = report()["objects"][0];
   QCOMPARE(object["pins"].toInt(), 5);
   const auto contestants = object["drags"][0]["contestants"].toArray();
-  QCOMPARE(contestants.size(), 8);
+  QCOMPARE(contestants.size(), 9);
   QCOMPARE(contestants[0]["algorithm"].toString(), QString("nothing"));
   QCOMPARE(contestants[0]["label"].toString(), QString("Nothing moves"));
   const double nothing = contestants[0]["error"]["relative"].toDouble();
@@ -59,16 +60,18 @@ void PhysicsCommandTest::the_report_is_written() {
   QVERIFY(contestants[3]["error"]["relative"].toDouble(9) < contestants[1]["error"]["relative"].toDouble());
   QVERIFY(contestants[1]["error"]["rms"].toDouble() > 0.01);
   QVERIFY(contestants[1]["error"]["relative"].toDouble() > contestants[1]["error"]["rms"].toDouble());
-  QVERIFY(contestants[4]["calibrated"]["stretch"].toDouble() >= 1);
-  QVERIFY(contestants[6]["error"]["max"].toDouble(1) < 1e-5);  // neo-Hookean FEM itself, with positions in float
-  QVERIFY(contestants[6]["label"].toString().endsWith("on the same cells"));
-  QVERIFY(contestants[5]["prepare_ms"].toDouble() > 0);
-  QVERIFY(contestants[5]["factorize_ms"]["repetitions"].toInt() >= 1 &&
-          contestants[5]["grab_ms"]["median"].toDouble() > 0);
-  QVERIFY(contestants[5]["first_move_ms"]["median"].toDouble() > 0);
-  const auto cut = object["drags"][9];
+  QVERIFY(contestants[4]["calibrated"]["stretch"].toDouble() >= 1 && !contestants[4]["equilibrium"].toBool());
+  QVERIFY(contestants[5]["calibrated"]["lateral"].toDouble() > 0 && contestants[5]["equilibrium"].toBool());
+  QCOMPARE(contestants[5]["label"].toString(), QString("Exact + equilibrium, calibrated"));
+  QVERIFY(contestants[7]["error"]["max"].toDouble(1) < 1e-5);  // neo-Hookean FEM itself, with positions in float
+  QVERIFY(contestants[7]["label"].toString().endsWith("on the same cells"));
+  QVERIFY(contestants[6]["prepare_ms"].toDouble() > 0);
+  QVERIFY(contestants[6]["factorize_ms"]["repetitions"].toInt() >= 1 &&
+          contestants[6]["grab_ms"]["median"].toDouble() > 0);
+  QVERIFY(contestants[6]["first_move_ms"]["median"].toDouble() > 0);
+  const auto cut = object["drags"][12];
   QVERIFY(cut["cut_before_last_move"].toBool());
-  QVERIFY(cut["contestants"][5]["move_after_cut_ms"]["median"].toDouble() > 0);
+  QVERIFY(cut["contestants"][6]["move_after_cut_ms"]["median"].toDouble() > 0);
   const auto calibration = object["calibrations"][0];
   QVERIFY(calibration["algorithm"].toString() == "exact" && calibration["seconds"].toDouble() > 0);
   QCOMPARE(report()["options"]["young"].toDouble(), 7.0);

@@ -313,7 +313,7 @@ void PhysicsTest::the_reference_solution_knows_nothing_of_the_last_one() {
 
 void PhysicsTest::everyone_takes_part() {
   for (const PhysicsObject& object : everything().objects) {
-    QCOMPARE(object.drags.size(), std::size_t{3 * 3 + 1});
+    QCOMPARE(object.drags.size(), std::size_t{3 * 4 + 1});
     for (const PhysicsDrag& one : object.drags) {
       QVERIFY2(one.no_reference.empty(), one.no_reference.c_str());
       QCOMPARE(one.entries.size(), 1 + 3 * algorithms().size() + elastic_algorithms().size());
@@ -359,13 +359,13 @@ void PhysicsTest::the_truth_has_no_error_and_linear_elasticity_less_for_less() {
 
 void PhysicsTest::drags_are_what_they_say() {
   for (const Case& object : physics_cases({}, {})) {
-    QCOMPARE(object.drags.size(), std::size_t{3 * 3 + 1});
+    QCOMPARE(object.drags.size(), std::size_t{3 * 4 + 1});
     const double size = (bounds(*object.mesh)[1] - bounds(*object.mesh)[0]).maxCoeff();
     std::vector<ElementId> handles;
-    for (std::size_t first = 0; first < 9; first += 3) {
+    for (std::size_t first = 0; first < 12; first += 4) {
       const ElementId handle = handle_of(object.drags[first]);
       std::vector<Point> ways;
-      for (std::size_t i = first; i < first + 3; ++i) {
+      for (std::size_t i = first; i < first + 4; ++i) {
         const RecordedMoves& one = object.drags[i];
         QCOMPARE(one.commands.size(), std::size_t{25});
         QCOMPARE(handle_of(one), handle);
@@ -375,6 +375,7 @@ void PhysicsTest::drags_are_what_they_say() {
       QVERIFY(std::abs(ways[0].norm() - 0.05 * size) < 1e-12);
       QVERIFY(std::abs(ways[1].norm() - 0.2 * size) < 1e-12 && std::abs(ways[2].norm() - 0.2 * size) < 1e-12);
       QVERIFY(std::abs(ways[1].dot(ways[2])) < 1e-12);
+      QVERIFY((ways[3] - 2.5 * ways[2]).norm() < 1e-12);
       // Well spread: at least a third of the object away from the pins and from each other.
       std::vector<ElementId> others = object.pins;
       others.insert(others.end(), handles.begin(), handles.end());
@@ -457,10 +458,10 @@ void PhysicsTest::the_page_is_well_formed_and_says_all() {
   const Plot overview = physics_overview(everything());
   QCOMPARE(overview.panels.size(), std::size_t{2});
   double mean = 0, nothing = 0;
-  for (std::size_t i = 0; i < 9; ++i) {
+  for (std::size_t i = 0; i < 12; ++i) {
     const PhysicsDrag& one = everything().objects[0].drags[i];
-    mean += one.entries[1].measurement->error.relative / 9;
-    nothing += one.entries[0].measurement->error.relative / 9;
+    mean += one.entries[1].measurement->error.relative / 12;
+    nothing += one.entries[0].measurement->error.relative / 12;
   }
   QVERIFY(std::abs(overview.panels[0].marks[0].y - mean) < 1e-14);
   QVERIFY(std::abs(overview.panels[0].level.value().y - nothing) < 1e-14);

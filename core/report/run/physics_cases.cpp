@@ -17,7 +17,7 @@ namespace {
 
 constexpr int moves_of_drag = 24, moves_before_cut = 12;
 constexpr std::size_t most_handles = 3;
-constexpr double nudge_share = 0.05, pull_share = 0.2;  // shares of the object's largest extent
+constexpr double nudge_share = 0.05, pull_share = 0.2, far_share = 0.5;  // shares of the object's largest extent
 constexpr std::uint64_t usual_elements = 256;
 
 Case made(const char* name, const std::string& description, const MeshPointer& mesh, const char* side,
@@ -205,6 +205,7 @@ std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut) {
     drags.push_back(
         drag(mesh, handle, pull_share * size * outward, "pull", "20 % of the object’s size away from the pins"));
     drags.push_back(drag(mesh, handle, pull_share * size * across, "bend", "20 % of the object’s size across"));
+    drags.push_back(drag(mesh, handle, far_share * size * across, "far bend", "50 % of the object’s size across"));
   }
   if (RecordedMoves cut = with_cut ? cut_then_move(object, drags[1]) : RecordedMoves(); !cut.commands.empty()) {
     drags.push_back(std::move(cut));
