@@ -132,7 +132,9 @@ int Deformer::relax(int sweeps, const RelaxOptions& options) {
     }
     Solver& solver = inside_->solver();
     solver.set_relaxation(scheme_of(options.scheme));
-    if (const auto& handle = Access::inside(inside_->body).handle; !handle.empty()) {
+    if (!inner::info(solver.relaxation()).sweeps) {
+      solver.wake_all();
+    } else if (const auto& handle = Access::inside(inside_->body).handle; !handle.empty()) {
       solver.wake(handle);
       solver.wake(solver.moved());
     }

@@ -23,7 +23,7 @@ namespace {
 
 // The gradient is computed anew after this many steps, so that rounding does not add up.
 constexpr int steps_per_gradient = 30;
-// Lateral stiffness of the preconditioner for the corotated energy, per stiffness along the link.
+// Lateral stiffness of the preconditioner for the corotated energy, as a share of the larger stiffness of the link.
 constexpr double turned_share = 0.3;
 // Valid regions count from this residual on: before, the iterate may violate links only because it has not converged.
 constexpr double binds_below = 0.2;
@@ -259,7 +259,7 @@ class Equilibrator final : public EquilibriumSolver {
   /// Returns the block of the matrix that approximates the curvature of the energy.
   static LinkBlock<double, D> softened(LinkBlock<double, D> block) {
     // Where the lateral part turns with its neighbourhood, it resists large motions little.
-    block.across = std::min(block.across, turned_share * block.along.squaredNorm());
+    block.across = std::min(block.across, turned_share * std::max(block.across, block.along.squaredNorm()));
     return block;
   }
   LinkBlock<double, D> with_penalty(LinkBlock<double, D> block) const {

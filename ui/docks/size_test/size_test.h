@@ -23,7 +23,7 @@ struct SizeTestOptions {
   int drags = 5;                        // measured drags per size, after one warm-up drag
   int moves = 30;                       // per drag
   std::uint64_t seed = 1;               // of the drags
-  LinkSoftness softness;
+  Softness softness;                    // of all links, and the kind of energy
 };
 
 /// Returns a size as "16×16".

@@ -131,7 +131,7 @@ void SizeTestDock::start() {
     return;
   }
   SizeTestOptions options = choices_->options();
-  options.softness = document_.softness();
+  options.softness = {document_.softness(), {}, document_.wholeSoftness()->energy};
   results_->begin(contestants, options.budget);
   stage_ = new SizeTestStage(options, contestants);
   listen(*stage_);

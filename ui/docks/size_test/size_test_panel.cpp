@@ -15,7 +15,7 @@ constexpr std::size_t fewestDrags = 2;
 
 }  // namespace
 
-SizeTestPanel::SizeTestPanel(const SizeTestContestant& contestant, const LinkSoftness& softness,
+SizeTestPanel::SizeTestPanel(const SizeTestContestant& contestant, const Softness& softness,
                              const MeshPointer& mesh, std::shared_ptr<MeshLevels> levels)
     : contestant_(contestant),
       view_(new SizeTestView(std::move(levels), contestant.colour)),
@@ -25,7 +25,7 @@ SizeTestPanel::SizeTestPanel(const SizeTestContestant& contestant, const LinkSof
           QMetaObject::invokeMethod(this, &SizeTestPanel::receive, Qt::QueuedConnection);
         }
       }) {
-  solver_.post(commands::SetSoftness{{softness, {}}});
+  solver_.post(commands::SetSoftness{softness});
   state_->setObjectName(QStringLiteral("sizeTestState%1").arg(contestant.panel));
   view_->setObjectName(QStringLiteral("sizeTestView%1").arg(contestant.panel));
   connect(view_, &SizeTestView::failed, this, &SizeTestPanel::failed);

@@ -21,7 +21,7 @@ class SizeTestPanel : public QFrame {
   Q_OBJECT
 
  public:
-  SizeTestPanel(const SizeTestContestant& contestant, const LinkSoftness& softness, const MeshPointer& mesh,
+  SizeTestPanel(const SizeTestContestant& contestant, const Softness& softness, const MeshPointer& mesh,
                 std::shared_ptr<MeshLevels> levels);
 
   /// Starts these drags, each from the rest positions. The first one is a warm-up and is not measured.
