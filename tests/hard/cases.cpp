@@ -12,8 +12,8 @@ constexpr LinkSoftness usual{0.8, 1.2, 0.1};
 using Act = std::function<void(Scene&, Outcome&)>;
 
 Case make(const std::string& name, const MeshPointer& mesh, const LinkSoftness& softness, const Act& act) {
-  return {name, mesh, [mesh, softness, act](Algorithm algorithm, Precision precision) {
-            Scene scene(mesh, algorithm, precision, {softness, {}});
+  return {name, mesh, [mesh, softness, act](const Contender& contender, Precision precision) {
+            Scene scene(mesh, contender, precision, {softness, {}});
             Outcome drift;
             act(scene, drift);
             Outcome outcome = scene.outcome();
@@ -75,7 +75,7 @@ void add_hands(std::vector<Case>& all) {
     }
   }));
   all.push_back({"turned by 45°", turned_grid(),
-                 [](Algorithm algorithm, Precision precision) { return turned(algorithm, precision); }});
+                 [](const Contender& contender, Precision precision) { return turned(contender, precision); }});
 }
 
 void add_pins(std::vector<Case>& all) {

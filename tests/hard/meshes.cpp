@@ -82,12 +82,12 @@ MeshPointer slivers(std::uint32_t side) {
 
 MeshPointer turned_grid() { return build_mesh(test::placed(*make_grid(16, 16), turn)); }
 
-Outcome turned(Algorithm algorithm, Precision precision) {
+Outcome turned(const Contender& contender, Precision precision) {
   const auto grid = make_grid(16, 16);
   const Point by(4, 2, 0);
-  Scene straight(grid, algorithm, precision, {});
+  Scene straight(grid, contender, precision, {});
   straight.drag_by(120, by, 4);
-  Scene scene(turned_grid(), algorithm, precision, {});
+  Scene scene(turned_grid(), contender, precision, {});
   scene.drag_by(120, turn(by), 4);
   auto expected = straight.positions();
   for (ElementId e = 0; e < grid->element_count(); ++e) {

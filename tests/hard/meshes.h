@@ -26,6 +26,6 @@ MeshPointer slivers(std::uint32_t side);
 MeshPointer turned_grid();
 /// Drags the grid, then drags it with object and move turned. The drift is the difference between the two answers. It
 /// is not 0, because valid regions are boxes along the axes.
-Outcome turned(Algorithm algorithm, Precision precision);
+Outcome turned(const Contender& contender, Precision precision);
 
 }  // namespace chainmail::hard

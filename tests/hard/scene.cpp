@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "report/run/compare.h"
+
 namespace chainmail::hard {
 namespace {
 
@@ -10,8 +12,14 @@ double smallest(Precision precision) { return precision == Precision::single_pre
 
 }  // namespace
 
-Scene::Scene(MeshPointer mesh, Algorithm algorithm, Precision precision, const Softness& softness)
-    : simulation_(std::move(mesh), algorithm, precision), precision_(precision) {
+std::string label(const Contender& contender) {
+  return report::label(report::Contestant{contender.algorithm, 0, contender.equilibrium});
+}
+
+Scene::Scene(MeshPointer mesh, const Contender& contender, Precision precision, const Softness& softness)
+    : simulation_(std::move(mesh), contender.algorithm, precision),
+      equilibrium_(contender.equilibrium),
+      precision_(precision) {
   simulation_.apply(commands::SetSoftness{softness});
 }
 
@@ -67,7 +75,16 @@ double Scene::shortest_link() const {
   return shortest;
 }
 
+/// Every iteration must leave a valid state, so that few are enough for a large object.
+void Scene::relax() {
+  const std::uint32_t iterations = simulation_.mesh().element_count() > 50'000 ? 4 : 100;
+  simulation_.apply(commands::Relax{iterations, 1, RelaxationScheme::equilibrium, 1e-3});
+}
+
 Outcome Scene::outcome() {
+  if (equilibrium_) {
+    relax();
+  }
   Outcome outcome;
   const auto now = positions();
   for (const double x : now) {

@@ -22,10 +22,17 @@ struct Outcome {
   std::optional<double> drift;  // defined by the case, in mean rest lengths
 };
 
+/// An algorithm, perhaps with relaxation to the equilibrium at the end of the case.
+struct Contender {
+  Algorithm algorithm;
+  bool equilibrium = false;
+};
+std::string label(const Contender& contender);
+
 /// A simulation that records what must be true at the end.
 class Scene {
  public:
-  Scene(MeshPointer mesh, Algorithm algorithm, Precision precision, const Softness& softness);
+  Scene(MeshPointer mesh, const Contender& contender, Precision precision, const Softness& softness);
 
   void apply(const Command& command) { simulation_.apply(command); }
   /// Grabs an element and drags it to a target, in equal steps from its position.
@@ -35,13 +42,17 @@ class Scene {
   void set_softness(const LinkSoftness& softness) { simulation_.apply(commands::SetSoftness{{softness, {}}}); }
 
   std::vector<double> positions() const { return test::positions_of(simulation_); }
+  /// Goes to the equilibrium, if the contender does, and returns what is true there.
   Outcome outcome();
 
  private:
   bool is_at(ElementId element, const Point& position, double ulps) const;
   double shortest_link() const;
 
+  void relax();
+
   Simulation simulation_;
+  bool equilibrium_;
   Precision precision_;
   std::optional<ElementId> handle_;
   Point target_ = Point::Zero();
@@ -56,7 +67,7 @@ double distance_between(const Mesh& mesh, const std::vector<double>& one, const 
 struct Case {
   std::string name;
   MeshPointer mesh;
-  std::function<Outcome(Algorithm, Precision)> run;
+  std::function<Outcome(const Contender&, Precision)> run;
 };
 
 /// Returns all hard cases. Those with a million moves or elements are included only if `large` is true.
