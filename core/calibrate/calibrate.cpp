@@ -61,8 +61,8 @@ class Variables {
     return softness;
   }
   std::vector<double> point_of(const LinkSoftness& softness) const {
-    return cut({softness.compression, softness.stretch, softness.shear, std::log10(softness.lateral),
-                softness.exponent});
+    return cut(
+        {softness.compression, softness.stretch, softness.shear, std::log10(softness.lateral), softness.exponent});
   }
 
   /// Returns where a search with the equilibrium starts: with regions that bind in every drag, in far drags and in
@@ -181,8 +181,8 @@ class Bench {
 
   void begin_drags() {
     for (std::size_t i = dragged_.size(); i < drags_.fitted.size(); ++i) {
-      Simulation& simulation = *dragged_.emplace_back(
-          std::make_unique<Simulation>(object_.mesh, algorithm_, Precision::double_precision));
+      Simulation& simulation =
+          *dragged_.emplace_back(std::make_unique<Simulation>(object_.mesh, algorithm_, Precision::double_precision));
       simulation.apply(commands::Cut{object_.cuts});
       simulation.apply(commands::Pin{object_.pins});
       simulation.apply(commands::Grab{{drags_.fitted[i].element}});

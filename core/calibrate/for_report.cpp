@@ -12,14 +12,14 @@ constexpr int drags = 3, evaluations = 60, most_sweeps = 10;
 // The equilibrium has more numbers to find, and its evaluations are short.
 constexpr int evaluations_at_equilibrium = 150;
 
-report::Calibration run(const report::Case& object, CalibrationOptions options, const std::stop_token& stop) {
+report::Calibration run(const report::Case& object, const CalibrationOptions& options, const std::stop_token& stop) {
   JobState job;
   const std::stop_callback cancel(stop, [&job] { job.cancelled = true; });
   const auto start = std::chrono::steady_clock::now();
   const CalibrationResult result = calibrate(object.mesh, Cuts(object.mesh), options, Progress(job));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {options.algorithm,  !info(options.scheme).sweeps, result.softness, result.sweeps, options.drags,
-          result.evaluations, seconds,                      {}};
+  return {options.algorithm, !info(options.scheme).sweeps, result.softness, result.sweeps,
+          options.drags,     result.evaluations,           seconds,         {}};
 }
 
 }  // namespace

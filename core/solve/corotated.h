@@ -18,7 +18,8 @@ inline void turn_toward(const Eigen::Matrix<double, 1, 1>& /*sum*/, Eigen::Matri
 }
 
 inline void turn_toward(const Eigen::Matrix2d& sum, Eigen::Matrix2d& rotation) {
-  const double cosine = sum(0, 0) + sum(1, 1), sine = sum(1, 0) - sum(0, 1), size = std::sqrt(cosine * cosine + sine * sine);
+  const double cosine = sum(0, 0) + sum(1, 1), sine = sum(1, 0) - sum(0, 1),
+               size = std::sqrt(cosine * cosine + sine * sine);
   if (size > 0) {
     rotation << cosine / size, -sine / size, sine / size, cosine / size;
   }

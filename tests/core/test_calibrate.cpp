@@ -287,8 +287,8 @@ void CalibrateTest::the_equilibrium_comes_closer() {
     simulation.apply(commands::Grab{{drag.element}});
     simulation.apply(commands::Drag{drag.target});
     simulation.apply(commands::Relax{1000, 1, RelaxationScheme::equilibrium, 1e-6});
-    const PhysicalError error = measure_physical_error(*sheet, simulation.body().positions(),
-                                                       reference.at(drag.element, drag.target));
+    const PhysicalError error =
+        measure_physical_error(*sheet, simulation.body().positions(), reference.at(drag.element, drag.target));
     QVERIFY(std::abs(error.relative - drag.after.relative) < 0.03);
   }
 }

@@ -222,7 +222,8 @@ void HardTest::holds() {
     if (of == Algorithm::exact) {
       QVERIFY2(row.outcome.violation.max <= row.outcome.rounding, number(row.outcome.violation.max).c_str());
     }
-    if (one.name == "disconnected parts" || (of == Algorithm::exact && !equilibrium && one.name.ends_with("there and back"))) {
+    if (one.name == "disconnected parts" ||
+        (of == Algorithm::exact && !equilibrium && one.name.ends_with("there and back"))) {
       // Elements that no link joins to the handle do not move at all. A million moves drift by at most 2 ulp of the
       // largest displacement.
       QVERIFY(*row.outcome.drift <= (one.name == "disconnected parts" ? 0 : 4 * 0x1p-23));

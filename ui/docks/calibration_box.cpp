@@ -125,8 +125,8 @@ void CalibrationBox::take(const CalibrationResult& result, const CalibrationOpti
                                      QStringLiteral("calibrated softness"));
   const QString sweeps = atEquilibrium        ? QStringLiteral("at equilibrium")
                          : result.sweeps == 0 ? QStringLiteral("without relaxation")
-                                            : QStringLiteral("with %1 of relaxation after each move")
-                                                  .arg(counted(std::size_t(result.sweeps), QStringLiteral("sweep")));
+                                              : QStringLiteral("with %1 of relaxation after each move")
+                                                    .arg(counted(std::size_t(result.sweeps), QStringLiteral("sweep")));
   const QLocale locale;
   result_->setText(QStringLiteral("%1, %2: %3; %4 evaluations.<br>On %5 unseen drags: %6.")
                        .arg(text(info(options.algorithm).label), sweeps, errors(result.fitted),

@@ -15,8 +15,8 @@ constexpr std::size_t fewestDrags = 2;
 
 }  // namespace
 
-SizeTestPanel::SizeTestPanel(const SizeTestContestant& contestant, const Softness& softness,
-                             const MeshPointer& mesh, std::shared_ptr<MeshLevels> levels)
+SizeTestPanel::SizeTestPanel(const SizeTestContestant& contestant, const Softness& softness, const MeshPointer& mesh,
+                             std::shared_ptr<MeshLevels> levels)
     : contestant_(contestant),
       view_(new SizeTestView(std::move(levels), contestant.colour)),
       state_(new QLabel),
