@@ -17,12 +17,12 @@ namespace chainmail::command_line {
 namespace {
 
 constexpr const char* compare_footer =
-    "Without MESH, six built-in objects are used, which takes one or two minutes. Each object is dragged three times\n"
+    "Without MESH, six built-in objects are used, which takes about two minutes. Each object is dragged three times\n"
     "from rest: locally, as a whole, and back and forth. Writes report.html, report.json and report.csv to FOLDER and\n"
     "prints the main table.\n\n"
     "--against physics: the reference is neo-Hookean FEM on the same cells. FEM, BEM, free-form deformation and an\n"
     "object that does not move are added. Without MESH, a bar and a sheet are used. Each object is nudged, pulled and\n"
-    "bent at three handles, and cut once between two moves. FOLDER also receives the plots as SVG.\n\n"
+    "bent, near and far, at three handles, and cut once between two moves. FOLDER also receives the plots as SVG.\n\n"
     "Recorded moves are JSON. Other commands are release, pin, unpin, cut, uncut, softness, relax and reset:\n"
     "  {\"version\": 1, \"commands\": [{\"do\": \"pin\", \"elements\": [0]}, {\"do\": \"grab\", \"element\": 5},\n"
     "    {\"do\": \"drag\", \"target\": [1, 2, 0]}, {\"do\": \"drag\", \"target\": [2, 3, 0]},\n"
