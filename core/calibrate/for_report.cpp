@@ -10,7 +10,7 @@ namespace {
 // A hundred sweeps would take most of the time of a comparison.
 constexpr int drags = 3, evaluations = 60, most_sweeps = 10;
 // The equilibrium has more numbers to find, and its evaluations are short.
-constexpr int evaluations_at_equilibrium = 150;
+constexpr int drags_at_equilibrium = 6, evaluations_at_equilibrium = 150;
 
 report::Calibration run(const report::Case& object, const CalibrationOptions& options, const std::stop_token& stop) {
   JobState job;
@@ -33,7 +33,7 @@ report::Calibrator calibrator_for_reports(RelaxationScheme scheme) {
     options.algorithm = algorithm;
     options.scheme = equilibrium ? RelaxationScheme::equilibrium : scheme;
     options.energy = object.softness.energy;
-    options.drags = drags;
+    options.drags = equilibrium ? drags_at_equilibrium : drags;
     options.held_out = 0;
     options.evaluations = equilibrium ? evaluations_at_equilibrium : evaluations;
     options.most_sweeps = most_sweeps;
