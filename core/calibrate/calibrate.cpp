@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <future>
-#include <iterator>
 #include <memory>
 #include <span>
+#include <thread>
 
 #include "calibrate/drags.h"
 #include "calibrate/optimum.h"
@@ -154,17 +154,22 @@ class Bench {
   }
 
  private:
-  /// Goes on from the equilibria of the last evaluation, which are often close, with one thread per drag. The
-  /// corotated energy may have several minima, so these residuals may differ a little from those of drags from rest.
+  /// Goes on from the equilibria of the last evaluation, which are often close, with one thread per core. The corotated
+  /// energy may have several minima, so these residuals may differ a little from those of drags from rest.
   std::vector<Residual> next_residuals(const LinkSoftness& softness) {
     begin_drags();
-    std::vector<std::future<Residual>> running;
-    for (std::size_t i = 0; i < dragged_.size(); ++i) {
-      running.push_back(std::async(std::launch::async, [&, i] { return next_residual(i, softness); }));
+    std::vector<Residual> residuals(dragged_.size());
+    const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, dragged_.size());
+    std::vector<std::future<void>> running;
+    for (std::size_t first = 0; first < threads; ++first) {
+      running.push_back(std::async(std::launch::async, [&, first] {
+        for (std::size_t i = first; i < residuals.size(); i += threads) {
+          residuals[i] = next_residual(i, softness);
+        }
+      }));
     }
-    std::vector<Residual> residuals;
     std::ranges::for_each(running, [](auto& one) { one.wait(); });
-    std::ranges::transform(running, std::back_inserter(residuals), [](auto& one) { return one.get(); });
+    std::ranges::for_each(running, [](auto& one) { one.get(); });
     return residuals;
   }
 

@@ -186,8 +186,7 @@ void Simulation::relax(int count, double step, double until) {
   }
 }
 
-/// Runs one sweep, in slices, and can be cancelled between them. Returns the number of visited
-/// elements.
+/// Runs one sweep, in slices, and can be cancelled between them. Returns the number of visited elements.
 std::uint64_t Simulation::sweep(double step, const Progress& progress) {
   std::uint64_t visited = 0;
   while (true) {

@@ -160,8 +160,8 @@ class Simulation {
   bool relaxation_on_ = false;
   double relaxation_step_ = 1;
   RelaxationScheme relaxation_scheme_ = RelaxationScheme::mean;
-  bool woken_ = false;  // true if elements became active since the last sweep ended
-  bool prepared_ = false;
+  bool woken_ = false;             // true if elements became active since the last sweep ended
+  bool prepared_ = false;          // true if the last slice prepared later ones
   bool relaxation_fails_ = false;  // true if the remark is about relaxation
   PassTimes::Clock::time_point relaxation_deadline_{};
   std::map<commands::StateId, State> kept_;

@@ -31,14 +31,14 @@ class ConjugateGradients {
     }
     // After Polak and Ribière, which forgives a preconditioner in float.
     const double bend = is_fresh_ ? 0 : std::max(0.0, -step_ * dot(product_, scaled_) / slope_);
-    way_.resize(rest_.size());
-    for (std::size_t i = 0; i < way_.size(); ++i) {
-      way_[i] = is_fresh_ ? scaled_[i] : scaled_[i] + bend * way_[i];
+    direction_.resize(rest_.size());
+    for (std::size_t i = 0; i < direction_.size(); ++i) {
+      direction_[i] = is_fresh_ ? scaled_[i] : scaled_[i] + bend * direction_[i];
     }
     slope_ = slope;
     is_fresh_ = false;
-    matrix.apply(way_, product_);
-    const double curvature = dot(way_, product_), along = dot(rest_, way_);
+    matrix.apply(direction_, product_);
+    const double curvature = dot(direction_, product_), along = dot(rest_, direction_);
     if (!(curvature > 0)) {
       return 0;
     }
@@ -46,7 +46,7 @@ class ConjugateGradients {
     const double before = dot(rest_, rest_);
     double after = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      x[i] += step_ * way_[i];
+      x[i] += step_ * direction_[i];
       rest_[i] -= step_ * product_[i];
       after += rest_[i].squaredNorm();
     }
@@ -54,15 +54,13 @@ class ConjugateGradients {
     return step_ * along / 2;
   }
 
-  /// Estimates the distance of the iterate from the minimum, in the norm of the energy, after the last step.
+  /// Estimates the distance of the iterate from the minimum after the last step: √(twice the energy of the distance).
   double distance() const { return std::sqrt(std::max(0.0, slope_)) * shrunk_; }
-  /// The same before the last step.
-  double distance_before() const { return std::sqrt(std::max(0.0, slope_)); }
 
  private:
   bool is_fresh_ = true;
   double slope_ = 0, step_ = 0, shrunk_ = 1;
-  Vectors rest_, scaled_, way_, product_;
+  Vectors rest_, scaled_, direction_, product_;
 };
 
 }  // namespace chainmail

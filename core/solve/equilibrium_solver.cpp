@@ -101,8 +101,6 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   // What the body was when it was last seen.
 
   void follow(Body& body, std::span<const ElementId> held) {
@@ -187,11 +185,7 @@ class Equilibrator final : public EquilibriumSolver {
 
   Vector rest_vector(LinkId link) const {
     const auto [i, j] = mesh_->links[link];
-    Vector r;
-    for (int k = 0; k < D; ++k) {
-      r[k] = mesh_->rest[std::size_t{j} * D + std::size_t(k)] - mesh_->rest[std::size_t{i} * D + std::size_t(k)];
-    }
-    return r;
+    return CorotatedEnergy<D>::rest_vector(*mesh_, i, j);
   }
 
   LinkBlock<double, D> block_of(const Body& body, LinkId link) const {
@@ -446,9 +440,21 @@ class Equilibrator final : public EquilibriumSolver {
     for (LinkId link = 0; link < mesh_->link_count(); ++link) {
       penalised_matrix_->set_link(link, with_penalty(energy_.link(link)));
     }
-    if (kind_ != EnergyKind::corotated) {  // there, the penalty is a factor of the whole matrix, which does not matter
+    if (kind_ != EnergyKind::corotated) {
       penalised_.reset();
     }
+  }
+
+  /// For the corotated energy, the penalty is a factor of the whole matrix. It is left out: a factor of the
+  /// preconditioner does not matter, and all levels stay when the penalty changes.
+  void update_penalised(const Progress& progress) {
+    const auto without_penalty = [](const LinkBlock<double, D>& block) {
+      return LinkBlock<double, D>{Vector::Zero(), stiffness_of(block)};
+    };
+    const bool is_built = kind_ == EnergyKind::corotated
+                              ? penalised_.update(mesh_, energy_, without_penalty, progress)
+                              : penalised_.update(mesh_, *penalised_matrix_, std::identity(), progress);
+    prepared_ = prepared_ || is_built;
   }
 
   void end_constraints() {
@@ -474,7 +480,7 @@ class Equilibrator final : public EquilibriumSolver {
   /// One step of the method of multipliers: an approximate minimum of the energy with springs to the links' copies,
   /// then copies and multipliers.
   void constrained_step(const Progress& progress) {
-    prepared_ = penalised_.update(mesh_, *penalised_matrix_, std::identity(), progress) || prepared_;
+    update_penalised(progress);
     Vectors& rest = gradients_.begin();
     energy_of_iterate_ = gradient(iterate_, rest);
     regions_.add_forces(links(), iterate_, rest);

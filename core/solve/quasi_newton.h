@@ -23,8 +23,8 @@ class QuasiNewton {
   /// returns the energy. Returns false if no step lowers the energy.
   template <class Evaluate>
   bool step(Evaluate evaluate, Preconditioner<D>& preconditioner, Vectors& x, double& energy, Vectors& force) {
-    find_way(preconditioner, force);
-    const double slope = dot(way_, force);
+    find_direction(preconditioner, force);
+    const double slope = dot(direction_, force);
     slope_ = std::max(0.0, slope);
     if (!(slope > 0)) {
       forget();
@@ -35,7 +35,7 @@ class QuasiNewton {
     double length = 1;
     for (int i = 0; i < most_tries; ++i, length *= 0.5) {
       for (std::size_t e = 0; e < x.size(); ++e) {
-        x[e] = start_[e] + length * way_[e];
+        x[e] = start_[e] + length * direction_[e];
       }
       const double next = evaluate(x, force);
       if (next <= energy - 1e-4 * length * slope + 1e-13 * energy) {
@@ -52,7 +52,7 @@ class QuasiNewton {
     return false;
   }
 
-  /// Estimates the distance from the minimum in the norm of the energy, after the last step.
+  /// Estimates the distance from the minimum after the last step: √(twice the energy of the distance).
   double distance() const { return std::sqrt(slope_) * shrunk_; }
 
  private:
@@ -64,16 +64,16 @@ class QuasiNewton {
     double product = 0;    // step · change
   };
 
-  void find_way(Preconditioner<D>& preconditioner, const Vectors& force) {
+  void find_direction(Preconditioner<D>& preconditioner, const Vectors& force) {
     rest_ = force;
     std::vector<double> shares(pairs_.size());
     for (std::size_t i = pairs_.size(); i-- > 0;) {
       shares[i] = dot(pairs_[i].step, rest_) / pairs_[i].product;
       add(rest_, -shares[i], pairs_[i].change);
     }
-    preconditioner.apply(rest_, way_);
+    preconditioner.apply(rest_, direction_);
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      add(way_, shares[i] - dot(pairs_[i].change, way_) / pairs_[i].product, pairs_[i].step);
+      add(direction_, shares[i] - dot(pairs_[i].change, direction_) / pairs_[i].product, pairs_[i].step);
     }
   }
 
@@ -83,8 +83,8 @@ class QuasiNewton {
       pair = std::move(pairs_.front());
       pairs_.erase(pairs_.begin());
     }
-    pair.step.assign(way_.size(), Eigen::Matrix<double, D, 1>::Zero());
-    add(pair.step, length, way_);
+    pair.step.assign(direction_.size(), Eigen::Matrix<double, D, 1>::Zero());
+    add(pair.step, length, direction_);
     pair.change = before_;
     add(pair.change, -1, force);
     pair.product = dot(pair.step, pair.change);
@@ -94,7 +94,7 @@ class QuasiNewton {
   }
 
   std::vector<Pair> pairs_;  // oldest first
-  Vectors rest_, way_, before_, start_;
+  Vectors rest_, direction_, before_, start_;
   double slope_ = 0, shrunk_ = 1;
 };
 

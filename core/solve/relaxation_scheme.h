@@ -20,7 +20,7 @@ struct RelaxationSchemeInfo {
 
 inline constexpr std::array relaxation_schemes{
     RelaxationSchemeInfo{RelaxationScheme::mean, "mean", "mean",
-                         "element by element, toward the mean of the positions that its neighbours suggest", true},
+                         "element by element, to the position of least energy while all others stay", true},
     RelaxationSchemeInfo{RelaxationScheme::link, "link", "link",
                          "link by link, both ends share the error (Schill 2001)", true},
     RelaxationSchemeInfo{RelaxationScheme::equilibrium, "equilibrium", "equilibrium",
@@ -41,8 +41,7 @@ constexpr std::optional<RelaxationScheme> find_relaxation_scheme(std::string_vie
   return std::nullopt;
 }
 
-/// When the scheme `equilibrium` ends, where a user does not choose.
-inline constexpr double equilibrium_residual = 1e-3;
+/// Largest number of iterations of the scheme `equilibrium`, where a user does not choose.
 inline constexpr int equilibrium_iterations = 200;
 
 }  // namespace chainmail
