@@ -246,6 +246,7 @@ class Equilibrator final : public EquilibriumSolver {
     free_.outdate(rows, cut);
     penalised_.outdate(rows, cut);
     newton_.forget();
+    regions_.begin_checks();
     is_fresh_ = true;
     iterations_ = 0;
   }
@@ -290,6 +291,7 @@ class Equilibrator final : public EquilibriumSolver {
     free_.outdate(rows, false);
     penalised_.outdate(rows, false);
     newton_.forget();
+    regions_.begin_checks();
     is_fresh_ = true;
     iterations_ = 0;
   }

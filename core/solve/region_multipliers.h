@@ -33,6 +33,11 @@ class RegionMultipliers {
     links([&](LinkId link, ElementId i, ElementId j, const auto& region, double) {
       inside_[link] = clamped_to(region, at[j] - at[i]);
     });
+    begin_checks();
+  }
+
+  /// Checks the penalty after a few steps again, for another problem.
+  void begin_checks() {
     steps_ = 0;
     next_check_ = first_check;
   }

@@ -27,6 +27,7 @@ class EquilibriumSolverTest : public QObject {
   void a_free_object_follows_the_handle();
   void what_is_kept_matches_the_object();
   void a_long_cut_costs_no_iterations();
+  void other_pins_cost_no_iterations_where_regions_bind();
   void iterations_hardly_grow_with_the_size();
   void the_gap_is_an_upper_bound();
   void the_corotated_energy_is_least();
@@ -314,6 +315,30 @@ void EquilibriumSolverTest::a_long_cut_costs_no_iterations() {
   QVERIFY(dragged.solve(1e-6));
   const int anew = dragged.equilibrium->certificate(dragged.solver.body())->iterations;
   QVERIFY2(kept <= anew + 3, qPrintable(QString("%1 after %2").arg(kept).arg(anew)));
+}
+
+/// The penalty has changed by then. It is adapted to the new problem, and the kept levels match those around the pins.
+void EquilibriumSolverTest::other_pins_cost_no_iterations_where_regions_bind() {
+  const auto mesh = make_mesh(MeshKind::cloth, {48, 48, 1});
+  Dragged dragged(mesh, softness_of(EnergyKind::corotated, 1, {}), left_side(*mesh), mesh->element_count() - 1,
+                  Point(5, 3, 0));
+  QVERIFY(dragged.solve(1e-5, 5000));
+  std::vector<ElementId> more;
+  for (ElementId e = 24; e < mesh->element_count(); e += 48) {
+    more.push_back(e);
+  }
+  dragged.solver.body().pin(more);
+  const std::vector<double> start = positions_of(dragged.solver, *mesh);
+  const auto push = [&] { move_by(dragged.solver, *mesh, dragged.held[0], Point(1, 1, 0)); };
+  push();
+  QVERIFY(dragged.solve(1e-5, 5000));
+  const int kept = dragged.equilibrium->certificate(dragged.solver.body())->iterations;
+  dragged.solver.body().set_positions(start);
+  dragged.equilibrium = EquilibriumSolver::make(2);
+  push();
+  QVERIFY(dragged.solve(1e-5, 5000));
+  const int anew = dragged.equilibrium->certificate(dragged.solver.body())->iterations;
+  QVERIFY2(kept <= anew, qPrintable(QString("%1, not %2").arg(kept).arg(anew)));
 }
 
 void EquilibriumSolverTest::iterations_hardly_grow_with_the_size() {
