@@ -19,7 +19,8 @@ namespace chainmail {
 namespace {
 
 constexpr std::array every_sweeps{0, 1, 3, 10, 30, 100};
-constexpr double share_everywhere = 0.6;     // share of the evaluations; the others search near the best point
+// Shares of the evaluations; the others search near the best point.
+constexpr double share_everywhere = 0.6, share_of_energy = 0.2;
 constexpr double share_of_references = 0.2;  // share of the progress
 // Residual of the equilibrium in a search: with a larger one, the error is not smooth enough for it.
 constexpr double smooth_residual = 1e-3;
@@ -37,64 +38,38 @@ Residual together(const std::vector<Residual>& residuals) {
   return mean;
 }
 
-/// The numbers that a search varies, as a point. Lateral stiffness is there as its decimal logarithm.
+/// Some consecutive ones of the numbers that searches vary, as a point: compression, stretch, shear, the decimal
+/// logarithm of the lateral stiffness, and the exponent.
 class Variables {
  public:
-  explicit Variables(const CalibrationOptions& options)
-      : usual_(usual_of(options.energy)),
-        with_energy_(!info(options.scheme).sweeps && options.energy != EnergyKind::isotropic) {}
+  Variables(std::size_t first, std::size_t end) : first_(first), end_(end) {}
 
   // Beyond these bounds, a link does not limit a drag of a fifth of the object.
   std::vector<double> low() const { return cut({0, 1, 0, -3, -3}); }
   std::vector<double> high() const { return cut({1, 3, 2, 1.5, 1}); }
 
-  const LinkSoftness& usual() const { return usual_; }
-  LinkSoftness softness_at(const std::vector<double>& x) const {
-    LinkSoftness softness = usual_;
-    softness.compression = x[0];
-    softness.stretch = x[1];
-    softness.shear = x[2];
-    if (with_energy_) {
-      softness.lateral = std::pow(10.0, x[3]);
-      softness.exponent = x[4];
-    }
-    return softness;
-  }
   std::vector<double> point_of(const LinkSoftness& softness) const {
     return cut(
         {softness.compression, softness.stretch, softness.shear, std::log10(softness.lateral), softness.exponent});
   }
-
-  /// Returns where a search with the equilibrium starts: with regions that bind in every drag, in far drags and in
-  /// none, and with an energy that resists rotation less or more.
-  std::vector<LinkSoftness> starts() const {
-    LinkSoftness open = usual_, far = usual_;
-    open.compression = 0;
-    open.stretch = 3;
-    open.shear = 2;
-    far.compression = 0.4;
-    far.stretch = 1.8;
-    far.shear = 0.6;
-    LinkSoftness other = open;
-    other.lateral *= 0.2;
-    other.exponent = -2;
-    return {usual_, far, open, other};
+  /// Returns the softness at a point. Its other numbers are those of `start`.
+  LinkSoftness softness_at(const std::vector<double>& x, LinkSoftness start) const {
+    double* const numbers[] = {&start.compression, &start.stretch, &start.shear, &start.lateral, &start.exponent};
+    for (std::size_t i = first_; i < end_; ++i) {
+      *numbers[i] = i == 3 ? std::pow(10.0, x[i - first_]) : x[i - first_];
+    }
+    return start;
   }
 
  private:
-  static LinkSoftness usual_of(EnergyKind kind) {
-    LinkSoftness softness;
-    softness.lateral = info(kind).lateral;
-    return softness;
-  }
-  std::vector<double> cut(std::vector<double> x) const {
-    x.resize(with_energy_ ? x.size() : region_numbers);
-    return x;
+  std::vector<double> cut(const std::vector<double>& x) const {
+    return {x.begin() + std::ptrdiff_t(first_), x.begin() + std::ptrdiff_t(end_)};
   }
 
-  LinkSoftness usual_;
-  bool with_energy_;
+  std::size_t first_, end_;
 };
+
+const Variables of_regions(0, 3), of_energy(3, 5), of_both(0, 5);
 
 /// A softness and a number of sweeps, with their residuals.
 struct Trial {
@@ -214,7 +189,7 @@ void look(Search search, const Variables& variables, Bench& bench, const Trial& 
   }
   find_optimum(search, variables.low(), variables.high(), variables.point_of(start.softness), evaluations,
                [&](const std::vector<double>& x) {
-                 Trial trial = bench.evaluate(variables.softness_at(x), start.sweeps);
+                 Trial trial = bench.evaluate(variables.softness_at(x, start.softness), start.sweeps);
                  const double relative = trial.relative();
                  if (relative < best.relative()) {
                    best = std::move(trial);
@@ -224,24 +199,35 @@ void look(Search search, const Variables& variables, Bench& bench, const Trial& 
 }
 
 /// Sweeps are whole numbers, and their effect grows with their logarithm, so each number gets its own search.
-void search_with_sweeps(const Variables& variables, Bench& bench, const CalibrationOptions& options, Trial& best) {
+void search_with_sweeps(Bench& bench, const CalibrationOptions& options, Trial& best) {
   const auto end = std::ranges::upper_bound(every_sweeps, options.most_sweeps);
   const std::span tried(every_sweeps.begin(), end);
   const int each = static_cast<int>(share_everywhere * options.evaluations) / std::max(1, int(tried.size()));
   for (const int sweeps : tried) {
-    look(Search::everywhere, variables, bench, {best.softness, sweeps, {}},
+    look(Search::everywhere, of_regions, bench, {best.softness, sweeps, {}},
          std::min(each, options.evaluations - bench.evaluations()), best);
   }
+  look(Search::about_a_point, of_regions, bench, Trial(best), options.evaluations - bench.evaluations(), best);
 }
 
-/// Searches near several starts.
-void search_at_equilibrium(const Variables& variables, Bench& bench, const CalibrationOptions& options, Trial& best) {
-  const std::vector<LinkSoftness> starts = variables.starts();
-  const int each = static_cast<int>(share_everywhere * options.evaluations) / int(starts.size());
-  for (const LinkSoftness& start : starts) {
-    look(Search::about_a_point, variables, bench, {start, 0, {}},
+/// Searches for the energy alone, with open regions, from two starts: an energy that resists rotation less or more.
+/// Then for energy and regions together, from the best one: narrow regions have their own minima, in which the handle
+/// stops.
+void search_at_equilibrium(Bench& bench, const CalibrationOptions& options, Trial& best) {
+  const bool has_energy = options.energy != EnergyKind::isotropic;
+  const int each = static_cast<int>(share_of_energy * options.evaluations);
+  for (const double stiffer : {1.0, 10.0}) {
+    LinkSoftness open = best.softness;
+    open.compression = 0;
+    open.stretch = 3;
+    open.shear = 2;
+    open.lateral = info(options.energy).lateral * stiffer;
+    open.exponent = -2;
+    look(Search::about_a_point, has_energy ? of_energy : of_regions, bench, {open, 0, {}},
          std::min(each, options.evaluations - bench.evaluations()), best);
   }
+  look(Search::about_a_point, has_energy ? of_both : of_regions, bench, Trial(best),
+       options.evaluations - bench.evaluations(), best);
 }
 
 CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) {
@@ -296,13 +282,12 @@ CalibrationResult result_of(Bench& bench, const Trial& before, const Trial& best
 CalibrationResult calibrate(const MeshPointer& mesh, const Cuts& cuts, const CalibrationOptions& asked,
                             const Progress& progress) {
   const CalibrationOptions options = checked(mesh, asked);
-  const Variables variables(options);
   Bench bench(mesh, cuts, options, progress);
-  const Trial before = bench.evaluate(variables.usual(), 0);
+  LinkSoftness usual;
+  usual.lateral = info(options.energy).lateral;
+  const Trial before = bench.evaluate(usual, 0);
   Trial best = before;
-  info(options.scheme).sweeps ? search_with_sweeps(variables, bench, options, best)
-                              : search_at_equilibrium(variables, bench, options, best);
-  look(Search::about_a_point, variables, bench, Trial(best), options.evaluations - bench.evaluations(), best);
+  info(options.scheme).sweeps ? search_with_sweeps(bench, options, best) : search_at_equilibrium(bench, options, best);
   CalibrationResult result = result_of(bench, before, best);
   progress.report(1.0);
   return result;
