@@ -28,7 +28,7 @@ QImage pictureOf(const QString& path) {
   View& view = bench.view(0);
   view.setFixedSize(drawn);
   bench.settle();
-  view.fit();
+  view.fitRest();
   return view.picture(1, true);
 }
 

@@ -79,7 +79,14 @@ QColor nearer(const QColor& colour, int darker, double own) {
 
 QColor faint(const QColor& colour) { return nearer(colour, 320, 0.22); }
 QColor solid(const QColor& colour) { return nearer(colour, 190, 0.6); }
-QColor bright(const QColor& colour) { return nearer(colour, 125, 0.75); }
+
+QColor light(const QColor& colour) {
+  const double white = ground() == Ground::dark ? 0.38 : 0.55;
+  const auto mixed = [white](float channel) { return float(channel + white * (1 - channel)); };
+  return QColor::fromRgbF(mixed(colour.redF()), mixed(colour.greenF()), mixed(colour.blueF()));
+}
+
+QColor edge(const QColor& colour) { return colour.darker(ground() == Ground::dark ? 400 : 230); }
 
 }  // namespace colours
 

@@ -50,6 +50,7 @@ inline constexpr Colour focus(0xff56b4e9, 0xff0068a8);  // the frame of the view
 inline constexpr Colour lit(0xfff05030, 0xffcc2200);
 inline constexpr Colour inside(0xff2fc49b, 0xff00754f);  // a valid region
 inline constexpr Colour outside(0xfff07a30, 0xffb84800);
+inline constexpr Colour inner(0xfff2b5a7, 0xffd98873);  // the inside of a volume, where a cut or a section shows it
 
 // The message bar: background and sign. Its text has the colour of the palette.
 inline constexpr Colour infoGround(0xff1d3a52, 0xffdcecf8);
@@ -69,9 +70,12 @@ QColor stronger(const QColor& colour);
 /// Returns a variant with little contrast to the ground, for the faces between links of that colour.
 QColor faint(const QColor& colour);
 
-/// Like faint(), with more contrast: `solid` is for faces without links, `bright` for faces that a section cuts open.
+/// Like faint(), with more contrast, for faces in a plane without links.
 QColor solid(const QColor& colour);
-QColor bright(const QColor& colour);
+/// Returns a light variant, for surfaces in space, whose shadows must stay distinguishable from the ground.
+QColor light(const QColor& colour);
+/// Returns a dark variant, for thin lines on a light surface of that colour.
+QColor edge(const QColor& colour);
 
 /// Returns the colour of a panel and of everything that refers to it; panels are numbered from 0.
 inline constexpr Colour ofPanel(int panel) { return std::array{left, right, third, fourth}[std::size_t(panel)]; }

@@ -19,10 +19,10 @@ class Camera {
  public:
   /// Shows the whole box: straight at the plane of the given axes, or obliquely from above if there are three of them.
   void fit(const std::array<Point, 2>& box, std::span<const int> axes, QSizeF view);
-  /// Shows the whole box from the current side.
-  void frame(const std::array<Point, 2>& box, QSizeF view);
-  /// True if the camera was neither panned nor zoomed since fit() or frame(). A resized view may then frame the box
-  /// again.
+  /// Shows all points (mesh units) from the current side, as large as possible with a small margin.
+  void frame(std::span<const QVector3D> points, QSizeF view);
+  /// True if the camera was neither panned nor zoomed since fit() or frame(). A resized view may then frame
+  /// it again.
   bool framed() const { return framed_; }
   void orbit(QPointF pixels);
   void pan(QPointF pixels, QSizeF view);
@@ -60,6 +60,10 @@ class Camera {
   QVector3D pointAt(QPointF position, const QVector3D& through, QSizeF view) const;
 
  private:
+  QMatrix4x4 rotation() const;
+  void frameFlat(std::span<const QVector3D> turned, double aspect);
+  void frameInPerspective(std::span<const QVector3D> turned, double aspect);
+
   QVector3D centre_;
   double radius_ = 1;  // of the object (mesh units)
   double height_ = 2;  // visible height in the plane through the centre (mesh units)

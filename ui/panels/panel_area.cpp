@@ -2,6 +2,7 @@
 
 #include <QVBoxLayout>
 #include <algorithm>
+#include <map>
 
 #include "drawing/mesh_levels.h"
 #include "panels/panel.h"
@@ -11,6 +12,9 @@ namespace {
 
 constexpr int panelsPerRow = 2;
 constexpr int handleWidth = 3;
+constexpr int panelRest = 90;  // height of a panel's head and figures, approximately (pixels)
+// Panels change between next to each other and above each other if that shows the object larger by this factor.
+constexpr double mostBetter = 1.3;
 constexpr int equalSize = 10'000;  // the splitter scales it to the available space
 
 QSplitter* makeSplitter(Qt::Orientation orientation) {
@@ -58,7 +62,8 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
           [this](const std::vector<LinkId>& links, bool cut) { levels_->showCuts(links, cut); });
   connect(&document, &Document::meshChanged, this, [this] {
     levels_->forgetSurface();
-    fit();
+    arrange();
+    fitRest();
   });
   connect(&document, &Document::panelsChanged, this, &PanelArea::followPanels);
   connect(&document, &Document::panelLeaves, this, &PanelArea::removePanel);
@@ -168,22 +173,40 @@ std::vector<Panel*> PanelArea::byAspect() const {
   return all;
 }
 
-void PanelArea::fit() {
+void PanelArea::fitRest() {
   for (Panel* panel : byAspect()) {
-    panel->view().fit();
+    panel->view().fitRest();
+  }
+  fitsRest_ = true;
+}
+
+/// Frames the object in every view, or only in the narrowest one of those that share a camera. Linked views show what
+/// all of them have to show.
+void PanelArea::frame(bool atRest) {
+  fitsRest_ = atRest;
+  const auto all = byAspect();
+  std::map<const Camera*, std::vector<QVector3D>> outlines;
+  for (Panel* panel : all) {
+    if (!panel->isHidden()) {
+      const auto outline = panel->view().outline(atRest);
+      auto& shared = outlines[panel->view().camera().get()];
+      shared.insert(shared.end(), outline.begin(), outline.end());
+    }
+  }
+  for (Panel* panel : all) {
+    const bool narrowest = panel == all.back() || panel->view().camera() != all.back()->view().camera();
+    if (!panel->isHidden() && narrowest) {
+      panel->view().frame(outlines[panel->view().camera().get()]);
+    }
   }
 }
 
-/// Fits the views again after a resize. Does nothing during a drag, because the object must stay under the cursor.
+/// Fits the views again after a resize, unless the user has panned or zoomed since. Does nothing during a drag, because
+/// the object must stay under the cursor.
 void PanelArea::fitAgain() {
-  if (document_.highlight().grabbed) {
-    return;
-  }
-  const auto all = byAspect();
-  for (Panel* panel : all) {
-    if (!panel->isHidden() && (!links_.cameras() || panel == all.back())) {
-      panel->view().fitAgain();
-    }
+  const auto framed = [](const Panel* panel) { return panel->view().camera()->framed(); };
+  if (!document_.highlight().grabbed && std::ranges::all_of(panels_, framed)) {
+    frame(fitsRest_);
   }
 }
 
@@ -236,6 +259,7 @@ void PanelArea::rotatePanels() {
 
 void PanelArea::arrange() {
   const auto visible = inSight();
+  stacked_ = stacksPanels(int(visible.size()));
   moveIntoRows(visible);
   for (int panel = 0; panel < int(panels_.size()); ++panel) {
     Panel& one = *panels_[std::size_t(panel)];
@@ -247,7 +271,7 @@ void PanelArea::arrange() {
       colouring_.forget(panel);
     }
   }
-  rows_[1]->setVisible(visible.size() > panelsPerRow);
+  rows_[1]->setVisible(stacked_ || visible.size() > panelsPerRow);
   for (QSplitter* splitter : {rows_[0], rows_[1], column_}) {
     shareEqually(*splitter);
   }
@@ -261,12 +285,38 @@ void PanelArea::moveIntoRows(const std::vector<int>& visible) {
       rows_[0]->addWidget(panel);
     }
   }
+  const std::size_t perRow = stacked_ ? 1 : panelsPerRow;
   for (std::size_t i = 0; i < visible.size(); ++i) {
-    QSplitter& row = *rows_[i / panelsPerRow];
+    QSplitter& row = *rows_[i / perRow];
     Panel* panel = panels_[std::size_t(visible[i])];
-    if (row.indexOf(panel) != int(i % panelsPerRow)) {
-      row.insertWidget(int(i % panelsPerRow), panel);
+    if (row.indexOf(panel) != int(i % perRow)) {
+      row.insertWidget(int(i % perRow), panel);
     }
+  }
+}
+
+/// True if two panels show the object larger above each other than next to each other.
+bool PanelArea::stacksPanels(int shown) const {
+  if (shown != 2) {
+    return false;
+  }
+  const Mesh& mesh = *document_.mesh();
+  const Point size = bounds(mesh)[1] - bounds(mesh)[0];
+  const bool spatial = mesh.space_dimension == 3;
+  const double across = spatial ? std::max(size.x(), size.z()) : size[mesh.axes[0]];
+  const double up = spatial ? size.y() : mesh.space_dimension == 2 ? size[mesh.axes[1]] : 0;
+  const double around = std::max(0.0, std::min(across, 0.25 * across));  // a turned object is higher than its side
+  const double high = std::max(spatial ? up + around : up, 1e-9 * across);
+  const double rowWidth = width(), columnHeight = std::max(1, height() - 2 * panelRest);
+  const double beside = std::min(rowWidth / 2 / across, (columnHeight + panelRest) / high);
+  const double above = std::min(rowWidth / across, columnHeight / 2 / high);
+  return above > (stacked_ ? 1 / mostBetter : mostBetter) * beside;
+}
+
+void PanelArea::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  if (const auto visible = inSight(); stacksPanels(int(visible.size())) != stacked_) {
+    arrange();
   }
 }
 

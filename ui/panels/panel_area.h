@@ -39,8 +39,11 @@ class PanelArea : public QWidget {
   /// Sets the parts of the object that all panels draw. Ignores the section of `look`, which setSection() sets.
   void setLook(const Look& look);
   void setSection(const std::optional<SectionPlane>& section);
-  /// Shows the whole rest shape in every panel.
-  void fit();
+  /// Shows all that is there now in every panel, from its current side. Panels with linked cameras show the objects of
+  /// all of them.
+  void fit() { frame(false); }
+  /// Shows the whole rest shape in every panel, from the initial side.
+  void fitRest();
 
   bool isShown(int panel) const { return shown_[std::size_t(panel)]; }
   /// Shows or hides a panel. At least one panel stays visible.
@@ -56,6 +59,9 @@ class PanelArea : public QWidget {
   /// Gives each panel the next panel's object as a ghost, or removes all ghosts.
   void setGhosts(bool on);
   bool hasGhosts() const;
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
 
  signals:
   void failed(const QString& sentence);
@@ -74,7 +80,9 @@ class PanelArea : public QWidget {
   void arrange();
   void linkCameras(bool linked);
   std::vector<Panel*> byAspect() const;
+  void frame(bool atRest);
   void fitAgain();
+  bool stacksPanels(int shown) const;
 
   Document& document_;
   Colouring& colouring_;
@@ -92,6 +100,8 @@ class PanelArea : public QWidget {
   std::vector<bool> shown_;
   std::optional<int> alone_;
   QTimer refit_;
+  bool fitsRest_ = true;  // true if the views show the rest shape since the last fit
+  bool stacked_ = false;  // true if two panels are above each other
 };
 
 }  // namespace chainmail

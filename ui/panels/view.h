@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QElapsedTimer>
 #include <QOpenGLWidget>
 #include <QTimer>
 #include <algorithm>
@@ -61,10 +62,12 @@ class View : public QOpenGLWidget {
   /// Looks through another camera and does not change that camera.
   void setCamera(std::shared_ptr<Camera> camera);
   const std::shared_ptr<Camera>& camera() const { return camera_; }
-  /// Shows the whole rest shape.
-  void fit();
-  /// Shows the whole rest shape again from the current side, if the user has not panned or zoomed since.
-  void fitAgain();
+  /// Shows the whole rest shape from the initial side.
+  void fitRest();
+  /// Returns points that enclose what the view should show: the object now, or its rest shape (mesh units).
+  std::vector<QVector3D> outline(bool atRest) const;
+  /// Shows all these points from the current side.
+  void frame(std::span<const QVector3D> points);
   /// Moves the camera as if the mouse had moved by this many logical pixels.
   void orbit(QPointF pixels);
   void pan(QPointF pixels);
@@ -137,19 +140,23 @@ class View : public QOpenGLWidget {
   void updateHover();
   void announceCamera();
 
+  DetailBudget::Detail chooseDetail();
+  void measurePaint();
+  bool showsSolid() const;
   /// Returns a filter for the elements that the section does not hide; empty without a section.
   std::function<bool(ElementId)> shown() const;
   const ClusterBoxes& boxes(const Frame& frame) const;
   Projection projection() const;
   std::vector<MeshLevel::Face> frontFaces(const Frame& frame, QRectF part) const;
+  std::optional<QPointF> wayToObject() const;
 
   void moveCamera(QPointF travel, Qt::MouseButtons buttons);
 
   const Frame* ghostFrame() const;
   ObjectPainter& ghostPainter();
   void freeGhostPainter();
-  ObjectDrawing::Scene scene(double pixelRatio, const QColor& ground) const;
-  void paintOn(const QColor& ground, double pixelRatio);
+  ObjectDrawing::Scene scene(double pixelRatio, const QColor& ground, DetailBudget::Detail detail) const;
+  void paintOn(const QColor& ground, double pixelRatio, DetailBudget::Detail detail);
   void draw(const Easel& on);
   void takeFrames(const Easel& on);
   void drawObjects(const Easel& on);
@@ -158,6 +165,7 @@ class View : public QOpenGLWidget {
   void drawMarks(const Easel& on);
   void drawHighlight(const Easel& on);
   void drawAnnotations(const Easel& on);
+  void drawWayBack(const Easel& on);
   void drawFocus();
 
   Document& document_;
@@ -175,6 +183,19 @@ class View : public QOpenGLWidget {
   Ghost ghost_;
   std::unique_ptr<ObjectPainter> ghostPainter_;  // exists while there is a ghost
   FrameMeter meter_;
+  /// All that moves in a view: object and camera.
+  struct Seen {
+    const Mesh* mesh = nullptr;
+    std::uint64_t frame = 0, series = 0;
+    QMatrix4x4 toView, toClip;
+    bool operator==(const Seen&) const = default;
+  };
+  Seen seen_;     // in the last picture
+  QTimer still_;  // ends some time after the last movement; then the object is drawn completely
+  DetailBudget budget_;
+  DetailBudget::Detail detail_ = DetailBudget::Detail::complete;
+  QElapsedTimer paintClock_;
+  std::size_t quickShapes_ = 0;  // in a quick picture that is not on the screen yet
   QTimer hover_;  // limits the search for the element under the cursor to once per frame
   QPointF cursor_;
   bool fitPending_ = true;

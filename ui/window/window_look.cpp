@@ -51,7 +51,9 @@ void takeCameras(MainWindow& window, const QJsonObject& look) {
   for (int panel = 0; panel < std::min(int(cameras.size()), window.document().panels()); ++panel) {
     View& view = window.panel(panel).view();
     view.camera()->setPose(poseOf(cameras[panel].toObject(), view.camera()->pose()));
-    view.fitAgain();  // the window of the saved look may have had another size
+    if (view.camera()->framed()) {
+      view.frame(view.outline(false));  // the window of the saved look may have had another size
+    }
     emit view.cameraChanged();
     view.update();
   }
