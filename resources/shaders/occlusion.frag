@@ -46,7 +46,7 @@ void main() {
     vec3 way = view_at(place + step_to) - here;
     float squared = dot(way, way);
     float weight = max(0.0, 1.0 - squared / (reach * reach));
-    hidden += weight * max(0.0, dot(way, normal) - 0.02 * reach) / (sqrt(squared) + 0.001 * reach);
+    hidden += weight * max(0.0, dot(way, normal) - 0.04 * reach) / (sqrt(squared) + 0.001 * reach);
   }
   occlusion = clamp(1.6 * hidden / float(samples), 0.0, 1.0);
 }

@@ -81,7 +81,7 @@ QColor faint(const QColor& colour) { return nearer(colour, 320, 0.22); }
 QColor solid(const QColor& colour) { return nearer(colour, 190, 0.6); }
 
 QColor light(const QColor& colour) {
-  const double white = ground() == Ground::dark ? 0.38 : 0.55;
+  const double white = ground() == Ground::dark ? 0.45 : 0.55;
   const auto mixed = [white](float channel) { return float(channel + white * (1 - channel)); };
   return QColor::fromRgbF(mixed(colour.redF()), mixed(colour.greenF()), mixed(colour.blueF()));
 }

@@ -21,7 +21,7 @@ struct Lighting {
 
   /// Returns the light on objects of one colour, on the current ground.
   static Lighting onGround() {
-    return colours::ground() == colours::Ground::dark ? Lighting{0.40F, 0.16F, 0.50F, 0.28F, 0.16F}
+    return colours::ground() == colours::Ground::dark ? Lighting{0.44F, 0.18F, 0.56F, 0.25F, 0.14F}
                                                       : Lighting{0.46F, 0.16F, 0.42F, -0.30F, 0.10F};
   }
   /// Returns weaker light without highlights, so that colours which stand for values read the same as in the legend.

@@ -10,7 +10,7 @@ constexpr ElementId mostElementsMarked = 20'000;
 constexpr double pixelsBetweenMarks = 9;
 constexpr float planeFaceOpacity = 0.12F;
 // Edges on a surface are invisible below the first length and fully visible above the second (pixels).
-constexpr double shortestEdge = 2.5, longEdge = 12;
+constexpr double shortestEdge = 4, longEdge = 14;
 constexpr float edgeOpacity = 0.55F;
 constexpr float linksFade = 0.75F, solidFade = 0.3F;
 
@@ -42,7 +42,7 @@ QColor ObjectDrawing::linkColour(const Mesh& mesh, const Paint& paint, double pi
   }
   QColor colour = colours::edge(ownColour(mesh, paint));
   const double pixels = mesh.mean_link_length * pixelsPerUnit;
-  const double share = std::clamp((pixels - shortestEdge) / (longEdge - shortestEdge), 0.15, 1.0);
+  const double share = std::clamp((pixels - shortestEdge) / (longEdge - shortestEdge), 0.1, 1.0);
   colour.setAlphaF(edgeOpacity * float(share));
   return colour;
 }

@@ -312,11 +312,14 @@ void MainWindow::fillObjectMenu(QMenu& menu) {
 }
 
 void MainWindow::fillViewMenu(QMenu& menu) {
-  fitView_ = menu.addAction(QStringLiteral("Reset &view (fit)"), area_, &PanelArea::fit);
+  fitView_ = menu.addAction(QStringLiteral("Fit &view"), area_, &PanelArea::fit);
   fitView_->setObjectName(QStringLiteral("fitView"));
-  fitView_->setIconText(QStringLiteral("Fit view"));  // so that the tool bar fits in 1280 pixels
   fitView_->setShortcut(Qt::Key_F);
-  fitView_->setStatusTip(QStringLiteral("Shows the whole object in every view, from the initial side"));
+  fitView_->setStatusTip(QStringLiteral("Shows the whole object as it is now in every view, from the current side"));
+  auto* fitRest = menu.addAction(icon("fit"), QStringLiteral("Fit &rest shape"), area_, &PanelArea::fitRest);
+  fitRest->setObjectName(QStringLiteral("fitRest"));
+  fitRest->setShortcut(Qt::Key_Home);
+  fitRest->setStatusTip(QStringLiteral("Shows the whole rest shape in every view, from the initial side"));
   cameraActions_->fillMoves(menu);
   panelActions_->fill(menu);
   regions_.fill(menu);
