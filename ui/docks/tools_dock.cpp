@@ -3,6 +3,7 @@
 #include <QActionGroup>
 #include <QButtonGroup>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
 #include <QSpinBox>
@@ -16,8 +17,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int toolColumns = 2;
-constexpr int toolHeight = 30;
+constexpr int toolHeight = 32, toolIcon = 20;  // pixels
 
 QToolButton* wideButton() {
   auto* button = new QToolButton;
@@ -31,15 +31,17 @@ QToolButton* wideButton() {
 ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select) {
   auto* content = new QWidget;
   column_ = new QVBoxLayout(content);
-  auto* grid = new QGridLayout;
+  auto* strip = new QHBoxLayout;
+  strip->setSpacing(2);
   for (QAction* action : tools.actions()) {
     auto* button = wideButton();
     button->setDefaultAction(action);
-    button->setMinimumHeight(toolHeight);
-    const int i = int(tools.actions().indexOf(action));
-    grid->addWidget(button, i / toolColumns, i % toolColumns);
+    button->setToolButtonStyle(Qt::ToolButtonIconOnly);
+    button->setIconSize({toolIcon, toolIcon});
+    button->setFixedHeight(toolHeight);
+    strip->addWidget(button);
   }
-  column_->addLayout(grid);
+  column_->addLayout(strip);
   setWidget(content);
   // A tall column of docks gives its height to other docks.
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);

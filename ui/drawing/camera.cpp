@@ -96,6 +96,7 @@ void Camera::setPose(const Pose& pose) {
   centre_ = pose.centre;
   parallel_ = pose.parallel;
   framed_ = pose.framed;
+  up_ = pose.up;
   height_ = std::clamp(pose.height, radius_ * smallestHeight, radius_ * largestHeight);
   if (spatial_) {
     yaw_ = pose.yaw;
@@ -119,6 +120,18 @@ void Camera::lookFrom(double yaw, double pitch) {
   if (spatial_) {
     yaw_ = yaw;
     pitch_ = pitch;
+  }
+}
+
+void Camera::lookFromAxis(int axis, bool positive) {
+  const int above = up_ == Up::y ? 1 : 2;
+  if (axis == above) {
+    lookFrom(0, positive ? 90 : -90);
+  } else if (axis == 0) {
+    lookFrom(positive ? -90 : 90, 0);
+  } else {
+    const bool front = positive == (up_ == Up::y);  // +z, or -y if z is up
+    lookFrom(front ? 0 : 180, 0);
   }
 }
 
@@ -149,6 +162,9 @@ QMatrix4x4 Camera::rotation() const {
   QMatrix4x4 matrix;
   matrix.rotate(float(pitch_), 1, 0, 0);
   matrix.rotate(float(yaw_), 0, 1, 0);
+  if (spatial_ && up_ == Up::z) {
+    matrix.rotate(-90, 1, 0, 0);
+  }
   return matrix;
 }
 

@@ -12,6 +12,7 @@
 #include "common/ask_where.h"
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "common/up_axis.h"
 #include "files/mesh/mesh_formats.h"
 #include "files/mesh/open_mesh.h"
 #include "files/session/session.h"
@@ -79,6 +80,9 @@ QString openingReport(const QString& name, const OpenedMesh& opened, std::size_t
   }
   QString report = QStringLiteral("%1: %2, %3 units")
                        .arg(name, counts.join(QStringLiteral(", ")), extents.join(QStringLiteral(" × ")));
+  if (mesh.space_dimension == 3 && usuallyZUp(name)) {
+    report += QStringLiteral(". The z axis points up, which is a guess: see the View menu");
+  }
   if (const std::string flaws = in_words(opened.flaws); !flaws.empty()) {
     report += QStringLiteral(". ") + text(flaws);
   }

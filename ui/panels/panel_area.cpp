@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/up_axis.h"
 #include "drawing/mesh_levels.h"
 #include "panels/panel.h"
 
@@ -62,6 +63,7 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
           [this](const std::vector<LinkId>& links, bool cut) { levels_->showCuts(links, cut); });
   connect(&document, &Document::meshChanged, this, [this] {
     levels_->forgetSurface();
+    turnUp(usuallyZUp(document_.name()) ? Camera::Up::z : Camera::Up::y);
     arrange();
     fitRest();
   });
@@ -171,6 +173,19 @@ std::vector<Panel*> PanelArea::byAspect() const {
       std::stable_partition(all.begin(), all.end(), [](const Panel* panel) { return panel->isHidden(); });
   std::stable_sort(hidden, all.end(), [](const Panel* a, const Panel* b) { return aspect(*a) > aspect(*b); });
   return all;
+}
+
+Camera::Up PanelArea::up() const { return panels_.front()->view().camera()->up(); }
+
+void PanelArea::setUp(Camera::Up up) {
+  turnUp(up);
+  fitRest();
+}
+
+void PanelArea::turnUp(Camera::Up up) {
+  for (Panel* panel : panels_) {
+    panel->view().camera()->setUp(up);
+  }
 }
 
 void PanelArea::fitRest() {

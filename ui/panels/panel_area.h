@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "drawing/camera.h"
 #include "drawing/look.h"
 #include "panels/colouring.h"
 #include "panels/panel_links.h"
 
 namespace chainmail {
 
-class Camera;
 class MeshLevels;
 class Overlay;
 class Panel;
@@ -44,6 +44,10 @@ class PanelArea : public QWidget {
   void fit() { frame(false); }
   /// Shows the whole rest shape in every panel, from the initial side.
   void fitRest();
+
+  /// The axis that points up in all panels. A new object gets the axis that is usual for its file format.
+  Camera::Up up() const;
+  void setUp(Camera::Up up);
 
   bool isShown(int panel) const { return shown_[std::size_t(panel)]; }
   /// Shows or hides a panel. At least one panel stays visible.
@@ -81,6 +85,7 @@ class PanelArea : public QWidget {
   void linkCameras(bool linked);
   std::vector<Panel*> byAspect() const;
   void frame(bool atRest);
+  void turnUp(Camera::Up up);
   void fitAgain();
   bool stacksPanels(int shown) const;
 

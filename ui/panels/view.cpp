@@ -16,6 +16,7 @@
 #include "drawing/vector_painter.h"
 #include "mesh/error.h"
 #include "mesh/surface.h"
+#include "panels/orientation_cube.h"
 
 namespace chainmail {
 namespace {
@@ -26,8 +27,8 @@ constexpr int stillMilliseconds = 50;
 constexpr double zoomPerNotch = 1.2;
 constexpr std::size_t mostOutlinePoints = 200'000;  // of larger objects, the boxes of their clusters are the outline
 constexpr double arrowMargin = 34, arrowLength = 26, arrowHead = 9;  // pixels
-constexpr float pinSize = 13;           // pixels
-constexpr float cursorMarkSize = 13;    // pixels
+constexpr float pinSize = 13;                                        // pixels
+constexpr float cursorMarkSize = 13;                                 // pixels
 constexpr float markEdge = 4;           // pixels of background around a mark, both sides together
 constexpr double largestSelected = 12;  // diameter of a selected element's mark, pixels
 constexpr double smallestSelected = 2;
@@ -236,6 +237,11 @@ void View::lookFrom(double yaw, double pitch) {
   announceCamera();
 }
 
+void View::lookFromAxis(int axis, bool positive) {
+  camera_->lookFromAxis(axis, positive);
+  announceCamera();
+}
+
 void View::setParallel(bool parallel) {
   camera_->setParallel(parallel);
   announceCamera();
@@ -296,9 +302,8 @@ std::optional<ElementId> View::elementAt(QPointF position) const {
   const QPointF reach(elementReach, elementReach);
   const QRectF part(position - reach, position + reach);
   const FrontFaces front(*frame, projection(), frontFaces(*frame, part), part);
-  return nearest([&, isShown = shown()](ElementId element) {
-    return (!isShown || isShown(element)) && !front.hides(element);
-  });
+  return nearest(
+      [&, isShown = shown()](ElementId element) { return (!isShown || isShown(element)) && !front.hides(element); });
 }
 
 std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
@@ -373,6 +378,12 @@ QPointF View::placeOf(const Point& point) const {
 void View::mousePressEvent(QMouseEvent* event) {
   links_.point(panel_);
   cursor_ = event->position();
+  if (const auto face = OrientationCube(*camera_, size()).faceAt(cursor_);
+      face && event->button() == Qt::LeftButton && event->buttons() == Qt::LeftButton) {
+    cubePressed_ = true;
+    lookFromAxis(face->axis, face->positive);
+    return;
+  }
   if (event->button() == Qt::LeftButton && tool_ != nullptr) {
     hover_.stop();
     tool_->press(*this, cursor_, event->modifiers());
@@ -388,7 +399,7 @@ void View::mouseMoveEvent(QMouseEvent* event) {
       hover_.start();
     }
   } else if ((event->buttons() & Qt::LeftButton) != 0) {
-    if (tool_ != nullptr) {
+    if (tool_ != nullptr && !cubePressed_) {
       tool_->move(*this, cursor_, event->modifiers());
     }
   } else {
@@ -419,6 +430,9 @@ void View::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void View::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && std::exchange(cubePressed_, false)) {
+    return;
+  }
   if (event->button() == Qt::LeftButton && tool_ != nullptr) {
     tool_->release(*this, event->position());
   }
@@ -457,7 +471,7 @@ void View::focusOutEvent(QFocusEvent* event) {
   update();
 }
 
-// Painting: objects, overlays, marks, annotations, focus
+// Painting: objects, overlays, marks, annotations, focus, orientation cube
 
 void View::initializeGL() {
   // Docking a part of the window may give this view another context. Everything is created again then.
@@ -505,6 +519,7 @@ void View::paintGL() {
   paintOn(colours::background, devicePixelRatioF(), detail_);
   if (document_.frame(panel_) != nullptr) {
     drawFocus();
+    drawCube();
   }
   if (detail_ == DetailBudget::Detail::quick) {
     quickShapes_ = painter_.shapes();
@@ -709,7 +724,8 @@ std::optional<QPointF> View::wayToObject() const {
       return std::nullopt;
     }
   }
-  return bounds.empty() ? QRectF(rect()).center() : QPointF((bounds.left + bounds.right) / 2, (bounds.top + bounds.bottom) / 2);
+  return bounds.empty() ? QRectF(rect()).center()
+                        : QPointF((bounds.left + bounds.right) / 2, (bounds.top + bounds.bottom) / 2);
 }
 
 /// If the object is out of view, draws an arrow at the edge that points to it, and says how to see it.
@@ -749,6 +765,13 @@ void View::drawFocus() {
   }
 }
 
+void View::drawCube() {
+  if (camera_->spatial() && painterReady_) {
+    painter_.drawWords(scene(devicePixelRatioF(), colours::background, detail_),
+                       [this](QPainter& painter) { OrientationCube(*camera_, size()).draw(painter); });
+  }
+}
+
 // Pictures: in pixels, and as vector graphics
 
 QImage View::picture(double pixelRatio, bool transparent) {
@@ -765,8 +788,7 @@ QImage View::picture(double pixelRatio, bool transparent) {
     QOpenGLFramebufferObject canvas(pixels, QOpenGLFramebufferObject::CombinedDepthStencil);
     canvas.bind();
     context()->functions()->glViewport(0, 0, pixels.width(), pixels.height());
-    paintOn(transparent ? QColor(0, 0, 0, 0) : QColor(colours::background), pixelRatio,
-            DetailBudget::Detail::complete);
+    paintOn(transparent ? QColor(0, 0, 0, 0) : QColor(colours::background), pixelRatio, DetailBudget::Detail::complete);
     image = canvas.toImage();
   }
   doneCurrent();

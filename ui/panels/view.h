@@ -74,8 +74,9 @@ class View : public QOpenGLWidget {
   /// Zooms about the centre of the view, or about a position in it.
   void zoom(double factor);
   void zoom(double factor, QPointF about);
-  /// See Camera::lookFrom and Camera::setParallel.
+  /// See Camera.
   void lookFrom(double yaw, double pitch);
+  void lookFromAxis(int axis, bool positive);
   void setParallel(bool parallel);
 
   // For tools and overlays. Positions in the view are in logical pixels from its top left corner.
@@ -167,6 +168,7 @@ class View : public QOpenGLWidget {
   void drawAnnotations(const Easel& on);
   void drawWayBack(const Easel& on);
   void drawFocus();
+  void drawCube();
 
   Document& document_;
   Colouring& colouring_;
@@ -196,9 +198,10 @@ class View : public QOpenGLWidget {
   DetailBudget::Detail detail_ = DetailBudget::Detail::complete;
   QElapsedTimer paintClock_;
   std::size_t quickShapes_ = 0;  // in a quick picture that is not on the screen yet
-  QTimer hover_;  // limits the search for the element under the cursor to once per frame
+  QTimer hover_;                 // limits the search for the element under the cursor to once per frame
   QPointF cursor_;
   bool fitPending_ = true;
+  bool cubePressed_ = false;  // true if the left button was pressed on the orientation cube
   bool painterReady_ = false;
   bool focusFramed_ = false;       // true if the focus came from the keyboard
   bool selectionOutdated_ = true;  // true if the graphics card has an older selection
