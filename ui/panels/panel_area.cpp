@@ -16,7 +16,8 @@ constexpr int handleWidth = 3;
 constexpr int panelRest = 90;  // height of a panel's head and figures, approximately (pixels)
 // Panels change between next to each other and above each other if that shows the object larger by this factor.
 constexpr double mostBetter = 1.3;
-constexpr int equalSize = 10'000;  // the splitter scales it to the available space
+constexpr double lectureTexts = 1.6;  // times the usual size
+constexpr int equalSize = 10'000;     // the splitter scales it to the available space
 
 QSplitter* makeSplitter(Qt::Orientation orientation) {
   auto* splitter = new QSplitter(orientation);
@@ -98,6 +99,9 @@ void PanelArea::addPanel() {
   }
   panel->view().setLook(look_);
   panel->head().setActions(headActions_);
+  panel->showFigures(figures_);
+  panel->enlargeTexts(lecture_ ? lectureTexts : 1);
+  panel->view().setRing(lecture_);
   listenTo(*panel, number);
 }
 
@@ -157,6 +161,21 @@ void PanelArea::setLook(const Look& look) {
   look_.links = look.links;
   for (Panel* panel : panels_) {
     panel->view().setLook(look_);
+  }
+}
+
+void PanelArea::setFigures(bool on) {
+  figures_ = on;
+  for (Panel* panel : panels_) {
+    panel->showFigures(on);
+  }
+}
+
+void PanelArea::setLecture(bool on) {
+  lecture_ = on;
+  for (Panel* panel : panels_) {
+    panel->enlargeTexts(on ? lectureTexts : 1);
+    panel->view().setRing(on);
   }
 }
 

@@ -39,6 +39,10 @@ class PanelArea : public QWidget {
   /// Sets the parts of the object that all panels draw. Ignores the section of `look`, which setSection() sets.
   void setLook(const Look& look);
   void setSection(const std::optional<SectionPlane>& section);
+  /// Shows or hides the figures of the last pass in all panels.
+  void setFigures(bool on);
+  /// Enlarges the texts around the views and marks the cursor with a ring, so that an audience can follow.
+  void setLecture(bool on);
   /// Shows all that is there now in every panel, from its current side. Panels with linked cameras show the objects of
   /// all of them.
   void fit() { frame(false); }
@@ -104,6 +108,7 @@ class PanelArea : public QWidget {
   std::vector<int> order_;  // the panels' numbers, by position
   std::vector<bool> shown_;
   std::optional<int> alone_;
+  bool figures_ = false, lecture_ = false;
   QTimer refit_;
   bool fitsRest_ = true;  // true if the views show the rest shape since the last fit
   bool stacked_ = false;  // true if two panels are above each other

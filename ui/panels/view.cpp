@@ -24,6 +24,7 @@ namespace {
 constexpr double elementReach = 14;  // pixels, largest distance from the cursor at which an element is found
 constexpr int hoverMilliseconds = 16;
 constexpr int stillMilliseconds = 50;
+constexpr double ringRadius = 24, ringWidth = 3;  // pixels
 constexpr double zoomPerNotch = 1.2;
 constexpr std::size_t mostOutlinePoints = 200'000;  // of larger objects, the boxes of their clusters are the outline
 constexpr double arrowMargin = 34, arrowLength = 26, arrowHead = 9;  // pixels
@@ -162,6 +163,11 @@ void View::setGhost(const Ghost& ghost) {
     doneCurrent();
   }
   emit ghostChanged();
+  update();
+}
+
+void View::setRing(bool on) {
+  ring_ = on;
   update();
 }
 
@@ -394,6 +400,9 @@ void View::mouseMoveEvent(QMouseEvent* event) {
   links_.point(panel_);
   const QPointF travel = event->position() - cursor_;
   cursor_ = event->position();
+  if (ring_) {
+    update();
+  }
   if (event->buttons() == Qt::NoButton) {
     if (!hover_.isActive()) {
       hover_.start();
@@ -441,6 +450,9 @@ void View::mouseReleaseEvent(QMouseEvent* event) {
 void View::leaveEvent(QEvent* event) {
   QOpenGLWidget::leaveEvent(event);
   hover_.stop();
+  if (ring_) {
+    update();
+  }
   if (tool_ != nullptr) {
     tool_->leave(*this);
   }
@@ -520,6 +532,7 @@ void View::paintGL() {
   if (document_.frame(panel_) != nullptr) {
     drawFocus();
     drawCube();
+    drawRing();
   }
   if (detail_ == DetailBudget::Detail::quick) {
     quickShapes_ = painter_.shapes();
@@ -769,6 +782,19 @@ void View::drawCube() {
   if (camera_->spatial() && painterReady_) {
     painter_.drawWords(scene(devicePixelRatioF(), colours::background, detail_),
                        [this](QPainter& painter) { OrientationCube(*camera_, size()).draw(painter); });
+  }
+}
+
+void View::drawRing() {
+  if (ring_ && underMouse() && painterReady_) {
+    painter_.drawWords(scene(devicePixelRatioF(), colours::background, detail_), [this](QPainter& painter) {
+      painter.setRenderHint(QPainter::Antialiasing);
+      painter.setBrush(Qt::NoBrush);
+      painter.setPen(QPen(QColor(colours::background), ringWidth + 2));
+      painter.drawEllipse(cursor_, ringRadius, ringRadius);
+      painter.setPen(QPen(QColor(colours::pinned), ringWidth));
+      painter.drawEllipse(cursor_, ringRadius, ringRadius);
+    });
   }
 }
 

@@ -23,11 +23,13 @@ void HelpMenu::fill(QMenu& menu) {
   again->setStatusTip(QStringLiteral("Shows the three hints of the first start below the views"));
 }
 
-void HelpMenu::welcome() {
-  if (!Hints::seen()) {
-    hints_->present();
-    example_.start();
+bool HelpMenu::welcome() {
+  if (Hints::seen()) {
+    return false;
   }
+  hints_->present();
+  example_.start();
+  return true;
 }
 
 void HelpMenu::showManual() {

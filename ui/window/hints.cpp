@@ -21,8 +21,7 @@ struct Hint {
 };
 constexpr std::array hints{
     Hint{"drag", "<b>Drag</b> an element in any panel: all algorithms respond, side by side."},
-    Hint{"fit",
-         "The <b>wheel</b> zooms, the middle button pans, the right button turns; <b>F</b> fits the view."},
+    Hint{"fit", "The <b>wheel</b> zooms, the middle button pans, the right button turns; <b>F</b> fits the view."},
     Hint{"keyboard", "<b>F1</b> lists all actions and their keys; the tools on the left cut, pin and select."}};
 
 }  // namespace

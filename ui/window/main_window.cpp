@@ -34,6 +34,7 @@
 #include "window/docks.h"
 #include "window/help_menu.h"
 #include "window/job_bar.h"
+#include "window/lecture_mode.h"
 #include "window/menus.h"
 #include "window/message_bar.h"
 #include "window/panel_actions.h"
@@ -87,6 +88,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       help_(new HelpMenu(*this, document_)),
       panelActions_(new PanelActions(*area_, document_, colouring_)),
       showMenu_(new ShowMenu(document_, this)),
+      lecture_(new LectureMode(*this, *area_, layoutVersion)),
       toolActions_(new QActionGroup(this)),
       colourBy_(new ColourSelector(colouring_)),
       readout_(new ElementReadout(document_, measurement_, [this] { return area_->links().pointed(); })) {
@@ -214,6 +216,8 @@ void MainWindow::cancelCurrent() {
     tool_->cancel();
   } else if (jobs_.running() && !tool_->busy()) {
     jobs_.cancel();
+  } else if (lecture_->isOn() && !tool_->busy()) {
+    lecture_->leave();
   } else {
     tool_->escape();
     measurement_.clear();
@@ -326,13 +330,44 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   cameraActions_->fillSides(menu);
   showMenu_->fill(menu);
   menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
+  addFigures(menu);
   menu.addSeparator();
+  menu.addAction(&lecture_->action());
   (new ThemeMenu(this))->fill(menu);
 }
 
+/// Adds the switch of the figures below the panels, which is remembered.
+void MainWindow::addFigures(QMenu& menu) {
+  auto* figures = menu.addAction(QStringLiteral("Fi&gures of the last pass"));
+  figures->setObjectName(QStringLiteral("showFigures"));
+  figures->setCheckable(true);
+  figures->setShortcut(Qt::Key_I);
+  figures->setStatusTip(QStringLiteral("Shows counts, time and violation of the last pass below each panel"));
+  connect(figures, &QAction::toggled, this, [this](bool on) {
+    area_->setFigures(on);
+    QSettings().setValue(QStringLiteral("figures"), on);
+  });
+  figures->setChecked(QSettings().value(QStringLiteral("figures")).toBool());
+}
+
+/// Shows names beside the icons of the tool bar if there is room for all of them.
+void MainWindow::adaptToolBar() {
+  bar_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  if (bar_->sizeHint().width() > width()) {
+    bar_->setToolButtonStyle(Qt::ToolButtonIconOnly);
+  }
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  if (event->size().width() != event->oldSize().width()) {
+    adaptToolBar();
+  }
+}
+
 void MainWindow::makeToolBar() {
-  auto* bar = addToolBar(QStringLiteral("Main"));
-  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  bar_ = addToolBar(QStringLiteral("Main"));
+  auto* bar = bar_;
   bar->setObjectName(QStringLiteral("mainToolBar"));
   bar->setMovable(false);
   files_->fill(*bar);
@@ -341,12 +376,13 @@ void MainWindow::makeToolBar() {
   bar->addSeparator();
   bar->addActions({resetObject_, unpinAll_, fitView_});
   bar->addSeparator();
-  bar->addWidget(new QLabel(QStringLiteral(" Linked ")));
-  bar->addActions(area_->links().actions());
-  bar->addSeparator();
+  // Before the switches of the links, so that it is the last to be hidden in a narrow window.
   bar->addWidget(new QLabel(QStringLiteral(" Colour by ")));
   bar->addWidget(colourBy_);
   panelActions_->fill(*bar);
+  bar->addSeparator();
+  bar->addWidget(new QLabel(QStringLiteral(" Linked ")));
+  bar->addActions(area_->links().actions());
 }
 
 // Docks and the layout.
@@ -359,9 +395,12 @@ void MainWindow::makeDocks() {
   docks_->fill(*menuBar()->addMenu(QStringLiteral("&Docks")));
 }
 
-QByteArray MainWindow::savedLayout() const { return saveState(layoutVersion); }
+QByteArray MainWindow::savedLayout() const {
+  return lecture_->isOn() ? lecture_->layoutBefore() : saveState(layoutVersion);
+}
 
 void MainWindow::takeLayout(const QByteArray& layout) {
+  lecture_->leave();
   // restoreState shows tabbed docks one by one. A layout that reacts at once removes some meanwhile, and Qt crashes.
   this->layout()->setEnabled(false);
   restoreState(layout, layoutVersion);
@@ -381,7 +420,11 @@ void MainWindow::restoreLayout() {
 
 void MainWindow::openFile(const QString& path, bool first) { files_->openPath(path, first); }
 
-void MainWindow::welcome() { help_->welcome(); }
+void MainWindow::welcome() {
+  if (help_->welcome()) {
+    colouring_.setMode(ColourMode::violation);  // shows at once how the algorithms differ
+  }
+}
 
 void MainWindow::showStatus(const QString& sentence) { statusBar()->showMessage(sentence, statusMilliseconds); }
 
@@ -391,6 +434,7 @@ void MainWindow::showTitle() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  lecture_->leave();
   jobs_.close();
   document_.abandonMoves(lastMovePatience);
   sessions_->keep();

@@ -17,6 +17,7 @@
 
 class QActionGroup;
 class QMenu;
+class QToolBar;
 
 namespace chainmail {
 
@@ -27,6 +28,7 @@ class ElementReadout;
 class FileActions;
 class Filling;
 class HelpMenu;
+class LectureMode;
 class MessageBar;
 class Panel;
 class PanelActions;
@@ -66,6 +68,7 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void arrange();
@@ -80,7 +83,9 @@ class MainWindow : public QMainWindow {
   void fillEditMenu(QMenu& menu);
   void fillObjectMenu(QMenu& menu);
   void fillViewMenu(QMenu& menu);
+  void addFigures(QMenu& menu);
   void makeToolBar();
+  void adaptToolBar();
   void makeDocks();
   void cancelCurrent();
   void activate(Tool& tool);
@@ -116,10 +121,12 @@ class MainWindow : public QMainWindow {
   HelpMenu* help_;
   PanelActions* panelActions_;
   ShowMenu* showMenu_;
+  LectureMode* lecture_;
   QActionGroup* toolActions_;
   QAction *undo_ = nullptr, *redo_ = nullptr;
   QAction *resetObject_ = nullptr, *unpinAll_ = nullptr, *fitView_ = nullptr;
   ColourSelector* colourBy_;
+  QToolBar* bar_ = nullptr;
   ElementReadout* readout_;
   QMenu *editMenu_ = nullptr, *objectMenu_ = nullptr, *viewMenu_ = nullptr;
   std::unique_ptr<Docks> docks_;

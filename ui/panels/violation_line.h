@@ -1,0 +1,34 @@
+#pragma once
+
+#include <QLabel>
+#include <QWidget>
+
+#include "simulate/simulation.h"
+
+namespace chainmail {
+
+/// A bar and a sentence that say how many links of a panel are violated, and by how much.
+class ViolationLine : public QWidget {
+  Q_OBJECT
+
+ public:
+  ViolationLine();
+
+  /// Shows the figures of the last pass.
+  void show(const Statistics& statistics, bool hasMoved);
+  QString sentence() const { return sentence_->text(); }
+  /// Fraction of the violated links; negative while there is none to show.
+  double share() const { return share_; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  QLabel* sentence_;
+  double share_ = -1;
+};
+
+/// Describes the violation of links in a sentence.
+QString violationInWords(const Statistics& statistics, bool hasMoved);
+
+}  // namespace chainmail
