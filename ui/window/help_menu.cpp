@@ -7,7 +7,9 @@
 namespace chainmail {
 
 HelpMenu::HelpMenu(QMainWindow& window, Document& document)
-    : QObject(&window), window_(window), shortcuts_(window), example_(document, nullptr), hints_(new Hints) {}
+    : QObject(&window), window_(window), shortcuts_(window), example_(document, nullptr), hints_(new Hints) {
+  connect(hints_, &Hints::lessonRequested, this, &HelpMenu::lessonRequested);
+}
 
 void HelpMenu::fill(QMenu& menu) {
   auto* manual = menu.addAction(icon("help"), QStringLiteral("&Manual"), this, &HelpMenu::showManual);

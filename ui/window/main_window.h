@@ -27,6 +27,7 @@ class ElementReadout;
 class FileActions;
 class Filling;
 class HelpMenu;
+class Lessons;
 class MessageBar;
 class Panel;
 class PanelActions;
@@ -52,6 +53,7 @@ class MainWindow : public QMainWindow {
   MessageBar& messages() { return *messages_; }
   Jobs& jobs() { return jobs_; }
   Sessions& sessions() { return *sessions_; }
+  Lessons& lessons() { return *lessons_; }
   /// Returns the positions, sizes and visibility of the docks.
   QByteArray savedLayout() const;
   /// Restores a saved layout. Ignores layouts of another version.
@@ -116,6 +118,7 @@ class MainWindow : public QMainWindow {
   HelpMenu* help_;
   PanelActions* panelActions_;
   ShowMenu* showMenu_;
+  Lessons* lessons_;
   QActionGroup* toolActions_;
   QAction *undo_ = nullptr, *redo_ = nullptr;
   QAction *resetObject_ = nullptr, *unpinAll_ = nullptr, *fitView_ = nullptr;
