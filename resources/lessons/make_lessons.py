@@ -72,6 +72,11 @@ class Lesson:
         path.write_text(text, encoding="utf-8")
 
 
+def looking_at(x, y, z, height, **more):
+    """Returns a view of all panels: the middle and the height of what they show, in mesh units."""
+    return {"cameras": [{"centre": [x, y, z], "height": height, "framed": False, **more}] * 2, "linked": True}
+
+
 def grid(width, height):
     """Returns a flat grid of elements one unit apart, and the function from column and row to the element."""
     at = lambda x, y: y * width + x
@@ -88,7 +93,8 @@ def grid(width, height):
 
 def why_order_matters():
     at = lambda x, y: y * 24 + x
-    lesson = Lesson("Why order matters", {"file": "grid.dat"}, ["generalized", "natural-queue"])
+    lesson = Lesson("Why order matters", {"file": "grid.dat"}, ["generalized", "natural-queue"],
+                    looking_at(12.5, 11.5, 0, 37))
     lesson.step("One object, two algorithms",
                 "Both panels show the same sheet. A link may shorten, stretch and lean only a little. "
                 "Press Next: a handle pulls one element, and the algorithm of each panel moves the others.",
@@ -114,7 +120,8 @@ def why_order_matters():
 
 def waiting_list():
     mesh, at = grid(7, 7)
-    lesson = Lesson("The waiting list, step by step", mesh, ["generalized", "natural-queue"])
+    lesson = Lesson("The waiting list, step by step", mesh, ["generalized", "natural-queue"],
+                    looking_at(3.8, 3.2, 0, 14))
     lesson.step("A small sheet",
                 "The Propagation dock on the left shows the waiting list of each panel. "
                 "Next pulls the element in the middle up and to the right, in a single move.",
@@ -138,7 +145,7 @@ def waiting_list():
 
 def exact_and_taut():
     mesh, at = grid(12, 9)
-    lesson = Lesson("Exact and taut", mesh, ["natural-queue", "exact"])
+    lesson = Lesson("Exact and taut", mesh, ["natural-queue", "exact"], looking_at(8.5, 4, 0, 23))
     lesson.pin([at(0, y) for y in range(9)])
     lesson.step("A pinned sheet",
                 "The left edge of the sheet is pinned. Panel A runs Natural Queue ChainMail, panel B Exact ChainMail. "
@@ -186,34 +193,36 @@ def cut_an_organ():
     points, tetrahedra = read_msh(MESHES / "organ.msh")
     links = sorted({(min(a, b), max(a, b)) for t in tetrahedra for a in t for b in t if a != b})
     lesson = Lesson("Cut an organ", {"file": "organ.msh"}, ["natural-queue", "exact"],
-                    {"show": "both", "linked": True})
+                    looking_at(1.2, 1, 0, 40, yaw=25, pitch=40))
     near = lambda x, y, z, r: [e for e, p in enumerate(points) if math.dist(p, (x, y, z)) < r]
-    lesson.pin([e for e, p in enumerate(points) if p[1] < -5.5])
+    lesson.pin([e for e, p in enumerate(points) if p[1] < -7.5])
+    lesson.soften(compression=0.5, stretch=1.5, shear=0.5)
     lesson.step("A soft organ",
                 "This kidney is a solid of 9,891 tetrahedra, not only a surface. Its underside is pinned. "
-                "Next pulls at its upper side.", colour="plain", show="both", tool="drag")
-    side = near(7.5, 7, 0, 3)
-    lesson.drag(side, [[2, 2, 0], [0, 0, 0]], 40)
+                "Next pulls at its upper side.", colour="plain", show="surface", tool="drag")
+    lesson.drag(near(8, 7, 1, 3), [[3, 3, 1], [0, 0, 0]], 45)
     lesson.step("Pull and push",
-                "The handle takes its surroundings along, and both panels agree closely. "
-                "Next cuts the organ from above.", tool="cut")
-    at_x, deep = 2.2, -1.0
+                "The handle takes its surroundings along. On the way back, elements follow only as far as their links "
+                "demand, so some creases stay. Next cuts the organ from above.",
+                tool="cut")
+    at_x, deep = 2.5, -3.0
     cut = [[a, b] for a, b in links
            if (points[a][0] - at_x) * (points[b][0] - at_x) < 0 and (points[a][1] + points[b][1]) / 2 > deep]
     lesson.cut(cut)
     lesson.step("A cut",
-                "A cut removes the links that cross the blade, and it costs no more than that: nothing has to be "
-                "prepared or factorized again.")
-    lesson.drag(near(6, 7, 0, 3), [[5, 2.5, 0]], 60, release=False)
+                "A cut removes the links that cross the blade, and that is all: nothing has to be prepared again. "
+                "Next pulls both sides apart.")
+    lesson.drag(near(6.5, 6.5, 0, 3.5), [[4, 0.5, 0]], 50)
+    lesson.drag(near(-1.5, 6.5, 0, 3.5), [[-4, 0.5, 0]], 50)
     lesson.step("Open it",
-                "Now the handle pulls one side of the cut. The sides part at once and show the inside. "
-                "Turn the view with the right mouse button.", tool="drag")
+                "The sides part and show the inside of the solid. Turn the view with the right mouse button, or press "
+                "K and cut further yourself.", tool="drag")
     return lesson
 
 
 def against_fem():
     mesh, at = grid(25, 6)
-    lesson = Lesson("ChainMail against FEM", mesh, ["natural-queue", "fem"])
+    lesson = Lesson("ChainMail against FEM", mesh, ["natural-queue", "fem"], looking_at(12, 6, 0, 33))
     lesson.pin([at(0, y) for y in range(6)])
     lesson.step("A beam, held at the left",
                 "Panel A runs Natural Queue ChainMail. Panel B runs linear FEM, the finite elements of engineers. "
@@ -222,16 +231,17 @@ def against_fem():
     lesson.drag(end, [[0, 2, 0]], 50, release=False)
     lesson.step("A small bend",
                 "In FEM the whole beam shares the load and bends smoothly. In ChainMail only those elements move that "
-                "must: the rest of the beam does not feel the handle.")
+                "must: the rest of the beam, at the left, does not feel the handle.")
     start = lesson.moves[-1]["by"]
     for i in range(1, 71):
         lesson.moves.append({"do": "drag", "by": [0, round(start[1] + 9 * i / 70, 3), 0]})
     lesson.step("A large bend",
-                "Now ChainMail reaches the pins: its links are limits, like real chain mail, and have no force. "
-                "Linear FEM is made for small bends; in large ones it stretches the beam too far.")
+                "Now ChainMail reaches the pins, and the links next to them stretch beyond their limit: it knows "
+                "limits, but no forces. FEM knows forces, and spreads the bend over the whole beam.")
     lesson.step("How far from physics?",
-                "The colours show the distance of each element from a neo-Hookean solid, which is valid for large "
-                "bends. Neither panel is exact: ChainMail trades accuracy for speed.", colour="truth")
+                "The colours show how far each element is from a neo-Hookean solid, which suits large bends. ChainMail "
+                "is farther off. Its gain: it works without pins and prepares nothing, not even after a cut.",
+                colour="truth")
     return lesson
 
 

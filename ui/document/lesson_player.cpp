@@ -76,8 +76,8 @@ void LessonPlayer::next() {
 }
 
 void LessonPlayer::back() {
-  if (isOpen()) {
-    show(step_ > 0 ? step_ - 1 : 0, false);
+  if (isOpen() && step_ > 0) {
+    show(step_ - 1, false);
   }
 }
 

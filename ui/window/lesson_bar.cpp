@@ -90,6 +90,23 @@ void LessonBar::showKeys() {
       tip(QStringLiteral("Plays the next step; during a step, goes to its end"), nextAction_));
 }
 
+void LessonBar::resizeEvent(QResizeEvent* event) {
+  QFrame::resizeEvent(event);
+  showTitle();
+}
+
+/// Shows the titles of the lesson and of the step, or of the step alone where there is no room for both.
+void LessonBar::showTitle() {
+  if (!player_.isOpen()) {
+    return;
+  }
+  const QString ofStep = shown(player_.lesson().steps[player_.step()].title);
+  const QString both = QStringLiteral("%1: %2").arg(shown(player_.lesson().title), ofStep);
+  const bool fits = title_->fontMetrics().horizontalAdvance(both) <= title_->width();
+  title_->setText(fits ? both : title_->fontMetrics().elidedText(ofStep, Qt::ElideRight, title_->width()));
+  title_->setToolTip(both);
+}
+
 void LessonBar::refresh() {
   setVisible(player_.isOpen());
   if (!player_.isOpen()) {
@@ -98,7 +115,7 @@ void LessonBar::refresh() {
   const Lesson& lesson = player_.lesson();
   const LessonStep& step = lesson.steps[player_.step()];
   const QString caption = shown(step.text);
-  title_->setText(QStringLiteral("%1: %2").arg(shown(lesson.title), shown(step.title)));
+  showTitle();
   step_->setText(QStringLiteral("Step %1 of %2").arg(player_.step() + 1).arg(lesson.steps.size()));
   back_->setEnabled(backAction_.isEnabled());
   next_->setEnabled(nextAction_.isEnabled());

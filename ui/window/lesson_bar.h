@@ -18,8 +18,12 @@ class LessonBar : public QFrame {
   /// The buttons trigger the actions.
   LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& close);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void refresh();
+  void showTitle();
   void showKeys();
 
   const LessonPlayer& player_;

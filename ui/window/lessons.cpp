@@ -112,7 +112,7 @@ void Lessons::open(const char* file) {
 void Lessons::adapt() {
   const bool open = player_.isOpen();
   next_->setEnabled(open && (!player_.isLast() || player_.plays()));
-  back_->setEnabled(open && (player_.step() > 0 || !player_.plays()));
+  back_->setEnabled(open && player_.step() > 0);
   close_->setEnabled(open);
 }
 
