@@ -20,8 +20,15 @@ Session lesson_session() {
   Session session = session_on(generate({MeshKind::grid, {3, 3, 1}, 1, {}}));
   session.lesson = {"a \"title\" ∆",
                     {{"first", "text\nof it", 0, {}, {}, {}, {}, {}, {}},
-                     {"second", "b", 3, {Algorithm::spiral, Algorithm::exact, Algorithm::linear_fem}, 7, "violation",
-                      "both", "propagation", "cut"},
+                     {"second",
+                      "b",
+                      3,
+                      {Algorithm::spiral, Algorithm::exact, Algorithm::linear_fem},
+                      7,
+                      "violation",
+                      "both",
+                      "propagation",
+                      "cut"},
                      {"third", "c", 5, {}, 0, {}, {}, {}, {}}}};
   return session;
 }
@@ -118,9 +125,9 @@ void LessonTest::damaged_steps_are_refused() {
 
 void LessonTest::a_lesson_has_steps() {
   const QString text = QString::fromStdString(example());
-  const auto from = text.indexOf("\"steps\": [") + 10, end = text.indexOf("]},\n \"mesh\"");
+  const auto from = text.indexOf("\"steps\": [") + 10, end = text.indexOf("]},\n \"mesh\"");  // between the brackets
   QVERIFY(end > from);
-  const std::string empty = QString(text).replace(from, end - from, "[").toStdString();
+  const std::string empty = QString(text).replace(from, end - from, "").toStdString();
   QCOMPARE(error_of([&] { parse_session(empty, "a.chainmail", {}, open_sample); }),
            QString("a.chainmail: lesson: it has 0 steps; give 1 to 1000"));
 }

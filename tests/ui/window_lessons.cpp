@@ -47,8 +47,8 @@ LessonPlayer& player(Workbench& bench) { return bench.window.lessons().player();
 QString pathOf(const char* file) { return lessonsFolder() + QLatin1Char('/') + QLatin1String(file); }
 
 void awaitStep(Workbench& bench) {
-  QTRY_VERIFY(!player(bench).plays());
-  QTRY_VERIFY(bench.document().idle());
+  // Waits in shorter steps than QTRY_VERIFY.
+  QVERIFY(QTest::qWaitFor([&] { return !player(bench).plays() && bench.document().idle(); }));
 }
 
 void open(Workbench& bench, const QString& path) {
@@ -83,7 +83,7 @@ void disturb(Workbench& bench) {
   document.grab(element);
   document.dragBy({0.7, 0.4, 0});
   document.release();
-  QTRY_VERIFY(document.idle());
+  QVERIFY(QTest::qWaitFor([&] { return document.idle(); }));
 }
 
 /// Returns the share of links that are violated in a panel.
@@ -126,6 +126,11 @@ class WindowLessons : public QObject {
   Q_OBJECT
 
  private slots:
+  void initTestCase() {
+    shared_ = std::make_unique<Workbench>();
+    shared_->window.resize(900, 600);  // drawing takes most of the time
+  }
+  void cleanupTestCase() { shared_.reset(); }
   void init() { failOnWarnings(); }
   void eachLessonRunsToItsEndAndBack_data();
   void eachLessonRunsToItsEndAndBack();
@@ -143,6 +148,17 @@ class WindowLessons : public QObject {
   void unknownNamesAreReported();
   void closingHidesTheBar();
   void theHintsLeadToTheFirstLesson();
+
+ private:
+  /// Returns a window that tests share, with another object and without a lesson. It saves the time to open windows.
+  Workbench& shared() {
+    shared_->document().replaceMesh(generate({MeshKind::grid, {9, 7, 1}, 1, {}}), QStringLiteral("sample"),
+                                    QStringLiteral("open"));
+    shared_->document().undoStack().clear();
+    return *shared_;
+  }
+
+  std::unique_ptr<Workbench> shared_;
 };
 
 void WindowLessons::eachLessonRunsToItsEndAndBack_data() {
@@ -156,7 +172,7 @@ void WindowLessons::eachLessonRunsToItsEndAndBack_data() {
 void WindowLessons::eachLessonRunsToItsEndAndBack() {
   QFETCH(QString, file);
   QFETCH(QString, title);
-  Workbench bench;
+  Workbench& bench = shared();
   open(bench, pathOf(qPrintable(file)));
   QCOMPARE(QString::fromStdString(player(bench).lesson().title), title);
   std::vector<State> states{stateOf(bench)};
@@ -182,7 +198,7 @@ void WindowLessons::eachLessonRunsToItsEndAndBack() {
 }
 
 void WindowLessons::theBarShowsTheStep() {
-  Workbench bench;
+  Workbench& bench = shared();
   QVERIFY(bench.window.lessons().bar().isHidden());
   open(bench, pathOf("order.chainmail"));
   QVERIFY(bench.window.lessons().bar().isVisible());
@@ -193,6 +209,7 @@ void WindowLessons::theBarShowsTheStep() {
   QCOMPARE(text("lessonText"), QString::fromStdString(steps[0].text));
   QVERIFY(!bench.find<QPushButton>("lessonBackButton")->isEnabled());
   QTest::keyClick(&bench.window, Qt::Key_PageDown);
+  QTest::keyClick(&bench.window, Qt::Key_PageDown);  // to the end of the step
   awaitStep(bench);
   QCOMPARE(text("lessonStep"), QStringLiteral("Step 2 of 4"));
   QCOMPARE(text("lessonText"), QString::fromStdString(steps[1].text));
@@ -207,11 +224,12 @@ void WindowLessons::theBarShowsTheStep() {
 }
 
 void WindowLessons::nextPlaysVisiblyAndASecondNextEndsIt() {
-  Workbench bench;
+  Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
   const std::size_t until = player(bench).lesson().steps[1].until;
   std::vector<std::size_t> seen;
-  connect(&bench.document(), &Document::tapeChanged, &bench.window,
+  QObject context;
+  connect(&bench.document(), &Document::tapeChanged, &context,
           [&] { seen.push_back(bench.document().tape().position()); });
   bench.trigger("lessonNext");
   QTRY_VERIFY(seen.size() > 5);
@@ -225,7 +243,7 @@ void WindowLessons::nextPlaysVisiblyAndASecondNextEndsIt() {
 }
 
 void WindowLessons::aDragDuringAStepStopsIt() {
-  Workbench bench;
+  Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
   bench.trigger("lessonNext");
   QTRY_VERIFY(bench.document().tape().position() > 5);
@@ -238,7 +256,7 @@ void WindowLessons::aDragDuringAStepStopsIt() {
 }
 
 void WindowLessons::theWaitingListIsShownStepByStep() {
-  Workbench bench;
+  Workbench& bench = shared();
   open(bench, pathOf("waiting-list.chainmail"));
   std::vector<std::vector<std::size_t>> moved;
   Snapshot whole;
@@ -258,7 +276,7 @@ void WindowLessons::theWaitingListIsShownStepByStep() {
 }
 
 void WindowLessons::theLessonsShowTheirPoint() {
-  Workbench bench;
+  Workbench& bench = shared();
   const auto toEnd = [&](const char* file) {
     open(bench, pathOf(file));
     while (!player(bench).isLast()) {
@@ -280,11 +298,11 @@ void WindowLessons::theLessonsShowTheirPoint() {
 
 /// Opening a lesson is one step of undo, which returns to the object with all its steps.
 void WindowLessons::aLessonReplacesNoWork() {
-  Workbench bench;
+  Workbench& bench = shared();
   disturb(bench);
   const State work = stateOf(bench);
   open(bench, pathOf("face.chainmail"));
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < 16; ++round) {
     player(bench).isLast() ? back(bench) : next(bench);
   }
   while (bench.document().lesson()) {
@@ -298,7 +316,7 @@ void WindowLessons::aLessonReplacesNoWork() {
 }
 
 void WindowLessons::aLessonAloneIsNoUnsavedWork() {
-  Workbench bench;
+  Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
   next(bench);
   next(bench);
@@ -329,7 +347,7 @@ void WindowLessons::unsavedWorkIsOfferedAgain() {
 }
 
 void WindowLessons::undoAndRedoKeepTheLesson() {
-  Workbench bench;
+  Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
   next(bench);
   const State state = stateOf(bench);
@@ -349,7 +367,7 @@ void WindowLessons::undoAndRedoKeepTheLesson() {
 void WindowLessons::savingKeepsTheCaptions() {
   const QTemporaryDir folder;
   const QString path = folder.filePath(QStringLiteral("saved.chainmail"));
-  Workbench bench;
+  Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
   QVERIFY(bench.document().sessionFile().isEmpty());  // the bundled file is not overwritten
   next(bench);
@@ -373,7 +391,7 @@ void WindowLessons::savingKeepsTheCaptions() {
 
 void WindowLessons::aDamagedLessonChangesNothing() {
   const QTemporaryDir folder;
-  Workbench bench;
+  Workbench& bench = shared();
   disturb(bench);
   const State work = stateOf(bench);
   bench.open(changed(folder, "order.chainmail", "\"until\": 0", "\"until\": 9999"));
@@ -390,7 +408,7 @@ void WindowLessons::aDamagedLessonChangesNothing() {
 
 void WindowLessons::unknownNamesAreReported() {
   const QTemporaryDir folder;
-  Workbench bench;
+  Workbench& bench = shared();
   open(bench, changed(folder, "order.chainmail", "\"colour\": \"violation\"", "\"colour\": \"violaton\""));
   QCOMPARE(bench.window.messages().sentence().section(QLatin1Char(':'), 0, 2),
            QStringLiteral("Why order matters: step 1: 'colour' is 'violaton', which is not known; use one of"));
@@ -399,7 +417,7 @@ void WindowLessons::unknownNamesAreReported() {
 }
 
 void WindowLessons::closingHidesTheBar() {
-  Workbench bench;
+  Workbench& bench = shared();
   open(bench, pathOf("waiting-list.chainmail"));
   QVERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
   next(bench);
@@ -411,7 +429,7 @@ void WindowLessons::closingHidesTheBar() {
 }
 
 void WindowLessons::theHintsLeadToTheFirstLesson() {
-  Workbench bench;
+  Workbench& bench = shared();
   bench.window.welcome();
   QTest::mouseClick(bench.find<QPushButton>("hintsLesson"), Qt::LeftButton);
   bench.settle();

@@ -23,8 +23,8 @@ struct DocumentObject {
   MeshPointer mesh;
   QString name;
   Cuts cuts;
-  Parts parts;                  // connected parts of the object with these cuts
-  std::vector<ElementId> pins;  // ascending
+  Parts parts;                                 // connected parts of the object with these cuts
+  std::vector<ElementId> pins;                 // ascending
   std::shared_ptr<const Session> lesson = {};  // the session that it was opened from, if that is a lesson
 };
 

@@ -62,8 +62,7 @@ void Sessions::show(const std::shared_ptr<const Session>& session, const QString
   look_.set(session->ui);
   emit opened(path);
   if (isAside) {
-    emit noted(
-        QStringLiteral("Your unsaved work is kept: Undo returns to it, and the next start offers it, too"));
+    emit noted(QStringLiteral("Your unsaved work is kept: Undo returns to it, and the next start offers it, too"));
   }
 }
 

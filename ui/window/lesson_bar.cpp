@@ -86,8 +86,7 @@ void LessonBar::showKeys() {
     return key.isEmpty() ? what : QStringLiteral("%1 (%2)").arg(what, key);
   };
   back_->setToolTip(tip(QStringLiteral("Restores the end of the step before"), backAction_));
-  next_->setToolTip(
-      tip(QStringLiteral("Plays the next step; during a step, goes to its end"), nextAction_));
+  next_->setToolTip(tip(QStringLiteral("Plays the next step; during a step, goes to its end"), nextAction_));
 }
 
 void LessonBar::resizeEvent(QResizeEvent* event) {

@@ -86,8 +86,7 @@ void Lessons::fill(QMenu& menu) {
   QMenu* lessons = menu.addMenu(icon("hints"), QStringLiteral("&Lessons"));
   for (const LessonFile& lesson : lessonFiles()) {
     const auto number = &lesson - lessonFiles().data() + 1;
-    QAction* action =
-        lessons->addAction(QStringLiteral("&%1 %2").arg(number).arg(QString::fromUtf8(lesson.title)));
+    QAction* action = lessons->addAction(QStringLiteral("&%1 %2").arg(number).arg(QString::fromUtf8(lesson.title)));
     action->setObjectName(QStringLiteral("lesson%1").arg(number));
     action->setStatusTip(QStringLiteral("Opens this lesson: short captions, and Next plays each step"));
     action->setIcon(icon("play"));
@@ -102,8 +101,8 @@ void Lessons::openFirst() { open(lessonFiles().front().file); }
 void Lessons::open(const char* file) {
   const QString folder = lessonsFolder();
   if (folder.isEmpty()) {
-    window_.messages().say(
-        QStringLiteral("The lessons were not found next to the program. Install it again, or open a lesson by File > Open"));
+    window_.messages().say(QStringLiteral(
+        "The lessons were not found next to the program. Install it again, or open a lesson by File > Open"));
     return;
   }
   window_.openFile(QDir(folder).filePath(QLatin1String(file)));

@@ -81,8 +81,7 @@ LessonStep read_step(const JsonFields& fields, const Json& json, const Mesh& mes
   }
   if (json.contains("candidate")) {
     const Json& candidate = json["candidate"];
-    if (!candidate.is_number_unsigned() ||
-        candidate.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
+    if (!candidate.is_number_unsigned() || candidate.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
       fields.fail("'candidate' is not a whole number", "write how many candidates of the last pass are carried out");
     }
     step.candidate = candidate.get<std::uint32_t>();
@@ -111,9 +110,7 @@ OrderedJson as_json(const LessonStep& step) {
   return json;
 }
 
-std::string dumped(const OrderedJson& json) {
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-}
+std::string dumped(const OrderedJson& json) { return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace); }
 
 }  // namespace
 

@@ -93,8 +93,7 @@ void save_session(const std::filesystem::path& path, const Session& session, con
 
 /// Opens the mesh that a session names, in the folder of the session or elsewhere. The name has no folder. `across` is
 /// the number of elements along the width of a picture; 0 if the session does not say it.
-using MeshOpener =
-    std::function<MeshPointer(const std::string& name, std::uint32_t across, const Progress& progress)>;
+using MeshOpener = std::function<MeshPointer(const std::string& name, std::uint32_t across, const Progress& progress)>;
 
 /// Reads a session. Throws Error, with the member, for anything that write_session does not write, and for a newer
 /// version; and Cancelled. Without `open`, a session that names its mesh is refused.
