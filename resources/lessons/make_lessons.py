@@ -132,7 +132,7 @@ def waiting_list():
                 "The next candidate is at the top of the list.", candidate=0)
     lesson.step("The first candidate",
                 "The first candidate moves just far enough to be valid again. The arrow comes from its sponsor, the "
-                "element that moved first. Its own neighbours now wait, too.", candidate=1)
+                "neighbour that moved before it. Its own neighbours now wait, too.", candidate=1)
     lesson.step("Two orders",
                 "After six candidates the panels differ: Generalized ChainMail took the newest candidate each time and "
                 "ran off along a chain. Natural Queue ChainMail took the oldest and served all four neighbours.",
@@ -222,7 +222,7 @@ def cut_an_organ():
 
 def against_fem():
     mesh, at = grid(25, 6)
-    lesson = Lesson("ChainMail against FEM", mesh, ["natural-queue", "fem"], looking_at(12, 6, 0, 33))
+    lesson = Lesson("ChainMail against FEM", mesh, ["natural-queue", "fem"], looking_at(12, 6, 0, 36))
     lesson.pin([at(0, y) for y in range(6)])
     lesson.step("A beam, held at the left",
                 "Panel A runs Natural Queue ChainMail. Panel B runs linear FEM, the finite elements of engineers. "
