@@ -142,11 +142,11 @@ std::vector<Algorithm> LessonPlayer::algorithms(std::size_t step) const {
 }
 
 void LessonPlayer::tick() {
-  if (!document_.isInLesson(position_, algorithms(step_))) {
-    end();  // the user has taken over
-  } else if (position_ < lesson().steps[step_].until) {
+  const LessonStep& step = lesson().steps[step_];
+  const bool userTookOver = !document_.isInLesson(position_, algorithms(step_));
+  if (!userTookOver && position_ < step.until) {
     playMoves();
-  } else if (lesson().steps[step_].candidate && propagation_.isOpen()) {
+  } else if (!userTookOver && step.candidate && propagation_.isOpen()) {
     playCandidates();
   } else {
     end();

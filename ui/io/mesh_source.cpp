@@ -16,7 +16,7 @@ namespace {
 
 QString found(const QString& session, const QString& name) {
   for (const QString& folder : {QFileInfo(session).path(), samplesFolder()}) {
-    const QString path = QDir(folder).filePath(name);
+    QString path = QDir(folder).filePath(name);
     if (!folder.isEmpty() && QFileInfo::exists(path)) {
       return path;
     }
