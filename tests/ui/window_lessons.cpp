@@ -60,10 +60,12 @@ void open(Workbench& bench, const QString& path) {
 /// Goes to the end of the next step without its animation.
 void next(Workbench& bench) {
   bench.trigger("lessonNext");
-  while (player(bench).plays()) {
-    bench.trigger("lessonNext");
-    QTest::qWait(1);
-  }
+  QVERIFY(QTest::qWaitFor([&] {
+    if (player(bench).plays()) {
+      bench.trigger("lessonNext");
+    }
+    return !player(bench).plays();
+  }));
   awaitStep(bench);
 }
 
