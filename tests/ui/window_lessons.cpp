@@ -139,6 +139,7 @@ class WindowLessons : public QObject {
   void theBarShowsTheStep();
   void nextPlaysVisiblyAndASecondNextEndsIt();
   void aDragDuringAStepStopsIt();
+  void relaxationAndPanelsOfTheUserAreTakenBack();
   void theWaitingListIsShownStepByStep();
   void theLessonsShowTheirPoint();
   void aLessonReplacesNoWork();
@@ -255,6 +256,21 @@ void WindowLessons::aDragDuringAStepStopsIt() {
   QVERIFY(!bench.document().held().empty());
   bench.document().release();
   bench.settle();
+}
+
+/// Relaxation moves elements without a recorded command.
+void WindowLessons::relaxationAndPanelsOfTheUserAreTakenBack() {
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  next(bench);
+  next(bench);
+  const State state = stateOf(bench);
+  bench.document().setRelaxation({true, 1, RelaxationScheme::mean});
+  QTRY_VERIFY(stateOf(bench).panels != state.panels);
+  bench.document().setRelaxation({false, 1, RelaxationScheme::mean});
+  bench.document().addPanel();
+  next(bench);  // to a step without moves of its own
+  QVERIFY(stateOf(bench) == state);
 }
 
 void WindowLessons::theWaitingListIsShownStepByStep() {
