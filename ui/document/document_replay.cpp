@@ -5,11 +5,13 @@
 #include <limits>
 
 #include "document/document.h"
+#include "files/session/session.h"
 
 namespace chainmail {
 namespace {
 
 constexpr int travelGesture = std::numeric_limits<int>::max();
+constexpr int lessonGesture = travelGesture - 1;
 // Waypoints: largest number of saved states, and smallest number of commands between two of them.
 constexpr std::size_t mostWaypoints = 16;
 constexpr std::size_t leastApart = 32;
@@ -77,6 +79,53 @@ void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& move
     goToBeginning();
     log_->tape().load(*moves);
     replayed_ = true;
+  };
+  edit.followsTape = true;
+  apply(std::move(edit));
+  emit tapeChanged();
+}
+
+bool Document::recordsLesson() const {
+  return lesson() && tape().timeline() == lessonTimeline_ && tape().length() >= lesson()->moves.size();
+}
+
+/// True if the solvers have done nothing but replay the lesson's moves with these algorithms.
+bool Document::followsLesson(const std::vector<Algorithm>& algorithms) const {
+  return recordsLesson() && replayed_ && !handle_ && !relaxation().on && elastic() == lesson()->elastic &&
+         std::ranges::equal(algorithms, std::span(contents_.algorithms).first(std::size_t(panels())));
+}
+
+bool Document::isInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) const {
+  return followsLesson(algorithms) && tape().position() == position;
+}
+
+/// True if the last saved state differs from the present one only by moves of the lesson, which its file contains.
+bool Document::onlyLessonMoved() const {
+  const int clean = undoStack_.cleanIndex();
+  return clean >= 0 && clean == undoStack_.index() - 1 && undoStack_.command(clean)->id() == lessonGesture;
+}
+
+void Document::goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) {
+  if (!lesson() || isInLesson(position, algorithms)) {
+    return;
+  }
+  endSweeps();
+  const bool goesOn = followsLesson(algorithms);
+  Change edit = change(QStringLiteral("lesson"), lessonGesture);
+  edit.after.relaxation.on = false;
+  edit.after.elastic = lesson()->elastic;
+  std::ranges::copy(algorithms, edit.after.algorithms.begin());
+  edit.carryOut = [this, position, goesOn, session = lesson()] {
+    if (!goesOn) {
+      dropWaypoints();
+      replayed_ = false;
+    }
+    if (!recordsLesson()) {
+      log_->flush();
+      log_->tape().load(session->moves);
+      lessonTimeline_ = tape().timeline();
+    }
+    travel(std::min(position, tape().length()));
   };
   edit.followsTape = true;
   apply(std::move(edit));

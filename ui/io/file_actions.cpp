@@ -104,6 +104,7 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
   connect(sheets_, &Sheets::opened, this, &FileActions::remember);
   connect(sheets_, &Sheets::saved, this, &FileActions::saved);
   connect(&sessions_, &Sessions::failed, this, &FileActions::failed);
+  connect(&sessions_, &Sessions::noted, this, &FileActions::noted);
   connect(&sessions_, &Sessions::opened, this, &FileActions::remember);
   connect(&sessions_, &Sessions::saved, this, [this](const QString& path) {
     remember(path);

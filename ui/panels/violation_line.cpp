@@ -10,7 +10,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int barWidth = 72, barHeight = 10, barMargin = 10;  // pixels
+constexpr int barWidth = 56, barHeight = 10, barMargin = 8;  // pixels
 constexpr double leastShown = 0.04;                           // a smaller share is drawn as this fraction of the bar
 
 /// Returns a share as a percentage that is not rounded to none or all.
@@ -35,9 +35,8 @@ QString violationInWords(const Statistics& statistics, bool hasMoved) {
            : whole   ? QStringLiteral("No link is violated")
                      : QStringLiteral("No touched link is violated");
   }
-  return QStringLiteral("%1 of %2 violated, worst by %3 × rest length")
-      .arg(percentage(violation.fraction), whole ? QStringLiteral("all links") : QStringLiteral("touched links"),
-           QLocale().toString(violation.max, 'g', 2));
+  return QStringLiteral("%1 of links violated, worst %2 × rest length")
+      .arg(percentage(violation.fraction), QLocale().toString(violation.max, 'g', 2));
 }
 
 ViolationLine::ViolationLine() : sentence_(new QLabel) {

@@ -26,6 +26,10 @@ class HelpMenu : public QObject {
   /// Returns the hints. The window places and owns them.
   QWidget& hints() { return *hints_; }
 
+ signals:
+  /// The user asked for a lesson in the hints.
+  void lessonRequested();
+
  private:
   void showManual();
   void showShortcuts();

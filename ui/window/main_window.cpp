@@ -35,6 +35,8 @@
 #include "window/help_menu.h"
 #include "window/job_bar.h"
 #include "window/lecture_mode.h"
+#include "window/lesson_bar.h"
+#include "window/lessons.h"
 #include "window/menus.h"
 #include "window/message_bar.h"
 #include "window/panel_actions.h"
@@ -89,6 +91,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       panelActions_(new PanelActions(*area_, document_, colouring_)),
       showMenu_(new ShowMenu(document_, this)),
       lecture_(new LectureMode(*this, *area_, layoutVersion)),
+      lessons_(new Lessons(*this, propagation_, *sessions_)),
       toolActions_(new QActionGroup(this)),
       colourBy_(new ColourSelector(colouring_)),
       readout_(new ElementReadout(document_, measurement_, [this] { return area_->links().pointed(); })) {
@@ -99,7 +102,9 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   makeUndo();
   makeMenus();
   makeDocks();
-  help_->fill(*menuBar()->addMenu(QStringLiteral("&Help")));
+  auto* help = menuBar()->addMenu(QStringLiteral("&Help"));
+  lessons_->fill(*help);
+  help_->fill(*help);
   completeMenus(*menuBar());
   help_->shortcuts().adopt();
   showTitle();
@@ -132,6 +137,7 @@ void MainWindow::arrange() {
   column->addWidget(filling_);
   column->addWidget(pinBar_);
   column->addWidget(area_, 1);
+  column->addWidget(&lessons_->bar());
   column->addWidget(&help_->hints());
   setCentralWidget(central);
   statusBar()->addWidget(readout_, 1);
@@ -156,13 +162,16 @@ void MainWindow::listen() {
   connect(&document_, &Document::meshChanged, messages_, &MessageBar::clear);
   connect(&document_, &Document::meshChanged, this, &MainWindow::showTitle);
   connect(&document_, &Document::sessionFileChanged, this, &MainWindow::showTitle);
-  connect(&document_.undoStack(), &QUndoStack::cleanChanged, this, [this](bool clean) { setWindowModified(!clean); });
+  connect(&document_.undoStack(), &QUndoStack::cleanChanged, this,
+          [this] { setWindowModified(document_.isModified()); });
   // After an edit, undo or redo, an unfinished stroke of the tool may not fit the object.
   connect(&document_.undoStack(), &QUndoStack::indexChanged, this, [this] {
     if (tool_ != nullptr) {
       tool_->cancel();
     }
+    setWindowModified(document_.isModified());
   });
+  connect(help_, &HelpMenu::lessonRequested, lessons_, &Lessons::openFirst);
 }
 
 void MainWindow::listenToFiles() {

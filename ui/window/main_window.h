@@ -29,6 +29,7 @@ class FileActions;
 class Filling;
 class HelpMenu;
 class LectureMode;
+class Lessons;
 class MessageBar;
 class Panel;
 class PanelActions;
@@ -54,6 +55,7 @@ class MainWindow : public QMainWindow {
   MessageBar& messages() { return *messages_; }
   Jobs& jobs() { return jobs_; }
   Sessions& sessions() { return *sessions_; }
+  Lessons& lessons() { return *lessons_; }
   /// Returns the positions, sizes and visibility of the docks.
   QByteArray savedLayout() const;
   /// Restores a saved layout. Ignores layouts of another version.
@@ -122,6 +124,7 @@ class MainWindow : public QMainWindow {
   PanelActions* panelActions_;
   ShowMenu* showMenu_;
   LectureMode* lecture_;
+  Lessons* lessons_;
   QActionGroup* toolActions_;
   QAction *undo_ = nullptr, *redo_ = nullptr;
   QAction *resetObject_ = nullptr, *unpinAll_ = nullptr, *fitView_ = nullptr;

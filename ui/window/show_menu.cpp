@@ -65,6 +65,14 @@ void ShowMenu::fill(QMenu& menu) {
   adapt();
 }
 
+QStringList ShowMenu::names() {
+  QStringList names;
+  for (const Choice& one : choices) {
+    names << QLatin1String(one.name);
+  }
+  return names;
+}
+
 QString ShowMenu::chosen() const {
   const Mesh& mesh = *document_.mesh();
   const QString otherwise = ObjectDrawing::showsPicture(mesh) ? QStringLiteral("surface") : QStringLiteral("both");

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "files/session/lesson_json.h"
 #include "files/session/moves.h"
 #include "files/session/session.h"
 #include "files/session/session_json.h"
@@ -241,6 +242,10 @@ void SessionWriter::write_moves(const Progress& progress) {
     chainmail::write_moves(moves, session_.moves, mesh_, progress);
     out_ << ",\n\"moves\": " << std::string_view(moves.str())
          << ",\"moves_done\": " << static_cast<std::uint32_t>(session_.moves_done);
+  }
+  const bool moves_left_out = all > session_moves;
+  if (!session_.lesson.steps.empty() && !moves_left_out) {
+    out_ << ",\n\"lesson\": " << std::string_view(lesson_json(session_.lesson));
   }
 }
 
