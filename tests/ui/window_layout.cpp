@@ -1,5 +1,6 @@
 // Tests sizes, docking, cameras and stored layouts in a real window.
 
+#include <QToolButton>
 #include <QDockWidget>
 #include <QLabel>
 #include <QSignalSpy>
@@ -107,6 +108,33 @@ class WindowLayout : public QObject {
     QVERIFY(propagation->isVisible() && !propagation->visibleRegion().isEmpty());
     bench.trigger("showPropagation");
     QVERIFY(propagation->isHidden());
+  }
+
+  void theLeftColumnReturnsToItsWidth() {
+    Workbench bench;
+    auto* mesh = bench.find<QDockWidget>("meshDock");
+    const int width = mesh->width();
+    for (const char* show : {"showPropagation", "showElement"}) {
+      bench.trigger(show);
+      bench.settle();
+      bench.trigger(show);
+      QTRY_COMPARE(mesh->width(), width);
+    }
+  }
+
+  void fourPanelsFitOnASmallScreen() {
+    Workbench bench;
+    bench.trigger("addPanel");
+    bench.trigger("addPanel");
+    bench.settle();
+    bench.window.resize(1024, 768);
+    bench.settle();
+    QVERIFY2(bench.window.width() <= 1024 && bench.window.height() <= 768,
+             qPrintable(QStringLiteral("%1 x %2").arg(bench.window.width()).arg(bench.window.height())));
+    auto* more = bench.window.findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+    QVERIFY(more->isVisible());
+    QCOMPARE(more->icon().name(), QStringLiteral("more"));
+    QVERIFY(more->width() >= 20);
   }
 
   void docksFloatAndComeBack() {

@@ -140,6 +140,15 @@ class WindowOpen : public QObject {
     QVERIFY(!fill->isEnabled());
   }
 
+  void theFillOfferedSuitsLinearFem() {
+    Workbench bench;
+    bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+    const double mean = bench.document().mesh()->mean_link_length;
+    bench.trigger("fillSurface");
+    QVERIFY(std::abs(bench.find<QDoubleSpinBox>("fillSize")->value() - mean) < 0.01 * mean);
+    QVERIFY(!bench.find<QLabel>("fillAbout")->text().contains(QStringLiteral("coarser")));
+  }
+
   void anOpenSurfaceSaysWhereItIsOpen() {
     Workbench bench;
     const QString path = folder_.filePath(QStringLiteral("open.off"));

@@ -275,8 +275,14 @@ class WindowSection : public QObject {
     QVERIFY(!bench.find<SectionDock>("sectionDock")->plane());
     bench.document().undoStack().undo();
     QVERIFY(bench.find<SectionDock>("sectionDock")->plane().has_value());
-    bench.find<SectionDock>("sectionDock")->close();
+    auto* dock = bench.find<SectionDock>("sectionDock");
+    dock->close();
     QVERIFY(!bench.find<QAction>("section")->isChecked());
+    bench.trigger("showSectionDock");
+    QVERIFY(bench.find<QAction>("section")->isChecked() && dock->isVisible());
+    QTRY_VERIFY(dock->height() < 100);
+    bench.trigger("section");
+    QVERIFY(dock->isHidden());
   }
 
   void aSessionKeepsIt() {

@@ -2,6 +2,7 @@
 
 #include <QPdfWriter>
 #include <QSaveFile>
+#include <QSvgGenerator>
 #include <QSvgRenderer>
 #include <cmath>
 
@@ -74,6 +75,20 @@ QRectF markSquare(QPointF centre) {
 
 void paintWords(QPainter& painter, const QRectF& area, const QString& words) {
   painter.drawText(area, int(Qt::AlignLeft | Qt::AlignVCenter) | Qt::TextDontClip | Qt::TextSingleLine, words);
+}
+
+/// Writes the note of a mark unless it would cover another note: above the mark, or else below it.
+void paintNote(QPainter& painter, QPointF mark, const QString& note, std::vector<QRectF>& notes) {
+  const QFontMetricsF metrics(painter.font(), painter.device());
+  for (const double below : {-4.0, metrics.ascent() + 2}) {
+    const QRectF area = metrics.boundingRect(note).translated(mark + QPointF(7, below));
+    const bool covers = std::ranges::any_of(notes, [&](const QRectF& one) { return one.intersects(area); });
+    if (!note.isEmpty() && !covers) {
+      painter.drawText(mark + QPointF(7, below), note);
+      notes.push_back(area);
+      return;
+    }
+  }
 }
 
 }  // namespace
@@ -230,10 +245,11 @@ void PlotPainting::paintMarks(QPainter& painter) const {
     }
   }
   painter.setPen(palette_.color(QPalette::WindowText));
+  std::vector<QRectF> notes;
   for (const report::PlotMark& mark : panel()->marks) {
     const QPointF centre = positionOf(mark.x, mark.y);
     paintLook(painter, plot_.series[mark.series].look, colourOf(mark.series), mark.hollow, markSquare(centre));
-    painter.drawText(centre + QPointF(7, -4), text(mark.note));
+    paintNote(painter, centre, text(mark.note), notes);
   }
 }
 
@@ -265,6 +281,12 @@ double PlotPainting::paintHeading(QPainter& painter, const QRectF& area) const {
     painter.setPen(palette_.color(QPalette::WindowText));
     paintWords(painter, {line.left() + keyWidth, line.top(), width, line.height()}, label);
     line.moveLeft(line.left() + width + betweenKeys);
+  }
+  if (!plot_.legend_notes.empty()) {
+    line.moveTopLeft({area.left(), line.bottom()});
+    QStringList notes;
+    std::ranges::transform(plot_.legend_notes, std::back_inserter(notes), [](const std::string& one) { return text(one); });
+    paintWords(painter, line, notes.join(QStringLiteral("  ·  ")));
   }
   return line.bottom();
 }
@@ -335,6 +357,21 @@ bool writePdf(QIODevice& file, const report::Plot& plot) {
   return painter.end();
 }
 
+bool writeSvg(QIODevice& file, const report::Plot& plot) {
+  QSvgGenerator writer;
+  writer.setOutputDevice(&file);
+  writer.setTitle(text(plot.title));
+  writer.setSize(savedSize.toSize());
+  writer.setViewBox(QRectF({}, savedSize));
+  QPainter painter;
+  if (!painter.begin(&writer)) {
+    return false;
+  }
+  painter.fillRect(QRectF({}, savedSize), paletteOn(colours::Ground::light).color(QPalette::Base));
+  paintPage(painter, plot);
+  return painter.end();
+}
+
 bool writePng(QIODevice& file, const report::Plot& plot) {
   QImage image((savedSize * savedPixelRatio).toSize(), QImage::Format_RGB32);
   image.setDevicePixelRatio(savedPixelRatio);
@@ -347,10 +384,16 @@ bool writePng(QIODevice& file, const report::Plot& plot) {
 
 }  // namespace
 
+QStringList plotFilters() {
+  return {QStringLiteral("SVG drawing (*.svg)"), QStringLiteral("PDF drawing (*.pdf)"),
+          QStringLiteral("PNG picture (*.png)")};
+}
+
 void savePlot(const report::Plot& plot, const QString& path) {
   QSaveFile file(path);
-  const bool asPdf = path.endsWith(QStringLiteral(".pdf"), Qt::CaseInsensitive);
-  if (!file.open(QIODevice::WriteOnly) || !(asPdf ? writePdf(file, plot) : writePng(file, plot)) || !file.commit()) {
+  const auto endsIn = [&path](const char* ending) { return path.endsWith(QLatin1String(ending), Qt::CaseInsensitive); };
+  const auto write = endsIn(".pdf") ? writePdf : endsIn(".svg") ? writeSvg : writePng;
+  if (!file.open(QIODevice::WriteOnly) || !write(file, plot) || !file.commit()) {
     throw Error(path.toStdString(), "the picture could not be written (" + file.errorString().toStdString() + ")",
                 "choose another folder");
   }

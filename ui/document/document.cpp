@@ -524,6 +524,20 @@ void Document::release() {
   endDrag();
 }
 
+void Document::cancelDrag() {
+  const auto handle = std::exchange(handle_, {});
+  if (!handle) {
+    return;
+  }
+  if (!handle->elements.empty()) {
+    post(commands::Release{});
+  }
+  if (handle->moved) {
+    post(commands::RestoreState{handle->before});
+  }
+  post(commands::DropState{handle->before});
+}
+
 /// Ends the drag. It becomes an undo step if anything moved.
 void Document::endDrag() {
   if (const auto handle = std::exchange(handle_, {})) {

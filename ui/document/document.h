@@ -109,6 +109,8 @@ class Document : public QObject {
   /// Moves the handle by a way and a rotation about its pivot, both since it was grabbed.
   void dragBy(const Point& by, const Rotation& rotation = {});
   void release();
+  /// Ends the drag and restores the object as it was before. It does not become an undo step.
+  void cancelDrag();
   /// The grabbed elements, ascending; empty while nothing or a control point is grabbed.
   std::span<const ElementId> held() const { return handle_ ? handle_->elements : std::span<const ElementId>(); }
   /// Grabs a control point in the panels that run free-form deformation. release() releases it.

@@ -15,7 +15,6 @@
 namespace chainmail {
 namespace {
 
-QString warpFolderKey() { return QStringLiteral("picture/folder"); }
 
 }  // namespace
 
@@ -86,12 +85,10 @@ void Sheets::open(const QString& path, int across, bool first) {
 }
 
 void Sheets::save(int panel) {
-  QSettings settings;
   const QString path = askWhere(window_, QStringLiteral("Save warped picture"),
                                 {QStringLiteral("PNG picture (*.png)"), QStringLiteral("JPEG picture (*.jpg)")},
-                                settings.value(warpFolderKey(), QDir::currentPath()).toString());
+                                asFileName(document_.name()) + QStringLiteral("-warped"));
   if (!path.isEmpty()) {
-    settings.setValue(warpFolderKey(), QFileInfo(path).absolutePath());
     saveWarpedPath(panel, path);
   }
 }

@@ -300,7 +300,7 @@ void PanelArea::arrange() {
     const bool shows = std::find(visible.begin(), visible.end(), panel) != visible.end();
     one.setVisible(shows);
     one.head().showAlone(alone_ == panel);
-    one.head().showActions(&one == panels_.back());
+    one.head().showActions(headActionsOf(panel));
     if (!shows) {
       colouring_.forget(panel);
     }
@@ -310,6 +310,18 @@ void PanelArea::arrange() {
     shareEqually(*splitter);
   }
   emit arranged();
+}
+
+/// The action that adds a panel stays at the last position. The one that removes the last panel belongs to that panel.
+QList<QAction*> PanelArea::headActionsOf(int panel) const {
+  QList<QAction*> actions;
+  if (!headActions_.isEmpty() && panel == inSight().back()) {
+    actions << headActions_.first();
+  }
+  if (panel == int(panels_.size()) - 1) {
+    actions << headActions_.mid(1);
+  }
+  return actions;
 }
 
 /// Moves the visible panels into their rows, in this order. Hidden panels stay in any row.

@@ -32,7 +32,8 @@ class PanelArea : public QWidget {
   void setTool(Tool& tool);
   /// Draws an overlay over the object of every panel and shows its notes there.
   void addOverlay(Overlay& overlay);
-  /// Shows buttons for actions in the head of the newest panel while the actions are enabled.
+  /// Shows buttons for actions while the actions are enabled: the first at the last position, the others in the head of
+  /// the newest panel.
   void setHeadActions(const QList<QAction*>& actions);
   /// Repaints all panels after an overlay has changed.
   void refresh();
@@ -84,6 +85,7 @@ class PanelArea : public QWidget {
   void removePanel();
   void followPanels();
   void listenTo(Panel& panel, int number);
+  QList<QAction*> headActionsOf(int panel) const;
   void moveIntoRows(const std::vector<int>& visible);
   void arrange();
   void linkCameras(bool linked);

@@ -1,5 +1,6 @@
 #include "panels/panel_head.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QStandardItemModel>
 #include <QToolButton>
@@ -29,6 +30,7 @@ PanelHead::PanelHead(Document& document, View& view, int panel)
   state_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   // The text changes during a drag and must not resize the view.
   state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  state_->installEventFilter(this);
   fillSelector();
   arrange(view);
 }
@@ -38,6 +40,7 @@ void PanelHead::fillSelector() {
   selector_->setAccessibleName(QStringLiteral("Algorithm of panel %1").arg(panelName(panel_)));
   selector_->setToolTip(QStringLiteral("The algorithm that deforms this panel's object"));
   selector_->setMinimumWidth(smallestSelector);
+  selector_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   for (const auto& info : every_algorithm()) {
     if (info.algorithm == elastic_algorithms().front().algorithm) {
       selector_->insertSeparator(selector_->count());
@@ -110,8 +113,20 @@ void PanelHead::arrange(View& view) {
 }
 
 void PanelHead::showState(const QString& state) {
-  state_->setText(state_->fontMetrics().elidedText(state, Qt::ElideRight, state_->width()));
   state_->setToolTip(state);
+  fitState();
+}
+
+/// Shortens the state only as far as the room requires.
+void PanelHead::fitState() {
+  state_->setText(state_->fontMetrics().elidedText(state_->toolTip(), Qt::ElideRight, state_->width()));
+}
+
+bool PanelHead::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == state_ && event->type() == QEvent::Resize) {
+    fitState();
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 void PanelHead::showAlone(bool alone) { alone_->setChecked(alone); }
@@ -124,14 +139,14 @@ void PanelHead::setActions(const QList<QAction*>& actions) {
     button->setAutoRaise(true);
     row_->addWidget(button);
     buttons_ << button;
-    connect(action, &QAction::changed, button, [this] { showActions(actionsShown_); });
+    connect(action, &QAction::changed, button, [this] { showActions(shownActions_); });
   }
 }
 
-void PanelHead::showActions(bool shown) {
-  actionsShown_ = shown;
+void PanelHead::showActions(const QList<QAction*>& shown) {
+  shownActions_ = shown;
   for (QToolButton* button : buttons_) {
-    button->setVisible(shown && button->defaultAction()->isEnabled());
+    button->setVisible(shown.contains(button->defaultAction()) && button->defaultAction()->isEnabled());
   }
 }
 

@@ -25,18 +25,20 @@ class PanelHead : public QWidget {
   void showState(const QString& state);
   /// Shows on the button whether the panel is shown alone.
   void showAlone(bool alone);
-  /// Adds buttons for actions. A button is visible if its action is enabled and showActions(true) was called.
+  /// Adds buttons for actions. A button is visible if its action is enabled and `showActions` was called with it.
   void setActions(const QList<QAction*>& actions);
-  void showActions(bool shown);
+  void showActions(const QList<QAction*>& shown);
 
  signals:
   void aloneToggled();
 
  protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
 
  private:
   void fillSelector();
+  void fitState();
   void showAlgorithm();
   void arrange(View& view);
   QToolButton* makeAloneButton();
@@ -48,7 +50,7 @@ class PanelHead : public QWidget {
   QToolButton* alone_;
   QHBoxLayout* row_;
   QList<QToolButton*> buttons_;
-  bool actionsShown_ = false;
+  QList<QAction*> shownActions_;
 };
 
 }  // namespace chainmail

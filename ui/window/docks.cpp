@@ -278,7 +278,7 @@ void raiseWhenShown(QDockWidget& dock) {
 
 std::span<const DockEntry> dockEntries() { return entries; }
 
-Docks::Docks(const DockParts& parts) : window_(parts.window) {
+Docks::Docks(const DockParts& parts) : window_(parts.window), sizes_(std::make_unique<DockSizes>(parts.window)) {
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);  // gives the right column the full height
   for (const DockEntry& entry : entries) {
     add(entry, parts);
@@ -295,6 +295,7 @@ void Docks::add(const DockEntry& entry, const DockParts& parts) {
   }
   place(entry, *dock);
   docks_.push_back(dock);
+  sizes_->follow(*dock);
 }
 
 void Docks::place(const DockEntry& entry, QDockWidget& dock) {

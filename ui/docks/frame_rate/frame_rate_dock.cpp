@@ -1,12 +1,12 @@
 #include "docks/frame_rate/frame_rate_dock.h"
 
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QSettings>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "common/ask_where.h"
 #include "common/icons.h"
 #include "common/panel_names.h"
 #include "common/parameter_row.h"
@@ -236,8 +236,8 @@ report::Plot FrameRateDock::plotOn(colours::Ground ground) const {
 
 void FrameRateDock::saveTable() {
   const QString path =
-      QFileDialog::getSaveFileName(this, QStringLiteral("Save rates as table"), QStringLiteral("rates.csv"),
-                                   QStringLiteral("Comma-separated values (*.csv)"));
+      askWhere(*this, QStringLiteral("Save rates as table"), {QStringLiteral("Comma-separated values (*.csv)")},
+               QStringLiteral("rates"));
   if (!path.isEmpty()) {
     saveTablePath(path);
   }
@@ -251,8 +251,7 @@ void FrameRateDock::saveTablePath(const QString& path) {
 
 void FrameRateDock::savePicture() {
   const QString path =
-      QFileDialog::getSaveFileName(this, QStringLiteral("Save rates as picture"), QStringLiteral("rates.png"),
-                                   QStringLiteral("PNG picture (*.png);;PDF for print (*.pdf)"));
+      askWhere(*this, QStringLiteral("Save rates as picture"), plotFilters(), QStringLiteral("rates"));
   if (!path.isEmpty()) {
     savePicturePath(path);
   }

@@ -46,7 +46,10 @@ PropagationDock::PropagationDock(Document& document, Propagation& propagation, P
   adapt();
   column->addLayout(lists, 1);
   setWidget(new DockScroll(content));
-  connect(this, &QDockWidget::visibilityChanged, this, [this](bool) { propagation_.setOpen(!isHidden()); });
+  connect(this, &QDockWidget::visibilityChanged, this, [this](bool seen) {
+    propagation_.setOpen(!isHidden());
+    propagation_.setShown(seen);
+  });
   connect(toggleViewAction(), &QAction::toggled, &propagation, &Propagation::setOpen);
   connect(&propagation, &Propagation::changed, this, &PropagationDock::refresh);
   connect(&document, &Document::algorithmChanged, this, &PropagationDock::refresh);
@@ -162,8 +165,8 @@ void PropagationDock::refresh() {
 
 /// Enables and disables the actions. The tool tip of a disabled action explains why.
 void PropagationDock::refreshActions() {
-  const bool ready = propagation_.isOpen() && propagation_.hasPass();
-  const QString why = propagation_.isOpen() ? QStringLiteral("no pass yet: drag an element")
+  const bool ready = propagation_.isShown() && propagation_.hasPass();
+  const QString why = propagation_.isShown() ? QStringLiteral("no pass yet: drag an element")
                                             : QStringLiteral("open the Propagation dock first (O)");
   for (QAction* action : {first_, back_, play_, forward_, last_, follow_}) {
     const QString name = QString(action->text()).remove(QLatin1Char('&'));
