@@ -1,10 +1,10 @@
 // Tests sizes, docking, cameras and stored layouts in a real window.
 
-#include <QToolButton>
 #include <QDockWidget>
 #include <QLabel>
 #include <QSignalSpy>
 #include <QSplitter>
+#include <QToolButton>
 #include <QWheelEvent>
 
 #include "window.h"

@@ -167,8 +167,8 @@ class WindowReport : public QObject {
     ReportBench bench;
     bench.run();
     const QTemporaryDir folder;
-    for (const auto& [name, begin] : {std::pair("plot.svg", "<?xml"), std::pair("plot.pdf", "%PDF"),
-                                      std::pair("plot.png", "\x89PNG")}) {
+    for (const auto& [name, begin] :
+         {std::pair("plot.svg", "<?xml"), std::pair("plot.pdf", "%PDF"), std::pair("plot.png", "\x89PNG")}) {
       bench.results().savePlotTo(folder.filePath(QLatin1String(name)));
       QVERIFY2(read(folder, name).startsWith(begin), name);
     }
@@ -206,9 +206,10 @@ class WindowReport : public QObject {
   void everyWidgetIsNamed() {
     ReportBench bench;
     bench.run();
-    for (const char* name : {"reportDrags", "reportAlgorithms", "reportSweeps", "reportPrecision", "reportSeconds",
-                             "reportRun", "reportCancel", "reportProgress", "reportDrag", "reportError", "reportCopy",
-                             "reportSave", "reportSavePlot", "reportPlot", "reportLegend", "reportTable", "reportHeading"}) {
+    for (const char* name :
+         {"reportDrags", "reportAlgorithms", "reportSweeps", "reportPrecision", "reportSeconds", "reportRun",
+          "reportCancel", "reportProgress", "reportDrag", "reportError", "reportCopy", "reportSave", "reportSavePlot",
+          "reportPlot", "reportLegend", "reportTable", "reportHeading"}) {
       auto* widget = bench.find<QWidget>(name);
       QVERIFY2(widget != nullptr, name);
       QVERIFY2(!widget->accessibleName().isEmpty() && !widget->toolTip().isEmpty(), name);

@@ -29,12 +29,12 @@ double NumberField::valueFromText(const QString& text) const { return read(text)
 void NumberField::fixup(QString& text) const {
   if (const auto typed = read(text)) {
     const bool over = *typed > maximum();
-    QToolTip::showText(
-        mapToGlobal(rect().bottomLeft()),
-        QStringLiteral("%1 %2 is too %3: the %4 is %5. The value stays %6.")
-            .arg(label_, text.trimmed(), over ? QStringLiteral("large") : QStringLiteral("small"),
-                 over ? QStringLiteral("largest") : QStringLiteral("smallest"),
-                 locale().toString(over ? maximum() : minimum(), 'f', QLocale::FloatingPointShortest), textFromValue(value())));
+    QToolTip::showText(mapToGlobal(rect().bottomLeft()),
+                       QStringLiteral("%1 %2 is too %3: the %4 is %5. The value stays %6.")
+                           .arg(label_, text.trimmed(), over ? QStringLiteral("large") : QStringLiteral("small"),
+                                over ? QStringLiteral("largest") : QStringLiteral("smallest"),
+                                locale().toString(over ? maximum() : minimum(), 'f', QLocale::FloatingPointShortest),
+                                textFromValue(value())));
   }
 }
 

@@ -285,7 +285,8 @@ double PlotPainting::paintHeading(QPainter& painter, const QRectF& area) const {
   if (!plot_.legend_notes.empty()) {
     line.moveTopLeft({area.left(), line.bottom()});
     QStringList notes;
-    std::ranges::transform(plot_.legend_notes, std::back_inserter(notes), [](const std::string& one) { return text(one); });
+    std::ranges::transform(plot_.legend_notes, std::back_inserter(notes),
+                           [](const std::string& one) { return text(one); });
     paintWords(painter, line, notes.join(QStringLiteral("  ·  ")));
   }
   return line.bottom();

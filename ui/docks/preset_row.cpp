@@ -243,8 +243,7 @@ void PresetRow::importPath(const QString& path) {
 }
 
 void PresetRow::exportAll() {
-  const QString path =
-      askWhere(*this, QStringLiteral("Export presets"), {presetFilter()}, QStringLiteral("presets"));
+  const QString path = askWhere(*this, QStringLiteral("Export presets"), {presetFilter()}, QStringLiteral("presets"));
   if (!path.isEmpty()) {
     exportPath(path);
   }

@@ -159,10 +159,9 @@ void FileActions::saveSession() {
 }
 
 void FileActions::saveSessionAs() {
-  const QString path =
-      askWhere(window_, QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")},
-               asFileName(document_.sessionFile().isEmpty() ? document_.name()
-                                                            : QFileInfo(document_.sessionFile()).fileName()));
+  const QString path = askWhere(
+      window_, QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")},
+      asFileName(document_.sessionFile().isEmpty() ? document_.name() : QFileInfo(document_.sessionFile()).fileName()));
   if (!path.isEmpty()) {
     sessions_.savePath(path);
   }
@@ -173,9 +172,9 @@ void FileActions::addShapeActions(QMenu& menu) {
   for (int panel = 0; panel < Document::mostPanels; ++panel) {
     auto* action = shapes->addAction(QStringLiteral("Panel &%1…").arg(panelName(panel)));
     connect(action, &QAction::triggered, this, [this, panel] {
-      const QString path = askWhere(window_, QStringLiteral("Save deformed mesh"),
-                                    saveFilters(FormatUse::write_positions),
-                                    QStringLiteral("%1-deformed-%2").arg(asFileName(document_.name()), panelName(panel)));
+      const QString path =
+          askWhere(window_, QStringLiteral("Save deformed mesh"), saveFilters(FormatUse::write_positions),
+                   QStringLiteral("%1-deformed-%2").arg(asFileName(document_.name()), panelName(panel)));
       if (!path.isEmpty()) {
         saveShapePath(panel, path);
       }
@@ -244,9 +243,9 @@ void FileActions::show(const OpenedMesh& opened, const QString& path, bool first
 }
 
 void FileActions::save() {
-  const QString path = askWhere(window_, QStringLiteral("Save mesh at rest"),
-                                saveFilters(FormatUse::write, document_.mesh()->lattice.has_value()),
-                                asFileName(document_.name()));
+  const QString path =
+      askWhere(window_, QStringLiteral("Save mesh at rest"),
+               saveFilters(FormatUse::write, document_.mesh()->lattice.has_value()), asFileName(document_.name()));
   if (!path.isEmpty()) {
     savePath(path);
   }

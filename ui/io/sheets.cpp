@@ -13,10 +13,7 @@
 #include "mesh/sheet.h"
 
 namespace chainmail {
-namespace {
-
-
-}  // namespace
+namespace {}  // namespace
 
 Sheets::Sheets(QWidget& window, Document& document, Jobs& jobs)
     : QObject(&window), window_(window), document_(document), jobs_(jobs), bar_(new SheetBar) {

@@ -56,7 +56,7 @@ std::string_view entity_of(char character) {
 constexpr const char* thousands_space = "\u202f";  // narrow no-break space
 constexpr const char* figure_space = "\u2007";     // as wide as a digit
 constexpr const char* point_space = "\u2008";      // as wide as a point
-constexpr double least_grouped = 1e3, most_grouped = 1e7;
+constexpr double least_grouped = 1e3, most_grouped = 1e6;
 
 /// Returns the number of digits behind the point of a figure such as '0.12', '1.5%' or '12'; none for other texts.
 std::optional<std::size_t> decimals_of(const std::string& text) {

@@ -9,7 +9,7 @@
 namespace chainmail::report {
 
 /// Formats a number for people, with three significant digits in every locale; `n/a` if there is none. Numbers from
-/// 1,000 to 10 million are written as whole numbers with separated thousands.
+/// 1,000 to a million are written as whole numbers with separated thousands.
 std::string figure(double number, int digits = 3);
 std::string figure(const std::optional<double>& number);
 /// Formats a count for people: a narrow no-break space separates the thousands.

@@ -168,8 +168,8 @@ std::string about(const PhysicsObject& object) {
       left_out += "; left out: " + drag.name + " of element " + std::to_string(drag.handle) + ", " + drag.no_reference;
     }
   }
-  std::string text = object.description + "; " + thousands(object.elements) + " elements, " +
-                     thousands(object.links) + " links, " + std::to_string(object.pins) + " pinned; handles: ";
+  std::string text = object.description + "; " + thousands(object.elements) + " elements, " + thousands(object.links) +
+                     " links, " + std::to_string(object.pins) + " pinned; handles: ";
   for (const ElementId handle : handles) {
     text += (handle == handles.front() ? "" : ", ") + std::to_string(handle);
   }

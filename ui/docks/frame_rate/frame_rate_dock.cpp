@@ -235,9 +235,8 @@ report::Plot FrameRateDock::plotOn(colours::Ground ground) const {
 }
 
 void FrameRateDock::saveTable() {
-  const QString path =
-      askWhere(*this, QStringLiteral("Save rates as table"), {QStringLiteral("Comma-separated values (*.csv)")},
-               QStringLiteral("rates"));
+  const QString path = askWhere(*this, QStringLiteral("Save rates as table"),
+                                {QStringLiteral("Comma-separated values (*.csv)")}, QStringLiteral("rates"));
   if (!path.isEmpty()) {
     saveTablePath(path);
   }
@@ -250,8 +249,7 @@ void FrameRateDock::saveTablePath(const QString& path) {
 }
 
 void FrameRateDock::savePicture() {
-  const QString path =
-      askWhere(*this, QStringLiteral("Save rates as picture"), plotFilters(), QStringLiteral("rates"));
+  const QString path = askWhere(*this, QStringLiteral("Save rates as picture"), plotFilters(), QStringLiteral("rates"));
   if (!path.isEmpty()) {
     savePicturePath(path);
   }

@@ -10,8 +10,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "common/ask_where.h"
 #include "common/as_path.h"
+#include "common/ask_where.h"
 #include "common/icons.h"
 #include "files/session/moves.h"
 #include "files/text/outputs.h"
@@ -300,8 +300,8 @@ void ReplayDock::askForMoves() {
 }
 
 void ReplayDock::askWhereMoves() {
-  const QString path =
-      askWhere(*window(), QStringLiteral("Save moves"), {movesFilter()}, asFileName(document_.name()) + QStringLiteral("-moves"));
+  const QString path = askWhere(*window(), QStringLiteral("Save moves"), {movesFilter()},
+                                asFileName(document_.name()) + QStringLiteral("-moves"));
   if (!path.isEmpty()) {
     saveMoves(path);
   }

@@ -73,7 +73,8 @@ constexpr std::array columns{
            [](auto& one) { return of<&Distance::rms>(one.errors.to_exact); }},
     Column{"Energy\n(ratio to Exact)", "Elastic energy over that of Exact ChainMail; n/a if that is 0",
            [](auto& one) { return one.errors.energy_over_exact; }},
-    Column{"Float to double\n(mean rest lengths)", "Largest distance between the contestant in float and in double, in mean rest lengths",
+    Column{"Float to double\n(mean rest lengths)",
+           "Largest distance between the contestant in float and in double, in mean rest lengths",
            [](auto& one) { return std::optional(one.errors.float_to_double.max); }},
 };
 

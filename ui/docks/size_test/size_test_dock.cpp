@@ -213,9 +213,8 @@ void SizeTestDock::fillBar(int value, const QString& text) {
 }
 
 void SizeTestDock::saveTable() {
-  const QString path =
-      askWhere(*this, QStringLiteral("Save the table"), {QStringLiteral("Comma-separated values (*.csv)")},
-               QStringLiteral("size-test"));
+  const QString path = askWhere(*this, QStringLiteral("Save the table"),
+                                {QStringLiteral("Comma-separated values (*.csv)")}, QStringLiteral("size-test"));
   if (!path.isEmpty()) {
     saveTablePath(path);
   }
