@@ -117,6 +117,7 @@ void PanelArea::listenTo(Panel& panel, int number) {
       }
     }
   });
+  connect(&panel.head(), &PanelHead::pinWanted, this, &PanelArea::pinWanted);
   connect(&panel.head(), &PanelHead::aloneToggled, this,
           [this, number] { setAlone(alone_ == number ? std::nullopt : std::optional(number)); });
 }

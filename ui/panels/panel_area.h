@@ -79,6 +79,8 @@ class PanelArea : public QWidget {
   /// Panels were shown, hidden or moved.
   void arranged();
   void ghostsChanged();
+  /// See PanelHead::pinWanted.
+  void pinWanted();
 
  private:
   void addPanel();

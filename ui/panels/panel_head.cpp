@@ -1,5 +1,6 @@
 #include "panels/panel_head.h"
 
+#include <QAbstractItemView>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QStandardItemModel>
@@ -10,12 +11,16 @@
 #include "common/panel_names.h"
 #include "common/text.h"
 #include "mesh/error.h"
+#include "panels/algorithm_delegate.h"
 #include "panels/ghost_button.h"
 
 namespace chainmail {
 namespace {
 
 constexpr int smallestSelector = 90;  // pixels; in a narrow panel, the name is shortened
+constexpr int listMargin = 30;        // pixels, for the scroll bar and the frame of the list
+
+QString sentence(const QString& words) { return words.left(1).toUpper() + words.mid(1); }
 
 }  // namespace
 
@@ -25,6 +30,7 @@ PanelHead::PanelHead(Document& document, View& view, int panel)
       selector_(new QComboBox),
       state_(new QLabel),
       alone_(makeAloneButton()),
+      pin_(new QToolButton),
       row_(new QHBoxLayout(this)) {
   state_->setObjectName(QStringLiteral("state%1").arg(panel));
   state_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -33,6 +39,24 @@ PanelHead::PanelHead(Document& document, View& view, int panel)
   state_->installEventFilter(this);
   fillSelector();
   arrange(view);
+  followPins();
+}
+
+/// Shows a button that pins the bottom while the algorithm needs pins and there are none.
+void PanelHead::followPins() {
+  pin_->setObjectName(QStringLiteral("pinBottom%1").arg(panel_));
+  pin_->setText(QStringLiteral("Pin bottom"));
+  pin_->setIcon(icon("pin"));
+  pin_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  pin_->setToolTip(
+      QStringLiteral("Without pins, this algorithm has no solution. Pins the bottom layer at its present "
+                     "positions, as one undo step"));
+  connect(pin_, &QToolButton::clicked, this, &PanelHead::pinWanted);
+  const auto adapt = [this] { pin_->setVisible(panel_ < document_.panels() && document_.lacksPins(panel_)); };
+  connect(&document_, &Document::pinsChanged, pin_, adapt);
+  connect(&document_, &Document::meshChanged, pin_, adapt);
+  connect(&document_, &Document::algorithmChanged, pin_, adapt);
+  adapt();
 }
 
 void PanelHead::fillSelector() {
@@ -48,6 +72,7 @@ void PanelHead::fillSelector() {
     selector_->addItem(text(info.label), int(info.algorithm));
   }
   selector_->setMaxVisibleItems(selector_->count());
+  selector_->setItemDelegate(new AlgorithmDelegate(selector_));
   connect(selector_, &QComboBox::activated, this,
           [this] { document_.setAlgorithm(panel_, Algorithm(selector_->currentData().toInt())); });
   connect(&document_, &Document::algorithmChanged, this, [this](int panel) {
@@ -67,17 +92,20 @@ void PanelHead::showAlgorithm() {
       continue;  // a separator
     }
     const auto algorithm = Algorithm(selector_->itemData(i).toInt());
-    QString help = text(info(algorithm).source);
+    QString help = text(info(algorithm).source), explanation = sentence(text(info(algorithm).summary));
     try {
       check(algorithm, *document_.mesh());
       items->item(i)->setEnabled(true);
     } catch (const Error& error) {
       items->item(i)->setEnabled(false);
       help = QString::fromStdString(error.what());
+      explanation = QStringLiteral("Not available: %1").arg(text(error.problem()));
     }
     items->item(i)->setToolTip(help);
+    items->item(i)->setData(explanation, AlgorithmDelegate::explanationRole);
   }
   selector_->setCurrentIndex(selector_->findData(int(document_.algorithm(panel_))));
+  selector_->view()->setMinimumWidth(selector_->view()->sizeHintForColumn(0) + listMargin);
 }
 
 QToolButton* PanelHead::makeAloneButton() {
@@ -107,6 +135,7 @@ void PanelHead::arrange(View& view) {
   row_->addWidget(swatch);
   row_->addWidget(name);
   row_->addWidget(selector_);
+  row_->addWidget(pin_);
   row_->addWidget(state_, 1);
   row_->addWidget(new GhostButton(document_, view, panel_));
   row_->addWidget(alone_);

@@ -31,6 +31,8 @@ class PanelHead : public QWidget {
 
  signals:
   void aloneToggled();
+  /// The user wants to pin the bottom, because the algorithm has no solution without pins.
+  void pinWanted();
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -42,12 +44,14 @@ class PanelHead : public QWidget {
   void showAlgorithm();
   void arrange(View& view);
   QToolButton* makeAloneButton();
+  void followPins();
 
   Document& document_;
   int panel_;
   QComboBox* selector_;
   QLabel* state_;
   QToolButton* alone_;
+  QToolButton* pin_;
   QHBoxLayout* row_;
   QList<QToolButton*> buttons_;
   QList<QAction*> shownActions_;
