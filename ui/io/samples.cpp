@@ -43,8 +43,9 @@ bool isSample(const QString& path) {
   return !folder.isEmpty() && QFileInfo(path).canonicalPath() == QFileInfo(folder).canonicalFilePath();
 }
 
-QString thumbnailOf(const Sample& sample) {
-  return QStringLiteral("samples/%1.png").arg(QString::fromUtf8(sample.file));
+QString thumbnailOf(const Sample& sample, colours::Ground ground) {
+  const QString folder = ground == colours::Ground::light ? QStringLiteral("samples/light") : QStringLiteral("samples");
+  return QStringLiteral("%1/%2.png").arg(folder, QString::fromUtf8(sample.file));
 }
 
 }  // namespace chainmail
