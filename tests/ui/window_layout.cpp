@@ -131,6 +131,8 @@ class WindowLayout : public QObject {
     bench.settle();
     QVERIFY2(bench.window.width() <= 1024 && bench.window.height() <= 768,
              qPrintable(QStringLiteral("%1 x %2").arg(bench.window.width()).arg(bench.window.height())));
+    bench.find<QToolBar>("mainToolBar")->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);  // wider than the window
+    bench.settle();
     auto* more = bench.window.findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
     QVERIFY(more->isVisible());
     QCOMPARE(more->icon().name(), QStringLiteral("more"));

@@ -63,8 +63,9 @@ QString lessonsFolder() {
 
 bool isSample(const QString& path) { return isIn(samplesFolder(), path) || isIn(lessonsFolder(), path); }
 
-QString thumbnailOf(const Sample& sample) {
-  return QStringLiteral("samples/%1.png").arg(QString::fromUtf8(sample.file));
+QString thumbnailOf(const Sample& sample, colours::Ground ground) {
+  const QString folder = ground == colours::Ground::light ? QStringLiteral("samples/light") : QStringLiteral("samples");
+  return QStringLiteral("%1/%2.png").arg(folder, QString::fromUtf8(sample.file));
 }
 
 }  // namespace chainmail

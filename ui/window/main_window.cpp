@@ -362,9 +362,13 @@ void MainWindow::addFigures(QMenu& menu) {
 
 /// Shows names beside the icons of the tool bar if there is room for all of them.
 void MainWindow::adaptToolBar() {
-  bar_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  if (bar_->sizeHint().width() > width()) {
-    bar_->setToolButtonStyle(Qt::ToolButtonIconOnly);
+  const auto withNames = Qt::ToolButtonTextBesideIcon;
+  if (bar_->toolButtonStyle() == withNames) {
+    widthWithNames_ = bar_->sizeHint().width();
+  }
+  const auto style = widthWithNames_ <= width() ? withNames : Qt::ToolButtonIconOnly;
+  if (style != bar_->toolButtonStyle()) {
+    bar_->setToolButtonStyle(style);
   }
 }
 
@@ -378,6 +382,7 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 void MainWindow::makeToolBar() {
   bar_ = addToolBar(QStringLiteral("Main"));
   auto* bar = bar_;
+  connect(&colouring_, &Colouring::modeChanged, this, &MainWindow::adaptToolBar, Qt::QueuedConnection);
   bar->setObjectName(QStringLiteral("mainToolBar"));
   bar->setMovable(false);
   files_->fill(*bar);

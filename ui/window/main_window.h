@@ -130,6 +130,7 @@ class MainWindow : public QMainWindow {
   QAction *resetObject_ = nullptr, *unpinAll_ = nullptr, *fitView_ = nullptr;
   ColourSelector* colourBy_;
   QToolBar* bar_ = nullptr;
+  int widthWithNames_ = 0;  // of the tool bar (pixels)
   ElementReadout* readout_;
   QMenu *editMenu_ = nullptr, *objectMenu_ = nullptr, *viewMenu_ = nullptr;
   std::unique_ptr<Docks> docks_;
