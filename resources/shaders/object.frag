@@ -37,7 +37,7 @@ vec4 mapped(float value) {
 }
 
 #if SHADING == 1
-// Returns the smooth normal, or that of the face at creases, towards the viewer.
+// Returns the smooth normal towards the viewer, or that of the face if the two differ much.
 vec3 normal_seen() {
   vec3 of_face = normalize(cross(dFdx(in_view), dFdy(in_view)));
   float size = dot(normal_here, normal_here);

@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QSignalSpy>
 #include <QSplitter>
+#include <QToolBar>
 #include <QToolButton>
 #include <QWheelEvent>
 

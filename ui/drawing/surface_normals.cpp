@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 namespace chainmail {
 namespace {
 
 // If more elements than this fraction are outdated, computing all of them is faster.
 constexpr double fewestForAll = 0.4;
+// An element is at a crease if the normal of a face around it differs more than this from their mean (cosine of 38°).
+constexpr float creaseCosine = 0.79F;
 
 QVector3D positionOf(const Frame& frame, ElementId element) {
   const float* at = frame.positions.data() + std::size_t{3} * element;
   return {at[0], at[1], at[2]};
 }
 
-std::size_t blocksOf(std::size_t elements) {
-  return (elements + Frame::block_elements - 1) / Frame::block_elements;
-}
+std::size_t blocksOf(std::size_t elements) { return (elements + Frame::block_elements - 1) / Frame::block_elements; }
 
 }  // namespace
 
@@ -85,13 +86,27 @@ QVector3D SurfaceNormals::faceNormal(const Frame& frame, std::uint32_t face) con
   return QVector3D::crossProduct(positionOf(frame, corner[1]) - from, positionOf(frame, corner[2]) - from);
 }
 
-void SurfaceNormals::computeAll(const Frame& frame) {
-  std::ranges::fill(normals_, QVector3D());
-  for (std::uint32_t face = 0; 3 * face < corners_.size(); ++face) {
+/// Returns the sum of the normals of the faces around an element, or 0 at a crease.
+QVector3D SurfaceNormals::normalAt(const Frame& frame, ElementId element) const {
+  const auto faces = std::span(around_).subspan(first_[element], first_[element + 1] - first_[element]);
+  QVector3D sum;
+  for (const std::uint32_t face : faces) {
+    sum += faceNormal(frame, face);
+  }
+  const float least = creaseCosine * creaseCosine * sum.lengthSquared();
+  for (const std::uint32_t face : faces) {
     const QVector3D normal = faceNormal(frame, face);
-    for (std::size_t k = 0; k < 3; ++k) {
-      normals_[corners_[std::size_t{3} * face + k]] += normal;
+    const float along = QVector3D::dotProduct(normal, sum);
+    if (along < 0 || along * along < least * normal.lengthSquared()) {
+      return {};
     }
+  }
+  return sum;
+}
+
+void SurfaceNormals::computeAll(const Frame& frame) {
+  for (ElementId element = 0; element < normals_.size(); ++element) {
+    normals_[element] = normalAt(frame, element);
   }
   changed_ = {{0, blocksOf(normals_.size())}};
 }
@@ -99,11 +114,7 @@ void SurfaceNormals::computeAll(const Frame& frame) {
 void SurfaceNormals::computeAround(const Frame& frame) {
   outdatedBlocks_.assign(blocksOf(normals_.size()), false);
   for (const ElementId element : outdated_) {
-    QVector3D sum;
-    for (std::size_t i = first_[element]; i < first_[element + 1]; ++i) {
-      sum += faceNormal(frame, around_[i]);
-    }
-    normals_[element] = sum;
+    normals_[element] = normalAt(frame, element);
     outdatedBlocks_[element / Frame::block_elements] = true;
   }
   for (std::size_t block = 0; block < outdatedBlocks_.size(); ++block) {

@@ -9,7 +9,8 @@
 namespace chainmail {
 
 /// Smooth normals of a surface in space: for each element, the sum of the normals of its faces, weighted by their areas
-/// (not normalised). A new frame only computes the normals of faces that moved.
+/// (not normalised). An element at a crease has none, so that light does not blur the crease. A new frame only computes
+/// the normals of faces that moved.
 class SurfaceNormals {
  public:
   /// Sets the faces, three corners each.
@@ -17,7 +18,7 @@ class SurfaceNormals {
   /// Computes the normals of a frame.
   void follow(const Frame& frame);
 
-  /// One normal per element; 0 for an element without faces.
+  /// One normal per element; 0 for an element at a crease or without faces.
   const std::vector<QVector3D>& normals() const { return normals_; }
   /// Returns the blocks of Frame::block_elements elements whose normals the last follow() computed, in order, as pairs
   /// of first and end.
@@ -27,6 +28,7 @@ class SurfaceNormals {
   void computeAll(const Frame& frame);
   void computeAround(const Frame& frame);
   void collect(const Frame& frame);
+  QVector3D normalAt(const Frame& frame, ElementId element) const;
   QVector3D faceNormal(const Frame& frame, std::uint32_t face) const;
 
   std::vector<ElementId> corners_;

@@ -109,6 +109,7 @@ void PanelArea::listenTo(Panel& panel, int number) {
   View& view = panel.view();
   connect(&view, &View::failed, this, &PanelArea::failed);
   connect(&view, &View::resized, &refit_, qOverload<>(&QTimer::start));
+  connect(&view, &View::sideChosen, &refit_, qOverload<>(&QTimer::start));
   connect(&view, &View::ghostChanged, this, &PanelArea::ghostsChanged);
   connect(&view, &View::cameraChanged, this, [this, &view] {
     for (Panel* other : panels_) {
@@ -236,7 +237,7 @@ void PanelArea::frame(bool atRest) {
   }
 }
 
-/// Fits the views again after a resize, unless the user has panned or zoomed since. Does nothing during a drag, because
+/// Fits the views again after a resize or from another side, unless the user has panned or zoomed since. Does nothing during a drag, because
 /// the object must stay under the cursor.
 void PanelArea::fitAgain() {
   const auto framed = [](Panel* panel) { return panel->view().camera()->framed(); };

@@ -241,11 +241,13 @@ void View::announceCamera() {
 void View::lookFrom(double yaw, double pitch) {
   camera_->lookFrom(yaw, pitch);
   announceCamera();
+  emit sideChosen();
 }
 
 void View::lookFromAxis(int axis, bool positive) {
   camera_->lookFromAxis(axis, positive);
   announceCamera();
+  emit sideChosen();
 }
 
 void View::setParallel(bool parallel) {

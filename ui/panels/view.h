@@ -114,6 +114,8 @@ class View : public QOpenGLWidget {
  signals:
   void cameraChanged();
   void resized();
+  /// The view looks from another side, which the user has chosen by name.
+  void sideChosen();
   void failed(const QString& sentence);
   void drawnStepChanged();
   void ghostChanged();
