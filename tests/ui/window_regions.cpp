@@ -78,7 +78,7 @@ class WindowRegions : public QObject {
   }
 
   void aLensMagnifiesSmallRegionsInAPlane() {
-    Workbench bench(generate({MeshKind::rectangular, {61, 61, 1}, 1, {}}));
+    Workbench bench(generate({MeshKind::grid, {61, 61, 1}, 1, {}}));
     bench.trigger("showValidRegions");
     bench.document().setHighlight({});
     const QImage without = bench.view(0).grabFramebuffer();
