@@ -8,6 +8,7 @@
 #include "common/icons.h"
 #include "common/plot_painting.h"
 #include "common/theme.h"
+#include "document/panel_colour.h"
 #include "drawing/annotation.h"
 #include "drawing/colour_map.h"
 #include "window.h"
@@ -29,6 +30,17 @@ double luminance(const QColor& colour) {
 double contrast(const QColor& one, const QColor& other) {
   const auto [low, high] = std::minmax({luminance(one), luminance(other)});
   return (high + 0.05) / (low + 0.05);
+}
+
+/// Returns the colours of all algorithms, in the shades for up to four panels, on the current ground.
+std::vector<QColor> coloursOfPanels() {
+  std::vector<QColor> all;
+  for (const AlgorithmInfo& one : every_algorithm()) {
+    for (int copy = 0; copy < Document::mostPanels; ++copy) {
+      all.emplace_back(algorithmColour(one.algorithm, copy));
+    }
+  }
+  return all;
 }
 
 constexpr double ofText = 4.5, ofMarks = 3;  // contrast ratios for level AA of WCAG 2.1 (1.4.3, 1.4.11)
@@ -61,13 +73,11 @@ class WindowComfort : public QObject {
                  qPrintable(QStringLiteral("%1 on %2").arg(palette.color(text).name(), palette.color(behind).name())));
       }
       // The figures of a panel have the panel's colour.
-      for (const QColor colour :
-           {QColor(colours::left), QColor(colours::right), QColor(colours::third), QColor(colours::fourth)}) {
-        QVERIFY(contrast(colour, palette.color(QPalette::Window)) >= ofText);
+      for (const QColor& colour : coloursOfPanels()) {
+        QVERIFY2(contrast(colour, palette.color(QPalette::Window)) >= ofText, qPrintable(colour.name()));
       }
       for (const QColor mark :
-           {QColor(colours::left), QColor(colours::right), QColor(colours::third), QColor(colours::fourth),
-            QColor(colours::marked), QColor(colours::pinned), QColor(colours::selected), QColor(colours::lit),
+           {QColor(colours::marked), QColor(colours::pinned), QColor(colours::selected), QColor(colours::lit),
             QColor(colours::inside), QColor(colours::outside), colour_map::at(0), colour_map::at(1)}) {
         QVERIFY2(contrast(mark, colours::background) >= ofMarks, qPrintable(mark.name()));
       }
@@ -78,6 +88,24 @@ class WindowComfort : public QObject {
     }
   }
 
+  void panelsWithOneAlgorithmHaveShadesOfItsColour() {
+    Workbench bench;
+    Document& document = bench.document();
+    QCOMPARE(panelColour(document, 0).on(Ground::light), algorithmColour(Algorithm::generalized).on(Ground::light));
+    document.setAlgorithm(0, Algorithm::exact);
+    document.setAlgorithm(1, Algorithm::exact);
+    bench.settle();
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      const QColor first = panelColour(document, 0).on(ground), second = panelColour(document, 1).on(ground);
+      QCOMPARE(first, algorithmColour(Algorithm::exact).on(ground));
+      QVERIFY(std::abs(first.lightness() - second.lightness()) > 15);
+    }
+    QVERIFY(bench.find<QLabel>("rateName1")->text().contains(QColor(panelColour(document, 1)).name()));
+    document.undoStack().undo();
+    bench.settle();
+    QVERIFY(bench.find<QLabel>("rateName1")->text().contains(QColor(algorithmColour(document.algorithm(1))).name()));
+  }
+
   void themeChangesAtOnceAndIsRemembered() {
     Workbench bench;
     const auto seen = [&](int panel) { return bench.view(panel).grabFramebuffer().pixelColor(3, 3); };
@@ -86,7 +114,8 @@ class WindowComfort : public QObject {
     bench.settle();
     QCOMPARE(seen(0), colours::background.on(Ground::light));
     QCOMPARE(seen(1), colours::background.on(Ground::light));
-    QVERIFY(bench.find<QLabel>("rateName0")->text().contains(colours::left.on(Ground::light).name()));
+    QVERIFY(
+        bench.find<QLabel>("rateName0")->text().contains(panelColour(bench.document(), 0).on(Ground::light).name()));
     QCOMPARE(rememberedTheme(), Theme::light);
     QCOMPARE(rememberedGround(), Ground::light);
     bench.trigger("themeDark");

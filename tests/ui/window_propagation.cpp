@@ -9,6 +9,7 @@
 #include <QTreeView>
 
 #include "common/colours.h"
+#include "document/panel_colour.h"
 #include "drawing/colour_map.h"
 #include "window.h"
 
@@ -186,7 +187,8 @@ class WindowPropagation : public QObject {
     bench.settle();
     QTRY_VERIFY(!bench.window.panel(1).legend().isVisible());
     bench.document().setHighlight({});
-    QVERIFY(bench.distanceFromColour(1, bench.place(1, 22), colours::stronger(colours::ofPanel(1))) < alike);
+    QVERIFY(bench.distanceFromColour(1, bench.place(1, 22), colours::stronger(panelColour(bench.document(), 1))) <
+            alike);
   }
 
   void panelsStepTogetherOrAlone() {

@@ -6,6 +6,7 @@
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
+#include <limits>
 
 #include "panels/algorithm_delegate.h"
 #include "panels/colour_selector.h"
@@ -44,6 +45,8 @@ class WindowWords : public QObject {
     QTest::newRow("almost all") << 0.998 << 12.3 << true
                                 << QStringLiteral("more than 99 % of links violated, worst 12 × rest length");
     QTest::newRow("all") << 1.0 << 1.0 << true << QStringLiteral("100 % of links violated, worst 1 × rest length");
+    QTest::newRow("not finite") << 0.5 << std::numeric_limits<double>::infinity() << true
+                                << QStringLiteral("50 % of links violated, some without a finite length");
     QTest::newRow("none") << 0.0 << 1e-7 << true << QStringLiteral("No link is violated");
     QTest::newRow("at the start") << 0.0 << 0.0 << false << QStringLiteral("Nothing has moved yet");
   }
@@ -53,6 +56,12 @@ class WindowWords : public QObject {
     QFETCH(bool, moved);
     QFETCH(QString, sentence);
     QCOMPARE(violationInWords(statisticsOf(fraction, largest, true), moved), sentence);
+  }
+
+  void withoutFiguresTheSentenceSaysSo() {
+    const ViolationLine line;
+    QCOMPARE(line.sentence(), QStringLiteral("No figures yet"));
+    QVERIFY(line.share() < 0);
   }
 
   void aRemarkOfTheSolverReplacesTheSentence() {

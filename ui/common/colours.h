@@ -6,8 +6,9 @@
 
 class QWidget;
 
-/// All colours that are not in the palette. Colour-blind users can distinguish the marks (Okabe and Ito 2008) on both
-/// grounds. The contrast to the ground is at least 3 for marks (WCAG 2.1, 1.4.11) and 4.5 for text.
+/// All colours that are neither in the palette nor in the table of algorithms (solve/algorithms.cpp). Colour-blind
+/// users can distinguish the marks (Okabe and Ito 2008) on both grounds. The contrast to the ground is at least 3 for
+/// marks (WCAG 2.1, 1.4.11) and 4.5 for text.
 namespace chainmail::colours {
 
 /// The background of text and marks.
@@ -39,10 +40,6 @@ class Colour {
 
 // Views.
 inline constexpr Colour background(0xff15191f, 0xfff8f9fb);
-inline constexpr Colour left(0xffe69f00, 0xff9c4a00);
-inline constexpr Colour right(0xff56b4e9, 0xff0068a8);
-inline constexpr Colour third(0xff00a87a, 0xff006b50);
-inline constexpr Colour fourth(0xffac78ff, 0xff7028b8);
 inline constexpr Colour marked(0xffffffff, 0xff101418);
 inline constexpr Colour pinned(0xfff0e442, 0xff6a5a00);
 inline constexpr Colour selected(0xfff5a6d0, 0xffb02a80);
@@ -76,9 +73,6 @@ QColor solid(const QColor& colour);
 QColor light(const QColor& colour);
 /// Returns a dark variant, for thin lines on a light surface of that colour.
 QColor edge(const QColor& colour);
-
-/// Returns the colour of a panel and of everything that refers to it; panels are numbered from 0.
-inline constexpr Colour ofPanel(int panel) { return std::array{left, right, third, fourth}[std::size_t(panel)]; }
 
 }  // namespace chainmail::colours
 

@@ -11,6 +11,7 @@
 #include "common/colours.h"
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "document/panel_colour.h"
 
 namespace chainmail {
 namespace {
@@ -226,7 +227,7 @@ void Panel::drawHead(QPainter& painter) const {
   QFont bold = font();
   bold.setBold(true);
   painter.setFont(bold);
-  painter.setPen(colours::ofPanel(panel_));
+  painter.setPen(QColor(panelColour(document_, panel_)));
   QRect letter;
   painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, panelName(panel_), &letter);
   painter.setFont(font());

@@ -6,10 +6,10 @@
 #include <QStandardItemModel>
 #include <QToolButton>
 
-#include "common/colours.h"
 #include "common/icons.h"
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "document/panel_colour.h"
 #include "mesh/error.h"
 #include "panels/algorithm_delegate.h"
 #include "panels/ghost_button.h"
@@ -127,9 +127,12 @@ void PanelHead::arrange(View& view) {
   name->setFont(bold);
   auto* swatch = new QLabel;
   swatch->setFixedSize(10, 10);
-  followTheme(*swatch, [swatch, colour = colours::ofPanel(panel_)] {
-    swatch->setStyleSheet(QStringLiteral("background:%1; border-radius:5px").arg(QColor(colour).name()));
-  });
+  const auto colour = [this, swatch] {
+    swatch->setStyleSheet(
+        QStringLiteral("background:%1; border-radius:5px").arg(QColor(panelColour(document_, panel_)).name()));
+  };
+  followTheme(*swatch, colour);
+  connect(&document_, &Document::algorithmChanged, swatch, colour);
   row_->setContentsMargins(8, 6, 4, 6);
   row_->setSpacing(8);
   row_->addWidget(swatch);

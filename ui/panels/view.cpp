@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "document/panel_colour.h"
 #include "drawing/front_links.h"
 #include "drawing/vector_painter.h"
 #include "mesh/error.h"
@@ -54,7 +55,6 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
       links_(links),
       panel_(panel),
       camera_(std::move(camera)),
-      colour_(colours::ofPanel(panel)),
       levels_(std::move(levels)),
       painter_(levels_),
       still_(this),
@@ -83,6 +83,7 @@ void View::listen() {
   });
   connect(&document_, &Document::highlightChanged, this, qOverload<>(&View::update));
   connect(&document_, &Document::pinsChanged, this, qOverload<>(&View::update));
+  connect(&document_, &Document::algorithmChanged, this, qOverload<>(&View::update));  // changes colours of panels
   connect(&document_, &Document::selectionChanged, this, [this] {
     selectionOutdated_ = true;
     selectedHere_ = links_.pointed() == panel_;
@@ -642,7 +643,7 @@ void View::drawObjects(const Easel& on) {
     drawOwn();
     return;
   }
-  const ObjectDrawing::Paint ghostPaint{colours::ofPanel(*ghost_.of), nullptr, {}, look_};
+  const ObjectDrawing::Paint ghostPaint{panelColour(document_, *ghost_.of), nullptr, {}, look_};
   on.own.drawSeeThrough(on.scene, ghost_.ownOpacity(), drawOwn);
   on.ghost->drawSeeThrough(on.scene, ghost_.opacity(),
                            [&] { on.ghost->drawObject(on.scene, ghostPaint, pixelsPerUnit); });
@@ -666,7 +667,7 @@ ObjectDrawing::Paint View::colouredPaint() {
     }
   }
   const ColourValues* values = colouring_.follow(panel_);
-  return {colour_, values, colouring_.scale(panel_)};
+  return {panelColour(document_, panel_), values, colouring_.scale(panel_)};
 }
 
 /// Draws the selection, the highlight, the pins and the tool's stroke. Pins are drawn after the highlight, so that the

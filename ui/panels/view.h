@@ -180,7 +180,6 @@ class View : public QOpenGLWidget {
   PanelLinks& links_;
   int panel_;
   std::shared_ptr<Camera> camera_;
-  colours::Colour colour_;
   Tool* tool_ = nullptr;
   std::vector<Overlay*> overlays_;
   std::shared_ptr<MeshLevels> levels_;

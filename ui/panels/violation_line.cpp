@@ -11,7 +11,7 @@ namespace chainmail {
 namespace {
 
 constexpr int barWidth = 56, barHeight = 10, barMargin = 8;  // pixels
-constexpr double leastShown = 0.04;                           // a smaller share is drawn as this fraction of the bar
+constexpr double leastShown = 0.04;                          // a smaller share is drawn as this fraction of the bar
 
 /// Returns a share as a percentage that is not rounded to none or all.
 QString percentage(double share) {
@@ -35,14 +35,17 @@ QString violationInWords(const Statistics& statistics, bool hasMoved) {
            : whole   ? QStringLiteral("No link is violated")
                      : QStringLiteral("No touched link is violated");
   }
-  return QStringLiteral("%1 of links violated, worst %2 × rest length")
-      .arg(percentage(violation.fraction), QLocale().toString(violation.max, 'g', 2));
+  const QString share = percentage(violation.fraction);
+  return std::isfinite(violation.max) ? QStringLiteral("%1 of links violated, worst %2 × rest length")
+                                            .arg(share, QLocale().toString(violation.max, 'g', 2))
+                                      : QStringLiteral("%1 of links violated, some without a finite length").arg(share);
 }
 
 ViolationLine::ViolationLine() : sentence_(new QLabel) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(barWidth + barMargin, 0, 0, 0);
   row->addWidget(sentence_);
+  sentence_->setText(QStringLiteral("No figures yet"));
   sentence_->setTextFormat(Qt::PlainText);
   sentence_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   sentence_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);

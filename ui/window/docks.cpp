@@ -7,7 +7,6 @@
 #include <array>
 #include <memory>
 
-#include "common/colours.h"
 #include "common/icons.h"
 #include "docks/element_dock.h"
 #include "docks/frame_rate/frame_rate_dock.h"
@@ -22,6 +21,7 @@
 #include "docks/size_test/size_test_dock.h"
 #include "docks/stiffness_dock.h"
 #include "docks/tools_dock.h"
+#include "document/panel_colour.h"
 #include "io/file_actions.h"
 #include "panels/panel.h"
 #include "panels/panel_area.h"
@@ -93,7 +93,7 @@ QDockWidget* makeSizeTest(const DockParts& parts, const Docks& /*made*/) {
     std::vector<SizeTestContestant> inSight;
     for (const int panel : area.inSight()) {
       if (info(document.algorithm(panel)).family() == Family::chainmail) {
-        inSight.push_back({panel, document.algorithm(panel), colours::ofPanel(panel)});
+        inSight.push_back({panel, document.algorithm(panel), panelColour(document, panel)});
       }
     }
     return inSight;

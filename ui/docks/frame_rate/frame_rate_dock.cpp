@@ -11,6 +11,7 @@
 #include "common/panel_names.h"
 #include "common/parameter_row.h"
 #include "common/text.h"
+#include "document/panel_colour.h"
 #include "files/text/outputs.h"
 #include "mesh/error.h"
 #include "panels/panel.h"
@@ -222,7 +223,7 @@ report::Plot FrameRateDock::plotOn(colours::Ground ground) const {
   plot.panels.emplace_back();
   for (std::size_t panel = 0; panel < panels_.size(); ++panel) {
     const QString name = panelName(int(panel)) + QLatin1Char(' ') + text(info(document_.algorithm(int(panel))).label);
-    plot.series.push_back({name.toStdString(), 0, colours::ofPanel(int(panel)).on(ground).name().toStdString()});
+    plot.series.push_back({name.toStdString(), 0, panelColour(document_, int(panel)).on(ground).name().toStdString()});
     for (const QPolygonF& line :
          curveOf(histories_[panel].since(from), quantity, from, shownTo_, drawnPoints / panels_.size())) {
       report::PlotCurve& curve = plot.panels.front().curves.emplace_back(report::PlotCurve{panel, {}});
