@@ -79,7 +79,7 @@ class WindowWords : public QObject {
     bench.settleFigures();
     const Violation& violation = bench.document().frame(0)->statistics.violation;
     QVERIFY(violation.fraction > 0);
-    QVERIFY(line->sentence().contains(QStringLiteral("% of links violated")));
+    QVERIFY(line->sentence().contains(QStringLiteral("links violated, worst ")));
     QCOMPARE(line->share(), violation.fraction);
     bench.document().undoStack().undo();
     QTRY_COMPARE(line->sentence(), QStringLiteral("No link is violated"));

@@ -133,7 +133,8 @@ void Panel::update(const Statistics& statistics) {
       "rest all links.");
   statistics_->setToolTip(statistics.remark.empty() ? help : QString::fromStdString(statistics.remark));
   statistics_->setText(describe(statistics, false));
-  violation_->setToolTip(QStringLiteral("<p>%1</p><p>%2</p>").arg(statistics_->text(), help.toHtmlEscaped()));
+  violation_->setToolTip(QStringLiteral("<p>%1</p><p>%2</p><p>%3</p>")
+                             .arg(violation_->sentence().toHtmlEscaped(), statistics_->text(), help.toHtmlEscaped()));
   if (statistics_->sizeHint().width() > statistics_->width()) {
     statistics_->setText(describe(statistics, true));
   }

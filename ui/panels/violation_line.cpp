@@ -10,7 +10,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int barWidth = 56, barHeight = 10, barMargin = 8;  // pixels
+constexpr int barWidth = 44, barHeight = 10, barMargin = 8;  // pixels
 constexpr double leastShown = 0.04;                          // a smaller share is drawn as this fraction of the bar
 
 /// Returns a share as a percentage that is not rounded to none or all.
@@ -35,17 +35,19 @@ QString violationInWords(const Statistics& statistics, bool hasMoved) {
            : whole   ? QStringLiteral("No link is violated")
                      : QStringLiteral("No touched link is violated");
   }
-  const QString share = percentage(violation.fraction);
-  return std::isfinite(violation.max) ? QStringLiteral("%1 of links violated, worst %2 × rest length")
-                                            .arg(share, QLocale().toString(violation.max, 'g', 2))
-                                      : QStringLiteral("%1 of links violated, some without a finite length").arg(share);
+  const QString share =
+      QStringLiteral("%1 of %2violated, ")
+          .arg(percentage(violation.fraction), whole ? QStringLiteral("links ") : QStringLiteral("touched links "));
+  return share + (std::isfinite(violation.max)
+                      ? QStringLiteral("worst %1 × rest length").arg(QLocale().toString(violation.max, 'g', 2))
+                      : QStringLiteral("some without a finite length"));
 }
 
 ViolationLine::ViolationLine() : sentence_(new QLabel) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(barWidth + barMargin, 0, 0, 0);
   row->addWidget(sentence_);
-  sentence_->setText(QStringLiteral("No figures yet"));
+  words_ = QStringLiteral("No figures yet");
   sentence_->setTextFormat(Qt::PlainText);
   sentence_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   sentence_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -53,9 +55,20 @@ ViolationLine::ViolationLine() : sentence_(new QLabel) {
 }
 
 void ViolationLine::show(const Statistics& statistics, bool hasMoved) {
-  sentence_->setText(violationInWords(statistics, hasMoved));
+  words_ = violationInWords(statistics, hasMoved);
+  fitWords();
   share_ = hasMoved ? statistics.violation.fraction : 0;
   update();
+}
+
+/// Shortens the sentence only as far as the room requires.
+void ViolationLine::fitWords() {
+  sentence_->setText(sentence_->fontMetrics().elidedText(words_, Qt::ElideRight, sentence_->width()));
+}
+
+void ViolationLine::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  fitWords();
 }
 
 void ViolationLine::paintEvent(QPaintEvent* /*event*/) {

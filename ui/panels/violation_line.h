@@ -16,15 +16,19 @@ class ViolationLine : public QWidget {
 
   /// Shows the figures of the last pass.
   void show(const Statistics& statistics, bool hasMoved);
-  QString sentence() const { return sentence_->text(); }
+  const QString& sentence() const { return words_; }
   /// Fraction of the violated links; negative while there is none to show.
   double share() const { return share_; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
+  void fitWords();
+
   QLabel* sentence_;
+  QString words_;  // the whole sentence
   double share_ = -1;
 };
 

@@ -1,6 +1,7 @@
 #include "window/lecture_mode.h"
 
 #include <QDockWidget>
+#include <QLayout>
 #include <QStatusBar>
 #include <QToolBar>
 
@@ -40,7 +41,11 @@ void LectureMode::restore() {
   window_.showNormal();
   window_.restoreGeometry(geometry_);
   window_.statusBar()->show();
+  // restoreState shows tabbed docks one by one. A layout that reacts at once removes some meanwhile, and Qt crashes.
+  window_.layout()->setEnabled(false);
   window_.restoreState(layout_, layoutVersion_);
+  window_.layout()->setEnabled(true);
+  window_.layout()->activate();
   area_.setLecture(false);
 }
 
