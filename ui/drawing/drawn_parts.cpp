@@ -10,8 +10,9 @@
 namespace chainmail {
 namespace {
 
-// A plane object or the links of an object with more links and faces than this are drawn by clusters. They are drawn more
-// coarsely if the links of a lattice are shorter than `fewestPixels`, or if the view shows more than the scene allows.
+// A plane object or the links of an object with more links and faces than this are drawn by clusters. They are drawn
+// more coarsely if the links of a lattice are shorter than `fewestPixels`, or if the view shows more than the scene
+// allows.
 constexpr std::size_t fewestShapes = DetailBudget::fewestShapes;
 constexpr double fewestPixels = 3;  // per link
 constexpr unsigned coarsestStep = 64;
@@ -80,8 +81,8 @@ void DrawnParts::chooseParts(const ObjectDrawing::Scene& scene, const ObjectDraw
   plane_ = plane;
 }
 
-/// Chooses the parts of the object. Faces come first: if the scene allows too few shapes, links are left out, or some of
-/// them if their colours are values.
+/// Chooses the parts of the object. Faces come first: if the scene allows too few shapes, links are left out, or some
+/// of them if their colours are values.
 DrawnParts::Parts DrawnParts::partsOf(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint,
                                       double pixelsPerUnit) const {
   const Look& look = paint.look;

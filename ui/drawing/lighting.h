@@ -10,9 +10,9 @@
 
 namespace chainmail {
 
-/// The light on faces in space: light from all sides, light from the sky above, and a key light at the upper left of the
-/// viewer. The same formula is in resources/shaders/object.frag. Directions are in view space; the brightness is a factor
-/// of the colour, near 1 at most.
+/// The light on faces in space: light from all sides, light from the sky above, and a key light at the upper left of
+/// the viewer. The same formula is in resources/shaders/object.frag. Directions are in view space; the brightness is a
+/// factor of the colour, near 1 at most.
 struct Lighting {
   float everywhere = 1, sky = 0, key = 0;
   /// Light from behind on faces that are seen edge-on, as a fraction of white. If negative, these faces are darker.
@@ -33,8 +33,8 @@ struct Lighting {
   QColor of(const QColor& colour, const QVector3D& normal) const {
     static const QVector3D toKey = QVector3D(-0.42F, 0.58F, 0.70F).normalized();
     static const QVector3D halfway = (toKey + QVector3D(0, 0, 1)).normalized();
-    const float brightness = everywhere + sky * (0.5F + 0.5F * normal.y()) +
-                             key * std::max(0.0F, QVector3D::dotProduct(normal, toKey));
+    const float brightness =
+        everywhere + sky * (0.5F + 0.5F * normal.y()) + key * std::max(0.0F, QVector3D::dotProduct(normal, toKey));
     const float rim = edge * std::pow(1 - std::clamp(normal.z(), 0.0F, 1.0F), 3.0F);
     const float shine = glint * std::pow(std::max(0.0F, QVector3D::dotProduct(normal, halfway)), 32.0F);
     const auto lit = [&](float channel) {

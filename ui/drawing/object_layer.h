@@ -9,8 +9,8 @@
 namespace chainmail {
 
 /// A picture of an object with smooth edges (multisampling) and its depths, which is kept and copied until the object
-/// changes. It can be darkened where other parts of the object hide the light (ambient occlusion). All calls require the
-/// context to be current.
+/// changes. It can be darkened where other parts of the object hide the light (ambient occlusion). All calls require
+/// the context to be current.
 class ObjectLayer : protected QOpenGLExtraFunctions {
  public:
   ObjectLayer() = default;

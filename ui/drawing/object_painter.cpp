@@ -377,8 +377,7 @@ void ObjectPainter::sendNormals() {
   normalsOf_.follow(*frame_);
   for (const auto& [first, end] : normalsOf_.changedBlocks()) {
     const auto& normals = normalsOf_.normals();
-    uploadPart(normals_, normals, first * Frame::block_elements,
-               std::min(end * Frame::block_elements, normals.size()));
+    uploadPart(normals_, normals, first * Frame::block_elements, std::min(end * Frame::block_elements, normals.size()));
   }
 }
 

@@ -14,8 +14,8 @@
 namespace chainmail {
 
 /// Draws with OpenGL. It owns the buffers on the graphics card and sends only changes: the blocks of positions that
-/// moved, and the links and faces that the camera sees, as finely as it can show them. A complete picture of a surface is
-/// drawn once and kept until it changes. All functions except cutsChanged() require the context to be current.
+/// moved, and the links and faces that the camera sees, as finely as it can show them. A complete picture of a surface
+/// is drawn once and kept until it changes. All functions except cutsChanged() require the context to be current.
 class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
  public:
   /// `levels` of the mesh may be shared with other painters.
@@ -145,8 +145,8 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   GLsizei faceIndices_ = 0, freshIndices_ = 0, selectedIndices_ = 0, capIndices_ = 0;
   std::uint64_t partsNumber_ = 0;  // grows when the drawn parts or the section change
   float frontSign_ = 0;            // see ObjectDrawing::frontSign
-  bool capMoved_ = true;  // true if capPositions_ is older than the newest frame
-  Lighting lighting_;     // of the object that is being drawn
+  bool capMoved_ = true;           // true if capPositions_ is older than the newest frame
+  Lighting lighting_;              // of the object that is being drawn
   float fade_ = 0;
   std::uint64_t valuesNumber_ = 0;
 };

@@ -162,7 +162,8 @@ void VectorPainter::drawObject(const Scene& scene, const Paint& wanted, double p
   addFaces(scene, paint);
   addCap(scene);
   addLinks(scene, paint, pixelsPerUnit);
-  if (paint.look.links && !isSolid(*frame_->mesh, paint.look) && parts_.step() == 1 && marksElements(*frame_->mesh, pixelsPerUnit)) {
+  if (paint.look.links && !isSolid(*frame_->mesh, paint.look) && parts_.step() == 1 &&
+      marksElements(*frame_->mesh, pixelsPerUnit)) {
     addElements(scene, paint);
   }
 }

@@ -237,8 +237,8 @@ void PanelArea::frame(bool atRest) {
   }
 }
 
-/// Fits the views again after a resize or from another side, unless the user has panned or zoomed since. Does nothing during a drag, because
-/// the object must stay under the cursor.
+/// Fits the views again after a resize or from another side, unless the user has panned or zoomed since. Does nothing
+/// during a drag, because the object must stay under the cursor.
 void PanelArea::fitAgain() {
   const auto framed = [](Panel* panel) { return panel->view().camera()->framed(); };
   if (!document_.highlight().grabbed && std::ranges::all_of(panels_, framed)) {
