@@ -12,7 +12,7 @@ constexpr double leastContrast = 4.55;  // of text: 4.5 (WCAG 2.1, 1.4.3), and r
 constexpr colours::Colour window(0xff242930, 0xffeceef1), grey(0xffd4dae2, 0xff3c444e);
 
 // Shares of the colour in its shades. Grey on a dark ground is almost white already: its shades are darker.
-constexpr std::array shares{1.0, 0.58, 0.36, 0.2}, sharesOfLightGrey{1.0, 0.88, 0.78, 0.68};
+constexpr std::array shares{1.0, 0.58, 0.36, 0.2}, sharesOfLightGrey{1.0, 0.8, 0.74, 0.68};
 
 /// Returns the colour, lighter on a dark ground and darker on a light one until text can be read.
 QColor readable(const QColor& colour, colours::Ground ground) {
