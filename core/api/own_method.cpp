@@ -230,10 +230,10 @@ void check_own_name(const std::string& name) {
 }
 
 /// Marks of own methods in plots: an hourglass, in colours that differ.
-constexpr std::array<AlgorithmLook, 4> own_looks{{{"M-1-1H1L-1 1H1Z", "#117733", "#4fb06a", "#0f6a2e"},
-                                                  {"M-1-1H1L-1 1H1Z", "#aa4499", "#dd86d0", "#93307f"},
-                                                  {"M-1-1H1L-1 1H1Z", "#999933", "#b9b95a", "#66661a"},
-                                                  {"M-1-1H1L-1 1H1Z", "#44aa99", "#5cc4b2", "#1d6e62"}}};
+constexpr std::array<AlgorithmLook, 4> own_looks{{{"M-1-1H1L-1 1H1Z", "#117733"},
+                                                  {"M-1-1H1L-1 1H1Z", "#aa4499"},
+                                                  {"M-1-1H1L-1 1H1Z", "#999933"},
+                                                  {"M-1-1H1L-1 1H1Z", "#44aa99"}}};
 
 }  // namespace
 

@@ -16,8 +16,8 @@ namespace {
 
 /// The table. To add an algorithm, add a constant to `enum class Algorithm` and an entry here, in its family.
 ///
-/// Shapes differ, so that marks can be told apart without colour. Colours are those of Okabe and Ito (2008) as far as
-/// they reach, then colours that differ in lightness. Any two differ by at least 25 (CIE 1976) on either ground.
+/// Shapes differ, so that marks can be told apart without colour. The colours start from those of Okabe and Ito (2008).
+/// Any two differ by at least 24 (CIE 1976), also after the window has adapted them to text on a dark or light ground.
 std::vector<AlgorithmInfo> make_table() {
   return {
       {.algorithm = Algorithm::generalized,
@@ -25,7 +25,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Generalized ChainMail",
        .source = "Li and Brodlie 2003; Dean 2004, 3.1",
        .summary = "candidates enter at the front of the list, all are admitted",
-       .look = {"M-.9-.9H.9V.9H-.9Z", "#d55e00", "#f07838", "#b23c00"},  // square
+       .look = {"M-.9-.9H.9V.9H-.9Z", "#d55e00"},  // square
        .make = make_list_method<FrontList>,
        .history = follow_list<FrontList>},
       {.algorithm = Algorithm::spiral,
@@ -33,7 +33,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Spiral",
        .source = "Dean 2004, 3.2",
        .summary = "candidates enter at the back of the list, all are admitted",
-       .look = {"M0-1.2L1.15.85H-1.15Z", "#56b4e9", "#66c6ee", "#007393"},  // triangle
+       .look = {"M0-1.2L1.15.85H-1.15Z", "#2fb4cf"},  // triangle
        .make = make_list_method<SpiralList>,
        .history = follow_list<SpiralList>},
       {.algorithm = Algorithm::natural_queue,
@@ -41,7 +41,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Natural Queue ChainMail",
        .source = "Dean 2004, 4.1",
        .summary = "candidates enter at the back, only those not yet updated are admitted",
-       .look = {"M-1 0A1 1 0 1 0 1 0A1 1 0 1 0-1 0Z", "#0072b2", "#5f9df7", "#0050a8"},  // circle
+       .look = {"M-1 0A1 1 0 1 0 1 0A1 1 0 1 0-1 0Z", "#1f64d6"},  // circle
        .make = make_natural_queue,
        .history = follow_natural_queue},
       {.algorithm = Algorithm::enhanced,
@@ -49,7 +49,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Enhanced ChainMail",
        .source = "Schill et al. 1998",
        .summary = "the candidate with the largest violation is taken first",
-       .look = {"M0 1.2L1.15-.85H-1.15Z", "#009e73", "#19b488", "#00694c"},  // triangle on its tip
+       .look = {"M0 1.2L1.15-.85H-1.15Z", "#009e73"},  // triangle on its tip
        .make = make_list_method<EnhancedList>,
        .history = follow_list<EnhancedList>},
       {.algorithm = Algorithm::chainmail_3d,
@@ -58,7 +58,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "3D ChainMail",
        .source = "Frisken-Gibson 1997; Dean 2004, 2.1",
        .summary = "one list per direction, on grids and blocks only",
-       .look = {"M-.4-1.1H.4V-.4H1.1V.4H.4V1.1H-.4V.4H-1.1V-.4H-.4Z", "#cc79a7", "#f29ad0", "#b0309a"},  // cross
+       .look = {"M-.4-1.1H.4V-.4H1.1V.4H.4V1.1H-.4V.4H-1.1V-.4H-.4Z", "#d667c0"},  // cross
        .make = make_list_method<DirectionLists>,
        .history = follow_list<DirectionLists>,
        .needs_grid = true},
@@ -67,7 +67,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Exact ChainMail",
        .source = "this project",
        .summary = "every element moves as little as any valid answer allows",
-       .look = {"M0-1.4L1.1 0L0 1.4L-1.1 0Z", "", "#d4dae2", "#3c444e"},  // diamond
+       .look = {"M0-1.4L1.1 0L0 1.4L-1.1 0Z", ""},  // diamond
        .make = make_method<ExactMethod>,
        .holds_links = true,
        .from_rest = true},
@@ -76,7 +76,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Linear FEM",
        .source = "Bro-Nielsen and Cotin 1996",
        .summary = "linear elasticity on the cells, for small deformations",
-       .look = {"M-1.2-.55H1.2V.55H-1.2Z", "#b8a400", "#c6cf2e", "#566200"},  // bar
+       .look = {"M-1.2-.55H1.2V.55H-1.2Z", "#8a9a00"},  // bar
        .make = make_elastic_method<ElasticMethod::linear_fem>,
        .elastic = ElasticMethod::linear_fem,
        .needs_pins = true},
@@ -85,8 +85,8 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Neo-Hookean FEM",
        .source = "Bonet and Wood 1997",
        .summary = "nonlinear elasticity on the cells: the reference solution",
-       .look = {"M0-1.4L.35-.45L1.33-.43L.56.17L.82 1.13L0 .58L-.82 1.13L-.56.17L-1.33-.43L-.35-.45Z", "#e69f00",
-                "#f2aa1a", "#8c5c00"},  // star
+       .look = {"M0-1.4L.35-.45L1.33-.43L.56.17L.82 1.13L0 .58L-.82 1.13L-.56.17L-1.33-.43L-.35-.45Z",
+                "#d99400"},  // star
        .make = make_elastic_method<ElasticMethod::neo_hookean>,
        .elastic = ElasticMethod::neo_hookean,
        .needs_pins = true},
@@ -96,7 +96,7 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "James and Pai 1999",
        .summary = "linear elasticity on a closed surface of triangles",
        .look = {"M-1.1-.65L-.65-1.1L0-.45L.65-1.1L1.1-.65L.45 0L1.1.65L.65 1.1L0 .45L-.65 1.1L-1.1.65L-.45 0Z",
-                "#882255", "#e0707c", "#741a36"},  // diagonal cross
+                "#a0254f"},  // diagonal cross
        .make = make_elastic_method<ElasticMethod::boundary>,
        .elastic = ElasticMethod::boundary,
        .needs_pins = true},
@@ -105,7 +105,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Free-form deformation",
        .source = "Sederberg and Parry 1986; Hsu et al. 1992",
        .summary = "a lattice of control points deforms space",
-       .look = {"M-.6-1.05H.6L1.2 0L.6 1.05H-.6L-1.2 0Z", "#5b4bb5", "#b283ff", "#6a34c4"},  // hexagon
+       .look = {"M-.6-1.05H.6L1.2 0L.6 1.05H-.6L-1.2 0Z", "#7d55d8"},  // hexagon
        .make = make_elastic_method<ElasticMethod::free_form>,
        .elastic = ElasticMethod::free_form,
        .has_control_points = true},

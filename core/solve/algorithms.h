@@ -28,12 +28,10 @@ enum class Algorithm {
 /// ChainMail, or the methods that ChainMail is compared with.
 enum class Family { chainmail, elastic };
 
-/// Look of an algorithm everywhere: mark and colour, as #rrggbb. The three colours are of one hue.
+/// Mark of an algorithm in plots.
 struct AlgorithmLook {
-  std::string_view path;           // mark in plots: SVG path about (0, 0), of size 1
-  std::string_view colour;         // in plots on any ground; empty: the colour of lines and text
-  std::string_view on_dark = {};   // for text and lines on a dark ground; contrast at least 4.5; empty: grey
-  std::string_view on_light = {};  // the same for a light ground
+  std::string_view path;    // SVG path about (0, 0), of size 1
+  std::string_view colour;  // empty: the colour of lines and text
 };
 
 struct RecordedPass;   // see solve/recorded_pass.h

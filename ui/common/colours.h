@@ -61,6 +61,9 @@ inline constexpr Colour errorSign(0xffff9a80, 0xffb32000);
 inline constexpr Colour checked(0xff1f5f8b, 0xffb8dcf2);
 inline constexpr Colour checkedEdge(0xff3f93cb, 0xff4a90c0);
 
+/// Returns the contrast ratio of two colours, from 1 to 21 (WCAG 2.1).
+double contrast(const QColor& one, const QColor& other);
+
 /// Returns a variant of the colour with more contrast to the ground, which highlights one item among others of that
 /// colour.
 QColor stronger(const QColor& colour);

@@ -6,6 +6,7 @@
 #include <QSvgRenderer>
 #include <cmath>
 
+#include "common/colours.h"
 #include "common/text.h"
 #include "common/theme.h"
 #include "mesh/error.h"
@@ -26,18 +27,6 @@ constexpr double savedPixelRatio = 3;
 
 constexpr double leastContrast = 3;  // contrast of marks with the background (WCAG 2.1, 1.4.11)
 
-double luminanceOf(const QColor& colour) {
-  const auto linear = [](double channel) {
-    return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
-  };
-  return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
-}
-
-double contrastOf(const QColor& one, const QColor& other) {
-  const double a = luminanceOf(one), b = luminanceOf(other);
-  return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
-}
-
 QColor mixed(const QColor& one, const QColor& other, double share) {
   const auto mix = [share](double a, double b) { return float(a + share * (b - a)); };
   return QColor::fromRgbF(mix(one.redF(), other.redF()), mix(one.greenF(), other.greenF()),
@@ -52,7 +41,7 @@ QColor lookColour(std::size_t look, const QPalette& palette) {
     return ink;
   }
   QColor colour(name);
-  for (int step = 0; step < 10 && contrastOf(colour, ground) < leastContrast; ++step) {
+  for (int step = 0; step < 10 && colours::contrast(colour, ground) < leastContrast; ++step) {
     colour = mixed(colour, ink, 0.1);
   }
   return colour;

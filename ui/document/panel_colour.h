@@ -5,8 +5,8 @@
 
 namespace chainmail {
 
-/// Returns the colour of an algorithm, from core's table. `copy` numbers the panels that show the same algorithm; each
-/// has its own shade.
+/// Returns the colour of an algorithm, from core's table, as far adapted to the ground as text needs. `copy` numbers
+/// the panels that show the same algorithm; each has its own shade.
 colours::Colour algorithmColour(Algorithm algorithm, int copy = 0);
 
 /// Returns the colour of a panel and of everything that refers to it: that of its algorithm, in a shade that no earlier
