@@ -27,7 +27,7 @@ double luminance(const QColor& colour) {
   return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
 }
 
-double contrast(const QColor& one, const QColor& other) {
+double contrastOf(const QColor& one, const QColor& other) {
   const auto [low, high] = std::minmax({luminance(one), luminance(other)});
   return (high + 0.05) / (low + 0.05);
 }
@@ -69,21 +69,21 @@ class WindowComfort : public QObject {
       QCOMPARE(colours::ground(), ground);
       const QPalette palette = QApplication::palette();
       for (const auto& [text, behind] : texts) {
-        QVERIFY2(contrast(palette.color(text), palette.color(behind)) >= ofText,
+        QVERIFY2(contrastOf(palette.color(text), palette.color(behind)) >= ofText,
                  qPrintable(QStringLiteral("%1 on %2").arg(palette.color(text).name(), palette.color(behind).name())));
       }
       // The figures of a panel have the panel's colour.
       for (const QColor& colour : coloursOfPanels()) {
-        QVERIFY2(contrast(colour, palette.color(QPalette::Window)) >= ofText, qPrintable(colour.name()));
+        QVERIFY2(contrastOf(colour, palette.color(QPalette::Window)) >= ofText, qPrintable(colour.name()));
       }
       for (const QColor mark :
            {QColor(colours::marked), QColor(colours::pinned), QColor(colours::selected), QColor(colours::lit),
             QColor(colours::inside), QColor(colours::outside), colour_map::at(0), colour_map::at(1)}) {
-        QVERIFY2(contrast(mark, colours::background) >= ofMarks, qPrintable(mark.name()));
+        QVERIFY2(contrastOf(mark, colours::background) >= ofMarks, qPrintable(mark.name()));
       }
       for (const auto& one : algorithms()) {
         const QImage mark = plotMark(one.algorithm, false, 16, 1, palette).toImage();
-        QVERIFY(contrast(mark.pixelColor(8, 8), palette.color(QPalette::Window)) >= ofMarks);
+        QVERIFY(contrastOf(mark.pixelColor(8, 8), palette.color(QPalette::Window)) >= ofMarks);
       }
     }
   }
@@ -201,8 +201,8 @@ class WindowComfort : public QObject {
       for (const auto& [behind, sign] :
            {std::pair(colours::infoGround, colours::infoSign), std::pair(colours::warningGround, colours::warningSign),
             std::pair(colours::errorGround, colours::errorSign)}) {
-        QVERIFY(contrast(words, behind) >= ofText);
-        QVERIFY(contrast(sign, behind) >= ofMarks);
+        QVERIFY(contrastOf(words, behind) >= ofText);
+        QVERIFY(contrastOf(sign, behind) >= ofMarks);
       }
     }
   }

@@ -47,7 +47,7 @@ inline constexpr Colour focus(0xff56b4e9, 0xff0068a8);  // the frame of the view
 inline constexpr Colour lit(0xfff05030, 0xffcc2200);
 inline constexpr Colour inside(0xff2fc49b, 0xff00754f);  // a valid region
 inline constexpr Colour outside(0xfff07a30, 0xffb84800);
-inline constexpr Colour inner(0xfff2b5a7, 0xffd98873);  // the inside of a volume, where a cut or a section shows it
+inline constexpr Colour inner(0xfff3ead6, 0xffc4b596);  // the inside of a volume, where a cut or a section shows it
 
 // The message bar: background and sign. Its text has the colour of the palette.
 inline constexpr Colour infoGround(0xff1d3a52, 0xffdcecf8);
