@@ -197,7 +197,7 @@ class WindowSection : public QObject {
     bench.trigger("flipSection");
     QVERIFY(bench.find<QCheckBox>("sectionFlip")->isChecked());
     const QColor other = bench.colourAt(bench.place(0, inLayer(2)));
-    QVERIFY2(apart(other, open) <= 2, qPrintable(other.name() + open.name()));
+    QVERIFY2(isInside(other), qPrintable(other.name() + open.name()));
   }
 
   void whatIsNotSeenIsNotPicked() {
@@ -331,6 +331,7 @@ class WindowSection : public QObject {
     bench.trigger("showLinks");
     QVERIFY(!holds(picture(0)));
     bench.trigger("showSurfaceAndLinks");
+    bench.choose(0, "Natural Queue ChainMail");  // its blue differs from the red of this corner
     const QImage both = picture(0);
     QVERIFY(apart(both.pixelColor((bench.place(0, 20) + bench.place(0, 21)) / 2), lowLeft) > 40);  // a link
     QVERIFY(apart(both.pixelColor((bench.place(0, 20) * 3 + bench.place(0, 21) * 2 + bench.place(0, 30)) / 6),
