@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iostream>
 
 #include "command_line/progress_line.h"
 #include "files/text/text.h"
@@ -238,6 +239,33 @@ OpenedMesh open_mesh(const MeshOptions& options) {
   Watch watch("reading " + shown(path));
   return in_options({{"space dimension", "--space"}},
                     [&] { return chainmail::open_mesh(path, how, watch.progress()); });
+}
+
+CLI::Option* add_mesh_target(CLI::App& app) {
+  return add_value(app, "-o", "FILE", "output file: " + mesh_endings(FormatUse::write))->required();
+}
+
+void say_flaws(const OpenedMesh& opened) {
+  const std::string words = in_words(opened.flaws);
+  if (!words.empty()) {
+    std::cerr << "chainmail: note: " << words << '\n';
+  }
+}
+
+void add_mesh_file(Outputs& outputs, const MeshOptions& read, const std::string& target, const Mesh& mesh,
+                   const OwnSoftness& softness) {
+  const MeshFormat& format = mesh_format(target, FormatUse::write);
+  outputs.keep(*value_of(read.path));
+  outputs.add(target, [&format, &mesh, &softness](std::ostream& out) {
+    write_mesh(out, format, {mesh, {}, rest_positions(mesh), {{}, softness}});
+  });
+}
+
+void write_mesh_file(const MeshOptions& read, const std::string& target, const Mesh& mesh,
+                     const OwnSoftness& softness) {
+  Outputs outputs;
+  add_mesh_file(outputs, read, target, mesh, softness);
+  outputs.commit();
 }
 
 Error at_option(const Error& error, const std::map<std::string, std::string>& options) {

@@ -28,6 +28,7 @@ struct Command {
 Command add_generate(CLI::App& root);
 Command add_convert(CLI::App& root);
 Command add_fill(CLI::App& root);
+Command add_repair(CLI::App& root);
 Command add_info(CLI::App& root);
 Command add_deform(CLI::App& root);
 /// `command_line` is shown in the report.
@@ -86,6 +87,16 @@ struct MeshOptions {
 };
 MeshOptions add_mesh_options(CLI::App& app);
 OpenedMesh open_mesh(const MeshOptions& options);
+
+/// Adds the required option -o for a mesh file.
+CLI::Option* add_mesh_target(CLI::App& app);
+/// Prints the flaws of a file on standard error, because the result may have other ids or fewer elements.
+void say_flaws(const OpenedMesh& opened);
+/// Adds a mesh file at rest to the outputs. The file that was read is protected.
+void add_mesh_file(Outputs& outputs, const MeshOptions& read, const std::string& target, const Mesh& mesh,
+                   const OwnSoftness& softness);
+/// Writes this file as the only output.
+void write_mesh_file(const MeshOptions& read, const std::string& target, const Mesh& mesh, const OwnSoftness& softness);
 
 /// Returns the error with the name of an option instead of the name of a value. `options` maps names of values to
 /// options.

@@ -1,38 +1,14 @@
-#include <iostream>
 #include <optional>
 
 #include "command_line/common.h"
 #include "command_line/progress_line.h"
 #include "files/mesh/fill.h"
-#include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
 // The subcommands convert and fill.
 namespace chainmail::command_line {
 namespace {
-
-/// Prints the flaws of the file on standard error, because the result may have other ids or fewer elements.
-void say_flaws(const OpenedMesh& opened) {
-  const std::string words = in_words(opened.flaws);
-  if (!words.empty()) {
-    std::cerr << "chainmail: note: " << words << '\n';
-  }
-}
-
-void write(const MeshOptions& options, const std::string& target, const Mesh& mesh, const OwnSoftness& softness) {
-  const MeshFormat& format = mesh_format(target, FormatUse::write);
-  Outputs outputs;
-  outputs.keep(*value_of(options.path));
-  outputs.add(target, [&](std::ostream& out) {
-    write_mesh(out, format, {mesh, {}, rest_positions(mesh), {{}, softness}});
-  });
-  outputs.commit();
-}
-
-CLI::Option* add_target(CLI::App& app) {
-  return add_value(app, "-o", "FILE", "output file: " + mesh_endings(FormatUse::write))->required();
-}
 
 /// Returns the length of the inner edges (mesh units). The default is the mean edge length of the surface.
 double size_of(const CLI::Option* option, const Mesh& surface) {
@@ -45,13 +21,13 @@ double size_of(const CLI::Option* option, const Mesh& surface) {
 Command add_convert(CLI::App& root) {
   CLI::App* app = root.add_subcommand("convert", "Write a mesh in another format");
   MeshOptions options = add_mesh_options(*app);
-  const CLI::Option* target = add_target(*app);
+  const CLI::Option* target = add_mesh_target(*app);
   app->footer("Example:\n  chainmail convert liver.msh -o liver.vtu");
   return {app, [options, target] {
             mesh_format(*value_of(target), FormatUse::write);
             const OpenedMesh opened = open_mesh(options);
             say_flaws(opened);
-            write(options, *value_of(target), *opened.mesh, opened.softness);
+            write_mesh_file(options, *value_of(target), *opened.mesh, opened.softness);
           }};
 }
 
@@ -61,7 +37,7 @@ Command add_fill(CLI::App& root) {
   options.path = add_value(*app, "MESH", "", "file of the surface: " + mesh_endings(FormatUse::read))->required();
   const CLI::Option* size = add_value(
       *app, "--edge", "LENGTH", "approximate length of inner edges, in mesh units [the mean edge of the surface]");
-  const CLI::Option* target = add_target(*app);
+  const CLI::Option* target = add_mesh_target(*app);
   app->footer("Example:\n  chainmail fill sphere.obj --edge 0.8 -o ball.msh");
   return {app, [options, size, target] {
             const std::string path = *value_of(options.path);
@@ -72,7 +48,7 @@ Command add_fill(CLI::App& root) {
             const MeshPointer filled = in_options({{"size", "--edge"}, {"surface", shown(path)}}, [&] {
               return fill(*surface.mesh, size_of(size, *surface.mesh), watch.progress());
             });
-            write(options, *value_of(target), *filled, {});
+            write_mesh_file(options, *value_of(target), *filled, {});
           }};
 }
 

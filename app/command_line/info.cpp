@@ -30,7 +30,8 @@ void write_summary(std::ostream& out, const MeshSummary& summary) {
       << "bounds            " << short_digits(summary.bounds[0]) << " to " << short_digits(summary.bounds[1]) << '\n'
       << "mean link length  " << short_digits(summary.mean_link_length) << '\n';
   for (const auto& [title, words] :
-       {std::pair("read as           ", summary.remark), std::pair("note              ", in_words(summary.flaws))}) {
+       {std::pair("read as           ", summary.remark), std::pair("note              ", in_words(summary.flaws)),
+        std::pair("defects           ", joined(in_words(summary.defects), ", "))}) {
     if (!words.empty()) {
       out << title << words << '\n';
     }

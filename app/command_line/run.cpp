@@ -92,7 +92,7 @@ void run(int argc, char** argv) {
   root.footer(run_footer);
   root.allow_extras()->require_subcommand(0, 1);
   const std::vector<Command> commands{add_generate(root),  add_convert(root), add_fill(root),
-                                      add_info(root),      add_deform(root),  add_compare(root, as_typed(argc, argv)),
+                                      add_repair(root), add_info(root),      add_deform(root),  add_compare(root, as_typed(argc, argv)),
                                       add_calibrate(root), add_ramp(root)};
   for (const Command& command : commands) {
     command.app->allow_extras();
@@ -116,7 +116,7 @@ void run(int argc, char** argv) {
     }
   }
   throw Error("command", "no command was given",
-              "use generate, convert, fill, info, deform, compare, calibrate or ramp; see chainmail --help");
+              "use generate, convert, fill, repair, info, deform, compare, calibrate or ramp; see chainmail --help");
 }
 
 }  // namespace chainmail::command_line

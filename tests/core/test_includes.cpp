@@ -43,8 +43,9 @@ const QList<Room> rooms{
     {"core/files/import", {"core/files/formats"}},
     {"core/files/mesh", {"core/files/import"}},
     {"core/files/import/program", {"core/files/mesh"}},
+    {"core/files/repair", {"core/files/mesh"}},
     {"core/files/session", {"core/files/mesh", "core/simulate"}},
-    {"core/files/results", {"core/files/mesh", "core/calibrate", "core/report/page"}},
+    {"core/files/results", {"core/files/repair", "core/calibrate", "core/report/page"}},
     {"core/api/chainmail", {}},
     {"core/api", {"core/api/chainmail", "core/files/session", "core/files/results"}},
     {"core/api/examples", {"core/api/chainmail"}},
@@ -199,6 +200,7 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("core/files/mesh/open_mesh.cpp", "#include \"files/import/import_process.h\"", true);
   row("core/files/import/program/fill.cpp", "#include \"files/mesh/fill.h\"", true);
   row("core/files/import/program/fill.cpp", "#include <gmsh.h>", true);
+  row("core/files/repair/repair.cpp", "#include \"files/import/import_process.h\"", true);
   row("core/calibrate/optimum.cpp", "#include <nlopt.h>", true);
   row("core/calibrate/drags.h", "#include \"report/run/cases.h\"", true);
   row("core/api/chainmail/body.h", "#include \"chainmail/mesh.h\"", true);
@@ -235,6 +237,7 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("core/report/run/compare.cpp", "#include \"calibrate/calibrate.h\"", false);
   row("core/report/run/compare.cpp", "#include \"report/page/table.h\"", false);
   row("core/files/formats/obj.h", "#include \"files/mesh/mesh_file.h\"", false);
+  row("core/files/repair/repair.cpp", "#include <CGAL/Surface_mesh.h>", false);
   row("core/files/mesh/open_mesh.cpp", "#include \"files/session/session.h\"", false);
   row("core/mesh/mesh.h", "#include \"solve/softness.h\"", false);
   row("core/solve/solver.h", "#include \"measure/violation.h\"", false);

@@ -98,20 +98,6 @@ void count_volume(double volume, double length, MeshFlaws& flaws) {
   }
 }
 
-void count_coincident(const Mesh& mesh, MeshFlaws& flaws) {
-  const int dimension = mesh.space_dimension;
-  std::vector<ElementId> order(mesh.element_count());
-  std::iota(order.begin(), order.end(), ElementId{0});
-  const auto position = [&](ElementId e) {
-    return std::span(mesh.rest).subspan(std::size_t{e} * dimension, dimension);
-  };
-  std::sort(order.begin(), order.end(),
-            [&](ElementId a, ElementId b) { return std::ranges::lexicographical_compare(position(a), position(b)); });
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    flaws.coincident += std::ranges::equal(position(order[i]), position(order[i - 1])) ? 1 : 0;
-  }
-}
-
 void add_words(std::string& words, std::uint64_t count, const char* one, const char* several, const char* behind) {
   if (count > 0) {
     words += (words.empty() ? "" : ", ") + std::to_string(count) + " " + (count == 1 ? one : several) + behind;
@@ -126,6 +112,27 @@ void leave_out_flawed(MeshParts& parts, MeshFlaws& flaws) {
   leave_out_polygons(parts.polygons, flaws);
   leave_out(parts.tetrahedra, flaws);
   leave_out(parts.hexahedra, flaws);
+}
+
+std::vector<ElementId> first_at_position(const Mesh& mesh) {
+  const int dimension = mesh.space_dimension;
+  std::vector<ElementId> order(mesh.element_count());
+  std::iota(order.begin(), order.end(), ElementId{0});
+  std::vector<ElementId> first = order;
+  const auto position = [&](ElementId e) {
+    return std::span(mesh.rest).subspan(std::size_t{e} * dimension, dimension);
+  };
+  std::sort(order.begin(), order.end(), [&](ElementId a, ElementId b) {
+    const auto way = std::lexicographical_compare_three_way(position(a).begin(), position(a).end(),
+                                                            position(b).begin(), position(b).end());
+    return way == 0 ? a < b : way < 0;
+  });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (std::ranges::equal(position(order[i]), position(order[i - 1]))) {
+      first[order[i]] = first[order[i - 1]];
+    }
+  }
+  return first;
 }
 
 void count_flaws(const Mesh& mesh, MeshFlaws& flaws) {
@@ -153,7 +160,10 @@ void count_flaws(const Mesh& mesh, MeshFlaws& flaws) {
                 w = mean({0, 4, 1, 5, 2, 6, 3, 7});
     count_volume(u.cross(v).dot(w), longest({u, v, w}), flaws);
   }
-  count_coincident(mesh, flaws);
+  const auto first = first_at_position(mesh);
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    flaws.coincident += first[e] != e ? 1 : 0;
+  }
 }
 
 std::string in_words(const MeshFlaws& flaws) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "mesh/mesh.h"
 
@@ -23,6 +24,9 @@ struct MeshFlaws {
 
 /// Removes and counts faces and cells that use a point twice, and duplicates of others.
 void leave_out_flawed(MeshParts& parts, MeshFlaws& flaws);
+
+/// Returns, for each element, the lowest id at exactly its rest position: its own id, unless it is a duplicate.
+std::vector<ElementId> first_at_position(const Mesh& mesh);
 
 /// Counts the flaws that a mesh keeps.
 void count_flaws(const Mesh& mesh, MeshFlaws& flaws);

@@ -9,6 +9,21 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const Point& point) { return {point.x(), point.y(), point.z()}; }
 
+Json to_json(const Defects& defects) {
+  return {{"duplicate_vertices", defects.duplicates.size()},
+          {"loose_points", defects.loose.size()},
+          {"holes", defects.holes.size()},
+          {"hole_edges", defects.hole_edges()},
+          {"non_manifold_edges", defects.non_manifold.size()}};
+}
+
+Json counts_of(const MeshSummary& summary) {
+  return {{"elements", summary.elements},
+          {"links", summary.links},
+          {"triangles", summary.triangles},
+          {"defects", to_json(summary.defects)}};
+}
+
 }  // namespace
 
 MeshSummary summarize(const Mesh& mesh) {
@@ -29,6 +44,7 @@ MeshSummary summarize(const Mesh& mesh) {
 MeshSummary summarize(const OpenedMesh& opened) {
   MeshSummary summary = summarize(*opened.mesh);
   summary.flaws = opened.flaws;
+  summary.defects = find_defects(*opened.mesh);
   summary.remark = opened.remark;
   return summary;
 }
@@ -46,7 +62,13 @@ void write_json(std::ostream& out, const MeshSummary& summary) {
                   {"bounds", {to_json(summary.bounds[0]), to_json(summary.bounds[1])}},
                   {"mean_link_length", summary.mean_link_length},
                   {"left_out", {{"unused", flaws.unused}, {"collapsed", flaws.collapsed}, {"doubled", flaws.doubled}}},
-                  {"flaws", {{"flat", flaws.flat}, {"inverted", flaws.inverted}, {"coincident", flaws.coincident}}}};
+                  {"flaws", {{"flat", flaws.flat}, {"inverted", flaws.inverted}, {"coincident", flaws.coincident}}},
+                  {"defects", to_json(summary.defects)}};
+  out << json.dump(2) << '\n';
+}
+
+void write_json(std::ostream& out, const RepairSummary& summary) {
+  const Json json{{"before", counts_of(summary.before)}, {"after", counts_of(summary.after)}};
   out << json.dump(2) << '\n';
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "files/mesh/open_mesh.h"
+#include "files/repair/defects.h"
 #include "measure/violation.h"
 #include "mesh/mesh.h"
 #include "solve/equilibrium_solver.h"
@@ -28,11 +29,19 @@ struct MeshSummary {
   std::array<Point, 2> bounds{Point::Zero(), Point::Zero()};
   double mean_link_length = 0;
   MeshFlaws flaws;
+  Defects defects;
   std::string remark;  // how voxels became elements; usually empty
 };
+/// Leaves flaws, defects and the remark empty.
 MeshSummary summarize(const Mesh& mesh);
 MeshSummary summarize(const OpenedMesh& opened);
 void write_json(std::ostream& out, const MeshSummary& summary);
+
+/// A mesh before and after a repair.
+struct RepairSummary {
+  MeshSummary before, after;
+};
+void write_json(std::ostream& out, const RepairSummary& summary);
 
 /// The passes of a deformation, and the state of the object after them.
 struct DeformSummary {

@@ -88,7 +88,7 @@ void check_links(const MeshParts& parts, const std::vector<Triangle>& triangles)
     refuse("the surface is open: it has " + std::to_string(holes) + (holes == 1 ? " hole" : " holes") +
                ", the first at element " + std::to_string(border[0][0]) + ", near " +
                position_text(parts.rest[border[0][0]]),
-           "close it in another program");
+           "close its holes (Object > Repair, or chainmail repair)");
   }
 }
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <numeric>
 #include <string_view>
@@ -14,23 +13,13 @@
 
 #include "files/import/program/closed_surface.h"
 #include "files/import/program/gmsh_session.h"
+#include "files/import/program/given_surface.h"
 #include "files/import/program/tasks.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail::import {
 namespace {
-
-ImportedMesh load(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::vector<char> letters{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  auto imported = decode_imported(std::as_bytes(std::span(letters)), path);
-  auto* mesh = std::get_if<ImportedMesh>(&imported);
-  if (mesh == nullptr) {
-    refuse("it holds no surface", "use a closed surface");
-  }
-  return std::move(*mesh);
-}
 
 /// Reads the output of Gmsh, which contains its progress.
 class Narration {
@@ -144,7 +133,7 @@ ImportedMesh filled(const MeshParts& surface) {
 }  // namespace
 
 ImportedMesh fill_surface(const std::filesystem::path& path, double size, const Report& report) {
-  const ImportedMesh surface = load(path);
+  const ImportedMesh surface = read_surface(path);
   const auto triangles = closed_surface(surface.parts);
   report(0.1);
   const GmshSession session;

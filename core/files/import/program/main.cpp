@@ -74,6 +74,7 @@ const std::map<std::string, Task>& tasks() {
        [](const auto& path, const auto& arguments) {
          return Imported(fill_surface(path, std::strtod(arguments.at(0).c_str(), nullptr), report_share));
        }},
+      {"close", [](const auto& path, const auto&) { return Imported(close_surface(path, report_share)); }},
   };
   return all;
 }

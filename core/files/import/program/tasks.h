@@ -34,4 +34,9 @@ Volume read_nrrd(const std::filesystem::path& path);
 /// (mesh units), by Gmsh. The points of the surface keep their ids.
 ImportedMesh fill_surface(const std::filesystem::path& path, double size, const Report& report);
 
+/// Closes holes of a surface, in a file as encode_imported writes it, by CGAL. Its triangles are the surface, its
+/// polygons the elements around the holes. Returns its points, then new ones, and the new triangles only. Refuses if no
+/// hole can be closed.
+ImportedMesh close_surface(const std::filesystem::path& path, const Report& report);
+
 }  // namespace chainmail::import

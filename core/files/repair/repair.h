@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "files/repair/defects.h"
+#include "mesh/mesh.h"
+#include "mesh/progress.h"
+#include "solve/softness.h"
+
+namespace chainmail {
+
+/// A mesh after a repair, and where its elements were before.
+struct Repaired {
+  static constexpr ElementId gone = std::numeric_limits<ElementId>::max();
+
+  MeshPointer mesh;
+  /// The new id of each element of the mesh before; `gone` if it was removed.
+  std::vector<ElementId> new_ids;
+};
+
+/// Joins the elements at exactly the same position to the one with the lowest id. Links between them are left out, and
+/// so are faces and cells that then use an element twice or are duplicates of others. Throws Cancelled.
+Repaired weld(const Mesh& mesh, const Progress& progress = {});
+
+/// Removes the elements without links, unless the mesh has no links. Throws Cancelled.
+Repaired remove_loose(const Mesh& mesh, const Progress& progress = {});
+
+/// Closes holes (see Defects::holes) with triangles, by CGAL in the import program. Inside a large hole there are new
+/// elements, so that the new triangles are about as large as those around them; a flat hole gets a flat patch. All
+/// elements, links and faces stay; new ones follow.
+///
+/// Throws Error about the `surface` if it has cells or if no hole can be closed; and Cancelled. A single hole that
+/// cannot be closed stays open.
+Repaired close_holes(const Mesh& mesh, const std::vector<std::vector<ElementId>>& holes, const Progress& progress = {});
+
+/// Returns the softness of single links of `before` for the same links after a repair.
+OwnSoftness carried(const OwnSoftness& own, const Mesh& before, const Repaired& after);
+
+}  // namespace chainmail
