@@ -91,9 +91,15 @@ void run(int argc, char** argv) {
   root.set_version_flag("--version", std::string("chainmail ") + CHAINMAIL_VERSION, "Print the version and exit");
   root.footer(run_footer);
   root.allow_extras()->require_subcommand(0, 1);
-  const std::vector<Command> commands{add_generate(root),  add_convert(root), add_fill(root),
-                                      add_repair(root), add_info(root),      add_deform(root),  add_compare(root, as_typed(argc, argv)),
-                                      add_calibrate(root), add_ramp(root)};
+  const std::vector<Command> commands{add_generate(root),
+                                      add_convert(root),
+                                      add_fill(root),
+                                      add_repair(root),
+                                      add_info(root),
+                                      add_deform(root),
+                                      add_compare(root, as_typed(argc, argv)),
+                                      add_calibrate(root),
+                                      add_ramp(root)};
   for (const Command& command : commands) {
     command.app->allow_extras();
   }

@@ -6,7 +6,8 @@
 using namespace chainmail;
 using namespace chainmail::test;
 
-/// Tests `chainmail convert`, which writes other formats, and `chainmail fill`, which converts surfaces to volumes.
+/// Tests `chainmail convert`, which writes other formats, `chainmail fill`, which converts surfaces to volumes, and
+/// `chainmail repair`.
 class ConvertCommandTest : public QObject {
   Q_OBJECT
 
@@ -15,6 +16,9 @@ class ConvertCommandTest : public QObject {
   void what_was_left_out_is_noted();
   void a_volume_is_taken_as_asked();
   void a_closed_surface_is_filled();
+  void a_mesh_is_repaired();
+  void only_the_repairs_asked_for_are_made();
+  void cells_have_no_holes();
   void bad_usage_is_one_sentence_and_leaves_no_file_data();
   void bad_usage_is_one_sentence_and_leaves_no_file();
 };
@@ -22,6 +26,11 @@ class ConvertCommandTest : public QObject {
 namespace {
 
 const QByteArray tetrahedron = "OFF\n4 4 0\n0 0 0\n3 0 0\n0 3 0\n0 0 3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+
+/// An open cube with a duplicate corner, a loose point, and a fin at one edge.
+const QByteArray broken =
+    "OFF\n11 11 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n0 0 0\n7 7 7\n3 3 0\n"
+    "3 0 2 1\n3 8 3 2\n3 0 1 5\n3 8 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n3 1 2 10\n";
 
 const QByteArray volume =
     "ObjectType = Image\nNDims = 3\nDimSize = 4 1 1\nElementType = MET_UCHAR\nElementDataFile = "
@@ -72,6 +81,53 @@ void ConvertCommandTest::a_closed_surface_is_filled() {
   QVERIFY(read_mesh(program.path("a.msh").toStdString())->tetrahedra.size() > 1);
 }
 
+void ConvertCommandTest::a_mesh_is_repaired() {
+  const Program program;
+  program.write("a.off", broken);
+  const auto outcome = program.run("repair a.off -o a.obj --json a.json");
+  QVERIFY2(outcome.code == 0, outcome.error);
+  QCOMPARE(outcome.out, QByteArray("repaired  1 duplicate vertex welded, 1 loose point removed, 1 hole closed with 2 "
+                                   "triangles\nleft      1 non-manifold edge\n"));
+  const auto mesh = read_mesh(program.path("a.obj").toStdString());
+  QCOMPARE(mesh->element_count(), 9U);
+  QCOMPARE(mesh->triangles.size(), std::size_t{13});
+  const auto defects = [&](const char* when) { return program.json("a.json")[when].toObject()["defects"].toObject(); };
+  QCOMPARE(
+      defects("before"),
+      (QJsonObject{
+          {"duplicate_vertices", 1}, {"loose_points", 1}, {"holes", 1}, {"hole_edges", 4}, {"non_manifold_edges", 1}}));
+  QCOMPARE(
+      defects("after"),
+      (QJsonObject{
+          {"duplicate_vertices", 0}, {"loose_points", 0}, {"holes", 0}, {"hole_edges", 0}, {"non_manifold_edges", 1}}));
+  QCOMPARE(program.json("a.json")["before"].toObject()["elements"].toInt(), 11);
+  QCOMPARE(program.json("a.json")["after"].toObject()["elements"].toInt(), 9);
+}
+
+void ConvertCommandTest::only_the_repairs_asked_for_are_made() {
+  const Program program;
+  program.write("a.off", broken);
+  QCOMPARE(program.run("repair a.off --loose -o a.obj").out,
+           QByteArray("repaired  1 loose point removed\n"
+                      "left      1 duplicate vertex, 1 hole (4 edges), 1 non-manifold edge\n"));
+  QCOMPARE(program.run("repair a.off --weld --holes -o a.obj").out,
+           QByteArray("repaired  1 duplicate vertex welded, 1 hole closed with 2 triangles\n"
+                      "left      1 loose point, 1 non-manifold edge\n"));
+  QVERIFY(program.run("repair a.off -o a.obj --json -").out.startsWith('{'));
+  QCOMPARE(program.run("generate cloth 20x20 -o cloth.obj").code, 0);
+  QCOMPARE(program.run("repair cloth.obj -o whole.obj").out,
+           QByteArray("repaired  nothing\nopen      1 border, the outline of an open surface\n"));
+  QCOMPARE(read_mesh(program.path("whole.obj").toStdString())->triangles.size(), std::size_t{722});
+}
+
+void ConvertCommandTest::cells_have_no_holes() {
+  const Program program;
+  QCOMPARE(program.run("generate tetra 2x2x2 -o a.msh").code, 0);
+  QCOMPARE(program.run("repair a.msh -o b.msh").out, QByteArray("repaired  nothing\n"));
+  check_refused(program, "repair a.msh --holes -o c.msh",
+                "--holes: the object has cells, and only surfaces have holes; ");
+}
+
 void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
   QTest::addColumn<QString>("arguments");
   QTest::addColumn<QString>("sentence");
@@ -91,6 +147,12 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
                            << "a.mha: no voxel has a density of 41 or more; ";
   QTest::newRow("open") << "fill open.off -o a.msh"
                         << "open.off: the surface is open: it has 1 hole, ";
+  QTest::newRow("repair itself") << "repair a.mha -o a.mha"
+                                 << "a.mha: a .mha file can be opened but not written; ";
+  QTest::newRow("repair twice") << "repair a.off -o b.obj --json b.obj"
+                                << "b.obj: ";
+  QTest::newRow("repair nothing") << "repair a.off --fins -o b.obj"
+                                  << "--fins: there is no such option; ";
   QTest::newRow("size") << "fill a.off --edge -1 -o a.msh"
                         << "--edge: it must be a number above 0; ";
 }

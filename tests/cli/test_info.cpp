@@ -21,7 +21,7 @@ void InfoCommandTest::json_has_the_keys_of_the_contract() {
   QCOMPARE(outcome.code, 0);
   const auto info = QJsonDocument::fromJson(outcome.out).object();
   QStringList keys = info.keys();
-  QCOMPARE(keys, (QStringList{"bounds", "components", "elements", "flaws", "hexahedra", "left_out", "links",
+  QCOMPARE(keys, (QStringList{"bounds", "components", "defects", "elements", "flaws", "hexahedra", "left_out", "links",
                               "mean_link_length", "object_dimension", "space_dimension", "tetrahedra", "triangles"}));
   QCOMPARE(info["elements"].toInt(), 5);
   QCOMPARE(info["links"].toInt(), 4);
@@ -32,6 +32,11 @@ void InfoCommandTest::json_has_the_keys_of_the_contract() {
   QCOMPARE(info["components"].toInt(), 2);
   QCOMPARE(info["bounds"].toArray(), (QJsonArray{QJsonArray{0, 0, 3}, QJsonArray{4, 6, 3}}));
   QCOMPARE(info["mean_link_length"].toDouble(), 3.5);
+  QCOMPARE(
+      info["defects"].toObject(),
+      (QJsonObject{
+          {"duplicate_vertices", 0}, {"loose_points", 1}, {"holes", 0}, {"hole_edges", 0}, {"non_manifold_edges", 0}}));
+  QVERIFY(program.run("info a.obj").out.contains("\ndefects           1 loose point\n"));
 }
 
 void InfoCommandTest::size_and_spacing_come_first() {

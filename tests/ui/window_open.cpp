@@ -10,6 +10,7 @@
 #include <QSpinBox>
 #include <QTemporaryDir>
 #include <QTextStream>
+#include <QToolButton>
 #include <cmath>
 
 #include "io/file_actions.h"
@@ -142,6 +143,76 @@ class WindowOpen : public QObject {
     QVERIFY(!fill->isEnabled());
   }
 
+  void theDefectsOfAFileAreNamedAndRepaired() {
+    Workbench bench;
+    bench.open(brokenCube());
+    const auto* bar = bench.find<QFrame>("repairBar");
+    QVERIFY(bar->isVisible());
+    QCOMPARE(repairText(bench), QStringLiteral("1 duplicate vertex · 1 loose point · 1 hole (4 edges) · 1 non-manifold "
+                                               "edge"));
+    QVERIFY(!messages(bench).sentence().contains(QStringLiteral("position")));  // named once
+    const MeshPointer broken = bench.document().mesh();
+    bench.find<QPushButton>("repairWeld")->click();
+    bench.settle();
+    QCOMPARE(repairText(bench), QStringLiteral("1 loose point · 1 hole (4 edges) · 1 non-manifold edge"));
+    QVERIFY(!bench.find<QPushButton>("repairWeld")->isVisible());
+    QCOMPARE(bench.document().mesh()->element_count(), broken->element_count() - 1);
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("weld 1 duplicate vertex"));
+    bench.trigger("undo");
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), broken);
+    QVERIFY(bench.find<QPushButton>("repairWeld")->isVisible());
+    bench.trigger("redo");
+    bench.find<QPushButton>("repairLoose")->click();
+    bench.settle();
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("remove 1 loose point"));
+    bench.find<QPushButton>("repairHoles")->click();
+    bench.settle();
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("close 1 hole"));
+    QCOMPARE(bench.document().mesh()->triangles.size(), broken->triangles.size() + 2);
+    QCOMPARE(repairText(bench), QStringLiteral("1 non-manifold edge"));
+    QCOMPARE(bench.document().name(), QStringLiteral("broken.off"));
+    QVERIFY(!bench.find<QPushButton>("repairLoose")->isVisible() &&
+            !bench.find<QPushButton>("repairHoles")->isVisible());
+  }
+
+  void showSelectsOneDefectAfterAnother() {
+    Workbench bench;
+    bench.open(brokenCube());
+    auto* show = bench.find<QPushButton>("repairShow");
+    using Ids = std::vector<ElementId>;
+    for (const auto& [ids, name] :
+         {std::pair(Ids{8}, "duplicate vertices"), std::pair(Ids{9}, "loose points"),
+          std::pair(Ids{4, 5, 6, 7}, "hole 1 of 1, 4 edges"), std::pair(Ids{1, 2}, "non-manifold edges"),
+          std::pair(Ids{8}, "duplicate vertices")}) {
+      show->click();
+      QCOMPARE(bench.document().selection().elements, ids);
+      QCOMPARE(bench.find<QLabel>("repairShown")->text(), QStringLiteral("Selected: %1").arg(QLatin1String(name)));
+    }
+    bench.find<QToolButton>("repairClose")->click();
+    QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
+    bench.trigger("repairMesh");
+    bench.settle();
+    QVERIFY(bench.find<QFrame>("repairBar")->isVisible());
+  }
+
+  void anObjectWithoutDefectsHasNoBar() {
+    Workbench bench;
+    bench.open(brokenCube());
+    bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+    QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
+    bench.trigger("repairMesh");
+    bench.settle();
+    QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
+    QCOMPARE(messages(bench).sentence(), QStringLiteral("sphere.obj has no defects to repair"));
+    const MeshPointer cloth = generate({MeshKind::cloth, {20, 20, 1}, 1, {}});
+    bench.document().replaceMesh(cloth, QStringLiteral("cloth"), QStringLiteral("build"));
+    bench.trigger("repairMesh");
+    bench.settle();
+    QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
+    QVERIFY(messages(bench).sentence().contains(QStringLiteral("outline of an open surface")));
+  }
+
   void theFillOfferedSuitsLinearFem() {
     Workbench bench;
     bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
@@ -207,6 +278,20 @@ class WindowOpen : public QObject {
       }
     }
     return path;
+  }
+  /// Writes an open cube with a duplicate corner, a loose point, and a fin at one edge.
+  QString brokenCube() const {
+    QString path = folder_.filePath(QStringLiteral("broken.off"));
+    QFile file(path);
+    if (file.open(QIODevice::WriteOnly)) {
+      file.write(
+          "OFF\n11 11 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n0 0 0\n7 7 7\n3 3 0\n"
+          "3 0 2 1\n3 8 3 2\n3 0 1 5\n3 8 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n3 1 2 10\n");
+    }
+    return path;
+  }
+  static QString repairText(Workbench& bench) {
+    return bench.find<QLabel>("repairText")->text().replace(QChar::Nbsp, QLatin1Char(' '));
   }
   static MessageBar& messages(Workbench& bench) { return *bench.window.findChild<MessageBar*>(); }
 

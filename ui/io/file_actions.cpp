@@ -16,6 +16,7 @@
 #include "files/mesh/mesh_formats.h"
 #include "files/mesh/open_mesh.h"
 #include "files/session/session.h"
+#include "io/mesh_repair.h"
 #include "io/picture_file.h"
 #include "io/samples.h"
 #include "io/sessions.h"
@@ -83,7 +84,9 @@ QString openingReport(const QString& name, const OpenedMesh& opened, std::size_t
   if (mesh.space_dimension == 3 && usuallyZUp(name)) {
     report += QStringLiteral(". The z axis points up, which is a guess: see the View menu");
   }
-  if (const std::string flaws = in_words(opened.flaws); !flaws.empty()) {
+  MeshFlaws told = opened.flaws;
+  told.coincident = 0;  // the bar of repairs names duplicates
+  if (const std::string flaws = in_words(told); !flaws.empty()) {
     report += QStringLiteral(". ") + text(flaws);
   }
   return report;
@@ -98,7 +101,8 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
       jobs_(jobs),
       sessions_(sessions),
       sheets_(new Sheets(window, document, jobs)),
-      volumes_(new Volumes(document, jobs)) {
+      volumes_(new Volumes(document, jobs)),
+      repair_(new MeshRepair(document, jobs, this)) {
   connect(volumes_, &Volumes::opened, this, &FileActions::remember);
   connect(sheets_, &Sheets::failed, this, &FileActions::failed);
   connect(sheets_, &Sheets::opened, this, &FileActions::remember);
@@ -225,13 +229,15 @@ void FileActions::read(const QString& path, bool first, bool ask) {
                 if (is_volume(asPath(path))) {
                   return ask ? volumes_->read(path, first, progress) : volumes_->readAsOffered(path, progress);
                 }
-                const OpenedMesh opened = open_mesh(asPath(path), {}, progress);
-                return [this, opened, path, first] { show(opened, path, first); };
+                const OpenedMesh opened = open_mesh(asPath(path), {}, progress.part(0, 0.9));
+                const Defects defects = find_defects(*opened.mesh, progress.part(0.9, 1));
+                return [this, opened, defects, path, first] { show(opened, defects, path, first); };
               });
 }
 
-void FileActions::show(const OpenedMesh& opened, const QString& path, bool first) {
+void FileActions::show(const OpenedMesh& opened, const Defects& defects, const QString& path, bool first) {
   const QString name = QFileInfo(path).fileName();
+  repair_->remember(opened.mesh, defects);
   document_.replaceMesh(opened.mesh, name, QStringLiteral("open %1").arg(name));
   if (first) {
     document_.undoStack().clear();

@@ -10,6 +10,8 @@ class QToolBar;
 
 namespace chainmail {
 
+struct Defects;
+class MeshRepair;
 class Sessions;
 class Sheets;
 class Volumes;
@@ -28,6 +30,7 @@ class FileActions : public QObject {
   void fill(QToolBar& bar) const;
   Sheets& sheets() { return *sheets_; }
   Volumes& volumes() { return *volumes_; }
+  MeshRepair& repair() { return *repair_; }
   void open();
   /// Saves the session to its file; asks for one if there is none yet.
   void saveSession();
@@ -53,7 +56,7 @@ class FileActions : public QObject {
   void addSaveActions(QMenu& menu);
   void addShapeActions(QMenu& menu);
   void read(const QString& path, bool first, bool ask);
-  void show(const OpenedMesh& opened, const QString& path, bool first);
+  void show(const OpenedMesh& opened, const Defects& defects, const QString& path, bool first);
   void write(const QString& path, const std::shared_ptr<const Frame>& shape);
   void fillRecent();
   void remember(const QString& path);
@@ -65,6 +68,7 @@ class FileActions : public QObject {
   Sessions& sessions_;
   Sheets* sheets_;
   Volumes* volumes_;
+  MeshRepair* repair_;
   QAction* open_ = nullptr;
   QAction* save_ = nullptr;
   QMenu* recent_ = nullptr;

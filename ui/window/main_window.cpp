@@ -17,8 +17,10 @@
 
 #include "common/icons.h"
 #include "io/file_actions.h"
+#include "io/mesh_repair.h"
 #include "io/picture_actions.h"
 #include "io/recovery_bar.h"
+#include "io/repair_bar.h"
 #include "io/sessions.h"
 #include "io/sheet_bar.h"
 #include "io/sheets.h"
@@ -134,6 +136,7 @@ void MainWindow::arrange() {
   column->addWidget(messages_);
   column->addWidget(&files_->sheets().bar());
   column->addWidget(&files_->volumes().bar());
+  column->addWidget(&files_->repair().bar());
   column->addWidget(filling_);
   column->addWidget(pinBar_);
   column->addWidget(area_, 1);
@@ -179,6 +182,7 @@ void MainWindow::listenToFiles() {
   connect(&jobs_, &Jobs::failed, messages_, &MessageBar::say);
   connect(files_, &FileActions::failed, messages_, &MessageBar::say);
   connect(files_, &FileActions::noted, messages_, &MessageBar::note);
+  connect(&files_->repair(), &MeshRepair::noted, messages_, &MessageBar::note);
   connect(files_, &FileActions::saved, this, [this](const QString& path) {
     messages_->clear();
     showStatus(QStringLiteral("Saved %1").arg(path));
@@ -318,6 +322,7 @@ void MainWindow::fillObjectMenu(QMenu& menu) {
   unpinAll_->setObjectName(QStringLiteral("unpinAll"));
   unpinAll_->setStatusTip(QStringLiteral("Lets all pinned elements move again"));
   menu.addMenu(&pinLayers_->menu());
+  files_->repair().fill(menu);
   filling_->fill(menu);
   const auto adapt = [this] { unpinAll_->setEnabled(!document_.pins().empty()); };
   connect(&document_, &Document::pinsChanged, unpinAll_, adapt);

@@ -123,8 +123,8 @@ std::vector<ElementId> first_at_position(const Mesh& mesh) {
     return std::span(mesh.rest).subspan(std::size_t{e} * dimension, dimension);
   };
   std::sort(order.begin(), order.end(), [&](ElementId a, ElementId b) {
-    const auto way = std::lexicographical_compare_three_way(position(a).begin(), position(a).end(),
-                                                            position(b).begin(), position(b).end());
+    const auto way = std::lexicographical_compare_three_way(position(a).begin(), position(a).end(), position(b).begin(),
+                                                            position(b).end());
     return way == 0 ? a < b : way < 0;
   });
   for (std::size_t i = 1; i < order.size(); ++i) {

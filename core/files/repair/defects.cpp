@@ -121,7 +121,7 @@ class Borders {
   /// Walks along unused edges until there is none, and takes each loop out of the way.
   void walk(ElementId from, std::vector<Loop>& found) {
     std::vector<ElementId> way{from};
-    std::vector<std::uint32_t> taken;                      // the edge behind each element of the way
+    std::vector<std::uint32_t> taken;                          // the edge behind each element of the way
     std::unordered_map<ElementId, std::size_t> on{{from, 0}};  // index of each element of the way
     while (const auto edge = unused_at(way.back())) {
       used_[*edge] = true;

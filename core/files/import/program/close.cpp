@@ -3,9 +3,11 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/iterator.h>
+#include <CGAL/utility.h>
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
 #include <string>
 #include <vector>
@@ -53,9 +55,9 @@ class OrientedSurface {
   }
 
   Halfedges& halfedges() { return halfedges_; }
-  ElementId original(Halfedges::Vertex_index vertex) const { return original_[vertex]; }
 
-  /// Returns one halfedge of each border whose edges are all among these.
+  /// Returns one halfedge of each border whose edges are all among these. A border that visits copies of one element
+  /// is left out: its patch could join them.
   std::vector<Halfedge> borders(const std::set<EdgeEnds>& edges) const {
     std::vector<Halfedge> found;
     std::vector<bool> seen(halfedges_.num_halfedges(), false);
@@ -63,16 +65,25 @@ class OrientedSurface {
       if (!halfedges_.is_border(start) || seen[start]) {
         continue;
       }
-      bool asked = true;
       for (const Halfedge one : CGAL::halfedges_around_face(start, halfedges_)) {
         seen[one] = true;
-        asked = asked && edges.contains(ends(original_[halfedges_.source(one)], original_[halfedges_.target(one)]));
       }
-      if (asked) {
+      const auto around = edges_at(start);
+      if (visits_each_once(start) &&
+          std::all_of(around.begin(), around.end(), [&](const EdgeEnds& edge) { return edges.contains(edge); })) {
         found.push_back(start);
       }
     }
     return found;
+  }
+
+  /// Returns the edges of the border at a halfedge.
+  std::vector<EdgeEnds> edges_at(Halfedge border) const {
+    std::vector<EdgeEnds> edges;
+    for (const Halfedge one : CGAL::halfedges_around_face(border, halfedges_)) {
+      edges.push_back(ends(original_[halfedges_.source(one)], original_[halfedges_.target(one)]));
+    }
+    return edges;
   }
 
   /// Returns the points of the surface and the new ones, and the triangles that were added.
@@ -99,6 +110,13 @@ class OrientedSurface {
   }
 
  private:
+  bool visits_each_once(Halfedge border) const {
+    std::set<ElementId> visited;
+    const auto around = CGAL::halfedges_around_face(border, halfedges_);
+    return std::all_of(around.begin(), around.end(),
+                       [&](Halfedge one) { return visited.insert(original_[halfedges_.target(one)]).second; });
+  }
+
   /// Finds the element that each point is a copy of: in each face, it has the position of one corner.
   void find_originals(const MeshParts& parts, const std::vector<PatchKernel::Point_3>& points,
                       const std::vector<std::vector<std::size_t>>& faces) {
@@ -122,9 +140,11 @@ class OrientedSurface {
   std::size_t faces_ = 0;            // of the surface itself
 };
 
-/// Returns the edges around the holes that are given as polygons.
-std::set<EdgeEnds> edges_around(const std::vector<ElementId>& polygons) {
-  std::set<EdgeEnds> edges;
+using ElementLoop = std::vector<ElementId>;
+
+/// Returns the holes that are given as polygons.
+std::vector<ElementLoop> holes_of(const std::vector<ElementId>& polygons) {
+  std::vector<ElementLoop> holes;
   for (std::size_t i = 0; i < polygons.size(); i += polygons[i] + 1) {
     const ElementId count = polygons[i];
     if (count > most_hole_edges) {
@@ -132,9 +152,23 @@ std::set<EdgeEnds> edges_around(const std::vector<ElementId>& polygons) {
                  " can be closed",
              "close it in another program");
     }
-    for (ElementId j = 0; j < count; ++j) {
-      edges.insert(ends(polygons[i + 1 + j], polygons[i + 1 + (j + 1) % count]));
-    }
+    const auto first = polygons.begin() + std::ptrdiff_t(i) + 1;
+    holes.emplace_back(first, first + count);
+  }
+  return holes;
+}
+
+template <class Visit>
+void for_each_edge(const ElementLoop& loop, Visit visit) {
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    visit(ends(loop[i], loop[(i + 1) % loop.size()]));
+  }
+}
+
+std::set<EdgeEnds> edges_around(const std::vector<ElementLoop>& holes) {
+  std::set<EdgeEnds> edges;
+  for (const ElementLoop& hole : holes) {
+    for_each_edge(hole, [&](const EdgeEnds& edge) { edges.insert(edge); });
   }
   return edges;
 }
@@ -149,27 +183,67 @@ bool close_hole(Halfedges& surface, Halfedge border) {
   return !faces.empty();
 }
 
+/// Returns the hole in the direction in which its patch has the orientation of the faces next to it.
+ElementLoop directed(ElementLoop hole, const MeshParts& parts) {
+  const bool along = std::any_of(parts.triangles.begin(), parts.triangles.end(), [&](const auto& t) {
+    return (t[0] == hole[0] && t[1] == hole[1]) || (t[1] == hole[0] && t[2] == hole[1]) ||
+           (t[2] == hole[0] && t[0] == hole[1]);
+  });
+  if (along) {
+    std::reverse(hole.begin(), hole.end());
+  }
+  return hole;
+}
+
+/// Closes a hole whose border meets another hole or a non-manifold edge, with triangles between its elements only.
+void close_alone(const ElementLoop& hole, const MeshParts& given, std::vector<std::array<ElementId, 3>>& triangles) {
+  std::vector<PatchKernel::Point_3> points;
+  for (const ElementId e : hole) {
+    points.emplace_back(given.rest[e].x(), given.rest[e].y(), given.rest[e].z());
+  }
+  std::vector<CGAL::Triple<int, int, int>> patch;
+  CGAL::Polygon_mesh_processing::triangulate_hole_polyline(points, std::back_inserter(patch));
+  for (const auto& [a, b, c] : patch) {
+    triangles.push_back({hole[std::size_t(a)], hole[std::size_t(b)], hole[std::size_t(c)]});
+  }
+}
+
+/// Returns the patches of all holes that can be closed.
+ImportedMesh closed(const MeshParts& given, const std::vector<ElementLoop>& holes, const Report& report) {
+  OrientedSurface surface(given);
+  std::set<EdgeEnds> open = edges_around(holes);
+  const auto borders = surface.borders(open);
+  for (std::size_t i = 0; i < borders.size(); ++i) {
+    report(0.1 + 0.9 * double(i) / double(borders.size()));
+    const auto around = surface.edges_at(borders[i]);
+    if (close_hole(surface.halfedges(), borders[i])) {
+      std::for_each(around.begin(), around.end(), [&](const EdgeEnds& edge) { open.erase(edge); });
+    }
+  }
+  ImportedMesh mesh = surface.patches(given);
+  for (const ElementLoop& hole : holes) {
+    bool is_open = true;
+    for_each_edge(hole, [&](const EdgeEnds& edge) { is_open = is_open && open.contains(edge); });
+    if (is_open) {
+      close_alone(directed(hole, given), given, mesh.parts.triangles);
+    }
+  }
+  return mesh;
+}
+
 }  // namespace
 
 ImportedMesh close_surface(const std::filesystem::path& path, const Report& report) {
   const ImportedMesh given = read_surface(path);
-  const auto edges = edges_around(given.parts.polygons);
-  bool closed = false;
   try {
-    OrientedSurface surface(given.parts);
-    const auto borders = surface.borders(edges);
-    for (std::size_t i = 0; i < borders.size(); ++i) {
-      report(0.1 + 0.9 * double(i) / double(borders.size()));
-      closed = close_hole(surface.halfedges(), borders[i]) || closed;
-    }
-    if (closed) {
-      return surface.patches(given.parts);
+    ImportedMesh mesh = closed(given.parts, holes_of(given.parts.polygons), report);
+    if (!mesh.parts.triangles.empty()) {
+      return mesh;
     }
   } catch (const CGAL::Failure_exception&) {
     refuse("CGAL failed to close its holes", "close them in another program");
   }
-  refuse("none of its holes can be closed: their borders meet non-manifold edges, or intersect themselves",
-         "close them in another program");
+  refuse("none of its holes can be closed", "close them in another program");
 }
 
 }  // namespace chainmail::import

@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "files/import/program/closed_surface.h"
-#include "files/import/program/gmsh_session.h"
 #include "files/import/program/given_surface.h"
+#include "files/import/program/gmsh_session.h"
 #include "files/import/program/tasks.h"
 #include "files/text/text.h"
 #include "mesh/error.h"

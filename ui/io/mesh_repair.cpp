@@ -1,0 +1,173 @@
+#include "io/mesh_repair.h"
+
+#include <algorithm>
+
+#include "common/text.h"
+#include "io/repair_bar.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+/// Elements that Show selects together.
+struct Shown {
+  QString name;
+  std::vector<ElementId> elements;  // ascending
+};
+
+std::vector<ElementId> ascending(std::vector<ElementId> elements) {
+  std::sort(elements.begin(), elements.end());
+  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+  return elements;
+}
+
+/// Returns what Show selects, one after another: all duplicates, all loose points, each hole, all other edges.
+std::vector<Shown> shownOf(const Defects& defects) {
+  std::vector<Shown> all;
+  const auto add = [&all](const QString& name, const std::vector<ElementId>& elements) {
+    if (!elements.empty()) {
+      all.push_back({name, ascending(elements)});
+    }
+  };
+  add(QStringLiteral("duplicate vertices"), defects.duplicates);
+  add(QStringLiteral("loose points"), defects.loose);
+  for (std::size_t i = 0; i < defects.holes.size(); ++i) {
+    add(QStringLiteral("hole %L1 of %L2, %L3 edges").arg(i + 1).arg(defects.holes.size()).arg(defects.holes[i].size()),
+        defects.holes[i]);
+  }
+  std::vector<ElementId> ends;
+  for (const auto& edge : defects.non_manifold) {
+    ends.insert(ends.end(), edge.begin(), edge.end());
+  }
+  add(QStringLiteral("non-manifold edges"), ends);
+  return all;
+}
+
+QString nothingToRepair(const QString& name, const Defects& defects) {
+  return QStringLiteral("%1 has no defects to repair").arg(name) +
+         (defects.outlines == 0
+              ? QString()
+              : QStringLiteral(". %1 not a hole but the outline of an open surface")
+                    .arg(defects.outlines == 1 ? QStringLiteral("Its border is")
+                                               : QStringLiteral("Each of its %L1 borders is").arg(defects.outlines)));
+}
+
+}  // namespace
+
+MeshRepair::MeshRepair(Document& document, Jobs& jobs, QObject* parent)
+    : QObject(parent), document_(document), jobs_(jobs), bar_(new RepairBar) {
+  connect(&document_, &Document::meshChanged, this, &MeshRepair::follow);
+  connect(bar_, &RepairBar::showRequested, this, &MeshRepair::showNext);
+  connect(bar_, &RepairBar::weldRequested, this, &MeshRepair::weld);
+  connect(bar_, &RepairBar::removeLooseRequested, this, &MeshRepair::removeLoose);
+  connect(bar_, &RepairBar::closeHolesRequested, this, &MeshRepair::closeHoles);
+  connect(bar_, &RepairBar::dismissed, this, &MeshRepair::dismiss);
+}
+
+void MeshRepair::fill(QMenu& menu) {
+  auto* action = menu.addAction(QStringLiteral("&Repair…"), this, &MeshRepair::check);
+  action->setObjectName(QStringLiteral("repairMesh"));
+  action->setStatusTip(QStringLiteral(
+      "Looks for duplicate vertices, loose points, holes and non-manifold edges, and offers to repair them"));
+}
+
+void MeshRepair::remember(const MeshPointer& mesh, Defects defects) {
+  std::erase_if(checked_, [&mesh](const Checked& one) { return one.mesh.expired() || one.mesh.lock() == mesh; });
+  checked_.push_back({mesh, std::make_shared<const Defects>(std::move(defects))});
+}
+
+/// Returns what is known about the object, or null.
+MeshRepair::Checked* MeshRepair::ofTheObject() {
+  const auto found = std::find_if(checked_.begin(), checked_.end(),
+                                  [this](const Checked& one) { return one.mesh.lock() == document_.mesh(); });
+  return found == checked_.end() ? nullptr : &*found;
+}
+
+void MeshRepair::follow() {
+  next_ = 0;
+  const Checked* known = ofTheObject();
+  if (known != nullptr && !known->dismissed && !known->defects->empty()) {
+    bar_->offer(*known->defects);
+  } else {
+    bar_->hide();
+  }
+}
+
+void MeshRepair::check() {
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Checking %1").arg(document_.name()),
+              [this, mesh = document_.mesh()](const Progress& progress) -> Jobs::Finish {
+                const Defects defects = find_defects(*mesh, progress);
+                return [this, mesh, defects] {
+                  remember(mesh, defects);
+                  follow();
+                  if (defects.empty()) {
+                    emit noted(nothingToRepair(document_.name(), defects));
+                  }
+                };
+              });
+}
+
+void MeshRepair::dismiss() {
+  if (Checked* known = ofTheObject()) {
+    known->dismissed = true;
+  }
+  bar_->hide();
+}
+
+void MeshRepair::showNext() {
+  if (const Checked* known = ofTheObject()) {
+    const std::vector<Shown> all = shownOf(*known->defects);
+    const Shown& one = all[next_++ % all.size()];
+    document_.select(one.elements);
+    bar_->showShown(QStringLiteral("Selected: %1").arg(one.name));
+  }
+}
+
+/// Replaces the object with the repaired one. The softness of single links stays.
+void MeshRepair::start(const QString& doing, const QString& step, const Repair& repair) {
+  const QString name = document_.name();
+  jobs_.start(Jobs::Kind::load, QStringLiteral("%1 of %2").arg(doing, name),
+              [this, name, step, repair, mesh = document_.mesh(),
+               softness = document_.wholeSoftness()](const Progress& progress) -> Jobs::Finish {
+                try {
+                  const Repaired repaired = repair(*mesh, progress.part(0, 0.9));
+                  const Defects defects = find_defects(*repaired.mesh, progress.part(0.9, 1));
+                  const OwnSoftness own = carried(softness->links, *mesh, repaired);
+                  return [this, name, step, repaired, defects, own] {
+                    remember(repaired.mesh, defects);
+                    document_.replaceMesh(repaired.mesh, name, step, own);
+                  };
+                } catch (const Error& error) {
+                  throw error.at(name.toStdString());
+                }
+              });
+}
+
+void MeshRepair::weld() {
+  if (const Checked* known = ofTheObject()) {
+    const std::size_t count = known->defects->duplicates.size();
+    start(QStringLiteral("Welding vertices"),
+          QStringLiteral("weld %L1 duplicate %2").arg(count).arg(count == 1 ? "vertex" : "vertices"),
+          [](const Mesh& mesh, const Progress& progress) { return chainmail::weld(mesh, progress); });
+  }
+}
+
+void MeshRepair::removeLoose() {
+  if (const Checked* known = ofTheObject()) {
+    start(QStringLiteral("Removing loose points"),
+          counted(QStringLiteral("remove"), known->defects->loose.size(), QStringLiteral("loose point")),
+          [](const Mesh& mesh, const Progress& progress) { return remove_loose(mesh, progress); });
+  }
+}
+
+void MeshRepair::closeHoles() {
+  if (const Checked* known = ofTheObject()) {
+    start(QStringLiteral("Closing holes"),
+          counted(QStringLiteral("close"), known->defects->holes.size(), QStringLiteral("hole")),
+          [defects = known->defects](const Mesh& mesh, const Progress& progress) {
+            return close_holes(mesh, defects->holes, progress);
+          });
+  }
+}
+
+}  // namespace chainmail

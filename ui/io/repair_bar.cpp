@@ -1,0 +1,107 @@
+#include "io/repair_bar.h"
+
+#include <QAccessible>
+#include <QHBoxLayout>
+#include <QPushButton>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "common/colours.h"
+#include "common/icons.h"
+#include "common/text.h"
+#include "files/repair/defects.h"
+
+namespace chainmail {
+namespace {
+
+/// Returns phrases in which a line does not break.
+QStringList withoutBreaks(const std::vector<std::string>& phrases) {
+  QStringList whole;
+  for (const std::string& phrase : phrases) {
+    whole << text(phrase).replace(QLatin1Char(' '), QChar::Nbsp);
+  }
+  return whole;
+}
+
+QLabel* makeText(const char* name) {
+  auto* label = new QLabel;
+  label->setObjectName(QLatin1String(name));
+  label->setTextFormat(Qt::PlainText);
+  label->setWordWrap(true);
+  return label;
+}
+
+}  // namespace
+
+RepairBar::RepairBar() : row_(new QHBoxLayout(this)), text_(makeText("repairText")), shown_(makeText("repairShown")) {
+  setObjectName(QStringLiteral("repairBar"));
+  setFrameShape(QFrame::StyledPanel);
+  setAutoFillBackground(true);
+  auto* words = new QVBoxLayout;
+  words->setSpacing(0);
+  words->addWidget(text_);
+  words->addWidget(shown_);
+  row_->setContentsMargins(10, 4, 6, 4);
+  row_->addLayout(words, 1);
+  addButton(QStringLiteral("&Show"), "repairShow",
+            QStringLiteral("Selects the elements of the first defect; again: of the next"), &RepairBar::showRequested);
+  weld_ = addButton(QStringLiteral("&Weld"), "repairWeld",
+                    QStringLiteral("Joins vertices at the same position, as one undo step. The object is then at rest, "
+                                   "without cuts and pins"),
+                    &RepairBar::weldRequested);
+  loose_ = addButton(QStringLiteral("Remove &loose points"), "repairLoose",
+                     QStringLiteral("Removes elements without links, as one undo step. The object is then at rest, "
+                                    "without cuts and pins"),
+                     &RepairBar::removeLooseRequested);
+  holes_ = addButton(QStringLiteral("&Close holes"), "repairHoles",
+                     QStringLiteral("Closes the holes with triangles, as one undo step; all ids stay. The object is "
+                                    "then at rest, without cuts and pins"),
+                     &RepairBar::closeHolesRequested);
+  addClose();
+  hide();
+  followTheme(*this, [this] {
+    QPalette own;
+    own.setColor(QPalette::Window, colours::warningGround);
+    setPalette(own);
+  });
+}
+
+QPushButton* RepairBar::addButton(const QString& text, const char* name, const QString& help,
+                                  void (RepairBar::*request)()) {
+  auto* button = new QPushButton(text);
+  button->setObjectName(QLatin1String(name));
+  button->setToolTip(help);
+  connect(button, &QPushButton::clicked, this, request);
+  row_->addWidget(button);
+  return button;
+}
+
+void RepairBar::addClose() {
+  auto* close = new QToolButton;
+  close->setObjectName(QStringLiteral("repairClose"));
+  close->setIcon(icon("close"));
+  close->setAutoRaise(true);
+  close->setToolTip(QStringLiteral("Closes this bar; Object > Repair shows it again"));
+  close->setAccessibleName(QStringLiteral("Close the bar of repairs"));
+  connect(close, &QToolButton::clicked, this, &RepairBar::dismissed);
+  row_->addWidget(close);
+}
+
+void RepairBar::offer(const Defects& defects) {
+  text_->setText(withoutBreaks(in_words(defects)).join(QStringLiteral(" · ")));
+  setAccessibleName(QStringLiteral("Defects: %1").arg(text_->text()));
+  weld_->setVisible(!defects.duplicates.empty());
+  loose_->setVisible(!defects.loose.empty());
+  holes_->setVisible(!defects.holes.empty());
+  showShown({});
+  show();
+  QAccessibleEvent alert(this, QAccessible::Alert);
+  QAccessible::updateAccessibility(&alert);
+}
+
+void RepairBar::showShown(const QString& what) {
+  shown_->setText(what);
+  shown_->setVisible(!what.isEmpty());
+}
+
+}  // namespace chainmail

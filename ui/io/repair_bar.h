@@ -1,0 +1,42 @@
+#pragma once
+
+#include <QFrame>
+#include <QLabel>
+
+class QHBoxLayout;
+class QPushButton;
+
+namespace chainmail {
+
+struct Defects;
+
+/// A bar above the panels that names the defects of the object, with a button for each repair that applies.
+class RepairBar : public QFrame {
+  Q_OBJECT
+
+ public:
+  RepairBar();
+
+  /// Shows the bar with these defects; there is at least one.
+  void offer(const Defects& defects);
+  /// Adds what Show has selected to the text.
+  void showShown(const QString& what);
+
+ signals:
+  void showRequested();
+  void weldRequested();
+  void removeLooseRequested();
+  void closeHolesRequested();
+  void dismissed();
+
+ private:
+  QPushButton* addButton(const QString& text, const char* name, const QString& help, void (RepairBar::*request)());
+  void addClose();
+
+  QHBoxLayout* row_;
+  QLabel* text_;
+  QLabel* shown_;
+  QPushButton *weld_, *loose_, *holes_;
+};
+
+}  // namespace chainmail
