@@ -49,11 +49,11 @@ RepairBar::RepairBar() : row_(new QHBoxLayout(this)), text_(makeText("repairText
                     QStringLiteral("Joins vertices at the same position, as one undo step. The object is then at rest, "
                                    "without cuts and pins"),
                     &RepairBar::weldRequested);
-  loose_ = addButton(QStringLiteral("Remove &loose points"), "repairLoose",
+  loose_ = addButton(QStringLiteral("Remove loose &points"), "repairLoose",
                      QStringLiteral("Removes elements without links, as one undo step. The object is then at rest, "
                                     "without cuts and pins"),
                      &RepairBar::removeLooseRequested);
-  holes_ = addButton(QStringLiteral("&Close holes"), "repairHoles",
+  holes_ = addButton(QStringLiteral("C&lose holes"), "repairHoles",
                      QStringLiteral("Closes the holes with triangles, as one undo step; all ids stay. The object is "
                                     "then at rest, without cuts and pins"),
                      &RepairBar::closeHolesRequested);
