@@ -191,6 +191,10 @@ class WindowOpen : public QObject {
     }
     bench.find<QToolButton>("repairClose")->click();
     QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
+    bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+    bench.trigger("undo");
+    bench.settle();
+    QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());  // it stays closed for this object
     bench.trigger("repairMesh");
     bench.settle();
     QVERIFY(bench.find<QFrame>("repairBar")->isVisible());
