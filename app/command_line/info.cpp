@@ -31,7 +31,7 @@ void write_summary(std::ostream& out, const MeshSummary& summary) {
       << "mean link length  " << short_digits(summary.mean_link_length) << '\n';
   for (const auto& [title, words] :
        {std::pair("read as           ", summary.remark), std::pair("note              ", in_words(summary.flaws)),
-        std::pair("defects           ", joined(in_words(summary.defects), ", "))}) {
+        std::pair("defects           ", joined_words(in_words(summary.defects), ", "))}) {
     if (!words.empty()) {
       out << title << words << '\n';
     }

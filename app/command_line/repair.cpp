@@ -92,9 +92,9 @@ void check_holes(const RepairOptions& options, const Mesh& mesh) {
 
 void write_repairs(std::ostream& out, const Repair& repair) {
   const auto& done = repair.done();
-  out << "repaired  " << (done.empty() ? "nothing" : joined(done, ", ")) << '\n';
+  out << "repaired  " << (done.empty() ? "nothing" : joined_words(done, ", ")) << '\n';
   if (!repair.defects().empty()) {
-    out << "left      " << joined(in_words(repair.defects()), ", ") << '\n';
+    out << "left      " << joined_words(in_words(repair.defects()), ", ") << '\n';
   }
   if (const auto count = repair.defects().outlines; count > 0) {
     out << "open      " << number_of(count, "border, the outline", "borders, outlines") << " of an open surface\n";

@@ -23,7 +23,7 @@ const std::string top = "f 5 6 7\nf 5 7 8\n";
 using Ids = std::vector<ElementId>;
 
 /// Returns what is found in a mesh, in words.
-QString found(const Mesh& mesh) { return QString::fromStdString(joined(in_words(find_defects(mesh)), ", ")); }
+QString found(const Mesh& mesh) { return QString::fromStdString(joined_words(in_words(find_defects(mesh)), ", ")); }
 
 Ids sorted(Ids ids) {
   std::sort(ids.begin(), ids.end());
@@ -269,17 +269,23 @@ void MeshRepairTest::a_seam_that_is_not_welded_does_not_keep_a_hole_open() {
   QVERIFY(find_defects(*weld(*whole).mesh).empty());
 }
 
-/// A fin at an edge that ends at the hole. The patch has the orientation of the other faces.
+/// A fin at an edge that ends at the hole, before or after the other faces. The patch has their orientation.
 void MeshRepairTest::a_hole_at_a_non_manifold_edge_is_closed() {
-  const auto mesh = obj(corners + sides + "v 4 0 0\nf 2 6 9\n");
-  QCOMPARE(found(*mesh), QString("1 hole (4 edges), 1 non-manifold edge"));
-  const auto whole = closed(*mesh).mesh;
-  QCOMPARE(found(*whole), QString("1 non-manifold edge"));
-  QCOMPARE(whole->element_count(), mesh->element_count());
-  for (std::size_t t = mesh->triangles.size(); t < whole->triangles.size(); ++t) {
-    const auto& [a, b, c] = whole->triangles[t];
-    const Point from = whole->rest_position(a);
-    QVERIFY((whole->rest_position(b) - from).cross(whole->rest_position(c) - from).z() > 0);  // outside is up
+  for (const char* fin : {"f 1 5 9\n", "f 2 6 9\n", "f 3 7 9\n", "f 4 8 9\n"}) {
+    const std::string bottomless = sides.substr(16) + top;
+    for (const std::string& faces : {sides + fin, fin + sides, bottomless + fin}) {
+      const auto mesh = obj(corners + "v 4 -3 0\n" + faces);
+      QCOMPARE(found(*mesh), QString("1 hole (4 edges), 1 non-manifold edge"));
+      const auto whole = closed(*mesh).mesh;
+      QCOMPARE(found(*whole), QString("1 non-manifold edge"));
+      QCOMPARE(whole->element_count(), mesh->element_count());
+      for (std::size_t t = mesh->triangles.size(); t < whole->triangles.size(); ++t) {
+        const auto& [a, b, c] = whole->triangles[t];
+        const Point from = whole->rest_position(a);
+        const double up = (whole->rest_position(b) - from).cross(whole->rest_position(c) - from).z();
+        QCOMPARE(up > 0, from.z() > 1);  // it faces outside
+      }
+    }
   }
 }
 

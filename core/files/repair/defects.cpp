@@ -118,12 +118,19 @@ class Borders {
   }
 
  private:
-  /// Walks along unused edges until there is none, and takes each loop out of the way.
+  /// Walks along unused edges, and takes each loop out of the way.
   void walk(ElementId from, std::vector<Loop>& found) {
     std::vector<ElementId> way{from};
     std::vector<std::uint32_t> taken;                          // the edge behind each element of the way
     std::unordered_map<ElementId, std::size_t> on{{from, 0}};  // index of each element of the way
-    while (const auto edge = unused_at(way.back())) {
+    while (!way.empty()) {
+      const auto edge = unused_at(way.back());
+      if (!edge) {  // a dead end, like a fin whose edge ends at the border: goes back
+        on.erase(way.back());
+        way.pop_back();
+        taken.resize(way.empty() ? 0 : way.size() - 1);
+        continue;
+      }
       used_[*edge] = true;
       const auto [a, b] = border_[*edge].ends;
       const ElementId next = a == way.back() ? b : a;
@@ -250,7 +257,7 @@ std::vector<std::string> in_words(const Defects& defects) {
   return words;
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
+std::string joined_words(const std::vector<std::string>& words, const std::string& between) {
   std::string text;
   for (const std::string& word : words) {
     text += (text.empty() ? "" : between) + word;

@@ -43,7 +43,7 @@ Defects find_defects(const Mesh& mesh, const Progress& progress = {});
 std::vector<std::string> in_words(const Defects& defects);
 
 /// Joins such descriptions.
-std::string joined(const std::vector<std::string>& words, const std::string& between);
+std::string joined_words(const std::vector<std::string>& words, const std::string& between);
 
 /// True if the mesh has cells. Only surfaces have holes.
 bool has_cells(const Mesh& mesh);
