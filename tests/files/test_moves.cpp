@@ -36,7 +36,7 @@ class MovesTest : public QObject {
 
  private:
   std::vector<Command> read(const std::string& text) const {
-    return read_moves(text, std::filesystem::path("m.json"), *mesh_);
+    return read_moves(text, std::filesystem::path("m.json"), mesh_);
   }
   std::string written(const std::vector<Command>& moves) const {
     std::ostringstream out;
@@ -352,7 +352,7 @@ void MovesTest::reading_and_writing_can_be_cancelled() {
   const auto moves = read(every_command);
   JobState job;
   job.cancelled = true;
-  QVERIFY_THROWS_EXCEPTION(Cancelled, read_moves(every_command, "m.json", *mesh_, Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, read_moves(every_command, "m.json", mesh_, Progress(job)));
   std::ostringstream out;
   QVERIFY_THROWS_EXCEPTION(Cancelled, write_moves(out, moves, *mesh_, Progress(job)));
 }
@@ -360,12 +360,12 @@ void MovesTest::reading_and_writing_can_be_cancelled() {
 void MovesTest::files() {
   const QTemporaryDir folder;
   const std::filesystem::path path = folder.filePath("m.json").toStdString();
-  QVERIFY(error_of([&] { read_moves(path, *mesh_); }).contains(": there is no such file; "));
+  QVERIFY(error_of([&] { read_moves(path, mesh_); }).contains(": there is no such file; "));
   put_file(path, "");
   QVERIFY(
-      error_of([&] { read_moves(path, *mesh_); }).endsWith(": it is empty; use a file that contains recorded moves"));
+      error_of([&] { read_moves(path, mesh_); }).endsWith(": it is empty; use a file that contains recorded moves"));
   put_file(path, "\xef\xbb\xbf" + every_command);
-  QCOMPARE(read_moves(path, *mesh_).size(), std::size_t{9});
+  QCOMPARE(read_moves(path, mesh_).size(), std::size_t{9});
 }
 
 QTEST_APPLESS_MAIN(MovesTest)

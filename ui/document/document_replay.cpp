@@ -63,6 +63,10 @@ void Document::goTo(std::size_t position) {
   endSweeps();
   Change edit = change(QStringLiteral("replay"), travelGesture);
   edit.after.relaxation.on = false;
+  if (const Tape::Object then = tape().object(position); then.mesh && then.mesh != mesh()) {
+    edit.after.object = objectOf(then.mesh, then.cuts, then.pins);
+    edit.after.softness = then.softness;
+  }
   edit.carryOut = [this, position] { travel(position); };
   edit.followsTape = true;
   apply(std::move(edit));
@@ -74,7 +78,7 @@ void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& move
   Change edit = change(text);
   edit.after.relaxation.on = false;
   edit.carryOut = [this, moves] {
-    goToBeginning();
+    goToBeginning({});
     log_->tape().load(*moves);
     replayed_ = true;
   };
@@ -96,7 +100,8 @@ void Document::travel(std::size_t position) {
   if (!replayed_ || position < at) {
     const auto after = waypoints_.upper_bound(position);
     at = after == waypoints_.begin() ? 0 : std::prev(after)->first;
-    after == waypoints_.begin() ? goToBeginning() : log_->replay(commands::RestoreState{std::prev(after)->second});
+    after == waypoints_.begin() ? goToBeginning(tape.object(0).mesh)
+                                : log_->replay(commands::RestoreState{std::prev(after)->second});
   }
   for (; at < position; ++at) {
     keepWaypoint(at);
@@ -107,9 +112,14 @@ void Document::travel(std::size_t position) {
 }
 
 /// Resets the object: at rest, uncut, unpinned, with the default softness. Recorded commands always start from this
-/// state.
-void Document::goToBeginning() {
+/// state. `first` is the mesh before it was split; null if that is the present one.
+void Document::goToBeginning(const MeshPointer& first) {
   log_->replay(commands::Release{});
+  if (first && first != mesh()) {
+    log_->replay(commands::ReplaceMesh{first});
+    log_->replay(commands::SetSoftness{});
+    return;
+  }
   log_->replay(commands::Uncut{cuts().links()});
   log_->replay(commands::Unpin{pins()});
   log_->replay(commands::SetSoftness{});

@@ -2,6 +2,7 @@
 
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "drawing/mesh_levels.h"
 #include "panels/panel.h"
@@ -28,6 +29,7 @@ double aspect(const Panel& panel) { return double(panel.width()) / std::max(1, p
 
 PanelArea::PanelArea(Document& document, Colouring& colouring)
     : document_(document),
+      fitted_(document.unsplitMesh()),
       colouring_(colouring),
       links_(colouring, this),
       camera_(std::make_shared<Camera>()),
@@ -58,7 +60,9 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
           [this](const std::vector<LinkId>& links, bool cut) { levels_->showCuts(links, cut); });
   connect(&document, &Document::meshChanged, this, [this] {
     levels_->forgetSurface();
-    fit();
+    if (std::exchange(fitted_, document_.unsplitMesh()) != document_.unsplitMesh()) {
+      fit();
+    }
   });
   connect(&document, &Document::panelsChanged, this, &PanelArea::followPanels);
   connect(&document, &Document::panelLeaves, this, &PanelArea::removePanel);

@@ -73,10 +73,11 @@ bool is_session(const std::filesystem::path& path);
 ///      "moves": {as in files/session/moves.h}, "moves_done": how many of them,
 ///      "ui": {…}}
 ///
-/// "moves" are left out above session_moves; "lattice", "hexahedra" and "texture" if there are none; and "elastic" if
-/// it is the standard one. If the neighbours are not in ascending order, "counts" (of each element) and "neighbours"
-/// (its ids) take the place of "links". In version 1, "softness" has c, s and h only, and its energy is isotropic.
-/// Throws Error for a number that is not finite, and Cancelled.
+/// "mesh" is the object before the first split in "moves". All other members are about the object after the moves that
+/// are done. "moves" are left out above session_moves; "lattice", "hexahedra" and "texture" if there are none; and
+/// "elastic" if it is the standard one. If the neighbours are not in ascending order, "counts" (of each element) and
+/// "neighbours" (its ids) take the place of "links". In version 1, "softness" has c, s and h only, and its energy is
+/// isotropic. Throws Error for a number that is not finite, and Cancelled.
 void write_session(std::ostream& out, const Session& session, const Progress& progress = {});
 
 /// Writes a session into a file. A failed write leaves the file as it was.
