@@ -403,8 +403,7 @@ void Document::cut(const std::vector<LinkId>& links) {
 }
 
 void Document::split(const SplitPointer& split) {
-  const std::size_t added = split->after->element_count() - split->before->element_count();
-  Change edit = change(counted(QStringLiteral("cut with"), added, QStringLiteral("new element")));
+  Change edit = change(QStringLiteral("cut along a stroke"));
   edit.after.object = objectOf(split->after, cuts_after(*split, cuts().links()), pins_after(*split, pins()));
   edit.after.softness = softness_after(*split, wholeSoftness());
   edit.split = split;
