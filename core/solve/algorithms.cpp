@@ -16,8 +16,8 @@ namespace {
 
 /// The table. To add an algorithm, add a constant to `enum class Algorithm` and an entry here, in its family.
 ///
-/// Shapes differ, so that marks can be told apart without colour. Colours are those of Okabe and Ito (2008) as far as
-/// they reach, then colours that differ in lightness.
+/// Shapes differ, so that marks can be told apart without colour. The colours start from those of Okabe and Ito (2008).
+/// Any two differ by at least 24 (CIE 1976), also after the window has adapted them to text on a dark or light ground.
 std::vector<AlgorithmInfo> make_table() {
   return {
       {.algorithm = Algorithm::generalized,
@@ -33,7 +33,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Spiral",
        .source = "Dean 2004, 3.2",
        .summary = "candidates enter at the back of the list, all are admitted",
-       .look = {"M0-1.2L1.15.85H-1.15Z", "#56b4e9"},  // triangle
+       .look = {"M0-1.2L1.15.85H-1.15Z", "#2fb4cf"},  // triangle
        .make = make_list_method<SpiralList>,
        .history = follow_list<SpiralList>},
       {.algorithm = Algorithm::natural_queue,
@@ -41,7 +41,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Natural Queue ChainMail",
        .source = "Dean 2004, 4.1",
        .summary = "candidates enter at the back, only those not yet updated are admitted",
-       .look = {"M-1 0A1 1 0 1 0 1 0A1 1 0 1 0-1 0Z", "#0072b2"},  // circle
+       .look = {"M-1 0A1 1 0 1 0 1 0A1 1 0 1 0-1 0Z", "#1f64d6"},  // circle
        .make = make_natural_queue,
        .history = follow_natural_queue},
       {.algorithm = Algorithm::enhanced,
@@ -58,7 +58,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "3D ChainMail",
        .source = "Frisken-Gibson 1997; Dean 2004, 2.1",
        .summary = "one list per direction, on grids and blocks only",
-       .look = {"M-.4-1.1H.4V-.4H1.1V.4H.4V1.1H-.4V.4H-1.1V-.4H-.4Z", "#cc79a7"},  // cross
+       .look = {"M-.4-1.1H.4V-.4H1.1V.4H.4V1.1H-.4V.4H-1.1V-.4H-.4Z", "#d667c0"},  // cross
        .make = make_list_method<DirectionLists>,
        .history = follow_list<DirectionLists>,
        .needs_grid = true},
@@ -76,7 +76,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Linear FEM",
        .source = "Bro-Nielsen and Cotin 1996",
        .summary = "linear elasticity on the cells, for small deformations",
-       .look = {"M-1.2-.55H1.2V.55H-1.2Z", "#b8a400"},  // bar
+       .look = {"M-1.2-.55H1.2V.55H-1.2Z", "#8a9a00"},  // bar
        .make = make_elastic_method<ElasticMethod::linear_fem>,
        .elastic = ElasticMethod::linear_fem,
        .needs_pins = true},
@@ -86,7 +86,7 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Bonet and Wood 1997",
        .summary = "nonlinear elasticity on the cells: the reference solution",
        .look = {"M0-1.4L.35-.45L1.33-.43L.56.17L.82 1.13L0 .58L-.82 1.13L-.56.17L-1.33-.43L-.35-.45Z",
-                "#e69f00"},  // star
+                "#d99400"},  // star
        .make = make_elastic_method<ElasticMethod::neo_hookean>,
        .elastic = ElasticMethod::neo_hookean,
        .needs_pins = true},
@@ -96,7 +96,7 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "James and Pai 1999",
        .summary = "linear elasticity on a closed surface of triangles",
        .look = {"M-1.1-.65L-.65-1.1L0-.45L.65-1.1L1.1-.65L.45 0L1.1.65L.65 1.1L0 .45L-.65 1.1L-1.1.65L-.45 0Z",
-                "#882255"},  // diagonal cross
+                "#a0254f"},  // diagonal cross
        .make = make_elastic_method<ElasticMethod::boundary>,
        .elastic = ElasticMethod::boundary,
        .needs_pins = true},
@@ -105,7 +105,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Free-form deformation",
        .source = "Sederberg and Parry 1986; Hsu et al. 1992",
        .summary = "a lattice of control points deforms space",
-       .look = {"M-.6-1.05H.6L1.2 0L.6 1.05H-.6L-1.2 0Z", "#5b4bb5"},  // hexagon
+       .look = {"M-.6-1.05H.6L1.2 0L.6 1.05H-.6L-1.2 0Z", "#7d55d8"},  // hexagon
        .make = make_elastic_method<ElasticMethod::free_form>,
        .elastic = ElasticMethod::free_form,
        .has_control_points = true},

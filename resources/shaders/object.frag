@@ -1,24 +1,28 @@
-// What follows is compiled once for each pair of SHADING and COLOURED_BY: a software renderer takes every branch
-// at every pixel.
-//   SHADING: 0 plain, 1 a face lit from the eye; points: 2 a disc, 3 a diamond, 4 a ring
-//   COLOURED_BY: 0 `colour`, 1 the elements' values, 2 the links' (a primitive is a link), 3 a picture, 4 a volume
+// Compiled once for each pair of SHADING and COLOURED_BY, because a software renderer executes every branch at every
+// pixel.
+//   SHADING: 0 plain, 1 a lit face; points: 2 a disc, 3 a diamond, 4 a ring; 5 a face in a plane, darker if folded
+//   COLOURED_BY: 0 `colour`, 1 values of elements, 2 values of links (a primitive is a link), 3 a picture, 4 a volume
 
 in vec3 in_view;
+in vec3 normal_here;
 in float value_here;
 in vec3 rest_here;
 
 uniform vec4 colour;
 uniform vec4 background;
-uniform float darkest; // how dark a face is that is seen from its side, of 1
-uniform vec2 fog;    // distances from the eye at which fading begins and ends; equal: none
+uniform vec4 light;       // everywhere, sky, key, edge: see ui/drawing/lighting.h
+uniform float glint;
+uniform float front_sign; // 1 if faces that are not folded are counterclockwise in the view, otherwise -1; 0: unknown
+uniform vec2 fog;         // distances from the eye at which fading begins and ends; equal: none
+uniform float fade;       // largest fading
 
 uniform samplerBuffer link_values;
 uniform sampler2D picture;
 uniform sampler3D volume;
-uniform vec3 texture_scale, texture_offset; // from places at rest to those in the texture, 0 to 1
+uniform vec3 texture_scale, texture_offset; // from rest positions to positions in the texture, 0 to 1
 uniform vec3 stops[6];   // the colour map's control points
 uniform vec2 range;      // the values at its two ends
-uniform float threshold; // a value that is no larger, whatever its sign, is neutral
+uniform float threshold; // values whose magnitude is at most this are neutral
 uniform vec4 neutral;
 
 out vec4 fragment;
@@ -32,8 +36,34 @@ vec4 mapped(float value) {
   return vec4(mix(stops[from], stops[from + 1], share * 5.0 - float(from)), 1.0);
 }
 
-#if SHADING >= 2
-// How far a place of a point lies outside its mark, in point sizes.
+#if SHADING == 1
+// Returns the smooth normal towards the viewer, or that of the face if the two differ much.
+vec3 normal_seen() {
+  vec3 of_face = normalize(cross(dFdx(in_view), dFdy(in_view)));
+  float size = dot(normal_here, normal_here);
+  vec3 smooth_one = size > 0.0 ? normal_here * inversesqrt(size) : of_face;
+  float agree = dot(smooth_one, of_face);
+  smooth_one = agree < 0.0 ? -smooth_one : smooth_one;
+  return normalize(mix(of_face, smooth_one, smoothstep(0.5, 0.8, abs(agree))));
+}
+
+vec3 lit(vec3 of_surface) {
+  const vec3 to_key = normalize(vec3(-0.42, 0.58, 0.70));
+  const vec3 halfway = normalize(to_key + vec3(0.0, 0.0, 1.0));
+  vec3 normal = normal_seen();
+  of_surface *= light.x + light.y * (0.5 + 0.5 * normal.y) + light.z * max(0.0, dot(normal, to_key));
+#if COLOURED_BY == 0
+  float grazing = 1.0 - clamp(normal.z, 0.0, 1.0);
+  float rim = light.w * grazing * grazing * grazing;
+  of_surface = rim > 0.0 ? mix(of_surface, vec3(1.0), rim) : of_surface * (1.0 + rim);
+  of_surface += glint * pow(max(0.0, dot(normal, halfway)), 32.0);
+#endif
+  return of_surface;
+}
+#endif
+
+#if SHADING >= 2 && SHADING <= 4
+// Returns how far a position of a point is outside its mark, in point sizes.
 float outside(vec2 place) {
   if (SHADING == 3) {
     return abs(place.x) + abs(place.y) - 0.5;
@@ -56,15 +86,19 @@ void main() {
   vec4 result = colour;
 #endif
 #if SHADING == 1
-  vec3 normal = normalize(cross(dFdx(in_view), dFdy(in_view)));
-  result.rgb *= mix(darkest, 1.0, abs(normal.z));
+  result.rgb = lit(result.rgb);
+#elif SHADING == 5
+  if ((gl_FrontFacing ? front_sign : -front_sign) < 0.0) {
+    result.rgb *= COLOURED_BY == 0 ? 0.55 : 0.75;
+    result.a = min(1.0, result.a + 0.3);
+  }
 #elif SHADING >= 2
   float beyond = outside(gl_PointCoord - 0.5);
   float edge = fwidth(beyond);
   result.a *= 1.0 - smoothstep(-edge, 0.0, beyond);
 #endif
   if (fog.y > fog.x) {
-    result.rgb = mix(result.rgb, background.rgb, 0.75 * clamp((-in_view.z - fog.x) / (fog.y - fog.x), 0.0, 1.0));
+    result.rgb = mix(result.rgb, background.rgb, fade * clamp((-in_view.z - fog.x) / (fog.y - fog.x), 0.0, 1.0));
   }
   fragment = result;
 }

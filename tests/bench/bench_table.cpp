@@ -103,6 +103,8 @@ constexpr Figure figures[] = {
     {"window: start to first frame (ms)", "/window/first_frame_ms", Limit::none, 0},
     {"window: open 1024² elements (ms)", "/window/open_ms", Limit::none, 0},
     {"window: save 1024² elements (ms)", "/window/save_ms", Limit::none, 0},
+    {"window: open 100,000 triangles to the complete picture (ms)", "/window/surface_complete_ms", Limit::none, 0},
+    {"window: time per picture, drag on 100,000 triangles (ms)", "/window/surface_frame_ms", Limit::none, 0},
 };
 
 std::vector<Row> rows_of(const json& all) {

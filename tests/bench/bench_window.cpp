@@ -243,8 +243,75 @@ int showFirstFrame(const char* startNanoseconds) {
   return QApplication::exec();
 }
 
+/// Writes a dented ball with about 100,000 triangles as an OBJ file.
+void writeBall(const QString& path) {
+  constexpr int rings = 224, around = 224;
+  std::FILE* file = std::fopen(path.toLocal8Bit().constData(), "w");
+  if (file == nullptr) {
+    throw std::runtime_error("the ball cannot be written");
+  }
+  for (int ring = 0; ring <= rings; ++ring) {
+    for (int i = 0; i < around; ++i) {
+      const double up = std::numbers::pi * (ring + 0.5) / (rings + 1), turn = 2 * std::numbers::pi * i / around;
+      const double radius = 1 + 0.1 * std::sin(6 * turn) * std::sin(5 * up);
+      std::fprintf(file, "v %.7g %.7g %.7g\n", radius * std::sin(up) * std::cos(turn), radius * std::cos(up),
+                   radius * std::sin(up) * std::sin(turn));
+    }
+  }
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int i = 0; i < around; ++i) {
+      const int a = ring * around + i + 1, b = ring * around + (i + 1) % around + 1;
+      std::fprintf(file, "f %d %d %d\nf %d %d %d\n", a, b, a + around, b, b + around, a + around);
+    }
+  }
+  std::fclose(file);
+}
+
+/// Returns the time per picture (ms) while the element in the middle of the view is dragged around on a circle.
+double surfaceFrameMilliseconds(MainWindow& window) {
+  View& view = window.panel(0).view();
+  const QPointF centre = QRectF(view.rect()).center();
+  send(view, QEvent::MouseButtonPress, centre);
+  int step = 0;
+  QTimer mouse;
+  mouse.setTimerType(Qt::PreciseTimer);
+  mouse.callOnTimeout([&] {
+    const double angle = 2 * std::numbers::pi * ++step / 32;
+    send(view, QEvent::MouseMove, centre + 20 * QPointF(std::cos(angle), std::sin(angle)));
+  });
+  mouse.start(moveMilliseconds);
+  run(1000);
+  MeteredApplication& app = application();
+  const int frames = app.framesDrawn;
+  const double cpu = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID), drawing = app.drawingMilliseconds;
+  QElapsedTimer clock;
+  clock.start();
+  run(dragMilliseconds);
+  const int drawn = app.framesDrawn - frames;
+  const double ms = double(clock.nsecsElapsed()) * 1e-6 / drawn;
+  const double own = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID) - cpu - (app.drawingMilliseconds - drawing);
+  mouse.stop();
+  send(view, QEvent::MouseButtonRelease, centre);
+  std::printf("surface drag: %d frames, %.1f ms per frame; GUI thread %.2f ms per frame without drawing\n", drawn, ms,
+              own / drawn);
+  return ms;
+}
+
+/// Measures a surface with 100,000 triangles: opening until the first complete picture, and pictures during a drag.
+void measureSurface(Results& results) {
+  MainWindow window(generate({MeshKind::grid, {8, 8, 1}, 1, {}}), QStringLiteral("grid8"));
+  window.show();
+  run(1000);
+  const QTemporaryDir folder;
+  const QString path = folder.filePath(QStringLiteral("ball.obj"));
+  writeBall(path);
+  results.add("/window/surface_complete_ms", openMilliseconds(window, path, 225 * 224));
+  results.add("/window/surface_frame_ms", surfaceFrameMilliseconds(window));
+}
+
 void measure(Results& results) {
   results.add("/window/first_frame_ms", firstFrameMilliseconds());
+  measureSurface(results);
   constexpr std::uint32_t side = 1024;
   MainWindow window(generate({MeshKind::grid, {side, side, 1}, 1, {}}), QStringLiteral("grid1024"));
   QElapsedTimer clock;

@@ -24,6 +24,7 @@ class ReportTest : public QObject {
   void an_axis_spans_whole_decades();
   void zero_has_a_place_of_its_own();
   void ticks_do_not_crowd();
+  void figures_stand_below_each_other();
   void an_axis_of_nothing_stands();
   void a_linear_axis_ends_at_a_round_number();
   void a_plot_has_every_contestant_on_it();
@@ -112,6 +113,16 @@ void ReportTest::figures_have_three_digits() {
   QCOMPARE(all_digits(std::optional<double>()), std::string());
 }
 
+void ReportTest::figures_stand_below_each_other() {
+  QCOMPARE(figure(234567.0), std::string("234\u202f567"));
+  QCOMPARE(figure(-1234.4), std::string("-1\u202f234"));
+  QCOMPARE(figure(999.4), std::string("999"));
+  QCOMPARE(thousands(12), std::string("12"));
+  QCOMPARE(thousands(1234567), std::string("1\u202f234\u202f567"));
+  QCOMPARE(aligned({"1.25", "30", "n/a", figure(1234.0)}),
+           (std::vector<std::string>{"1.25", "30\u2007\u2007\u2008", "n/a", "1\u202f234\u2007\u2007\u2008"}));
+}
+
 void ReportTest::text_is_escaped() {
   QCOMPARE(escaped(nasty), std::string("a&lt;b &amp; &quot;c&quot; &#39;d&#39; ]]&gt; ?? \xc3\xa9"));
   // A truncated character, a surrogate, an overlong form, and one beyond the last; then valid ones of each length.
@@ -150,6 +161,9 @@ void ReportTest::ticks_do_not_crowd() {
   const Axis axis = Axis::logarithmic({1e-8, 50}, 1e-12);
   const auto ticks = axis.ticks();
   QVERIFY(ticks.size() >= 4 && ticks.size() <= 7);
+  for (const Tick& tick : ticks) {
+    QVERIFY2(tick.label.starts_with("10"), tick.label.c_str());  // all in one style
+  }
   QCOMPARE(ticks.front().label, std::string("10⁻⁸"));
   QCOMPARE(ticks.back().position, 1.0);
   for (std::size_t i = 1; i < ticks.size(); ++i) {
@@ -174,6 +188,7 @@ void ReportTest::a_linear_axis_ends_at_a_round_number() {
   QCOMPARE(axis.position(0.075), 1.5);  // values beyond the axis are outside
   QCOMPARE(axis.ticks().size(), std::size_t{3});
   QCOMPARE(axis.ticks()[1].label, std::string("0.025"));
+  QCOMPARE(axis.ticks()[2].label, std::string("0.050"));  // as many decimals as the finest label
   QVERIFY(!axis.has_zero());
   QCOMPARE(Axis::from_zero_to(20).position(20), 1.0);
   QCOMPARE(Axis::from_zero_to(0).position(1), 1.0);

@@ -40,6 +40,45 @@ class CameraTest : public QObject {
     }
   }
 
+  void aFramedObjectFillsTheView_data() {
+    QTest::addColumn<bool>("parallel");
+    QTest::addColumn<QSizeF>("view");
+    for (const bool parallel : {false, true}) {
+      for (const QSizeF view : {QSizeF(800, 600), QSizeF(300, 900), QSizeF(900, 200)}) {
+        QTest::addRow("%s %gx%g", parallel ? "parallel" : "perspective", view.width(), view.height())
+            << parallel << view;
+      }
+    }
+  }
+  /// The points touch a margin at two opposite sides of the view, and no other margin is smaller.
+  void aFramedObjectFillsTheView() {
+    QFETCH(bool, parallel);
+    QFETCH(QSizeF, view);
+    std::vector<QVector3D> points;
+    for (int i = 0; i < 200; ++i) {
+      const float angle = 0.4F * float(i), up = float(i % 17);
+      points.emplace_back(100 + 7 * std::cos(angle), up, -40 + 3 * std::sin(angle));
+    }
+    Camera camera;
+    camera.fit({Point(0, 0, 0), Point(1, 1, 1)}, std::array{0, 1, 2}, view);
+    camera.setParallel(parallel);
+    camera.lookFrom(-50, 35);
+    camera.frame(points, view);
+    const QMatrix4x4 matrix = camera.toClip(view) * camera.toView();
+    float left = 1, right = -1, bottom = 1, top = -1;
+    for (const QVector3D& point : points) {
+      const QVector3D at = matrix.map(point);
+      left = std::min(left, at.x());
+      right = std::max(right, at.x());
+      bottom = std::min(bottom, at.y());
+      top = std::max(top, at.y());
+    }
+    const float most = std::max(std::max(right, -left), std::max(top, -bottom));
+    QVERIFY2(most > 0.85F && most < 0.95F, qPrintable(QString::number(double(most))));
+    const bool byWidth = std::max(right, -left) > std::max(top, -bottom);
+    QVERIFY(std::abs(byWidth ? right + left : top + bottom) < 0.01F);
+  }
+
   void aPlaneOfAnyTwoAxesIsSeenFlat_data() {
     QTest::addColumn<int>("first");
     QTest::addColumn<int>("second");

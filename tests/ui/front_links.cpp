@@ -87,6 +87,20 @@ class FrontLinks : public QObject {
     QCOMPARE(scene.unhidden(), near);
   }
 
+  void facesHideTheElementsBehindThem() {
+    const Front scene(twoSheets());
+    const QRectF part(330, 230, 140, 140);
+    const FrontFaces front(scene.frame, scene.projection(),
+                           wholeFaces(scene.frame, scene.boxes, scene.cuts, scene.projection(), part), part);
+    int hidden = 0;
+    for (const ElementId element : scene.elementsIn(part)) {
+      const bool behind = scene.frame.mesh->rest_position(element).z() < 0;
+      QCOMPARE(front.hides(element), behind);
+      hidden += behind ? 1 : 0;
+    }
+    QVERIFY(hidden > 0 && hidden < int(scene.elementsIn(part).size()));
+  }
+
   void whatAHoleShowsIsInFront() {
     Front scene(twoSheets());
     const auto first = scene.crossedWhere([](const Point& p) { return p.z() == 0; });

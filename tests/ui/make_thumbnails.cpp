@@ -28,7 +28,7 @@ QImage pictureOf(const QString& path) {
   View& view = bench.view(0);
   view.setFixedSize(drawn);
   bench.settle();
-  view.fit();
+  view.fitRest();
   return view.picture(1, true);
 }
 
@@ -56,6 +56,21 @@ QImage framed(const QImage& picture) {
   return result;
 }
 
+bool saveAll(const QString& folder, Theme theme) {
+  const colours::Ground ground = theme == Theme::dark ? colours::Ground::dark : colours::Ground::light;
+  remember(theme);
+  applyGround(ground);
+  for (const Sample& sample : samples()) {
+    const QString path = samplesFolder() + QLatin1Char('/') + QString::fromUtf8(sample.file);
+    const QString to = folder + QLatin1Char('/') + thumbnailOf(sample, ground);
+    if (!framed(pictureOf(path)).save(to)) {
+      qCritical("%s cannot be written", qPrintable(to));
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 /// Takes the path of the resources folder.
@@ -64,15 +79,7 @@ int main(int argc, char** argv) {
   const QTemporaryDir settings;
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
   QApplication application(argc, argv);
-  remember(Theme::dark);
   styleApplication();
-  for (const Sample& sample : samples()) {
-    const QString path = samplesFolder() + QLatin1Char('/') + QString::fromUtf8(sample.file);
-    const QString to = QString::fromLocal8Bit(argv[1]) + QLatin1Char('/') + thumbnailOf(sample);
-    if (!framed(pictureOf(path)).save(to)) {
-      qCritical("%s cannot be written", qPrintable(to));
-      return 1;
-    }
-  }
-  return 0;
+  const QString folder = QString::fromLocal8Bit(argv[1]);
+  return saveAll(folder, Theme::dark) && saveAll(folder, Theme::light) ? 0 : 1;
 }

@@ -49,7 +49,7 @@ struct ReportBench : Workbench {
   QString cell(const QString& contestant, int column) {
     for (int row = 0; row < table().rowCount(); ++row) {
       if (table().item(row, 0)->text() == contestant) {
-        return table().item(row, column)->text();
+        return table().item(row, column)->text().trimmed();  // spaces align the digits
       }
     }
     return {};

@@ -8,6 +8,7 @@
 #include "common/icons.h"
 #include "common/plot_painting.h"
 #include "common/theme.h"
+#include "document/panel_colour.h"
 #include "drawing/annotation.h"
 #include "drawing/colour_map.h"
 #include "window.h"
@@ -26,9 +27,20 @@ double luminance(const QColor& colour) {
   return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
 }
 
-double contrast(const QColor& one, const QColor& other) {
+double contrastOf(const QColor& one, const QColor& other) {
   const auto [low, high] = std::minmax({luminance(one), luminance(other)});
   return (high + 0.05) / (low + 0.05);
+}
+
+/// Returns the colours of all algorithms, in the shades for up to four panels, on the current ground.
+std::vector<QColor> coloursOfPanels() {
+  std::vector<QColor> all;
+  for (const AlgorithmInfo& one : every_algorithm()) {
+    for (int copy = 0; copy < Document::mostPanels; ++copy) {
+      all.emplace_back(algorithmColour(one.algorithm, copy));
+    }
+  }
+  return all;
 }
 
 constexpr double ofText = 4.5, ofMarks = 3;  // contrast ratios for level AA of WCAG 2.1 (1.4.3, 1.4.11)
@@ -57,25 +69,41 @@ class WindowComfort : public QObject {
       QCOMPARE(colours::ground(), ground);
       const QPalette palette = QApplication::palette();
       for (const auto& [text, behind] : texts) {
-        QVERIFY2(contrast(palette.color(text), palette.color(behind)) >= ofText,
+        QVERIFY2(contrastOf(palette.color(text), palette.color(behind)) >= ofText,
                  qPrintable(QStringLiteral("%1 on %2").arg(palette.color(text).name(), palette.color(behind).name())));
       }
       // The figures of a panel have the panel's colour.
-      for (const QColor colour :
-           {QColor(colours::left), QColor(colours::right), QColor(colours::third), QColor(colours::fourth)}) {
-        QVERIFY(contrast(colour, palette.color(QPalette::Window)) >= ofText);
+      for (const QColor& colour : coloursOfPanels()) {
+        QVERIFY2(contrastOf(colour, palette.color(QPalette::Window)) >= ofText, qPrintable(colour.name()));
       }
       for (const QColor mark :
-           {QColor(colours::left), QColor(colours::right), QColor(colours::third), QColor(colours::fourth),
-            QColor(colours::marked), QColor(colours::pinned), QColor(colours::selected), QColor(colours::lit),
+           {QColor(colours::marked), QColor(colours::pinned), QColor(colours::selected), QColor(colours::lit),
             QColor(colours::inside), QColor(colours::outside), colour_map::at(0), colour_map::at(1)}) {
-        QVERIFY2(contrast(mark, colours::background) >= ofMarks, qPrintable(mark.name()));
+        QVERIFY2(contrastOf(mark, colours::background) >= ofMarks, qPrintable(mark.name()));
       }
       for (const auto& one : algorithms()) {
         const QImage mark = plotMark(one.algorithm, false, 16, 1, palette).toImage();
-        QVERIFY(contrast(mark.pixelColor(8, 8), palette.color(QPalette::Window)) >= ofMarks);
+        QVERIFY(contrastOf(mark.pixelColor(8, 8), palette.color(QPalette::Window)) >= ofMarks);
       }
     }
+  }
+
+  void panelsWithOneAlgorithmHaveShadesOfItsColour() {
+    Workbench bench;
+    Document& document = bench.document();
+    QCOMPARE(panelColour(document, 0).on(Ground::light), algorithmColour(Algorithm::generalized).on(Ground::light));
+    document.setAlgorithm(0, Algorithm::exact);
+    document.setAlgorithm(1, Algorithm::exact);
+    bench.settle();
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      const QColor first = panelColour(document, 0).on(ground), second = panelColour(document, 1).on(ground);
+      QCOMPARE(first, algorithmColour(Algorithm::exact).on(ground));
+      QVERIFY(std::abs(first.lightness() - second.lightness()) > 15);
+    }
+    QVERIFY(bench.find<QLabel>("rateName1")->text().contains(QColor(panelColour(document, 1)).name()));
+    document.undoStack().undo();
+    bench.settle();
+    QVERIFY(bench.find<QLabel>("rateName1")->text().contains(QColor(algorithmColour(document.algorithm(1))).name()));
   }
 
   void themeChangesAtOnceAndIsRemembered() {
@@ -86,7 +114,8 @@ class WindowComfort : public QObject {
     bench.settle();
     QCOMPARE(seen(0), colours::background.on(Ground::light));
     QCOMPARE(seen(1), colours::background.on(Ground::light));
-    QVERIFY(bench.find<QLabel>("rateName0")->text().contains(colours::left.on(Ground::light).name()));
+    QVERIFY(
+        bench.find<QLabel>("rateName0")->text().contains(panelColour(bench.document(), 0).on(Ground::light).name()));
     QCOMPARE(rememberedTheme(), Theme::light);
     QCOMPARE(rememberedGround(), Ground::light);
     bench.trigger("themeDark");
@@ -172,8 +201,8 @@ class WindowComfort : public QObject {
       for (const auto& [behind, sign] :
            {std::pair(colours::infoGround, colours::infoSign), std::pair(colours::warningGround, colours::warningSign),
             std::pair(colours::errorGround, colours::errorSign)}) {
-        QVERIFY(contrast(words, behind) >= ofText);
-        QVERIFY(contrast(sign, behind) >= ofMarks);
+        QVERIFY(contrastOf(words, behind) >= ofText);
+        QVERIFY(contrastOf(sign, behind) >= ofMarks);
       }
     }
   }

@@ -5,7 +5,7 @@
 #include <QToolButton>
 #include <QWheelEvent>
 
-#include "common/colours.h"
+#include "document/panel_colour.h"
 #include "drawing/colour_map.h"
 #include "measure/violation.h"
 #include "panels/ghost_button.h"
@@ -141,19 +141,19 @@ class WindowCompare : public QObject {
       apart = between(link) > between(apart) ? link : apart;
     }
     const QPointF theirs = middleOf(bench, 1, apart);  // the cameras are linked, so it is the same position in panel A
-    QVERIFY(bench.distanceFromColour(0, theirs, colours::right) > 2 * alike);
+    QVERIFY(bench.distanceFromColour(0, theirs, panelColour(bench.document(), 1)) > 2 * alike);
     bench.chooseGhost(0, QStringLiteral("Panel B"));
     QTRY_VERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("ghost of B, 50 %")));
     QVERIFY(bench.view(0).grabFramebuffer() != own);
-    const int faint = bench.distanceFromColour(0, theirs, colours::right);
+    const int faint = bench.distanceFromColour(0, theirs, panelColour(bench.document(), 1));
     auto* slider = bench.window.panel(0).findChild<QSlider*>(QStringLiteral("ghostBlend0"));
     slider->setValue(slider->maximum());
     bench.settle();
     // Only the ghost is visible, as its own panel draws it; only the marks are those of this panel.
-    const int shown = bench.distanceFromColour(0, theirs, colours::right);
+    const int shown = bench.distanceFromColour(0, theirs, panelColour(bench.document(), 1));
     QVERIFY(shown < faint);
     // A slanted line is smoothed and has a weaker colour, in both views.
-    QVERIFY(shown < bench.distanceFromColour(1, theirs, colours::right) + alike);
+    QVERIFY(shown < bench.distanceFromColour(1, theirs, panelColour(bench.document(), 1)) + alike);
     slider->setValue(0);
     bench.settle();
     QCOMPARE(bench.view(0).grabFramebuffer(), own);

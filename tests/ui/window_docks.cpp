@@ -11,6 +11,7 @@
 #include <QSpinBox>
 #include <QTableWidget>
 #include <QToolButton>
+#include <QToolTip>
 #include <algorithm>
 #include <array>
 
@@ -99,6 +100,37 @@ class WindowDocks : public QObject {
     QVERIFY(answered());
     enter("8");
     QVERIFY(!answered());
+  }
+
+  void theKeyOfTheElementDockClosesItAgain() {
+    Workbench bench;
+    auto* dock = bench.find<QDockWidget>("elementDock");
+    QTest::keyClick(&bench.window, Qt::Key_E, Qt::ControlModifier);
+    QTRY_VERIFY(bench.find<QSpinBox>("elementId")->hasFocus());
+    QTest::keyClick(bench.find<QSpinBox>("elementId"), Qt::Key_E, Qt::ControlModifier);
+    QVERIFY(dock->isHidden());
+  }
+
+  void aNumberOutsideItsRangeIsRefusedInWords() {
+    Workbench bench;
+    auto* spin = bench.find<QDoubleSpinBox>("stretchSpin");
+    const double before = spin->value();
+    const auto enter = [&](const char* typed) {
+      spin->setFocus();
+      spin->selectAll();
+      QTest::keyClicks(spin, QLatin1String(typed));
+      QTest::keyClick(spin, Qt::Key_Return);
+    };
+    enter("1e9");
+    QCOMPARE(spin->value(), before);
+    QCOMPARE(bench.document().undoStack().count(), 0);
+    QVERIFY2(QToolTip::text().contains(QStringLiteral("1e9 is too large")), qPrintable(QToolTip::text()));
+    enter("0.5");
+    QCOMPARE(spin->value(), before);
+    QVERIFY2(QToolTip::text().contains(QStringLiteral("too small")), qPrintable(QToolTip::text()));
+    enter("1.5e1");
+    QCOMPARE(spin->value(), 15.0);
+    QCOMPARE(of(bench, "stretch"), 15.0);
   }
 
   void stiffness_data() {

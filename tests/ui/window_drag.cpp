@@ -89,7 +89,7 @@ class WindowDrag : public QObject {
     Workbench bench;
     const QPoint from = bench.place(0, 31);
     const int link = bench.place(0, 32).x() - from.x();
-    bench.stroke(0, {from, from + QPoint(link / 10, 0)});
+    bench.stroke(0, {from, from + QPoint(link / 14, 0)});
     for (int p = 0; p < 2; ++p) {
       QVERIFY(bench.document().frame(p)->statistics.passes > 0);
       QCOMPARE(bench.document().frame(p)->statistics.last_pass.moved, 0U);

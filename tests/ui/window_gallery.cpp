@@ -41,6 +41,19 @@ class WindowGallery : public QObject {
     QCOMPARE(bench.document().mesh(), before);
   }
 
+  void thumbnailsFollowTheTheme() {
+    Workbench bench;
+    const auto picture = [&bench] {
+      const auto* button = bench.find<QToolButton>("sample sphere.obj");
+      return button->icon().pixmap(button->iconSize(), 2).toImage();
+    };
+    const QImage dark = picture();
+    applyGround(colours::Ground::light);
+    QTRY_VERIFY(picture() != dark);
+    applyGround(colours::Ground::dark);
+    QTRY_COMPARE(picture(), dark);
+  }
+
   void eachHasAThumbnailATitleAndATooltip() {
     Workbench bench;
     const auto buttons = bench.window.findChild<Gallery*>()->findChildren<QToolButton*>();

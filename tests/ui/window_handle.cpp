@@ -449,7 +449,7 @@ class WindowHandle : public QObject {
     }
   }
 
-  void escapeEndsARotation() {
+  void escapeRestoresWhatWasBeforeTheDrag() {
     Workbench bench;
     const auto before = allPositions(bench);
     bench.document().select(square);
@@ -462,12 +462,31 @@ class WindowHandle : public QObject {
     bench.settle();
     QVERIFY(held(bench).empty());
     QCOMPARE(bench.document().selection().elements, square);
-    QCOMPARE(bench.document().undoStack().count(), 1);
+    QVERIFY(allPositions(bench) == before);
     circle(bench, 0, pivot, from, 60, Qt::ShiftModifier);  // the button is still pressed
-    bench.settle();
-    compareTurned(bench, before, square, 24, Point::Zero(), 0.01);
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
+    bench.settle();
+    QVERIFY(allPositions(bench) == before);
+    QCOMPARE(bench.document().undoStack().count(), 0);
+    QVERIFY(bench.document().undoStack().isClean());
+  }
+
+  void escapeRestoresTheDragBefore() {
+    Workbench bench;
+    bench.dragFar();
+    bench.settle();
+    const auto before = allPositions(bench);
+    const QPoint from = bench.place(0, 22);
+    bench.stroke(0, {from, from + QPoint(90, 60)}, false);
+    bench.settle();
+    QVERIFY(allPositions(bench) != before);
+    QTest::keyClick(&bench.window, Qt::Key_Escape);
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
+    bench.settle();
+    QVERIFY(allPositions(bench) == before);
+    QCOMPARE(bench.document().undoStack().count(), 1);
     bench.document().undo();
+    bench.document().redo();
     bench.settle();
     QVERIFY(allPositions(bench) == before);
   }

@@ -177,7 +177,7 @@ class WindowKeyboard : public QObject {
       auto* keys = dialog(bench)->findChild<QKeySequenceEdit*>(QStringLiteral("shortcutKeys"));
       auto* answer = dialog(bench)->findChild<QLabel*>(QStringLiteral("shortcutAnswer"));
       auto* fit = bench.find<QAction>("fitView");
-      search(bench, QStringLiteral("reset view"));
+      search(bench, QStringLiteral("current side"));
       QCOMPARE(visibleRows(*list), 1);
       keys->setFocus();
       QTest::keyClick(keys, Qt::Key_K);  // the key of Cut
@@ -192,7 +192,7 @@ class WindowKeyboard : public QObject {
     Workbench bench;
     QCOMPARE(bench.find<QAction>("fitView")->shortcut(), QKeySequence(Qt::CTRL | Qt::Key_J));
     openList(bench);
-    search(bench, QStringLiteral("reset view"));
+    search(bench, QStringLiteral("current side"));
     QTest::mouseClick(dialog(bench)->findChild<QAbstractButton*>(QStringLiteral("shortcutReset")), Qt::LeftButton);
     QCOMPARE(bench.find<QAction>("fitView")->shortcut(), QKeySequence(Qt::Key_F));
     QVERIFY(!QSettings().contains(QStringLiteral("shortcuts/fitView")));

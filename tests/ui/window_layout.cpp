@@ -4,6 +4,8 @@
 #include <QLabel>
 #include <QSignalSpy>
 #include <QSplitter>
+#include <QToolBar>
+#include <QToolButton>
 #include <QWheelEvent>
 
 #include "window.h"
@@ -107,6 +109,35 @@ class WindowLayout : public QObject {
     QVERIFY(propagation->isVisible() && !propagation->visibleRegion().isEmpty());
     bench.trigger("showPropagation");
     QVERIFY(propagation->isHidden());
+  }
+
+  void theLeftColumnReturnsToItsWidth() {
+    Workbench bench;
+    auto* mesh = bench.find<QDockWidget>("meshDock");
+    const int width = mesh->width();
+    for (const char* show : {"showPropagation", "showElement"}) {
+      bench.trigger(show);
+      bench.settle();
+      bench.trigger(show);
+      QTRY_COMPARE(mesh->width(), width);
+    }
+  }
+
+  void fourPanelsFitOnASmallScreen() {
+    Workbench bench;
+    bench.trigger("addPanel");
+    bench.trigger("addPanel");
+    bench.settle();
+    bench.window.resize(1024, 768);
+    bench.settle();
+    QVERIFY2(bench.window.width() <= 1024 && bench.window.height() <= 768,
+             qPrintable(QStringLiteral("%1 x %2").arg(bench.window.width()).arg(bench.window.height())));
+    bench.find<QToolBar>("mainToolBar")->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);  // wider than the window
+    bench.settle();
+    auto* more = bench.window.findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+    QVERIFY(more->isVisible());
+    QCOMPARE(more->icon().name(), QStringLiteral("more"));
+    QVERIFY(more->width() >= 20);
   }
 
   void docksFloatAndComeBack() {

@@ -9,6 +9,8 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTemporaryDir>
+#include <QTextStream>
+#include <cmath>
 
 #include "io/file_actions.h"
 #include "io/volume_bar.h"
@@ -140,6 +142,25 @@ class WindowOpen : public QObject {
     QVERIFY(!fill->isEnabled());
   }
 
+  void theFillOfferedSuitsLinearFem() {
+    Workbench bench;
+    bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+    const double mean = bench.document().mesh()->mean_link_length;
+    bench.trigger("fillSurface");
+    QVERIFY(std::abs(bench.find<QDoubleSpinBox>("fillSize")->value() - mean) < 0.01 * mean);
+    QVERIFY(!bench.find<QLabel>("fillAbout")->text().contains(QStringLiteral("coarser")));
+    bench.open(fineSphere());
+    bench.trigger("fillSurface");
+    auto* size = bench.find<QDoubleSpinBox>("fillSize");
+    const QString result = bench.find<QLabel>("fillResult")->text();
+    QVERIFY(size->value() > 1.1 * bench.document().mesh()->mean_link_length);
+    QVERIFY(bench.find<QLabel>("fillAbout")->text().contains(QStringLiteral("coarser")));
+    QVERIFY2(!result.contains(QStringLiteral("too many for linear FEM")), qPrintable(result));
+    size->setValue(bench.document().mesh()->mean_link_length);
+    QVERIFY(bench.find<QLabel>("fillResult")->text().contains(QStringLiteral("too many for linear FEM")));
+    QVERIFY(bench.find<QPushButton>("fillAgree")->isEnabled());
+  }
+
   void anOpenSurfaceSaysWhereItIsOpen() {
     Workbench bench;
     const QString path = folder_.filePath(QStringLiteral("open.off"));
@@ -159,6 +180,34 @@ class WindowOpen : public QObject {
   }
 
  private:
+  /// Writes a closed sphere of 9,400 elements, so fine that linear FEM cannot take its volume.
+  QString fineSphere() const {
+    constexpr int rings = 72, around = 132;
+    QString path = folder_.filePath(QStringLiteral("fine.off"));
+    QFile file(path);
+    if (!file.open(QIODevice::WriteOnly)) {
+      return {};
+    }
+    QTextStream out(&file);
+    out << "OFF\n" << (rings - 1) * around + 2 << ' ' << 2 * (rings - 1) * around << " 0\n0 0 1\n0 0 -1\n";
+    for (int ring = 1; ring < rings; ++ring) {
+      for (int i = 0; i < around; ++i) {
+        const double polar = M_PI * ring / rings, angle = 2 * M_PI * i / around;
+        out << std::sin(polar) * std::cos(angle) << ' ' << std::sin(polar) * std::sin(angle) << ' ' << std::cos(polar)
+            << '\n';
+      }
+    }
+    const auto at = [](int ring, int i) { return 2 + (ring - 1) * around + i % around; };
+    for (int i = 0; i < around; ++i) {
+      out << "3 0 " << at(1, i) << ' ' << at(1, i + 1) << '\n';
+      out << "3 1 " << at(rings - 1, i + 1) << ' ' << at(rings - 1, i) << '\n';
+      for (int ring = 1; ring + 1 < rings; ++ring) {
+        out << "3 " << at(ring, i) << ' ' << at(ring + 1, i) << ' ' << at(ring + 1, i + 1) << '\n';
+        out << "3 " << at(ring, i) << ' ' << at(ring + 1, i + 1) << ' ' << at(ring, i + 1) << '\n';
+      }
+    }
+    return path;
+  }
   static MessageBar& messages(Workbench& bench) { return *bench.window.findChild<MessageBar*>(); }
 
   QTemporaryDir folder_;

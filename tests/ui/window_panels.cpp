@@ -98,6 +98,12 @@ class WindowPanels : public QObject {
     QTest::mouseClick(bench.find<QToolButton>("removeButton3"), Qt::LeftButton);
     QTRY_COMPARE(bench.document().panels(), 3);
     bench.settle();
+    QVERIFY(bench.find<QToolButton>("addButton2")->isVisible());
+    bench.trigger("swapPanels");  // the button to add a panel stays at the last position
+    QVERIFY(bench.find<QToolButton>("addButton0")->isVisible() && !bench.find<QToolButton>("addButton2")->isVisible());
+    QVERIFY(bench.find<QToolButton>("removeButton2")->isVisible());
+    bench.trigger("swapPanels");
+    bench.trigger("swapPanels");
     QVERIFY(!bench.view(0).ghost().of);
     QVERIFY(bench.window.panel(1).legend().title().contains(QStringLiteral("from A")));
     QVERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("furthest")));

@@ -9,6 +9,7 @@
 #include <QTreeView>
 
 #include "common/colours.h"
+#include "document/panel_colour.h"
 #include "drawing/colour_map.h"
 #include "window.h"
 
@@ -39,6 +40,7 @@ QAbstractItemModel& list(Workbench& bench, int panel) {
 QString cell(Workbench& bench, int panel, int row, int column) {
   return list(bench, panel).index(row, column).data().toString();
 }
+QString updates() { return QStringLiteral("Order of update (candidate of the pass)"); }
 std::vector<Point> positions(Workbench& bench, int panel) {
   std::vector<Point> all;
   for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
@@ -76,6 +78,25 @@ class WindowPropagation : public QObject {
     QVERIFY(bench.position(1, middle - 9) == bench.document().mesh()->rest_position(middle - 9));
     bench.trigger("passLast");
     QVERIFY(positions(bench, 1) == after);
+  }
+
+  void behindAnotherDockItColoursNothingAndKeepsItsStep() {
+    Workbench bench;
+    openAndDrag(bench);
+    const auto after = positions(bench, 1);
+    bench.trigger("passFirst");
+    bench.settle();
+    QVERIFY(positions(bench, 1) != after);
+    bench.find<QDockWidget>("meshDock")->raise();
+    bench.settle();
+    QVERIFY(!bench.find<QAction>("passBack")->isEnabled());
+    QVERIFY(positions(bench, 1) == after);
+    QVERIFY(bench.window.panel(1).legend().title() != updates());
+    QTest::keyClick(&bench.window, Qt::Key_O);
+    bench.settle();
+    QTRY_COMPARE(bench.window.panel(1).legend().title(), updates());
+    QVERIFY(positions(bench, 1) != after);
+    QCOMPARE(slider(bench, 1).value(), 0);
   }
 
   void aHandleOfManyIsShownWithAllItsElements() {
@@ -166,7 +187,8 @@ class WindowPropagation : public QObject {
     bench.settle();
     QTRY_VERIFY(!bench.window.panel(1).legend().isVisible());
     bench.document().setHighlight({});
-    QVERIFY(bench.distanceFromColour(1, bench.place(1, 22), colours::stronger(colours::ofPanel(1))) < alike);
+    QVERIFY(bench.distanceFromColour(1, bench.place(1, 22), colours::stronger(panelColour(bench.document(), 1))) <
+            alike);
   }
 
   void panelsStepTogetherOrAlone() {

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "docks/frame_rate/frame_rate_dock.h"
+#include "document/panel_colour.h"
 #include "report/page/format.h"
 #include "window.h"
 #include "window/message_bar.h"
@@ -270,7 +271,7 @@ class WindowRate : public QObject {
       int pixels = 0;
       for (int y = 0; y < picture.height(); ++y) {
         for (int x = 0; x < picture.width(); ++x) {
-          pixels += picture.pixelColor(x, y) == colours::ofPanel(panel).on(colours::Ground::light) ? 1 : 0;
+          pixels += picture.pixelColor(x, y) == panelColour(bench.document(), panel).on(colours::Ground::light) ? 1 : 0;
         }
       }
       QVERIFY(pixels > 100);  // the line in the legend alone would be longer

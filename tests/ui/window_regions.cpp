@@ -77,6 +77,18 @@ class WindowRegions : public QObject {
     }
   }
 
+  void aLensMagnifiesSmallRegionsInAPlane() {
+    Workbench bench(generate({MeshKind::grid, {61, 61, 1}, 1, {}}));
+    bench.trigger("showValidRegions");
+    bench.document().setHighlight({});
+    const QImage without = bench.view(0).grabFramebuffer();
+    bench.document().setHighlight({30 * 61 + 30, false, {}});
+    QVERIFY(differenceOf(without, bench.view(0).grabFramebuffer()).width() > 150);  // more than the regions themselves
+    bench.document().setHighlight({});
+    bench.document().select({30 * 61 + 30});
+    QVERIFY(differenceOf(without, bench.view(0).grabFramebuffer()).width() < 100);  // a lens belongs to the cursor
+  }
+
   void regionsFollowTheSoftnessOfTheirLink() {
     Workbench bench;
     bench.trigger("showValidRegions");
@@ -96,6 +108,16 @@ class WindowRegions : public QObject {
     const Document& document = bench.document();
     return neighbour_regions(*document.mesh(), *document.wholeSoftness(), document.cuts(),
                              document.frame(panel)->view(), element, 100);
+  }
+  /// Returns the rectangle that encloses all differences of two pictures, in pixels.
+  static QRect differenceOf(const QImage& one, const QImage& other) {
+    QRect different;
+    for (int y = 0; y < one.height(); ++y) {
+      for (int x = 0; x < one.width(); ++x) {
+        different |= one.pixel(x, y) == other.pixel(x, y) ? QRect() : QRect(x, y, 1, 1);
+      }
+    }
+    return different;
   }
   static QPointF corner(Workbench& bench, int panel, const NeighbourRegion& region) {
     return bench.view(panel).placeOf(region.low);

@@ -5,6 +5,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <set>
 
 #include "report_bench.h"
 
@@ -30,7 +31,8 @@ class WindowReport : public QObject {
     QTRY_VERIFY(dock->isVisible());
     bench.settle();
     QCOMPARE(bench.window.size(), QSize(1280, 800));
-    QVERIFY(bench.view(0).height() > 250 && bench.view(1).height() > 250);
+    QVERIFY(dock->height() > bench.window.height() / 2);
+    QVERIFY(bench.view(0).height() > 100 && bench.view(1).height() > 100);
     QCOMPARE(bench.find<QDockWidget>("stiffnessDock")->height(), right);
     QVERIFY(bench.find<QLabel>("reportEmpty")->isVisible());
     QVERIFY(!bench.find<QPushButton>("reportCancel")->isEnabled());
@@ -161,6 +163,33 @@ class WindowReport : public QObject {
     QVERIFY(read(folder, "report.html").contains("</html>"));
   }
 
+  void thePlotIsSavedAsADrawing() {
+    ReportBench bench;
+    bench.run();
+    const QTemporaryDir folder;
+    for (const auto& [name, begin] :
+         {std::pair("plot.svg", "<?xml"), std::pair("plot.pdf", "%PDF"), std::pair("plot.png", "\x89PNG")}) {
+      bench.results().savePlotTo(folder.filePath(QLatin1String(name)));
+      QVERIFY2(read(folder, name).startsWith(begin), name);
+    }
+    QVERIFY(read(folder, "plot.svg").contains("Natural Queue"));
+  }
+
+  void decimalPointsStandBelowEachOther() {
+    ReportBench bench;
+    bench.run();
+    std::set<int> fromTheRight;
+    for (int row = 0; row < bench.table().rowCount(); ++row) {
+      const QString words = bench.table().item(row, violationColumn)->text();
+      if (words.contains(QLatin1Char('.')) && !words.contains(QLatin1Char('e'))) {
+        fromTheRight.insert(int(words.size() - words.indexOf(QLatin1Char('.'))));
+      }
+    }
+    QCOMPARE(fromTheRight.size(), std::size_t{1});
+    bench.click("reportCopy");
+    QVERIFY(!QApplication::clipboard()->text().contains(QChar(0x2007)));
+  }
+
   void aReportThatCannotBeSavedIsNotSavedByHalves() {
     ReportBench bench;
     bench.run();
@@ -177,9 +206,10 @@ class WindowReport : public QObject {
   void everyWidgetIsNamed() {
     ReportBench bench;
     bench.run();
-    for (const char* name : {"reportDrags", "reportAlgorithms", "reportSweeps", "reportPrecision", "reportSeconds",
-                             "reportRun", "reportCancel", "reportProgress", "reportDrag", "reportError", "reportCopy",
-                             "reportSave", "reportPlot", "reportLegend", "reportTable", "reportHeading"}) {
+    for (const char* name :
+         {"reportDrags", "reportAlgorithms", "reportSweeps", "reportPrecision", "reportSeconds", "reportRun",
+          "reportCancel", "reportProgress", "reportDrag", "reportError", "reportCopy", "reportSave", "reportSavePlot",
+          "reportPlot", "reportLegend", "reportTable", "reportHeading"}) {
       auto* widget = bench.find<QWidget>(name);
       QVERIFY2(widget != nullptr, name);
       QVERIFY2(!widget->accessibleName().isEmpty() && !widget->toolTip().isEmpty(), name);

@@ -142,6 +142,7 @@ class WindowSurface : public QObject {
   void linksThatWouldHideTheSurfaceWaitForANearerLook() {
     Workbench bench(generate({MeshKind::tetra, {140, 140, 3}, 1, {}}));  // about 120,000 visible links
     bench.trigger("viewFront");
+    bench.view(0).zoom(0.5);
     QTRY_VERIFY(bench.view(0).leavesLinksOut());
     bench.view(0).zoom(8);
     QTRY_VERIFY(!bench.view(0).leavesLinksOut());

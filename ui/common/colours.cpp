@@ -4,6 +4,7 @@
 #include <QGuiApplication>
 #include <QPalette>
 #include <QWidget>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -57,6 +58,22 @@ Ground ground() {
   return lightness < middleLightness ? Ground::dark : Ground::light;
 }
 
+namespace {
+
+double luminance(const QColor& colour) {
+  const auto linear = [](double channel) {
+    return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
+}
+
+}  // namespace
+
+double contrast(const QColor& one, const QColor& other) {
+  const auto [low, high] = std::minmax({luminance(one), luminance(other)});
+  return (high + 0.05) / (low + 0.05);
+}
+
 QColor stronger(const QColor& colour) {
   return ground() == Ground::dark ? colour.lighter(strongerPercent) : colour.darker(strongerPercent);
 }
@@ -79,7 +96,14 @@ QColor nearer(const QColor& colour, int darker, double own) {
 
 QColor faint(const QColor& colour) { return nearer(colour, 320, 0.22); }
 QColor solid(const QColor& colour) { return nearer(colour, 190, 0.6); }
-QColor bright(const QColor& colour) { return nearer(colour, 125, 0.75); }
+
+QColor light(const QColor& colour) {
+  const double white = ground() == Ground::dark ? 0.45 : 0.55;
+  const auto mixed = [white](float channel) { return float(channel + white * (1 - channel)); };
+  return QColor::fromRgbF(mixed(colour.redF()), mixed(colour.greenF()), mixed(colour.blueF()));
+}
+
+QColor edge(const QColor& colour) { return colour.darker(ground() == Ground::dark ? 400 : 230); }
 
 }  // namespace colours
 

@@ -6,8 +6,9 @@
 
 class QWidget;
 
-/// All colours that are not in the palette. Colour-blind users can distinguish the marks (Okabe and Ito 2008) on both
-/// grounds. The contrast to the ground is at least 3 for marks (WCAG 2.1, 1.4.11) and 4.5 for text.
+/// All colours that are neither in the palette nor in the table of algorithms (solve/algorithms.cpp). Colour-blind
+/// users can distinguish the marks (Okabe and Ito 2008) on both grounds. The contrast to the ground is at least 3 for
+/// marks (WCAG 2.1, 1.4.11) and 4.5 for text.
 namespace chainmail::colours {
 
 /// The background of text and marks.
@@ -39,10 +40,6 @@ class Colour {
 
 // Views.
 inline constexpr Colour background(0xff15191f, 0xfff8f9fb);
-inline constexpr Colour left(0xffe69f00, 0xff9c4a00);
-inline constexpr Colour right(0xff56b4e9, 0xff0068a8);
-inline constexpr Colour third(0xff00a87a, 0xff006b50);
-inline constexpr Colour fourth(0xffac78ff, 0xff7028b8);
 inline constexpr Colour marked(0xffffffff, 0xff101418);
 inline constexpr Colour pinned(0xfff0e442, 0xff6a5a00);
 inline constexpr Colour selected(0xfff5a6d0, 0xffb02a80);
@@ -50,6 +47,7 @@ inline constexpr Colour focus(0xff56b4e9, 0xff0068a8);  // the frame of the view
 inline constexpr Colour lit(0xfff05030, 0xffcc2200);
 inline constexpr Colour inside(0xff2fc49b, 0xff00754f);  // a valid region
 inline constexpr Colour outside(0xfff07a30, 0xffb84800);
+inline constexpr Colour inner(0xfff3ead6, 0xffc4b596);  // the inside of a volume, where a cut or a section shows it
 
 // The message bar: background and sign. Its text has the colour of the palette.
 inline constexpr Colour infoGround(0xff1d3a52, 0xffdcecf8);
@@ -63,18 +61,21 @@ inline constexpr Colour errorSign(0xffff9a80, 0xffb32000);
 inline constexpr Colour checked(0xff1f5f8b, 0xffb8dcf2);
 inline constexpr Colour checkedEdge(0xff3f93cb, 0xff4a90c0);
 
+/// Returns the contrast ratio of two colours, from 1 to 21 (WCAG 2.1).
+double contrast(const QColor& one, const QColor& other);
+
 /// Returns a variant of the colour with more contrast to the ground, which highlights one item among others of that
 /// colour.
 QColor stronger(const QColor& colour);
 /// Returns a variant with little contrast to the ground, for the faces between links of that colour.
 QColor faint(const QColor& colour);
 
-/// Like faint(), with more contrast: `solid` is for faces without links, `bright` for faces that a section cuts open.
+/// Like faint(), with more contrast, for faces in a plane without links.
 QColor solid(const QColor& colour);
-QColor bright(const QColor& colour);
-
-/// Returns the colour of a panel and of everything that refers to it; panels are numbered from 0.
-inline constexpr Colour ofPanel(int panel) { return std::array{left, right, third, fourth}[std::size_t(panel)]; }
+/// Returns a light variant, for surfaces in space, whose shadows must stay distinguishable from the ground.
+QColor light(const QColor& colour);
+/// Returns a dark variant, for thin lines on a light surface of that colour.
+QColor edge(const QColor& colour);
 
 }  // namespace chainmail::colours
 

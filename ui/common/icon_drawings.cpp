@@ -39,6 +39,7 @@ constexpr std::array drawings{
     IconDrawing{"movie", "R 1.5 3 13 10 M 1.5 6 L 14.5 6 M 5.5 3 L 4.5 6 M 9.5 3 L 8.5 6 M 13.5 3 L 12.5 6"},
     IconDrawing{"copy", "R 5 5 9 9 M 11 5 L 11 2 L 2 2 L 2 11 L 5 11"},
     IconDrawing{"quit", "M 9.5 2 L 3 2 L 3 14 L 9.5 14 M 6.5 8 L 14 8 M 11.2 5.2 L 14 8 L 11.2 10.8"},
+    IconDrawing{"more", "M 3.5 3.5 L 8 8 L 3.5 12.5 M 8.5 3.5 L 13 8 L 8.5 12.5"},
     // Editing.
     IconDrawing{"undo", "M 3 6 L 10 6 C 14.2 6 14.2 12.8 10 12.8 L 6 12.8 M 5.8 3 L 2.8 6 L 5.8 9"},
     IconDrawing{"redo", "M 13 6 L 6 6 C 1.8 6 1.8 12.8 6 12.8 L 10 12.8 M 10.2 3 L 13.2 6 L 10.2 9"},

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/icons.h"
+#include "common/number_field.h"
 #include "common/text.h"
 
 namespace chainmail {
@@ -27,7 +28,7 @@ ParameterRow::ParameterRow(const Parameter& parameter, const QString& prefix)
     : parameter_(parameter),
       label_(new QLabel(text(parameter.label))),
       slider_(new QSlider(Qt::Horizontal)),
-      spin_(new QDoubleSpinBox),
+      spin_(new NumberField(text(parameter.label))),
       reset_(new QToolButton) {
   describe(prefix);
   slider_->setRange(0, sliderSteps);

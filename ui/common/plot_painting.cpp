@@ -2,9 +2,11 @@
 
 #include <QPdfWriter>
 #include <QSaveFile>
+#include <QSvgGenerator>
 #include <QSvgRenderer>
 #include <cmath>
 
+#include "common/colours.h"
 #include "common/text.h"
 #include "common/theme.h"
 #include "mesh/error.h"
@@ -25,18 +27,6 @@ constexpr double savedPixelRatio = 3;
 
 constexpr double leastContrast = 3;  // contrast of marks with the background (WCAG 2.1, 1.4.11)
 
-double luminanceOf(const QColor& colour) {
-  const auto linear = [](double channel) {
-    return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
-  };
-  return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
-}
-
-double contrastOf(const QColor& one, const QColor& other) {
-  const double a = luminanceOf(one), b = luminanceOf(other);
-  return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
-}
-
 QColor mixed(const QColor& one, const QColor& other, double share) {
   const auto mix = [share](double a, double b) { return float(a + share * (b - a)); };
   return QColor::fromRgbF(mix(one.redF(), other.redF()), mix(one.greenF(), other.greenF()),
@@ -51,7 +41,7 @@ QColor lookColour(std::size_t look, const QPalette& palette) {
     return ink;
   }
   QColor colour(name);
-  for (int step = 0; step < 10 && contrastOf(colour, ground) < leastContrast; ++step) {
+  for (int step = 0; step < 10 && colours::contrast(colour, ground) < leastContrast; ++step) {
     colour = mixed(colour, ink, 0.1);
   }
   return colour;
@@ -74,6 +64,20 @@ QRectF markSquare(QPointF centre) {
 
 void paintWords(QPainter& painter, const QRectF& area, const QString& words) {
   painter.drawText(area, int(Qt::AlignLeft | Qt::AlignVCenter) | Qt::TextDontClip | Qt::TextSingleLine, words);
+}
+
+/// Writes the note of a mark unless it would cover another note: above the mark, or else below it.
+void paintNote(QPainter& painter, QPointF mark, const QString& note, std::vector<QRectF>& notes) {
+  const QFontMetricsF metrics(painter.font(), painter.device());
+  for (const double below : {-4.0, metrics.ascent() + 2}) {
+    const QRectF area = metrics.boundingRect(note).translated(mark + QPointF(7, below));
+    const bool covers = std::ranges::any_of(notes, [&](const QRectF& one) { return one.intersects(area); });
+    if (!note.isEmpty() && !covers) {
+      painter.drawText(mark + QPointF(7, below), note);
+      notes.push_back(area);
+      return;
+    }
+  }
 }
 
 }  // namespace
@@ -230,10 +234,11 @@ void PlotPainting::paintMarks(QPainter& painter) const {
     }
   }
   painter.setPen(palette_.color(QPalette::WindowText));
+  std::vector<QRectF> notes;
   for (const report::PlotMark& mark : panel()->marks) {
     const QPointF centre = positionOf(mark.x, mark.y);
     paintLook(painter, plot_.series[mark.series].look, colourOf(mark.series), mark.hollow, markSquare(centre));
-    painter.drawText(centre + QPointF(7, -4), text(mark.note));
+    paintNote(painter, centre, text(mark.note), notes);
   }
 }
 
@@ -265,6 +270,13 @@ double PlotPainting::paintHeading(QPainter& painter, const QRectF& area) const {
     painter.setPen(palette_.color(QPalette::WindowText));
     paintWords(painter, {line.left() + keyWidth, line.top(), width, line.height()}, label);
     line.moveLeft(line.left() + width + betweenKeys);
+  }
+  if (!plot_.legend_notes.empty()) {
+    line.moveTopLeft({area.left(), line.bottom()});
+    QStringList notes;
+    std::ranges::transform(plot_.legend_notes, std::back_inserter(notes),
+                           [](const std::string& one) { return text(one); });
+    paintWords(painter, line, notes.join(QStringLiteral("  ·  ")));
   }
   return line.bottom();
 }
@@ -335,6 +347,21 @@ bool writePdf(QIODevice& file, const report::Plot& plot) {
   return painter.end();
 }
 
+bool writeSvg(QIODevice& file, const report::Plot& plot) {
+  QSvgGenerator writer;
+  writer.setOutputDevice(&file);
+  writer.setTitle(text(plot.title));
+  writer.setSize(savedSize.toSize());
+  writer.setViewBox(QRectF({}, savedSize));
+  QPainter painter;
+  if (!painter.begin(&writer)) {
+    return false;
+  }
+  painter.fillRect(QRectF({}, savedSize), paletteOn(colours::Ground::light).color(QPalette::Base));
+  paintPage(painter, plot);
+  return painter.end();
+}
+
 bool writePng(QIODevice& file, const report::Plot& plot) {
   QImage image((savedSize * savedPixelRatio).toSize(), QImage::Format_RGB32);
   image.setDevicePixelRatio(savedPixelRatio);
@@ -347,10 +374,16 @@ bool writePng(QIODevice& file, const report::Plot& plot) {
 
 }  // namespace
 
+QStringList plotFilters() {
+  return {QStringLiteral("SVG drawing (*.svg)"), QStringLiteral("PDF drawing (*.pdf)"),
+          QStringLiteral("PNG picture (*.png)")};
+}
+
 void savePlot(const report::Plot& plot, const QString& path) {
   QSaveFile file(path);
-  const bool asPdf = path.endsWith(QStringLiteral(".pdf"), Qt::CaseInsensitive);
-  if (!file.open(QIODevice::WriteOnly) || !(asPdf ? writePdf(file, plot) : writePng(file, plot)) || !file.commit()) {
+  const auto endsIn = [&path](const char* ending) { return path.endsWith(QLatin1String(ending), Qt::CaseInsensitive); };
+  const auto write = endsIn(".pdf") ? writePdf : endsIn(".svg") ? writeSvg : writePng;
+  if (!file.open(QIODevice::WriteOnly) || !write(file, plot) || !file.commit()) {
     throw Error(path.toStdString(), "the picture could not be written (" + file.errorString().toStdString() + ")",
                 "choose another folder");
   }

@@ -4,6 +4,7 @@
 #include <QPalette>
 #include <QPixmap>
 #include <QPolygonF>
+#include <QStringList>
 
 #include "report/page/plot.h"
 
@@ -55,8 +56,11 @@ class PlotPainting {
 /// Returns the mark of an algorithm as a square picture of `size` logical pixels.
 QPixmap plotMark(Algorithm algorithm, bool hollow, int size, double devicePixelRatio, const QPalette& palette);
 
-/// Writes a plot with its legend, dark on white: as PDF if the path ends in .pdf, else as PNG. Throws Error if the file
-/// cannot be written.
+/// Filters of a save dialog for the formats of savePlot.
+QStringList plotFilters();
+
+/// Writes a plot with its legend, dark on white: as SVG or PDF if the path ends in .svg or .pdf, else as PNG. Throws
+/// Error if the file cannot be written.
 void savePlot(const report::Plot& plot, const QString& path);
 
 }  // namespace chainmail

@@ -41,7 +41,7 @@ QString textOf(const QTableWidget& table) {
     QStringList cells;
     for (int column = 0; column < table.columnCount(); ++column) {
       const QTableWidgetItem* item = table.item(row, column);
-      cells << (item == nullptr ? QString() : item->text());
+      cells << (item == nullptr ? QString() : item->text().trimmed());
     }
     lines << cells.join(QLatin1Char('\t'));
   }

@@ -4,11 +4,13 @@
 #include <QStyleOption>
 
 #include "common/colours.h"
+#include "common/icons.h"
 
 namespace chainmail {
 namespace {
 
 constexpr double buttonRadius = 3;  // pixels, at a button's corners
+constexpr int extensionWidth = 24;  // pixels, of the button that opens the rest of a tool bar
 
 }  // namespace
 
@@ -26,6 +28,15 @@ void WorkbenchStyle::drawPrimitive(PrimitiveElement element, const QStyleOption*
   painter->setBrush(QColor(colours::checked));
   painter->drawRoundedRect(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5), buttonRadius, buttonRadius);
   painter->restore();
+}
+
+QIcon WorkbenchStyle::standardIcon(StandardPixmap picture, const QStyleOption* option, const QWidget* widget) const {
+  return picture == SP_ToolBarHorizontalExtensionButton ? icon("more")
+                                                        : QProxyStyle::standardIcon(picture, option, widget);
+}
+
+int WorkbenchStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const {
+  return metric == PM_ToolBarExtensionExtent ? extensionWidth : QProxyStyle::pixelMetric(metric, option, widget);
 }
 
 int WorkbenchStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,

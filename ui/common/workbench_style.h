@@ -4,8 +4,8 @@
 
 namespace chainmail {
 
-/// The Fusion style with two changes: checked tool buttons look different from unchecked ones, and combo boxes open
-/// lists.
+/// The Fusion style with three changes: checked tool buttons look different from unchecked ones, combo boxes open
+/// lists, and the button that opens the rest of a tool bar is large enough to see.
 ///
 /// A style sheet would do the same, but Qt 6.4 visits all widgets to change one, and crashes if a widget is deleted
 /// meanwhile.
@@ -16,6 +16,9 @@ class WorkbenchStyle : public QProxyStyle {
   WorkbenchStyle();
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override;
+  /// Draws the button that opens the rest of a tool bar like our other icons; Fusion's arrow is small and dark.
+  QIcon standardIcon(StandardPixmap picture, const QStyleOption* option, const QWidget* widget) const override;
+  int pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const override;
   /// Makes combo boxes open lists. Drawn as menus, they would get the background that menus need for visible check
   /// boxes.
   int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,

@@ -1,7 +1,9 @@
 #include "docks/element_dock.h"
 
+#include <QAction>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QKeyEvent>
 #include <QLineEdit>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -35,12 +37,24 @@ void put(QTableWidget& table, int row, int column, const QString& words) {
 /// A spin box that gives access to its line edit.
 class ElementDock::IdBox : public QSpinBox {
  public:
+  explicit IdBox(const QAction& toggle) : toggle_(toggle) {}
   QLineEdit& field() const { return *lineEdit(); }
+
+ protected:
+  /// Leaves the shortcut of the dock to the window. On X11, a line edit takes Ctrl+E as 'end of line'.
+  bool event(QEvent* event) override {
+    return !(event->type() == QEvent::ShortcutOverride &&
+             QKeySequence(static_cast<QKeyEvent*>(event)->keyCombination()) == toggle_.shortcut()) &&
+           QSpinBox::event(event);
+  }
+
+ private:
+  const QAction& toggle_;
 };
 
 ElementDock::ElementDock(Document& document)
     : document_(document),
-      id_(new IdBox),
+      id_(new IdBox(*toggleViewAction())),
       state_(new QLabel),
       positions_(table("elementPositions", QStringLiteral("Positions of the element (mesh units)"), {})),
       neighbours_(table("elementNeighbours", QStringLiteral("Neighbours and links of the element"),

@@ -9,6 +9,7 @@
 #include <QTimer>
 #include <QToolButton>
 
+#include "common/colours.h"
 #include "io/samples.h"
 
 namespace chainmail {
@@ -20,7 +21,7 @@ constexpr int pixelRatio = 2;       // of the thumbnail files
 constexpr int smallestHeight = 76;  // one row
 
 QIcon iconOf(const Sample& sample) {
-  QPixmap picture(QStringLiteral(":/") + thumbnailOf(sample));
+  QPixmap picture(QStringLiteral(":/") + thumbnailOf(sample, colours::ground()));
   picture.setDevicePixelRatio(pixelRatio);
   return picture;
 }
@@ -63,7 +64,7 @@ void Gallery::fill() {
     button->setObjectName(QStringLiteral("sample ") + QFileInfo(path).fileName());
     button->setText(title);
     button->setAccessibleName(QStringLiteral("Open the sample %1").arg(title));
-    button->setIcon(iconOf(sample));
+    followTheme(*button, [button, &sample] { button->setIcon(iconOf(sample)); });
     button->setIconSize(thumbnail);
     button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
     button->setAutoRaise(true);

@@ -7,6 +7,7 @@
 #include <QStandardItemModel>
 #include <algorithm>
 
+#include "common/ask_where.h"
 #include "common/icons.h"
 #include "common/text.h"
 #include "mesh/error.h"
@@ -242,8 +243,7 @@ void PresetRow::importPath(const QString& path) {
 }
 
 void PresetRow::exportAll() {
-  QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Export presets"), QStringLiteral("presets.json"),
-                                              presetFilter());
+  const QString path = askWhere(*this, QStringLiteral("Export presets"), {presetFilter()}, QStringLiteral("presets"));
   if (!path.isEmpty()) {
     exportPath(path);
   }

@@ -75,6 +75,11 @@ void SectionDock::arrange() {
   row->addWidget(spin_);
   row->addWidget(flipBox_);
   setWidget(content);
+  connect(toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
+    if (shown && on_->isEnabled()) {
+      on_->setChecked(true);
+    }
+  });
   connect(axis_, &QComboBox::currentIndexChanged, this, &SectionDock::adaptToAxis);
   connect(slider_, &QSlider::valueChanged, this, [this](int step) {
     share_ = double(step) / sectionSteps;
@@ -96,8 +101,8 @@ void SectionDock::fill(QMenu& menu) {
 }
 
 void SectionDock::setOn(bool on) {
+  setVisible(on);
   if (on) {
-    show();
     raise();
   }
   adaptToMesh();

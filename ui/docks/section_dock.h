@@ -15,7 +15,8 @@
 namespace chainmail {
 
 /// The section plane: its axis, position and hidden side. The plane is defined in the object at rest and moves with the
-/// material, in all panels. Closing the dock turns the section off.
+/// material, in all panels. The dock is open while
+/// the section is on; closing it turns the section off.
 class SectionDock : public QDockWidget {
   Q_OBJECT
 

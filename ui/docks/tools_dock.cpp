@@ -3,6 +3,7 @@
 #include <QActionGroup>
 #include <QButtonGroup>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
 #include <QSettings>
@@ -17,8 +18,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int toolColumns = 2;
-constexpr int toolHeight = 30;
+constexpr int toolHeight = 32, toolIcon = 20;  // pixels
 
 QString splitsKey() { return QStringLiteral("cut/splits"); }
 
@@ -34,15 +34,17 @@ QToolButton* wideButton() {
 ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select) {
   auto* content = new QWidget;
   column_ = new QVBoxLayout(content);
-  auto* grid = new QGridLayout;
+  auto* strip = new QHBoxLayout;
+  strip->setSpacing(2);
   for (QAction* action : tools.actions()) {
     auto* button = wideButton();
     button->setDefaultAction(action);
-    button->setMinimumHeight(toolHeight);
-    const int i = int(tools.actions().indexOf(action));
-    grid->addWidget(button, i / toolColumns, i % toolColumns);
+    button->setToolButtonStyle(Qt::ToolButtonIconOnly);
+    button->setIconSize({toolIcon, toolIcon});
+    button->setFixedHeight(toolHeight);
+    strip->addWidget(button);
   }
-  column_->addLayout(grid);
+  column_->addLayout(strip);
   setWidget(content);
   // A tall column of docks gives its height to other docks.
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
@@ -84,12 +86,12 @@ QWidget* ToolsDock::makeSplits(Document& document, CutTool& cut) {
   splits_->setObjectName(QStringLiteral("cutSplits"));
   splits_->setIconText(QStringLiteral("Split triangles"));
   splits_->setCheckable(true);
+  splits_->setChecked(QSettings().value(splitsKey(), true).toBool());
+  cut.setSplits(splits_->isChecked());
   connect(splits_, &QAction::toggled, this, [&cut](bool on) {
     cut.setSplits(on);
     QSettings().setValue(splitsKey(), on);
   });
-  splits_->setChecked(QSettings().value(splitsKey(), true).toBool());
-  cut.setSplits(splits_->isChecked());
   const auto adapt = [this, &document] {
     const Mesh& mesh = *document.mesh();
     splits_->setEnabled(can_split(mesh));

@@ -12,6 +12,8 @@
 
 namespace chainmail {
 
+struct Session;
+
 /// The object of a document without its positions. Cuts and pins change in place, so the time for a change depends on
 /// the size of the change, not of the object.
 struct DocumentObject {
@@ -22,8 +24,9 @@ struct DocumentObject {
   MeshPointer unsplit;  // the mesh from which splits made this one; the same mesh without splits
   QString name;
   Cuts cuts;
-  Parts parts;                  // connected parts of the object with these cuts
-  std::vector<ElementId> pins;  // ascending
+  Parts parts;                                 // connected parts of the object with these cuts
+  std::vector<ElementId> pins;                 // ascending
+  std::shared_ptr<const Session> lesson = {};  // the session that it was opened from, if that is a lesson
 };
 
 /// The values that undo restores, except the positions: each solver stores its own. Copying this copies pointers, not

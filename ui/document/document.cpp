@@ -54,6 +54,13 @@ void emitSignals(Document& document, const Contents& from, const Contents& to, c
   }
 }
 
+/// True if the object of a session is as recorded moves expect it at their beginning.
+bool startsFromRest(const Session& session) {
+  return session.moves_done == 0 && session.cuts.empty() && session.pins.empty() && *session.softness == Softness() &&
+         !session.relaxation.on &&
+         std::ranges::all_of(session.panels, [](const auto& panel) { return panel.placement.is_at_rest(); });
+}
+
 }  // namespace
 
 /// A change on the undo stack. The solvers save the state of the object before the step. Undo and redo exchange the
@@ -415,6 +422,7 @@ std::shared_ptr<DocumentObject> Document::objectOf(const MeshPointer& mesh, cons
                                                    std::vector<ElementId> pins) const {
   auto object = std::make_shared<DocumentObject>(mesh, name());
   object->unsplit = unsplitMesh();
+  object->lesson = lesson();
   object->parts.cut(object->cuts, cuts);
   object->pins = std::move(pins);
   return object;
@@ -442,6 +450,8 @@ void Document::restore(const std::shared_ptr<const Session>& session, const QStr
   auto object = std::make_shared<DocumentObject>(session->mesh, QString::fromStdString(session->name));
   object->parts.cut(object->cuts, session->cuts);
   object->pins = session->pins;
+  object->lesson = session->lesson.steps.empty() ? nullptr : session;
+  object->unsplit = first_mesh(*session);
   edit.after.object = std::move(object);
   edit.after.softness = session->softness;
   edit.after.relaxation = session->relaxation;
@@ -467,6 +477,8 @@ void Document::placeSession(const std::shared_ptr<const Session>& session) {
   log_->flush();  // to the tape that is replaced below
   log_->tape().load(hasMoves ? session->moves : object);
   log_->tape().go_to(hasMoves ? session->moves_done : object.size());
+  lessonTimeline_ = tape().timeline();
+  replayed_ = hasMoves && startsFromRest(*session);
   for (int panel = 0; panel < panels(); ++panel) {
     const auto& saved = session->panels;
     const auto& from = std::size_t(panel) < saved.size() ? saved[std::size_t(panel)] : saved.front();
@@ -535,6 +547,20 @@ void Document::release() {
     post(commands::Release{});
   }
   endDrag();
+}
+
+void Document::cancelDrag() {
+  const auto handle = std::exchange(handle_, {});
+  if (!handle) {
+    return;
+  }
+  if (!handle->elements.empty()) {
+    post(commands::Release{});
+  }
+  if (handle->moved) {
+    post(commands::RestoreState{handle->before});
+  }
+  post(commands::DropState{handle->before});
 }
 
 /// Ends the drag. It becomes an undo step if anything moved.
@@ -673,6 +699,8 @@ void Document::addSolver(std::unique_ptr<SolverThread> solver) {
 void Document::addPanel() {
   if (panels() < mostPanels) {
     const Algorithm algorithm = unusedAlgorithm();
+    dropWaypoints();
+    replayed_ = false;  // the new panel has not replayed anything
     contents_.algorithms[std::size_t(panels())] = algorithm;
     log_->flush();
     addSolver(std::make_unique<SolverThread>(*solvers_.front(), algorithm, frameAnnouncer(panels()), idleAnnouncer()));

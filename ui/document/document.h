@@ -111,6 +111,8 @@ class Document : public QObject {
   /// Moves the handle by a way and a rotation about its pivot, both since it was grabbed.
   void dragBy(const Point& by, const Rotation& rotation = {});
   void release();
+  /// Ends the drag and restores the object as it was before. It does not become an undo step.
+  void cancelDrag();
   /// The grabbed elements, ascending; empty while nothing or a control point is grabbed.
   std::span<const ElementId> held() const { return handle_ ? handle_->elements : std::span<const ElementId>(); }
   /// Grabs a control point in the panels that run free-form deformation. release() releases it.
@@ -134,6 +136,16 @@ class Document : public QObject {
   /// undo step.
   void loadMoves(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text);
 
+  /// The session of the object, if it is a lesson; otherwise null.
+  const std::shared_ptr<const Session>& lesson() const { return contents_.object->lesson; }
+  /// Brings the object to its state after the first `position` moves of its lesson, from rest, with these algorithms
+  /// (one per panel) and the lesson's options. Several calls in a row become one undo step.
+  void goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms);
+  /// True if the object is in the state to which goToInLesson() leads with these arguments.
+  bool isInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) const;
+  /// True if the recorded commands begin with the lesson's moves.
+  bool recordsLesson() const;
+
   // Edits. Each is one undo step.
 
   QUndoStack& undoStack() { return undoStack_; }
@@ -141,7 +153,7 @@ class Document : public QObject {
   void undo();
   void redo();
   /// True if there are changes since the session was opened or saved.
-  bool isModified() const { return !undoStack_.isClean() || handle_.has_value(); }
+  bool isModified() const { return handle_.has_value() || (!undoStack_.isClean() && !onlyLessonMoved()); }
   /// Returns a change that does nothing yet: its values are the current ones.
   Change change(const QString& text, int gesture = 0) const;
   /// Carries out a change as one undo step. All edits use this function.
@@ -246,8 +258,11 @@ class Document : public QObject {
 
   // Replay, in document_replay.cpp.
   void endSweeps();
-  void travel(std::size_t position);
+  void travel(std::size_t position, const MeshPointer& first);
+  void replaceSplit(Change& edit, const Tape::Object& then, const MeshPointer& first) const;
   void goToBeginning(const MeshPointer& first);
+  bool followsLesson(const std::vector<Algorithm>& algorithms) const;
+  bool onlyLessonMoved() const;
   void keepWaypoint(std::size_t position);
   void dropWaypoints();
   void showTape();
@@ -274,6 +289,7 @@ class Document : public QObject {
   std::map<std::size_t, commands::StateId> waypoints_;
   std::uint64_t waypointTimeline_ = 0;  // Tape::timeline() of the waypoints
   bool replayed_ = false;               // true if the solvers have done nothing since the last replay
+  std::uint64_t lessonTimeline_ = 0;    // Tape::timeline() of the lesson's moves
   std::uint64_t relaxationNoted_ = 0;   // number of passes when relaxation was last noted
 
   // True while an announcement of a solver thread (new frame, idle) waits in the event queue. Prevents a second one.

@@ -5,11 +5,13 @@
 #include <limits>
 
 #include "document/document.h"
+#include "files/session/session.h"
 
 namespace chainmail {
 namespace {
 
 constexpr int travelGesture = std::numeric_limits<int>::max();
+constexpr int lessonGesture = travelGesture - 1;
 // Waypoints: largest number of saved states, and smallest number of commands between two of them.
 constexpr std::size_t mostWaypoints = 16;
 constexpr std::size_t leastApart = 32;
@@ -63,14 +65,21 @@ void Document::goTo(std::size_t position) {
   endSweeps();
   Change edit = change(QStringLiteral("replay"), travelGesture);
   edit.after.relaxation.on = false;
-  if (const Tape::Object then = tape().object(position); then.mesh && then.mesh != mesh()) {
-    edit.after.object = objectOf(then.mesh, then.cuts, then.pins);
-    edit.after.softness = then.softness;
-  }
-  edit.carryOut = [this, position] { travel(position); };
+  const MeshPointer first = tape().object(0).mesh;
+  replaceSplit(edit, tape().object(position), first);
+  edit.carryOut = [this, position, first] { travel(position, first); };
   edit.followsTape = true;
   apply(std::move(edit));
   emit tapeChanged();
+}
+
+/// Lets a change lead to the mesh that the object has then, before or after splits. `first` is the mesh with which the
+/// recorded commands begin; null if that is the present one.
+void Document::replaceSplit(Change& edit, const Tape::Object& then, const MeshPointer& first) const {
+  if (const MeshPointer& other = then.mesh ? then.mesh : first; other && other != mesh()) {
+    edit.after.object = objectOf(other, then.cuts, then.pins);
+    edit.after.softness = then.softness;
+  }
 }
 
 void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text) {
@@ -87,10 +96,61 @@ void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& move
   emit tapeChanged();
 }
 
+bool Document::recordsLesson() const {
+  return lesson() && tape().timeline() == lessonTimeline_ && tape().length() >= lesson()->moves.size();
+}
+
+/// True if the solvers have done nothing but replay the lesson's moves with these algorithms.
+bool Document::followsLesson(const std::vector<Algorithm>& algorithms) const {
+  return recordsLesson() && replayed_ && !handle_ && !relaxation().on && elastic() == lesson()->elastic &&
+         std::ranges::equal(algorithms, std::span(contents_.algorithms).first(std::size_t(panels())));
+}
+
+bool Document::isInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) const {
+  return followsLesson(algorithms) && tape().position() == position;
+}
+
+/// True if the last saved state differs from the present one only by moves of the lesson, which its file contains.
+bool Document::onlyLessonMoved() const {
+  const int clean = undoStack_.cleanIndex();
+  return clean >= 0 && clean == undoStack_.index() - 1 && undoStack_.command(clean)->id() == lessonGesture;
+}
+
+void Document::goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) {
+  if (!lesson() || isInLesson(position, algorithms)) {
+    return;
+  }
+  endSweeps();
+  const bool goesOn = followsLesson(algorithms);
+  Change edit = change(QStringLiteral("lesson"), lessonGesture);
+  edit.after.relaxation.on = false;
+  edit.after.elastic = lesson()->elastic;
+  std::ranges::copy(algorithms, edit.after.algorithms.begin());
+  const MeshPointer first = first_mesh(*lesson());
+  Tape moves;
+  moves.load(lesson()->moves);
+  replaceSplit(edit, moves.object(std::min(position, moves.length())), first);
+  edit.carryOut = [this, position, goesOn, first, session = lesson()] {
+    if (!goesOn) {
+      dropWaypoints();
+      replayed_ = false;
+    }
+    if (!recordsLesson()) {
+      log_->flush();
+      log_->tape().load(session->moves);
+      lessonTimeline_ = tape().timeline();
+    }
+    travel(std::min(position, tape().length()), first);
+  };
+  edit.followsTape = true;
+  apply(std::move(edit));
+  emit tapeChanged();
+}
+
 /// Replays the commands from the nearest known state up to `position`. Another algorithm, or relaxation in idle time,
 /// may make the result of a replay differ from that of the live moves. So the current state counts as known only after
-/// a replay.
-void Document::travel(std::size_t position) {
+/// a replay. `first` is the mesh with which the commands begin; null if that is the present one.
+void Document::travel(std::size_t position, const MeshPointer& first) {
   Tape& tape = log_->tape();
   if (waypointTimeline_ != tape.timeline()) {
     dropWaypoints();
@@ -100,7 +160,7 @@ void Document::travel(std::size_t position) {
   if (!replayed_ || position < at) {
     const auto after = waypoints_.upper_bound(position);
     at = after == waypoints_.begin() ? 0 : std::prev(after)->first;
-    after == waypoints_.begin() ? goToBeginning(tape.object(0).mesh)
+    after == waypoints_.begin() ? goToBeginning(first)
                                 : log_->replay(commands::RestoreState{std::prev(after)->second});
   }
   for (; at < position; ++at) {

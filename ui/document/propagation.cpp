@@ -50,6 +50,21 @@ void Propagation::setOpen(bool open) {
   }
 }
 
+void Propagation::setShown(bool shown) {
+  if (shown == shown_) {
+    return;
+  }
+  shown_ = shown;
+  clock_.stop();
+  if (!follows_) {
+    for (int panel = 0; panel < document_.panels(); ++panel) {
+      show(panel);
+    }
+  }
+  awaitPass();
+  emit changed();
+}
+
 void Propagation::forget() {
   letGo();
   follows_ = true;
@@ -88,7 +103,7 @@ void Propagation::letGo() {
 }
 
 void Propagation::awaitPass() {
-  if (open_ && follows_ && !fetch_.isActive()) {
+  if (isShown() && follows_ && !fetch_.isActive()) {
     fetch_.start(fetchMilliseconds);
   }
 }
@@ -105,7 +120,7 @@ bool Propagation::tooLargeNow() const {
 }
 
 void Propagation::takePasses() {
-  if (!open_ || !follows_ || tooLargeNow()) {
+  if (!isShown() || !follows_ || tooLargeNow()) {
     return;
   }
   QElapsedTimer clock;
@@ -169,7 +184,7 @@ void Propagation::setStep(int panel, std::size_t step) {
 
 void Propagation::show(int panel) {
   const auto& player = players_[std::size_t(panel)];
-  document_.showInstead(panel, player ? &player->frame() : nullptr);
+  document_.showInstead(panel, player && isShown() ? &player->frame() : nullptr);
 }
 
 /// Returns the step from which the buttons continue.

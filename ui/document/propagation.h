@@ -25,6 +25,9 @@ class Propagation : public QObject {
 
   void setOpen(bool open);
   bool isOpen() const { return open_; }
+  /// Shows the passes over the objects, or hides them and keeps them: while the dock is behind another one.
+  void setShown(bool shown);
+  bool isShown() const { return open_ && shown_; }
   bool follows() const { return follows_; }
   void setFollows(bool follows);
 
@@ -68,6 +71,7 @@ class Propagation : public QObject {
   Document& document_;
   std::vector<std::unique_ptr<PassPlayer>> players_;
   bool open_ = false;
+  bool shown_ = false;
   bool follows_ = true;
   bool together_ = true;
   int chosen_ = 0;

@@ -1,5 +1,7 @@
 #include "document/session_draft.h"
 
+#include <algorithm>
+
 namespace chainmail {
 
 SessionDraft::SessionDraft(Document& document, std::string look) {
@@ -12,10 +14,24 @@ SessionDraft::SessionDraft(Document& document, std::string look) {
   session_.elastic = document.elastic();
   session_.moves = document.tape().commands();
   session_.moves_done = document.tape().position();
+  takeLesson(document);
   session_.ui = std::move(look);
   for (int panel = 0; panel < document.panels(); ++panel) {
     session_.panels.push_back({document.algorithm(panel), Precision::single_precision, {}});
     snapshots_.push_back(document.snapshot(panel).share());
+  }
+}
+
+/// A lesson keeps its captions. They belong to its own moves, which the user's moves may have replaced meanwhile.
+void SessionDraft::takeLesson(const Document& document) {
+  const auto& lesson = document.lesson();
+  if (!lesson) {
+    return;
+  }
+  session_.lesson = lesson->lesson;
+  if (!document.recordsLesson()) {
+    session_.moves = lesson->moves;
+    session_.moves_done = std::min(session_.moves_done, session_.moves.size());
   }
 }
 

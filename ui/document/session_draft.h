@@ -20,6 +20,8 @@ class SessionDraft {
   Session finished(const Progress& progress) const;
 
  private:
+  void takeLesson(const Document& document);
+
   Session session_;
   std::vector<std::shared_future<Snapshot>> snapshots_;
 };

@@ -19,18 +19,25 @@ class Camera {
  public:
   /// Shows the whole box: straight at the plane of the given axes, or obliquely from above if there are three of them.
   void fit(const std::array<Point, 2>& box, std::span<const int> axes, QSizeF view);
-  /// Shows the whole box from the current side.
-  void frame(const std::array<Point, 2>& box, QSizeF view);
-  /// True if the camera was neither panned nor zoomed since fit() or frame(). A resized view may then frame the box
-  /// again.
+  /// Shows all points (mesh units) from the current side, as large as possible with a small margin.
+  void frame(std::span<const QVector3D> points, QSizeF view);
+  /// True if the camera was neither panned nor zoomed since fit() or frame(). A resized view may then frame
+  /// it again.
   bool framed() const { return framed_; }
   void orbit(QPointF pixels);
   void pan(QPointF pixels, QSizeF view);
   /// Enlarges the object if factor > 1, or reduces it. The point under the cursor stays there.
   void zoom(double factor, QPointF cursor, QSizeF view);
 
-  /// Looks at the centre from a direction (degrees): yaw 0 and pitch 0 from +z, yaw -90 from +x, pitch 90 from +y.
+  /// The axis that points up in the view at pitch 0 (3D only).
+  enum class Up { y, z };
+  void setUp(Up up) { up_ = up; }
+  Up up() const { return up_; }
+  /// Looks at the centre from a direction (degrees). If y is up: yaw 0 and pitch 0 from +z, yaw -90 from +x, pitch 90
+  /// from +y. If z is up: from -y, +x and +z.
   void lookFrom(double yaw, double pitch);
+  /// Looks at the centre from the positive or negative end of an axis (0 to 2).
+  void lookFromAxis(int axis, bool positive);
   const QVector3D& centre() const { return centre_; }
   /// Moves this point to the middle of the view and makes it the centre of rotation.
   void centreOn(const QVector3D& centre);
@@ -44,8 +51,9 @@ class Camera {
     QVector3D centre;
     double height = 2, yaw = 0, pitch = 0;
     bool parallel = false, framed = false;
+    Up up = Up::y;
   };
-  Pose pose() const { return {centre_, height_, yaw_, pitch_, parallel_, framed_}; }
+  Pose pose() const { return {centre_, height_, yaw_, pitch_, parallel_, framed_, up_}; }
   void setPose(const Pose& pose);
 
   bool spatial() const { return spatial_; }
@@ -60,6 +68,10 @@ class Camera {
   QVector3D pointAt(QPointF position, const QVector3D& through, QSizeF view) const;
 
  private:
+  QMatrix4x4 rotation() const;
+  void frameFlat(std::span<const QVector3D> turned, double aspect);
+  void frameInPerspective(std::span<const QVector3D> turned, double aspect);
+
   QVector3D centre_;
   double radius_ = 1;  // of the object (mesh units)
   double height_ = 2;  // visible height in the plane through the centre (mesh units)
@@ -68,6 +80,7 @@ class Camera {
   bool spatial_ = false;
   bool parallel_ = false;
   bool framed_ = false;
+  Up up_ = Up::y;
 };
 
 }  // namespace chainmail

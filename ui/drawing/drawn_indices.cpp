@@ -11,11 +11,13 @@ ElementId scatter(ElementId e) { return e * 2654435761U >> 16; }
 
 }  // namespace
 
-DrawnLinks drawnLinks(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& clusters) {
+DrawnLinks drawnLinks(const MeshLevel& level, const Cuts& cuts, const std::vector<std::uint32_t>& clusters,
+                      std::size_t nth) {
   DrawnLinks drawn;
+  std::size_t count = 0;
   for (const std::uint32_t cluster : clusters) {
     for (const std::uint32_t link : level.clusterLinks[cluster]) {
-      if (level.isUncut(link, cuts)) {
+      if (count++ % nth == 0 && level.isUncut(link, cuts)) {
         drawn.numbers.push_back(link);
         drawn.ends.insert(drawn.ends.end(), level.links[link].begin(), level.links[link].end());
       }
@@ -37,26 +39,44 @@ std::vector<ElementId> drawnFaces(const MeshLevel& level, const Cuts& cuts,
   return indices;
 }
 
-DrawnLinks surfaceLinks(const Surface& surface, const Cuts& cuts) {
+DrawnLinks surfaceLinks(const Surface& surface, const Cuts& cuts, std::size_t nth) {
   const CellTable& table = surface.table();
   DrawnLinks drawn;
-  drawn.numbers.assign(surface.links().begin(), surface.links().end());
-  std::ranges::copy_if(table.loose_links(), std::back_inserter(drawn.numbers),
-                       [&](LinkId link) { return !cuts.is_cut(link); });
-  drawn.ends.reserve(2 * drawn.numbers.size());
-  for (const LinkId link : drawn.numbers) {
-    const auto& ends = table.mesh()->links[link];
-    drawn.ends.insert(drawn.ends.end(), ends.begin(), ends.end());
-  }
+  std::size_t count = 0;
+  const auto add = [&](LinkId link) {
+    if (count++ % nth == 0 && !cuts.is_cut(link)) {
+      drawn.numbers.push_back(link);
+      const auto& ends = table.mesh()->links[link];
+      drawn.ends.insert(drawn.ends.end(), ends.begin(), ends.end());
+    }
+  };
+  std::ranges::for_each(surface.links(), add);
+  std::ranges::for_each(table.loose_links(), add);
   return drawn;
 }
 
 std::vector<ElementId> surfaceFaces(const Surface& surface, const Cuts& cuts) {
   const CellTable& table = surface.table();
-  auto corners = surface.triangles();
+  std::vector<ElementId> corners;
+  for (const SideId side : surface.sides()) {
+    if (table.twin(side) == CellTable::none) {
+      append_triangles(table.side(side), corners);
+    }
+  }
   for (const std::uint32_t i : table.loose_triangles()) {
     if (const auto& face = table.mesh()->triangles[i]; isWholeFace(*table.mesh(), cuts, face)) {
       corners.insert(corners.end(), face.begin(), face.end());
+    }
+  }
+  return corners;
+}
+
+std::vector<ElementId> freshSurfaceFaces(const Surface& surface) {
+  const CellTable& table = surface.table();
+  std::vector<ElementId> corners;
+  for (const SideId side : surface.sides()) {
+    if (table.twin(side) != CellTable::none) {
+      append_triangles(table.side(side), corners);
     }
   }
   return corners;

@@ -10,9 +10,10 @@
 namespace chainmail {
 namespace {
 
-// Largest number of links and faces of an object that is always drawn completely. A larger object is drawn by clusters.
-// It is drawn more coarsely if its links are shorter than `fewestPixels`, or if more shapes than this are in the view.
-constexpr std::size_t mostShapes = 60'000;
+// A plane object or the links of an object with more links and faces than this are drawn by clusters. They are drawn
+// more coarsely if the links of a lattice are shorter than `fewestPixels`, or if the view shows more than the scene
+// allows.
+constexpr std::size_t fewestShapes = DetailBudget::fewestShapes;
 constexpr double fewestPixels = 3;  // per link
 constexpr unsigned coarsestStep = 64;
 
@@ -51,7 +52,7 @@ void DrawnParts::setFrame(const Frame& frame, const Cuts& cuts) {
 }
 
 bool DrawnParts::choose(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint, double pixelsPerUnit) {
-  chooseParts(paint, pixelsPerUnit);
+  chooseParts(scene, paint, pixelsPerUnit);
   if (parts_.ofSurface) {
     step_ = 1;
     return std::exchange(outdated_, false);
@@ -70,8 +71,9 @@ bool DrawnParts::choose(const ObjectDrawing::Scene& scene, const ObjectDrawing::
   return true;
 }
 
-void DrawnParts::chooseParts(const ObjectDrawing::Paint& paint, double pixelsPerUnit) {
-  const Parts parts = partsOf(paint, pixelsPerUnit);
+void DrawnParts::chooseParts(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint,
+                             double pixelsPerUnit) {
+  const Parts parts = partsOf(scene, paint, pixelsPerUnit);
   outdated_ = outdated_ || parts != parts_;
   parts_ = parts;
   const auto plane = parts_.ofSurface ? paint.look.section : std::nullopt;
@@ -79,39 +81,56 @@ void DrawnParts::chooseParts(const ObjectDrawing::Paint& paint, double pixelsPer
   plane_ = plane;
 }
 
-DrawnParts::Parts DrawnParts::partsOf(const ObjectDrawing::Paint& paint, double pixelsPerUnit) const {
+/// Chooses the parts of the object. Faces come first: if the scene allows too few shapes, links are left out, or some
+/// of them if their colours are values.
+DrawnParts::Parts DrawnParts::partsOf(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint,
+                                      double pixelsPerUnit) const {
   const Look& look = paint.look;
   const bool hasCells = !mesh_->tetrahedra.empty() || !mesh_->hexahedra.empty();
   // Only links are shown while the surface of a large mesh is being computed.
   const bool ofSurface = look.faces && mesh_->space_dimension == 3 && hasCells && levels_->hasSurface(mesh_);
+  Parts parts{look.faces, look.links, ofSurface, ObjectDrawing::isSolid(*mesh_, look) && (ofSurface || !hasCells)};
+  if (!parts.solid || !look.links) {
+    return parts;
+  }
   const bool valued = paint.values != nullptr && paint.values->ofLinks;
-  const bool tooFine = ofSurface && look.links && !valued && hidesSurface(surface().links().size(), pixelsPerUnit);
-  return {look.faces, look.links && !tooFine, ofSurface, tooFine};
+  const auto [faces, links] = countSurface(ofSurface);
+  parts.tooFine = !valued && !ObjectDrawing::distinguishesEdges(*mesh_, pixelsPerUnit);
+  parts.links = !parts.tooFine && (valued || faces + links <= scene.mostShapes);
+  if (valued && faces + links > scene.mostShapes) {
+    const std::size_t room = std::max(scene.mostShapes - std::min(faces, scene.mostShapes), scene.mostShapes / 4);
+    parts.nthLink = (links + room - 1) / room;
+  }
+  return parts;
 }
 
-/// True if the links would hide the surface: there are many of them, and they are short in the view.
-bool DrawnParts::hidesSurface(std::size_t links, double pixelsPerUnit) const {
-  return links > mostShapes &&
-         mesh_->mean_link_length * pixelsPerUnit < fewestPixels * double(links) / double(mostShapes);
+/// Returns the numbers of faces and links of the surface.
+std::array<std::size_t, 2> DrawnParts::countSurface(bool ofSurface) const {
+  if (ofSurface) {
+    return {2 * surface().sides().size(), surface().links().size() + surface().table().loose_links().size()};
+  }
+  return {mesh_->triangles.size(), mesh_->links.size()};
 }
 
-/// Chooses the finest step at which links are distinguishable and not too many of them are in the view. A volume may
-/// have too many even if they are long.
+/// Chooses the finest step that the scene allows. A surface is drawn with all its faces if possible. The links of a
+/// lattice must be distinguishable. A volume may have too many links even if they are long.
 void DrawnParts::chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit) {
   step_ = 1;
   const double pixels = mesh_->mean_link_length * pixelsPerUnit;
-  if (mesh_->links.size() + mesh_->triangles.size() <= mostShapes || !(pixels > 0)) {
+  const std::size_t all = parts_.solid ? mesh_->triangles.size() : mesh_->links.size() + mesh_->triangles.size();
+  if (all <= (parts_.solid ? scene.mostShapes : fewestShapes) || !(pixels > 0)) {
     return;
   }
-  while (step_ < coarsestStep && pixels * step_ < fewestPixels) {
+  while (mesh_->lattice && !parts_.solid && step_ < coarsestStep && pixels * step_ < fewestPixels) {
     step_ = MeshLevels::after(step_, *mesh_);
   }
   const auto shapes = [&] { return elementsAt(*mesh_, step_) * shapesPerElement(*mesh_, step_); };
-  if (shapes() <= mostShapes) {
+  const auto most = double(scene.mostShapes);
+  if (shapes() <= most) {
     return;
   }
   const double share = shareInView(scene);
-  while (step_ < coarsestStep && share * shapes() > mostShapes) {
+  while (step_ < coarsestStep && share * shapes() > most) {
     step_ = MeshLevels::after(step_, *mesh_);
   }
 }
@@ -125,7 +144,7 @@ double DrawnParts::shareInView(const ObjectDrawing::Scene& scene) {
 
 std::vector<std::uint32_t> DrawnParts::visibleClusters(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
                                                        ClusterBoxes& boxes) const {
-  if (level->links.size() + level->faces.size() <= mostShapes) {
+  if (parts_.solid || level->links.size() + level->faces.size() <= fewestShapes) {
     std::vector<std::uint32_t> all(level->clusterCount());
     std::iota(all.begin(), all.end(), 0U);
     return all;
@@ -136,14 +155,18 @@ std::vector<std::uint32_t> DrawnParts::visibleClusters(const ObjectDrawing::Scen
 
 DrawnLinks DrawnParts::links() const {
   return !parts_.links      ? DrawnLinks()
-         : parts_.ofSurface ? surfaceLinks(surface(), *cuts_)
-                            : drawnLinks(*level_, *cuts_, clusters_);
+         : parts_.ofSurface ? surfaceLinks(surface(), *cuts_, parts_.nthLink)
+                            : drawnLinks(*level_, *cuts_, clusters_, parts_.nthLink);
 }
 
 std::vector<ElementId> DrawnParts::faces() const {
   return !parts_.faces      ? std::vector<ElementId>()
          : parts_.ofSurface ? surfaceFaces(surface(), *cuts_)
                             : drawnFaces(*level_, *cuts_, clusters_);
+}
+
+std::vector<ElementId> DrawnParts::freshFaces() const {
+  return parts_.ofSurface ? freshSurfaceFaces(surface()) : std::vector<ElementId>();
 }
 
 const Section* DrawnParts::section() const { return plane_ ? &levels_->section(mesh_, *cuts_, *plane_) : nullptr; }

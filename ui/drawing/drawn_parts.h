@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "drawing/cluster_boxes.h"
 #include "drawing/drawn_indices.h"
 #include "drawing/mesh_levels.h"
@@ -30,12 +32,15 @@ class DrawnParts {
   /// True if the links on a surface are left out because they would hide it.
   bool leavesLinksOut() const { return parts_.tooFine; }
   DrawnLinks links() const;
-  /// Returns three corners per face.
+  /// Returns three corners per face, without freshFaces().
   std::vector<ElementId> faces() const;
+  /// Returns the faces inside a volume that cuts have made visible, three corners each.
+  std::vector<ElementId> freshFaces() const;
   /// Returns the section that closes a volume; null if there is none.
   const Section* section() const;
   /// Returns true if the face of the section changed since the last call.
   bool takeSectionChange() { return std::exchange(sectionOutdated_, false); }
+  bool sectionChanged() const { return sectionOutdated_; }
   const Surface& surface() const { return levels_->surface(mesh_, *cuts_); }
   MeshLevels& levels() { return *levels_; }
   /// Returns one value per link. A coarse link gets the value with the largest magnitude among the links that it
@@ -44,15 +49,16 @@ class DrawnParts {
 
  private:
   /// The parts of the object that are drawn. If `ofSurface`, they are the surface of a volume. A surface is always
-  /// drawn completely, because it is far smaller than the volume.
+  /// drawn completely, because it is far smaller than the volume; of its links, every `nthLink` is drawn.
   struct Parts {
-    bool faces = true, links = true, ofSurface = false, tooFine = false;
+    bool faces = true, links = true, ofSurface = false, solid = false, tooFine = false;
+    std::size_t nthLink = 1;
     bool operator==(const Parts&) const = default;
   };
-  void chooseParts(const ObjectDrawing::Paint& paint, double pixelsPerUnit);
+  void chooseParts(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint, double pixelsPerUnit);
 
-  Parts partsOf(const ObjectDrawing::Paint& paint, double pixelsPerUnit) const;
-  bool hidesSurface(std::size_t links, double pixelsPerUnit) const;
+  Parts partsOf(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint, double pixelsPerUnit) const;
+  std::array<std::size_t, 2> countSurface(bool ofSurface) const;
   void chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerUnit);
   double shareInView(const ObjectDrawing::Scene& scene);
   /// Returns the clusters of a level that may be visible.

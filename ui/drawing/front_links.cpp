@@ -56,7 +56,8 @@ bool meet(const QRectF& a, const QRectF& b) {
   return a.left() <= b.right() && b.left() <= a.right() && a.top() <= b.bottom() && b.top() <= a.bottom();
 }
 
-/// A face in the view.
+}  // namespace
+
 struct SeenFace {
   Face corners;
   std::array<Spot, 3> spots;
@@ -74,6 +75,8 @@ struct SeenFace {
     return a.depth + ofB * (b.depth - a.depth) + ofC * (c.depth - a.depth) < spot.depth - depthRounding;
   }
 };
+
+namespace {
 
 std::vector<SeenFace> facesAt(const Frame& frame, const Projection& projection, std::span<const Face> faces,
                               const QRectF& part) {
@@ -145,6 +148,16 @@ std::vector<Spot> elementsAbout(const Frame& frame, const ClusterBoxes& boxes, c
 }
 
 }  // namespace
+
+FrontFaces::FrontFaces(const Frame& frame, const Projection& projection, std::span<const Face> faces, QRectF part)
+    : frame_(frame), projection_(projection), faces_(facesAt(frame, projection, faces, part)) {}
+
+FrontFaces::~FrontFaces() = default;
+
+bool FrontFaces::hides(ElementId element) const {
+  const Spot spot = spotOf(project(frame_, projection_, element));
+  return std::ranges::any_of(faces_, [&](const SeenFace& face) { return !face.has(element) && face.hides(spot); });
+}
 
 std::vector<Face> wholeFaces(const Frame& frame, const ClusterBoxes& boxes, const Cuts& cuts,
                              const Projection& projection, QRectF part) {

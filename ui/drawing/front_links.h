@@ -9,6 +9,28 @@
 
 namespace chainmail {
 
+/// A face in the view. Depths grow with the distance from the eye and are linear along straight lines in the view.
+struct SeenFace;
+
+/// The faces in a part of the view, which may hide elements.
+class FrontFaces {
+ public:
+  /// The frame must stay valid.
+  FrontFaces(const Frame& frame, const Projection& projection, std::span<const std::array<ElementId, 3>> faces,
+             QRectF part);
+  ~FrontFaces();
+  FrontFaces(const FrontFaces&) = delete;
+  FrontFaces& operator=(const FrontFaces&) = delete;
+
+  /// True if a face without this element covers it and is nearer to the eye.
+  bool hides(ElementId element) const;
+
+ private:
+  const Frame& frame_;
+  Projection projection_;
+  std::vector<SeenFace> faces_;
+};
+
 // Functions that find the links of the front layer that a stroke crosses: the visible links, without the links behind
 // them.
 

@@ -8,9 +8,11 @@ namespace {
 
 constexpr ElementId mostElementsMarked = 20'000;
 constexpr double pixelsBetweenMarks = 9;
-constexpr float planeFaceOpacity = 0.08F;
-// Shadows on a light ground must not hide the links.
-constexpr float darkest = 0.55F, darkestUnderLinks = 0.82F;
+constexpr float planeFaceOpacity = 0.12F;
+// Edges on a surface are invisible below the first length and fully visible above the second (pixels).
+constexpr double shortestEdge = 4, longEdge = 14;
+constexpr float edgeOpacity = 0.55F;
+constexpr float linksFade = 0.75F, solidFade = 0.3F;
 
 }  // namespace
 
@@ -20,26 +22,55 @@ bool ObjectDrawing::marksElements(const Mesh& mesh, double pixelsPerUnit) {
 
 QColor ObjectDrawing::faceColour(const Mesh& mesh, const Paint& paint) {
   QColor face = ownColour(mesh, paint);
+  if (isSolid(mesh, paint.look)) {
+    return colours::light(face);
+  }
   if (!paint.look.links) {
     return colours::solid(face);
   }
-  if (mesh.space_dimension == 3) {
-    return colours::faint(face);
-  }
   face.setAlphaF(planeFaceOpacity);
   return face;
-}
-
-QColor ObjectDrawing::sectionColour(const Mesh& mesh, const Paint& paint) {
-  return colours::bright(ownColour(mesh, paint));
 }
 
 QColor ObjectDrawing::ownColour(const Mesh& mesh, const Paint& paint) {
   return valuesFit(&mesh, paint) ? QColor(colour_map::neutral) : paint.colour;
 }
 
-float ObjectDrawing::darkestFace(const Look& look) {
-  return colours::ground() == colours::Ground::dark || !look.links ? darkest : darkestUnderLinks;
+QColor ObjectDrawing::linkColour(const Mesh& mesh, const Paint& paint, double pixelsPerUnit) {
+  if (!isSolid(mesh, paint.look)) {
+    return paint.colour;
+  }
+  QColor colour = colours::edge(ownColour(mesh, paint));
+  const double pixels = mesh.mean_link_length * pixelsPerUnit;
+  const double share = std::clamp((pixels - shortestEdge) / (longEdge - shortestEdge), 0.1, 1.0);
+  colour.setAlphaF(edgeOpacity * float(share));
+  return colour;
+}
+
+bool ObjectDrawing::distinguishesEdges(const Mesh& mesh, double pixelsPerUnit) {
+  return mesh.mean_link_length * pixelsPerUnit >= shortestEdge;
+}
+
+Lighting ObjectDrawing::lighting(const Mesh& mesh, const Paint& paint) {
+  return facesByValues(&mesh, paint) ? Lighting::ofValues() : Lighting::onGround();
+}
+
+float ObjectDrawing::fade(const Mesh& mesh, const Paint& paint) {
+  return !isSolid(mesh, paint.look) ? linksFade : facesByValues(&mesh, paint) ? 0 : solidFade;
+}
+
+float ObjectDrawing::frontSign(const Mesh& mesh) {
+  float sign = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const double* at = mesh.rest.data();
+    const auto along = [&](ElementId to, int k) { return at[2 * std::size_t{to} + k] - at[2 * std::size_t{a} + k]; };
+    const double area = along(b, 0) * along(c, 1) - along(b, 1) * along(c, 0);
+    if (area * double(sign) < 0) {
+      return 0;
+    }
+    sign = area > 0 ? 1.0F : area < 0 ? -1.0F : sign;
+  }
+  return sign;
 }
 
 }  // namespace chainmail

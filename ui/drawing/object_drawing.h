@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "drawing/colour_values.h"
+#include "drawing/detail_budget.h"
+#include "drawing/lighting.h"
 #include "drawing/look.h"
 #include "mesh/cuts.h"
 #include "simulate/frame.h"
@@ -28,6 +30,11 @@ class ObjectDrawing {
     QVector2D fog;  // distances at which fading with depth begins and ends; equal: no fading
     QColor background;
     float pixelRatio = 1;
+    DetailBudget::Detail detail = DetailBudget::Detail::complete;
+    /// Largest number of links and faces to draw.
+    std::size_t mostShapes = DetailBudget::mostAtRest;
+    /// True if the object hides marks behind it, which are then drawn faintly.
+    bool hidesMarks = false;
 
     QSizeF logicalSize() const { return size / double(pixelRatio); }
   };
@@ -83,13 +90,25 @@ class ObjectDrawing {
 
   /// Returns true if every element gets a mark: there are few, and they are far enough apart.
   static bool marksElements(const Mesh& mesh, double pixelsPerUnit);
-  /// Returns the colour of fully lit faces. Next to links, faces in a plane are almost transparent; in 3D, faces hide
-  /// everything behind them. Faces are grey if the colour map colours the object.
+  /// True if the object is drawn as a surface in space, which is lit and hides everything behind it.
+  static bool isSolid(const Mesh& mesh, const Look& look) {
+    return look.faces && mesh.space_dimension == 3 &&
+           !(mesh.triangles.empty() && mesh.tetrahedra.empty() && mesh.hexahedra.empty());
+  }
+  /// Returns the colour of fully lit faces. Next to links, faces in a plane are almost transparent. Faces are grey if
+  /// values colour the links.
   static QColor faceColour(const Mesh& mesh, const Paint& paint);
-  /// Returns the colour of the fully lit face of a section, which differs from the object's faces.
-  static QColor sectionColour(const Mesh& mesh, const Paint& paint);
-  /// Returns the brightness of a face that is seen edge-on, as a fraction of its full brightness.
-  static float darkestFace(const Look& look);
+  /// Returns the colour of the links; on surfaces, thin dark edges that are fainter the shorter they are.
+  static QColor linkColour(const Mesh& mesh, const Paint& paint, double pixelsPerUnit);
+  /// True if the links on a surface are long enough in the view to be distinguished.
+  static bool distinguishesEdges(const Mesh& mesh, double pixelsPerUnit);
+  /// Returns the light on the faces of a surface.
+  static Lighting lighting(const Mesh& mesh, const Paint& paint);
+  /// Returns the largest fading with depth, as a fraction.
+  static float fade(const Mesh& mesh, const Paint& paint);
+  /// Returns 1 if the triangles of a plane mesh are counterclockwise at rest, -1 if they are clockwise, and 0 if both
+  /// occur. Triangles of the other orientation are folded.
+  static float frontSign(const Mesh& mesh);
   /// True if faces show a picture.
   static bool showsPicture(const Mesh& mesh) { return mesh.texture != nullptr && mesh.texture->size[2] == 1; }
   /// True if sections show the slices of a volume.
@@ -100,9 +119,14 @@ class ObjectDrawing {
     return paint.values != nullptr && paint.values->mesh.get() == mesh;
   }
   static QColor ownColour(const Mesh& mesh, const Paint& paint);
-  /// True if the values of the elements colour the faces. This requires that links are hidden.
+  /// True if the values of the elements colour the faces. In a plane, this requires that links are hidden.
   static bool facesByValues(const Mesh* mesh, const Paint& paint) {
-    return valuesFit(mesh, paint) && !paint.values->ofLinks && !paint.look.links && !showsPicture(*mesh);
+    return valuesFit(mesh, paint) && !paint.values->ofLinks && !showsPicture(*mesh) &&
+           (!paint.look.links || isSolid(*mesh, paint.look));
+  }
+  /// True if values colour the links.
+  static bool linksByValues(const Mesh* mesh, const Paint& paint) {
+    return valuesFit(mesh, paint) && !(isSolid(*mesh, paint.look) && facesByValues(mesh, paint));
   }
 };
 

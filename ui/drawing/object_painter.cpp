@@ -2,7 +2,6 @@
 
 #include "drawing/object_painter.h"
 
-#include <QFile>
 #include <QOpenGLPaintDevice>
 #include <QPainter>
 #include <QVector4D>
@@ -12,7 +11,7 @@
 #include "drawing/colour_map.h"
 #include "drawing/drawn_indices.h"
 #include "drawing/projection.h"
-#include "mesh/error.h"
+#include "drawing/shaders.h"
 
 namespace chainmail {
 namespace {
@@ -25,6 +24,12 @@ constexpr std::size_t mostRingsPainted = 50'000;
 // Valued shapes are drawn nearer to the eye by this fraction of the object's depth, so that faces next to them do not
 // hide parts of them.
 constexpr float valuedLift = 0.04F;
+// The same for marks, so that the surface around a marked element does not hide its mark.
+constexpr float markLift = 0.03F;
+constexpr float hiddenOpacity = 0.3F;  // of marks behind the surface
+// Surfaces within this fraction of the object's depth may hide light from each other.
+constexpr float occlusionReach = 0.09F;
+constexpr float occlusionDarkening = 0.75F;
 
 /// Sends data to the graphics card; returns the number of items.
 template <class Datum>
@@ -41,17 +46,9 @@ void uploadPart(QOpenGLBuffer& buffer, const std::vector<Datum>& data, std::size
   buffer.write(int(first * sizeof(Datum)), data.data() + first, int((end - first) * sizeof(Datum)));
 }
 
-void buildProgram(QOpenGLShaderProgram& program, const std::array<int, 2>& variant) {
-  const QByteArray head = "#version 330 core\n#define SHADING " + QByteArray::number(variant[0]) +
-                          "\n#define COLOURED_BY " + QByteArray::number(variant[1]) + "\n";
-  const auto source = [&head](const char* name) {
-    QFile file(QLatin1String(":/shaders/") + QLatin1String(name));
-    return file.open(QIODevice::ReadOnly) ? head + file.readAll() : QByteArray();
-  };
-  if (!(program.addShaderFromSourceCode(QOpenGLShader::Vertex, source("object.vert")) &&
-        program.addShaderFromSourceCode(QOpenGLShader::Fragment, source("object.frag")) && program.link())) {
-    throw Error("OpenGL", program.log().simplified().toStdString(), "update the graphics driver");
-  }
+QByteArray definitions(const std::array<int, 2>& variant) {
+  return "#define SHADING " + QByteArray::number(variant[0]) + "\n#define COLOURED_BY " +
+         QByteArray::number(variant[1]) + "\n";
 }
 
 QVector4D rgbaOf(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
@@ -87,16 +84,24 @@ QVector4D sectionVector(const Mesh& mesh, const SectionPlane& plane) {
   return vector;
 }
 
-/// Returns a projection to the same positions in the view, but a little nearer to the eye.
-QMatrix4x4 liftedClip(const ObjectDrawing::Scene& scene) {
+/// Returns a projection to the same positions in the view, but nearer to the eye by a fraction of the object's depth.
+QMatrix4x4 liftedClip(const ObjectDrawing::Scene& scene, float lift) {
   if (scene.fog.y() <= scene.fog.x()) {
     return scene.toClip;
   }
   const float middle = (scene.fog.x() + scene.fog.y()) / 2;
-  const float nearer = middle - valuedLift * (scene.fog.y() - scene.fog.x());
+  const float nearer = middle - lift * (scene.fog.y() - scene.fog.x());
   QMatrix4x4 shift;
   shift(2, 3) = scene.toClip.map(QVector3D(0, 0, -nearer)).z() - scene.toClip.map(QVector3D(0, 0, -middle)).z();
   return shift * scene.toClip;
+}
+
+/// Returns the scene for marks: without fading, and a little nearer to the eye.
+ObjectDrawing::Scene overObject(const ObjectDrawing::Scene& scene) {
+  ObjectDrawing::Scene over = scene;
+  over.toClip = scene.hidesMarks ? liftedClip(scene, markLift) : scene.toClip;
+  over.fog = {};
+  return over;
 }
 
 }  // namespace
@@ -106,8 +111,10 @@ QMatrix4x4 liftedClip(const ObjectDrawing::Scene& scene) {
 void ObjectPainter::initialize() {
   initializeOpenGLFunctions();
   for (std::size_t i = 0; i < variants.size(); ++i) {
-    buildProgram(programs_[i], variants[i]);
+    buildProgram(programs_[i], "object.vert", "object.frag", definitions(variants[i]));
   }
+  layer_.initialize();
+  inLayer_ = {};
   vertexArray_.create();
   for (QOpenGLBuffer* buffer : buffers()) {
     buffer->create();
@@ -121,6 +128,7 @@ void ObjectPainter::destroy() {
     program.removeAllShaders();
   }
   vertexArray_.destroy();
+  layer_.destroy();
   glDeleteTextures(1, &valuesTexture_);
   for (QOpenGLBuffer* buffer : buffers()) {
     buffer->destroy();
@@ -150,6 +158,7 @@ void ObjectPainter::setFrame(const Frame& frame, const Cuts& cuts) {
     frameNumber_ = 0;
     selectedIndices_ = 0;
     valuesNumber_ = 0;
+    frontSign_ = mesh_->space_dimension == 2 ? frontSign(*mesh_) : 0;
   }
   if (frame.number != frameNumber_) {
     uploadPositions(frame);
@@ -193,13 +202,16 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
   program_->setUniformValue("colour", rgbaOf(colour));
   program_->setUniformValue("background", rgbaOf(scene.background));
   program_->setUniformValue("fog", scene.fog);
-  program_->setUniformValue("darkest", darkestFace(look_));
+  program_->setUniformValue("fade", fade_);
+  program_->setUniformValue("light", lighting_.shares());
+  program_->setUniformValue("glint", lighting_.glint);
   program_->setUniformValue("section", QVector4D(0, 0, 0, 1));  // clips nothing, even if the driver always clips
   vertexArray_.bind();
   program_->enableAttributeArray(0);
   program_->setAttributeBuffer(0, GL_FLOAT, 0, dimension);
   program_->disableAttributeArray(1);
   program_->disableAttributeArray(2);
+  program_->disableAttributeArray(3);
 }
 
 /// Same as use(), for the object coloured by its values: elements read them as an attribute, links from a texture.
@@ -288,14 +300,58 @@ void ObjectPainter::drawObject(const Scene& scene, const Paint& wanted, double p
   }
   Paint paint = wanted;
   paint.look.links = paint.look.links && !leavesLinksOut();
-  look_ = paint.look;
-  drawFaces(scene, paint);
-  drawWires(scene, paint);
-  if (paint.look.links && step() == 1 && marksElements(*mesh_, pixelsPerUnit)) {
-    drawEveryElement(scene, paint);
+  lighting_ = lighting(*mesh_, paint);
+  fade_ = fade(*mesh_, paint);
+  const bool solid = isSolid(*mesh_, paint.look) && faceIndices_ > 0;
+  if (solid) {
+    sendNormals();
+  }
+  if (solid && scene.detail == DetailBudget::Detail::complete) {
+    drawInLayer(scene, paint, pixelsPerUnit);
+  } else {
+    drawParts(scene, paint, pixelsPerUnit);
   }
   glDisable(GL_CLIP_DISTANCE0);
   vertexArray_.release();
+}
+
+void ObjectPainter::drawParts(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
+  drawFaces(scene, paint);
+  drawWires(scene, paint, pixelsPerUnit);
+  if (paint.look.links && !isSolid(*mesh_, paint.look) && step() == 1 && marksElements(*mesh_, pixelsPerUnit)) {
+    drawEveryElement(scene, paint);
+  }
+}
+
+/// Draws the object into its layer if it has changed, and copies the layer.
+void ObjectPainter::drawInLayer(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
+  if (const Drawn now = drawnNow(scene, paint); now != inLayer_) {
+    layer_.begin(scene.size.toSize());
+    drawParts(scene, paint, pixelsPerUnit);
+    glDisable(GL_CLIP_DISTANCE0);
+    const bool coloured = facesByValues(mesh_.get(), paint) || showsPicture(*mesh_) || showsSlices(*mesh_);
+    layer_.end({scene.toClip, coloured ? 0 : occlusionReach * (scene.fog.y() - scene.fog.x()), occlusionDarkening});
+    inLayer_ = now;
+    layerDrawn_ = true;
+  }
+  layer_.copy();
+}
+
+ObjectPainter::Drawn ObjectPainter::drawnNow(const Scene& scene, const Paint& paint) const {
+  const std::uint64_t parts = partsNumber_ + (parts_.section() != nullptr && parts_.sectionChanged() ? 1 : 0);
+  return {scene.toView,
+          scene.toClip,
+          scene.size,
+          scene.fog,
+          scene.background,
+          paint.colour,
+          scene.pixelRatio,
+          valuesFit(paint) ? paint.values->number : 0,
+          frameNumber_,
+          frameSeries_,
+          parts,
+          paint.scale,
+          paint.look};
 }
 
 void ObjectPainter::sendParts() {
@@ -303,11 +359,30 @@ void ObjectPainter::sendParts() {
   drawnLinks_ = std::move(drawn.numbers);
   upload(links_, drawn.ends);
   faceIndices_ = upload(faces_, parts_.faces());
+  freshIndices_ = upload(fresh_, parts_.freshFaces());
   valuesNumber_ = 0;
+  normalsOutdated_ = true;
+  ++partsNumber_;
+}
+
+/// Computes and sends the normals that changed.
+void ObjectPainter::sendNormals() {
+  if (std::exchange(normalsOutdated_, false)) {
+    auto corners = parts_.faces();
+    const auto fresh = parts_.freshFaces();
+    corners.insert(corners.end(), fresh.begin(), fresh.end());
+    normalsOf_.setFaces(std::move(corners), mesh_->element_count());
+    upload(normals_, normalsOf_.normals());
+  }
+  normalsOf_.follow(*frame_);
+  for (const auto& [first, end] : normalsOf_.changedBlocks()) {
+    const auto& normals = normalsOf_.normals();
+    uploadPart(normals_, normals, first * Frame::block_elements, std::min(end * Frame::block_elements, normals.size()));
+  }
 }
 
 void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
-  if (faceIndices_ == 0) {
+  if (faceIndices_ + freshIndices_ == 0) {
     return;
   }
   const bool spatial = mesh_->space_dimension == 3;
@@ -319,29 +394,60 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
   }
   positions_.bind();
   const bool pictured = showsPicture(*mesh_);
+  const int shading = !spatial ? 5 : pictured ? 0 : 1;
   if (facesByValues(mesh_.get(), paint)) {
-    useValues(scene, paint, 0);
+    useValues(scene, paint, shading);
   } else {
-    use(scene, faceColour(*mesh_, paint), spatial && !pictured ? 1 : 0, mesh_->space_dimension, pictured ? 3 : 0);
+    use(scene, faceColour(*mesh_, paint), shading, mesh_->space_dimension, pictured ? 3 : 0);
   }
   if (pictured) {
     useTexture();
   }
+  if (spatial) {
+    useNormals();
+  } else {
+    const QMatrix4x4 seen = scene.toView * placement(*mesh_);
+    const bool mirrored = seen(0, 0) * seen(1, 1) < seen(0, 1) * seen(1, 0);
+    program_->setUniformValue("front_sign", mirrored ? -frontSign_ : frontSign_);
+  }
   useRest(paint.look);
   faces_.bind();
   glDrawElements(GL_TRIANGLES, faceIndices_, GL_UNSIGNED_INT, nullptr);
+  drawFresh(scene, paint);
   glDisable(GL_CLIP_DISTANCE0);
-  drawCap(scene, paint);
+  drawCap(scene);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
+/// Draws the faces that cuts have made visible in a volume, in the colour of its inside.
+void ObjectPainter::drawFresh(const Scene& scene, const Paint& paint) {
+  if (freshIndices_ == 0) {
+    return;
+  }
+  if (!facesByValues(mesh_.get(), paint)) {
+    positions_.bind();
+    use(scene, colours::inner, 1, 3);
+    useNormals();
+    useRest(paint.look);
+  }
+  fresh_.bind();
+  glDrawElements(GL_TRIANGLES, freshIndices_, GL_UNSIGNED_INT, nullptr);
+}
+
+void ObjectPainter::useNormals() {
+  normals_.bind();
+  program_->enableAttributeArray(3);
+  program_->setAttributeBuffer(3, GL_FLOAT, 0, 3);
+}
+
 /// Draws the face of the section. For a new frame, it sends only the points of this face.
-void ObjectPainter::drawCap(const Scene& scene, const Paint& paint) {
+void ObjectPainter::drawCap(const Scene& scene) {
   const Section* section = parts_.section();
   if (section == nullptr) {
     return;
   }
   if (parts_.takeSectionChange()) {
+    ++partsNumber_;
     capIndices_ = upload(cap_, section->triangles(parts_.surface()));
     std::vector<QVector3D> rest(section->points().size());
     std::ranges::transform(section->points(), rest.begin(), [this](const SectionPoint& point) {
@@ -356,7 +462,7 @@ void ObjectPainter::drawCap(const Scene& scene, const Paint& paint) {
   }
   const bool sliced = showsSlices(*mesh_);
   capPositions_.bind();
-  use(scene, sectionColour(*mesh_, paint), sliced ? 0 : 1, 3, sliced ? 4 : 0);
+  use(scene, colours::inner, sliced ? 0 : 1, 3, sliced ? 4 : 0);
   if (sliced) {
     useTexture();
     capRest_.bind();
@@ -367,21 +473,22 @@ void ObjectPainter::drawCap(const Scene& scene, const Paint& paint) {
   glDrawElements(GL_TRIANGLES, capIndices_, GL_UNSIGNED_INT, nullptr);
 }
 
-void ObjectPainter::drawWires(const Scene& scene, const Paint& paint) {
+void ObjectPainter::drawWires(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
   const auto count = GLsizei(2 * drawnLinks_.size());
   if (count == 0) {
     return;
   }
   positions_.bind();
-  if (!valuesFit(paint)) {
-    use(scene, paint.colour, 0, mesh_->space_dimension);
-  } else {
+  const bool byValues = linksByValues(mesh_.get(), paint);
+  if (byValues) {
     useValues(scene, paint, 0);
+  } else {
+    use(scene, linkColour(*mesh_, paint, pixelsPerUnit), 0, mesh_->space_dimension);
   }
   useRest(paint.look);
   links_.bind();
   if (count <= mostIndicesSmoothed) {
-    glLineWidth((valuesFit(paint) ? valuedWidth : 1) * scene.pixelRatio);
+    glLineWidth((byValues ? valuedWidth : 1) * scene.pixelRatio);
     glEnable(GL_LINE_SMOOTH);
   }
   glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
@@ -404,6 +511,25 @@ void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
 
 // Marks over the object: elements, links, strokes, text
 
+/// Calls `draw` with the colour of marks. Behind the object, marks are drawn faintly first.
+void ObjectPainter::drawMarked(const Scene& scene, QColor colour, const std::function<void(QColor)>& draw) {
+  if (scene.hidesMarks) {
+    QColor faint = colour;
+    faint.setAlphaF(hiddenOpacity * colour.alphaF());
+    glDisable(GL_DEPTH_TEST);
+    draw(faint);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+  } else {
+    glDisable(GL_DEPTH_TEST);
+  }
+  draw(colour);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_DEPTH_TEST);
+  vertexArray_.release();
+}
+
 void ObjectPainter::drawElements(const Scene& scene, std::span<const ElementId> elements, QColor colour, float diameter,
                                  Mark mark) {
   std::vector<float> positions;
@@ -422,16 +548,14 @@ void ObjectPainter::drawSelection(const Scene& scene, QColor colour, float diame
   if (selectedIndices_ == 0) {
     return;
   }
-  glDisable(GL_DEPTH_TEST);
-  positions_.bind();
-  Scene over = scene;
-  over.fog = {};
   const bool small = diameter < smallestRing;
-  use(over, colour, int(small ? Mark::disc : Mark::ring), mesh_->space_dimension);
-  program_->setUniformValue("point_size", diameter * scene.pixelRatio);
-  selected_.bind();
-  glDrawElements(GL_POINTS, selectedIndices_, GL_UNSIGNED_INT, nullptr);
-  vertexArray_.release();
+  drawMarked(scene, colour, [&](QColor shade) {
+    positions_.bind();
+    use(overObject(scene), shade, int(small ? Mark::disc : Mark::ring), mesh_->space_dimension);
+    program_->setUniformValue("point_size", diameter * scene.pixelRatio);
+    selected_.bind();
+    glDrawElements(GL_POINTS, selectedIndices_, GL_UNSIGNED_INT, nullptr);
+  });
 }
 
 void ObjectPainter::drawLinks(const Scene& scene, std::span<const LinkId> links, QColor colour) {
@@ -447,21 +571,20 @@ void ObjectPainter::drawLinks(const Scene& scene, std::span<const LinkId> links,
   glLineWidth(1);
 }
 
-/// Draws positions that are not in the object's buffer over everything else.
+/// Draws marks at positions that are not in the object's buffer.
 void ObjectPainter::drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour,
                             int shading, float diameter) {
   if (positions.empty()) {
     return;
   }
-  glDisable(GL_DEPTH_TEST);
   scratch_.bind();
   scratch_.allocate(positions.data(), int(positions.size_bytes()));
-  Scene over = scene;
-  over.fog = {};
-  use(over, colour, shading, mesh_->space_dimension);
-  program_->setUniformValue("point_size", diameter * scene.pixelRatio);
-  glDrawArrays(mode, 0, GLsizei(positions.size() / mesh_->space_dimension));
-  vertexArray_.release();
+  drawMarked(scene, colour, [&](QColor shade) {
+    scratch_.bind();
+    use(overObject(scene), shade, shading, mesh_->space_dimension);
+    program_->setUniformValue("point_size", diameter * scene.pixelRatio);
+    glDrawArrays(mode, 0, GLsizei(positions.size() / mesh_->space_dimension));
+  });
 }
 
 void ObjectPainter::drawStroke(const Scene& scene, std::span<const QPointF> positions, QColor colour) {
@@ -535,7 +658,7 @@ void ObjectPainter::drawValued(const Scene& scene, std::span<const QVector3D> po
   over.fog = {};  // fading would change the colour, which is a value
   use(over, {}, lines ? 0 : int(shape == Shape::discs ? Mark::disc : Mark::ring), 3, 1);
   program_->setUniformValue("to_view", scene.toView);
-  program_->setUniformValue("to_clip", liftedClip(scene));
+  program_->setUniformValue("to_clip", liftedClip(scene, valuedLift));
   useMap(scale);
   program_->enableAttributeArray(1);
   program_->setAttributeBuffer(1, GL_FLOAT, int(positions.size_bytes()), 1);

@@ -7,13 +7,15 @@
 #include <array>
 
 #include "drawing/drawn_parts.h"
+#include "drawing/object_layer.h"
 #include "drawing/see_through.h"
+#include "drawing/surface_normals.h"
 
 namespace chainmail {
 
 /// Draws with OpenGL. It owns the buffers on the graphics card and sends only changes: the blocks of positions that
-/// moved, and the links and faces that the camera sees, as finely as it can show them. All functions except
-/// cutsChanged() require the context to be current.
+/// moved, and the links and faces that the camera sees, as finely as it can show them. A complete picture of a surface
+/// is drawn once and kept until it changes. All functions except cutsChanged() require the context to be current.
 class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
  public:
   /// `levels` of the mesh may be shared with other painters.
@@ -48,10 +50,28 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   /// See DrawnParts.
   unsigned step() const { return parts_.step(); }
   bool leavesLinksOut() const { return parts_.leavesLinksOut(); }
+  /// Number of links and faces in the last picture of the object.
+  std::size_t shapes() const { return std::size_t(faceIndices_ + freshIndices_) / 3 + drawnLinks_.size(); }
+  /// Returns true if a complete picture was drawn, not only copied, since the last call.
+  bool takeLayerDrawn() { return std::exchange(layerDrawn_, false); }
 
  private:
-  std::array<QOpenGLBuffer*, 10> buffers() {
-    return {&positions_, &scratch_, &links_, &faces_, &selected_, &values_, &rest_, &cap_, &capPositions_, &capRest_};
+  /// All that the picture of the object depends on.
+  struct Drawn {
+    QMatrix4x4 toView, toClip;
+    QSizeF size;
+    QVector2D fog;
+    QColor background, colour;
+    float pixelRatio = 0;
+    std::uint64_t values = 0, frame = 0, series = 0, parts = 0;
+    ColourScale scale;
+    Look look;
+    bool operator==(const Drawn&) const = default;
+  };
+
+  std::array<QOpenGLBuffer*, 12> buffers() {
+    return {&positions_, &scratch_, &links_, &faces_,        &fresh_,   &selected_,
+            &values_,    &rest_,    &cap_,   &capPositions_, &capRest_, &normals_};
   }
   void uploadPositions(const Frame& frame);
 
@@ -64,16 +84,36 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   bool valuesFit(const Paint& paint) const { return ObjectDrawing::valuesFit(mesh_.get(), paint); }
 
   void sendParts();
+  void sendNormals();
+  void drawParts(const Scene& scene, const Paint& paint, double pixelsPerUnit);
+  void drawInLayer(const Scene& scene, const Paint& paint, double pixelsPerUnit);
+  Drawn drawnNow(const Scene& scene, const Paint& paint) const;
   void drawFaces(const Scene& scene, const Paint& paint);
-  void drawCap(const Scene& scene, const Paint& paint);
-  void drawWires(const Scene& scene, const Paint& paint);
+  void drawFresh(const Scene& scene, const Paint& paint);
+  void useNormals();
+  void drawCap(const Scene& scene);
+  void drawWires(const Scene& scene, const Paint& paint, double pixelsPerUnit);
+  void drawMarked(const Scene& scene, QColor colour, const std::function<void(QColor)>& draw);
   void drawEveryElement(const Scene& scene, const Paint& paint);
   void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour, int shading,
                float diameter);
 
   // The shaders, compiled for each pair of SHADING and COLOURED_BY that is used.
-  static constexpr std::array<std::array<int, 2>, 11> variants{
-      {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 0}, {2, 0}, {2, 1}, {3, 0}, {4, 0}, {4, 1}}};
+  static constexpr std::array<std::array<int, 2>, 15> variants{{{0, 0},
+                                                                {0, 1},
+                                                                {0, 2},
+                                                                {0, 3},
+                                                                {0, 4},
+                                                                {1, 0},
+                                                                {1, 1},
+                                                                {2, 0},
+                                                                {2, 1},
+                                                                {3, 0},
+                                                                {4, 0},
+                                                                {4, 1},
+                                                                {5, 0},
+                                                                {5, 1},
+                                                                {5, 3}}};
   std::array<QOpenGLShaderProgram, variants.size()> programs_;
   QOpenGLShaderProgram* program_ = nullptr;  // the one in use
   QOpenGLVertexArrayObject vertexArray_;
@@ -81,6 +121,8 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   QOpenGLBuffer scratch_{QOpenGLBuffer::VertexBuffer};
   QOpenGLBuffer links_{QOpenGLBuffer::IndexBuffer};
   QOpenGLBuffer faces_{QOpenGLBuffer::IndexBuffer};
+  QOpenGLBuffer fresh_{QOpenGLBuffer::IndexBuffer};     // the faces that cuts have made visible
+  QOpenGLBuffer normals_{QOpenGLBuffer::VertexBuffer};  // one per element
   QOpenGLBuffer selected_{QOpenGLBuffer::IndexBuffer};
   QOpenGLBuffer values_{QOpenGLBuffer::VertexBuffer};
   QOpenGLBuffer rest_{QOpenGLBuffer::VertexBuffer};  // rest positions of restMesh_, for sections and pictures
@@ -90,14 +132,22 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   std::shared_ptr<CardTexture> texture_;
   GLuint valuesTexture_ = 0;  // values_ as a texture, for the fragment shader
   SeeThrough seeThrough_;
+  ObjectLayer layer_;
+  Drawn inLayer_;  // what the layer shows
+  bool layerDrawn_ = false;
+  SurfaceNormals normalsOf_;
+  bool normalsOutdated_ = true;  // true if the graphics card has normals of other faces
   DrawnParts parts_;
   MeshPointer mesh_;
   const Frame* frame_ = nullptr;
   std::uint64_t frameNumber_ = 0, frameSeries_ = 0;
   std::vector<std::uint32_t> drawnLinks_;  // the numbers of the links in links_
-  GLsizei faceIndices_ = 0, selectedIndices_ = 0, capIndices_ = 0;
-  bool capMoved_ = true;  // true if capPositions_ is older than the newest frame
-  Look look_;             // of the object that is being drawn
+  GLsizei faceIndices_ = 0, freshIndices_ = 0, selectedIndices_ = 0, capIndices_ = 0;
+  std::uint64_t partsNumber_ = 0;  // grows when the drawn parts or the section change
+  float frontSign_ = 0;            // see ObjectDrawing::frontSign
+  bool capMoved_ = true;           // true if capPositions_ is older than the newest frame
+  Lighting lighting_;              // of the object that is being drawn
+  float fade_ = 0;
   std::uint64_t valuesNumber_ = 0;
 };
 

@@ -13,12 +13,13 @@
 namespace chainmail {
 namespace {
 
-constexpr float mostFaded = 0.75F;   // largest fading with depth, the same as on the screen
 constexpr float liftOfLines = 0.5F;  // mean link lengths; draws links and marks of a surface in front of its faces
 constexpr float ringHole = 0.64F;    // diameter of the hole, as a fraction of the ring's diameter
 constexpr double softEdge = 0.5;     // pixels; on the screen, marks fade inside their edges
 constexpr int shadesOfALink = 8;     // largest number, if the values at its ends differ
-constexpr float seamWidth = 0.4F;    // pixels; closes the gaps between faces
+constexpr float seamWidth = 0.7F;    // pixels; closes the gaps between faces
+// Faces whose smooth normal differs more than this from their own lie at a crease (cosine of the angle).
+constexpr float creaseCosine = 0.65F;
 constexpr std::size_t mostRingsPrinted = 5'000;  // more rings would hide each other
 
 /// Returns the mean colour of a few texels in a triangle. `corners` are its rest positions.
@@ -63,6 +64,7 @@ void VectorPainter::setFrame(const Frame& frame, const Cuts& cuts) {
   frame_ = &frame;
   parts_.setFrame(frame, cuts);
   placement_ = placement(*frame.mesh);
+  frontSign_ = frame.mesh->space_dimension == 2 ? frontSign(*frame.mesh) : 0;
 }
 
 QVector3D VectorPainter::inSpace(ElementId element) const {
@@ -82,11 +84,11 @@ VectorPainter::Seen VectorPainter::seen(const Scene& scene, const QVector3D& pos
           clip.w() > 0};
 }
 
-QColor VectorPainter::faded(const Scene& scene, const QColor& colour, float distance) {
+QColor VectorPainter::faded(const Scene& scene, const QColor& colour, float distance) const {
   if (!(scene.fog.y() > scene.fog.x())) {
     return colour;
   }
-  const float fade = mostFaded * std::clamp((distance - scene.fog.x()) / (scene.fog.y() - scene.fog.x()), 0.0F, 1.0F);
+  const float fade = fade_ * std::clamp((distance - scene.fog.x()) / (scene.fog.y() - scene.fog.x()), 0.0F, 1.0F);
   const auto mixed = [fade](float of, float with) { return of + fade * (with - of); };
   const QColor& ground = scene.background;
   return QColor::fromRgbF(mixed(colour.redF(), ground.redF()), mixed(colour.greenF(), ground.greenF()),
@@ -155,10 +157,13 @@ void VectorPainter::drawObject(const Scene& scene, const Paint& wanted, double p
   parts_.choose(scene, wanted, pixelsPerUnit);
   Paint paint = wanted;
   paint.look.links = paint.look.links && !parts_.leavesLinksOut();
+  lighting_ = lighting(*frame_->mesh, paint);
+  fade_ = fade(*frame_->mesh, paint);
   addFaces(scene, paint);
-  addCap(scene, paint);
-  addLinks(scene, paint);
-  if (paint.look.links && parts_.step() == 1 && marksElements(*frame_->mesh, pixelsPerUnit)) {
+  addCap(scene);
+  addLinks(scene, paint, pixelsPerUnit);
+  if (paint.look.links && !isSolid(*frame_->mesh, paint.look) && parts_.step() == 1 &&
+      marksElements(*frame_->mesh, pixelsPerUnit)) {
     addElements(scene, paint);
   }
 }
@@ -188,40 +193,84 @@ std::vector<QVector3D> VectorPainter::shown(std::span<const ElementId> corners, 
   return positions;
 }
 
-QColor VectorPainter::lit(const Scene& scene, std::span<const QVector3D> positions, const QColor& colour,
-                          const Look& look) {
-  const QVector3D normal = QVector3D::normal(positions[0], positions[1], positions[2]);
-  const float share = std::lerp(darkestFace(look), 1.0F, std::abs(scene.toView.mapVector(normal).z()));
-  return QColor::fromRgbF(share * colour.redF(), share * colour.greenF(), share * colour.blueF(), colour.alphaF());
+QColor VectorPainter::lit(const Scene& scene, std::span<const QVector3D> positions, std::span<const ElementId> corners,
+                          const QColor& colour) const {
+  const auto toViewer = [&](const QVector3D& normal) {
+    const QVector3D seen = scene.toView.mapVector(normal).normalized();
+    return seen.z() < 0 ? -seen : seen;
+  };
+  QVector3D normal = toViewer(QVector3D::normal(positions[0], positions[1], positions[2]));
+  QVector3D smooth;
+  for (const ElementId corner : corners) {
+    smooth += normals_.normals()[corner].normalized();
+  }
+  if (const QVector3D seen = toViewer(smooth); QVector3D::dotProduct(seen, normal) > creaseCosine) {
+    normal = seen;
+  }
+  return lighting_.of(colour, normal);
+}
+
+/// Returns the colour of a face in a plane, which is darker if the face is folded.
+QColor VectorPainter::folded(const Scene& scene, const Paint& paint, const std::array<QVector3D, 3>& corners,
+                             QColor face) const {
+  const QVector3D a = scene.toView.map(corners[0]), b = scene.toView.map(corners[1]), c = scene.toView.map(corners[2]);
+  const float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+  const QMatrix4x4 seen = scene.toView * placement_;
+  const float sign = seen(0, 0) * seen(1, 1) < seen(0, 1) * seen(1, 0) ? -frontSign_ : frontSign_;
+  if (area * sign < 0) {
+    const float share = facesByValues(frame_->mesh.get(), paint) || showsPicture(*frame_->mesh) ? 0.75F : 0.55F;
+    face = QColor::fromRgbF(share * face.redF(), share * face.greenF(), share * face.blueF(),
+                            std::min(1.0F, face.alphaF() + 0.3F));
+  }
+  return face;
 }
 
 void VectorPainter::addFaces(const Scene& scene, const Paint& paint) {
   const Mesh& mesh = *frame_->mesh;
-  const QColor colour = faceColour(mesh, paint);
-  const bool pictured = showsPicture(mesh), valued = facesByValues(&mesh, paint);
-  const bool spatial = mesh.space_dimension == 3;
-  const auto corners = parts_.faces();
+  const auto faces = parts_.faces(), fresh = parts_.freshFaces();
+  if (isSolid(mesh, paint.look)) {
+    auto all = faces;
+    all.insert(all.end(), fresh.begin(), fresh.end());
+    normals_.setFaces(std::move(all), mesh.element_count());
+    normals_.follow(*frame_);
+  }
+  addFaces(scene, paint, faces, faceColour(mesh, paint));
+  addFaces(scene, paint, fresh, colours::inner);
+}
+
+void VectorPainter::addFaces(const Scene& scene, const Paint& paint, std::span<const ElementId> corners,
+                             const QColor& colour) {
+  const Mesh& mesh = *frame_->mesh;
+  const bool opaque = mesh.space_dimension == 3 || showsPicture(mesh) || facesByValues(&mesh, paint);
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-    const auto elements = std::span(corners).subspan(i, 3);
+    const auto elements = corners.subspan(i, 3);
     const auto positions = shown(elements, paint.look);
     for (std::size_t j = 2; j < positions.size(); ++j) {
       const std::array part{positions[0], positions[j - 1], positions[j]};
-      QColor face = colour;
-      if (pictured) {
-        face = texelsOf(*mesh.texture, {mesh.rest_position(elements[0]), mesh.rest_position(elements[1]),
-                                        mesh.rest_position(elements[2])});
-      } else if (valued) {
-        const auto& values = paint.values->values;
-        face = colour_map::of((values[elements[0]] + values[elements[1]] + values[elements[2]]) / 3, paint.scale);
-      } else if (spatial) {
-        face = lit(scene, part, colour, paint.look);
-      }
-      add(scene, part, face, spatial || pictured || valued ? seamWidth : 0);
+      add(scene, part, colourOf(scene, paint, elements, part, colour), opaque ? seamWidth : 0);
     }
   }
 }
 
-void VectorPainter::addCap(const Scene& scene, const Paint& paint) {
+/// Returns the colour of a part of a face.
+QColor VectorPainter::colourOf(const Scene& scene, const Paint& paint, std::span<const ElementId> corners,
+                               const std::array<QVector3D, 3>& part, const QColor& colour) const {
+  const Mesh& mesh = *frame_->mesh;
+  QColor face = colour;
+  if (showsPicture(mesh)) {
+    face = texelsOf(*mesh.texture,
+                    {mesh.rest_position(corners[0]), mesh.rest_position(corners[1]), mesh.rest_position(corners[2])});
+  } else if (facesByValues(&mesh, paint)) {
+    const auto& values = paint.values->values;
+    face = colour_map::of((values[corners[0]] + values[corners[1]] + values[corners[2]]) / 3, paint.scale);
+  }
+  if (mesh.space_dimension < 3) {
+    return folded(scene, paint, part, face);
+  }
+  return showsPicture(mesh) ? face : lit(scene, part, corners, face);
+}
+
+void VectorPainter::addCap(const Scene& scene) {
   const Section* section = parts_.section();
   if (section == nullptr) {
     return;
@@ -238,14 +287,15 @@ void VectorPainter::addCap(const Scene& scene, const Paint& paint) {
     const std::array part{positions[corners[i]], positions[corners[i + 1]], positions[corners[i + 2]]};
     const QColor face = showsSlices(mesh)
                             ? texelsOf(*mesh.texture, {rest(corners[i]), rest(corners[i + 1]), rest(corners[i + 2])})
-                            : lit(scene, part, sectionColour(mesh, paint), paint.look);
+                            : lit(scene, part, {}, colours::inner);
     add(scene, part, face, seamWidth);
   }
 }
 
-void VectorPainter::addLinks(const Scene& scene, const Paint& paint) {
+void VectorPainter::addLinks(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
   const Mesh& mesh = *frame_->mesh;
-  const bool byValues = valuesFit(&mesh, paint);
+  const bool byValues = linksByValues(&mesh, paint);
+  const QColor colour = linkColour(mesh, paint, pixelsPerUnit);
   const DrawnLinks links = parts_.links();
   const auto values =
       byValues && paint.values->ofLinks ? parts_.valuesOf(links.numbers, *paint.values) : std::vector<float>();
@@ -258,7 +308,7 @@ void VectorPainter::addLinks(const Scene& scene, const Paint& paint) {
     const auto along = [&](float share) { return inSpace(a) + share * (inSpace(b) - inSpace(a)); };
     const std::array ends{along(first), along(last)};
     if (!byValues) {
-      add(scene, ends, paint.colour, 1, Mark::disc, liftOfLines * float(mesh.mean_link_length));
+      add(scene, ends, colour, 1, Mark::disc, liftOfLines * float(mesh.mean_link_length));
     } else if (paint.values->ofLinks) {
       addLink(scene, ends, {values[i], values[i]}, paint.scale, valuedWidth);
     } else {

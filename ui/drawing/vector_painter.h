@@ -4,6 +4,7 @@
 
 #include "drawing/drawn_parts.h"
 #include "drawing/object_drawing.h"
+#include "drawing/surface_normals.h"
 
 namespace chainmail {
 
@@ -48,7 +49,7 @@ class VectorPainter : public ObjectDrawing {
 
   QVector3D inSpace(ElementId element) const;
   static Seen seen(const Scene& scene, const QVector3D& position);
-  static QColor faded(const Scene& scene, const QColor& colour, float distance);
+  QColor faded(const Scene& scene, const QColor& colour, float distance) const;
   void add(const Scene& scene, std::span<const QVector3D> positions, const QColor& colour, float width,
            Mark mark = Mark::disc, float lift = 0);
   void addClipped(Piece piece, const QRectF& view);
@@ -59,10 +60,16 @@ class VectorPainter : public ObjectDrawing {
   /// part of a face.
   std::array<float, 2> shown(ElementId from, ElementId to, const Look& look) const;
   std::vector<QVector3D> shown(std::span<const ElementId> corners, const Look& look) const;
-  static QColor lit(const Scene& scene, std::span<const QVector3D> positions, const QColor& colour, const Look& look);
+  /// Returns the colour of a lit face. Its light is that of the smooth normal at its corners, except at creases.
+  QColor lit(const Scene& scene, std::span<const QVector3D> positions, std::span<const ElementId> corners,
+             const QColor& colour) const;
+  QColor folded(const Scene& scene, const Paint& paint, const std::array<QVector3D, 3>& corners, QColor face) const;
   void addFaces(const Scene& scene, const Paint& paint);
-  void addCap(const Scene& scene, const Paint& paint);
-  void addLinks(const Scene& scene, const Paint& paint);
+  void addFaces(const Scene& scene, const Paint& paint, std::span<const ElementId> corners, const QColor& colour);
+  QColor colourOf(const Scene& scene, const Paint& paint, std::span<const ElementId> corners,
+                  const std::array<QVector3D, 3>& part, const QColor& colour) const;
+  void addCap(const Scene& scene);
+  void addLinks(const Scene& scene, const Paint& paint, double pixelsPerUnit);
   void addLink(const Scene& scene, const std::array<QVector3D, 2>& ends, const std::array<float, 2>& values,
                const ColourScale& scale, float width);
   void addElements(const Scene& scene, const Paint& paint);
@@ -75,6 +82,10 @@ class VectorPainter : public ObjectDrawing {
   const Frame* frame_ = nullptr;
   QMatrix4x4 placement_;
   std::vector<ElementId> selected_;
+  SurfaceNormals normals_;
+  Lighting lighting_;
+  float fade_ = 0;  // largest fading with depth
+  float frontSign_ = 0;
   std::vector<Piece> pieces_;
 };
 

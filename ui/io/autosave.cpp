@@ -104,6 +104,22 @@ void Autosave::keep() {
   });
 }
 
+bool Autosave::setAside() {
+  if (closed_ || !document_.isModified()) {
+    return false;
+  }
+  const QString path = newPath().chopped(qsizetype(session_ending.size())) + closedEnding;
+  aside_ = std::jthread([path, draft = SessionDraft(document_, look_.read())] {
+    try {
+      save_session(asPath(path), draft.finished({}), {});
+      dropOldest();
+    } catch (const std::exception&) {
+      // The work can still be undone; automatic saving reports a full disk.
+    }
+  });
+  return true;
+}
+
 void Autosave::listen() {
   connect(&document_.undoStack(), &QUndoStack::indexChanged, this, [this] {
     ++steps_;

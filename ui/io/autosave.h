@@ -45,6 +45,10 @@ class Autosave : public QObject {
   /// in the background, and the destructor waits for it.
   void keep();
 
+  /// Keeps unsaved work for the next start, because another object is about to replace it. Writing runs in the
+  /// background. Returns false if there is none.
+  bool setAside();
+
   /// Takes over the file of another program as the work of this window.
   void adopt(const QString& path);
 
@@ -84,6 +88,7 @@ class Autosave : public QObject {
   std::chrono::steady_clock::time_point begun_;
   std::shared_ptr<Writing> writing_;  // null while nothing is being written; shared with the thread
   std::jthread thread_;
+  std::jthread aside_;  // writes work that was set aside
 };
 
 }  // namespace chainmail

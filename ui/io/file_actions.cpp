@@ -12,6 +12,7 @@
 #include "common/ask_where.h"
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "common/up_axis.h"
 #include "files/mesh/mesh_formats.h"
 #include "files/mesh/open_mesh.h"
 #include "files/session/session.h"
@@ -79,6 +80,9 @@ QString openingReport(const QString& name, const OpenedMesh& opened, std::size_t
   }
   QString report = QStringLiteral("%1: %2, %3 units")
                        .arg(name, counts.join(QStringLiteral(", ")), extents.join(QStringLiteral(" × ")));
+  if (mesh.space_dimension == 3 && usuallyZUp(name)) {
+    report += QStringLiteral(". The z axis points up, which is a guess: see the View menu");
+  }
   if (const std::string flaws = in_words(opened.flaws); !flaws.empty()) {
     report += QStringLiteral(". ") + text(flaws);
   }
@@ -100,6 +104,7 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
   connect(sheets_, &Sheets::opened, this, &FileActions::remember);
   connect(sheets_, &Sheets::saved, this, &FileActions::saved);
   connect(&sessions_, &Sessions::failed, this, &FileActions::failed);
+  connect(&sessions_, &Sessions::noted, this, &FileActions::noted);
   connect(&sessions_, &Sessions::opened, this, &FileActions::remember);
   connect(&sessions_, &Sessions::saved, this, [this](const QString& path) {
     remember(path);
@@ -154,8 +159,9 @@ void FileActions::saveSession() {
 }
 
 void FileActions::saveSessionAs() {
-  const QString path =
-      askWhere(window_, QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")}, startFolder());
+  const QString path = askWhere(
+      window_, QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")},
+      asFileName(document_.sessionFile().isEmpty() ? document_.name() : QFileInfo(document_.sessionFile()).fileName()));
   if (!path.isEmpty()) {
     sessions_.savePath(path);
   }
@@ -166,8 +172,9 @@ void FileActions::addShapeActions(QMenu& menu) {
   for (int panel = 0; panel < Document::mostPanels; ++panel) {
     auto* action = shapes->addAction(QStringLiteral("Panel &%1…").arg(panelName(panel)));
     connect(action, &QAction::triggered, this, [this, panel] {
-      const QString path = askWhere(window_, QStringLiteral("Save deformed mesh"),
-                                    saveFilters(FormatUse::write_positions), startFolder());
+      const QString path =
+          askWhere(window_, QStringLiteral("Save deformed mesh"), saveFilters(FormatUse::write_positions),
+                   QStringLiteral("%1-deformed-%2").arg(asFileName(document_.name()), panelName(panel)));
       if (!path.isEmpty()) {
         saveShapePath(panel, path);
       }
@@ -236,8 +243,9 @@ void FileActions::show(const OpenedMesh& opened, const QString& path, bool first
 }
 
 void FileActions::save() {
-  const QString path = askWhere(window_, QStringLiteral("Save mesh at rest"),
-                                saveFilters(FormatUse::write, document_.mesh()->lattice.has_value()), startFolder());
+  const QString path =
+      askWhere(window_, QStringLiteral("Save mesh at rest"),
+               saveFilters(FormatUse::write, document_.mesh()->lattice.has_value()), asFileName(document_.name()));
   if (!path.isEmpty()) {
     savePath(path);
   }

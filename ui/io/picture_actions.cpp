@@ -20,7 +20,6 @@ constexpr std::array scales{1, 2, 4};
 QString subjectKey() { return QStringLiteral("picture/of"); }
 QString scaleKey() { return QStringLiteral("picture/scale"); }
 QString transparentKey() { return QStringLiteral("picture/transparent"); }
-QString pictureFolderKey() { return QStringLiteral("picture/folder"); }
 
 }  // namespace
 
@@ -167,13 +166,11 @@ void PictureActions::copy() {
 }
 
 void PictureActions::save() {
-  QSettings settings;
   const QString path = askWhere(window_, QStringLiteral("Save picture"),
                                 {QStringLiteral("PNG picture (*.png)"), QStringLiteral("Panels as SVG drawing (*.svg)"),
                                  QStringLiteral("Panels as PDF drawing (*.pdf)")},
-                                settings.value(pictureFolderKey(), QDir::currentPath()).toString());
+                                asFileName(document_.name()));
   if (!path.isEmpty()) {
-    settings.setValue(pictureFolderKey(), QFileInfo(path).absolutePath());
     savePath(path);
   }
 }

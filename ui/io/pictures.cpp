@@ -98,9 +98,6 @@ QImage pictureOf(QWidget& widget, double scale, bool transparent) {
   image.fill(Qt::transparent);
   widget.render(&image, {}, {},
                 transparent ? QWidget::DrawChildren : QWidget::DrawChildren | QWidget::DrawWindowBackground);
-  if (scale == 1 && !transparent) {
-    return image;  // the picture already shows the views
-  }
   QPainter painter(&image);
   painter.setCompositionMode(QPainter::CompositionMode_Source);
   auto views = widget.findChildren<View*>();

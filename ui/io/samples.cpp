@@ -24,27 +24,48 @@ constexpr std::array table{
     Sample{"face.png", "Picture", "A picture on a sheet that you can warp", 768},
 };
 
-}  // namespace
+constexpr std::array lessonTable{
+    LessonFile{"order.chainmail", "Why order matters"},
+    LessonFile{"waiting-list.chainmail", "The waiting list, step by step"},
+    LessonFile{"exact.chainmail", "Exact and taut"},
+    LessonFile{"organ.chainmail", "Cut an organ"},
+    LessonFile{"physics.chainmail", "ChainMail against FEM"},
+    LessonFile{"face.chainmail", "Warp a face"},
+};
 
-std::span<const Sample> samples() { return table; }
-
-QString samplesFolder() {
-  const QString installed = QCoreApplication::applicationDirPath() + QLatin1String("/" SAMPLES_INSTALLED);
-  for (const QString& folder : {installed, QStringLiteral(SAMPLES_SOURCE)}) {
-    if (QFileInfo::exists(QDir(folder).filePath(QLatin1String(table.front().file)))) {
+/// Returns the first of two folders that contains a file, or an empty string.
+QString folderWith(const char* file, const QString& installed, const QString& source) {
+  for (const QString& folder : {QCoreApplication::applicationDirPath() + QLatin1Char('/') + installed, source}) {
+    if (QFileInfo::exists(QDir(folder).filePath(QLatin1String(file)))) {
       return QDir::cleanPath(folder);
     }
   }
   return {};
 }
 
-bool isSample(const QString& path) {
-  const QString folder = samplesFolder();
+bool isIn(const QString& folder, const QString& path) {
   return !folder.isEmpty() && QFileInfo(path).canonicalPath() == QFileInfo(folder).canonicalFilePath();
 }
 
-QString thumbnailOf(const Sample& sample) {
-  return QStringLiteral("samples/%1.png").arg(QString::fromUtf8(sample.file));
+}  // namespace
+
+std::span<const Sample> samples() { return table; }
+
+QString samplesFolder() {
+  return folderWith(table.front().file, QStringLiteral(SAMPLES_INSTALLED), QStringLiteral(SAMPLES_SOURCE));
+}
+
+std::span<const LessonFile> lessonFiles() { return lessonTable; }
+
+QString lessonsFolder() {
+  return folderWith(lessonTable.front().file, QStringLiteral(LESSONS_INSTALLED), QStringLiteral(LESSONS_SOURCE));
+}
+
+bool isSample(const QString& path) { return isIn(samplesFolder(), path) || isIn(lessonsFolder(), path); }
+
+QString thumbnailOf(const Sample& sample, colours::Ground ground) {
+  const QString folder = ground == colours::Ground::light ? QStringLiteral("samples/light") : QStringLiteral("samples");
+  return QStringLiteral("%1/%2.png").arg(folder, QString::fromUtf8(sample.file));
 }
 
 }  // namespace chainmail

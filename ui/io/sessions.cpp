@@ -7,6 +7,7 @@
 
 #include "common/as_path.h"
 #include "document/session_draft.h"
+#include "io/mesh_source.h"
 #include "io/recovery_bar.h"
 #include "io/samples.h"
 
@@ -43,13 +44,15 @@ Sessions::~Sessions() = default;
 void Sessions::openPath(const QString& path, bool first) {
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
               [this, path, first](const Progress& progress) -> Jobs::Finish {
-                const auto session = std::make_shared<const Session>(read_session(asPath(path), progress));
+                const auto session =
+                    std::make_shared<const Session>(read_session(asPath(path), progress, meshesNear(path)));
                 return [this, session, path, first] { show(session, path, first); };
               });
 }
 
 void Sessions::show(const std::shared_ptr<const Session>& session, const QString& path, bool first) {
   const QString file = isSample(path) ? QString() : QFileInfo(path).absoluteFilePath();
+  const bool isAside = !session->lesson.steps.empty() && autosave_ && autosave_->setAside();
   showPanels(document_, *session);
   document_.restore(session, file, QStringLiteral("open %1").arg(QFileInfo(path).fileName()));
   if (first) {
@@ -58,6 +61,9 @@ void Sessions::show(const std::shared_ptr<const Session>& session, const QString
   document_.undoStack().setClean();
   look_.set(session->ui);
   emit opened(path);
+  if (isAside) {
+    emit noted(QStringLiteral("Your unsaved work is kept: Undo returns to it, and the next start offers it, too"));
+  }
 }
 
 void Sessions::savePath(const QString& path) {

@@ -35,6 +35,8 @@ class Sessions : public QObject {
 
  signals:
   void failed(const QString& sentence);
+  /// Emitted with a sentence about the work that an opened session replaced.
+  void noted(const QString& sentence);
   void saved(const QString& path);
   void opened(const QString& path);
 

@@ -13,11 +13,7 @@
 #include "mesh/sheet.h"
 
 namespace chainmail {
-namespace {
-
-QString warpFolderKey() { return QStringLiteral("picture/folder"); }
-
-}  // namespace
+namespace {}  // namespace
 
 Sheets::Sheets(QWidget& window, Document& document, Jobs& jobs)
     : QObject(&window), window_(window), document_(document), jobs_(jobs), bar_(new SheetBar) {
@@ -86,12 +82,10 @@ void Sheets::open(const QString& path, int across, bool first) {
 }
 
 void Sheets::save(int panel) {
-  QSettings settings;
   const QString path = askWhere(window_, QStringLiteral("Save warped picture"),
                                 {QStringLiteral("PNG picture (*.png)"), QStringLiteral("JPEG picture (*.jpg)")},
-                                settings.value(warpFolderKey(), QDir::currentPath()).toString());
+                                asFileName(document_.name()) + QStringLiteral("-warped"));
   if (!path.isEmpty()) {
-    settings.setValue(warpFolderKey(), QFileInfo(path).absolutePath());
     saveWarpedPath(panel, path);
   }
 }

@@ -2,7 +2,7 @@
 
 #include "panels/panel.h"
 
-#include <QHBoxLayout>
+#include <QApplication>
 #include <QPainter>
 #include <QTextDocument>
 #include <QVBoxLayout>
@@ -11,6 +11,7 @@
 #include "common/colours.h"
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "document/panel_colour.h"
 
 namespace chainmail {
 namespace {
@@ -36,6 +37,7 @@ Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int pa
     : document_(document),
       colouring_(colouring),
       panel_(panel),
+      violation_(new ViolationLine),
       statistics_(new QLabel),
       view_(new View(document, colouring, links, panel, std::move(camera), std::move(levels))),
       head_(new PanelHead(document, *view_, panel)),
@@ -43,6 +45,7 @@ Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int pa
       refresh_(this) {
   view_->setObjectName(QStringLiteral("view%1").arg(panel));
   legend_->setObjectName(QStringLiteral("legend%1").arg(panel));
+  violation_->setObjectName(QStringLiteral("violation%1").arg(panel));
   statistics_->setObjectName(QStringLiteral("statistics%1").arg(panel));
   statistics_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   statistics_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -52,9 +55,11 @@ Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int pa
 }
 
 void Panel::arrange() {
-  auto* foot = new QHBoxLayout;
-  foot->setContentsMargins(8, 4, 8, 6);
+  auto* foot = new QVBoxLayout;
+  foot->setContentsMargins(8, 5, 8, 6);
+  foot->addWidget(violation_);
   foot->addWidget(statistics_);
+  statistics_->hide();
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
@@ -100,19 +105,36 @@ void Panel::showStatistics() {
     legend_->follow(colouring_, panel_);
   }
   if (const Frame* frame = document_.frame(panel_)) {
-    showFigures(frame->statistics);
+    update(frame->statistics);
     head_->showState(states(frame->statistics).join(QStringLiteral(" · ")));
   }
 }
 
-/// Shows the figures of the last pass. Uses a shorter text if the panel is narrow.
-void Panel::showFigures(const Statistics& statistics) {
+void Panel::showFigures(bool on) {
+  statistics_->setVisible(on);
+  refresh();
+}
+
+void Panel::enlargeTexts(double factor) {
+  QFont larger = font();
+  larger.setPointSizeF(factor * QApplication::font().pointSizeF());
+  for (QWidget* part : {static_cast<QWidget*>(head_), static_cast<QWidget*>(legend_), static_cast<QWidget*>(violation_),
+                        static_cast<QWidget*>(statistics_)}) {
+    part->setFont(larger);
+  }
+}
+
+/// Shows the sentence and the figures of the last pass. Uses a shorter text if the panel is narrow.
+void Panel::update(const Statistics& statistics) {
+  violation_->show(statistics, statistics.passes > 0 || document_.cuts().count() > 0);
   const QString help = QStringLiteral(
       "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is "
       "the share of links above 1e-4 rest lengths.\nDuring a drag it covers the links that the pass touched, at "
       "rest all links.");
   statistics_->setToolTip(statistics.remark.empty() ? help : QString::fromStdString(statistics.remark));
   statistics_->setText(describe(statistics, false));
+  violation_->setToolTip(QStringLiteral("<p>%1</p><p>%2</p><p>%3</p>")
+                             .arg(violation_->sentence().toHtmlEscaped(), statistics_->text(), help.toHtmlEscaped()));
   if (statistics_->sizeHint().width() > statistics_->width()) {
     statistics_->setText(describe(statistics, true));
   }
@@ -191,7 +213,13 @@ void Panel::drawIn(QPainter& painter, const QColor& ground) {
     drawAt(painter, legend_->geometry(), [&] { legend_->draw(painter); });
   }
   drawAt(painter, view_->geometry(), [&] { view_->drawIn(painter, ground); });
-  drawAt(painter, statistics_->geometry(), [&] { drawStatistics(painter); });
+  drawAt(painter, violation_->geometry(), [&] {
+    painter.setPen(QColor(ink));
+    painter.drawText(QRect(QPoint(), violation_->size()), Qt::AlignLeft | Qt::AlignVCenter, violation_->sentence());
+  });
+  if (statistics_->isVisibleTo(this)) {
+    drawAt(painter, statistics_->geometry(), [&] { drawStatistics(painter); });
+  }
 }
 
 /// Draws the letter of the panel and the name of its algorithm.
@@ -200,7 +228,7 @@ void Panel::drawHead(QPainter& painter) const {
   QFont bold = font();
   bold.setBold(true);
   painter.setFont(bold);
-  painter.setPen(colours::ofPanel(panel_));
+  painter.setPen(QColor(panelColour(document_, panel_)));
   QRect letter;
   painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, panelName(panel_), &letter);
   painter.setFont(font());

@@ -7,10 +7,12 @@
 #include "panels/legend.h"
 #include "panels/panel_head.h"
 #include "panels/view.h"
+#include "panels/violation_line.h"
 
 namespace chainmail {
 
-/// One panel of the comparison: the head with the algorithm, the legend, the view, and the figures of the last pass.
+/// One panel of the comparison: the head with the algorithm, the legend, the view, a sentence on the violation of
+/// links, and on demand the figures of the last pass.
 class Panel : public QFrame {
   Q_OBJECT
 
@@ -22,6 +24,10 @@ class Panel : public QFrame {
   PanelHead& head() { return *head_; }
   QComboBox& selector() { return head_->selector(); }
   Legend& legend() { return *legend_; }
+  /// Shows or hides the figures of the last pass below the sentence.
+  void showFigures(bool on);
+  /// Enlarges the texts around the view by a factor.
+  void enlargeTexts(double factor);
   /// Draws an overlay over the object and shows its notes in the head.
   void addOverlay(Overlay& overlay) { view_->addOverlay(overlay); }
   /// Draws the panel as vector graphics, in logical pixels and without its buttons.
@@ -33,7 +39,7 @@ class Panel : public QFrame {
   void arrange();
   void listen();
   void showStatistics();
-  void showFigures(const Statistics& statistics);
+  void update(const Statistics& statistics);
   QString describe(const Statistics& statistics, bool briefly) const;
   static QString describePass(const Statistics& statistics, bool briefly);
   static QString describeViolation(const Statistics& statistics, bool briefly);
@@ -45,6 +51,7 @@ class Panel : public QFrame {
   Document& document_;
   Colouring& colouring_;
   int panel_;
+  ViolationLine* violation_;
   QLabel* statistics_;
   View* view_;
   PanelHead* head_;

@@ -2,8 +2,10 @@
 
 #include <QVBoxLayout>
 #include <algorithm>
+#include <map>
 #include <utility>
 
+#include "common/up_axis.h"
 #include "drawing/mesh_levels.h"
 #include "panels/panel.h"
 
@@ -12,7 +14,11 @@ namespace {
 
 constexpr int panelsPerRow = 2;
 constexpr int handleWidth = 3;
-constexpr int equalSize = 10'000;  // the splitter scales it to the available space
+constexpr int panelRest = 90;  // height of a panel's head and figures, approximately (pixels)
+// Panels change between next to each other and above each other if that shows the object larger by this factor.
+constexpr double mostBetter = 1.3;
+constexpr double lectureTexts = 1.6;  // times the usual size
+constexpr int equalSize = 10'000;     // the splitter scales it to the available space
 
 QSplitter* makeSplitter(Qt::Orientation orientation) {
   auto* splitter = new QSplitter(orientation);
@@ -61,7 +67,9 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
   connect(&document, &Document::meshChanged, this, [this] {
     levels_->forgetSurface();
     if (std::exchange(fitted_, document_.unsplitMesh()) != document_.unsplitMesh()) {
-      fit();
+      turnUp(usuallyZUp(document_.name()) ? Camera::Up::z : Camera::Up::y);
+      arrange();
+      fitRest();
     }
   });
   connect(&document, &Document::panelsChanged, this, &PanelArea::followPanels);
@@ -95,6 +103,9 @@ void PanelArea::addPanel() {
   }
   panel->view().setLook(look_);
   panel->head().setActions(headActions_);
+  panel->showFigures(figures_);
+  panel->enlargeTexts(lecture_ ? lectureTexts : 1);
+  panel->view().setRing(lecture_);
   listenTo(*panel, number);
 }
 
@@ -102,6 +113,7 @@ void PanelArea::listenTo(Panel& panel, int number) {
   View& view = panel.view();
   connect(&view, &View::failed, this, &PanelArea::failed);
   connect(&view, &View::resized, &refit_, qOverload<>(&QTimer::start));
+  connect(&view, &View::sideChosen, &refit_, qOverload<>(&QTimer::start));
   connect(&view, &View::ghostChanged, this, &PanelArea::ghostsChanged);
   connect(&view, &View::cameraChanged, this, [this, &view] {
     for (Panel* other : panels_) {
@@ -110,6 +122,7 @@ void PanelArea::listenTo(Panel& panel, int number) {
       }
     }
   });
+  connect(&panel.head(), &PanelHead::pinWanted, this, &PanelArea::pinWanted);
   connect(&panel.head(), &PanelHead::aloneToggled, this,
           [this, number] { setAlone(alone_ == number ? std::nullopt : std::optional(number)); });
 }
@@ -157,6 +170,21 @@ void PanelArea::setLook(const Look& look) {
   }
 }
 
+void PanelArea::setFigures(bool on) {
+  figures_ = on;
+  for (Panel* panel : panels_) {
+    panel->showFigures(on);
+  }
+}
+
+void PanelArea::setLecture(bool on) {
+  lecture_ = on;
+  for (Panel* panel : panels_) {
+    panel->enlargeTexts(on ? lectureTexts : 1);
+    panel->view().setRing(on);
+  }
+}
+
 void PanelArea::setSection(const std::optional<SectionPlane>& section) {
   look_.section = section;
   setLook(look_);
@@ -172,22 +200,53 @@ std::vector<Panel*> PanelArea::byAspect() const {
   return all;
 }
 
-void PanelArea::fit() {
-  for (Panel* panel : byAspect()) {
-    panel->view().fit();
+Camera::Up PanelArea::up() const { return panels_.front()->view().camera()->up(); }
+
+void PanelArea::setUp(Camera::Up up) {
+  turnUp(up);
+  fitRest();
+}
+
+void PanelArea::turnUp(Camera::Up up) {
+  for (Panel* panel : panels_) {
+    panel->view().camera()->setUp(up);
   }
 }
 
-/// Fits the views again after a resize. Does nothing during a drag, because the object must stay under the cursor.
-void PanelArea::fitAgain() {
-  if (document_.highlight().grabbed) {
-    return;
+void PanelArea::fitRest() {
+  for (Panel* panel : byAspect()) {
+    panel->view().fitRest();
   }
+  fitsRest_ = true;
+}
+
+/// Frames the object in every view, or only in the narrowest one of those that share a camera. Linked views show what
+/// all of them have to show.
+void PanelArea::frame(bool atRest) {
+  fitsRest_ = atRest;
   const auto all = byAspect();
+  std::map<const Camera*, std::vector<QVector3D>> outlines;
   for (Panel* panel : all) {
-    if (!panel->isHidden() && (!links_.cameras() || panel == all.back())) {
-      panel->view().fitAgain();
+    if (!panel->isHidden()) {
+      const auto outline = panel->view().outline(atRest);
+      auto& shared = outlines[panel->view().camera().get()];
+      shared.insert(shared.end(), outline.begin(), outline.end());
     }
+  }
+  for (Panel* panel : all) {
+    const bool narrowest = panel == all.back() || panel->view().camera() != all.back()->view().camera();
+    if (!panel->isHidden() && narrowest) {
+      panel->view().frame(outlines[panel->view().camera().get()]);
+    }
+  }
+}
+
+/// Fits the views again after a resize or from another side, unless the user has panned or zoomed since. Does nothing
+/// during a drag, because the object must stay under the cursor.
+void PanelArea::fitAgain() {
+  const auto framed = [](Panel* panel) { return panel->view().camera()->framed(); };
+  if (!document_.highlight().grabbed && std::ranges::all_of(panels_, framed)) {
+    frame(fitsRest_);
   }
 }
 
@@ -240,22 +299,35 @@ void PanelArea::rotatePanels() {
 
 void PanelArea::arrange() {
   const auto visible = inSight();
+  stacked_ = stacksPanels(int(visible.size()));
   moveIntoRows(visible);
   for (int panel = 0; panel < int(panels_.size()); ++panel) {
     Panel& one = *panels_[std::size_t(panel)];
     const bool shows = std::find(visible.begin(), visible.end(), panel) != visible.end();
     one.setVisible(shows);
     one.head().showAlone(alone_ == panel);
-    one.head().showActions(&one == panels_.back());
+    one.head().showActions(headActionsOf(panel));
     if (!shows) {
       colouring_.forget(panel);
     }
   }
-  rows_[1]->setVisible(visible.size() > panelsPerRow);
+  rows_[1]->setVisible(stacked_ || visible.size() > panelsPerRow);
   for (QSplitter* splitter : {rows_[0], rows_[1], column_}) {
     shareEqually(*splitter);
   }
   emit arranged();
+}
+
+/// The action that adds a panel stays at the last position. The one that removes the last panel belongs to that panel.
+QList<QAction*> PanelArea::headActionsOf(int panel) const {
+  QList<QAction*> actions;
+  if (!headActions_.isEmpty() && panel == inSight().back()) {
+    actions << headActions_.first();
+  }
+  if (panel == int(panels_.size()) - 1) {
+    actions << headActions_.mid(1);
+  }
+  return actions;
 }
 
 /// Moves the visible panels into their rows, in this order. Hidden panels stay in any row.
@@ -265,12 +337,38 @@ void PanelArea::moveIntoRows(const std::vector<int>& visible) {
       rows_[0]->addWidget(panel);
     }
   }
+  const std::size_t perRow = stacked_ ? 1 : panelsPerRow;
   for (std::size_t i = 0; i < visible.size(); ++i) {
-    QSplitter& row = *rows_[i / panelsPerRow];
+    QSplitter& row = *rows_[i / perRow];
     Panel* panel = panels_[std::size_t(visible[i])];
-    if (row.indexOf(panel) != int(i % panelsPerRow)) {
-      row.insertWidget(int(i % panelsPerRow), panel);
+    if (row.indexOf(panel) != int(i % perRow)) {
+      row.insertWidget(int(i % perRow), panel);
     }
+  }
+}
+
+/// True if two panels show the object larger above each other than next to each other.
+bool PanelArea::stacksPanels(int shown) const {
+  if (shown != 2) {
+    return false;
+  }
+  const Mesh& mesh = *document_.mesh();
+  const Point size = bounds(mesh)[1] - bounds(mesh)[0];
+  const bool spatial = mesh.space_dimension == 3;
+  const double across = spatial ? std::max(size.x(), size.z()) : size[mesh.axes[0]];
+  const double up = spatial ? size.y() : mesh.space_dimension == 2 ? size[mesh.axes[1]] : 0;
+  const double around = std::max(0.0, std::min(across, 0.25 * across));  // a turned object is higher than its side
+  const double high = std::max(spatial ? up + around : up, 1e-9 * across);
+  const double rowWidth = width(), columnHeight = std::max(1, height() - 2 * panelRest);
+  const double beside = std::min(rowWidth / 2 / across, (columnHeight + panelRest) / high);
+  const double above = std::min(rowWidth / across, columnHeight / 2 / high);
+  return above > (stacked_ ? 1 / mostBetter : mostBetter) * beside;
+}
+
+void PanelArea::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  if (const auto visible = inSight(); stacksPanels(int(visible.size())) != stacked_) {
+    arrange();
   }
 }
 

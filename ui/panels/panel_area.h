@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "drawing/camera.h"
 #include "drawing/look.h"
 #include "panels/colouring.h"
 #include "panels/panel_links.h"
 
 namespace chainmail {
 
-class Camera;
 class MeshLevels;
 class Overlay;
 class Panel;
@@ -32,15 +32,27 @@ class PanelArea : public QWidget {
   void setTool(Tool& tool);
   /// Draws an overlay over the object of every panel and shows its notes there.
   void addOverlay(Overlay& overlay);
-  /// Shows buttons for actions in the head of the newest panel while the actions are enabled.
+  /// Shows buttons for actions while the actions are enabled: the first at the last position, the others in the head of
+  /// the newest panel.
   void setHeadActions(const QList<QAction*>& actions);
   /// Repaints all panels after an overlay has changed.
   void refresh();
   /// Sets the parts of the object that all panels draw. Ignores the section of `look`, which setSection() sets.
   void setLook(const Look& look);
   void setSection(const std::optional<SectionPlane>& section);
-  /// Shows the whole rest shape in every panel.
-  void fit();
+  /// Shows or hides the figures of the last pass in all panels.
+  void setFigures(bool on);
+  /// Enlarges the texts around the views and marks the cursor with a ring, so that an audience can follow.
+  void setLecture(bool on);
+  /// Shows all that is there now in every panel, from its current side. Panels with linked cameras show the objects of
+  /// all of them.
+  void fit() { frame(false); }
+  /// Shows the whole rest shape in every panel, from the initial side.
+  void fitRest();
+
+  /// The axis that points up in all panels. A new object gets the axis that is usual for its file format.
+  Camera::Up up() const;
+  void setUp(Camera::Up up);
 
   bool isShown(int panel) const { return shown_[std::size_t(panel)]; }
   /// Shows or hides a panel. At least one panel stays visible.
@@ -57,6 +69,9 @@ class PanelArea : public QWidget {
   void setGhosts(bool on);
   bool hasGhosts() const;
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  signals:
   void failed(const QString& sentence);
   /// A panel was added after the first ones.
@@ -64,17 +79,23 @@ class PanelArea : public QWidget {
   /// Panels were shown, hidden or moved.
   void arranged();
   void ghostsChanged();
+  /// See PanelHead::pinWanted.
+  void pinWanted();
 
  private:
   void addPanel();
   void removePanel();
   void followPanels();
   void listenTo(Panel& panel, int number);
+  QList<QAction*> headActionsOf(int panel) const;
   void moveIntoRows(const std::vector<int>& visible);
   void arrange();
   void linkCameras(bool linked);
   std::vector<Panel*> byAspect() const;
+  void frame(bool atRest);
+  void turnUp(Camera::Up up);
   void fitAgain();
+  bool stacksPanels(int shown) const;
 
   Document& document_;
   MeshPointer fitted_;  // Document::unsplitMesh() of the object that the cameras were fitted to
@@ -92,7 +113,10 @@ class PanelArea : public QWidget {
   std::vector<int> order_;  // the panels' numbers, by position
   std::vector<bool> shown_;
   std::optional<int> alone_;
+  bool figures_ = false, lecture_ = false;
   QTimer refit_;
+  bool fitsRest_ = true;  // true if the views show the rest shape since the last fit
+  bool stacked_ = false;  // true if two panels are above each other
 };
 
 }  // namespace chainmail

@@ -1,20 +1,26 @@
 #include "panels/panel_head.h"
 
+#include <QAbstractItemView>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QStandardItemModel>
 #include <QToolButton>
 
-#include "common/colours.h"
 #include "common/icons.h"
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "document/panel_colour.h"
 #include "mesh/error.h"
+#include "panels/algorithm_delegate.h"
 #include "panels/ghost_button.h"
 
 namespace chainmail {
 namespace {
 
 constexpr int smallestSelector = 90;  // pixels; in a narrow panel, the name is shortened
+constexpr int listMargin = 30;        // pixels, for the scroll bar and the frame of the list
+
+QString sentence(const QString& words) { return words.left(1).toUpper() + words.mid(1); }
 
 }  // namespace
 
@@ -24,13 +30,33 @@ PanelHead::PanelHead(Document& document, View& view, int panel)
       selector_(new QComboBox),
       state_(new QLabel),
       alone_(makeAloneButton()),
+      pin_(new QToolButton),
       row_(new QHBoxLayout(this)) {
   state_->setObjectName(QStringLiteral("state%1").arg(panel));
   state_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   // The text changes during a drag and must not resize the view.
   state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  state_->installEventFilter(this);
   fillSelector();
   arrange(view);
+  followPins();
+}
+
+/// Shows a button that pins the bottom while the algorithm needs pins and there are none.
+void PanelHead::followPins() {
+  pin_->setObjectName(QStringLiteral("pinBottom%1").arg(panel_));
+  pin_->setText(QStringLiteral("Pin bottom"));
+  pin_->setIcon(icon("pin"));
+  pin_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  pin_->setToolTip(
+      QStringLiteral("Without pins, this algorithm has no solution. Pins the bottom layer at its present "
+                     "positions, as one undo step"));
+  connect(pin_, &QToolButton::clicked, this, &PanelHead::pinWanted);
+  const auto adapt = [this] { pin_->setVisible(panel_ < document_.panels() && document_.lacksPins(panel_)); };
+  connect(&document_, &Document::pinsChanged, pin_, adapt);
+  connect(&document_, &Document::meshChanged, pin_, adapt);
+  connect(&document_, &Document::algorithmChanged, pin_, adapt);
+  adapt();
 }
 
 void PanelHead::fillSelector() {
@@ -38,6 +64,7 @@ void PanelHead::fillSelector() {
   selector_->setAccessibleName(QStringLiteral("Algorithm of panel %1").arg(panelName(panel_)));
   selector_->setToolTip(QStringLiteral("The algorithm that deforms this panel's object"));
   selector_->setMinimumWidth(smallestSelector);
+  selector_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   for (const auto& info : every_algorithm()) {
     if (info.algorithm == elastic_algorithms().front().algorithm) {
       selector_->insertSeparator(selector_->count());
@@ -45,6 +72,7 @@ void PanelHead::fillSelector() {
     selector_->addItem(text(info.label), int(info.algorithm));
   }
   selector_->setMaxVisibleItems(selector_->count());
+  selector_->setItemDelegate(new AlgorithmDelegate(selector_));
   connect(selector_, &QComboBox::activated, this,
           [this] { document_.setAlgorithm(panel_, Algorithm(selector_->currentData().toInt())); });
   connect(&document_, &Document::algorithmChanged, this, [this](int panel) {
@@ -64,17 +92,20 @@ void PanelHead::showAlgorithm() {
       continue;  // a separator
     }
     const auto algorithm = Algorithm(selector_->itemData(i).toInt());
-    QString help = text(info(algorithm).source);
+    QString help = text(info(algorithm).source), explanation = sentence(text(info(algorithm).summary));
     try {
       check(algorithm, *document_.mesh());
       items->item(i)->setEnabled(true);
     } catch (const Error& error) {
       items->item(i)->setEnabled(false);
       help = QString::fromStdString(error.what());
+      explanation = QStringLiteral("Not available: %1").arg(text(error.problem()));
     }
     items->item(i)->setToolTip(help);
+    items->item(i)->setData(explanation, AlgorithmDelegate::explanationRole);
   }
   selector_->setCurrentIndex(selector_->findData(int(document_.algorithm(panel_))));
+  selector_->view()->setMinimumWidth(selector_->view()->sizeHintForColumn(0) + listMargin);
 }
 
 QToolButton* PanelHead::makeAloneButton() {
@@ -96,22 +127,38 @@ void PanelHead::arrange(View& view) {
   name->setFont(bold);
   auto* swatch = new QLabel;
   swatch->setFixedSize(10, 10);
-  followTheme(*swatch, [swatch, colour = colours::ofPanel(panel_)] {
-    swatch->setStyleSheet(QStringLiteral("background:%1; border-radius:5px").arg(QColor(colour).name()));
-  });
+  const auto colour = [this, swatch] {
+    swatch->setStyleSheet(
+        QStringLiteral("background:%1; border-radius:5px").arg(QColor(panelColour(document_, panel_)).name()));
+  };
+  followTheme(*swatch, colour);
+  connect(&document_, &Document::algorithmChanged, swatch, colour);
   row_->setContentsMargins(8, 6, 4, 6);
   row_->setSpacing(8);
   row_->addWidget(swatch);
   row_->addWidget(name);
   row_->addWidget(selector_);
+  row_->addWidget(pin_);
   row_->addWidget(state_, 1);
   row_->addWidget(new GhostButton(document_, view, panel_));
   row_->addWidget(alone_);
 }
 
 void PanelHead::showState(const QString& state) {
-  state_->setText(state_->fontMetrics().elidedText(state, Qt::ElideRight, state_->width()));
   state_->setToolTip(state);
+  fitState();
+}
+
+/// Shortens the state only as far as the room requires.
+void PanelHead::fitState() {
+  state_->setText(state_->fontMetrics().elidedText(state_->toolTip(), Qt::ElideRight, state_->width()));
+}
+
+bool PanelHead::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == state_ && event->type() == QEvent::Resize) {
+    fitState();
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 void PanelHead::showAlone(bool alone) { alone_->setChecked(alone); }
@@ -124,14 +171,14 @@ void PanelHead::setActions(const QList<QAction*>& actions) {
     button->setAutoRaise(true);
     row_->addWidget(button);
     buttons_ << button;
-    connect(action, &QAction::changed, button, [this] { showActions(actionsShown_); });
+    connect(action, &QAction::changed, button, [this] { showActions(shownActions_); });
   }
 }
 
-void PanelHead::showActions(bool shown) {
-  actionsShown_ = shown;
+void PanelHead::showActions(const QList<QAction*>& shown) {
+  shownActions_ = shown;
   for (QToolButton* button : buttons_) {
-    button->setVisible(shown && button->defaultAction()->isEnabled());
+    button->setVisible(shown.contains(button->defaultAction()) && button->defaultAction()->isEnabled());
   }
 }
 

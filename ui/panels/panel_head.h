@@ -25,30 +25,36 @@ class PanelHead : public QWidget {
   void showState(const QString& state);
   /// Shows on the button whether the panel is shown alone.
   void showAlone(bool alone);
-  /// Adds buttons for actions. A button is visible if its action is enabled and showActions(true) was called.
+  /// Adds buttons for actions. A button is visible if its action is enabled and `showActions` was called with it.
   void setActions(const QList<QAction*>& actions);
-  void showActions(bool shown);
+  void showActions(const QList<QAction*>& shown);
 
  signals:
   void aloneToggled();
+  /// The user wants to pin the bottom, because the algorithm has no solution without pins.
+  void pinWanted();
 
  protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
 
  private:
   void fillSelector();
+  void fitState();
   void showAlgorithm();
   void arrange(View& view);
   QToolButton* makeAloneButton();
+  void followPins();
 
   Document& document_;
   int panel_;
   QComboBox* selector_;
   QLabel* state_;
   QToolButton* alone_;
+  QToolButton* pin_;
   QHBoxLayout* row_;
   QList<QToolButton*> buttons_;
-  bool actionsShown_ = false;
+  QList<QAction*> shownActions_;
 };
 
 }  // namespace chainmail

@@ -12,20 +12,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "document/panel_colour.h"
 #include "drawing/front_links.h"
 #include "drawing/vector_painter.h"
 #include "mesh/error.h"
 #include "mesh/split_along.h"
 #include "mesh/surface.h"
+#include "panels/orientation_cube.h"
 
 namespace chainmail {
 namespace {
 
 constexpr double elementReach = 14;  // pixels, largest distance from the cursor at which an element is found
 constexpr int hoverMilliseconds = 16;
+constexpr int stillMilliseconds = 50;
+constexpr double ringRadius = 24, ringWidth = 3;  // pixels
 constexpr double zoomPerNotch = 1.2;
-constexpr float pinSize = 13;           // pixels
-constexpr float cursorMarkSize = 13;    // pixels
+constexpr std::size_t mostOutlinePoints = 200'000;  // of larger objects, the boxes of their clusters are the outline
+constexpr double arrowMargin = 34, arrowLength = 26, arrowHead = 9;  // pixels
+constexpr float pinSize = 13;                                        // pixels
+constexpr float cursorMarkSize = 13;                                 // pixels
 constexpr float markEdge = 4;           // pixels of background around a mark, both sides together
 constexpr double largestSelected = 12;  // diameter of a selected element's mark, pixels
 constexpr double smallestSelected = 2;
@@ -50,13 +56,16 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
       links_(links),
       panel_(panel),
       camera_(std::move(camera)),
-      colour_(colours::ofPanel(panel)),
       levels_(std::move(levels)),
       painter_(levels_),
+      still_(this),
       hover_(this) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);  // a click takes the keyboard focus from an input field
   setMinimumSize(160, 90);
+  still_.setSingleShot(true);
+  still_.setInterval(stillMilliseconds);
+  connect(&still_, &QTimer::timeout, this, qOverload<>(&View::update));
   hover_.setSingleShot(true);
   hover_.setInterval(hoverMilliseconds);
   connect(&hover_, &QTimer::timeout, this, [this] {
@@ -75,6 +84,7 @@ void View::listen() {
   });
   connect(&document_, &Document::highlightChanged, this, qOverload<>(&View::update));
   connect(&document_, &Document::pinsChanged, this, qOverload<>(&View::update));
+  connect(&document_, &Document::algorithmChanged, this, qOverload<>(&View::update));  // changes colours of panels
   connect(&document_, &Document::selectionChanged, this, [this] {
     selectionOutdated_ = true;
     selectedHere_ = links_.pointed() == panel_;
@@ -90,7 +100,10 @@ void View::listen() {
   connect(&document_.undoStack(), &QUndoStack::indexChanged, this, &View::updateHover, Qt::QueuedConnection);
   connect(&links_, &PanelLinks::marksLinked, this, qOverload<>(&View::update));
   connect(&colouring_, &Colouring::changed, this, qOverload<>(&View::update));
-  connect(this, &QOpenGLWidget::frameSwapped, this, [this] { meter_.swapped(); });
+  connect(this, &QOpenGLWidget::frameSwapped, this, [this] {
+    meter_.swapped();
+    measurePaint();
+  });
 }
 
 /// Highlights the element under the cursor again after an edit has cleared the highlight.
@@ -155,6 +168,11 @@ void View::setGhost(const Ghost& ghost) {
   update();
 }
 
+void View::setRing(bool on) {
+  ring_ = on;
+  update();
+}
+
 // Camera
 
 void View::setCamera(std::shared_ptr<Camera> camera) {
@@ -163,24 +181,56 @@ void View::setCamera(std::shared_ptr<Camera> camera) {
   update();
 }
 
-void View::fit() {
+void View::fitRest() {
   const Mesh& mesh = *document_.mesh();
   camera_->fit(bounds(mesh), std::span(mesh.axes).first(std::size_t(mesh.space_dimension)), size());
   fitPending_ = false;
-  announceCamera();
+  frame(outline(true));
 }
 
-void View::fitAgain() {
-  if (camera_->framed()) {
-    camera_->frame(bounds(*document_.mesh()), size());
-    announceCamera();
+std::vector<QVector3D> View::outline(bool atRest) const {
+  const Mesh& mesh = *document_.mesh();
+  const Frame* frame = document_.frame(panel_);
+  std::vector<QVector3D> points;
+  if (atRest || frame == nullptr) {
+    points.reserve(mesh.element_count());
+    for (ElementId element = 0; element < mesh.element_count(); ++element) {
+      points.push_back(asVector(mesh.rest_position(element)));
+    }
+    return points;
   }
+  const QMatrix4x4 inSpace = placement(mesh);
+  const auto add = [&](const float* carried) {
+    QVector3D at;
+    std::copy_n(carried, mesh.space_dimension, &at[0]);
+    points.push_back(inSpace.map(at));
+  };
+  if (mesh.element_count() <= mostOutlinePoints) {
+    for (ElementId element = 0; element < mesh.element_count(); ++element) {
+      add(frame->positions.data() + std::size_t{element} * mesh.space_dimension);
+    }
+    return points;
+  }
+  const ClusterBoxes& all = boxes(*frame);
+  for (std::size_t cluster = 0; cluster < all.level().clusterCount(); ++cluster) {
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const auto& [lowest, highest] = all[cluster];
+      const auto side = [&](unsigned k) { return (corner >> k & 1U) != 0 ? highest[k] : lowest[k]; };
+      add(std::array{side(0), side(1), side(2)}.data());
+    }
+  }
+  return points;
+}
+
+void View::frame(std::span<const QVector3D> points) {
+  camera_->frame(points, size());
+  announceCamera();
 }
 
 void View::resizeEvent(QResizeEvent* event) {
   QOpenGLWidget::resizeEvent(event);
   if (fitPending_ && isVisible()) {
-    fit();
+    fitRest();
   }
   emit resized();
 }
@@ -193,6 +243,13 @@ void View::announceCamera() {
 void View::lookFrom(double yaw, double pitch) {
   camera_->lookFrom(yaw, pitch);
   announceCamera();
+  emit sideChosen();
+}
+
+void View::lookFromAxis(int axis, bool positive) {
+  camera_->lookFromAxis(axis, positive);
+  announceCamera();
+  emit sideChosen();
 }
 
 void View::setParallel(bool parallel) {
@@ -235,10 +292,28 @@ std::function<bool(ElementId)> View::shown() const {
   };
 }
 
+bool View::showsSolid() const {
+  const MeshPointer& mesh = document_.mesh();
+  const bool hasCells = !mesh->tetrahedra.empty() || !mesh->hexahedra.empty();
+  return ObjectDrawing::isSolid(*mesh, look_) && (!hasCells || levels_->hasSurface(mesh));
+}
+
 std::optional<ElementId> View::elementAt(QPointF position) const {
   const Frame* frame = document_.frame(panel_);
-  return frame == nullptr ? std::nullopt
-                          : nearestElement(*frame, boxes(*frame), projection(), position, elementReach, shown());
+  if (frame == nullptr) {
+    return std::nullopt;
+  }
+  const auto nearest = [&](const std::function<bool(ElementId)>& counts) {
+    return nearestElement(*frame, boxes(*frame), projection(), position, elementReach, counts);
+  };
+  if (!showsSolid()) {
+    return nearest(shown());
+  }
+  const QPointF reach(elementReach, elementReach);
+  const QRectF part(position - reach, position + reach);
+  const FrontFaces front(*frame, projection(), frontFaces(*frame, part), part);
+  return nearest(
+      [&, isShown = shown()](ElementId element) { return (!isShown || isShown(element)) && !front.hides(element); });
 }
 
 std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
@@ -336,6 +411,12 @@ QPointF View::placeOf(const Point& point) const {
 void View::mousePressEvent(QMouseEvent* event) {
   links_.point(panel_);
   cursor_ = event->position();
+  if (const auto face = OrientationCube(*camera_, size()).faceAt(cursor_);
+      face && event->button() == Qt::LeftButton && event->buttons() == Qt::LeftButton) {
+    cubePressed_ = true;
+    lookFromAxis(face->axis, face->positive);
+    return;
+  }
   if (event->button() == Qt::LeftButton && tool_ != nullptr) {
     hover_.stop();
     tool_->press(*this, cursor_, event->modifiers());
@@ -346,12 +427,15 @@ void View::mouseMoveEvent(QMouseEvent* event) {
   links_.point(panel_);
   const QPointF travel = event->position() - cursor_;
   cursor_ = event->position();
+  if (ring_) {
+    update();
+  }
   if (event->buttons() == Qt::NoButton) {
     if (!hover_.isActive()) {
       hover_.start();
     }
   } else if ((event->buttons() & Qt::LeftButton) != 0) {
-    if (tool_ != nullptr) {
+    if (tool_ != nullptr && !cubePressed_) {
       tool_->move(*this, cursor_, event->modifiers());
     }
   } else {
@@ -367,7 +451,7 @@ void View::moveCamera(QPointF travel, Qt::MouseButtons buttons) {
   }
 }
 
-/// The second press of a double click moves the point under the cursor to the centre of the view. It does not grab an
+/// The second press of a double click moves the element under the cursor to the centre of the view. It does not grab an
 /// element.
 void View::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || (tool_ != nullptr && tool_->clicks())) {
@@ -375,12 +459,16 @@ void View::mouseDoubleClickEvent(QMouseEvent* event) {
     return;
   }
   cursor_ = event->position();
-  const auto element = elementAt(cursor_);
-  camera_->centreOn(element ? asVector(position(*element)) : camera_->pointAt(cursor_, camera_->centre(), size()));
-  announceCamera();
+  if (const auto element = elementAt(cursor_)) {
+    camera_->centreOn(asVector(position(*element)));
+    announceCamera();
+  }
 }
 
 void View::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && std::exchange(cubePressed_, false)) {
+    return;
+  }
   if (event->button() == Qt::LeftButton && tool_ != nullptr) {
     tool_->release(*this, event->position());
   }
@@ -389,6 +477,9 @@ void View::mouseReleaseEvent(QMouseEvent* event) {
 void View::leaveEvent(QEvent* event) {
   QOpenGLWidget::leaveEvent(event);
   hover_.stop();
+  if (ring_) {
+    update();
+  }
   if (tool_ != nullptr) {
     tool_->leave(*this);
   }
@@ -419,7 +510,7 @@ void View::focusOutEvent(QFocusEvent* event) {
   update();
 }
 
-// Painting: objects, overlays, marks, annotations, focus
+// Painting: objects, overlays, marks, annotations, focus, orientation cube
 
 void View::initializeGL() {
   // Docking a part of the window may give this view another context. Everything is created again then.
@@ -458,21 +549,58 @@ ObjectPainter& View::ghostPainter() {
 
 void View::paintGL() {
   if (fitPending_) {
-    fit();  // there was no resize since the view became visible
+    fitRest();  // there was no resize since the view became visible
   }
   const auto before = std::pair(painter_.step(), painter_.leavesLinksOut());
   meter_.painted();
-  paintOn(colours::background, devicePixelRatioF());
+  paintClock_.start();
+  detail_ = chooseDetail();
+  paintOn(colours::background, devicePixelRatioF(), detail_);
   if (document_.frame(panel_) != nullptr) {
     drawFocus();
+    drawCube();
+    drawRing();
+  }
+  if (detail_ == DetailBudget::Detail::quick) {
+    quickShapes_ = painter_.shapes();
+  } else if (painter_.takeLayerDrawn()) {
+    context()->functions()->glFinish();
+    budget_.tookComplete(double(paintClock_.nsecsElapsed()) * 1e-6);
   }
   if (std::pair(painter_.step(), painter_.leavesLinksOut()) != before) {
     emit drawnStepChanged();
   }
 }
 
+/// Returns the detail of the next picture. While the object or the camera moves, pictures that would take too long are
+/// quick.
+DetailBudget::Detail View::chooseDetail() {
+  const Frame* frame = document_.frame(panel_);
+  if (frame == nullptr) {
+    return DetailBudget::Detail::complete;
+  }
+  const Mesh& mesh = *frame->mesh;
+  const Seen now{&mesh, frame->number, frame->series, camera_->toView(), camera_->toClip(size())};
+  const Seen before = std::exchange(seen_, now);
+  const bool slow = showsSolid() || mesh.links.size() + mesh.triangles.size() > DetailBudget::fewestShapes;
+  if (!slow || budget_.affordsComplete()) {
+    return DetailBudget::Detail::complete;
+  }
+  if (now != before && before.mesh == &mesh) {
+    still_.start();
+  }
+  return still_.isActive() ? DetailBudget::Detail::quick : DetailBudget::Detail::complete;
+}
+
+/// Takes note of how long a quick picture took until it was on the screen.
+void View::measurePaint() {
+  if (const std::size_t shapes = std::exchange(quickShapes_, 0); shapes > 0) {
+    budget_.tookQuick(shapes, double(paintClock_.nsecsElapsed()) * 1e-6);
+  }
+}
+
 /// Paints with OpenGL into the bound framebuffer.
-void View::paintOn(const QColor& ground, double pixelRatio) {
+void View::paintOn(const QColor& ground, double pixelRatio, DetailBudget::Detail detail) {
   auto* gl = context()->functions();
   const float opacity = ground.alphaF();
   gl->glClearColor(opacity * ground.redF(), opacity * ground.greenF(), opacity * ground.blueF(), opacity);
@@ -485,16 +613,19 @@ void View::paintOn(const QColor& ground, double pixelRatio) {
     painter_.setSelection(document_.selection().elements);
     selectionOutdated_ = false;
   }
-  draw({painter_, ghostFrame() != nullptr ? &ghostPainter() : nullptr, scene(pixelRatio, ground)});
+  draw({painter_, ghostFrame() != nullptr ? &ghostPainter() : nullptr, scene(pixelRatio, ground, detail)});
 }
 
-ObjectDrawing::Scene View::scene(double pixelRatio, const QColor& ground) const {
+ObjectDrawing::Scene View::scene(double pixelRatio, const QColor& ground, DetailBudget::Detail detail) const {
   ObjectDrawing::Scene scene;
   scene.toView = camera_->toView();
   scene.toClip = camera_->toClip(size());
   scene.size = QSizeF(size()) * pixelRatio;
   scene.background = ground;
   scene.pixelRatio = float(pixelRatio);
+  scene.detail = detail;
+  scene.mostShapes = detail == DetailBudget::Detail::quick ? budget_.mostShapes() : DetailBudget::mostAtRest;
+  scene.hidesMarks = showsSolid() && ghostFrame() == nullptr;
   if (camera_->spatial()) {
     const auto [near, far] = camera_->depthRange();
     scene.fog = QVector2D(float(near), float(far));
@@ -512,6 +643,9 @@ void View::draw(const Easel& on) {
   }
   drawMarks(on);
   drawAnnotations(on);
+  if (on.scene.detail == DetailBudget::Detail::complete) {
+    drawWayBack(on);
+  }
 }
 
 const Frame* View::ghostFrame() const { return ghost_.of ? document_.frame(*ghost_.of) : nullptr; }
@@ -533,7 +667,7 @@ void View::drawObjects(const Easel& on) {
     drawOwn();
     return;
   }
-  const ObjectDrawing::Paint ghostPaint{colours::ofPanel(*ghost_.of), nullptr, {}, look_};
+  const ObjectDrawing::Paint ghostPaint{panelColour(document_, *ghost_.of), nullptr, {}, look_};
   on.own.drawSeeThrough(on.scene, ghost_.ownOpacity(), drawOwn);
   on.ghost->drawSeeThrough(on.scene, ghost_.opacity(),
                            [&] { on.ghost->drawObject(on.scene, ghostPaint, pixelsPerUnit); });
@@ -557,7 +691,7 @@ ObjectDrawing::Paint View::colouredPaint() {
     }
   }
   const ColourValues* values = colouring_.follow(panel_);
-  return {colour_, values, colouring_.scale(panel_)};
+  return {panelColour(document_, panel_), values, colouring_.scale(panel_)};
 }
 
 /// Draws the selection, the highlight, the pins and the tool's stroke. Pins are drawn after the highlight, so that the
@@ -619,12 +753,75 @@ void View::drawAnnotations(const Easel& on) {
   });
 }
 
+/// Returns where in the view (logical pixels) the object is that is out of view; none if a part of it is in view.
+std::optional<QPointF> View::wayToObject() const {
+  const ClusterBoxes& all = boxes(*document_.frame(panel_));
+  const Projection seen = projection();
+  ViewBounds bounds;
+  for (std::size_t cluster = 0; cluster < all.level().clusterCount(); ++cluster) {
+    bounds.unite(seen.bounds(all[cluster]));
+    if (bounds.meets(QRectF(rect()))) {
+      return std::nullopt;
+    }
+  }
+  return bounds.empty() ? QRectF(rect()).center()
+                        : QPointF((bounds.left + bounds.right) / 2, (bounds.top + bounds.bottom) / 2);
+}
+
+/// If the object is out of view, draws an arrow at the edge that points to it, and says how to see it.
+void View::drawWayBack(const Easel& on) {
+  const auto object = wayToObject();
+  if (!object) {
+    return;
+  }
+  const QPointF middle = QRectF(rect()).center();
+  on.own.drawWords(on.scene, [&](QPainter& painter) {
+    painter.setPen(QColor(colours::marked));
+    painter.drawText(rect(), Qt::AlignCenter, QStringLiteral("The object is out of view. Press F to show it."));
+  });
+  const QLineF way(middle, *object);
+  if (way.length() < 1) {
+    return;
+  }
+  const QPointF along = (way.p2() - way.p1()) / way.length(), side(-along.y(), along.x());
+  const double room = std::min((middle.x() - arrowMargin) / std::max(std::abs(along.x()), 1e-9),
+                               (middle.y() - arrowMargin) / std::max(std::abs(along.y()), 1e-9));
+  const QPointF tip = middle + room * along, neck = tip - arrowHead * along;
+  on.own.drawWords(on.scene, [&](QPainter& painter) {
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(QColor(colours::marked), 3));
+    painter.setBrush(QColor(colours::marked));
+    painter.drawLine(QLineF(tip - arrowLength * along, neck));
+    painter.drawPolygon(QPolygonF({tip, neck + arrowHead * 0.7 * side, neck - arrowHead * 0.7 * side}));
+  });
+}
+
 void View::drawFocus() {
   if (focusFramed_) {
     const QRectF inner = QRectF(rect()).adjusted(1, 1, -1, -1);
     const std::array corners{inner.topLeft(), inner.topRight(), inner.bottomRight(), inner.bottomLeft(),
                              inner.topLeft()};
-    painter_.drawStroke(scene(devicePixelRatioF(), colours::background), corners, colours::focus);
+    painter_.drawStroke(scene(devicePixelRatioF(), colours::background, detail_), corners, colours::focus);
+  }
+}
+
+void View::drawCube() {
+  if (camera_->spatial() && painterReady_) {
+    painter_.drawWords(scene(devicePixelRatioF(), colours::background, detail_),
+                       [this](QPainter& painter) { OrientationCube(*camera_, size()).draw(painter); });
+  }
+}
+
+void View::drawRing() {
+  if (ring_ && underMouse() && painterReady_) {
+    painter_.drawWords(scene(devicePixelRatioF(), colours::background, detail_), [this](QPainter& painter) {
+      painter.setRenderHint(QPainter::Antialiasing);
+      painter.setBrush(Qt::NoBrush);
+      painter.setPen(QPen(QColor(colours::background), ringWidth + 2));
+      painter.drawEllipse(cursor_, ringRadius, ringRadius);
+      painter.setPen(QPen(QColor(colours::pinned), ringWidth));
+      painter.drawEllipse(cursor_, ringRadius, ringRadius);
+    });
   }
 }
 
@@ -644,7 +841,7 @@ QImage View::picture(double pixelRatio, bool transparent) {
     QOpenGLFramebufferObject canvas(pixels, QOpenGLFramebufferObject::CombinedDepthStencil);
     canvas.bind();
     context()->functions()->glViewport(0, 0, pixels.width(), pixels.height());
-    paintOn(transparent ? QColor(0, 0, 0, 0) : QColor(colours::background), pixelRatio);
+    paintOn(transparent ? QColor(0, 0, 0, 0) : QColor(colours::background), pixelRatio, DetailBudget::Detail::complete);
     image = canvas.toImage();
   }
   doneCurrent();
@@ -663,7 +860,7 @@ void View::drawIn(QPainter& painter, const QColor& ground) {
   if (ghostFrame() != nullptr) {
     ghost.emplace(painter, levels_);
   }
-  draw({own, ghost ? &*ghost : nullptr, scene(1, ground)});
+  draw({own, ghost ? &*ghost : nullptr, scene(1, ground, DetailBudget::Detail::complete)});
 }
 
 }  // namespace chainmail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QElapsedTimer>
 #include <QOpenGLWidget>
 #include <QTimer>
 #include <algorithm>
@@ -56,23 +57,28 @@ class View : public QOpenGLWidget {
   /// Sets the parts of the object that are drawn.
   void setLook(const Look& look);
   void setGhost(const Ghost& ghost);
+  /// Marks the cursor with a ring.
+  void setRing(bool on);
   const Ghost& ghost() const { return ghost_; }
 
   /// Looks through another camera and does not change that camera.
   void setCamera(std::shared_ptr<Camera> camera);
   const std::shared_ptr<Camera>& camera() const { return camera_; }
-  /// Shows the whole rest shape.
-  void fit();
-  /// Shows the whole rest shape again from the current side, if the user has not panned or zoomed since.
-  void fitAgain();
+  /// Shows the whole rest shape from the initial side.
+  void fitRest();
+  /// Returns points that enclose what the view should show: the object now, or its rest shape (mesh units).
+  std::vector<QVector3D> outline(bool atRest) const;
+  /// Shows all these points from the current side.
+  void frame(std::span<const QVector3D> points);
   /// Moves the camera as if the mouse had moved by this many logical pixels.
   void orbit(QPointF pixels);
   void pan(QPointF pixels);
   /// Zooms about the centre of the view, or about a position in it.
   void zoom(double factor);
   void zoom(double factor, QPointF about);
-  /// See Camera::lookFrom and Camera::setParallel.
+  /// See Camera.
   void lookFrom(double yaw, double pitch);
+  void lookFromAxis(int axis, bool positive);
   void setParallel(bool parallel);
 
   // For tools and overlays. Positions in the view are in logical pixels from its top left corner.
@@ -113,6 +119,8 @@ class View : public QOpenGLWidget {
  signals:
   void cameraChanged();
   void resized();
+  /// The view looks from another side, which the user has chosen by name.
+  void sideChosen();
   void failed(const QString& sentence);
   void drawnStepChanged();
   void ghostChanged();
@@ -142,19 +150,23 @@ class View : public QOpenGLWidget {
   void updateHover();
   void announceCamera();
 
+  DetailBudget::Detail chooseDetail();
+  void measurePaint();
+  bool showsSolid() const;
   /// Returns a filter for the elements that the section does not hide; empty without a section.
   std::function<bool(ElementId)> shown() const;
   const ClusterBoxes& boxes(const Frame& frame) const;
   Projection projection() const;
   std::vector<MeshLevel::Face> frontFaces(const Frame& frame, QRectF part) const;
+  std::optional<QPointF> wayToObject() const;
 
   void moveCamera(QPointF travel, Qt::MouseButtons buttons);
 
   const Frame* ghostFrame() const;
   ObjectPainter& ghostPainter();
   void freeGhostPainter();
-  ObjectDrawing::Scene scene(double pixelRatio, const QColor& ground) const;
-  void paintOn(const QColor& ground, double pixelRatio);
+  ObjectDrawing::Scene scene(double pixelRatio, const QColor& ground, DetailBudget::Detail detail) const;
+  void paintOn(const QColor& ground, double pixelRatio, DetailBudget::Detail detail);
   void draw(const Easel& on);
   void takeFrames(const Easel& on);
   void drawObjects(const Easel& on);
@@ -163,14 +175,16 @@ class View : public QOpenGLWidget {
   void drawMarks(const Easel& on);
   void drawHighlight(const Easel& on);
   void drawAnnotations(const Easel& on);
+  void drawWayBack(const Easel& on);
   void drawFocus();
+  void drawCube();
+  void drawRing();
 
   Document& document_;
   Colouring& colouring_;
   PanelLinks& links_;
   int panel_;
   std::shared_ptr<Camera> camera_;
-  colours::Colour colour_;
   Tool* tool_ = nullptr;
   std::vector<Overlay*> overlays_;
   std::shared_ptr<MeshLevels> levels_;
@@ -180,9 +194,24 @@ class View : public QOpenGLWidget {
   Ghost ghost_;
   std::unique_ptr<ObjectPainter> ghostPainter_;  // exists while there is a ghost
   FrameMeter meter_;
-  QTimer hover_;  // limits the search for the element under the cursor to once per frame
+  /// All that moves in a view: object and camera.
+  struct Seen {
+    const Mesh* mesh = nullptr;
+    std::uint64_t frame = 0, series = 0;
+    QMatrix4x4 toView, toClip;
+    bool operator==(const Seen&) const = default;
+  };
+  Seen seen_;     // in the last picture
+  QTimer still_;  // ends some time after the last movement; then the object is drawn completely
+  DetailBudget budget_;
+  DetailBudget::Detail detail_ = DetailBudget::Detail::complete;
+  QElapsedTimer paintClock_;
+  std::size_t quickShapes_ = 0;  // in a quick picture that is not on the screen yet
+  QTimer hover_;                 // limits the search for the element under the cursor to once per frame
   QPointF cursor_;
+  bool ring_ = false;  // true if a ring marks the cursor
   bool fitPending_ = true;
+  bool cubePressed_ = false;  // true if the left button was pressed on the orientation cube
   bool painterReady_ = false;
   bool focusFramed_ = false;       // true if the focus came from the keyboard
   bool selectionOutdated_ = true;  // true if the graphics card has an older selection

@@ -276,14 +276,17 @@ void DragTool::cancel() {
   document_.setHighlight({});
 }
 
-/// Ends the drag. Without one, makes the brush grab one element again; without a brush, clears a selection of many.
+/// Cancels the drag and restores the object. Without a drag, makes the brush grab one element again; without a brush,
+/// clears a selection of many.
 void DragTool::escape() {
-  if (!busy()) {
-    if (brush_.radius() > 0) {
-      brush_.setNotches(0);
-    } else if (document_.selection().elements.size() > 1) {
-      document_.select({});
-    }
+  if (busy()) {
+    grip_ = Grip::nothing;
+    point_.reset();
+    document_.cancelDrag();
+  } else if (brush_.radius() > 0) {
+    brush_.setNotches(0);
+  } else if (document_.selection().elements.size() > 1) {
+    document_.select({});
   }
   cancel();
 }

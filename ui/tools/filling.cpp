@@ -2,8 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <QSignalBlocker>
+#include <algorithm>
 #include <cmath>
 
+#include "elastic/limits.h"
 #include "files/mesh/fill.h"
 
 namespace chainmail {
@@ -16,6 +18,9 @@ constexpr int sliderSteps = 200;  // on either side of the middle
 
 // Largest number of elements. More would take minutes, and would be too many for dragging.
 constexpr double mostElements = 2e6;
+
+// Share of the limit of linear FEM that the coarser edges aim at, because the number of elements is an estimate.
+constexpr double aimedShare = 0.8;
 
 /// Returns a number rounded to two significant digits.
 double roughly(double number) {
@@ -84,16 +89,36 @@ void Filling::adapt() {
 void Filling::askSize() {
   const Mesh& mesh = *document_.mesh();
   volume_ = enclosedVolume(mesh);
-  const double mean = mesh.mean_link_length;
+  const double mean = mesh.mean_link_length, offered = offeredSize();
   {
     const QSignalBlocker quiet(size_);
     size_->setDecimals(std::clamp(3 - int(std::floor(std::log10(mean))), 0, 9));
     size_->setRange(mean / widest, mean * widest);
     size_->setSingleStep(mean / 20);
-    size_->setValue(mean);
+    size_->setValue(offered);
   }
   describe();
-  ask(QStringLiteral("Fill %1 with tetrahedra").arg(document_.name()), size_);
+  ask(QStringLiteral("Fill %1 with tetrahedra").arg(document_.name()) +
+          (offered > mean ? QStringLiteral(". The edges offered are coarser than the surface: linear FEM takes at most "
+                                           "%L1 elements")
+                                .arg(most_fem_elements)
+                          : QString()),
+      size_);
+}
+
+/// Returns the mean link length of the surface, or longer edges if linear FEM could not take so many elements.
+double Filling::offeredSize() const {
+  const double mean = document_.mesh()->mean_link_length;
+  const double inside = aimedShare * double(most_fem_elements) - double(document_.mesh()->element_count());
+  if (elementsAt(mean) <= aimedShare * double(most_fem_elements) || inside <= 0) {
+    return mean;
+  }
+  return std::min(widest * mean, std::cbrt(points_per_cube * volume_ / inside));
+}
+
+/// Returns the estimated number of elements for an edge length.
+double Filling::elementsAt(double size) const {
+  return double(document_.mesh()->element_count()) + points_per_cube * volume_ / (size * size * size);
 }
 
 void Filling::describe() {
@@ -101,9 +126,12 @@ void Filling::describe() {
   const QSignalBlocker quiet(slider_);
   slider_->setValue(
       int(std::lround(sliderSteps * std::log(size / document_.mesh()->mean_link_length) / std::log(widest))));
-  const double within = points_per_cube * volume_ / (size * size * size);
-  const double elements = double(document_.mesh()->element_count()) + within;
-  showResult(QStringLiteral("about %L1 elements").arg(qlonglong(roughly(elements))), elements < mostElements);
+  const double elements = elementsAt(size);
+  showResult(QStringLiteral("about %L1 elements").arg(qlonglong(roughly(elements))) +
+                 (elements > double(most_fem_elements)
+                      ? QStringLiteral(", too many for linear FEM (at most %L1)").arg(most_fem_elements)
+                      : QString()),
+             elements < mostElements);
 }
 
 void Filling::start() {

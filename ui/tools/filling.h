@@ -23,6 +23,8 @@ class Filling : public AskBar {
   void makeFields();
   void askSize();
   void describe();
+  double offeredSize() const;
+  double elementsAt(double size) const;
   void adapt();
   void start();
 

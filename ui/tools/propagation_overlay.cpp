@@ -90,7 +90,7 @@ class SponsorArrows {
 }  // namespace
 
 const PassPlayer* PropagationOverlay::player(int panel) const {
-  return propagation_.isOpen() ? propagation_.player(panel) : nullptr;
+  return propagation_.isShown() ? propagation_.player(panel) : nullptr;
 }
 
 std::optional<ObjectDrawing::Paint> PropagationOverlay::paint(int panel) const {

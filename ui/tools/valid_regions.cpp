@@ -5,6 +5,7 @@
 
 #include "common/colours.h"
 #include "drawing/region_shapes.h"
+#include "tools/region_lens.h"
 
 namespace chainmail {
 namespace {
@@ -12,9 +13,9 @@ namespace {
 // Largest numbers of elements and regions. More boxes would hide each other and take time.
 constexpr std::size_t elementsShown = 8;
 constexpr std::size_t regionsOfEach = 200;
-constexpr double faceOpacity = 0.1;
-constexpr float insideWidth = 1.5F, outsideWidth = 2.5F;  // pixels
-constexpr float crossSize = 7, ringSize = 12;             // pixels
+constexpr double planeOpacity = 0.2, spaceOpacity = 0.12;  // of each face, of which two or more lie on each other
+constexpr float insideWidth = 1.5F, outsideWidth = 2.5F;   // pixels
+constexpr float crossSize = 7, ringSize = 12;              // pixels
 
 }  // namespace
 
@@ -74,9 +75,17 @@ void ValidRegions::draw(const Canvas& canvas) {
     if (element >= canvas.frame.mesh->element_count()) {
       continue;  // it belongs to the previous mesh
     }
-    for (const auto& region : neighbour_regions(*canvas.frame.mesh, *document_.wholeSoftness(), document_.cuts(),
-                                                canvas.frame.view(), element, regionsOfEach)) {
+    const auto regions = neighbour_regions(*canvas.frame.mesh, *document_.wholeSoftness(), document_.cuts(),
+                                           canvas.frame.view(), element, regionsOfEach);
+    for (const auto& region : regions) {
       draw(canvas, region);
+    }
+    const RegionLens lens(canvas, element, regions);
+    if (document_.highlight().element && lens.isUseful()) {
+      lens.draw();
+      for (const auto& region : regions) {
+        draw(canvas, lens.magnified(region));
+      }
     }
   }
 }
@@ -87,7 +96,7 @@ void ValidRegions::draw(const Canvas& canvas, const NeighbourRegion& region) con
   const QColor colour = region.inside ? colours::inside : colours::outside;
   const RegionShape shape(region, canvas.scene.toView, canvas.frame.mesh->space_dimension, canvas.unitsPerPixel);
   QColor faint = colour;
-  faint.setAlphaF(float(faceOpacity));
+  faint.setAlphaF(float(canvas.frame.mesh->space_dimension < 3 ? planeOpacity : spaceOpacity));
   canvas.painter.drawInSpace(canvas.scene, shape.faces(), ObjectDrawing::Shape::triangles, faint);
   canvas.painter.drawInSpace(canvas.scene, region.inside ? shape.edges() : shape.dashedEdges(),
                              ObjectDrawing::Shape::segments, colour, region.inside ? insideWidth : outsideWidth);

@@ -1,6 +1,7 @@
 #include "window/camera_actions.h"
 
 #include <QApplication>
+#include <QSignalBlocker>
 #include <algorithm>
 #include <array>
 
@@ -27,20 +28,32 @@ constexpr std::array directions{
 
 struct AxisView {
   const char* name;
-  const char* text;
-  const char* from;
   QKeyCombination key;
-  double yaw, pitch;  // degrees
+  int axis;
+  bool positive;
 };
 // The key is the axis of the view; Shift looks from its negative end.
 constexpr std::array axisViews{
-    AxisView{"viewFront", "From the &front", "+z", Qt::Key_Z, 0, 0},
-    AxisView{"viewBack", "From the &back", "−z", Qt::SHIFT | Qt::Key_Z, 180, 0},
-    AxisView{"viewRight", "From the &right", "+x", Qt::Key_X, -90, 0},
-    AxisView{"viewLeft", "From the &left", "−x", Qt::SHIFT | Qt::Key_X, 90, 0},
-    AxisView{"viewTop", "From the &top", "+y", Qt::Key_Y, 0, 90},
-    AxisView{"viewBottom", "From b&elow", "−y", Qt::SHIFT | Qt::Key_Y, 0, -90},
+    AxisView{"viewFront", Qt::Key_Z, 2, true}, AxisView{"viewBack", Qt::SHIFT | Qt::Key_Z, 2, false},
+    AxisView{"viewRight", Qt::Key_X, 0, true}, AxisView{"viewLeft", Qt::SHIFT | Qt::Key_X, 0, false},
+    AxisView{"viewTop", Qt::Key_Y, 1, true},   AxisView{"viewBottom", Qt::SHIFT | Qt::Key_Y, 1, false},
 };
+
+/// Returns the side of the object at this end of an axis.
+QString sideAt(const AxisView& view, Camera::Up up) {
+  const bool zUp = up == Camera::Up::z;
+  if (view.axis == 0) {
+    return view.positive ? QStringLiteral("right") : QStringLiteral("left");
+  }
+  if ((view.axis == 2) == zUp) {
+    return view.positive ? QStringLiteral("top") : QStringLiteral("bottom");
+  }
+  return view.positive != zUp ? QStringLiteral("front") : QStringLiteral("back");
+}
+
+QString endOf(const AxisView& view) {
+  return (view.positive ? QStringLiteral("+") : QStringLiteral("−")) + QStringLiteral("xyz")[view.axis];
+}
 
 }  // namespace
 
@@ -111,18 +124,29 @@ void CameraActions::fillSides(QMenu& menu) {
   from->setIcon(icon("axes"));
   from->setToolTipsVisible(true);
   for (const AxisView& side : axisViews) {
-    auto* action = from->addAction(QString::fromUtf8(side.text), this, [this, side] {
+    auto* action = from->addAction(QString(), this, [this, side] {
       for (Panel* panel : area_.panels()) {
-        panel->view().lookFrom(side.yaw, side.pitch);
+        panel->view().lookFromAxis(side.axis, side.positive);
       }
     });
     action->setObjectName(QLatin1String(side.name));
     action->setShortcut(QKeySequence(side.key));
-    action->setStatusTip(QStringLiteral("All panels show the object from %1").arg(QString::fromUtf8(side.from)));
+    action->setStatusTip(QStringLiteral("All panels show the object from %1").arg(endOf(side)));
     sides_.push_back(action);
   }
+  addUp(menu);
   addProjection(menu);
   adapt();
+}
+
+void CameraActions::addUp(QMenu& menu) {
+  upZ_ = menu.addAction(QStringLiteral("&Z axis points up"));
+  upZ_->setObjectName(QStringLiteral("upZ"));
+  upZ_->setCheckable(true);
+  upZ_->setStatusTip(QStringLiteral("Turns the views so that the z axis points up; otherwise, the y axis does"));
+  connect(upZ_, &QAction::toggled, this, [this](bool on) { area_.setUp(on ? Camera::Up::z : Camera::Up::y); });
+  connect(&menu, &QMenu::aboutToShow, this, &CameraActions::adapt);
+  sides_.push_back(upZ_);
 }
 
 void CameraActions::addProjection(QMenu& menu) {
@@ -141,6 +165,11 @@ void CameraActions::addProjection(QMenu& menu) {
 
 void CameraActions::adapt() {
   const bool spatial = document_.mesh()->space_dimension == 3;
+  const QSignalBlocker quiet(upZ_);
+  upZ_->setChecked(area_.up() == Camera::Up::z);
+  for (std::size_t i = 0; i < axisViews.size(); ++i) {
+    sides_[i]->setText(QStringLiteral("From %1 (%2)").arg(endOf(axisViews[i]), sideAt(axisViews[i], area_.up())));
+  }
   for (QAction* action : sides_) {
     action->setEnabled(spatial);
     action->setToolTip(spatial ? action->statusTip()

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QAction>
 #include <QMenu>
 #include <QObject>
 #include <functional>
@@ -25,7 +26,7 @@ class CameraActions : public QObject {
   CameraActions(QObject* parent, const Document& document, PanelArea& area);
   /// Adds the submenu with the actions that turn, pan and zoom.
   void fillMoves(QMenu& menu) const;
-  /// Adds the submenu with the views along the axes and the projection.
+  /// Adds the submenu with the views along the axes, the choice of the axis that points up, and the projection.
   void fillSides(QMenu& menu);
 
  private:
@@ -34,12 +35,14 @@ class CameraActions : public QObject {
            const std::function<void(View&)>& act);
   void attach(Panel& panel);
   View* focusedView() const;
+  void addUp(QMenu& menu);
   void addProjection(QMenu& menu);
   void adapt();
 
   const Document& document_;
   PanelArea& area_;
   std::vector<QAction*> moves_;
+  QAction* upZ_ = nullptr;
   std::vector<QAction*> sides_;  // views along the axes and projection: they need a third dimension
   std::vector<View*> views_;
 };

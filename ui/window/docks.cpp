@@ -7,7 +7,6 @@
 #include <array>
 #include <memory>
 
-#include "common/colours.h"
 #include "common/icons.h"
 #include "docks/element_dock.h"
 #include "docks/frame_rate/frame_rate_dock.h"
@@ -22,6 +21,7 @@
 #include "docks/size_test/size_test_dock.h"
 #include "docks/stiffness_dock.h"
 #include "docks/tools_dock.h"
+#include "document/panel_colour.h"
 #include "io/file_actions.h"
 #include "panels/panel.h"
 #include "panels/panel_area.h"
@@ -93,7 +93,7 @@ QDockWidget* makeSizeTest(const DockParts& parts, const Docks& /*made*/) {
     std::vector<SizeTestContestant> inSight;
     for (const int panel : area.inSight()) {
       if (info(document.algorithm(panel)).family() == Family::chainmail) {
-        inSight.push_back({panel, document.algorithm(panel), colours::ofPanel(panel)});
+        inSight.push_back({panel, document.algorithm(panel), panelColour(document, panel)});
       }
     }
     return inSight;
@@ -278,7 +278,7 @@ void raiseWhenShown(QDockWidget& dock) {
 
 std::span<const DockEntry> dockEntries() { return entries; }
 
-Docks::Docks(const DockParts& parts) : window_(parts.window) {
+Docks::Docks(const DockParts& parts) : window_(parts.window), sizes_(std::make_unique<DockSizes>(parts.window)) {
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);  // gives the right column the full height
   for (const DockEntry& entry : entries) {
     add(entry, parts);
@@ -295,6 +295,7 @@ void Docks::add(const DockEntry& entry, const DockParts& parts) {
   }
   place(entry, *dock);
   docks_.push_back(dock);
+  sizes_->follow(*dock);
 }
 
 void Docks::place(const DockEntry& entry, QDockWidget& dock) {

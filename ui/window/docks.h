@@ -3,8 +3,11 @@
 #include <QDockWidget>
 #include <QKeySequence>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
+
+#include "window/dock_sizes.h"
 
 class QActionGroup;
 class QMainWindow;
@@ -95,6 +98,7 @@ class Docks {
 
   QMainWindow& window_;
   std::vector<QDockWidget*> docks_;  // owned by the window
+  std::unique_ptr<DockSizes> sizes_;
 };
 
 }  // namespace chainmail

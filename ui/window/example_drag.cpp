@@ -43,7 +43,7 @@ ExampleDrag::ExampleDrag(Document& document, QObject* parent) : QObject(parent),
 ExampleDrag::~ExampleDrag() { QCoreApplication::instance()->removeEventFilter(this); }
 
 void ExampleDrag::start() {
-  if (running() || document_.undoStack().count() != 0) {
+  if (running() || document_.undoStack().count() != 0 || document_.highlight().grabbed) {
     return;
   }
   const Mesh& mesh = *document_.mesh();

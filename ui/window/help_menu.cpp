@@ -1,13 +1,21 @@
 #include "window/help_menu.h"
 
 #include <QMainWindow>
+#include <QTimer>
 
 #include "common/icons.h"
 
 namespace chainmail {
+namespace {
+
+constexpr int exampleDelay = 300;  // milliseconds
+
+}  // namespace
 
 HelpMenu::HelpMenu(QMainWindow& window, Document& document)
-    : QObject(&window), window_(window), shortcuts_(window), example_(document, nullptr), hints_(new Hints) {}
+    : QObject(&window), window_(window), shortcuts_(window), example_(document, nullptr), hints_(new Hints) {
+  connect(hints_, &Hints::lessonRequested, this, &HelpMenu::lessonRequested);
+}
 
 void HelpMenu::fill(QMenu& menu) {
   auto* manual = menu.addAction(icon("help"), QStringLiteral("&Manual"), this, &HelpMenu::showManual);
@@ -23,11 +31,14 @@ void HelpMenu::fill(QMenu& menu) {
   again->setStatusTip(QStringLiteral("Shows the three hints of the first start below the views"));
 }
 
-void HelpMenu::welcome() {
-  if (!Hints::seen()) {
-    hints_->present();
-    example_.start();
+bool HelpMenu::welcome() {
+  if (Hints::seen()) {
+    return false;
   }
+  hints_->present();
+  // The views fit the object when the hints and the legends have their places, but not during a drag.
+  QTimer::singleShot(exampleDelay, &example_, &ExampleDrag::start);
+  return true;
 }
 
 void HelpMenu::showManual() {

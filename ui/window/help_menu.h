@@ -20,11 +20,15 @@ class HelpMenu : public QObject {
   HelpMenu(QMainWindow& window, Document& document);
   void fill(QMenu& menu);
   Shortcuts& shortcuts() { return shortcuts_; }
-  /// Shows an example and hints on the first start.
-  void welcome();
+  /// On the first start, shows an example and hints, and returns true.
+  bool welcome();
   void dismissHints() { hints_->hide(); }
   /// Returns the hints. The window places and owns them.
   QWidget& hints() { return *hints_; }
+
+ signals:
+  /// The user asked for a lesson in the hints.
+  void lessonRequested();
 
  private:
   void showManual();

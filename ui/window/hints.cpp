@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSettings>
+#include <QVBoxLayout>
 
 #include "common/colours.h"
 #include "common/icons.h"
@@ -21,8 +22,7 @@ struct Hint {
 };
 constexpr std::array hints{
     Hint{"drag", "<b>Drag</b> an element in any panel: all algorithms respond, side by side."},
-    Hint{"fit",
-         "The <b>wheel</b> zooms, the middle button pans, the right button turns; <b>F</b> shows the whole object."},
+    Hint{"fit", "The <b>wheel</b> zooms, the middle button pans, the right button turns; <b>F</b> fits the view."},
     Hint{"keyboard", "<b>F1</b> lists all actions and their keys; the tools on the left cut, pin and select."}};
 
 }  // namespace
@@ -47,8 +47,16 @@ Hints::Hints() {
   done->setObjectName(QStringLiteral("hintsDone"));
   done->setToolTip(QStringLiteral("Hides the hints (Esc). Help > Show hints shows them again"));
   grid->setColumnStretch(1, 1);
-  grid->addWidget(done, 0, 2, int(hints.size()), 1, Qt::AlignVCenter);
+  auto* lesson = new QPushButton(QStringLiteral("Start a lesson"));
+  lesson->setObjectName(QStringLiteral("hintsLesson"));
+  lesson->setToolTip(QStringLiteral("Opens the first of six short lessons. Help > Lessons lists all"));
+  auto* buttons = new QVBoxLayout;  // one above the other, so that the hints have room on a narrow screen
+  buttons->addWidget(lesson);
+  buttons->addWidget(done);
+  grid->addLayout(buttons, 0, 2, int(hints.size()), 1, Qt::AlignVCenter);
   connect(done, &QPushButton::clicked, this, &QWidget::hide);
+  connect(lesson, &QPushButton::clicked, this, &QWidget::hide);
+  connect(lesson, &QPushButton::clicked, this, &Hints::lessonRequested);
   followTheme(*this, [this] {
     QPalette own;
     own.setColor(QPalette::Window, colours::infoGround);

@@ -14,6 +14,10 @@ class Hints : public QFrame {
   /// True if the hints were shown before.
   static bool seen();
   void present();
+
+ signals:
+  /// The user wants to begin with a lesson.
+  void lessonRequested();
 };
 
 }  // namespace chainmail

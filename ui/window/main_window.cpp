@@ -34,6 +34,9 @@
 #include "window/docks.h"
 #include "window/help_menu.h"
 #include "window/job_bar.h"
+#include "window/lecture_mode.h"
+#include "window/lesson_bar.h"
+#include "window/lessons.h"
 #include "window/menus.h"
 #include "window/message_bar.h"
 #include "window/panel_actions.h"
@@ -87,6 +90,8 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       help_(new HelpMenu(*this, document_)),
       panelActions_(new PanelActions(*area_, document_, colouring_)),
       showMenu_(new ShowMenu(document_, this)),
+      lecture_(new LectureMode(*this, *area_, layoutVersion)),
+      lessons_(new Lessons(*this, propagation_, *sessions_)),
       toolActions_(new QActionGroup(this)),
       colourBy_(new ColourSelector(colouring_)),
       readout_(new ElementReadout(document_, measurement_, [this] { return area_->links().pointed(); })) {
@@ -97,7 +102,9 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   makeUndo();
   makeMenus();
   makeDocks();
-  help_->fill(*menuBar()->addMenu(QStringLiteral("&Help")));
+  auto* help = menuBar()->addMenu(QStringLiteral("&Help"));
+  lessons_->fill(*help);
+  help_->fill(*help);
   completeMenus(*menuBar());
   help_->shortcuts().adopt();
   showTitle();
@@ -130,6 +137,7 @@ void MainWindow::arrange() {
   column->addWidget(filling_);
   column->addWidget(pinBar_);
   column->addWidget(area_, 1);
+  column->addWidget(&lessons_->bar());
   column->addWidget(&help_->hints());
   setCentralWidget(central);
   statusBar()->addWidget(readout_, 1);
@@ -150,17 +158,21 @@ void MainWindow::listen() {
   connect(&measurement_, &Measurement::changed, area_, &PanelArea::refresh);
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
   connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
+  connect(area_, &PanelArea::pinWanted, this, [this] { pinLayers_->pin(pinLayers_->foot()); });
   connect(showMenu_, &ShowMenu::changed, area_, [this] { area_->setLook(showMenu_->look()); });
   connect(&document_, &Document::meshChanged, messages_, &MessageBar::clear);
   connect(&document_, &Document::meshChanged, this, &MainWindow::showTitle);
   connect(&document_, &Document::sessionFileChanged, this, &MainWindow::showTitle);
-  connect(&document_.undoStack(), &QUndoStack::cleanChanged, this, [this](bool clean) { setWindowModified(!clean); });
+  connect(&document_.undoStack(), &QUndoStack::cleanChanged, this,
+          [this] { setWindowModified(document_.isModified()); });
   // After an edit, undo or redo, an unfinished stroke of the tool may not fit the object.
   connect(&document_.undoStack(), &QUndoStack::indexChanged, this, [this] {
     if (tool_ != nullptr) {
       tool_->cancel();
     }
+    setWindowModified(document_.isModified());
   });
+  connect(help_, &HelpMenu::lessonRequested, lessons_, &Lessons::openFirst);
 }
 
 void MainWindow::listenToFiles() {
@@ -214,6 +226,8 @@ void MainWindow::cancelCurrent() {
     tool_->cancel();
   } else if (jobs_.running() && !tool_->busy()) {
     jobs_.cancel();
+  } else if (lecture_->isOn() && !tool_->busy()) {
+    lecture_->leave();
   } else {
     tool_->escape();
     measurement_.clear();
@@ -312,24 +326,63 @@ void MainWindow::fillObjectMenu(QMenu& menu) {
 }
 
 void MainWindow::fillViewMenu(QMenu& menu) {
-  fitView_ = menu.addAction(QStringLiteral("Reset &view (fit)"), area_, &PanelArea::fit);
+  fitView_ = menu.addAction(QStringLiteral("Fit &view"), area_, &PanelArea::fit);
   fitView_->setObjectName(QStringLiteral("fitView"));
-  fitView_->setIconText(QStringLiteral("Fit view"));  // so that the tool bar fits in 1280 pixels
   fitView_->setShortcut(Qt::Key_F);
-  fitView_->setStatusTip(QStringLiteral("Shows the whole object in every view, from the initial side"));
+  fitView_->setStatusTip(QStringLiteral("Shows the whole object as it is now in every view, from the current side"));
+  auto* fitRest = menu.addAction(icon("fit"), QStringLiteral("Fit rest shape"), area_, &PanelArea::fitRest);
+  fitRest->setObjectName(QStringLiteral("fitRest"));
+  fitRest->setShortcut(Qt::Key_Home);
+  fitRest->setStatusTip(QStringLiteral("Shows the whole rest shape in every view, from the initial side"));
   cameraActions_->fillMoves(menu);
   panelActions_->fill(menu);
   regions_.fill(menu);
   cameraActions_->fillSides(menu);
   showMenu_->fill(menu);
   menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
+  addFigures(menu);
   menu.addSeparator();
+  menu.addAction(&lecture_->action());
   (new ThemeMenu(this))->fill(menu);
 }
 
+/// Adds the switch of the figures below the panels, which is remembered.
+void MainWindow::addFigures(QMenu& menu) {
+  auto* figures = menu.addAction(QStringLiteral("Fi&gures of the last pass"));
+  figures->setObjectName(QStringLiteral("showFigures"));
+  figures->setCheckable(true);
+  figures->setShortcut(Qt::Key_I);
+  figures->setStatusTip(QStringLiteral("Shows counts, time and violation of the last pass below each panel"));
+  connect(figures, &QAction::toggled, this, [this](bool on) {
+    area_->setFigures(on);
+    QSettings().setValue(QStringLiteral("figures"), on);
+  });
+  figures->setChecked(QSettings().value(QStringLiteral("figures")).toBool());
+}
+
+/// Shows names beside the icons of the tool bar if there is room for all of them.
+void MainWindow::adaptToolBar() {
+  const auto withNames = Qt::ToolButtonTextBesideIcon;
+  if (bar_->toolButtonStyle() == withNames) {
+    widthWithNames_ = bar_->sizeHint().width();
+  }
+  const auto style = widthWithNames_ <= width() ? withNames : Qt::ToolButtonIconOnly;
+  if (style != bar_->toolButtonStyle()) {
+    bar_->setToolButtonStyle(style);
+  }
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  if (event->size().width() != event->oldSize().width()) {
+    adaptToolBar();
+  }
+}
+
 void MainWindow::makeToolBar() {
-  auto* bar = addToolBar(QStringLiteral("Main"));
-  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  bar_ = addToolBar(QStringLiteral("Main"));
+  auto* bar = bar_;
+  connect(&colouring_, &Colouring::modeChanged, this, &MainWindow::adaptToolBar, Qt::QueuedConnection);
   bar->setObjectName(QStringLiteral("mainToolBar"));
   bar->setMovable(false);
   files_->fill(*bar);
@@ -338,12 +391,13 @@ void MainWindow::makeToolBar() {
   bar->addSeparator();
   bar->addActions({resetObject_, unpinAll_, fitView_});
   bar->addSeparator();
-  bar->addWidget(new QLabel(QStringLiteral(" Linked ")));
-  bar->addActions(area_->links().actions());
-  bar->addSeparator();
+  // Before the switches of the links, so that it is the last to be hidden in a narrow window.
   bar->addWidget(new QLabel(QStringLiteral(" Colour by ")));
   bar->addWidget(colourBy_);
   panelActions_->fill(*bar);
+  bar->addSeparator();
+  bar->addWidget(new QLabel(QStringLiteral(" Linked ")));
+  bar->addActions(area_->links().actions());
 }
 
 // Docks and the layout.
@@ -356,9 +410,12 @@ void MainWindow::makeDocks() {
   docks_->fill(*menuBar()->addMenu(QStringLiteral("&Docks")));
 }
 
-QByteArray MainWindow::savedLayout() const { return saveState(layoutVersion); }
+QByteArray MainWindow::savedLayout() const {
+  return lecture_->isOn() ? lecture_->layoutBefore() : saveState(layoutVersion);
+}
 
 void MainWindow::takeLayout(const QByteArray& layout) {
+  lecture_->leave();
   // restoreState shows tabbed docks one by one. A layout that reacts at once removes some meanwhile, and Qt crashes.
   this->layout()->setEnabled(false);
   restoreState(layout, layoutVersion);
@@ -378,7 +435,11 @@ void MainWindow::restoreLayout() {
 
 void MainWindow::openFile(const QString& path, bool first) { files_->openPath(path, first); }
 
-void MainWindow::welcome() { help_->welcome(); }
+void MainWindow::welcome() {
+  if (help_->welcome()) {
+    colouring_.setMode(ColourMode::violation);  // shows at once how the algorithms differ
+  }
+}
 
 void MainWindow::showStatus(const QString& sentence) { statusBar()->showMessage(sentence, statusMilliseconds); }
 
@@ -388,6 +449,7 @@ void MainWindow::showTitle() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  lecture_->leave();
   jobs_.close();
   document_.abandonMoves(lastMovePatience);
   sessions_->keep();

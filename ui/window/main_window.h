@@ -17,6 +17,7 @@
 
 class QActionGroup;
 class QMenu;
+class QToolBar;
 
 namespace chainmail {
 
@@ -27,6 +28,8 @@ class ElementReadout;
 class FileActions;
 class Filling;
 class HelpMenu;
+class LectureMode;
+class Lessons;
 class MessageBar;
 class Panel;
 class PanelActions;
@@ -52,6 +55,7 @@ class MainWindow : public QMainWindow {
   MessageBar& messages() { return *messages_; }
   Jobs& jobs() { return jobs_; }
   Sessions& sessions() { return *sessions_; }
+  Lessons& lessons() { return *lessons_; }
   /// Returns the positions, sizes and visibility of the docks.
   QByteArray savedLayout() const;
   /// Restores a saved layout. Ignores layouts of another version.
@@ -66,6 +70,7 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void arrange();
@@ -80,7 +85,9 @@ class MainWindow : public QMainWindow {
   void fillEditMenu(QMenu& menu);
   void fillObjectMenu(QMenu& menu);
   void fillViewMenu(QMenu& menu);
+  void addFigures(QMenu& menu);
   void makeToolBar();
+  void adaptToolBar();
   void makeDocks();
   void cancelCurrent();
   void activate(Tool& tool);
@@ -116,10 +123,14 @@ class MainWindow : public QMainWindow {
   HelpMenu* help_;
   PanelActions* panelActions_;
   ShowMenu* showMenu_;
+  LectureMode* lecture_;
+  Lessons* lessons_;
   QActionGroup* toolActions_;
   QAction *undo_ = nullptr, *redo_ = nullptr;
   QAction *resetObject_ = nullptr, *unpinAll_ = nullptr, *fitView_ = nullptr;
   ColourSelector* colourBy_;
+  QToolBar* bar_ = nullptr;
+  int widthWithNames_ = 0;  // of the tool bar (pixels)
   ElementReadout* readout_;
   QMenu *editMenu_ = nullptr, *objectMenu_ = nullptr, *viewMenu_ = nullptr;
   std::unique_ptr<Docks> docks_;

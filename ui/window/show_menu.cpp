@@ -48,7 +48,7 @@ ShowMenu::ShowMenu(const Document& document, QObject* parent) : QObject(parent),
 }
 
 void ShowMenu::fill(QMenu& menu) {
-  menu_ = menu.addMenu(icon("mesh"), QStringLiteral("Sho&w"));
+  menu_ = menu.addMenu(icon("mesh"), QStringLiteral("Sh&ow"));
   menu_->setToolTipsVisible(true);
   auto* group = new QActionGroup(this);
   for (const Choice& one : choices) {
@@ -63,6 +63,14 @@ void ShowMenu::fill(QMenu& menu) {
     actions_[name] = action;
   }
   adapt();
+}
+
+QStringList ShowMenu::names() {
+  QStringList names;
+  for (const Choice& one : choices) {
+    names << QLatin1String(one.name);
+  }
+  return names;
 }
 
 QString ShowMenu::chosen() const {

@@ -18,6 +18,8 @@ class ShowMenu : public QObject {
   ShowMenu(const Document& document, QObject* parent);
   void fill(QMenu& menu);
 
+  /// Returns the names of all choices.
+  static QStringList names();
   Look look() const;
   /// Returns the submenu, which exists after fill().
   QMenu& menu() const { return *menu_; }

@@ -23,7 +23,8 @@ QJsonObject toJson(const Camera::Pose& pose) {
           {QStringLiteral("yaw"), pose.yaw},
           {QStringLiteral("pitch"), pose.pitch},
           {QStringLiteral("parallel"), pose.parallel},
-          {QStringLiteral("framed"), pose.framed}};
+          {QStringLiteral("framed"), pose.framed},
+          {QStringLiteral("up"), pose.up == Camera::Up::z ? QStringLiteral("z") : QStringLiteral("y")}};
 }
 
 /// Returns the pose in the JSON. Missing values stay as in `present`, and so do coordinates of the centre that are
@@ -35,7 +36,8 @@ Camera::Pose poseOf(const QJsonObject& json, const Camera::Pose& present) {
                     number("yaw", present.yaw),
                     number("pitch", present.pitch),
                     json[QStringLiteral("parallel")].toBool(present.parallel),
-                    json[QStringLiteral("framed")].toBool()};
+                    json[QStringLiteral("framed")].toBool(),
+                    json[QStringLiteral("up")].toString() == QLatin1String("z") ? Camera::Up::z : Camera::Up::y};
   const QJsonArray centre = json[QStringLiteral("centre")].toArray();
   for (int k = 0; k < 3 && centre.size() == 3; ++k) {
     const auto at = float(centre[k].toDouble(pose.centre[k]));
@@ -51,7 +53,9 @@ void takeCameras(MainWindow& window, const QJsonObject& look) {
   for (int panel = 0; panel < std::min(int(cameras.size()), window.document().panels()); ++panel) {
     View& view = window.panel(panel).view();
     view.camera()->setPose(poseOf(cameras[panel].toObject(), view.camera()->pose()));
-    view.fitAgain();  // the window of the saved look may have had another size
+    if (view.camera()->framed()) {
+      view.frame(view.outline(false));  // the window of the saved look may have had another size
+    }
     emit view.cameraChanged();
     view.update();
   }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "files/session/lesson.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "simulate/command.h"
@@ -38,9 +40,13 @@ struct Session {
   /// redone.
   std::vector<Command> moves;
   std::size_t moves_done = 0;
+  Lesson lesson;  // captions over the moves, if there are any
   /// A JSON object that only the window reads: cameras, layout.
   std::string ui = "{}";
 };
+
+/// Returns the mesh with which the moves of a session begin: the one before all splits.
+MeshPointer first_mesh(const Session& session);
 
 inline constexpr std::size_t session_panels = 16;
 /// Largest number of moves in a session, with the links and elements that they name: some hours of dragging. A session
@@ -71,22 +77,33 @@ bool is_session(const std::filesystem::path& path);
 ///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
 ///        "runs": [first, end of each run of elements that are given…], "held": [their coordinates…]}],
 ///      "moves": {as in files/session/moves.h}, "moves_done": how many of them,
+///      "lesson": {"title": …, "steps": [{"title": …, "text": …, "until": number of moves that are carried out,
+///        "algorithms": [name for each panel], "candidate": n, "colour": …, "show": …, "dock": …, "tool": …}]},
 ///      "ui": {…}}
 ///
 /// "mesh" is the object before the first split in "moves". All other members are about the object after the moves that
-/// are done. "moves" are left out above session_moves; "lattice", "hexahedra" and "texture" if there are none; and
-/// "elastic" if it is the standard one. If the neighbours are not in ascending order, "counts" (of each element) and
-/// "neighbours" (its ids) take the place of "links". In version 1, "softness" has c, s and h only, and its energy is
-/// isotropic. Throws Error for a number that is not finite, and Cancelled.
+/// are done. In place of all its members, "mesh" may hold "file", the name of a mesh or a picture, and for a picture
+/// "across", the number of elements along its width. "lesson" is left out without steps, and in a step all but "title",
+/// "text" and "until" may be left out.
+///
+/// "moves" are left out above session_moves; "lattice", "hexahedra" and "texture" if there are none; and "elastic" if
+/// it is the standard one. If the neighbours are not in ascending order, "counts" (of each element) and "neighbours"
+/// (its ids) take the place of "links". In version 1, "softness" has c, s and h only, and its energy is isotropic.
+/// Throws Error for a number that is not finite, and Cancelled.
 void write_session(std::ostream& out, const Session& session, const Progress& progress = {});
 
 /// Writes a session into a file. A failed write leaves the file as it was.
 void save_session(const std::filesystem::path& path, const Session& session, const Progress& progress = {});
 
+/// Opens the mesh that a session names, in the folder of the session or elsewhere. The name has no folder. `across` is
+/// the number of elements along the width of a picture; 0 if the session does not say it.
+using MeshOpener = std::function<MeshPointer(const std::string& name, std::uint32_t across, const Progress& progress)>;
+
 /// Reads a session. Throws Error, with the member, for anything that write_session does not write, and for a newer
-/// version; and Cancelled.
-Session read_session(const std::filesystem::path& path, const Progress& progress = {});
+/// version; and Cancelled. Without `open`, a session that names its mesh is refused.
+Session read_session(const std::filesystem::path& path, const Progress& progress = {}, const MeshOpener& open = {});
 /// Reads a session from the text of a file. `path` appears in errors.
-Session parse_session(std::string_view text, const std::filesystem::path& path, const Progress& progress = {});
+Session parse_session(std::string_view text, const std::filesystem::path& path, const Progress& progress = {},
+                      const MeshOpener& open = {});
 
 }  // namespace chainmail

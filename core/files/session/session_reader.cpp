@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "files/session/lesson_json.h"
 #include "files/session/moves.h"
 #include "files/session/session.h"
 #include "files/session/session_json.h"
@@ -17,8 +18,8 @@ using Json = nlohmann::json;
 
 class SessionReader {
  public:
-  SessionReader(const SessionJson& json, const std::filesystem::path& path)
-      : path_(path), file_(shown(path)), fields_(file_, json), tree_(json.tree), moves_(json.moves) {}
+  SessionReader(const SessionJson& json, const std::filesystem::path& path, const MeshOpener& open)
+      : path_(path), file_(shown(path)), fields_(file_, json), tree_(json.tree), moves_(json.moves), open_(open) {}
 
   Session read(const Progress& progress);
 
@@ -26,6 +27,8 @@ class SessionReader {
   /// True if the version knows kinds of energy. Before, all energy was isotropic.
   bool has_energy() const { return version_ >= 2; }
   void check_kind();
+  void take_mesh(const Progress& progress);
+  MeshPointer named_mesh(const Json& object, const Progress& progress);
   void take_cuts();
   void take_pins();
   void take_softness();
@@ -34,6 +37,7 @@ class SessionReader {
   void take_elastic();
   void take_panels();
   void take_moves(const Progress& progress);
+  void take_lesson();
   Session::Panel panel(const Json& object);
   Snapshot placement(const Json& object, Precision precision) const;
 
@@ -42,6 +46,7 @@ class SessionReader {
   SessionFields fields_;  // of the file, then of each member
   const Json& tree_;
   std::string_view moves_;
+  const MeshOpener& open_;
   std::uint64_t version_ = session_version;
   EnergyKind absent_energy_ = standard_energy;
   Session result_;
@@ -55,7 +60,28 @@ void SessionReader::check_kind() {
   version_ = fields_.count(tree_, "version", session_version);
   absent_energy_ = has_energy() ? standard_energy : EnergyKind::isotropic;
   fields_.check_keys(tree_, {"format", "version", "name", "mesh", "cuts", "pins", "softness", "relaxation", "elastic",
-                             "panels", "moves", "moves_done", "ui"});
+                             "panels", "moves", "moves_done", "lesson", "ui"});
+}
+
+/// Opens the mesh that the session names. Its name must not lead out of a folder.
+MeshPointer SessionReader::named_mesh(const Json& object, const Progress& progress) {
+  fields_.check_keys(object, {"file", "across"});
+  const std::string name = fields_.text(object, "file");
+  if (name.empty() || name.find_first_of("/\\") != std::string::npos || name[0] == '.') {
+    fields_.fail("'file' is not the plain name of a file", "put the mesh next to the session and write its name only");
+  }
+  const auto across = object.contains("across") ? fields_.count(object, "across", element_limit) : 0;
+  if (!open_) {
+    fields_.fail("it is in another file, '" + name + "'", "open the session in the workbench and save it there");
+  }
+  return open_(name, static_cast<std::uint32_t>(across), progress);
+}
+
+void SessionReader::take_mesh(const Progress& progress) {
+  const Json& mesh = fields_.object(tree_, "mesh");
+  fields_.say_at(file_ + ": mesh");
+  result_.mesh = mesh.contains("file") ? named_mesh(mesh, progress) : read_session_mesh(fields_, mesh, progress);
+  fields_.say_at(file_);
 }
 
 void SessionReader::take_cuts() {
@@ -211,13 +237,16 @@ void SessionReader::take_moves(const Progress& progress) {
   }
 }
 
+void SessionReader::take_lesson() {
+  if (tree_.contains("lesson")) {
+    result_.lesson = read_lesson(tree_["lesson"], file_, *result_.mesh, result_.moves.size());
+  }
+}
+
 Session SessionReader::read(const Progress& progress) {
   check_kind();
   result_.name = fields_.text(tree_, "name");
-  const Json& mesh = fields_.object(tree_, "mesh");
-  fields_.say_at(file_ + ": mesh");
-  result_.mesh = read_session_mesh(fields_, mesh, progress.part(0, 0.8));
-  fields_.say_at(file_);
+  take_mesh(progress.part(0, 0.8));
   take_moves(progress.part(0.8, 0.9));
   // The file has the mesh with which the moves begin.
   result_.mesh = last_mesh(result_.mesh, std::span(result_.moves).first(result_.moves_done));
@@ -231,18 +260,20 @@ Session SessionReader::read(const Progress& progress) {
   fields_.say_at(file_);
   progress.report(0.9);
   take_panels();
+  take_lesson();
   return std::move(result_);
 }
 
 }  // namespace
 
-Session parse_session(std::string_view text, const std::filesystem::path& path, const Progress& progress) {
+Session parse_session(std::string_view text, const std::filesystem::path& path, const Progress& progress,
+                      const MeshOpener& open) {
   const SessionJson json = parse_session_json(text, path, progress.part(0, 0.6));
-  return SessionReader(json, path).read(progress.part(0.6, 1));
+  return SessionReader(json, path, open).read(progress.part(0.6, 1));
 }
 
-Session read_session(const std::filesystem::path& path, const Progress& progress) {
-  return parse_session(read_text(path, "a session", progress.part(0, 0.1)), path, progress.part(0.1, 1));
+Session read_session(const std::filesystem::path& path, const Progress& progress, const MeshOpener& open) {
+  return parse_session(read_text(path, "a session", progress.part(0, 0.1)), path, progress.part(0.1, 1), open);
 }
 
 }  // namespace chainmail

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "files/session/lesson_json.h"
 #include "files/session/moves.h"
 #include "files/session/session.h"
 #include "files/session/session_json.h"
@@ -252,14 +253,17 @@ void SessionWriter::write_moves(const Progress& progress) {
     out_ << ",\n\"moves\": " << std::string_view(moves.str())
          << ",\"moves_done\": " << static_cast<std::uint32_t>(session_.moves_done);
   }
+  const bool moves_left_out = all > session_moves;
+  if (!session_.lesson.steps.empty() && !moves_left_out) {
+    out_ << ",\n\"lesson\": " << std::string_view(lesson_json(session_.lesson));
+  }
 }
 
 void SessionWriter::write(const Progress& progress) {
   const std::string name = OrderedJson(session_.name).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   out_ << "{\"format\": \"chainmail session\", \"version\": " << std::uint32_t{session_version}
        << ", \"name\": " << name << ",\n";
-  const MeshPointer first = has_moves_ ? first_mesh(session_.moves) : nullptr;
-  write_mesh(first ? *first : mesh_, progress.part(0, 0.5));
+  write_mesh(has_moves_ ? *first_mesh(session_) : mesh_, progress.part(0, 0.5));
   write_state();
   out_ << ",\n\"panels\": [";
   const auto share = 0.45 / double(session_.panels.size());
@@ -276,6 +280,11 @@ void SessionWriter::write(const Progress& progress) {
 }
 
 }  // namespace
+
+MeshPointer first_mesh(const Session& session) {
+  const MeshPointer first = first_mesh(session.moves);
+  return first ? first : session.mesh;
+}
 
 bool is_session(const std::filesystem::path& path) { return lower_case(path.extension().string()) == session_ending; }
 

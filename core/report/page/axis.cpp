@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <locale>
+#include <sstream>
 
 #include "report/page/format.h"
 
@@ -10,6 +13,7 @@ namespace chainmail::report {
 namespace {
 
 constexpr int most_ticks = 6;
+constexpr int smallest_plain = -3, largest_plain = 3;  // decades of an axis without powers
 
 std::string superscript(int number) {
   static const char* const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -20,8 +24,22 @@ std::string superscript(int number) {
   return text;
 }
 
-std::string label_of(int decade) {
-  return decade < -3 || decade > 2 ? "10" + superscript(decade) : figure(std::pow(10, decade));
+/// Returns the label of a decade. All labels of an axis have one style: powers if one of them is small or large.
+std::string label_of(int decade, bool as_power) {
+  return as_power ? "10" + superscript(decade) : figure(std::pow(10, decade));
+}
+
+/// Returns the labels of a linear axis, all with the decimals that the finest needs.
+std::string label_of(double value, double finest) {
+  const std::string last = figure(finest);
+  const auto point = last.find('.');
+  if (value == 0 || point == std::string::npos || last.find('e') != std::string::npos) {
+    return figure(value);
+  }
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(static_cast<int>(last.size() - point - 1)) << value;
+  return text.str();
 }
 
 /// Returns 1, 2 or 5 times a power of ten.
@@ -65,8 +83,9 @@ Axis Axis::logarithmic(const std::vector<double>& values, double smallest) {
   if (axis.has_zero_) {
     axis.ticks_.push_back({of_zero, "0", true});
   }
+  const bool as_powers = low < smallest_plain || high > largest_plain;
   for (int decade = low; decade <= high; decade += step) {
-    axis.ticks_.push_back({axis.position(std::pow(10, decade)), label_of(decade)});
+    axis.ticks_.push_back({axis.position(std::pow(10, decade)), label_of(decade, as_powers)});
   }
   return axis;
 }
@@ -83,7 +102,7 @@ Axis Axis::linear(double low, double high, const std::vector<LabelledValue>& tic
 
 Axis Axis::from_zero_to(double highest) {
   const double end = round_number_above(highest);
-  return linear(0, end, {{0, figure(0)}, {end / 2, figure(end / 2)}, {end, figure(end)}});
+  return linear(0, end, {{0, figure(0)}, {end / 2, label_of(end / 2, end / 2)}, {end, label_of(end, end / 2)}});
 }
 
 double Axis::position(double value) const {

@@ -25,6 +25,24 @@ void write_head(std::ostream& out, const FigureTable& table) {
   out << "</tr></thead>\n";
 }
 
+/// Returns the cells of all rows, with the figures of each column aligned.
+std::vector<std::vector<std::string>> aligned_cells(const FigureTable& table) {
+  std::vector<std::vector<std::string>> rows(table.rows.size());
+  for (std::size_t column = 0; column < table.columns.size(); ++column) {
+    std::vector<std::string> cells;
+    for (const FigureTable::Row& row : table.rows) {
+      cells.push_back(column < row.cells.size() ? row.cells[column] : "");
+    }
+    cells = aligned(std::move(cells));
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      if (column < table.rows[row].cells.size()) {
+        rows[row].push_back(cells[row]);
+      }
+    }
+  }
+  return rows;
+}
+
 /// Counts characters, not bytes.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -37,12 +55,14 @@ void write_html(std::ostream& out, const FigureTable& table) {
       << " <span class=\"faint\">" << escaped(table.about) << "</span></caption>\n";
   write_head(out, table);
   out << "<tbody>\n";
-  for (const FigureTable::Row& row : table.rows) {
+  const auto cells = aligned_cells(table);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const FigureTable::Row& row = table.rows[i];
     out << "<tr><th scope=\"row\">" << escaped(row.label) << "</th>";
     if (!row.refusal.empty()) {
       out << "<td class=\"refusal\" colspan=\"" << table.columns.size() << "\">" << escaped(row.refusal) << "</td>";
     }
-    for (const std::string& cell : row.cells) {
+    for (const std::string& cell : cells[i]) {
       out << "<td>" << escaped(cell) << "</td>";
     }
     out << "</tr>\n";

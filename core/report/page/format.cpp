@@ -1,5 +1,6 @@
 #include "report/page/format.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -52,9 +53,54 @@ std::string_view entity_of(char character) {
   }
 }
 
+constexpr const char* thousands_space = "\u202f";  // narrow no-break space
+constexpr const char* figure_space = "\u2007";     // as wide as a digit
+constexpr const char* point_space = "\u2008";      // as wide as a point
+constexpr double least_grouped = 1e3, most_grouped = 1e6;
+
+/// Returns the number of digits behind the point of a figure such as '0.12', '1.5%' or '12'; none for other texts.
+std::optional<std::size_t> decimals_of(const std::string& text) {
+  std::string number = text.substr(0, text.ends_with('%') ? text.size() - 1 : text.size());
+  for (auto at = number.find(thousands_space); at != std::string::npos; at = number.find(thousands_space)) {
+    number.erase(at, std::string_view(thousands_space).size());
+  }
+  if (number.empty() || number.find_first_not_of("0123456789.-") != std::string::npos) {
+    return std::nullopt;
+  }
+  const auto point = number.find('.');
+  return point == std::string::npos ? 0 : number.size() - point - 1;
+}
+
 }  // namespace
 
+std::string thousands(std::uint64_t count) {
+  std::string text = std::to_string(count);
+  for (std::size_t end = text.size(); end > 3; end -= 3) {
+    text.insert(end - 3, thousands_space);
+  }
+  return text;
+}
+
+std::vector<std::string> aligned(std::vector<std::string> column) {
+  std::size_t most = 0;
+  for (const std::string& text : column) {
+    most = std::max(most, decimals_of(text).value_or(0));
+  }
+  for (std::string& text : column) {
+    if (const auto decimals = decimals_of(text)) {
+      for (std::size_t i = *decimals; i < most; ++i) {
+        text += figure_space;
+      }
+      text += *decimals == 0 && most > 0 ? point_space : "";
+    }
+  }
+  return column;
+}
+
 std::string figure(double number, int digits) {
+  if (std::abs(number) >= least_grouped && std::abs(number) < most_grouped) {
+    return (number < 0 ? "-" : "") + thousands(static_cast<std::uint64_t>(std::llround(std::abs(number))));
+  }
   std::string text = written(number, std::chars_format::general, digits);
   // 1e-07 reads better as 1e-7.
   if (const auto exponent = text.find('e'); exponent != std::string::npos) {

@@ -4,12 +4,19 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace chainmail::report {
 
-/// Formats a number for people, with three significant digits in every locale; `n/a` if there is none.
+/// Formats a number for people, with three significant digits in every locale; `n/a` if there is none. Numbers from
+/// 1,000 to a million are written as whole numbers with separated thousands.
 std::string figure(double number, int digits = 3);
 std::string figure(const std::optional<double>& number);
+/// Formats a count for people: a narrow no-break space separates the thousands.
+std::string thousands(std::uint64_t count);
+/// Pads the figures of a column with spaces as wide as digits, so that their decimal points stand below each other when
+/// they are aligned to the right. Texts that are not one number stay.
+std::vector<std::string> aligned(std::vector<std::string> column);
 /// Formats a share for people, in percent.
 std::string percent(double share);
 /// Formats a number for programs, with the fewest digits that read back as the same number; empty if there is none.

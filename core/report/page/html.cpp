@@ -66,21 +66,21 @@ std::vector<DetailColumn> columns_for(const DragResult& drag) {
       {"ms per move", "worst move", worst_cell},
       {"elements per move", "checked", checked_cell},
       {"elements per move", "moved", moved_cell},
-      {"violation", "max", max_cell},
-      {"violation", "RMS", rms_cell},
-      {"violation", "links", links_cell},
-      {"distance to Exact", "max", exact_max},
-      {"distance to Exact", "RMS", exact_rms},
-      {"energy", "/ Exact’s", energy_cell},
-      {"float to double", "max", float_max},
-      {"float to double", "RMS", float_rms},
-      {"farthest", "/ handle", handle_cell},
+      {"violation (rest lengths)", "max", max_cell},
+      {"violation (rest lengths)", "RMS", rms_cell},
+      {"violated links", "share (%)", links_cell},
+      {"distance to Exact (mean rest lengths)", "max", exact_max},
+      {"distance to Exact (mean rest lengths)", "RMS", exact_rms},
+      {"energy", "/ Exact’s (ratio)", energy_cell},
+      {"float to double (mean rest lengths)", "max", float_max},
+      {"float to double (mean rest lengths)", "RMS", float_rms},
+      {"farthest", "/ handle (ratio)", handle_cell},
   };
   const bool has_equilibrium = std::ranges::any_of(
       drag.entries, [](const Entry& entry) { return entry.measurement && entry.measurement->errors.to_equilibrium; });
   if (has_equilibrium) {
-    columns.push_back({"to equilibrium", "max", rest_max});
-    columns.push_back({"to equilibrium", "RMS", rest_rms});
+    columns.push_back({"to equilibrium (mean rest lengths)", "max", rest_max});
+    columns.push_back({"to equilibrium (mean rest lengths)", "RMS", rest_rms});
   }
   return columns;
 }
@@ -127,10 +127,13 @@ FigureTable table_of(const MainTable& main) {
   for (const std::string& drag : main.drags) {
     table.columns.push_back({"ms per move", drag});
   }
-  for (const char* name : {"max", "RMS", "links"}) {
-    table.columns.push_back({"violation, worst of the drags", name});
+  for (const char* name : {"max", "RMS"}) {
+    table.columns.push_back({"violation, worst of the drags (rest lengths)", name});
   }
-  table.columns.insert(table.columns.end(), {{"distance to Exact, worst", "max"}, {"distance to Exact, worst", "RMS"}});
+  table.columns.push_back({"violated links, worst", "share (%)"});
+  for (const char* name : {"max", "RMS"}) {
+    table.columns.push_back({"distance to Exact, worst (mean rest lengths)", name});
+  }
   for (const MainRow& row : main.rows) {
     table.rows.push_back(
         {row.contestant, row.refusal.empty() ? cells_of(row) : std::vector<std::string>(), row.refusal});

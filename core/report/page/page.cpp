@@ -24,7 +24,8 @@ caption { text-align: left; font-weight: 600; font-size: .95rem; padding: .2rem 
 th, td { padding: .17rem .5rem; text-align: right; white-space: nowrap; }
 th { font-weight: 600; vertical-align: bottom; }
 thead tr:last-child th { border-bottom: 1.5px solid var(--ink); }
-th.group { text-align: center; border-bottom: 1px solid var(--rule); font-weight: normal; color: var(--faint); }
+th.group { text-align: center; white-space: normal; border-bottom: 1px solid var(--rule); font-weight: normal;
+  color: var(--faint); }
 tbody th, th:first-child { text-align: left; font-weight: normal; vertical-align: top; }
 .detail { font-size: .72rem; } .detail th, .detail td { padding: .12rem .33rem; }
 .main { table-layout: fixed; min-width: 50rem; } .main th:first-child { width: 17rem; }

@@ -27,11 +27,11 @@ struct ErrorColumns {
   CellOf cell;
   bool in_text = false;  // true: also shown in a terminal, which has no room for all
 };
-constexpr ErrorColumns groups[]{{"relative error", relative_cell, true},
-                                {"RMS error", rms_cell},
-                                {"largest error", max_cell},
-                                {"RMS, what moves", moving_rms_cell},
-                                {"largest, what moves", moving_max_cell}};
+constexpr ErrorColumns groups[]{{"relative error (ratio)", relative_cell, true},
+                                {"RMS error (%)", rms_cell},
+                                {"largest error (%)", max_cell},
+                                {"RMS, what moves (%)", moving_rms_cell},
+                                {"largest, what moves (%)", moving_max_cell}};
 
 /// Formats a time (ms); empty if it was not measured because nothing is prepared or cut.
 std::string time_cell(const TimeSpread& ms, bool for_text) {
@@ -168,8 +168,8 @@ std::string about(const PhysicsObject& object) {
       left_out += "; left out: " + drag.name + " of element " + std::to_string(drag.handle) + ", " + drag.no_reference;
     }
   }
-  std::string text = object.description + "; " + std::to_string(object.elements) + " elements, " +
-                     std::to_string(object.links) + " links, " + std::to_string(object.pins) + " pinned; handles: ";
+  std::string text = object.description + "; " + thousands(object.elements) + " elements, " + thousands(object.links) +
+                     " links, " + std::to_string(object.pins) + " pinned; handles: ";
   for (const ElementId handle : handles) {
     text += (handle == handles.front() ? "" : ", ") + std::to_string(handle);
   }
@@ -275,10 +275,10 @@ FigureTable growth_table(const PhysicsGrowth& growth) {
                     "contestant",
                     {{"the largest object", "elements"},
                      {"the largest object", "ms per move"},
-                     {"the largest object", "prepare ms"},
+                     {"the largest object", "prepare (ms)"},
                      {"growth of time", "exponent"},
-                     {"relative error", "first size"},
-                     {"relative error", "last known"},
+                     {"relative error (ratio)", "first size"},
+                     {"relative error (ratio)", "last known"},
                      {"why not larger", ""}},
                     {}};
   for (std::size_t i = 0; i < growth.series.size(); ++i) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string_view>
+#include <vector>
 
 #include "report/page/format.h"
 #include "report/page/looks.h"
@@ -13,9 +15,10 @@ namespace {
 
 // Lengths in CSS pixels at the natural size of the drawing.
 constexpr double panel_width = 250, panel_height = 210;
-constexpr double left = 62, between = 34, top = 26, bottom = 46, right = 8;
+constexpr double left = 70, between = 34, top = 26, bottom = 46, right = 8;
 constexpr double legend_width = 235, legend_row = 19;
 constexpr double mark_size = 4.6;
+constexpr double note_width = 16, note_height = 9;
 constexpr int panels_per_row = 3;
 
 /// Formats a coordinate in hundredths.
@@ -91,10 +94,24 @@ class SvgDrawing {
     for (const PlotMark& mark : panel.marks) {
       draw_bar(mark);
     }
+    std::vector<std::array<double, 2>> notes;
     for (const PlotMark& mark : panel.marks) {
       draw_mark(at_x(mark.x), at_y(mark.y), mark.series, mark.hollow, mark.title);
-      if (!mark.note.empty()) {
-        text(at_x(mark.x) + 7, at_y(mark.y) - 4, "start", mark.note, " font-size=\"9\"");
+      draw_note(mark, notes);
+    }
+  }
+
+  /// Writes the note of a mark unless it would cover another note: above the mark, or else below it.
+  void draw_note(const PlotMark& mark, std::vector<std::array<double, 2>>& notes) {
+    for (const double below : {-4.0, 11.0}) {
+      const double x = at_x(mark.x) + 7, y = at_y(mark.y) + below;
+      const bool covers = std::ranges::any_of(notes, [&](const auto& one) {
+        return std::abs(one[0] - x) < note_width && std::abs(one[1] - y) < note_height;
+      });
+      if (!mark.note.empty() && !covers) {
+        text(x, y, "start", mark.note, " font-size=\"9\"");
+        notes.push_back({x, y});
+        return;
       }
     }
   }
@@ -118,7 +135,7 @@ class SvgDrawing {
     text(panel_width / 2, panel_height + 34, "middle", plot_.x.title);
     if (first) {
       text(0, 0, "middle", plot_.y.title,
-           " transform=\"translate(-46 " + coordinate(panel_height / 2) + ") rotate(-90)\"");
+           " transform=\"translate(-56 " + coordinate(panel_height / 2) + ") rotate(-90)\"");
     }
   }
 

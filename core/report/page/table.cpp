@@ -56,8 +56,8 @@ std::vector<MainTable> main_tables(const Comparison& comparison) {
     }
     MainTable& table = tables.emplace_back();
     table.object = object.name;
-    table.about = object.description + "; " + std::to_string(object.elements) + " elements, " +
-                  std::to_string(object.links) + " links";
+    table.about =
+        object.description + "; " + thousands(object.elements) + " elements, " + thousands(object.links) + " links";
     for (const DragResult& drag : object.drags) {
       table.drags.push_back(drag.name);
     }

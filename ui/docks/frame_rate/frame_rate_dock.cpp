@@ -1,16 +1,17 @@
 #include "docks/frame_rate/frame_rate_dock.h"
 
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QSettings>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "common/ask_where.h"
 #include "common/icons.h"
 #include "common/panel_names.h"
 #include "common/parameter_row.h"
 #include "common/text.h"
+#include "document/panel_colour.h"
 #include "files/text/outputs.h"
 #include "mesh/error.h"
 #include "panels/panel.h"
@@ -222,7 +223,7 @@ report::Plot FrameRateDock::plotOn(colours::Ground ground) const {
   plot.panels.emplace_back();
   for (std::size_t panel = 0; panel < panels_.size(); ++panel) {
     const QString name = panelName(int(panel)) + QLatin1Char(' ') + text(info(document_.algorithm(int(panel))).label);
-    plot.series.push_back({name.toStdString(), 0, colours::ofPanel(int(panel)).on(ground).name().toStdString()});
+    plot.series.push_back({name.toStdString(), 0, panelColour(document_, int(panel)).on(ground).name().toStdString()});
     for (const QPolygonF& line :
          curveOf(histories_[panel].since(from), quantity, from, shownTo_, drawnPoints / panels_.size())) {
       report::PlotCurve& curve = plot.panels.front().curves.emplace_back(report::PlotCurve{panel, {}});
@@ -235,9 +236,8 @@ report::Plot FrameRateDock::plotOn(colours::Ground ground) const {
 }
 
 void FrameRateDock::saveTable() {
-  const QString path =
-      QFileDialog::getSaveFileName(this, QStringLiteral("Save rates as table"), QStringLiteral("rates.csv"),
-                                   QStringLiteral("Comma-separated values (*.csv)"));
+  const QString path = askWhere(*this, QStringLiteral("Save rates as table"),
+                                {QStringLiteral("Comma-separated values (*.csv)")}, QStringLiteral("rates"));
   if (!path.isEmpty()) {
     saveTablePath(path);
   }
@@ -250,9 +250,7 @@ void FrameRateDock::saveTablePath(const QString& path) {
 }
 
 void FrameRateDock::savePicture() {
-  const QString path =
-      QFileDialog::getSaveFileName(this, QStringLiteral("Save rates as picture"), QStringLiteral("rates.png"),
-                                   QStringLiteral("PNG picture (*.png);;PDF for print (*.pdf)"));
+  const QString path = askWhere(*this, QStringLiteral("Save rates as picture"), plotFilters(), QStringLiteral("rates"));
   if (!path.isEmpty()) {
     savePicturePath(path);
   }

@@ -7,6 +7,7 @@
 
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "document/panel_colour.h"
 
 namespace chainmail {
 namespace {
@@ -27,7 +28,8 @@ RateFigures::RateFigures(const Document& document) : document_(document) {
   }
   followPanels();
   connect(&document, &Document::panelsChanged, this, &RateFigures::followPanels);
-  connect(&document, &Document::algorithmChanged, this, &RateFigures::nameRow);
+  // The colours of other panels may change, too.
+  connect(&document, &Document::algorithmChanged, this, &RateFigures::followPanels);
 }
 
 void RateFigures::addHead(QGridLayout& grid) {
@@ -89,7 +91,7 @@ void RateFigures::nameRow(int panel) {
   if (panel < int(rows_.size())) {
     const Row& row = rows_[std::size_t(panel)];
     row.name->setText(QStringLiteral("<span style='color:%1'>━━</span> <b>%2</b> %3")
-                          .arg(QColor(colours::ofPanel(panel)).name(), panelName(panel),
+                          .arg(QColor(panelColour(document_, panel)).name(), panelName(panel),
                                text(info(document_.algorithm(panel)).label)));
   }
 }

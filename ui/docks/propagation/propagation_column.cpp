@@ -4,9 +4,9 @@
 #include <QLocale>
 #include <QVBoxLayout>
 
-#include "common/colours.h"
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "document/panel_colour.h"
 
 namespace chainmail {
 namespace {
@@ -102,7 +102,7 @@ QString PropagationColumn::describe(const PassPlayer& player) const {
 void PropagationColumn::refresh() {
   const PassPlayer* player = propagation_.player(panel_);
   title_->setText(QStringLiteral("<span style='color:%1'>●</span> <b>%2</b> %3")
-                      .arg(QColor(colours::ofPanel(panel_)).name(), panelName(panel_),
+                      .arg(QColor(panelColour(document_, panel_)).name(), panelName(panel_),
                            text(info(document_.algorithm(panel_)).label)));
   choice_->setVisible(!propagation_.together());
   choice_->setChecked(propagation_.chosen() == panel_);

@@ -46,11 +46,24 @@ PropagationDock::PropagationDock(Document& document, Propagation& propagation, P
   adapt();
   column->addLayout(lists, 1);
   setWidget(new DockScroll(content));
-  connect(this, &QDockWidget::visibilityChanged, this, [this](bool) { propagation_.setOpen(!isHidden()); });
-  connect(toggleViewAction(), &QAction::toggled, &propagation, &Propagation::setOpen);
+  connect(this, &QDockWidget::visibilityChanged, this, [this](bool seen) {
+    propagation_.setShown(seen);
+    followDock();
+  });
   connect(&propagation, &Propagation::changed, this, &PropagationDock::refresh);
   connect(&document, &Document::algorithmChanged, this, &PropagationDock::refresh);
   refresh();
+}
+
+/// Opens at once. Closes later, because a dock behind another one is hidden for a moment when its key brings it to the
+/// front.
+void PropagationDock::followDock() {
+  if (!isHidden()) {
+    propagation_.setOpen(true);
+  } else {
+    QMetaObject::invokeMethod(
+        this, [this] { propagation_.setOpen(!isHidden()); }, Qt::QueuedConnection);
+  }
 }
 
 QAction* PropagationDock::add(const QString& name, const QString& text, const QKeySequence& key, const QString& tip) {
@@ -162,9 +175,9 @@ void PropagationDock::refresh() {
 
 /// Enables and disables the actions. The tool tip of a disabled action explains why.
 void PropagationDock::refreshActions() {
-  const bool ready = propagation_.isOpen() && propagation_.hasPass();
-  const QString why = propagation_.isOpen() ? QStringLiteral("no pass yet: drag an element")
-                                            : QStringLiteral("open the Propagation dock first (O)");
+  const bool ready = propagation_.isShown() && propagation_.hasPass();
+  const QString why = propagation_.isShown() ? QStringLiteral("no pass yet: drag an element")
+                                             : QStringLiteral("open the Propagation dock first (O)");
   for (QAction* action : {first_, back_, play_, forward_, last_, follow_}) {
     const QString name = QString(action->text()).remove(QLatin1Char('&'));
     action->setEnabled(ready);

@@ -27,6 +27,7 @@ class PropagationDock : public QDockWidget {
   void changed();
 
  private:
+  void followDock();
   QAction* add(const QString& name, const QString& text, const QKeySequence& key, const QString& tip);
   void makeActions();
   QWidget* makeButtons();

@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "common/as_path.h"
+#include "common/ask_where.h"
 #include "common/icons.h"
 #include "files/session/moves.h"
 #include "files/text/outputs.h"
@@ -299,8 +300,8 @@ void ReplayDock::askForMoves() {
 }
 
 void ReplayDock::askWhereMoves() {
-  const QString path =
-      QFileDialog::getSaveFileName(window(), QStringLiteral("Save moves"), QStringLiteral("moves.json"), movesFilter());
+  const QString path = askWhere(*window(), QStringLiteral("Save moves"), {movesFilter()},
+                                asFileName(document_.name()) + QStringLiteral("-moves"));
   if (!path.isEmpty()) {
     saveMoves(path);
   }
@@ -308,9 +309,9 @@ void ReplayDock::askWhereMoves() {
 
 void ReplayDock::askWhereFilm(bool video) {
   const QString path =
-      video ? QFileDialog::getSaveFileName(window(), QStringLiteral("Save as video"), QStringLiteral("moves.mp4"),
-                                           QStringLiteral("Video (*.mp4 *.webm)"))
-            : QFileDialog::getExistingDirectory(window(), QStringLiteral("Save pictures into a folder"));
+      video ? askWhere(*window(), QStringLiteral("Save as video"), {QStringLiteral("Video (*.mp4 *.webm)")},
+                       asFileName(document_.name()) + QStringLiteral("-moves"))
+            : askFolder(*window(), QStringLiteral("Save pictures into a folder"));
   if (!path.isEmpty()) {
     saveFilm(path);
   }

@@ -2,19 +2,24 @@
 
 #include <QLabel>
 #include <QVBoxLayout>
+#include <algorithm>
 
 namespace chainmail {
 namespace {
 
 constexpr int reportControlsWidth = 230;
-constexpr int reportHeight = 300;
+constexpr int smallestReportHeight = 300;
+constexpr double shareOfWindow = 0.6;  // height of the dock in the window, so that plot and table are readable at once
 constexpr int reportProgressSteps = 1000;
 constexpr int reportProgressMilliseconds = 150;
 
 /// Gives the dock its height: a dock at the bottom is as tall as the size hint of its content.
 class ReportContent : public QWidget {
  public:
-  QSize sizeHint() const override { return {QWidget::sizeHint().width(), reportHeight}; }
+  QSize sizeHint() const override {
+    const QWidget* main = window()->parentWidget() != nullptr ? window()->parentWidget() : window();  // it may float
+    return {QWidget::sizeHint().width(), std::max(smallestReportHeight, int(shareOfWindow * main->height()))};
+  }
 };
 
 }  // namespace

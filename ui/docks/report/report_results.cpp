@@ -3,13 +3,13 @@
 #include <QClipboard>
 #include <QDateTime>
 #include <QDir>
-#include <QFileDialog>
 #include <QGuiApplication>
 #include <QLocale>
 #include <QSettings>
 #include <QSplitter>
 #include <QVBoxLayout>
 
+#include "common/ask_where.h"
 #include "common/colours.h"
 #include "common/plot_widget.h"
 #include "common/table_text.h"
@@ -23,8 +23,6 @@
 
 namespace chainmail {
 namespace {
-
-QString folderKey() { return QStringLiteral("reportFolder"); }
 
 /// Writes the three files, or none of them.
 void saveReport(const std::filesystem::path& folder, const report::Comparison& comparison) {
@@ -72,7 +70,8 @@ ReportResults::ReportResults()
       drag_(new QComboBox),
       error_(new QComboBox),
       copy_(new QPushButton(QStringLiteral("Copy table"))),
-      save_(new QPushButton(QStringLiteral("Save…"))),
+      savePlot_(new QPushButton(QStringLiteral("Save plot…"))),
+      save_(new QPushButton(QStringLiteral("Save report…"))),
       plot_(new PlotWidget(QStringLiteral("No values for this drag"))),
       legend_(new PlotLegend),
       table_(new ReportTable),
@@ -130,6 +129,8 @@ QLayout* ReportResults::makeBar() {
   name(error_, "reportError", QStringLiteral("Error shown"), QStringLiteral("Error that the plot shows against time"));
   name(copy_, "reportCopy", QStringLiteral("Copy the table"),
        QStringLiteral("Copies the table in the order shown, with tabs between columns"));
+  name(savePlot_, "reportSavePlot", QStringLiteral("Save the plot"),
+       QStringLiteral("Saves the plot with its legend as SVG, PDF or PNG"));
   name(save_, "reportSave", QStringLiteral("Save the report"),
        QStringLiteral("Writes report.html, report.json and report.csv with all drags into a folder"));
   for (const report::PlottedError& error : report::plotted_errors()) {
@@ -142,10 +143,12 @@ QLayout* ReportResults::makeBar() {
   bar->addWidget(error_);
   bar->addWidget(heading_, 1);
   bar->addWidget(copy_);
+  bar->addWidget(savePlot_);
   bar->addWidget(save_);
   connect(drag_, &QComboBox::currentIndexChanged, this, &ReportResults::showDrag);
   connect(error_, &QComboBox::currentIndexChanged, this, &ReportResults::showDrag);
   connect(copy_, &QPushButton::clicked, this, &ReportResults::copy);
+  connect(savePlot_, &QPushButton::clicked, this, &ReportResults::askWherePlot);
   connect(save_, &QPushButton::clicked, this, &ReportResults::save);
   return bar;
 }
@@ -204,9 +207,7 @@ void ReportResults::showPlot(const report::DragResult& drag) {
 }
 
 void ReportResults::save() {
-  const QString folder =
-      QFileDialog::getExistingDirectory(this, QStringLiteral("Folder for report.html, report.json and report.csv"),
-                                        QSettings().value(folderKey(), QDir::currentPath()).toString());
+  const QString folder = askFolder(*this, QStringLiteral("Folder for report.html, report.json and report.csv"));
   if (!folder.isEmpty()) {
     saveTo(folder);
   }
@@ -215,8 +216,24 @@ void ReportResults::save() {
 void ReportResults::saveTo(const QString& folder) {
   try {
     saveReport(std::filesystem::path(folder.toStdU16String()), *result_);
-    QSettings().setValue(folderKey(), folder);
     emit saved(folder + QStringLiteral("/report.html, .json and .csv"));
+  } catch (const Error& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+}
+
+void ReportResults::askWherePlot() {
+  const QString path = askWhere(*this, QStringLiteral("Save plot"), plotFilters(),
+                                asFileName(text(result_->cases.front().name)) + QStringLiteral("-plot"));
+  if (!path.isEmpty()) {
+    savePlotTo(path);
+  }
+}
+
+void ReportResults::savePlotTo(const QString& path) {
+  try {
+    savePlot(plot_->plot(), path);
+    emit saved(path);
   } catch (const Error& error) {
     emit failed(QString::fromStdString(error.what()));
   }

@@ -22,6 +22,8 @@ class ReportResults : public QWidget {
   void show(const ReportThread::Result& result);
   /// Writes the three files of the report into a folder.
   void saveTo(const QString& folder);
+  /// Writes the plot shown as SVG, PDF or PNG, by the extension.
+  void savePlotTo(const QString& path);
 
  signals:
   void saved(const QString& path);
@@ -33,6 +35,7 @@ class ReportResults : public QWidget {
   void showPlot(const report::DragResult& drag);
   void showDrag();
   void save();
+  void askWherePlot();
   void copy();
 
   ReportThread::Result result_;
@@ -40,6 +43,7 @@ class ReportResults : public QWidget {
   QComboBox* drag_;
   QComboBox* error_;
   QPushButton* copy_;
+  QPushButton* savePlot_;
   QPushButton* save_;
   PlotWidget* plot_;
   PlotLegend* legend_;

@@ -57,23 +57,24 @@ constexpr std::array columns{
            }},
     Column{"Moved\n(elements)", "Elements moved, in all moves together, without the handle",
            [](auto& one) { return std::optional(double(one.moved)); },
-           [](auto& one) { return QLocale().toString(qulonglong(one.moved)).toStdString(); }},
-    Column{"Max\nviolation", "Largest violation of a link, in its rest lengths",
+           [](auto& one) { return report::thousands(one.moved); }},
+    Column{"Max violation\n(rest lengths)", "Largest violation of a link, in its rest lengths",
            [](auto& one) { return std::optional(one.errors.violation.max); }},
-    Column{"RMS\nviolation", "Root mean square of the violation over all links, in rest lengths",
+    Column{"RMS violation\n(rest lengths)", "Root mean square of the violation over all links, in rest lengths",
            [](auto& one) { return std::optional(one.errors.violation.rms); }},
-    Column{"Violated\nlinks", "Share of the links with a violation above 1e-4",
+    Column{"Violated links\n(%)", "Share of the links with a violation above 1e-4",
            [](auto& one) { return std::optional(one.errors.violation.fraction); },
            [](auto& one) { return report::percent(one.errors.violation.fraction); }},
-    Column{"Max distance\nto Exact",
+    Column{"Max to Exact\n(mean rest lengths)",
            "Largest distance of an element to its position by Exact ChainMail in double, in mean rest lengths",
            [](auto& one) { return of<&Distance::max>(one.errors.to_exact); }},
-    Column{"RMS distance\nto Exact",
+    Column{"RMS to Exact\n(mean rest lengths)",
            "Root mean square of the distance to Exact ChainMail in double, in mean rest lengths",
            [](auto& one) { return of<&Distance::rms>(one.errors.to_exact); }},
-    Column{"Energy\nratio", "Elastic energy over that of Exact ChainMail; n/a if that is 0",
+    Column{"Energy\n(ratio to Exact)", "Elastic energy over that of Exact ChainMail; n/a if that is 0",
            [](auto& one) { return one.errors.energy_over_exact; }},
-    Column{"Float to\ndouble", "Largest distance between the contestant in float and in double, in mean rest lengths",
+    Column{"Float to double\n(mean rest lengths)",
+           "Largest distance between the contestant in float and in double, in mean rest lengths",
            [](auto& one) { return std::optional(one.errors.float_to_double.max); }},
 };
 
@@ -122,14 +123,28 @@ void ReportTable::show(const report::DragResult& drag) {
                                       shortName(report::label(entry.contestant)));
     name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
     setItem(row, 0, name);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const auto number = columns[i].number(*entry.measurement);
-      const auto words = columns[i].words != nullptr ? columns[i].words(*entry.measurement) : report::figure(number);
-      setItem(row, int(i) + 1, new FigureItem(text(words), number));
-    }
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    showColumn(drag, int(i));
   }
   setSortingEnabled(true);
   resizeColumnsToContents();
+}
+
+void ReportTable::showColumn(const report::DragResult& drag, int column) {
+  const Column& shown = columns[std::size_t(column)];
+  std::vector<std::string> cells;
+  std::vector<std::optional<double>> numbers;
+  for (const report::Entry& entry : drag.entries) {
+    if (entry.measurement) {
+      numbers.push_back(shown.number(*entry.measurement));
+      cells.push_back(shown.words != nullptr ? shown.words(*entry.measurement) : report::figure(numbers.back()));
+    }
+  }
+  cells = report::aligned(std::move(cells));
+  for (std::size_t row = 0; row < cells.size(); ++row) {
+    setItem(int(row), column + 1, new FigureItem(text(cells[row]), numbers[row]));
+  }
 }
 
 }  // namespace chainmail

@@ -16,6 +16,9 @@ class ReportTable : public QTableWidget {
  public:
   ReportTable();
   void show(const report::DragResult& drag);
+
+ private:
+  void showColumn(const report::DragResult& drag, int column);
 };
 
 }  // namespace chainmail

@@ -35,7 +35,7 @@ std::vector<std::uint32_t> widthsOf(const SizeTestOptions& options);
 struct SizeTestContestant {
   int panel = 0;
   Algorithm algorithm = Algorithm::natural_queue;
-  colours::Colour colour = colours::left;
+  colours::Colour colour = colours::marked;
 };
 
 /// The figures of one panel at one size.

@@ -2,11 +2,11 @@
 
 #include <QBoxLayout>
 #include <QClipboard>
-#include <QFileDialog>
 #include <QGuiApplication>
 #include <QLabel>
 #include <QTimer>
 
+#include "common/ask_where.h"
 #include "common/icons.h"
 #include "common/table_text.h"
 #include "files/text/outputs.h"
@@ -213,9 +213,8 @@ void SizeTestDock::fillBar(int value, const QString& text) {
 }
 
 void SizeTestDock::saveTable() {
-  const QString path =
-      QFileDialog::getSaveFileName(this, QStringLiteral("Save the table"), QStringLiteral("size-test.csv"),
-                                   QStringLiteral("Comma-separated values (*.csv)"));
+  const QString path = askWhere(*this, QStringLiteral("Save the table"),
+                                {QStringLiteral("Comma-separated values (*.csv)")}, QStringLiteral("size-test"));
   if (!path.isEmpty()) {
     saveTablePath(path);
   }

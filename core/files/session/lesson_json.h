@@ -1,0 +1,18 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "files/session/lesson.h"
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// Reads the member "lesson" of a session with `moves` recorded moves. `where` appears in errors. Throws Error, with
+/// the step from 1, for anything that lesson_json does not write.
+Lesson read_lesson(const nlohmann::json& object, const std::string& where, const Mesh& mesh, std::size_t moves);
+
+/// Returns a lesson as the member "lesson", with one step per line.
+std::string lesson_json(const Lesson& lesson);
+
+}  // namespace chainmail

@@ -1,0 +1,44 @@
+// Tests how measured times choose the detail of moving objects.
+
+#include "drawing/detail_budget.h"
+
+#include <QTest>
+
+using namespace chainmail;
+
+class DetailBudgetTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void slowPicturesLeadToFewerShapes() {
+    DetailBudget budget;
+    for (int frame = 0; frame < 30; ++frame) {
+      budget.tookQuick(budget.mostShapes(), double(budget.mostShapes()) / 3'000);  // 3,000 shapes per ms
+    }
+    QVERIFY(budget.mostShapes() > 90'000 && budget.mostShapes() < 110'000);  // about 33 ms
+  }
+  void fastPicturesLeadToMoreShapes() {
+    DetailBudget budget;
+    for (int frame = 0; frame < 30; ++frame) {
+      budget.tookQuick(200'000, 2);
+    }
+    QCOMPARE(budget.mostShapes(), DetailBudget::mostAtRest);
+  }
+  void smallPicturesSayNothing() {
+    DetailBudget budget;
+    const std::size_t before = budget.mostShapes();
+    budget.tookQuick(100, 500);
+    QCOMPARE(budget.mostShapes(), before);
+  }
+  void completePicturesFollowTheMouseIfTheyAreFast() {
+    DetailBudget budget;
+    QVERIFY(!budget.affordsComplete());  // unknown
+    budget.tookComplete(5);
+    QVERIFY(budget.affordsComplete());
+    budget.tookComplete(40);
+    QVERIFY(!budget.affordsComplete());
+  }
+};
+
+QTEST_GUILESS_MAIN(DetailBudgetTest)
+#include "detail_budget.moc"

@@ -1,0 +1,461 @@
+// Tests lessons in a real window: every bundled lesson runs to its end and back, to the bit, and replaces no work.
+
+#include <QFile>
+#include <QFileInfo>
+#include <QLabel>
+#include <QPushButton>
+
+#include "document/lesson_player.h"
+#include "files/session/session.h"
+#include "io/recovery_bar.h"
+#include "io/samples.h"
+#include "io/sessions.h"
+#include "measure/violation.h"
+#include "window.h"
+#include "window/hints.h"
+#include "window/lesson_bar.h"
+#include "window/lessons.h"
+#include "window/message_bar.h"
+
+using namespace chainmail;
+
+namespace {
+
+/// The exact state of the object in all panels.
+struct State {
+  std::vector<Snapshot> panels;
+  std::vector<Algorithm> algorithms;
+  std::vector<LinkId> cuts;
+  std::vector<ElementId> pins;
+  std::size_t position;
+
+  bool operator==(const State&) const = default;
+};
+
+State stateOf(Workbench& bench) {
+  Document& document = bench.document();
+  State state{{}, {}, document.cuts().links(), document.pins(), document.tape().position()};
+  for (int panel = 0; panel < document.panels(); ++panel) {
+    state.panels.push_back(document.snapshot(panel).get());
+    state.algorithms.push_back(document.algorithm(panel));
+  }
+  return state;
+}
+
+LessonPlayer& player(Workbench& bench) { return bench.window.lessons().player(); }
+
+QString pathOf(const char* file) { return lessonsFolder() + QLatin1Char('/') + QLatin1String(file); }
+
+void awaitStep(Workbench& bench) {
+  // Waits in shorter steps than QTRY_VERIFY.
+  QVERIFY(QTest::qWaitFor([&] { return !player(bench).plays() && bench.document().idle(); }));
+}
+
+void open(Workbench& bench, const QString& path) {
+  bench.open(path);
+  QVERIFY(player(bench).isOpen());
+  awaitStep(bench);
+}
+
+/// Goes to the end of the next step without its animation.
+void next(Workbench& bench) {
+  bench.trigger("lessonNext");
+  QVERIFY(QTest::qWaitFor([&] {
+    if (player(bench).plays()) {
+      bench.trigger("lessonNext");
+    }
+    return !player(bench).plays();
+  }));
+  awaitStep(bench);
+}
+
+void back(Workbench& bench) {
+  bench.trigger("lessonBack");
+  awaitStep(bench);
+}
+
+/// Drags an element by hand, away from the state of the lesson.
+void disturb(Workbench& bench) {
+  Document& document = bench.document();
+  const std::vector<ElementId>& pins = document.pins();
+  ElementId element = 0;
+  while (std::ranges::binary_search(pins, element)) {
+    ++element;
+  }
+  document.grab(element);
+  document.dragBy({0.7, 0.4, 0});
+  document.release();
+  QVERIFY(QTest::qWaitFor([&] { return document.idle(); }));
+}
+
+/// Returns the share of links that are violated in a panel.
+double violated(Workbench& bench, int panel) {
+  bench.settle();
+  const Document& document = bench.document();
+  return measure_violation(*document.mesh(), *document.wholeSoftness(), document.cuts(), document.frame(panel)->view())
+      .fraction;
+}
+
+/// Returns the number of elements that a panel shows away from rest.
+std::size_t shownAwayFromRest(Workbench& bench, int panel) {
+  const Mesh& mesh = *bench.document().mesh();
+  std::size_t count = 0;
+  for (ElementId element = 0; element < mesh.element_count(); ++element) {
+    count += (bench.position(panel, element) - mesh.rest_position(element)).norm() > 1e-6 ? 1 : 0;
+  }
+  return count;
+}
+
+/// Writes a copy of a lesson with a passage replaced, and returns its path.
+QString changed(const QTemporaryDir& folder, const char* file, const QByteArray& passage, const QByteArray& other) {
+  QFile from(pathOf(file));
+  if (!from.open(QIODevice::ReadOnly)) {
+    return {};
+  }
+  QByteArray text = from.readAll();
+  if (!text.contains(passage)) {
+    return {};
+  }
+  QFile to(folder.filePath(QStringLiteral("mine.chainmail")));
+  to.open(QIODevice::WriteOnly);
+  to.write(text.replace(passage, other));
+  return to.fileName();
+}
+
+}  // namespace
+
+class WindowLessons : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() {
+    shared_ = std::make_unique<Workbench>();
+    shared_->window.resize(900, 600);  // drawing takes most of the time
+  }
+  void cleanupTestCase() { shared_.reset(); }
+  void init() { failOnWarnings(); }
+  void eachLessonRunsToItsEndAndBack_data();
+  void eachLessonRunsToItsEndAndBack();
+  void theBarShowsTheStep();
+  void nextPlaysVisiblyAndASecondNextEndsIt();
+  void aDragDuringAStepStopsIt();
+  void relaxationAndPanelsOfTheUserAreTakenBack();
+  void theWaitingListIsShownStepByStep();
+  void theLessonsShowTheirPoint();
+  void aLessonReplacesNoWork();
+  void aLessonAloneIsNoUnsavedWork();
+  void unsavedWorkIsOfferedAgain();
+  void undoAndRedoKeepTheLesson();
+  void savingKeepsTheCaptions();
+  void aDamagedLessonChangesNothing();
+  void unknownNamesAreReported();
+  void closingHidesTheBar();
+  void theHintsLeadToTheFirstLesson();
+
+ private:
+  /// Returns a window that tests share, with another object and without a lesson. It saves the time to open windows.
+  Workbench& shared() {
+    shared_->document().replaceMesh(generate({MeshKind::grid, {9, 7, 1}, 1, {}}), QStringLiteral("sample"),
+                                    QStringLiteral("open"));
+    shared_->document().undoStack().clear();
+    return *shared_;
+  }
+
+  std::unique_ptr<Workbench> shared_;
+};
+
+void WindowLessons::eachLessonRunsToItsEndAndBack_data() {
+  QTest::addColumn<QString>("file");
+  QTest::addColumn<QString>("title");
+  for (const LessonFile& lesson : lessonFiles()) {
+    QTest::newRow(lesson.file) << QString::fromUtf8(lesson.file) << QString::fromUtf8(lesson.title);
+  }
+}
+
+void WindowLessons::eachLessonRunsToItsEndAndBack() {
+  QFETCH(QString, file);
+  QFETCH(QString, title);
+  Workbench& bench = shared();
+  open(bench, pathOf(qPrintable(file)));
+  QCOMPARE(QString::fromStdString(player(bench).lesson().title), title);
+  std::vector<State> states{stateOf(bench)};
+  while (!player(bench).isLast()) {
+    next(bench);
+    states.push_back(stateOf(bench));
+    QCOMPARE(states.back().position, player(bench).lesson().steps[player(bench).step()].until);
+  }
+  QVERIFY(bench.window.messages().isHidden());  // no panel has refused a move
+  for (std::size_t step = states.size() - 1; step-- > 0;) {
+    back(bench);
+    QCOMPARE(player(bench).step(), step);
+    QVERIFY2(stateOf(bench) == states[step], qPrintable(QStringLiteral("back to step %1").arg(step + 1)));
+  }
+  for (std::size_t step = 1; step < states.size(); ++step) {
+    disturb(bench);
+    next(bench);
+    QVERIFY2(stateOf(bench) == states[step], qPrintable(QStringLiteral("disturbed before step %1").arg(step + 1)));
+  }
+  disturb(bench);
+  back(bench);
+  QVERIFY(stateOf(bench) == states[states.size() - 2]);
+}
+
+void WindowLessons::theBarShowsTheStep() {
+  Workbench& bench = shared();
+  QVERIFY(bench.window.lessons().bar().isHidden());
+  open(bench, pathOf("order.chainmail"));
+  QVERIFY(bench.window.lessons().bar().isVisible());
+  const auto text = [&](const char* name) { return bench.find<QLabel>(name)->text(); };
+  const auto& steps = player(bench).lesson().steps;
+  QCOMPARE(text("lessonStep"), QStringLiteral("Step 1 of 4"));
+  QVERIFY(text("lessonTitle").endsWith(QString::fromStdString(steps[0].title)));
+  QCOMPARE(text("lessonText"), QString::fromStdString(steps[0].text));
+  QVERIFY(!bench.find<QPushButton>("lessonBackButton")->isEnabled());
+  QTest::keyClick(&bench.window, Qt::Key_PageDown);
+  QTest::keyClick(&bench.window, Qt::Key_PageDown);  // to the end of the step
+  awaitStep(bench);
+  QCOMPARE(text("lessonStep"), QStringLiteral("Step 2 of 4"));
+  QCOMPARE(text("lessonText"), QString::fromStdString(steps[1].text));
+  QTest::keyClick(&bench.window, Qt::Key_PageUp);
+  awaitStep(bench);
+  QCOMPARE(text("lessonStep"), QStringLiteral("Step 1 of 4"));
+  for (int i = 0; i < 3; ++i) {
+    next(bench);
+  }
+  QVERIFY(!bench.find<QPushButton>("lessonNextButton")->isEnabled());
+  QCOMPARE(bench.window.colouring().mode(), ColourMode::violation);
+}
+
+void WindowLessons::nextPlaysVisiblyAndASecondNextEndsIt() {
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  const std::size_t until = player(bench).lesson().steps[1].until;
+  std::vector<std::size_t> seen;
+  QObject context;
+  connect(&bench.document(), &Document::tapeChanged, &context,
+          [&] { seen.push_back(bench.document().tape().position()); });
+  bench.trigger("lessonNext");
+  QTRY_VERIFY(seen.size() > 5);
+  QVERIFY(player(bench).plays());
+  QVERIFY(std::ranges::is_sorted(seen));
+  QVERIFY(bench.document().tape().position() < until);
+  bench.trigger("lessonNext");
+  QCOMPARE(bench.document().tape().position(), until);
+  QCOMPARE(player(bench).step(), std::size_t{1});
+  awaitStep(bench);
+}
+
+void WindowLessons::aDragDuringAStepStopsIt() {
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  bench.trigger("lessonNext");
+  QTRY_VERIFY(bench.document().tape().position() > 5);
+  bench.document().grab(0);
+  bench.document().dragBy({1, 0, 0});
+  QTRY_VERIFY(!player(bench).plays());
+  QVERIFY(!bench.document().held().empty());
+  bench.document().release();
+  bench.settle();
+}
+
+/// Relaxation moves elements without a recorded command.
+void WindowLessons::relaxationAndPanelsOfTheUserAreTakenBack() {
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  next(bench);
+  next(bench);
+  const State state = stateOf(bench);
+  bench.document().setRelaxation({true, 1, RelaxationScheme::mean});
+  QTRY_VERIFY(stateOf(bench).panels != state.panels);
+  bench.document().setRelaxation({false, 1, RelaxationScheme::mean});
+  bench.document().addPanel();
+  next(bench);  // to a step without moves of its own
+  QVERIFY(stateOf(bench) == state);
+}
+
+void WindowLessons::theWaitingListIsShownStepByStep() {
+  Workbench& bench = shared();
+  open(bench, pathOf("waiting-list.chainmail"));
+  std::vector<std::vector<std::size_t>> moved;
+  Snapshot whole;
+  for (int step = 0; step < 3; ++step) {
+    next(bench);
+    moved.push_back({shownAwayFromRest(bench, 0), shownAwayFromRest(bench, 1)});
+    whole = bench.document().snapshot(0).get();
+  }
+  // Only the handle; it and the first candidate; all six candidates moved.
+  QCOMPARE(moved, (std::vector<std::vector<std::size_t>>{{1, 1}, {2, 2}, {7, 7}}));
+  next(bench);
+  QVERIFY(player(bench).isLast());
+  QVERIFY(shownAwayFromRest(bench, 0) > 7);
+  QVERIFY(bench.document().snapshot(0).get() == whole);  // the solvers have finished the pass in all steps
+  back(bench);
+  QCOMPARE(shownAwayFromRest(bench, 0), std::size_t{7});
+}
+
+void WindowLessons::theLessonsShowTheirPoint() {
+  Workbench& bench = shared();
+  const auto toEnd = [&](const char* file) {
+    open(bench, pathOf(file));
+    while (!player(bench).isLast()) {
+      next(bench);
+    }
+  };
+  toEnd("order.chainmail");
+  QVERIFY(violated(bench, 0) > 0.1);
+  QCOMPARE(violated(bench, 1), 0.0);
+  toEnd("exact.chainmail");
+  QVERIFY(violated(bench, 0) > 0);
+  QCOMPARE(violated(bench, 1), 0.0);
+  back(bench);
+  back(bench);
+  QCOMPARE(violated(bench, 0), 0.0);  // within reach
+  toEnd("organ.chainmail");
+  QCOMPARE(bench.document().mesh()->tetrahedra.size(), std::size_t{9891});
+}
+
+/// Opening a lesson is one step of undo, which returns to the object with all its steps.
+void WindowLessons::aLessonReplacesNoWork() {
+  Workbench& bench = shared();
+  disturb(bench);
+  const State work = stateOf(bench);
+  open(bench, pathOf("face.chainmail"));
+  for (int round = 0; round < 16; ++round) {
+    player(bench).isLast() ? back(bench) : next(bench);
+  }
+  while (bench.document().lesson()) {
+    QVERIFY(bench.document().undoStack().canUndo());
+    bench.document().undo();
+  }
+  bench.settle();
+  QVERIFY(stateOf(bench) == work);
+  QVERIFY(bench.window.lessons().bar().isHidden());
+  QVERIFY(bench.document().undoStack().canUndo());
+}
+
+void WindowLessons::aLessonAloneIsNoUnsavedWork() {
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  next(bench);
+  next(bench);
+  back(bench);
+  QVERIFY(!bench.document().isModified());
+  QVERIFY(!bench.window.isWindowModified());
+  disturb(bench);
+  QVERIFY(bench.document().isModified());
+  QVERIFY(bench.window.isWindowModified());
+}
+
+void WindowLessons::unsavedWorkIsOfferedAgain() {
+  {
+    Workbench bench;
+    bench.window.sessions().protect();
+    disturb(bench);
+    open(bench, pathOf("face.chainmail"));
+    QVERIFY(bench.window.messages().sentence().startsWith(QStringLiteral("Your unsaved work is kept")));
+    bench.window.close();
+  }
+  Workbench again;
+  again.window.sessions().protect();
+  QVERIFY(again.window.sessions().recoveryBar().isVisible());
+  QTest::mouseClick(again.find<QPushButton>("restoreWork"), Qt::LeftButton);
+  again.settle();
+  QCOMPARE(again.document().name(), QStringLiteral("sample"));
+  QVERIFY(!again.document().tape().commands().empty());
+}
+
+void WindowLessons::undoAndRedoKeepTheLesson() {
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  next(bench);
+  const State state = stateOf(bench);
+  const int steps = bench.document().undoStack().index();
+  for (int i = 0; i < steps; ++i) {
+    bench.document().undo();
+  }
+  QVERIFY(!player(bench).isOpen());
+  for (int i = 0; i < steps; ++i) {
+    bench.document().redo();
+  }
+  QTRY_VERIFY(bench.document().idle());
+  QVERIFY(player(bench).isOpen());
+  QVERIFY(stateOf(bench) == state);
+}
+
+void WindowLessons::savingKeepsTheCaptions() {
+  const QTemporaryDir folder;
+  const QString path = folder.filePath(QStringLiteral("saved.chainmail"));
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  QVERIFY(bench.document().sessionFile().isEmpty());  // the bundled file is not overwritten
+  next(bench);
+  const State state = stateOf(bench);
+  bench.window.sessions().savePath(path);
+  bench.settle();
+  const Session saved = read_session(path.toStdString());
+  QVERIFY(saved.lesson == player(bench).lesson());
+  disturb(bench);
+  const State own = stateOf(bench);
+  bench.window.sessions().savePath(path);
+  bench.settle();
+  QCOMPARE(read_session(path.toStdString()).moves.size(), saved.moves.size());
+  open(bench, path);
+  QVERIFY(stateOf(bench).panels == own.panels);  // as it was saved
+  QCOMPARE(player(bench).step(), std::size_t{1});
+  back(bench);
+  next(bench);
+  QVERIFY(stateOf(bench) == state);
+}
+
+void WindowLessons::aDamagedLessonChangesNothing() {
+  const QTemporaryDir folder;
+  Workbench& bench = shared();
+  disturb(bench);
+  const State work = stateOf(bench);
+  bench.open(changed(folder, "order.chainmail", "\"until\": 0", "\"until\": 9999"));
+  const QString message = bench.window.messages().sentence();
+  QVERIFY2(message.contains(QStringLiteral("mine.chainmail: lesson: step 1: 'until' is 9999, but the session has ")),
+           qPrintable(message));
+  QVERIFY(!player(bench).isOpen());
+  QVERIFY(stateOf(bench) == work);
+  bench.open(changed(folder, "order.chainmail", "grid.dat", "nowhere.dat"));
+  QVERIFY2(bench.window.messages().sentence().contains(QStringLiteral("its mesh 'nowhere.dat' was not found; put ")),
+           qPrintable(bench.window.messages().sentence()));
+  QVERIFY(stateOf(bench) == work);
+}
+
+void WindowLessons::unknownNamesAreReported() {
+  const QTemporaryDir folder;
+  Workbench& bench = shared();
+  open(bench, changed(folder, "order.chainmail", "\"colour\": \"violation\"", "\"colour\": \"violaton\""));
+  QCOMPARE(bench.window.messages().sentence().section(QLatin1Char(':'), 0, 2),
+           QStringLiteral("Why order matters: step 1: 'colour' is 'violaton', which is not known; use one of"));
+  next(bench);
+  QCOMPARE(player(bench).step(), std::size_t{1});
+}
+
+void WindowLessons::closingHidesTheBar() {
+  Workbench& bench = shared();
+  open(bench, pathOf("waiting-list.chainmail"));
+  QVERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
+  next(bench);
+  const State state = stateOf(bench);
+  bench.trigger("lessonClose");
+  QVERIFY(bench.window.lessons().bar().isHidden());
+  QVERIFY(!bench.find<QDockWidget>("propagationDock")->isVisible());
+  QVERIFY(stateOf(bench) == state);
+}
+
+void WindowLessons::theHintsLeadToTheFirstLesson() {
+  Workbench& bench = shared();
+  bench.window.welcome();
+  QTest::mouseClick(bench.find<QPushButton>("hintsLesson"), Qt::LeftButton);
+  bench.settle();
+  QVERIFY(player(bench).isOpen());
+  QVERIFY(bench.find<Hints>("hints")->isHidden());
+  awaitStep(bench);
+}
+
+int main(int argc, char** argv) { return runWindowTest<WindowLessons>(argc, argv); }
+
+#include "window_lessons.moc"

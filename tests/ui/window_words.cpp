@@ -1,0 +1,179 @@
+// Tests the words around the views: the sentence on violation, figures on demand, the list of algorithms, the lecture
+// mode, and the tool bar in narrow windows.
+
+#include <QAbstractItemView>
+#include <QDockWidget>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QToolButton>
+#include <limits>
+
+#include "panels/algorithm_delegate.h"
+#include "panels/colour_selector.h"
+#include "panels/violation_line.h"
+#include "window.h"
+
+using namespace chainmail;
+
+namespace {
+
+Statistics statisticsOf(double fraction, double largest, bool whole) {
+  Statistics statistics;
+  statistics.violation.fraction = fraction;
+  statistics.violation.max = largest;
+  statistics.violation_of_whole_mesh = whole;
+  return statistics;
+}
+
+}  // namespace
+
+class WindowWords : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { failOnWarnings(); }
+  void cleanup() { QSettings().remove(QStringLiteral("figures")); }
+
+  void violationIsASentence_data() {
+    QTest::addColumn<double>("fraction");
+    QTest::addColumn<double>("largest");
+    QTest::addColumn<bool>("moved");
+    QTest::addColumn<QString>("sentence");
+    QTest::newRow("some") << 0.304 << 2.84 << true << QStringLiteral("30 % of links violated, worst 2.8 × rest length");
+    QTest::newRow("few") << 0.0004 << 0.5 << true
+                         << QStringLiteral("less than 1 % of links violated, worst 0.5 × rest length");
+    QTest::newRow("almost all") << 0.998 << 12.3 << true
+                                << QStringLiteral("more than 99 % of links violated, worst 12 × rest length");
+    QTest::newRow("all") << 1.0 << 1.0 << true << QStringLiteral("100 % of links violated, worst 1 × rest length");
+    QTest::newRow("not finite") << 0.5 << std::numeric_limits<double>::infinity() << true
+                                << QStringLiteral("50 % of links violated, some without a finite length");
+    QTest::newRow("none") << 0.0 << 1e-7 << true << QStringLiteral("No link is violated");
+    QTest::newRow("at the start") << 0.0 << 0.0 << false << QStringLiteral("Nothing has moved yet");
+  }
+  void violationIsASentence() {
+    QFETCH(double, fraction);
+    QFETCH(double, largest);
+    QFETCH(bool, moved);
+    QFETCH(QString, sentence);
+    QCOMPARE(violationInWords(statisticsOf(fraction, largest, true), moved), sentence);
+  }
+
+  void withoutFiguresTheSentenceSaysSo() {
+    const ViolationLine line;
+    QCOMPARE(line.sentence(), QStringLiteral("No figures yet"));
+    QVERIFY(line.share() < 0);
+  }
+
+  void aRemarkOfTheSolverReplacesTheSentence() {
+    Statistics statistics = statisticsOf(0.5, 1, true);
+    statistics.remark = "the method did not converge";
+    QCOMPARE(violationInWords(statistics, true), QStringLiteral("the method did not converge"));
+  }
+
+  void theSentenceFollowsADrag() {
+    Workbench bench;
+    auto* line = bench.window.findChild<ViolationLine*>(QStringLiteral("violation0"));
+    bench.settleFigures();
+    QCOMPARE(line->sentence(), QStringLiteral("Nothing has moved yet"));
+    bench.dragFar();
+    bench.settleFigures();
+    const Violation& violation = bench.document().frame(0)->statistics.violation;
+    QVERIFY(violation.fraction > 0);
+    QVERIFY(line->sentence().contains(QStringLiteral("links violated, worst ")));
+    QCOMPARE(line->share(), violation.fraction);
+    bench.document().undoStack().undo();
+    QTRY_COMPARE(line->sentence(), QStringLiteral("No link is violated"));
+  }
+
+  void figuresAppearOnDemandAndAreRemembered() {
+    {
+      Workbench bench;
+      QVERIFY(!bench.find<QLabel>("statistics0")->isVisible());
+      QTest::keyClick(&bench.view(0), Qt::Key_I);
+      QVERIFY(bench.find<QLabel>("statistics0")->isVisible() && bench.find<QLabel>("statistics1")->isVisible());
+      bench.trigger("addPanel");
+      bench.settle();
+      QVERIFY(bench.find<QLabel>("statistics2")->isVisible());
+    }
+    const Workbench second;
+    QVERIFY(second.window.findChild<QLabel*>(QStringLiteral("statistics0"))->isVisible());
+  }
+
+  void theListExplainsEachAlgorithm() {
+    Workbench bench;
+    const QComboBox& selector = bench.window.panel(0).selector();
+    for (const AlgorithmInfo& info : every_algorithm()) {
+      const int row = selector.findData(int(info.algorithm));
+      const QString explanation = selector.itemData(row, AlgorithmDelegate::explanationRole).toString();
+      const bool possible = selector.model()->flags(selector.model()->index(row, 0)).testFlag(Qt::ItemIsEnabled);
+      QVERIFY(!explanation.isEmpty());
+      QCOMPARE(!explanation.startsWith(QStringLiteral("Not available: ")), possible);
+      QVERIFY(!possible || explanation.toLower() == QString::fromUtf8(info.summary.data()).toLower());
+    }
+  }
+
+  void aButtonPinsTheBottomWherePinsAreMissing() {
+    Workbench bench(generate({MeshKind::tetra, {5, 4, 4}, 1, {}}));
+    auto* button = bench.find<QToolButton>("pinBottom0");
+    QVERIFY(!button->isVisible());
+    bench.choose(0, "Linear FEM");
+    QVERIFY(button->isVisible() && !bench.find<QToolButton>("pinBottom1")->isVisible());
+    QTest::mouseClick(button, Qt::LeftButton);
+    bench.settle();
+    QCOMPARE(bench.document().pins().size(), std::size_t{20});  // 5 x 4 elements
+    QVERIFY(!button->isVisible());
+    bench.document().undoStack().undo();
+    bench.settle();
+    QVERIFY(bench.document().pins().empty() && button->isVisible());
+  }
+
+  void lectureModeShowsOnlyThePanelsAndRestoresTheWindow() {
+    Workbench bench;
+    const QByteArray before = bench.window.savedLayout();
+    const QSize size = bench.window.size();
+    const int letters = bench.find<QLabel>("state0")->fontInfo().pixelSize();
+    bench.trigger("lectureMode");
+    bench.settle();
+    for (const auto* dock : bench.window.findChildren<QDockWidget*>()) {
+      QVERIFY(!dock->isVisible());
+    }
+    QVERIFY(!bench.find<QToolBar>("mainToolBar")->isVisible() && !bench.window.statusBar()->isVisible());
+    QVERIFY(bench.window.findChild<ViolationLine*>(QStringLiteral("violation0"))->fontInfo().pixelSize() > letters);
+    QCOMPARE(bench.window.savedLayout(), before);  // what a session stores
+    QTest::keyClick(&bench.view(0), Qt::Key_Escape);
+    bench.settle();
+    QVERIFY(!bench.find<QAction>("lectureMode")->isChecked());
+    QVERIFY(bench.find<QToolBar>("mainToolBar")->isVisible() && bench.window.statusBar()->isVisible());
+    QVERIFY(bench.find<QDockWidget>("toolsDock")->isVisible());
+    QTRY_COMPARE(bench.window.size(), size);
+    QCOMPARE(bench.window.findChild<ViolationLine*>(QStringLiteral("violation0"))->fontInfo().pixelSize(), letters);
+  }
+
+  void aNarrowToolBarShowsIconsAndColourByStays_data() {
+    QTest::addColumn<int>("width");
+    QTest::newRow("1024") << 1024;
+    QTest::newRow("1280") << 1280;
+  }
+  void aNarrowToolBarShowsIconsAndColourByStays() {
+    QFETCH(int, width);
+    Workbench bench;
+    bench.window.resize(width, 720);
+    QTRY_COMPARE(bench.window.width(), width);
+    bench.settle();
+    const auto* bar = bench.find<QToolBar>("mainToolBar");
+    const auto* colourBy = bench.window.findChild<ColourSelector*>();
+    QVERIFY(colourBy->isVisible() && bar->rect().contains(colourBy->geometry()));
+    QVERIFY(bar->sizeHint().width() <= width || bar->toolButtonStyle() == Qt::ToolButtonIconOnly);
+  }
+
+  void theFirstStartColoursByViolation() {
+    QSettings().remove(QStringLiteral("hintsSeen"));
+    Workbench bench;
+    QCOMPARE(bench.window.colouring().mode(), ColourMode::plain);
+    bench.window.welcome();
+    QCOMPARE(bench.window.colouring().mode(), ColourMode::violation);
+  }
+};
+
+int main(int argc, char** argv) { return runWindowTest<WindowWords>(argc, argv); }
+#include "window_words.moc"

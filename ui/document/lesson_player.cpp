@@ -1,0 +1,208 @@
+#include "document/lesson_player.h"
+
+#include <algorithm>
+
+#include "files/session/session.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int moveMilliseconds = 16;        // between two moves
+constexpr int candidateMilliseconds = 160;  // between two candidates of a pass
+constexpr int mostTicksForPasses = 200;     // a panel may have refused the move, so that it has no pass
+
+}  // namespace
+
+LessonPlayer::LessonPlayer(Document& document, Propagation& propagation)
+    : document_(document), propagation_(propagation) {
+  clock_.setTimerType(Qt::PreciseTimer);
+  connect(&clock_, &QTimer::timeout, this, &LessonPlayer::tick);
+  connect(&document, &Document::meshChanged, this, &LessonPlayer::adopt);
+}
+
+const Lesson& LessonPlayer::lesson() const {
+  static const Lesson none{{}, {LessonStep()}};
+  return session_ ? session_->lesson : none;
+}
+
+const std::string& LessonPlayer::name(std::string LessonStep::*which) const {
+  const auto& steps = lesson().steps;
+  std::size_t from = step_;
+  while (from > 0 && (steps[from].*which).empty()) {
+    --from;
+  }
+  return steps[from].*which;
+}
+
+/// Takes over the lesson of a new object, or of one that an undo brought back.
+void LessonPlayer::adopt() {
+  clock_.stop();
+  session_ = document_.lesson() == closed_ ? nullptr : document_.lesson();
+  step_ = session_ ? stepAt(document_.tape().position()) : 0;
+  emit openChanged();
+}
+
+/// Returns the first of the steps that end at or just before a position in the moves.
+std::size_t LessonPlayer::stepAt(std::size_t position) const {
+  const auto& steps = lesson().steps;
+  std::size_t step = 0;
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    step = steps[i].until <= position && steps[i].until > steps[step].until ? i : step;
+  }
+  return step;
+}
+
+void LessonPlayer::start() {
+  const auto atRest = [](const auto& panel) { return panel.placement.is_at_rest(); };
+  if (isOpen() && session_->moves_done == 0 && std::ranges::all_of(session_->panels, atRest)) {
+    show(0, true);
+  }
+}
+
+void LessonPlayer::close() {
+  clock_.stop();
+  closed_ = std::exchange(session_, nullptr);
+  propagation_.setFollows(true);
+  emit openChanged();
+}
+
+void LessonPlayer::next() {
+  if (plays()) {
+    animated_ = false;
+    tick();
+  } else if (isOpen() && !isLast()) {
+    show(step_ + 1, true);
+  }
+}
+
+void LessonPlayer::back() {
+  if (isOpen() && step_ > 0) {
+    show(step_ - 1, false);
+  }
+}
+
+/// Shows a step: plays it from the end of the step before, or goes to its end.
+void LessonPlayer::show(std::size_t step, bool animated) {
+  clock_.stop();
+  const auto& steps = lesson().steps;
+  const std::size_t before = step > 0 ? steps[step - 1].until : 0;
+  step_ = step;
+  animated_ = animated;
+  position_ = animated ? before : steps[step].until;
+  candidate_ = 0;
+  waited_ = 0;
+  setPanels(algorithms(step).size());
+  emit stepChanged();
+  const bool samePass = steps[step].candidate && animated && steps[step].until == before;
+  if (samePass && !propagation_.follows() && document_.isInLesson(position_, algorithms(step))) {
+    candidate_ = steps[step - 1].candidate.value_or(0);
+  } else {
+    propagation_.setFollows(true);
+    goTo(position_, steps[step].candidate && position_ == steps[step].until);
+  }
+  clock_.start(moveMilliseconds);
+  emit playsChanged();
+}
+
+/// Goes to a position in the moves. `withPass`: the solvers carry out the last move before it again, and so record its
+/// pass.
+void LessonPlayer::goTo(std::size_t position, bool withPass) {
+  for (std::size_t last = position; withPass && last > 0; --last) {
+    if (std::holds_alternative<commands::Drag>(session_->moves[last - 1])) {
+      document_.goToInLesson(last - 1, algorithms(step_));
+      break;
+    }
+  }
+  document_.goToInLesson(position, algorithms(step_));
+}
+
+void LessonPlayer::setPanels(std::size_t count) {
+  while (document_.panels() < int(count)) {
+    document_.addPanel();
+  }
+  while (document_.panels() > int(count)) {
+    document_.removePanel();
+  }
+}
+
+/// Returns the algorithms of a step: its own, or those of a step before, or of the session.
+std::vector<Algorithm> LessonPlayer::algorithms(std::size_t step) const {
+  const auto& steps = lesson().steps;
+  for (std::size_t i = step + 1; i-- > 0;) {
+    if (!steps[i].algorithms.empty()) {
+      return steps[i].algorithms;
+    }
+  }
+  std::vector<Algorithm> result;
+  for (std::size_t i = 0; i < std::min(session_->panels.size(), lesson_panels_most); ++i) {
+    result.push_back(session_->panels[i].algorithm);
+  }
+  result.resize(std::max(result.size(), lesson_panels_least), result.back());
+  return result;
+}
+
+void LessonPlayer::tick() {
+  const LessonStep& step = lesson().steps[step_];
+  const bool userTookOver = !document_.isInLesson(position_, algorithms(step_));
+  if (!userTookOver && position_ < step.until) {
+    playMoves();
+  } else if (!userTookOver && step.candidate && propagation_.isOpen()) {
+    playCandidates();
+  } else {
+    end();
+  }
+}
+
+void LessonPlayer::playMoves() {
+  if (animated_ && !document_.idle()) {
+    return;
+  }
+  position_ = animated_ ? nextMove() : lesson().steps[step_].until;
+  document_.goToInLesson(position_, algorithms(step_));
+}
+
+/// Returns the position after the next move of the handle, at most the end of the step.
+std::size_t LessonPlayer::nextMove() const {
+  const std::size_t until = lesson().steps[step_].until;
+  std::size_t position = position_;
+  while (position < until && !std::holds_alternative<commands::Drag>(session_->moves[position])) {
+    ++position;
+  }
+  return std::min(position + 1, until);
+}
+
+/// Shows the last pass, candidate by candidate, as soon as it has been recorded.
+void LessonPlayer::playCandidates() {
+  if (!document_.idle()) {
+    return;
+  }
+  if (!passesAreComplete() && ++waited_ < mostTicksForPasses) {
+    return;
+  }
+  const std::size_t wanted = std::min<std::size_t>(*lesson().steps[step_].candidate, propagation_.stepCount());
+  candidate_ = animated_ && candidate_ < wanted ? candidate_ + 1 : wanted;
+  propagation_.setStep(0, candidate_);
+  clock_.setInterval(candidateMilliseconds);
+  if (candidate_ == wanted) {
+    end();
+  }
+}
+
+/// True if the last pass of each panel that has steps was taken over.
+bool LessonPlayer::passesAreComplete() const {
+  for (int panel = 0; panel < document_.panels(); ++panel) {
+    const PassPlayer* player = propagation_.player(panel);
+    if (info(document_.algorithm(panel)).has_steps() &&
+        (player == nullptr || document_.lastPass(panel, player->pass().number) != nullptr)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void LessonPlayer::end() {
+  clock_.stop();
+  emit playsChanged();
+}
+
+}  // namespace chainmail

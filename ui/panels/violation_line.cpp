@@ -1,0 +1,88 @@
+#include "panels/violation_line.h"
+
+#include <QHBoxLayout>
+#include <QLocale>
+#include <QPainter>
+#include <cmath>
+
+#include "common/colours.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int barWidth = 44, barHeight = 10, barMargin = 8;  // pixels
+constexpr double leastShown = 0.04;                          // a smaller share is drawn as this fraction of the bar
+
+/// Returns a share as a percentage that is not rounded to none or all.
+QString percentage(double share) {
+  const double percent = 100 * share;
+  const QLocale locale;
+  return percent < 1    ? QStringLiteral("less than 1 %")
+         : percent > 99 ? QStringLiteral("%1 %").arg(share < 1 ? QStringLiteral("more than 99") : QStringLiteral("100"))
+                        : QStringLiteral("%1 %").arg(locale.toString(std::lround(percent)));
+}
+
+}  // namespace
+
+QString violationInWords(const Statistics& statistics, bool hasMoved) {
+  if (!statistics.remark.empty()) {
+    return QString::fromStdString(statistics.remark);
+  }
+  const Violation& violation = statistics.violation;
+  const bool whole = statistics.violation_of_whole_mesh;
+  if (!(violation.fraction > 0)) {
+    return !hasMoved ? QStringLiteral("Nothing has moved yet")
+           : whole   ? QStringLiteral("No link is violated")
+                     : QStringLiteral("No touched link is violated");
+  }
+  const QString share =
+      QStringLiteral("%1 of %2violated, ")
+          .arg(percentage(violation.fraction), whole ? QStringLiteral("links ") : QStringLiteral("touched links "));
+  return share + (std::isfinite(violation.max)
+                      ? QStringLiteral("worst %1 × rest length").arg(QLocale().toString(violation.max, 'g', 2))
+                      : QStringLiteral("some without a finite length"));
+}
+
+ViolationLine::ViolationLine() : sentence_(new QLabel) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(barWidth + barMargin, 0, 0, 0);
+  row->addWidget(sentence_);
+  words_ = QStringLiteral("No figures yet");
+  sentence_->setTextFormat(Qt::PlainText);
+  sentence_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  sentence_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  followTheme(*this, [this] { update(); });
+}
+
+void ViolationLine::show(const Statistics& statistics, bool hasMoved) {
+  words_ = violationInWords(statistics, hasMoved);
+  fitWords();
+  share_ = hasMoved ? statistics.violation.fraction : 0;
+  update();
+}
+
+/// Shortens the sentence only as far as the room requires.
+void ViolationLine::fitWords() {
+  sentence_->setText(sentence_->fontMetrics().elidedText(words_, Qt::ElideRight, sentence_->width()));
+}
+
+void ViolationLine::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  fitWords();
+}
+
+void ViolationLine::paintEvent(QPaintEvent* /*event*/) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  const QRectF bar(0, (height() - barHeight) / 2.0, barWidth, barHeight);
+  painter.setBrush(QColor(colours::inside));
+  painter.drawRoundedRect(bar, 3, 3);
+  if (share_ > 0) {
+    painter.setClipRect(QRectF(bar.topLeft(), QSizeF(std::max(leastShown, share_) * barWidth, barHeight)));
+    painter.setBrush(QColor(colours::outside));
+    painter.drawRoundedRect(bar, 3, 3);
+  }
+}
+
+}  // namespace chainmail

@@ -1,0 +1,52 @@
+#include "window/lecture_mode.h"
+
+#include <QDockWidget>
+#include <QLayout>
+#include <QStatusBar>
+#include <QToolBar>
+
+#include "panels/panel_area.h"
+
+namespace chainmail {
+
+LectureMode::LectureMode(QMainWindow& window, PanelArea& area, int layoutVersion)
+    : QObject(&window),
+      window_(window),
+      area_(area),
+      layoutVersion_(layoutVersion),
+      action_(new QAction(QStringLiteral("&Lecture mode"), this)) {
+  action_->setObjectName(QStringLiteral("lectureMode"));
+  action_->setCheckable(true);
+  action_->setShortcut(Qt::Key_F11);
+  action_->setStatusTip(
+      QStringLiteral("Shows only the panels, on the whole screen, with large texts and a ring at the cursor"));
+  connect(action_, &QAction::toggled, this, [this](bool on) { on ? enter() : restore(); });
+}
+
+void LectureMode::enter() {
+  layout_ = window_.saveState(layoutVersion_);
+  geometry_ = window_.saveGeometry();
+  for (auto* dock : window_.findChildren<QDockWidget*>()) {
+    dock->hide();
+  }
+  for (auto* bar : window_.findChildren<QToolBar*>(Qt::FindDirectChildrenOnly)) {
+    bar->hide();
+  }
+  window_.statusBar()->hide();
+  area_.setLecture(true);
+  window_.showFullScreen();
+}
+
+void LectureMode::restore() {
+  window_.showNormal();
+  window_.restoreGeometry(geometry_);
+  window_.statusBar()->show();
+  // restoreState shows tabbed docks one by one. A layout that reacts at once removes some meanwhile, and Qt crashes.
+  window_.layout()->setEnabled(false);
+  window_.restoreState(layout_, layoutVersion_);
+  window_.layout()->setEnabled(true);
+  window_.layout()->activate();
+  area_.setLecture(false);
+}
+
+}  // namespace chainmail

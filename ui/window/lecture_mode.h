@@ -1,0 +1,37 @@
+#pragma once
+
+#include <QAction>
+#include <QMainWindow>
+#include <vector>
+
+namespace chainmail {
+
+class PanelArea;
+
+/// Shows only the panels, on the whole screen, with large texts and a ring at the cursor, for an audience. Afterwards,
+/// docks, bars and the window are as before.
+class LectureMode : public QObject {
+  Q_OBJECT
+
+ public:
+  LectureMode(QMainWindow& window, PanelArea& area, int layoutVersion);
+
+  /// The switch for the menu.
+  QAction& action() { return *action_; }
+  bool isOn() const { return action_->isChecked(); }
+  void leave() { action_->setChecked(false); }
+  /// The layout to restore afterwards (QMainWindow::saveState).
+  const QByteArray& layoutBefore() const { return layout_; }
+
+ private:
+  void enter();
+  void restore();
+
+  QMainWindow& window_;
+  PanelArea& area_;
+  int layoutVersion_;
+  QAction* action_;
+  QByteArray layout_, geometry_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,210 @@
+#include "window/lessons.h"
+
+#include <QAction>
+#include <QDir>
+#include <QMenu>
+#include <algorithm>
+#include <array>
+
+#include "common/icons.h"
+#include "common/text.h"
+#include "files/session/session.h"
+#include "io/samples.h"
+#include "io/sessions.h"
+#include "window/docks.h"
+#include "window/lesson_bar.h"
+#include "window/main_window.h"
+#include "window/message_bar.h"
+#include "window/show_menu.h"
+
+namespace chainmail {
+namespace {
+
+constexpr std::array tools{"drag", "cut", "pin", "measure", "select"};
+
+QString listOf(const QStringList& names) { return names.join(QStringLiteral(", ")); }
+
+QString dockName(const DockEntry& entry) { return QString::fromLatin1(entry.id).remove(QStringLiteral("Dock")); }
+
+QStringList dockNames() {
+  QStringList names;
+  for (const DockEntry& entry : dockEntries()) {
+    names << dockName(entry);
+  }
+  return names;
+}
+
+QStringList colourNames() {
+  QStringList names;
+  for (const ColourModeInfo& mode : colourModes()) {
+    names << text(mode.name);
+  }
+  return names;
+}
+
+QStringList toolNames() { return {tools.begin(), tools.end()}; }
+
+}  // namespace
+
+Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& sessions)
+    : QObject(&window),
+      window_(window),
+      player_(window.document(), propagation),
+      next_(add("lessonNext", QStringLiteral("&Next step"), Qt::Key_PageDown,
+                QStringLiteral("Plays the next step of the lesson; during a step, goes to its end"))),
+      back_(add("lessonBack", QStringLiteral("Step &back"), Qt::Key_PageUp,
+                QStringLiteral("Restores the end of the step before"))),
+      close_(add("lessonClose", QStringLiteral("&Close lesson"), {},
+                 QStringLiteral("Closes the lesson; the object stays as it is"))),
+      bar_(nullptr) {
+  next_->setIcon(icon("stepForward"));
+  back_->setIcon(icon("stepBack"));
+  close_->setIcon(icon("close"));
+  connect(next_, &QAction::triggered, &player_, &LessonPlayer::next);
+  connect(back_, &QAction::triggered, &player_, &LessonPlayer::back);
+  connect(close_, &QAction::triggered, &player_, &LessonPlayer::close);
+  // In this order: the bar reads the actions.
+  for (const auto change : {&LessonPlayer::openChanged, &LessonPlayer::stepChanged, &LessonPlayer::playsChanged}) {
+    connect(&player_, change, this, &Lessons::adapt);
+  }
+  bar_ = new LessonBar(player_, *back_, *next_, *close_);
+  connect(&player_, &LessonPlayer::openChanged, this, &Lessons::leave);
+  connect(&sessions, &Sessions::opened, this, &Lessons::start);
+  connect(&player_, &LessonPlayer::stepChanged, this, &Lessons::showStep);
+  adapt();
+}
+
+QAction* Lessons::add(const char* name, const QString& text, const QKeySequence& key, const QString& help) {
+  auto* action = new QAction(text, this);
+  action->setObjectName(QLatin1String(name));
+  action->setShortcut(key);
+  action->setStatusTip(help);
+  return action;
+}
+
+void Lessons::fill(QMenu& menu) {
+  QMenu* lessons = menu.addMenu(icon("hints"), QStringLiteral("&Lessons"));
+  for (const LessonFile& lesson : lessonFiles()) {
+    const auto number = &lesson - lessonFiles().data() + 1;
+    QAction* action = lessons->addAction(QStringLiteral("&%1 %2").arg(number).arg(QString::fromUtf8(lesson.title)));
+    action->setObjectName(QStringLiteral("lesson%1").arg(number));
+    action->setStatusTip(QStringLiteral("Opens this lesson: short captions, and Next plays each step"));
+    action->setIcon(icon("play"));
+    connect(action, &QAction::triggered, this, [this, &lesson] { open(lesson.file); });
+  }
+  lessons->addSeparator();
+  lessons->addActions({next_, back_, close_});
+}
+
+void Lessons::openFirst() { open(lessonFiles().front().file); }
+
+void Lessons::open(const char* file) {
+  const QString folder = lessonsFolder();
+  if (folder.isEmpty()) {
+    window_.messages().say(QStringLiteral(
+        "The lessons were not found next to the program. Install it again, or open a lesson by File > Open"));
+    return;
+  }
+  window_.openFile(QDir(folder).filePath(QLatin1String(file)));
+}
+
+void Lessons::adapt() {
+  const bool open = player_.isOpen();
+  next_->setEnabled(open && (!player_.isLast() || player_.plays()));
+  back_->setEnabled(open && player_.step() > 0);
+  close_->setEnabled(open);
+}
+
+void Lessons::start() {
+  if (player_.isOpen()) {
+    warnOfUnknownNames();
+    player_.start();
+  }
+}
+
+/// Hides the dock that the lesson has opened.
+void Lessons::leave() {
+  if (!player_.isOpen()) {
+    chooseDock({});
+  }
+}
+
+// What the window shows at a step.
+
+QString Lessons::nameOf(std::string LessonStep::*which) const { return QString::fromStdString(player_.name(which)); }
+
+void Lessons::showStep() {
+  const QString colour = nameOf(&LessonStep::colour);
+  for (const ColourModeInfo& mode : colourModes()) {
+    if (colour == text(mode.name)) {
+      window_.colouring().setMode(mode.mode);
+    }
+  }
+  window_.showMenu().choose(nameOf(&LessonStep::show));
+  chooseDock(nameOf(&LessonStep::dock));
+  if (QAction* action = tool(nameOf(&LessonStep::tool))) {
+    action->trigger();
+  }
+}
+
+/// Shows a dock, and hides the one that an earlier step has opened.
+void Lessons::chooseDock(const QString& name) {
+  if (name == dock_) {
+    return;
+  }
+  if (QDockWidget* before = dock(dock_)) {
+    before->hide();
+  }
+  dock_.clear();
+  QDockWidget* wanted = dock(name);
+  if (wanted != nullptr && !wanted->isVisible()) {
+    dock_ = name;
+    wanted->show();
+    wanted->raise();
+  }
+}
+
+QDockWidget* Lessons::dock(const QString& name) const {
+  const auto& all = window_.docks().all();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const QDockWidget* one) {
+    return one->objectName() == name + QStringLiteral("Dock");
+  });
+  return name.isEmpty() || found == all.end() ? nullptr : *found;
+}
+
+QAction* Lessons::tool(const QString& name) const {
+  const QString wanted = QStringLiteral("tool") + name;
+  for (QAction* action : window_.findChildren<QAction*>()) {
+    if (!name.isEmpty() && action->objectName().compare(wanted, Qt::CaseInsensitive) == 0) {
+      return action;
+    }
+  }
+  return nullptr;
+}
+
+/// Names that the window does not know have no effect. Their author should hear of it.
+void Lessons::warnOfUnknownNames() {
+  struct Kind {
+    const char* key;
+    std::string LessonStep::*name;
+    QStringList known;
+  };
+  const std::array kinds{Kind{"colour", &LessonStep::colour, colourNames()},
+                         Kind{"show", &LessonStep::show, ShowMenu::names()},
+                         Kind{"dock", &LessonStep::dock, dockNames()}, Kind{"tool", &LessonStep::tool, toolNames()}};
+  const auto& steps = player_.lesson().steps;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (const auto& [key, name, known] : kinds) {
+      const QString value = QString::fromStdString(steps[i].*name);
+      if (!value.isEmpty() && !known.contains(value)) {
+        window_.messages().warn(QStringLiteral("%1: step %2: '%3' is '%4', which is not known; use one of: %5")
+                                    .arg(QString::fromStdString(player_.lesson().title))
+                                    .arg(i + 1)
+                                    .arg(QLatin1String(key), value, listOf(known)));
+        return;
+      }
+    }
+  }
+}
+
+}  // namespace chainmail

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <QObject>
+
+#include "document/lesson_player.h"
+
+class QAction;
+class QMenu;
+
+namespace chainmail {
+
+class LessonBar;
+class MainWindow;
+class Sessions;
+
+/// The lessons of a window: the menu that opens them, their bar, and what the window shows at each step.
+class Lessons : public QObject {
+  Q_OBJECT
+
+ public:
+  Lessons(MainWindow& window, Propagation& propagation, const Sessions& sessions);
+
+  /// Adds the submenu of lessons.
+  void fill(QMenu& menu);
+  /// Returns the bar. The window places and owns it.
+  LessonBar& bar() { return *bar_; }
+  LessonPlayer& player() { return player_; }
+  /// Opens the first lesson.
+  void openFirst();
+
+ private:
+  void open(const char* file);
+  QAction* add(const char* name, const QString& text, const QKeySequence& key, const QString& help);
+  void start();
+  void leave();
+  void adapt();
+  void showStep();
+  void warnOfUnknownNames();
+  QString nameOf(std::string LessonStep::*which) const;
+  void chooseDock(const QString& name);
+  QDockWidget* dock(const QString& name) const;
+  QAction* tool(const QString& name) const;
+
+  MainWindow& window_;
+  LessonPlayer player_;
+  QAction *next_, *back_, *close_;
+  LessonBar* bar_;
+  QString dock_;  // name of the dock that the lesson has opened
+};
+
+}  // namespace chainmail
