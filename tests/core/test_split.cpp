@@ -348,7 +348,9 @@ void SplitTest::cuts_pins_and_softness_go_over() {
       QCOMPARE(softness->of(link), soft);
       ++own;
     } else if (softness->links.contains(link)) {
-      QCOMPARE(softness->of(link).compression, 0.7);  // the mean of both ends
+      // The mean of both ends; or the end that is on a link, if the other is an old element.
+      const double compression = softness->of(link).compression;
+      QVERIFY(compression == 0.5 || std::abs(compression - 0.7) < 1e-12);
       ++mixed;
     } else if (split->parents[link] != Split::none) {
       QCOMPARE(softness->of(link), softness->global);
@@ -414,6 +416,7 @@ void SplitTest::the_parts_move_apart() {
   const MeshPointer mesh = regular_sheet(6, 5);
   const auto split = split_of(mesh, {{-50, 50}, {150, 50}});
   Simulation simulation(mesh, Algorithm::natural_queue, Precision::single_precision);
+  simulation.apply(commands::SetSoftness{{{1, 1, 0}, {}}});
   simulation.apply(commands::Split{split});
   drag_by(simulation, 28, Point(0, 5, 0));
   for (ElementId e = 0; e < split->after->element_count(); ++e) {
@@ -422,7 +425,7 @@ void SplitTest::the_parts_move_apart() {
     QCOMPARE(at != rest, rest.y() > 2.5 || (rest.y() == 2.5 && at.y() > 2.5));
   }
   simulation.refresh_statistics(true);
-  QVERIFY(simulation.statistics().violation.worst < 1e-4);
+  QVERIFY(simulation.statistics().violation.max < 1e-4);
 }
 
 void SplitTest::recorded_splits_are_replayed() {
