@@ -5,15 +5,11 @@
 #include <string>
 #include <unordered_set>
 
+#include "mesh/edge_key.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
-
-using Edge = std::uint64_t;
-
-Edge edge(ElementId a, ElementId b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
-std::array<ElementId, 2> ends(Edge edge) { return {static_cast<ElementId>(edge >> 32), static_cast<ElementId>(edge)}; }
 
 /// Calls visit(a, b) for each side of a face.
 template <class Visit>
@@ -120,16 +116,16 @@ class MeshAfter {
   void take_polygons();
   void link();
   void drop_sides(std::span<const ElementId> corners) {
-    for_each_side(corners, [this](ElementId a, ElementId b) { dropped_.insert(edge(a, b)); });
+    for_each_side(corners, [this](ElementId a, ElementId b) { dropped_.insert(edge_key(a, b)); });
   }
   void keep_sides(std::span<const ElementId> corners) {
-    for_each_side(corners, [this](ElementId a, ElementId b) { dropped_.erase(edge(a, b)); });
+    for_each_side(corners, [this](ElementId a, ElementId b) { dropped_.erase(edge_key(a, b)); });
   }
   void add_sides(std::span<const ElementId> corners) {
     for_each_side(corners, [this](ElementId a, ElementId b) {
-      dropped_.erase(edge(a, b));
+      dropped_.erase(edge_key(a, b));
       if (const bool old = a < mesh_.element_count() && b < mesh_.element_count(); !old || !find_link(mesh_, a, b)) {
-        added_.insert(edge(a, b));
+        added_.insert(edge_key(a, b));
       }
     });
   }
@@ -137,7 +133,7 @@ class MeshAfter {
   const Mesh& mesh_;
   const SplitEdit& edit_;
   MeshParts parts_;
-  std::unordered_set<Edge> dropped_, added_;  // links that no face has any more, and new ones
+  std::unordered_set<EdgeKey> dropped_, added_;  // links that no face has any more, and new ones
 };
 
 void MeshAfter::place() {
@@ -192,8 +188,8 @@ void MeshAfter::take_polygons() {
 /// Writes the neighbour table. Rows that the file ordered keep their order, with new neighbours last.
 void MeshAfter::link() {
   std::vector<std::array<ElementId, 2>> entries;  // element and new neighbour, ascending
-  for (const Edge one : added_) {
-    const auto [a, b] = ends(one);
+  for (const EdgeKey one : added_) {
+    const auto [a, b] = ends_of(one);
     entries.push_back({a, b});
     entries.push_back({b, a});
   }
@@ -207,7 +203,7 @@ void MeshAfter::link() {
       const auto row = mesh_.neighbours_of(e);
       ascending = std::ranges::is_sorted(row);
       std::ranges::copy_if(row, std::back_inserter(neighbours),
-                           [&](ElementId other) { return dropped_.empty() || !dropped_.contains(edge(e, other)); });
+                           [&](ElementId other) { return dropped_.empty() || !dropped_.contains(edge_key(e, other)); });
     }
     for (; next != entries.end() && (*next)[0] == e; ++next) {
       neighbours.push_back((*next)[1]);

@@ -16,19 +16,17 @@
 #include <set>
 #include <unordered_map>
 
+#include "mesh/edge_key.h"
+
 namespace chainmail {
 namespace {
 
 using Eigen::Vector2d;
 using Ring = std::vector<ElementId>;  // the corners of a face or of a piece of one, in order
-using Edge = std::uint64_t;
-
 constexpr ElementId nobody = std::numeric_limits<ElementId>::max();
 constexpr double pi = std::numbers::pi;
 // Moves the stroke (pixels), so that no corner is exactly on it.
 const Vector2d aside(1.37e-6, 0.73e-6);
-
-Edge edge(ElementId a, ElementId b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -185,7 +183,7 @@ class Division {
   const std::map<std::uint32_t, Divided>& divided() const { return divided_; }
   const std::vector<SplitPoint>& points() const { return points_; }
   /// The sides of pieces along which the stroke runs.
-  const std::set<Edge>& cut() const { return cut_; }
+  const std::set<EdgeKey>& cut() const { return cut_; }
 
  private:
   struct Side {
@@ -195,7 +193,7 @@ class Division {
   };
   struct FaceCrossing {
     double when = 0;
-    Edge side = 0;
+    EdgeKey side = 0;
     std::size_t number = 0;  // among the crossings of the side
   };
 
@@ -208,7 +206,7 @@ class Division {
   Side& side(ElementId a, ElementId b);
   bool is_reached(const FaceCrossing& one) const { return sides_.at(one.side).reached; }
   ElementId node(const FaceCrossing& one) { return node(one.side, sides_.at(one.side).crossings[one.number].share); }
-  ElementId node(Edge edge, double share);
+  ElementId node(EdgeKey key, double share);
   ElementId add(const SplitPoint& point) {
     points_.push_back(point);
     return next_++;
@@ -228,15 +226,15 @@ class Division {
   const StrokeInView& stroke_;
   std::span<const LinkId> reached_;
   ElementId next_;
-  std::unordered_map<Edge, Side> sides_;
+  std::unordered_map<EdgeKey, Side> sides_;
   std::vector<Chord> chords_;
   std::map<std::uint32_t, Divided> divided_;
   std::vector<SplitPoint> points_;
-  std::set<Edge> cut_;
+  std::set<EdgeKey> cut_;
 };
 
 Division::Side& Division::side(ElementId a, ElementId b) {
-  const auto [found, is_new] = sides_.try_emplace(edge(a, b));
+  const auto [found, is_new] = sides_.try_emplace(edge_key(a, b));
   if (is_new) {
     found->second.crossings = stroke_.crossings(a, b);
   }
@@ -248,7 +246,7 @@ void Division::find_sides() {
   for (const LinkId link : reached_) {
     const auto& [a, b] = mesh_.links[link];
     if (Side& one = side(a, b); one.crossings.empty()) {
-      sides_.erase(edge(a, b));
+      sides_.erase(edge_key(a, b));
     } else {
       one.reached = true;
     }
@@ -261,7 +259,7 @@ std::vector<std::uint32_t> Division::faces_at(Meant is_meant) const {
   std::vector<bool> is_end(mesh_.element_count());
   for (const auto& [key, one] : sides_) {
     if (is_meant(one)) {
-      is_end[key >> 32] = is_end[static_cast<ElementId>(key)] = true;
+      is_end[ends_of(key)[0]] = is_end[ends_of(key)[1]] = true;
     }
   }
   std::vector<std::uint32_t> result;
@@ -269,7 +267,7 @@ std::vector<std::uint32_t> Division::faces_at(Meant is_meant) const {
     const auto corners = faces_[face];
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const ElementId a = corners[i], b = corners[(i + 1) % corners.size()];
-      const auto found = is_end[a] && is_end[b] ? sides_.find(edge(a, b)) : sides_.end();
+      const auto found = is_end[a] && is_end[b] ? sides_.find(edge_key(a, b)) : sides_.end();
       if (found != sides_.end() && is_meant(found->second)) {
         result.push_back(face);
         break;
@@ -286,7 +284,7 @@ std::vector<Division::FaceCrossing> Division::crossings_of(std::uint32_t face) {
     const ElementId a = corners[i], b = corners[(i + 1) % corners.size()];
     const auto& crossings = side(a, b).crossings;
     for (std::size_t k = 0; k < crossings.size(); ++k) {
-      result.push_back({crossings[k].when, edge(a, b), k});
+      result.push_back({crossings[k].when, edge_key(a, b), k});
     }
   }
   std::ranges::sort(result, {}, &FaceCrossing::when);
@@ -329,10 +327,10 @@ void Division::find_tip(std::uint32_t face, const FaceCrossing& at, const Vector
   shares->minCoeff(&least);
   const auto first = std::size_t((least + 1) % 3), second = std::size_t((least + 2) % 3);
   const ElementId a = corners[first], b = corners[second];
-  if (edge(a, b) != at.side) {  // otherwise the stroke has just crossed this side
+  if (edge_key(a, b) != at.side) {  // otherwise the stroke has just crossed this side
     side(a, b);
     const double of_b = (*shares)[Eigen::Index(second)] / (1 - (*shares)[least]);
-    chords_.push_back({at.when, face, {node(at), node(edge(a, b), a < b ? of_b : 1 - of_b)}, {}});
+    chords_.push_back({at.when, face, {node(at), node(edge_key(a, b), a < b ? of_b : 1 - of_b)}, {}});
   }
 }
 
@@ -354,15 +352,15 @@ std::optional<Eigen::Vector3d> Division::shares_at(std::uint32_t face, const Vec
 }
 
 /// Returns the element on a side at this share of it: an end or another element nearby, or a new one.
-ElementId Division::node(Edge edge, double share) {
-  const ElementId a = static_cast<ElementId>(edge >> 32), b = static_cast<ElementId>(edge);
+ElementId Division::node(EdgeKey key, double share) {
+  const auto [a, b] = ends_of(key);
   if (!(share >= snap_share)) {
     return a;
   }
   if (share > 1 - snap_share) {
     return b;
   }
-  auto& nodes = sides_.at(edge).nodes;
+  auto& nodes = sides_.at(key).nodes;
   const auto after = nodes.lower_bound(share);
   if (after != nodes.end() && after->first - share < snap_share) {
     return after->second;
@@ -383,7 +381,7 @@ void Division::begin_face(std::uint32_t face) {
     const Vector2d from = corner_place(i, corners.size()), to = corner_place(i + 1, corners.size());
     divided.places[a] = from;
     Ring on{a};
-    if (const auto found = sides_.find(edge(a, b)); found != sides_.end()) {
+    if (const auto found = sides_.find(edge_key(a, b)); found != sides_.end()) {
       for (const auto& [share, element] : found->second.nodes) {
         divided.places[element] = from + (a < b ? share : 1 - share) * (to - from);
         on.push_back(element);
@@ -440,7 +438,7 @@ bool Division::run_along_side(const Divided& face, ElementId from, ElementId to)
         std::swap(first, last);
       }
       for (; first != last; ++first) {
-        cut_.insert(edge(*first, *std::next(first)));
+        cut_.insert(edge_key(*first, *std::next(first)));
       }
       return true;
     }
@@ -461,12 +459,12 @@ bool Division::join(Divided& face, ElementId from, ElementId to) {
   for (const Ring& half : {one, other}) {
     if (is_line(face, half)) {  // the cut runs along a side of the piece
       for (std::size_t i = 0; i + 1 < half.size(); ++i) {
-        cut_.insert(edge(half[i], half[i + 1]));
+        cut_.insert(edge_key(half[i], half[i + 1]));
       }
       return true;
     }
   }
-  cut_.insert(edge(from, to));
+  cut_.insert(edge_key(from, to));
   *piece = std::move(one);
   face.pieces.push_back(std::move(other));
   return true;
@@ -500,7 +498,7 @@ ElementId Division::divide_side(Divided& face, ElementId a, ElementId b, double 
   std::vector<std::pair<Ring*, std::size_t>> where;  // pieces, and the index at which to insert
   for (Ring& piece : face.pieces) {
     for (std::size_t i = 0; i < piece.size(); ++i) {
-      if (edge(piece[i], piece[(i + 1) % piece.size()]) == edge(a, b)) {
+      if (edge_key(piece[i], piece[(i + 1) % piece.size()]) == edge_key(a, b)) {
         where.emplace_back(&piece, i + 1);
       }
     }
@@ -513,9 +511,9 @@ ElementId Division::divide_side(Divided& face, ElementId a, ElementId b, double 
   for (const auto& [piece, index] : where) {
     piece->insert(piece->begin() + std::ptrdiff_t(index), element);
   }
-  if (cut_.erase(edge(a, b)) != 0) {
-    cut_.insert(edge(a, element));
-    cut_.insert(edge(element, b));
+  if (cut_.erase(edge_key(a, b)) != 0) {
+    cut_.insert(edge_key(a, element));
+    cut_.insert(edge_key(element, b));
   }
   return element;
 }
@@ -549,7 +547,7 @@ void Division::add_tip(const Chord& chord) {
   for (std::size_t i = 0; i < piece.size(); ++i) {
     face.pieces.push_back({piece[i], piece[(i + 1) % piece.size()], tip});
   }
-  cut_.insert(edge(chord.nodes[0], tip));
+  cut_.insert(edge_key(chord.nodes[0], tip));
 }
 
 // Separating
@@ -684,7 +682,7 @@ class Separation {
   void write();
 
   const Faces& faces_;
-  const std::set<Edge>& cut_;
+  const std::set<EdgeKey>& cut_;
   std::vector<Point> rest_;
   std::set<std::uint32_t> replaced_;
   std::vector<Ring> added_;
@@ -705,8 +703,8 @@ void Separation::add(const Ring& piece, bool is_polygon) {
 /// Returns the corners of faces at each element on the cut.
 std::map<ElementId, std::vector<Separation::Corner>> Separation::corners_at_cut() const {
   std::vector<bool> is_meant(rest_.size());
-  for (const Edge one : cut_) {
-    is_meant[one >> 32] = is_meant[static_cast<ElementId>(one)] = true;
+  for (const EdgeKey one : cut_) {
+    is_meant[ends_of(one)[0]] = is_meant[ends_of(one)[1]] = true;
   }
   std::map<ElementId, std::vector<Corner>> result;
   for (std::uint32_t face = 0; face < faces_.count() + added_.size(); ++face) {
@@ -733,7 +731,7 @@ void Separation::separate(ElementId element, const std::vector<Corner>& around) 
   for (const auto& [other, faces] : at_side) {
     for (const std::size_t one : faces) {
       before.unite(faces[0], one);
-      if (!cut_.contains(edge(element, other))) {
+      if (!cut_.contains(edge_key(element, other))) {
         after.unite(faces[0], one);
       }
     }

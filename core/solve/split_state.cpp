@@ -5,7 +5,7 @@
 namespace chainmail {
 namespace {
 
-LinkSoftness mean(const LinkSoftness& one, const LinkSoftness& other) {
+LinkSoftness between(const LinkSoftness& one, const LinkSoftness& other) {
   LinkSoftness result;
   for (const auto& [parameter, value] : softness_numbers) {
     result.*value = one.*value + (other.*value - one.*value) / 2;
@@ -14,9 +14,9 @@ LinkSoftness mean(const LinkSoftness& one, const LinkSoftness& other) {
 }
 
 /// Reads and writes the coordinates that a body stores, element by element.
-class Coordinates {
+class CarriedPositions {
  public:
-  Coordinates(const Split& split, const Snapshot& positions, Precision precision)
+  CarriedPositions(const Split& split, const Snapshot& positions, Precision precision)
       : split_(split),
         after_(*split.after),
         old_(split.before->element_count()),
@@ -57,7 +57,7 @@ class Coordinates {
 };
 
 /// Places an appended element. Elements at rest stay exactly there.
-void Coordinates::place(ElementId element, const SplitPoint& point) {
+void CarriedPositions::place(ElementId element, const SplitPoint& point) {
   bool at_rest_all = true;
   for (std::size_t k = 0; k < dimension_; ++k) {
     for (const ElementId one : point.of) {
@@ -73,7 +73,7 @@ void Coordinates::place(ElementId element, const SplitPoint& point) {
 }
 
 /// Returns a block with appended elements; null if all its elements are at rest.
-Snapshot::Block Coordinates::block(std::size_t number) const {
+Snapshot::Block CarriedPositions::block(std::size_t number) const {
   const auto first = static_cast<ElementId>(number * ElementBlocks::block_elements);
   const ElementId end = std::min(first + ElementBlocks::block_elements, after_.element_count());
   bool is_away = result_.blocks[number] != nullptr;
@@ -92,7 +92,7 @@ Snapshot::Block Coordinates::block(std::size_t number) const {
   return block;
 }
 
-Snapshot Coordinates::carried() {
+Snapshot CarriedPositions::carried() {
   for (ElementId i = 0; i < split_.edit.elements.size(); ++i) {
     place(old_ + i, split_.edit.elements[i]);
   }
@@ -118,14 +118,14 @@ std::shared_ptr<const Softness> softness_after(const Split& split, const std::sh
       other = other == Split::none ? one : other;
     }
     if (one != Split::none && (softness->links.contains(one) || softness->links.contains(other))) {
-      result.links.set(link, mean(softness->of(one), softness->of(other)));
+      result.links.set(link, between(softness->of(one), softness->of(other)));
     }
   }
   return std::make_shared<const Softness>(std::move(result));
 }
 
 Snapshot positions_after(const Split& split, const Snapshot& positions, Precision precision) {
-  return Coordinates(split, positions, precision).carried();
+  return CarriedPositions(split, positions, precision).carried();
 }
 
 }  // namespace chainmail
