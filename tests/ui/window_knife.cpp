@@ -62,6 +62,7 @@ class WindowKnife : public QObject {
     const Point moved = bench.position(1, 40);
     const Camera before = *bench.view(0).camera();
     bench.trigger("toolCut");
+    bench.find<QAction>("cutSplits")->setChecked(true);
     bench.stroke(0, acrossColumns(bench));
 
     const MeshPointer split = bench.document().mesh();
@@ -96,6 +97,7 @@ class WindowKnife : public QObject {
     Workbench bench(test::jittered_triangles(9, 7, 3));
     const MeshPointer whole = bench.document().mesh();
     bench.trigger("toolCut");
+    bench.find<QAction>("cutSplits")->setChecked(true);
     bench.stroke(0, acrossColumns(bench));
     const MeshPointer split = bench.document().mesh();
     bench.trigger("toolDrag");
@@ -124,6 +126,7 @@ class WindowKnife : public QObject {
     Workbench bench(test::jittered_triangles(9, 7, 3));
     const MeshPointer whole = bench.document().mesh();
     bench.trigger("toolCut");
+    bench.find<QAction>("cutSplits")->setChecked(true);
     const auto cutLinks = [&] {
       bench.stroke(0, acrossColumns(bench));
       const bool cut = bench.document().cuts().count() > 6 && bench.document().mesh() == whole;
@@ -138,6 +141,10 @@ class WindowKnife : public QObject {
     QVERIFY(!cutLinks());
     auto* button = bench.find<QToolButton>("cutSplitsButton");
     QVERIFY(button->isVisible() && button->isChecked());
+    {
+      Workbench later(test::jittered_triangles(9, 7, 3));
+      QVERIFY(later.find<QAction>("cutSplits")->isChecked());  // it is remembered
+    }
     button->click();
     QVERIFY(cutLinks());
     Workbench later(test::jittered_triangles(9, 7, 3));

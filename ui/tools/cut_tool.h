@@ -37,7 +37,7 @@ class CutTool : public Tool {
 
   Document& document_;
   bool frontOnly_ = false;
-  bool splits_ = true;
+  bool splits_ = false;
   const View* at_ = nullptr;  // the view of the stroke; null if there is none
   std::vector<QPointF> stroke_;
   std::set<LinkId> crossed_;  // links that the stroke has crossed so far
