@@ -61,10 +61,12 @@ float ObjectDrawing::fade(const Mesh& mesh, const Paint& paint) {
 
 float ObjectDrawing::frontSign(const Mesh& mesh) {
   float sign = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
+  for (const auto& corners : mesh.triangles) {
     const double* at = mesh.rest.data();
-    const auto along = [&](ElementId to, int k) { return at[2 * std::size_t{to} + k] - at[2 * std::size_t{a} + k]; };
-    const double area = along(b, 0) * along(c, 1) - along(b, 1) * along(c, 0);
+    const auto along = [&](std::size_t to, int k) {
+      return at[2 * std::size_t{corners[to]} + k] - at[2 * std::size_t{corners[0]} + k];
+    };
+    const double area = along(1, 0) * along(2, 1) - along(1, 1) * along(2, 0);
     if (area * double(sign) < 0) {
       return 0;
     }

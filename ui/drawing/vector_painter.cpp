@@ -19,7 +19,7 @@ constexpr double softEdge = 0.5;     // pixels; on the screen, marks fade inside
 constexpr int shadesOfALink = 8;     // largest number, if the values at its ends differ
 constexpr float seamWidth = 0.7F;    // pixels; closes the gaps between faces
 // Faces whose smooth normal differs more than this from their own lie at a crease (cosine of the angle).
-constexpr float creaseCosine = 0.65F;
+constexpr float printedCrease = 0.65F;
 constexpr std::size_t mostRingsPrinted = 5'000;  // more rings would hide each other
 
 /// Returns the mean colour of a few texels in a triangle. `corners` are its rest positions.
@@ -204,7 +204,7 @@ QColor VectorPainter::lit(const Scene& scene, std::span<const QVector3D> positio
   for (const ElementId corner : corners) {
     smooth += normals_.normals()[corner].normalized();
   }
-  if (const QVector3D seen = toViewer(smooth); QVector3D::dotProduct(seen, normal) > creaseCosine) {
+  if (const QVector3D seen = toViewer(smooth); QVector3D::dotProduct(seen, normal) > printedCrease) {
     normal = seen;
   }
   return lighting_.of(colour, normal);

@@ -9,7 +9,7 @@ PanelLinks::PanelLinks(Colouring& colouring, QObject* parent)
       cameras_(makeSwitch("linkCameras", QStringLiteral("&Link cameras"), QStringLiteral("Cameras"), Qt::Key_L,
                           QStringLiteral("Shows the object from the same side in all panels"))),
       colours_(makeSwitch(
-          "linkColours", QStringLiteral("Link colour &range"), QStringLiteral("Colours"), Qt::SHIFT | Qt::Key_L,
+          "linkColours", QStringLiteral("Lin&k colour range"), QStringLiteral("Colours"), Qt::SHIFT | Qt::Key_L,
           QStringLiteral("Uses one colour scale for all panels, so that a colour means the same value in "
                          "each; off: each panel shows its own range"))),
       marks_(

@@ -214,8 +214,8 @@ std::vector<QVector3D> View::outline(bool atRest) const {
   const ClusterBoxes& all = boxes(*frame);
   for (std::size_t cluster = 0; cluster < all.level().clusterCount(); ++cluster) {
     for (unsigned corner = 0; corner < 8; ++corner) {
-      const auto& [lowest, highest] = all[cluster];
-      const auto side = [&](unsigned k) { return (corner >> k & 1U) != 0 ? highest[k] : lowest[k]; };
+      const ClusterBoxes::Box& box = all[cluster];
+      const auto side = [&](unsigned k) { return (corner >> k & 1U) != 0 ? box.highest[k] : box.lowest[k]; };
       add(std::array{side(0), side(1), side(2)}.data());
     }
   }

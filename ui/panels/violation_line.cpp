@@ -10,8 +10,8 @@
 namespace chainmail {
 namespace {
 
-constexpr int barWidth = 44, barHeight = 10, barMargin = 8;  // pixels
-constexpr double leastShown = 0.04;                          // a smaller share is drawn as this fraction of the bar
+constexpr int shareWidth = 44, shareHeight = 10, shareMargin = 8;  // pixels
+constexpr double leastShown = 0.04;  // a smaller share is drawn as this fraction of the bar
 
 /// Returns a share as a percentage that is not rounded to none or all.
 QString percentage(double share) {
@@ -45,7 +45,7 @@ QString violationInWords(const Statistics& statistics, bool hasMoved) {
 
 ViolationLine::ViolationLine() : sentence_(new QLabel) {
   auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(barWidth + barMargin, 0, 0, 0);
+  row->setContentsMargins(shareWidth + shareMargin, 0, 0, 0);
   row->addWidget(sentence_);
   words_ = QStringLiteral("No figures yet");
   sentence_->setTextFormat(Qt::PlainText);
@@ -75,11 +75,11 @@ void ViolationLine::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(Qt::NoPen);
-  const QRectF bar(0, (height() - barHeight) / 2.0, barWidth, barHeight);
+  const QRectF bar(0, (height() - shareHeight) / 2.0, shareWidth, shareHeight);
   painter.setBrush(QColor(colours::inside));
   painter.drawRoundedRect(bar, 3, 3);
   if (share_ > 0) {
-    painter.setClipRect(QRectF(bar.topLeft(), QSizeF(std::max(leastShown, share_) * barWidth, barHeight)));
+    painter.setClipRect(QRectF(bar.topLeft(), QSizeF(std::max(leastShown, share_) * shareWidth, shareHeight)));
     painter.setBrush(QColor(colours::outside));
     painter.drawRoundedRect(bar, 3, 3);
   }

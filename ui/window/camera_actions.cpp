@@ -134,7 +134,7 @@ void CameraActions::fillSides(QMenu& menu) {
     action->setStatusTip(QStringLiteral("All panels show the object from %1").arg(endOf(side)));
     sides_.push_back(action);
   }
-  addUp(menu);
+  addUp(*from);
   addProjection(menu);
   adapt();
 }

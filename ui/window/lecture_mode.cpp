@@ -14,7 +14,7 @@ LectureMode::LectureMode(QMainWindow& window, PanelArea& area, int layoutVersion
       window_(window),
       area_(area),
       layoutVersion_(layoutVersion),
-      action_(new QAction(QStringLiteral("&Lecture mode"), this)) {
+      action_(new QAction(QStringLiteral("Lecture mode"), this)) {
   action_->setObjectName(QStringLiteral("lectureMode"));
   action_->setCheckable(true);
   action_->setShortcut(Qt::Key_F11);

@@ -330,11 +330,12 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   fitView_->setObjectName(QStringLiteral("fitView"));
   fitView_->setShortcut(Qt::Key_F);
   fitView_->setStatusTip(QStringLiteral("Shows the whole object as it is now in every view, from the current side"));
-  auto* fitRest = menu.addAction(icon("fit"), QStringLiteral("Fit rest shape"), area_, &PanelArea::fitRest);
+  cameraActions_->fillMoves(menu);
+  auto* fitRest = menu.actions().constLast()->menu()->addAction(icon("fit"), QStringLiteral("Fit rest shape"), area_,
+                                                                &PanelArea::fitRest);
   fitRest->setObjectName(QStringLiteral("fitRest"));
   fitRest->setShortcut(Qt::Key_Home);
   fitRest->setStatusTip(QStringLiteral("Shows the whole rest shape in every view, from the initial side"));
-  cameraActions_->fillMoves(menu);
   panelActions_->fill(menu);
   regions_.fill(menu);
   cameraActions_->fillSides(menu);

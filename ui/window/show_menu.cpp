@@ -48,7 +48,7 @@ ShowMenu::ShowMenu(const Document& document, QObject* parent) : QObject(parent),
 }
 
 void ShowMenu::fill(QMenu& menu) {
-  menu_ = menu.addMenu(icon("mesh"), QStringLiteral("Sh&ow"));
+  menu_ = menu.addMenu(icon("mesh"), QStringLiteral("S&how"));
   menu_->setToolTipsVisible(true);
   auto* group = new QActionGroup(this);
   for (const Choice& one : choices) {
