@@ -6,6 +6,7 @@
 
 #include "mesh/split_along.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -78,7 +79,6 @@ class StrokeInView {
   bool empty() const { return points_.size() < 2; }
   const Vector2d& first() const { return points_.front(); }
   const Vector2d& last() const { return points_.back(); }
-  Vector2d at(double when) const;
   const ViewPlace& place(ElementId element) const { return places_[element]; }
   /// Returns the crossings with a side, from its element with the lower id, in the order of the stroke.
   std::vector<Crossing> crossings(ElementId a, ElementId b) const;
@@ -91,11 +91,6 @@ class StrokeInView {
   std::vector<Vector2d> points_;
   Vector2d low_ = Vector2d::Constant(std::numeric_limits<double>::max()), high_ = -low_;
 };
-
-Vector2d StrokeInView::at(double when) const {
-  const auto segment = std::min(static_cast<std::size_t>(when), points_.size() - 2);
-  return points_[segment] + (when - double(segment)) * (points_[segment + 1] - points_[segment]);
-}
 
 std::vector<Crossing> StrokeInView::crossings(ElementId a, ElementId b) const {
   const ViewPlace &from = places_[std::min(a, b)], &to = places_[std::max(a, b)];
@@ -140,8 +135,8 @@ bool StrokeInView::is_inside(const Vector2d& point, std::span<const ElementId> c
 struct Chord {
   double when = 0;  // of its first crossing
   std::uint32_t face = 0;
-  std::array<ElementId, 2> nodes{nobody, nobody};    // the second is nobody for a point inside
-  Eigen::Vector3d inside = Eigen::Vector3d::Zero();  // this point, as shares of the three corners
+  std::array<ElementId, 2> nodes{nobody, nobody};  // the second is nobody for a point inside
+  std::array<double, 3> inside{};                  // this point, as shares of the three corners
 };
 
 // Dividing
@@ -291,23 +286,27 @@ std::vector<Division::FaceCrossing> Division::crossings_of(std::uint32_t face) {
   return result;
 }
 
-/// Finds the ways of the stroke through a face: it is inside between two crossings that follow each other, or outside.
+/// Finds the ways of the stroke through a face: each crossing leads into it or out of it, also if it is seen from its
+/// edge, where no point is between them.
 void Division::find_chords(std::uint32_t face) {
   const auto corners = faces_[face];
+  if (std::ranges::any_of(corners, [this](ElementId one) { return stroke_.place(one).distance <= 0; })) {
+    return;
+  }
   const auto all = crossings_of(face);
-  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
-    if (is_reached(all[i]) && is_reached(all[i + 1]) &&
-        stroke_.is_inside(stroke_.at((all[i].when + all[i + 1].when) / 2), corners)) {
+  const bool begins_inside = stroke_.is_inside(stroke_.first(), corners);
+  for (std::size_t i = begins_inside ? 1 : 0; i + 1 < all.size(); i += 2) {
+    if (is_reached(all[i]) && is_reached(all[i + 1])) {
       chords_.push_back({all[i].when, face, {node(all[i]), node(all[i + 1])}, {}});
     }
   }
   if (corners.size() != 3) {
     return;  // a polygon is not divided by a point inside it
   }
-  if (is_reached(all.front()) && stroke_.is_inside(stroke_.first(), corners)) {
+  if (begins_inside && is_reached(all.front())) {
     find_tip(face, all.front(), stroke_.first());
   }
-  if (is_reached(all.back()) && stroke_.is_inside(stroke_.last(), corners)) {
+  if (begins_inside == (all.size() % 2 == 0) && is_reached(all.back())) {
     find_tip(face, all.back(), stroke_.last());
   }
 }
@@ -320,7 +319,7 @@ void Division::find_tip(std::uint32_t face, const FaceCrossing& at, const Vector
     return;
   }
   if (shares->minCoeff() >= tip_share) {
-    chords_.push_back({at.when, face, {node(at), nobody}, *shares});
+    chords_.push_back({at.when, face, {node(at), nobody}, {shares->x(), shares->y(), shares->z()}});
     return;
   }
   Eigen::Index least = 0;
@@ -525,7 +524,7 @@ void Division::add_tip(const Chord& chord) {
   Divided& face = divided_.at(chord.face);
   Vector2d place = Vector2d::Zero();
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    place += chord.inside[Eigen::Index(i)] * corner_place(i, corners.size());
+    place += chord.inside[i] * corner_place(i, corners.size());
   }
   const auto contains = [&](const Ring& piece) {
     for (std::size_t i = 0; i < piece.size(); ++i) {

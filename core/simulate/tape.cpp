@@ -159,9 +159,9 @@ Tape::Object Tape::object(std::size_t position) const {
       object.softness = softness->softness;
     } else if (const auto* split = std::get_if<commands::Split>(&command)) {
       const chainmail::Split& one = *split->split;
-      const auto cut = cuts_after(one, std::vector(cuts.begin(), cuts.end()));
+      const auto open = cuts_after(one, std::vector(cuts.begin(), cuts.end()));
       const auto pinned = pins_after(one, std::vector(pins.begin(), pins.end()));
-      cuts = {cut.begin(), cut.end()};
+      cuts = {open.begin(), open.end()};
       pins = {pinned.begin(), pinned.end()};
       object.softness = softness_after(one, object.softness);
       object.mesh = one.after;

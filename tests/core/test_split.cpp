@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <QtTest>
 #include <map>
 #include <set>
@@ -208,7 +209,7 @@ void SplitTest::a_stroke_around_a_loop_takes_a_piece_out() {
     Stroke loop;
     for (int i = 0; i <= 26; ++i) {  // further than once around, so that the stroke crosses itself
       const double angle = 2 * std::numbers::pi * (i + seed) / 24;
-      const double radius = 38 + 3 * i / 13.0;
+      const double radius = 38 + 3 * std::abs(i - 13.3) / 13;
       loop.emplace_back(80 + radius * std::cos(angle), 60 + radius * std::sin(angle));
     }
     const auto split = split_of(sheet(std::uint64_t(seed)), loop);

@@ -170,7 +170,7 @@ void MovesTest::splits_that_do_not_fit_are_refused_data() {
   QTest::addColumn<QString>("command");
   QTest::addColumn<QString>("sentence");
   const auto row = [](const char* command, const char* sentence) { QTest::newRow(command) << command << sentence; };
-  row(R"({"do": "split"})", "m.json: command 0: it has no 'elements'");
+  row(R"({"do": "split"})", "m.json: command 0: 'elements' is missing; add it");
   row(R"({"do": "split", "elements": [[0, 0]]})", "m.json: command 0: 'elements' holds something");
   row(R"({"do": "split", "elements": [[0, 0, 0, 0, "x"]]})", "m.json: command 0: ");
   row(R"({"do": "split", "elements": [[9, 0, 0, 0, 0]]})", "m.json: command 0: split: element 4 lies between");
@@ -365,7 +365,7 @@ void MovesTest::a_key_that_stands_twice_is_refused() {
 /// program does not know.
 void MovesTest::what_is_wrong_with_the_file_comes_before_its_commands() {
   QVERIFY(error_of([&] {
-            read(R"({"commands": [{"do": "twist"}], "version": 2})");
+            read(R"({"commands": [{"do": "twist"}], "version": 3})");
           }).startsWith("m.json: its version is not 1 or 2; "));
   QVERIFY(error_of([&] {
             read(R"({"version": 1, "commands": [{"do": "twist"}] ,})");

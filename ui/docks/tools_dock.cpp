@@ -86,7 +86,7 @@ QWidget* ToolsDock::makeSplits(Document& document, CutTool& cut) {
   splits_->setObjectName(QStringLiteral("cutSplits"));
   splits_->setIconText(QStringLiteral("Split triangles"));
   splits_->setCheckable(true);
-  splits_->setChecked(QSettings().value(splitsKey(), false).toBool());
+  splits_->setChecked(QSettings().value(splitsKey(), true).toBool());
   cut.setSplits(splits_->isChecked());
   connect(splits_, &QAction::toggled, this, [&cut](bool on) {
     cut.setSplits(on);

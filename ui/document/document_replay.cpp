@@ -160,8 +160,7 @@ void Document::travel(std::size_t position, const MeshPointer& first) {
   if (!replayed_ || position < at) {
     const auto after = waypoints_.upper_bound(position);
     at = after == waypoints_.begin() ? 0 : std::prev(after)->first;
-    after == waypoints_.begin() ? goToBeginning(first)
-                                : log_->replay(commands::RestoreState{std::prev(after)->second});
+    after == waypoints_.begin() ? goToBeginning(first) : log_->replay(commands::RestoreState{std::prev(after)->second});
   }
   for (; at < position; ++at) {
     keepWaypoint(at);

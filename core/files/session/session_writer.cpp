@@ -253,7 +253,7 @@ void SessionWriter::write_moves(const Progress& progress) {
     out_ << ",\n\"moves\": " << std::string_view(moves.str())
          << ",\"moves_done\": " << static_cast<std::uint32_t>(session_.moves_done);
   }
-  const bool moves_left_out = all > session_moves;
+  const bool moves_left_out = !session_.moves.empty() && !has_moves_;
   if (!session_.lesson.steps.empty() && !moves_left_out) {
     out_ << ",\n\"lesson\": " << std::string_view(lesson_json(session_.lesson));
   }
