@@ -82,7 +82,7 @@ QWidget* ToolsDock::makeCutOptions(Document& document, CutTool& cut) {
 
 /// Makes the switch between splitting faces and cutting links, which is remembered.
 QWidget* ToolsDock::makeSplits(Document& document, CutTool& cut) {
-  splits_ = new QAction(QStringLiteral("Cut splits &triangles"), this);
+  splits_ = new QAction(QStringLiteral("Cut splits triangles"), this);
   splits_->setObjectName(QStringLiteral("cutSplits"));
   splits_->setIconText(QStringLiteral("Split triangles"));
   splits_->setCheckable(true);
