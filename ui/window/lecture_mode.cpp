@@ -5,14 +5,16 @@
 #include <QStatusBar>
 #include <QToolBar>
 
+#include "document/propagation.h"
 #include "panels/panel_area.h"
 
 namespace chainmail {
 
-LectureMode::LectureMode(QMainWindow& window, PanelArea& area, int layoutVersion)
+LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, int layoutVersion)
     : QObject(&window),
       window_(window),
       area_(area),
+      propagation_(propagation),
       layoutVersion_(layoutVersion),
       action_(new QAction(QStringLiteral("Lecture mode"), this)) {
   action_->setObjectName(QStringLiteral("lectureMode"));
@@ -26,6 +28,7 @@ LectureMode::LectureMode(QMainWindow& window, PanelArea& area, int layoutVersion
 void LectureMode::enter() {
   layout_ = window_.saveState(layoutVersion_);
   geometry_ = window_.saveGeometry();
+  propagation_.setHeld(propagation_.isShown());
   for (auto* dock : window_.findChildren<QDockWidget*>()) {
     dock->hide();
   }
@@ -46,6 +49,7 @@ void LectureMode::restore() {
   window_.restoreState(layout_, layoutVersion_);
   window_.layout()->setEnabled(true);
   window_.layout()->activate();
+  propagation_.setHeld(false);
   area_.setLecture(false);
 }
 

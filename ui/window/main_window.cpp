@@ -90,7 +90,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       help_(new HelpMenu(*this, document_)),
       panelActions_(new PanelActions(*area_, document_, colouring_)),
       showMenu_(new ShowMenu(document_, this)),
-      lecture_(new LectureMode(*this, *area_, layoutVersion)),
+      lecture_(new LectureMode(*this, *area_, propagation_, layoutVersion)),
       lessons_(new Lessons(*this, propagation_, *sessions_)),
       toolActions_(new QActionGroup(this)),
       colourBy_(new ColourSelector(colouring_)),
