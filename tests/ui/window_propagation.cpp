@@ -102,6 +102,7 @@ class WindowPropagation : public QObject {
   void lectureModeKeepsTheColours() {
     Workbench bench;
     openAndDrag(bench);
+    QTRY_COMPARE(bench.window.panel(1).legend().title(), updates());
     bench.trigger("lectureMode");
     bench.settle();
     QVERIFY(!bench.find<QDockWidget>("propagationDock")->isVisible());
