@@ -451,7 +451,7 @@ bool Division::join(Divided& face, ElementId from, ElementId to) {
   if (piece == face.pieces.end()) {
     return false;
   }
-  std::ranges::rotate(*piece, std::ranges::find(*piece, from));
+  std::rotate(piece->begin(), std::ranges::find(*piece, from), piece->end());
   const auto second = std::ranges::find(*piece, to);
   Ring one(piece->begin(), second + 1), other(second, piece->end());
   other.push_back(from);
@@ -617,7 +617,7 @@ Ring rotated(Ring ring, const std::vector<Point>& rest) {
   };
   Ring best = ring;
   for (std::size_t i = 1; i < ring.size(); ++i) {
-    std::ranges::rotate(ring, ring.begin() + 1);
+    std::rotate(ring.begin(), ring.begin() + 1, ring.end());
     best = worst(ring) > worst(best) ? ring : best;
   }
   return best;

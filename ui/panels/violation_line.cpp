@@ -46,9 +46,8 @@ QString violationInWords(const Statistics& statistics, bool hasMoved) {
   const QString share =
       QStringLiteral("%1 of %2violated, ")
           .arg(percentage(violation.fraction), whole ? QStringLiteral("links ") : QStringLiteral("touched links "));
-  return share + (std::isfinite(violation.max)
-                      ? QStringLiteral("worst %1 × rest length").arg(rounded(violation.max))
-                      : QStringLiteral("some without a finite length"));
+  return share + (std::isfinite(violation.max) ? QStringLiteral("worst %1 × rest length").arg(rounded(violation.max))
+                                               : QStringLiteral("some without a finite length"));
 }
 
 ViolationLine::ViolationLine() : sentence_(new QLabel) {
