@@ -10,11 +10,13 @@
 
 namespace chainmail {
 
-LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, int layoutVersion)
+LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, QWidget& hints,
+                         int layoutVersion)
     : QObject(&window),
       window_(window),
       area_(area),
       propagation_(propagation),
+      hints_(hints),
       layoutVersion_(layoutVersion),
       action_(new QAction(QStringLiteral("Lecture mode"), this)) {
   action_->setObjectName(QStringLiteral("lectureMode"));
@@ -36,6 +38,8 @@ void LectureMode::enter() {
     bar->hide();
   }
   window_.statusBar()->hide();
+  hadHints_ = hints_.isVisible();
+  hints_.hide();
   area_.setLecture(true);
   window_.showFullScreen();
 }
@@ -49,6 +53,7 @@ void LectureMode::restore() {
   window_.restoreState(layout_, layoutVersion_);
   window_.layout()->setEnabled(true);
   window_.layout()->activate();
+  hints_.setVisible(hadHints_);
   propagation_.setHeld(false);
   area_.setLecture(false);
 }

@@ -15,7 +15,7 @@ class LectureMode : public QObject {
   Q_OBJECT
 
  public:
-  LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, int layoutVersion);
+  LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, QWidget& hints, int layoutVersion);
 
   /// The switch for the menu.
   QAction& action() { return *action_; }
@@ -31,6 +31,8 @@ class LectureMode : public QObject {
   QMainWindow& window_;
   PanelArea& area_;
   Propagation& propagation_;
+  QWidget& hints_;
+  bool hadHints_ = false;
   int layoutVersion_;
   QAction* action_;
   QByteArray layout_, geometry_;
