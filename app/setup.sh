@@ -13,7 +13,7 @@ build_packages=(
 # Needed to show a window on a minimal machine: a software driver for OpenGL, and fonts.
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)
 test_packages=(librapidcheck-dev xvfb ffmpeg clang-format doxygen)
-check_packages=(clang-tidy python3)
+check_packages=(clang-tidy mold python3)
 mutant_packages=(python3)
 bench_packages=(libbenchmark-dev libbullet-dev)
 fuzz_packages=(clang libclang-rt-14-dev)

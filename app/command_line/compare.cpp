@@ -12,6 +12,7 @@
 #include "report/page/table.h"
 #include "report/run/drags.h"
 #include "report/run/runner.h"
+#include "simulate/tape.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -40,7 +41,11 @@ std::vector<report::RecordedMoves> drags_of(const report::Case& object, const st
   const std::filesystem::path path = *recorded;
   Watch watch("reading " + printable(*recorded));
   report::RecordedMoves moves{"recorded", "recorded in " + printable(path.filename().string()),
-                              read_moves(path, *object.mesh, watch.progress())};
+                              read_moves(path, object.mesh, watch.progress())};
+  if (first_mesh(moves.commands)) {
+    throw Error(printable(*recorded), "its moves split the object, which a comparison cannot repeat",
+                "save the split object, and record moves of it");
+  }
   if (report::count_moves(moves) == 0) {
     throw Error(printable(*recorded), "it contains no move", "write a grab and a drag, as in compare --help");
   }

@@ -13,6 +13,7 @@
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
+#include "simulate/tape.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -192,7 +193,6 @@ void deform(const DeformArguments& options) {
   const MeshPointer mesh = opened.mesh;
   softness.links = std::move(opened.softness);
   check_algorithm(options, algorithm, *mesh);
-  check_acts(acts, *mesh);
   if (const auto file = value_of(options.softness)) {
     for (const auto& [link, own] : read_softness(std::filesystem::path(*file), *mesh)) {
       softness.links.set(link, own);
@@ -201,8 +201,10 @@ void deform(const DeformArguments& options) {
   std::vector<chainmail::Command> moves;
   if (const auto file = value_of(options.script)) {
     Watch watch("reading " + printable(*file));
-    moves = read_moves(std::filesystem::path(*file), *mesh, watch.progress());
+    moves = read_moves(std::filesystem::path(*file), mesh, watch.progress());
   }
+
+  check_acts(acts, *last_mesh(mesh, moves));
 
   Simulation simulation(mesh, algorithm, precision);
   simulation.apply(commands::SetSoftness{softness});

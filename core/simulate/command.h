@@ -8,6 +8,7 @@
 
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
+#include "mesh/split.h"
 #include "solve/snapshot.h"
 #include "solve/softness.h"
 #include "solve/solver.h"
@@ -91,6 +92,11 @@ struct Reset {};
 struct ReplaceMesh {
   MeshPointer mesh;
 };
+/// Splits faces of the object along a stroke. Its positions, cuts, pins and softness go over to the new elements and
+/// links. The object must have the mesh before the split.
+struct Split {
+  SplitPointer split;
+};
 
 /// Restores positions. The snapshot must be of this mesh.
 struct SetPositions {
@@ -114,10 +120,10 @@ struct DropState {
 
 }  // namespace commands
 
-using Command =
-    std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness, commands::SetRelaxation,
-                 commands::Relax, commands::SetAlgorithm, commands::Cut, commands::Uncut, commands::Pin,
-                 commands::Unpin, commands::Reset, commands::ReplaceMesh, commands::SetPositions, commands::KeepState,
-                 commands::RestoreState, commands::DropState, commands::SetElastic, commands::MoveControlPoint>;
+using Command = std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness,
+                             commands::SetRelaxation, commands::Relax, commands::SetAlgorithm, commands::Cut,
+                             commands::Uncut, commands::Pin, commands::Unpin, commands::Reset, commands::ReplaceMesh,
+                             commands::SetPositions, commands::KeepState, commands::RestoreState, commands::DropState,
+                             commands::SetElastic, commands::MoveControlPoint, commands::Split>;
 
 }  // namespace chainmail

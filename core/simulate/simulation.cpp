@@ -8,6 +8,7 @@
 
 #include "mesh/error.h"
 #include "mesh/parameters.h"
+#include "solve/split_state.h"
 
 namespace chainmail {
 namespace {
@@ -478,6 +479,36 @@ void Simulation::carry_out(const commands::ReplaceMesh& command) {
       std::make_shared<const Softness>(Softness{this->softness().global, {}, this->softness().energy});
   take_mesh(command.mesh);
   set_softness(softness);
+}
+
+void Simulation::carry_out(const commands::Split& command) {
+  if (!command.split || command.split->before != mesh_) {
+    throw Error("split", "the object is not the one that was split", "split this object");
+  }
+  const Split& split = *command.split;
+  State state = current_state();
+  state.valid = state.valid && away_.empty();  // links inside faces are new
+  state.mesh = split.after;
+  state.cuts = cuts_after(split, state.cuts);
+  state.pins = pins_after(split, state.pins);
+  state.softness = softness_after(split, state.softness);
+  state.positions = positions_after(split, state.positions, precision_);
+  const auto handle = last_handle_;
+  take_state(state);
+  if (handle && std::ranges::none_of(handle->elements(), [this](ElementId one) { return body().is_pinned(one); })) {
+    const auto elements = handle->elements();
+    last_handle_ = std::make_shared<Handle>(body(), std::vector<ElementId>(elements.begin(), elements.end()));
+  }
+  wake_new(split.before->element_count());
+}
+
+/// Wakes the elements from this one on, and their neighbours.
+void Simulation::wake_new(ElementId first) {
+  for (ElementId e = first; e < mesh_->element_count(); ++e) {
+    solver_->wake(std::span(&e, 1));
+    solver_->wake(mesh_->neighbours_of(e));
+  }
+  wake({});
 }
 
 // Saved states, for undo and for replay of recorded commands.

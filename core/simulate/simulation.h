@@ -112,6 +112,7 @@ class Simulation {
   void carry_out(const commands::Unpin& command);
   void carry_out(const commands::Reset& command);
   void carry_out(const commands::ReplaceMesh& command);
+  void carry_out(const commands::Split& command);
   void carry_out(const commands::SetPositions& command);
   void carry_out(const commands::SetElastic& command);
   void carry_out(const commands::MoveControlPoint& command);
@@ -140,6 +141,7 @@ class Simulation {
   void take_mesh(MeshPointer mesh);
   void wake(std::span<const ElementId> elements);
   void wake_ends(const std::vector<LinkId>& links);
+  void wake_new(ElementId first);
   void fall_asleep();
   State current_state();
   void take_state(const State& state);

@@ -3,12 +3,20 @@
 #include <algorithm>
 #include <set>
 
+#include "solve/split_state.h"
+
 namespace chainmail {
 namespace {
 
 template <class... Kinds>
 bool is_one_of(const Command& command) {
   return (std::holds_alternative<Kinds>(command) || ...);
+}
+
+/// Returns the mesh that a command splits; null for other commands.
+MeshPointer mesh_before(const Command& command) {
+  const auto* split = std::get_if<commands::Split>(&command);
+  return split == nullptr ? nullptr : split->split->before;
 }
 
 }  // namespace
@@ -106,7 +114,26 @@ std::vector<Command> Tape::last_drag() const {
   return drag;
 }
 
-Tape::Object Tape::object() const {
+MeshPointer first_mesh(const std::vector<Command>& commands) {
+  for (const Command& command : commands) {
+    if (auto mesh = mesh_before(command)) {
+      return mesh;
+    }
+  }
+  return nullptr;
+}
+
+MeshPointer last_mesh(const MeshPointer& mesh, std::span<const Command> commands) {
+  MeshPointer last = mesh;
+  for (const Command& command : commands) {
+    if (const auto* split = std::get_if<commands::Split>(&command)) {
+      last = split->split->after;
+    }
+  }
+  return last;
+}
+
+Tape::Object Tape::object(std::size_t position) const {
   std::set<LinkId> cuts;
   std::set<ElementId> pins;
   Object object;
@@ -115,7 +142,10 @@ Tape::Object Tape::object() const {
       add ? void(all.insert(one)) : void(all.erase(one));
     }
   };
-  for (std::size_t i = 0; i < position_; ++i) {
+  for (std::size_t i = 0; i < length() && !object.mesh; ++i) {
+    object.mesh = mesh_before(at(i));
+  }
+  for (std::size_t i = 0; i < position; ++i) {
     const Command& command = at(i);
     if (const auto* cut = std::get_if<commands::Cut>(&command)) {
       toggle(cuts, cut->links, true);
@@ -127,6 +157,14 @@ Tape::Object Tape::object() const {
       toggle(pins, unpin->elements, false);
     } else if (const auto* softness = std::get_if<commands::SetSoftness>(&command)) {
       object.softness = softness->softness;
+    } else if (const auto* split = std::get_if<commands::Split>(&command)) {
+      const chainmail::Split& one = *split->split;
+      const auto open = cuts_after(one, std::vector(cuts.begin(), cuts.end()));
+      const auto pinned = pins_after(one, std::vector(pins.begin(), pins.end()));
+      cuts = {open.begin(), open.end()};
+      pins = {pinned.begin(), pinned.end()};
+      object.softness = softness_after(one, object.softness);
+      object.mesh = one.after;
     }
   }
   object.cuts.assign(cuts.begin(), cuts.end());

@@ -2,11 +2,18 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "simulate/command.h"
 
 namespace chainmail {
+
+/// Returns the mesh with which recorded commands begin, if one of them splits it; otherwise null.
+MeshPointer first_mesh(const std::vector<Command>& commands);
+
+/// Returns the mesh of the object after recorded commands that begin with `mesh`.
+MeshPointer last_mesh(const MeshPointer& mesh, std::span<const Command> commands);
 
 /// The recorded commands. They lead from an object at rest, without cuts and pins and with the default softness, to the
 /// current object. Settings of the solver (algorithm, relaxation) are not recorded.
@@ -37,12 +44,15 @@ class Tape {
 
   /// The state of the object without positions; cuts and pins are in ascending order.
   struct Object {
+    MeshPointer mesh;  // null if no command splits the object: it is the same at all positions
     std::vector<LinkId> cuts;
     std::vector<ElementId> pins;
     std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   };
   /// Returns the object at the current position.
-  Object object() const;
+  Object object() const { return object(position_); }
+  /// Returns the object after the first `position` commands.
+  Object object(std::size_t position) const;
 
  private:
   using Node = std::uint32_t;  // index into nodes_

@@ -284,7 +284,7 @@ void SolverThreadTest::abandoned_it_answers_for_the_object_as_it_is() {
   QVERIFY(answer.wait_for(30s) == std::future_status::ready);
   QVERIFY(!answer.get().is_at_rest());  // from the drag before the sweeps
   QVERIFY(wait_until([&] { return solver.idle(); }));
-  QCOMPARE(solver.latest_frame().statistics.passes, std::uint64_t{1});
+  QVERIFY(solver.latest_frame().statistics.passes <= 1);  // the last frame may be from before that drag
 }
 
 void SolverThreadTest::another_goes_on_from_where_one_stands() {

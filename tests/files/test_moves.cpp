@@ -4,6 +4,7 @@
 #include "core/allocations.h"
 #include "files/session/moves.h"
 #include "files/support.h"
+#include "mesh/cells.h"
 #include "simulate/simulation.h"
 
 using namespace chainmail;
@@ -17,6 +18,9 @@ class MovesTest : public QObject {
   void commands_are_read();
   void a_handle_of_many_is_read();
   void what_is_written_reads_back();
+  void splits_are_written_and_read();
+  void splits_that_do_not_fit_are_refused_data();
+  void splits_that_do_not_fit_are_refused();
   void what_is_not_the_objects_is_left_out();
   void a_change_of_mesh_is_not_written();
   void other_files_are_refused_data();
@@ -36,7 +40,7 @@ class MovesTest : public QObject {
 
  private:
   std::vector<Command> read(const std::string& text) const {
-    return read_moves(text, std::filesystem::path("m.json"), *mesh_);
+    return read_moves(text, std::filesystem::path("m.json"), mesh_);
   }
   std::string written(const std::vector<Command>& moves) const {
     std::ostringstream out;
@@ -130,6 +134,64 @@ void MovesTest::what_is_written_reads_back() {
   QCOMPARE(std::get<commands::Relax>(again[10]).until, 1.0 / 3);
 }
 
+namespace {
+
+/// Two triangles.
+MeshPointer two_triangles() {
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  parts.triangles = {{0, 1, 2}, {0, 2, 3}};
+  add_links_along_edges(parts);
+  return build_mesh(std::move(parts));
+}
+
+}  // namespace
+
+/// Commands after a split are about the object after it.
+void MovesTest::splits_are_written_and_read() {
+  const MeshPointer mesh = two_triangles();
+  const auto split = make_split(mesh, {{SplitPoint::copy(0), SplitPoint::copy(2)}, {1}, {{4, 5, 3}}, {}, {}});
+  const std::vector<Command> moves{commands::Pin{{0}}, commands::Split{split}, commands::Grab{5},
+                                   commands::Drag{{1.0 / 3, 2, 0}}, commands::Cut{{*find_link(*split->after, 4, 5)}}};
+  std::ostringstream out;
+  write_moves(out, moves, *split->after);
+  QVERIFY(out.str().starts_with(R"({"version": 2,)"));
+  const auto again = read_moves(out.str(), std::filesystem::path("m.json"), mesh);
+  QCOMPARE(again.size(), moves.size());
+  QCOMPARE(std::get<commands::Split>(again[1]).split->edit, split->edit);
+  QCOMPARE(std::get<commands::Split>(again[1]).split->before, mesh);
+  QCOMPARE(std::get<commands::Cut>(again[4]).links, std::get<commands::Cut>(moves[4]).links);
+  std::ostringstream twice;
+  write_moves(twice, again, *mesh);
+  QCOMPARE(twice.str(), out.str());
+}
+
+void MovesTest::splits_that_do_not_fit_are_refused_data() {
+  QTest::addColumn<QString>("command");
+  QTest::addColumn<QString>("sentence");
+  const auto row = [](const char* command, const char* sentence) { QTest::newRow(command) << command << sentence; };
+  row(R"({"do": "split"})", "m.json: command 0: 'elements' is missing; add it");
+  row(R"({"do": "split", "elements": [[0, 0]]})", "m.json: command 0: 'elements' holds something");
+  row(R"({"do": "split", "elements": [[0, 0, 0, 0, "x"]]})", "m.json: command 0: ");
+  row(R"({"do": "split", "elements": [[9, 0, 0, 0, 0]]})", "m.json: command 0: split: element 4 lies between");
+  row(R"({"do": "split", "elements": [], "removed": [-1]})", "m.json: command 0: 'removed' holds '-1'");
+  row(R"({"do": "split", "elements": [], "removed": [7]})", "m.json: command 0: split: the triangles to replace");
+  row(R"({"do": "split", "elements": [], "triangles": [[0, 1]]})", "m.json: command 0: 'triangles' holds something");
+  row(R"({"do": "split", "elements": [], "triangles": [[0, 1, 7]]})", "m.json: command 0: split: a new face");
+  row(R"({"do": "split", "elements": [], "polygons": [4, 0, 1, 2]})", "m.json: command 0: split: a new polygon");
+  row(R"({"do": "split", "elements": [], "sides": []})", "m.json: command 0: ");
+}
+
+void MovesTest::splits_that_do_not_fit_are_refused() {
+  QFETCH(QString, command);
+  QFETCH(QString, sentence);
+  const QString error = error_of([&] {
+    read_moves(R"({"version": 2, "commands": [)" + command.toStdString() + "]}", std::filesystem::path("m.json"),
+               two_triangles());
+  });
+  QVERIFY2(error.startsWith(sentence), qPrintable(error));
+}
+
 void MovesTest::what_is_not_the_objects_is_left_out() {
   const auto again = read(written({commands::SetAlgorithm{Algorithm::spiral}, commands::SetRelaxation{true, 1},
                                    commands::KeepState{1}, commands::Grab{1}, commands::DropState{1}}));
@@ -157,10 +219,10 @@ void MovesTest::other_files_are_refused_data() {
   row("null", "m.json: it holds no recorded moves; ");
   row("{}", "m.json: 'version' is missing; ");
   row(R"({"commands": []})", "m.json: 'version' is missing; ");
-  row(R"({"version": 2, "commands": []})", "m.json: its version is not 1; ");
-  row(R"({"version": "1", "commands": []})", "m.json: its version is not 1; ");
-  row(R"({"version": 1.5, "commands": []})", "m.json: its version is not 1; ");
-  row(R"({"version": -1, "commands": []})", "m.json: its version is not 1; ");
+  row(R"({"version": 3, "commands": []})", "m.json: its version is not 1 or 2; ");
+  row(R"({"version": "1", "commands": []})", "m.json: its version is not 1 or 2; ");
+  row(R"({"version": 1.5, "commands": []})", "m.json: its version is not 1 or 2; ");
+  row(R"({"version": -1, "commands": []})", "m.json: its version is not 1 or 2; ");
   row(R"({"version": 1})", "m.json: 'commands' is missing; ");
   row(R"({"version": 1, "commands": {}})", "m.json: 'commands' is not an array; ");
   row(R"({"version": 1, "commands": [], "more": 1})", "m.json: 'more' is not a known key; ");
@@ -303,8 +365,8 @@ void MovesTest::a_key_that_stands_twice_is_refused() {
 /// program does not know.
 void MovesTest::what_is_wrong_with_the_file_comes_before_its_commands() {
   QVERIFY(error_of([&] {
-            read(R"({"commands": [{"do": "twist"}], "version": 2})");
-          }).startsWith("m.json: its version is not 1; "));
+            read(R"({"commands": [{"do": "twist"}], "version": 3})");
+          }).startsWith("m.json: its version is not 1 or 2; "));
   QVERIFY(error_of([&] {
             read(R"({"version": 1, "commands": [{"do": "twist"}] ,})");
           }).startsWith("m.json:1: it is not JSON; "));
@@ -352,7 +414,7 @@ void MovesTest::reading_and_writing_can_be_cancelled() {
   const auto moves = read(every_command);
   JobState job;
   job.cancelled = true;
-  QVERIFY_THROWS_EXCEPTION(Cancelled, read_moves(every_command, "m.json", *mesh_, Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, read_moves(every_command, "m.json", mesh_, Progress(job)));
   std::ostringstream out;
   QVERIFY_THROWS_EXCEPTION(Cancelled, write_moves(out, moves, *mesh_, Progress(job)));
 }
@@ -360,12 +422,12 @@ void MovesTest::reading_and_writing_can_be_cancelled() {
 void MovesTest::files() {
   const QTemporaryDir folder;
   const std::filesystem::path path = folder.filePath("m.json").toStdString();
-  QVERIFY(error_of([&] { read_moves(path, *mesh_); }).contains(": there is no such file; "));
+  QVERIFY(error_of([&] { read_moves(path, mesh_); }).contains(": there is no such file; "));
   put_file(path, "");
   QVERIFY(
-      error_of([&] { read_moves(path, *mesh_); }).endsWith(": it is empty; use a file that contains recorded moves"));
+      error_of([&] { read_moves(path, mesh_); }).endsWith(": it is empty; use a file that contains recorded moves"));
   put_file(path, "\xef\xbb\xbf" + every_command);
-  QCOMPARE(read_moves(path, *mesh_).size(), std::size_t{9});
+  QCOMPARE(read_moves(path, mesh_).size(), std::size_t{9});
 }
 
 QTEST_APPLESS_MAIN(MovesTest)

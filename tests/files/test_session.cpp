@@ -7,6 +7,7 @@
 #include "core/families.h"
 #include "files/session_support.h"
 #include "files/text/base64.h"
+#include "mesh/cells.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
@@ -27,6 +28,7 @@ class SessionTest : public QObject {
   void what_was_written_once_opens();
   void moves_of_version_1_are_isotropic();
   void the_file_is_json_as_it_is_documented();
+  void a_split_object_comes_back_with_its_moves();
   void moves_without_end_are_left_out();
   void numbers_that_are_none_are_not_written();
   void saving_is_whole_or_not_at_all();
@@ -224,6 +226,39 @@ void SessionTest::the_file_is_json_as_it_is_documented() {
 }
 
 /// Parts that would be too large to open again are not saved; the object itself always is.
+void SessionTest::a_split_object_comes_back_with_its_moves() {
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  parts.triangles = {{0, 1, 2}, {0, 2, 3}};
+  add_links_along_edges(parts);
+  const MeshPointer mesh = build_mesh(std::move(parts));
+  const auto split = make_split(mesh, {{SplitPoint::copy(0), SplitPoint::copy(2)}, {1}, {{4, 5, 3}}, {}, {}});
+  Session session;
+  session.mesh = split->after;
+  session.pins = {5};
+  session.cuts = {*find_link(*split->after, 4, 5)};
+  session.moves = {commands::Grab{1}, commands::Drag{{0.5, 1, 0}}, commands::Split{split}, commands::Pin{{5}}};
+  session.panels = {{Algorithm::natural_queue, Precision::single_precision,
+                     snapshot_of({false, {4, 6}, {1, 2, 3, 4}}, *split->after, Precision::single_precision)}};
+  for (const std::size_t done : {4U, 3U, 2U}) {
+    session.moves_done = done;
+    if (done == 2) {  // the split has been undone
+      session.mesh = mesh;
+      session.pins = session.cuts = {};
+      session.panels[0].placement = {};
+    }
+    const Session again = parse_session(session_text(session), std::filesystem::path("s.chainmail"));
+    QCOMPARE(session_text(again), session_text(session));
+    QCOMPARE(again.mesh->element_count(), session.mesh->element_count());
+    QCOMPARE(again.mesh->links, session.mesh->links);
+    QCOMPARE(again.moves.size(), 4U);
+    const auto& saved = *std::get<commands::Split>(again.moves[2]).split;
+    QCOMPARE(again.mesh, done > 2 ? saved.after : saved.before);
+    QCOMPARE(again.pins, session.pins);
+    QCOMPARE(again.cuts, session.cuts);
+  }
+}
+
 void SessionTest::moves_without_end_are_left_out() {
   Session session = session_on(made(MeshKind::grid, {40, 40, 1}));
   session.panels.resize(1);

@@ -11,8 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto write = [](const std::vector<Command>& commands) {
       return fuzz::written([&](auto& out) { write_moves(out, commands, *mesh); });
     };
-    const std::string once = write(read_moves(text, "fuzz.json", *mesh));
-    fuzz::expect(write(read_moves(once, "again.json", *mesh)) == once, "what was written reads differently");
+    const std::string once = write(read_moves(text, "fuzz.json", mesh));
+    fuzz::expect(write(read_moves(once, "again.json", mesh)) == once, "what was written reads differently");
   });
   return 0;
 }

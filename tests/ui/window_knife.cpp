@@ -1,5 +1,6 @@
 // Tests the cut tool on objects in 3D, in a real window: through the whole object, or only its front layer.
 
+#include <QSettings>
 #include <QToolButton>
 
 #include "core/families.h"
@@ -26,6 +27,13 @@ QList<QPoint> strokeAcross(Workbench& bench) {
   return {middle + QPoint(-60, 6), middle + QPoint(60, -6)};  // well inside the outline
 }
 
+/// Returns a vertical stroke across a sheet of 9 x 7 elements.
+QList<QPoint> acrossColumns(Workbench& bench) {
+  const QPoint top = (bench.place(0, 57) + bench.place(0, 58)) / 2;
+  const QPoint bottom = (bench.place(0, 3) + bench.place(0, 4)) / 2;
+  return {top - QPoint(0, 20), bottom + QPoint(0, 20)};
+}
+
 std::vector<LinkId> cutBy(Workbench& bench) {
   bench.stroke(0, strokeAcross(bench));
   const auto cuts = bench.document().cuts().links();
@@ -40,11 +48,117 @@ class WindowKnife : public QObject {
   Q_OBJECT
 
  private slots:
-  void init() { failOnWarnings(); }
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  void aStrokeSplitsTheTrianglesOfASheetInAllPanels() {
+    Workbench bench(test::jittered_triangles(9, 7, 3));
+    const MeshPointer whole = bench.document().mesh();
+    bench.document().setPinned({0}, true);
+    const QPoint from = bench.place(0, 40);
+    bench.stroke(0, {from, from + QPoint(15, 20)});
+    const Point moved = bench.position(1, 40);
+    const Camera before = *bench.view(0).camera();
+    bench.trigger("toolCut");
+    bench.find<QAction>("cutSplits")->setChecked(true);
+    bench.stroke(0, acrossColumns(bench));
+
+    const MeshPointer split = bench.document().mesh();
+    QVERIFY(split->element_count() > whole->element_count());
+    QCOMPARE(bench.document().cuts().count(), 0U);
+    QCOMPARE(bench.document().parts(), 2U);
+    QCOMPARE(bench.document().pins(), std::vector<ElementId>{0});
+    QCOMPARE(bench.position(1, 40), moved);
+    QVERIFY(bench.view(0).camera()->toView() == before.toView());
+    QVERIFY(bench.view(0).camera()->toClip(QSizeF(9, 9)) == before.toClip(QSizeF(9, 9)));
+
+    // The parts move apart.
+    bench.trigger("toolDrag");
+    const QPoint right = bench.place(1, 44);
+    const std::array<Point, 2> left{bench.position(0, 27), bench.position(1, 27)};
+    bench.stroke(1, {right, right + QPoint(60, 10)});
+    for (int panel = 0; panel < 2; ++panel) {
+      QVERIFY(bench.position(panel, 44) != whole->rest_position(44));
+      QCOMPARE(bench.position(panel, 27), left[std::size_t(panel)]);
+    }
+
+    bench.trigger("undo");
+    bench.trigger("undo");
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), whole);
+    QCOMPARE(bench.position(1, 40), moved);
+    bench.trigger("redo");
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), split);
+  }
+
+  void aSplitIsReplayed() {
+    Workbench bench(test::jittered_triangles(9, 7, 3));
+    const MeshPointer whole = bench.document().mesh();
+    bench.trigger("toolCut");
+    bench.find<QAction>("cutSplits")->setChecked(true);
+    bench.stroke(0, acrossColumns(bench));
+    const MeshPointer split = bench.document().mesh();
+    bench.trigger("toolDrag");
+    const QPoint right = bench.place(0, 44);
+    bench.stroke(0, {right, right + QPoint(60, 10)});
+    const Point end = bench.position(0, split->element_count() - 1);
+    bench.document().goTo(0);
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), whole);
+    QCOMPARE(bench.document().parts(), 1U);
+    bench.document().goTo(bench.document().tape().length());
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), split);
+    QCOMPARE(bench.document().parts(), 2U);
+    QCOMPARE(bench.position(0, split->element_count() - 1), end);
+    bench.trigger("undo");  // the whole replay is one step
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), split);
+    bench.trigger("undo");
+    bench.trigger("undo");
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), whole);
+  }
+
+  void linksAreCutWhereOnlyLinksAreDrawnAndOnRequest() {
+    Workbench bench(test::jittered_triangles(9, 7, 3));
+    const MeshPointer whole = bench.document().mesh();
+    bench.trigger("toolCut");
+    bench.find<QAction>("cutSplits")->setChecked(true);
+    const auto cutLinks = [&] {
+      bench.stroke(0, acrossColumns(bench));
+      const bool cut = bench.document().cuts().count() > 6 && bench.document().mesh() == whole;
+      bench.trigger("undo");
+      bench.settle();
+      return cut;
+    };
+    QVERIFY(!cutLinks());
+    bench.trigger("showLinks");
+    QVERIFY(cutLinks());
+    bench.trigger("showSurfaceAndLinks");
+    QVERIFY(!cutLinks());
+    auto* button = bench.find<QToolButton>("cutSplitsButton");
+    QVERIFY(button->isVisible() && button->isChecked());
+    {
+      Workbench later(test::jittered_triangles(9, 7, 3));
+      QVERIFY(later.find<QAction>("cutSplits")->isChecked());  // it is remembered
+    }
+    button->click();
+    QVERIFY(cutLinks());
+    Workbench later(test::jittered_triangles(9, 7, 3));
+    QVERIFY(!later.find<QAction>("cutSplits")->isChecked());
+    later.document().replaceMesh(generate({MeshKind::cloth, {5, 5, 1}, 1, {}}), QStringLiteral("cloth"),
+                                 QStringLiteral("cloth"));
+    QVERIFY(!later.find<QAction>("cutSplits")->isEnabled());
+  }
 
   void aStrokeOverASphereCutsItsNearHalfAloneOrBoth() {
     Workbench bench(test::sphere(24, 12));
     bench.trigger("toolCut");
+    bench.find<QAction>("cutSplits")->setChecked(false);
     auto* button = bench.find<QToolButton>("cutFrontOnlyButton");
     QVERIFY(button->isVisible() && button->isEnabled());
     QVERIFY(!button->isChecked());

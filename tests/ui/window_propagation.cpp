@@ -99,6 +99,22 @@ class WindowPropagation : public QObject {
     QCOMPARE(slider(bench, 1).value(), 0);
   }
 
+  void lectureModeKeepsTheColours() {
+    Workbench bench;
+    openAndDrag(bench);
+    QTRY_COMPARE(bench.window.panel(1).legend().title(), updates());
+    bench.trigger("lectureMode");
+    bench.settle();
+    QVERIFY(!bench.find<QDockWidget>("propagationDock")->isVisible());
+    QCOMPARE(bench.window.panel(1).legend().title(), updates());
+    bench.trigger("lectureMode");
+    bench.settle();
+    QTRY_VERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
+    QCOMPARE(bench.window.panel(1).legend().title(), updates());
+    QTest::keyClick(&bench.window, Qt::Key_O);
+    QTRY_VERIFY(bench.window.panel(1).legend().title() != updates());
+  }
+
   void aHandleOfManyIsShownWithAllItsElements() {
     Workbench bench;
     QTest::keyClick(&bench.window, Qt::Key_O);

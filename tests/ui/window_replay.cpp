@@ -300,7 +300,7 @@ class WindowReplay : public QObject {
     const QString path = folder.filePath(QStringLiteral("moves.json"));
     dock(bench)->saveMoves(path);
     bench.settle();
-    const auto moves = read_moves(path.toStdString(), *bench.document().mesh());
+    const auto moves = read_moves(path.toStdString(), bench.document().mesh());
     for (int panel = 0; panel < 2; ++panel) {
       QVERIFY(run(moves, bench.document().mesh(), bench.document().algorithm(panel)) ==
               bench.document().frame(panel)->positions);

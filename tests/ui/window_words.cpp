@@ -6,6 +6,7 @@
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
+#include <cmath>
 #include <limits>
 
 #include "panels/algorithm_delegate.h"
@@ -45,6 +46,10 @@ class WindowWords : public QObject {
     QTest::newRow("almost all") << 0.998 << 12.3 << true
                                 << QStringLiteral("more than 99 % of links violated, worst 12 × rest length");
     QTest::newRow("all") << 1.0 << 1.0 << true << QStringLiteral("100 % of links violated, worst 1 × rest length");
+    QTest::newRow("far") << 0.13 << 11234.4 << true
+                         << QStringLiteral("13 % of links violated, worst 11,234 × rest length");
+    QTest::newRow("unknown") << std::nan("") << std::nan("") << true
+                             << QStringLiteral("Some links without a finite length");
     QTest::newRow("not finite") << 0.5 << std::numeric_limits<double>::infinity() << true
                                 << QStringLiteral("50 % of links violated, some without a finite length");
     QTest::newRow("none") << 0.0 << 1e-7 << true << QStringLiteral("No link is violated");
@@ -132,11 +137,14 @@ class WindowWords : public QObject {
     const QByteArray before = bench.window.savedLayout();
     const QSize size = bench.window.size();
     const int letters = bench.find<QLabel>("state0")->fontInfo().pixelSize();
+    bench.trigger("showHints");
     bench.trigger("lectureMode");
     bench.settle();
     for (const auto* dock : bench.window.findChildren<QDockWidget*>()) {
       QVERIFY(!dock->isVisible());
     }
+    auto& legend = bench.window.panel(0).legend();
+    QVERIFY(legend.height() >= 2 * legend.fontMetrics().height() && !bench.find<QFrame>("hints")->isVisible());
     QVERIFY(!bench.find<QToolBar>("mainToolBar")->isVisible() && !bench.window.statusBar()->isVisible());
     QVERIFY(bench.window.findChild<ViolationLine*>(QStringLiteral("violation0"))->fontInfo().pixelSize() > letters);
     QCOMPARE(bench.window.savedLayout(), before);  // what a session stores
@@ -144,6 +152,7 @@ class WindowWords : public QObject {
     bench.settle();
     QVERIFY(!bench.find<QAction>("lectureMode")->isChecked());
     QVERIFY(bench.find<QToolBar>("mainToolBar")->isVisible() && bench.window.statusBar()->isVisible());
+    QVERIFY(bench.find<QFrame>("hints")->isVisible());
     QVERIFY(bench.find<QDockWidget>("toolsDock")->isVisible());
     QTRY_COMPARE(bench.window.size(), size);
     QCOMPARE(bench.window.findChild<ViolationLine*>(QStringLiteral("violation0"))->fontInfo().pixelSize(), letters);

@@ -6,6 +6,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
+#include <QSettings>
 #include <QSpinBox>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -18,6 +19,8 @@ namespace chainmail {
 namespace {
 
 constexpr int toolHeight = 32, toolIcon = 20;  // pixels
+
+QString splitsKey() { return QStringLiteral("cut/splits"); }
 
 QToolButton* wideButton() {
   auto* button = new QToolButton;
@@ -66,10 +69,49 @@ void ToolsDock::showFor(QAction& tool, QWidget* options) {
 }
 
 /// Inserts the action between the tools and Cancel.
-void ToolsDock::fill(QMenu& menu) { menu.insertAction(menu.actions().constLast(), frontOnly_); }
+void ToolsDock::fill(QMenu& menu) { menu.insertActions(menu.actions().constLast(), {frontOnly_, splits_}); }
+
+QWidget* ToolsDock::makeCutOptions(Document& document, CutTool& cut) {
+  auto* options = new QWidget;
+  auto* rows = new QVBoxLayout(options);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->addWidget(makeFrontOnly(document, cut));
+  rows->addWidget(makeSplits(document, cut));
+  return options;
+}
+
+/// Makes the switch between splitting faces and cutting links, which is remembered.
+QWidget* ToolsDock::makeSplits(Document& document, CutTool& cut) {
+  splits_ = new QAction(QStringLiteral("Cut splits triangles"), this);
+  splits_->setObjectName(QStringLiteral("cutSplits"));
+  splits_->setIconText(QStringLiteral("Split triangles"));
+  splits_->setCheckable(true);
+  splits_->setChecked(QSettings().value(splitsKey(), true).toBool());
+  cut.setSplits(splits_->isChecked());
+  connect(splits_, &QAction::toggled, this, [&cut](bool on) {
+    cut.setSplits(on);
+    QSettings().setValue(splitsKey(), on);
+  });
+  const auto adapt = [this, &document] {
+    const Mesh& mesh = *document.mesh();
+    splits_->setEnabled(can_split(mesh));
+    splits_->setStatusTip(
+        can_split(mesh) ? QStringLiteral("On: a stroke splits the triangles that it crosses, except where only links "
+                                         "are drawn. Off: it cuts the links that it crosses")
+                        : QStringLiteral("Not available: this object is a volume, a generated lattice or has no faces. "
+                                         "A stroke cuts links"));
+    splits_->setToolTip(splits_->statusTip());
+  };
+  connect(&document, &Document::meshChanged, this, adapt);
+  adapt();
+  auto* button = wideButton();
+  button->setDefaultAction(splits_);
+  button->setObjectName(QStringLiteral("cutSplitsButton"));
+  return button;
+}
 
 /// Makes the switch between cutting the front layer and the whole object; disabled in 2D.
-QWidget* ToolsDock::makeCutOptions(Document& document, CutTool& cut) {
+QWidget* ToolsDock::makeFrontOnly(Document& document, CutTool& cut) {
   frontOnly_ = new QAction(QStringLiteral("Cut the &front layer only"), this);
   frontOnly_->setObjectName(QStringLiteral("cutFrontOnly"));
   frontOnly_->setIconText(QStringLiteral("Front layer only"));

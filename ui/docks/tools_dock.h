@@ -26,10 +26,13 @@ class ToolsDock : public QDockWidget {
  private:
   QWidget* makeSelectOptions(SelectTool& select);
   QWidget* makeCutOptions(Document& document, CutTool& cut);
+  QWidget* makeFrontOnly(Document& document, CutTool& cut);
+  QWidget* makeSplits(Document& document, CutTool& cut);
   void showFor(QAction& tool, QWidget* options);
 
   QVBoxLayout* column_;
   QAction* frontOnly_ = nullptr;
+  QAction* splits_ = nullptr;
 };
 
 }  // namespace chainmail

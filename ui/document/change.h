@@ -18,9 +18,10 @@ struct Session;
 /// the size of the change, not of the object.
 struct DocumentObject {
   DocumentObject(MeshPointer shown, QString called)
-      : mesh(std::move(shown)), name(std::move(called)), cuts(mesh), parts(mesh) {}
+      : mesh(std::move(shown)), unsplit(mesh), name(std::move(called)), cuts(mesh), parts(mesh) {}
 
   MeshPointer mesh;
+  MeshPointer unsplit;  // the mesh from which splits made this one; the same mesh without splits
   QString name;
   Cuts cuts;
   Parts parts;                                 // connected parts of the object with these cuts
@@ -53,6 +54,7 @@ struct Change {
   std::vector<ElementId> pin, unpin;   // elements that the change pins and unpins, ascending
   std::optional<QString> sessionFile;  // new session file; undo and redo exchange it with the current one
   std::function<void()> carryOut;      // sends commands that do not follow from the values; called once
+  SplitPointer split;                  // leads to the object and the softness after the change
   bool followsTape = false;            // cuts, pins and softness are taken from the recorded commands
 };
 

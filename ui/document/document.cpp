@@ -11,6 +11,7 @@
 #include "common/text.h"
 #include "files/session/session.h"
 #include "mesh/error.h"
+#include "solve/split_state.h"
 
 namespace chainmail {
 namespace {
@@ -174,11 +175,15 @@ std::optional<commands::StateId> Document::stateFor(int gesture, const QString& 
 /// Posts the commands of a change when it is done for the first time. Later, undo and redo restore saved states.
 void Document::carryOut(const Change& change, const Contents& before) {
   const Contents& after = change.after;
-  const bool isOther = after.object != before.object;
+  const bool follows = change.split || change.followsTape;  // the solvers get the object from these commands
+  const bool isOther = after.object != before.object && !follows;
+  if (change.split) {
+    post(commands::Split{change.split});
+  }
   if (isOther) {
     post(commands::ReplaceMesh{after.object->mesh});  // keeps only the global softness
   }
-  if (after.softness != before.softness &&
+  if (after.softness != before.softness && !follows &&
       (!isOther || *after.softness != Softness{before.softness->global, {}, before.softness->energy})) {
     post(commands::SetSoftness{after.softness});
   }
@@ -404,6 +409,25 @@ void Document::cut(const std::vector<LinkId>& links) {
   }
 }
 
+void Document::split(const SplitPointer& split) {
+  Change edit = change(QStringLiteral("cut along a stroke"));
+  edit.after.object = objectOf(split->after, cuts_after(*split, cuts().links()), pins_after(*split, pins()));
+  edit.after.softness = softness_after(*split, wholeSoftness());
+  edit.split = split;
+  apply(std::move(edit));
+}
+
+/// Returns the present object with another mesh, before or after splits.
+std::shared_ptr<DocumentObject> Document::objectOf(const MeshPointer& mesh, const std::vector<LinkId>& cuts,
+                                                   std::vector<ElementId> pins) const {
+  auto object = std::make_shared<DocumentObject>(mesh, name());
+  object->unsplit = unsplitMesh();
+  object->lesson = lesson();
+  object->parts.cut(object->cuts, cuts);
+  object->pins = std::move(pins);
+  return object;
+}
+
 void Document::resetObject() {
   endSweeps();
   Change edit = change(QStringLiteral("reset object"));
@@ -427,6 +451,7 @@ void Document::restore(const std::shared_ptr<const Session>& session, const QStr
   object->parts.cut(object->cuts, session->cuts);
   object->pins = session->pins;
   object->lesson = session->lesson.steps.empty() ? nullptr : session;
+  object->unsplit = first_mesh(*session);
   edit.after.object = std::move(object);
   edit.after.softness = session->softness;
   edit.after.relaxation = session->relaxation;

@@ -45,6 +45,8 @@ class Document : public QObject {
   ~Document() override;
 
   const MeshPointer& mesh() const { return contents_.object->mesh; }
+  /// The mesh from which splits made the present one: while it stays, the object is the same for the user.
+  const MeshPointer& unsplitMesh() const { return contents_.object->unsplit; }
   const QString& name() const { return contents_.object->name; }
   const Cuts& cuts() const { return contents_.object->cuts; }
   /// Number of connected parts of the object. No uncut link joins two parts.
@@ -171,6 +173,8 @@ class Document : public QObject {
   void setAlgorithm(int panel, Algorithm algorithm);
   void setPinned(const std::vector<ElementId>& elements, bool pinned);
   void cut(const std::vector<LinkId>& links);
+  /// Splits faces of the object.
+  void split(const SplitPointer& split);
   void resetObject();
   /// Replaces the object. `own` contains the softness of links that have their own.
   void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own = {});
@@ -229,6 +233,8 @@ class Document : public QObject {
   void postSettings(const Contents& from, const Contents& to, bool neutral);
   void show(Change& change, const Contents& from, const Contents& to, bool done);
   void showParts(const Change& change, bool done);
+  std::shared_ptr<DocumentObject> objectOf(const MeshPointer& mesh, const std::vector<LinkId>& cuts,
+                                           std::vector<ElementId> pins) const;
   void showCuts(const std::vector<LinkId>& links, bool cut);
   void showPins(const std::vector<ElementId>& elements, bool pinned);
   std::vector<int> panelsToSwitch(const Contents& from, const Contents& to) const;
@@ -252,8 +258,9 @@ class Document : public QObject {
 
   // Replay, in document_replay.cpp.
   void endSweeps();
-  void travel(std::size_t position);
-  void goToBeginning();
+  void travel(std::size_t position, const MeshPointer& first);
+  void replaceSplit(Change& edit, const Tape::Object& then, const MeshPointer& first) const;
+  void goToBeginning(const MeshPointer& first);
   bool followsLesson(const std::vector<Algorithm>& algorithms) const;
   bool onlyLessonMoved() const;
   void keepWaypoint(std::size_t position);

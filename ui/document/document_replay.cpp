@@ -65,10 +65,21 @@ void Document::goTo(std::size_t position) {
   endSweeps();
   Change edit = change(QStringLiteral("replay"), travelGesture);
   edit.after.relaxation.on = false;
-  edit.carryOut = [this, position] { travel(position); };
+  const MeshPointer first = tape().object(0).mesh;
+  replaceSplit(edit, tape().object(position), first);
+  edit.carryOut = [this, position, first] { travel(position, first); };
   edit.followsTape = true;
   apply(std::move(edit));
   emit tapeChanged();
+}
+
+/// Lets a change lead to the mesh that the object has then, before or after splits. `first` is the mesh with which the
+/// recorded commands begin; null if that is the present one.
+void Document::replaceSplit(Change& edit, const Tape::Object& then, const MeshPointer& first) const {
+  if (const MeshPointer& other = then.mesh ? then.mesh : first; other && other != mesh()) {
+    edit.after.object = objectOf(other, then.cuts, then.pins);
+    edit.after.softness = then.softness;
+  }
 }
 
 void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text) {
@@ -76,7 +87,7 @@ void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& move
   Change edit = change(text);
   edit.after.relaxation.on = false;
   edit.carryOut = [this, moves] {
-    goToBeginning();
+    goToBeginning({});
     log_->tape().load(*moves);
     replayed_ = true;
   };
@@ -115,7 +126,11 @@ void Document::goToInLesson(std::size_t position, const std::vector<Algorithm>& 
   edit.after.relaxation.on = false;
   edit.after.elastic = lesson()->elastic;
   std::ranges::copy(algorithms, edit.after.algorithms.begin());
-  edit.carryOut = [this, position, goesOn, session = lesson()] {
+  const MeshPointer first = first_mesh(*lesson());
+  Tape moves;
+  moves.load(lesson()->moves);
+  replaceSplit(edit, moves.object(std::min(position, moves.length())), first);
+  edit.carryOut = [this, position, goesOn, first, session = lesson()] {
     if (!goesOn) {
       dropWaypoints();
       replayed_ = false;
@@ -125,7 +140,7 @@ void Document::goToInLesson(std::size_t position, const std::vector<Algorithm>& 
       log_->tape().load(session->moves);
       lessonTimeline_ = tape().timeline();
     }
-    travel(std::min(position, tape().length()));
+    travel(std::min(position, tape().length()), first);
   };
   edit.followsTape = true;
   apply(std::move(edit));
@@ -134,8 +149,8 @@ void Document::goToInLesson(std::size_t position, const std::vector<Algorithm>& 
 
 /// Replays the commands from the nearest known state up to `position`. Another algorithm, or relaxation in idle time,
 /// may make the result of a replay differ from that of the live moves. So the current state counts as known only after
-/// a replay.
-void Document::travel(std::size_t position) {
+/// a replay. `first` is the mesh with which the commands begin; null if that is the present one.
+void Document::travel(std::size_t position, const MeshPointer& first) {
   Tape& tape = log_->tape();
   if (waypointTimeline_ != tape.timeline()) {
     dropWaypoints();
@@ -145,7 +160,7 @@ void Document::travel(std::size_t position) {
   if (!replayed_ || position < at) {
     const auto after = waypoints_.upper_bound(position);
     at = after == waypoints_.begin() ? 0 : std::prev(after)->first;
-    after == waypoints_.begin() ? goToBeginning() : log_->replay(commands::RestoreState{std::prev(after)->second});
+    after == waypoints_.begin() ? goToBeginning(first) : log_->replay(commands::RestoreState{std::prev(after)->second});
   }
   for (; at < position; ++at) {
     keepWaypoint(at);
@@ -156,9 +171,14 @@ void Document::travel(std::size_t position) {
 }
 
 /// Resets the object: at rest, uncut, unpinned, with the default softness. Recorded commands always start from this
-/// state.
-void Document::goToBeginning() {
+/// state. `first` is the mesh before it was split; null if that is the present one.
+void Document::goToBeginning(const MeshPointer& first) {
   log_->replay(commands::Release{});
+  if (first && first != mesh()) {
+    log_->replay(commands::ReplaceMesh{first});
+    log_->replay(commands::SetSoftness{});
+    return;
+  }
   log_->replay(commands::Uncut{cuts().links()});
   log_->replay(commands::Unpin{pins()});
   log_->replay(commands::SetSoftness{});

@@ -43,7 +43,7 @@ Propagation::~Propagation() {
 }
 
 void Propagation::setOpen(bool open) {
-  if (open != open_) {
+  if (open != open_ && !held_) {
     open_ = open;
     document_.recordPasses(open);
     forget();
@@ -51,7 +51,7 @@ void Propagation::setOpen(bool open) {
 }
 
 void Propagation::setShown(bool shown) {
-  if (shown == shown_) {
+  if (shown == shown_ || held_) {
     return;
   }
   shown_ = shown;

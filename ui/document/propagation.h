@@ -28,6 +28,8 @@ class Propagation : public QObject {
   /// Shows the passes over the objects, or hides them and keeps them: while the dock is behind another one.
   void setShown(bool shown);
   bool isShown() const { return open_ && shown_; }
+  /// While held, propagation stays as it is although its dock is hidden.
+  void setHeld(bool held) { held_ = held; }
   bool follows() const { return follows_; }
   void setFollows(bool follows);
 
@@ -72,6 +74,7 @@ class Propagation : public QObject {
   std::vector<std::unique_ptr<PassPlayer>> players_;
   bool open_ = false;
   bool shown_ = false;
+  bool held_ = false;
   bool follows_ = true;
   bool together_ = true;
   int chosen_ = 0;

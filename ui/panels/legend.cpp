@@ -1,5 +1,6 @@
 #include "panels/legend.h"
 
+#include <QEvent>
 #include <QLinearGradient>
 #include <QLocale>
 #include <QPainter>
@@ -28,8 +29,18 @@ QRect barIn(QRect line, int width) { return {line.left(), line.center().y() - ba
 }  // namespace
 
 Legend::Legend() {
-  setFixedHeight(2 * fontMetrics().height() + 6);
+  fitHeight();
   hide();
+}
+
+/// Two lines of text.
+void Legend::fitHeight() { setFixedHeight(2 * fontMetrics().height() + 6); }
+
+void Legend::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::FontChange) {
+    fitHeight();
+  }
 }
 
 void Legend::follow(const Colouring& colouring, int panel) {

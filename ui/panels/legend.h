@@ -26,9 +26,11 @@ class Legend : public QWidget {
   QString highest() const;
 
  protected:
+  void changeEvent(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  void fitHeight();
   void set(const QString& title, const ColourScale& scale);
   bool showsOne() const { return scale_.highest <= (scale_.diverging ? scale_.threshold : scale_.lowest); }
   void drawNeutral(QPainter& painter, QRect& line) const;

@@ -3,6 +3,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "common/up_axis.h"
 #include "drawing/mesh_levels.h"
@@ -34,6 +35,7 @@ double aspect(const Panel& panel) { return double(panel.width()) / std::max(1, p
 
 PanelArea::PanelArea(Document& document, Colouring& colouring)
     : document_(document),
+      fitted_(document.unsplitMesh()),
       colouring_(colouring),
       links_(colouring, this),
       camera_(std::make_shared<Camera>()),
@@ -64,9 +66,11 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
           [this](const std::vector<LinkId>& links, bool cut) { levels_->showCuts(links, cut); });
   connect(&document, &Document::meshChanged, this, [this] {
     levels_->forgetSurface();
-    turnUp(usuallyZUp(document_.name()) ? Camera::Up::z : Camera::Up::y);
-    arrange();
-    fitRest();
+    if (std::exchange(fitted_, document_.unsplitMesh()) != document_.unsplitMesh()) {
+      turnUp(usuallyZUp(document_.name()) ? Camera::Up::z : Camera::Up::y);
+      arrange();
+      fitRest();
+    }
   });
   connect(&document, &Document::panelsChanged, this, &PanelArea::followPanels);
   connect(&document, &Document::panelLeaves, this, &PanelArea::removePanel);

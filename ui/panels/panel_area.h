@@ -98,6 +98,7 @@ class PanelArea : public QWidget {
   bool stacksPanels(int shown) const;
 
   Document& document_;
+  MeshPointer fitted_;  // Document::unsplitMesh() of the object that the cameras were fitted to
   Colouring& colouring_;
   PanelLinks links_;
   std::shared_ptr<Camera> camera_;  // shared by all panels whose cameras are linked

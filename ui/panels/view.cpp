@@ -16,6 +16,7 @@
 #include "drawing/front_links.h"
 #include "drawing/vector_painter.h"
 #include "mesh/error.h"
+#include "mesh/split_along.h"
 #include "mesh/surface.h"
 #include "panels/orientation_cube.h"
 
@@ -351,6 +352,29 @@ std::vector<Face> View::frontFaces(const Frame& frame, QRectF part) const {
     std::erase_if(faces, [&](const Face& face) { return std::ranges::none_of(face, isShown); });
   }
   return faces;
+}
+
+bool View::splitsFaces() const { return look_.faces && can_split(*document_.mesh()); }
+
+SplitPointer View::splitAlong(std::span<const QPointF> stroke, std::span<const LinkId> reached) const {
+  const Frame* frame = document_.frame(panel_);
+  if (frame == nullptr || (!reached.empty() && reached.back() >= frame->mesh->link_count())) {
+    return nullptr;
+  }
+  const Mesh& mesh = *frame->mesh;
+  const Projection project = projection();
+  std::vector<ViewPlace> places;
+  places.reserve(mesh.element_count());
+  for (std::size_t first = 0; first < frame->positions.size(); first += std::size_t(mesh.space_dimension)) {
+    const auto at = project(frame->positions.data() + first);
+    places.push_back({{at.x, at.y}, at.distance});
+  }
+  std::vector<Eigen::Vector2d> points;
+  for (const QPointF& point : stroke) {
+    points.emplace_back(point.x(), point.y());
+  }
+  SplitEdit edit = split_along(mesh, places, points, reached);
+  return edit.empty() ? nullptr : make_split(frame->mesh, std::move(edit));
 }
 
 std::vector<ElementId> View::elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const {

@@ -87,6 +87,11 @@ class View : public QOpenGLWidget {
   std::vector<LinkId> linksCrossing(QLineF stroke) const;
   /// Returns the crossed links of the front layer; in a plane, all crossed links.
   std::vector<LinkId> frontLinksCrossing(QLineF stroke) const;
+  /// True if a stroke may split the faces that it crosses: faces are drawn and can be split.
+  bool splitsFaces() const;
+  /// Returns the split of the faces along a stroke, between crossings of the reached links, which are ascending; null
+  /// if nothing comes apart.
+  SplitPointer splitAlong(std::span<const QPointF> stroke, std::span<const LinkId> reached) const;
   /// Returns the elements for whose position in the view `inside` returns true. `bounds` must contain all these
   /// positions.
   std::vector<ElementId> elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const;

@@ -13,6 +13,11 @@ namespace {
 constexpr int shareWidth = 44, shareHeight = 10, shareMargin = 8;  // pixels
 constexpr double leastShown = 0.04;  // a smaller share is drawn as this fraction of the bar
 
+/// Returns a number with two digits, or without decimals.
+QString rounded(double value) {
+  return value < 100 ? QLocale().toString(value, 'g', 2) : QLocale().toString(value, 'f', 0);
+}
+
 /// Returns a share as a percentage that is not rounded to none or all.
 QString percentage(double share) {
   const double percent = 100 * share;
@@ -30,7 +35,10 @@ QString violationInWords(const Statistics& statistics, bool hasMoved) {
   }
   const Violation& violation = statistics.violation;
   const bool whole = statistics.violation_of_whole_mesh;
-  if (!(violation.fraction > 0)) {
+  if (std::isnan(violation.fraction)) {
+    return QStringLiteral("Some links without a finite length");
+  }
+  if (violation.fraction == 0) {
     return !hasMoved ? QStringLiteral("Nothing has moved yet")
            : whole   ? QStringLiteral("No link is violated")
                      : QStringLiteral("No touched link is violated");
@@ -38,9 +46,8 @@ QString violationInWords(const Statistics& statistics, bool hasMoved) {
   const QString share =
       QStringLiteral("%1 of %2violated, ")
           .arg(percentage(violation.fraction), whole ? QStringLiteral("links ") : QStringLiteral("touched links "));
-  return share + (std::isfinite(violation.max)
-                      ? QStringLiteral("worst %1 × rest length").arg(QLocale().toString(violation.max, 'g', 2))
-                      : QStringLiteral("some without a finite length"));
+  return share + (std::isfinite(violation.max) ? QStringLiteral("worst %1 × rest length").arg(rounded(violation.max))
+                                               : QStringLiteral("some without a finite length"));
 }
 
 ViolationLine::ViolationLine() : sentence_(new QLabel) {

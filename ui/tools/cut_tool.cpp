@@ -12,8 +12,7 @@ constexpr double shortestSegment = 2;  // pixels
 }  // namespace
 
 QString CutTool::hint() const {
-  return QStringLiteral(
-      "Left: draw a stroke, release to cut the links it crosses in all panels  ·  Esc: cancel  ·  Ctrl+Z: undo");
+  return QStringLiteral("Left: draw a stroke, release to cut along it in all panels  ·  Esc: cancel  ·  Ctrl+Z: undo");
 }
 
 void CutTool::hover(View& /*view*/, QPointF /*position*/) { document_.setHighlight({}); }
@@ -46,9 +45,20 @@ void CutTool::release(View& view, QPointF position) {
   }
   move(view, position, {});
   const std::vector<LinkId> links(crossed_.begin(), crossed_.end());
+  const auto stroke = stroke_;
   cancel();
-  document_.cut(links);
+  cut(view, links, stroke);
   view.update();
+}
+
+void CutTool::cut(const View& view, const std::vector<LinkId>& links, const std::vector<QPointF>& stroke) {
+  if (!splits_ || !view.splitsFaces()) {
+    document_.cut(links);
+  } else if (const SplitPointer split = view.splitAlong(stroke, links)) {
+    document_.split(split);
+  } else if (!links.empty()) {
+    emit document_.noticed(QStringLiteral("The stroke is too short to open the object: draw it across a whole face"));
+  }
 }
 
 void CutTool::cancel() {

@@ -8,13 +8,17 @@
 
 namespace chainmail {
 
-/// Draws a stroke and highlights the links that it crosses. Releasing the button cuts them in all panels. The stroke
-/// cuts through the whole object, or only its front layer.
+/// Draws a stroke and highlights the links that it crosses. Releasing the button cuts the object in all panels: it
+/// splits the faces along the stroke, or, where there are none, cuts the links. The stroke cuts through the whole
+/// object, or only its front layer.
 class CutTool : public Tool {
  public:
   explicit CutTool(Document& document) : document_(document) {}
 
   void setFrontOnly(bool frontOnly) { frontOnly_ = frontOnly; }
+  /// True if strokes split faces where faces are drawn; false if they always cut links.
+  bool splits() const { return splits_; }
+  void setSplits(bool splits) { splits_ = splits; }
 
   QString name() const override { return QStringLiteral("Cut"); }
   QString hint() const override;
@@ -29,8 +33,11 @@ class CutTool : public Tool {
   std::span<const QPointF> stroke(const View& view) const override;
 
  private:
+  void cut(const View& view, const std::vector<LinkId>& links, const std::vector<QPointF>& stroke);
+
   Document& document_;
   bool frontOnly_ = false;
+  bool splits_ = false;
   const View* at_ = nullptr;  // the view of the stroke; null if there is none
   std::vector<QPointF> stroke_;
   std::set<LinkId> crossed_;  // links that the stroke has crossed so far

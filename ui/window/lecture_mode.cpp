@@ -5,14 +5,18 @@
 #include <QStatusBar>
 #include <QToolBar>
 
+#include "document/propagation.h"
 #include "panels/panel_area.h"
 
 namespace chainmail {
 
-LectureMode::LectureMode(QMainWindow& window, PanelArea& area, int layoutVersion)
+LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, QWidget& hints,
+                         int layoutVersion)
     : QObject(&window),
       window_(window),
       area_(area),
+      propagation_(propagation),
+      hints_(hints),
       layoutVersion_(layoutVersion),
       action_(new QAction(QStringLiteral("Lecture mode"), this)) {
   action_->setObjectName(QStringLiteral("lectureMode"));
@@ -26,6 +30,7 @@ LectureMode::LectureMode(QMainWindow& window, PanelArea& area, int layoutVersion
 void LectureMode::enter() {
   layout_ = window_.saveState(layoutVersion_);
   geometry_ = window_.saveGeometry();
+  propagation_.setHeld(propagation_.isShown());
   for (auto* dock : window_.findChildren<QDockWidget*>()) {
     dock->hide();
   }
@@ -33,6 +38,8 @@ void LectureMode::enter() {
     bar->hide();
   }
   window_.statusBar()->hide();
+  hadHints_ = hints_.isVisible();
+  hints_.hide();
   area_.setLecture(true);
   window_.showFullScreen();
 }
@@ -46,6 +53,8 @@ void LectureMode::restore() {
   window_.restoreState(layout_, layoutVersion_);
   window_.layout()->setEnabled(true);
   window_.layout()->activate();
+  hints_.setVisible(hadHints_);
+  propagation_.setHeld(false);
   area_.setLecture(false);
 }
 

@@ -7,14 +7,15 @@
 namespace chainmail {
 
 class PanelArea;
+class Propagation;
 
-/// Shows only the panels, on the whole screen, with large texts and a ring at the cursor, for an audience. Afterwards,
-/// docks, bars and the window are as before.
+/// Shows only the panels, on the whole screen, with large texts and a ring at the cursor, for an audience. The
+/// propagation that is shown stays, without its dock. Afterwards, docks, bars and the window are as before.
 class LectureMode : public QObject {
   Q_OBJECT
 
  public:
-  LectureMode(QMainWindow& window, PanelArea& area, int layoutVersion);
+  LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, QWidget& hints, int layoutVersion);
 
   /// The switch for the menu.
   QAction& action() { return *action_; }
@@ -29,6 +30,9 @@ class LectureMode : public QObject {
 
   QMainWindow& window_;
   PanelArea& area_;
+  Propagation& propagation_;
+  QWidget& hints_;
+  bool hadHints_ = false;
   int layoutVersion_;
   QAction* action_;
   QByteArray layout_, geometry_;

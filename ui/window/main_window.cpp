@@ -92,7 +92,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       help_(new HelpMenu(*this, document_)),
       panelActions_(new PanelActions(*area_, document_, colouring_)),
       showMenu_(new ShowMenu(document_, this)),
-      lecture_(new LectureMode(*this, *area_, layoutVersion)),
+      lecture_(new LectureMode(*this, *area_, propagation_, help_->hints(), layoutVersion)),
       lessons_(new Lessons(*this, propagation_, *sessions_)),
       toolActions_(new QActionGroup(this)),
       colourBy_(new ColourSelector(colouring_)),
@@ -232,6 +232,7 @@ void MainWindow::cancelCurrent() {
     jobs_.cancel();
   } else if (lecture_->isOn() && !tool_->busy()) {
     lecture_->leave();
+    return;
   } else {
     tool_->escape();
     measurement_.clear();

@@ -1,6 +1,7 @@
 #include "files/session/moves.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "files/text/json_fields.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
+#include "simulate/tape.h"
 
 namespace chainmail {
 namespace {
@@ -22,7 +24,7 @@ using OrderedJson = nlohmann::ordered_json;
 class MoveFields : public JsonFields {
  public:
   /// `where` appears in errors.
-  MoveFields(std::string where, const Mesh& mesh) : JsonFields(std::move(where)), mesh_(mesh) {}
+  MoveFields(std::string where, MeshPointer mesh) : JsonFields(std::move(where)), mesh_(std::move(mesh)) {}
 
   ElementId element(const Json& json) const;
   /// Returns the link whose ends are the first two numbers of an array of this size.
@@ -34,17 +36,27 @@ class MoveFields : public JsonFields {
   Point coordinates(const Json& members, const std::string& key) const;
   Rotation rotation(const Json& members) const;
   const NumberList& list(const MoveMembers& command, const std::string& key) const;
+  /// Returns the numbers of a list; empty if the command does not have it.
+  std::vector<std::uint32_t> indices(const MoveMembers& command, const std::string& key) const;
+  SplitEdit split(const MoveMembers& command) const;
+
+  const MeshPointer& mesh() const { return mesh_; }
+  /// From now on, commands are about this mesh.
+  void set_mesh(MeshPointer mesh) { mesh_ = std::move(mesh); }
 
  private:
-  const Mesh& mesh_;
+  std::vector<double> row(const Json& json, std::size_t size, const std::string& key) const;
+  std::uint32_t index(const Json& json, const std::string& key) const;
+
+  MeshPointer mesh_;
 };
 
 ElementId MoveFields::element(const Json& json) const {
   if (!json.is_number_unsigned()) {
     fail(in_quotes(text_of(json)) + " is not an element's id", "ids are whole numbers from 0");
   }
-  if (json.get<std::uint64_t>() >= mesh_.element_count()) {
-    fail("there is no element " + json.dump(), "ids run from 0 to " + std::to_string(mesh_.element_count() - 1));
+  if (json.get<std::uint64_t>() >= mesh_->element_count()) {
+    fail("there is no element " + json.dump(), "ids run from 0 to " + std::to_string(mesh_->element_count() - 1));
   }
   return json.get<ElementId>();
 }
@@ -55,7 +67,7 @@ LinkId MoveFields::link(const Json& json, std::size_t size) const {
          size == 2 ? "write [a, b]" : "write [a, b, compression, stretch, shear, lateral, stiffness, exponent]");
   }
   const ElementId a = element(json[0]), b = element(json[1]);
-  const auto found = find_link(mesh_, a, b);
+  const auto found = find_link(*mesh_, a, b);
   if (!found) {
     fail("the elements " + std::to_string(a) + " and " + std::to_string(b) + " are not linked",
          "give the two ends of a link");
@@ -97,7 +109,7 @@ Rotation MoveFields::rotation(const Json& members) const {
     fail("the rotation has no axis: all its coordinates are 0", "write an axis such as [0, 0, 1]");
   }
   try {
-    check(rotation, mesh_);
+    check(rotation, *mesh_);
   } catch (const Error& error) {
     fail(error.problem(), error.remedy());
   }
@@ -114,7 +126,63 @@ std::vector<ElementId> MoveFields::elements(const MoveMembers& command, const st
   return result;
 }
 
-constexpr int moves_version = 1;
+std::uint32_t MoveFields::index(const Json& json, const std::string& key) const {
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
+    fail("'" + key + "' holds " + in_quotes(text_of(json)), "write whole numbers from 0");
+  }
+  return json.get<std::uint32_t>();
+}
+
+std::vector<std::uint32_t> MoveFields::indices(const MoveMembers& command, const std::string& key) const {
+  std::vector<std::uint32_t> result;
+  if (command.members.contains(key)) {
+    const NumberList& all = list(command, key);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      result.push_back(index(all.at(i), key));
+    }
+  }
+  return result;
+}
+
+/// Returns the numbers of an item of a list.
+std::vector<double> MoveFields::row(const Json& json, std::size_t size, const std::string& key) const {
+  if (!json.is_array() || json.size() != size) {
+    fail("'" + key + "' holds something that is not an array of " + std::to_string(size) + " numbers",
+         "write " + std::to_string(size) + " numbers for each");
+  }
+  std::vector<double> result;
+  for (const Json& one : json) {
+    result.push_back(number(one));
+  }
+  return result;
+}
+
+SplitEdit MoveFields::split(const MoveMembers& command) const {
+  check_keys(command.members, {"do", "elements", "removed", "triangles", "removed_polygons", "polygons"});
+  SplitEdit edit;
+  const NumberList& points = list(command, "elements");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Json one = points.at(i);
+    const auto numbers = row(one, 5, "elements");
+    edit.elements.push_back(
+        {{index(one[0], "elements"), index(one[1], "elements"), index(one[2], "elements")}, {numbers[3], numbers[4]}});
+  }
+  if (command.members.contains("triangles")) {
+    const NumberList& triangles = list(command, "triangles");
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const Json one = triangles.at(i);
+      row(one, 3, "triangles");
+      edit.triangles.push_back({index(one[0], "triangles"), index(one[1], "triangles"), index(one[2], "triangles")});
+    }
+  }
+  edit.removed = indices(command, "removed");
+  edit.removed_polygons = indices(command, "removed_polygons");
+  edit.polygons = indices(command, "polygons");
+  return edit;
+}
+
+// The second version knows `split`.
+constexpr std::uint64_t first_version = 1, split_version = 2;
 constexpr std::uint64_t most_sweeps = 1'000'000;
 // Numbers in the row of a link: its ends and its softness, without or with the numbers of its energy.
 constexpr std::size_t short_row = 2 + region_numbers, long_row = 2 + softness_numbers.size();
@@ -122,7 +190,7 @@ constexpr std::size_t short_row = 2 + region_numbers, long_row = 2 + softness_nu
 /// Checks commands one after another, as a simulation would execute them from rest.
 class MovesReader {
  public:
-  MovesReader(const std::string& where, const Mesh& mesh, EnergyKind absent_energy = standard_energy)
+  MovesReader(const std::string& where, const MeshPointer& mesh, EnergyKind absent_energy = standard_energy)
       : where_(where), fields_(where_, mesh), absent_energy_(absent_energy) {}
 
   std::vector<Command> read(std::string_view text, const std::filesystem::path& path, const Progress& progress);
@@ -145,6 +213,7 @@ class MovesReader {
   LinkSoftness own_softness(const Json& row) const;
   Command reset(const Members& of);
   Command relax(const Members& of);
+  Command split(const Members& of);
 
   std::string where_;
   MoveFields fields_;         // of the file, then of each command
@@ -276,17 +345,31 @@ Command MovesReader::relax(const Members& of) {
   return commands::Relax{sweeps.get<std::uint32_t>(), step, scheme, until};
 }
 
+Command MovesReader::split(const Members& of) {
+  try {
+    SplitPointer split = make_split(fields_.mesh(), fields_.split(of));
+    const auto pins = pins_after(*split, std::vector(pinned_.begin(), pinned_.end()));
+    pinned_ = {pins.begin(), pins.end()};
+    grabbed_.clear();
+    fields_.set_mesh(split->after);
+    return commands::Split{std::move(split)};
+  } catch (const Error& error) {
+    const bool ours = error.where() == fields_.where();
+    throw ours ? error : error.at(fields_.where() + ": " + error.where());
+  }
+}
+
 Command MovesReader::command(const Members& of) {
   static const std::map<std::string, Command (MovesReader::*)(const Members&)> known{
       {"grab", &MovesReader::grab},   {"drag", &MovesReader::drag},         {"release", &MovesReader::release},
       {"cut", &MovesReader::cut},     {"uncut", &MovesReader::uncut},       {"pin", &MovesReader::pin},
       {"unpin", &MovesReader::unpin}, {"softness", &MovesReader::softness}, {"reset", &MovesReader::reset},
-      {"relax", &MovesReader::relax}};
+      {"relax", &MovesReader::relax}, {"split", &MovesReader::split}};
   const Json& what = fields_.member(of.members, "do");
   const auto found = known.find(what.is_string() ? what.get<std::string>() : "");
   if (found == known.end()) {
     fields_.fail("'do' is not a known command",
-                 "use grab, drag, release, cut, uncut, pin, unpin, softness, relax or reset");
+                 "use grab, drag, release, cut, uncut, split, pin, unpin, softness, relax or reset");
   }
   return (this->*found->second)(of);
 }
@@ -311,8 +394,10 @@ void MovesReader::check_head(const Json& head) const {
     fields_.fail("it holds no recorded moves", "use a file of recorded moves");
   }
   const Json& version = fields_.member(head, "version");
-  if (!version.is_number_unsigned() || version.get<std::uint64_t>() != moves_version) {
-    fields_.fail("its version is not " + std::to_string(moves_version), "record the moves again with this program");
+  if (!version.is_number_unsigned() || version.get<std::uint64_t>() < first_version ||
+      version.get<std::uint64_t>() > split_version) {
+    fields_.fail("its version is not " + std::to_string(first_version) + " or " + std::to_string(split_version),
+                 "record the moves again with this program");
   }
   fields_.check_keys(head, {"version", "commands"});
   fields_.array(head, "commands");
@@ -340,10 +425,28 @@ OrderedJson links_of(const std::vector<LinkId>& links, const Mesh& mesh) {
 
 OrderedJson coordinates_of(const Point& point) { return {point.x(), point.y(), point.z()}; }
 
+OrderedJson json_of(const SplitEdit& edit) {
+  OrderedJson json{{"do", "split"}, {"elements", OrderedJson::array()}};
+  for (const SplitPoint& point : edit.elements) {
+    json["elements"].push_back({point.of[0], point.of[1], point.of[2], point.shares[0], point.shares[1]});
+  }
+  const auto add = [&json](const char* key, const auto& all) {
+    if (!all.empty()) {
+      json[key] = all;
+    }
+  };
+  add("removed", edit.removed);
+  add("triangles", edit.triangles);
+  add("removed_polygons", edit.removed_polygons);
+  add("polygons", edit.polygons);
+  return json;
+}
+
 /// Returns a command as JSON, or null for a command that is left out.
 class MoveWriter {
  public:
-  explicit MoveWriter(const Mesh& mesh) : mesh_(mesh) {}
+  /// The commands begin with this mesh.
+  explicit MoveWriter(const Mesh& mesh) : mesh_(&mesh) {}
 
   OrderedJson operator()(const commands::Grab& one) const {
     return one.elements.size() == 1 ? OrderedJson{{"do", "grab"}, {"element", one.elements.front()}}
@@ -358,10 +461,10 @@ class MoveWriter {
   }
   OrderedJson operator()(const commands::Release&) const { return {{"do", "release"}}; }
   OrderedJson operator()(const commands::Cut& one) const {
-    return {{"do", "cut"}, {"links", links_of(one.links, mesh_)}};
+    return {{"do", "cut"}, {"links", links_of(one.links, *mesh_)}};
   }
   OrderedJson operator()(const commands::Uncut& one) const {
-    return {{"do", "uncut"}, {"links", links_of(one.links, mesh_)}};
+    return {{"do", "uncut"}, {"links", links_of(one.links, *mesh_)}};
   }
   OrderedJson operator()(const commands::Pin& one) const { return {{"do", "pin"}, {"elements", one.elements}}; }
   OrderedJson operator()(const commands::Unpin& one) const { return {{"do", "unpin"}, {"elements", one.elements}}; }
@@ -370,7 +473,7 @@ class MoveWriter {
     OrderedJson json{{"do", "softness"}};
     add_softness(json, *one.softness);
     for (const auto& [link, of_link] : one.softness->links) {
-      OrderedJson row{mesh_.links[link][0], mesh_.links[link][1]};
+      OrderedJson row{mesh_->links[link][0], mesh_->links[link][1]};
       for (const auto& [parameter, value] : softness_numbers) {
         row.push_back(of_link.*value);
       }
@@ -384,6 +487,10 @@ class MoveWriter {
       json["until"] = one.until;
     }
     return json;
+  }
+  OrderedJson operator()(const commands::Split& one) {
+    mesh_ = one.split->after.get();  // of the commands after this one
+    return json_of(one.split->edit);
   }
   OrderedJson operator()(const commands::ReplaceMesh&) const { refuse(); }
   OrderedJson operator()(const commands::SetPositions&) const { refuse(); }
@@ -401,31 +508,33 @@ class MoveWriter {
                 "record them on one object without undo");
   }
 
-  const Mesh& mesh_;
+  const Mesh* mesh_;
 };
 
 }  // namespace
 
 std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const std::string& where,
-                                const Mesh& mesh, const Progress& progress, EnergyKind absent_energy) {
+                                const MeshPointer& mesh, const Progress& progress, EnergyKind absent_energy) {
   return MovesReader(where, mesh, absent_energy).read(text, path, progress);
 }
 
-std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const Mesh& mesh,
+std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const MeshPointer& mesh,
                                 const Progress& progress) {
   return read_moves(text, path, shown(path), mesh, progress);
 }
 
-std::vector<Command> read_moves(const std::filesystem::path& path, const Mesh& mesh, const Progress& progress) {
+std::vector<Command> read_moves(const std::filesystem::path& path, const MeshPointer& mesh, const Progress& progress) {
   return read_moves(read_text(path, "recorded moves", progress.part(0, 0.1)), path, mesh, progress.part(0.1, 1));
 }
 
 void write_moves(std::ostream& out, const std::vector<Command>& commands, const Mesh& mesh, const Progress& progress) {
-  out << "{\"version\": 1, \"commands\": [";
+  const MeshPointer first = first_mesh(commands);
+  MoveWriter write(first ? *first : mesh);
+  out << "{\"version\": " << (first ? split_version : first_version) << ", \"commands\": [";
   const char* before = "\n";
   for (std::size_t i = 0; i < commands.size(); ++i) {
     progress.report(i, commands.size());
-    if (const OrderedJson json = std::visit(MoveWriter(mesh), commands[i]); !json.is_null()) {
+    if (const OrderedJson json = std::visit(write, commands[i]); !json.is_null()) {
       out << before << json.dump();
       before = ",\n";
     }

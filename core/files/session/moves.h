@@ -22,25 +22,37 @@ namespace chainmail {
 ///       {"do": "softness", "compression": 0.8, "stretch": 1.2, "shear": 0.1, "lateral": 1, "stiffness": 1,
 ///        "exponent": -1, "energy": "corotated", "links": [[0, 1, 1, 1, 0, 1, 1, -1]]}]}
 ///
+/// The version is 2 if moves split the object:
+///
+///     {"do": "split", "elements": [[a, b, c, s, t] of each new element…], "removed": [index of each triangle…],
+///        "triangles": [[three ids of each new one]…], "removed_polygons": [index of each…],
+///        "polygons": [count, id… of each new one…]}
+///
+/// A new element is at a + s (b − a) + t (c − a) at rest, where a, b and c have lower ids. See SplitEdit. The commands
+/// after it are about the object after the split.
+///
 /// Links are named by their ends. A softness replaces the softness of all links; "links" may be left out. So may
 /// "lateral", "stiffness", "exponent" and "energy", and the last three numbers of a link: these are standard then.
 
 /// Reads moves of a mesh from the text of a file. `path` appears in errors. Throws Error, with the number of the
 /// command from 0, for any command that a simulation of this mesh could not execute from rest; and Cancelled. Takes
 /// linear time, and little memory other than the commands and the text.
-std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const Mesh& mesh,
+std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const MeshPointer& mesh,
                                 const Progress& progress = {});
 
 /// Reads moves from a file.
-std::vector<Command> read_moves(const std::filesystem::path& path, const Mesh& mesh, const Progress& progress = {});
+std::vector<Command> read_moves(const std::filesystem::path& path, const MeshPointer& mesh,
+                                const Progress& progress = {});
 
 /// Reads moves from a part of the text of another file. `where` appears in errors. A softness that does not say its
 /// energy has `absent_energy`.
 std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const std::string& where,
-                                const Mesh& mesh, const Progress& progress, EnergyKind absent_energy = standard_energy);
+                                const MeshPointer& mesh, const Progress& progress,
+                                EnergyKind absent_energy = standard_energy);
 
-/// Writes moves, one line per command. Commands for the solver (algorithm, relaxation, states for undo) are left out.
-/// Throws Error for a change of mesh or state, which recorded moves cannot contain; and Cancelled.
+/// Writes moves, one line per command. They begin with `mesh`, or with the mesh that the first split of them splits.
+/// Commands for the solver (algorithm, relaxation, states for undo) are left out. Throws Error for a change of mesh or
+/// state, which recorded moves cannot contain; and Cancelled.
 void write_moves(std::ostream& out, const std::vector<Command>& commands, const Mesh& mesh,
                  const Progress& progress = {});
 

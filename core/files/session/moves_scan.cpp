@@ -14,9 +14,13 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, 2> file_keys{"version", "commands"};
-constexpr std::array<std::string_view, 18> command_keys{
-    "do",    "element", "target",    "by",       "rotate", "links",  "elements", "compression", "stretch",
-    "shear", "lateral", "stiffness", "exponent", "energy", "sweeps", "step",     "scheme",      "until"};
+constexpr std::array<std::string_view, 22> command_keys{
+    "do",      "element", "target",  "by",        "rotate",   "links",           "elements", "compression",
+    "stretch", "shear",   "lateral", "stiffness", "exponent", "energy",          "sweeps",   "step",
+    "scheme",  "until",   "removed", "triangles", "polygons", "removed_polygons"};
+// The long lists, which are kept without a tree.
+constexpr std::array<std::string_view, 6> list_keys{"links",     "elements", "removed",
+                                                    "triangles", "polygons", "removed_polygons"};
 
 bool is_number_array(const Json& json) {
   return json.is_array() && !json.empty() && std::ranges::all_of(json, [](const Json& one) { return one.is_number(); });
@@ -99,7 +103,7 @@ void MovesScan::open_here(Json empty) {
     command_ = {};
     command_has_unknown_ = false;
     at_ = At::command;
-  } else if (at_ == At::command && is_array && (command_key_ == "links" || command_key_ == "elements")) {
+  } else if (at_ == At::command && is_array && std::ranges::find(list_keys, command_key_) != list_keys.end()) {
     command_.lists[command_key_];
     put(std::move(empty));
     at_ = At::list;

@@ -32,7 +32,7 @@ class NumberList {
 /// One command of a file of moves.
 struct MoveMembers {
   nlohmann::json members = nlohmann::json::object();  // with an empty array for each of `lists`
-  std::map<std::string, NumberList> lists;            // the long ones: elements and links
+  std::map<std::string, NumberList> lists;            // the long ones: elements, links and faces
 };
 
 /// Reads a file of moves command by command, and drops each before it reads the next.

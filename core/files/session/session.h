@@ -45,6 +45,9 @@ struct Session {
   std::string ui = "{}";
 };
 
+/// Returns the mesh with which the moves of a session begin: the one before all splits.
+MeshPointer first_mesh(const Session& session);
+
 inline constexpr std::size_t session_panels = 16;
 /// Largest number of moves in a session, with the links and elements that they name: some hours of dragging. A session
 /// with more moves is saved without them.
@@ -78,9 +81,10 @@ bool is_session(const std::filesystem::path& path);
 ///        "algorithms": [name for each panel], "candidate": n, "colour": …, "show": …, "dock": …, "tool": …}]},
 ///      "ui": {…}}
 ///
-/// In place of all its members, "mesh" may hold "file", the name of a mesh or a picture, and for a picture "across",
-/// the number of elements along its width. "lesson" is left out without steps, and in a step all but "title", "text"
-/// and "until" may be left out.
+/// "mesh" is the object before the first split in "moves". All other members are about the object after the moves that
+/// are done. In place of all its members, "mesh" may hold "file", the name of a mesh or a picture, and for a picture
+/// "across", the number of elements along its width. "lesson" is left out without steps, and in a step all but "title",
+/// "text" and "until" may be left out.
 ///
 /// "moves" are left out above session_moves; "lattice", "hexahedra" and "texture" if there are none; and "elastic" if
 /// it is the standard one. If the neighbours are not in ascending order, "counts" (of each element) and "neighbours"

@@ -9,6 +9,7 @@
 #include "files/session/session_mesh.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
+#include "simulate/tape.h"
 
 namespace chainmail {
 namespace {
@@ -224,7 +225,7 @@ void SessionReader::take_moves(const Progress& progress) {
     return;
   }
   const std::string_view text = moves_.empty() ? "null" : moves_;  // a number or a text is not a list of moves
-  result_.moves = read_moves(text, path_, file_ + ": moves", *result_.mesh, progress, absent_energy_);
+  result_.moves = read_moves(text, path_, file_ + ": moves", result_.mesh, progress, absent_energy_);
   const Json& done = fields_.member(tree_, "moves_done");
   if (!done.is_number_unsigned() || done.get<std::uint64_t>() > result_.moves.size()) {
     fields_.fail("'moves_done' is not a whole number up to the number of moves", "write how many moves are done");
@@ -246,6 +247,9 @@ Session SessionReader::read(const Progress& progress) {
   check_kind();
   result_.name = fields_.text(tree_, "name");
   take_mesh(progress.part(0, 0.8));
+  take_moves(progress.part(0.8, 0.9));
+  // The file has the mesh with which the moves begin.
+  result_.mesh = last_mesh(result_.mesh, std::span(result_.moves).first(result_.moves_done));
   take_cuts();
   take_pins();
   result_.ui = fields_.object(tree_, "ui").dump();
@@ -254,10 +258,8 @@ Session SessionReader::read(const Progress& progress) {
   fields_.say_at(file_);
   take_elastic();
   fields_.say_at(file_);
-  progress.report(0.85);
+  progress.report(0.9);
   take_panels();
-  fields_.say_at(file_);
-  take_moves(progress.part(0.9, 1));
   take_lesson();
   return std::move(result_);
 }

@@ -15,6 +15,7 @@
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
+#include "simulate/tape.h"
 
 namespace chainmail {
 namespace {
@@ -57,7 +58,9 @@ class Digits {
 std::size_t weight(const Command& command) {
   return std::visit(
       [](const auto& one) -> std::size_t {
-        if constexpr (requires { one.links; }) {
+        if constexpr (requires { one.split; }) {
+          return 1 + one.split->edit.elements.size() + one.split->edit.triangles.size();
+        } else if constexpr (requires { one.links; }) {
           return 1 + one.links.size();
         } else if constexpr (requires { one.elements; }) {
           return 1 + one.elements.size();
@@ -70,17 +73,27 @@ std::size_t weight(const Command& command) {
       command);
 }
 
+/// True if a session has moves and not too many to save.
+bool moves_fit(const std::vector<Command>& moves) {
+  std::size_t all = 0;
+  for (const Command& command : moves) {
+    all += weight(command);
+  }
+  return all > 0 && all <= session_moves;
+}
+
 class SessionWriter {
  public:
-  SessionWriter(std::ostream& out, const Session& session) : out_(out), session_(session), mesh_(*session.mesh) {}
+  SessionWriter(std::ostream& out, const Session& session)
+      : out_(out), session_(session), mesh_(*session.mesh), has_moves_(moves_fit(session.moves)) {}
 
   void write(const Progress& progress);
 
  private:
   static constexpr std::size_t in_line = 24;  // numbers in one line
 
-  void write_mesh(const Progress& progress);
-  void write_links(const Progress& progress);
+  void write_mesh(const Mesh& mesh, const Progress& progress);
+  void write_links(const Mesh& mesh, const Progress& progress);
   void write_texture(const Texture& texture, const Progress& progress);
   void write_state();
   void write_softness();
@@ -95,7 +108,8 @@ class SessionWriter {
 
   TextBlocks out_;
   const Session& session_;
-  const Mesh& mesh_;
+  const Mesh& mesh_;  // the present one
+  const bool has_moves_;
   Digits digits_;
 };
 
@@ -126,46 +140,46 @@ void SessionWriter::write_groups(const char* key, std::span<const std::array<Ele
 }
 
 /// Writes links as pairs, or row by row if the neighbours are not in ascending order.
-void SessionWriter::write_links(const Progress& progress) {
+void SessionWriter::write_links(const Mesh& mesh, const Progress& progress) {
   bool ascending = true;
-  for (ElementId e = 0; e < mesh_.element_count() && ascending; ++e) {
-    progress.part(0, 0.1).report(e, mesh_.element_count());
-    ascending = std::ranges::is_sorted(mesh_.neighbours_of(e));
+  for (ElementId e = 0; e < mesh.element_count() && ascending; ++e) {
+    progress.part(0, 0.1).report(e, mesh.element_count());
+    ascending = std::ranges::is_sorted(mesh.neighbours_of(e));
   }
   if (ascending) {
-    write_groups<2>("links", mesh_.links, progress.part(0.1, 1));
+    write_groups<2>("links", mesh.links, progress.part(0.1, 1));
     return;
   }
-  write_array("counts", mesh_.element_count(), progress.part(0.1, 0.3), [&](std::size_t e) {
-    out_ << static_cast<std::uint32_t>(mesh_.neighbours_of(static_cast<ElementId>(e)).size());
+  write_array("counts", mesh.element_count(), progress.part(0.1, 0.3), [&](std::size_t e) {
+    out_ << static_cast<std::uint32_t>(mesh.neighbours_of(static_cast<ElementId>(e)).size());
   });
-  write_ids("neighbours", mesh_.neighbours, progress.part(0.3, 1));
+  write_ids("neighbours", mesh.neighbours, progress.part(0.3, 1));
 }
 
-void SessionWriter::write_mesh(const Progress& progress) {
-  out_ << "\"mesh\": {\"elements\": " << mesh_.element_count()
-       << ", \"space\": " << static_cast<std::uint32_t>(mesh_.space_dimension);
-  if (mesh_.lattice) {
-    const OrderedJson lattice{{"size", mesh_.lattice->size}, {"spacing", mesh_.lattice->spacing}};
+void SessionWriter::write_mesh(const Mesh& mesh, const Progress& progress) {
+  out_ << "\"mesh\": {\"elements\": " << mesh.element_count()
+       << ", \"space\": " << static_cast<std::uint32_t>(mesh.space_dimension);
+  if (mesh.lattice) {
+    const OrderedJson lattice{{"size", mesh.lattice->size}, {"spacing", mesh.lattice->spacing}};
     out_ << ", \"lattice\": " << lattice.dump();
   }
   Point point;
-  write_array("rest", std::size_t{3} * mesh_.element_count(), progress.part(0, 0.3), [&](std::size_t i) {
+  write_array("rest", std::size_t{3} * mesh.element_count(), progress.part(0, 0.3), [&](std::size_t i) {
     if (i % 3 == 0) {
-      point = mesh_.rest_position(static_cast<ElementId>(i / 3));
+      point = mesh.rest_position(static_cast<ElementId>(i / 3));
     }
     out_ << digits_(point[static_cast<Eigen::Index>(i % 3)], Precision::double_precision);
   });
-  write_links(progress.part(0.3, 0.8));
-  write_groups<3>("triangles", std::span(mesh_.triangles).first(mesh_.own_triangles), progress.part(0.8, 0.9));
-  write_ids("polygons", mesh_.polygons);
-  write_groups<4>("tetrahedra", mesh_.tetrahedra, progress.part(0.9, 1));
-  if (!mesh_.hexahedra.empty()) {
-    write_groups<8>("hexahedra", mesh_.hexahedra, progress);
+  write_links(mesh, progress.part(0.3, 0.8));
+  write_groups<3>("triangles", std::span(mesh.triangles).first(mesh.own_triangles), progress.part(0.8, 0.9));
+  write_ids("polygons", mesh.polygons);
+  write_groups<4>("tetrahedra", mesh.tetrahedra, progress.part(0.9, 1));
+  if (!mesh.hexahedra.empty()) {
+    write_groups<8>("hexahedra", mesh.hexahedra, progress);
   }
-  if (mesh_.texture) {
+  if (mesh.texture) {
     out_ << ",\n\"texture\": ";
-    write_texture(*mesh_.texture, progress.part(0.9, 1));
+    write_texture(*mesh.texture, progress.part(0.9, 1));
   }
   out_ << "}";
 }
@@ -233,17 +247,13 @@ void SessionWriter::write_panel(const Session::Panel& panel, const Progress& pro
 }
 
 void SessionWriter::write_moves(const Progress& progress) {
-  std::size_t all = 0;
-  for (const Command& command : session_.moves) {
-    all += weight(command);
-  }
-  if (all > 0 && all <= session_moves) {
+  if (has_moves_) {
     std::ostringstream moves;
     chainmail::write_moves(moves, session_.moves, mesh_, progress);
     out_ << ",\n\"moves\": " << std::string_view(moves.str())
          << ",\"moves_done\": " << static_cast<std::uint32_t>(session_.moves_done);
   }
-  const bool moves_left_out = all > session_moves;
+  const bool moves_left_out = !session_.moves.empty() && !has_moves_;
   if (!session_.lesson.steps.empty() && !moves_left_out) {
     out_ << ",\n\"lesson\": " << std::string_view(lesson_json(session_.lesson));
   }
@@ -253,7 +263,7 @@ void SessionWriter::write(const Progress& progress) {
   const std::string name = OrderedJson(session_.name).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   out_ << "{\"format\": \"chainmail session\", \"version\": " << std::uint32_t{session_version}
        << ", \"name\": " << name << ",\n";
-  write_mesh(progress.part(0, 0.5));
+  write_mesh(has_moves_ ? *first_mesh(session_) : mesh_, progress.part(0, 0.5));
   write_state();
   out_ << ",\n\"panels\": [";
   const auto share = 0.45 / double(session_.panels.size());
@@ -270,6 +280,11 @@ void SessionWriter::write(const Progress& progress) {
 }
 
 }  // namespace
+
+MeshPointer first_mesh(const Session& session) {
+  const MeshPointer first = first_mesh(session.moves);
+  return first ? first : session.mesh;
+}
 
 bool is_session(const std::filesystem::path& path) { return lower_case(path.extension().string()) == session_ending; }
 

@@ -105,7 +105,7 @@ void Runner::carry_out(const Command& command, Relaxing relaxing, Run& run) {
 
 void check(const RecordedMoves& moves) {
   for (const Command& command : moves.commands) {
-    if (is_one_of<commands::ReplaceMesh, commands::SetPositions, commands::RestoreState>(command)) {
+    if (is_one_of<commands::ReplaceMesh, commands::Split, commands::SetPositions, commands::RestoreState>(command)) {
       throw Error(moves.name, "these moves replace the object or use undo", "record moves of one object, without undo");
     }
   }

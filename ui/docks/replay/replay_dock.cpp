@@ -323,7 +323,7 @@ void ReplayDock::openMoves(const QString& path) {
   jobs_.start(
       Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
       [this, path, name, mesh = document_.mesh()](const Progress& progress) -> Jobs::Finish {
-        const auto moves = std::make_shared<const std::vector<Command>>(read_moves(asPath(path), *mesh, progress));
+        const auto moves = std::make_shared<const std::vector<Command>>(read_moves(asPath(path), mesh, progress));
         return [this, moves, name, mesh] {
           setPlaying(false);
           film_.cancel();

@@ -1,0 +1,299 @@
+#include "mesh/split.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <unordered_set>
+
+#include "mesh/edge_key.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+/// Calls visit(a, b) for each side of a face.
+template <class Visit>
+void for_each_side(std::span<const ElementId> corners, Visit visit) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    visit(corners[i], corners[(i + 1) % corners.size()]);
+  }
+}
+
+/// Calls visit(number, corners) for each polygon.
+template <class Visit>
+void for_each_polygon(std::span<const ElementId> polygons, Visit visit) {
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < polygons.size(); i += polygons[i] + 1) {
+    visit(number++, polygons.subspan(i + 1, polygons[i]));
+  }
+}
+
+[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) {
+  throw Error("split", problem, remedy);
+}
+
+void check_points(const std::vector<SplitPoint>& points, std::uint64_t elements) {
+  if (elements + points.size() > element_limit) {
+    refuse("the object would have more than " + std::to_string(element_limit) + " elements", "use a smaller mesh");
+  }
+  for (const SplitPoint& point : points) {
+    const auto& [first, second] = point.shares;
+    if (std::ranges::any_of(point.of, [&](ElementId one) { return one >= elements; })) {
+      refuse("element " + std::to_string(elements) + " lies between elements that do not exist before it",
+             "name elements with lower ids");
+    }
+    if (!(first >= 0 && second >= 0 && first + second <= 1)) {
+      refuse("element " + std::to_string(elements) + " does not lie between its elements",
+             "use shares from 0 to 1, together at most 1");
+    }
+    ++elements;
+  }
+}
+
+void check_removed(std::span<const std::uint32_t> removed, std::size_t count, const std::string& what) {
+  if (std::adjacent_find(removed.begin(), removed.end(), std::greater_equal<>()) != removed.end() ||
+      (!removed.empty() && removed.back() >= count)) {
+    refuse("the " + what + " to replace are not ascending numbers below " + std::to_string(count),
+           "number them from 0, in the order of the object");
+  }
+}
+
+void check_corners(std::span<const ElementId> corners, std::uint64_t elements) {
+  std::vector<ElementId> sorted(corners.begin(), corners.end());
+  std::ranges::sort(sorted);
+  if (sorted.size() < 3 || sorted.back() >= elements || std::ranges::adjacent_find(sorted) != sorted.end()) {
+    refuse("a new face does not have three or more different corners that exist", "name each corner once");
+  }
+}
+
+void check_polygons(std::span<const ElementId> polygons, std::uint64_t elements) {
+  for (std::size_t i = 0; i < polygons.size(); i += std::size_t{polygons[i]} + 1) {
+    if (polygons[i] >= polygons.size() - i) {
+      refuse("a new polygon lacks corners", "write the number of corners before them");
+    }
+    check_corners(polygons.subspan(i + 1, polygons[i]), elements);
+  }
+}
+
+std::uint32_t polygon_count(const Mesh& mesh) {
+  std::uint32_t count = 0;
+  for_each_polygon(mesh.polygons, [&](std::uint32_t, auto) { ++count; });
+  return count;
+}
+
+void check(const SplitEdit& edit, const Mesh& mesh) {
+  if (!can_split(mesh)) {
+    refuse("the object has no faces, or it is a lattice or a volume", "cut its links instead");
+  }
+  check_points(edit.elements, mesh.element_count());
+  check_removed(edit.removed, mesh.own_triangles, "triangles");
+  check_removed(edit.removed_polygons, polygon_count(mesh), "polygons");
+  const std::uint64_t elements = mesh.element_count() + edit.elements.size();
+  for (const auto& triangle : edit.triangles) {
+    check_corners(triangle, elements);
+  }
+  check_polygons(edit.polygons, elements);
+}
+
+/// Builds the mesh after a split from the mesh before it.
+class MeshAfter {
+ public:
+  MeshAfter(const Mesh& mesh, const SplitEdit& edit) : mesh_(mesh), edit_(edit) {}
+
+  MeshPointer build() {
+    parts_.space_dimension = mesh_.space_dimension;
+    parts_.texture = mesh_.texture;
+    place();
+    take_triangles();
+    take_polygons();
+    link();
+    return build_mesh(std::move(parts_));
+  }
+
+ private:
+  void place();
+  void take_triangles();
+  void take_polygons();
+  void link();
+  void drop_sides(std::span<const ElementId> corners) {
+    for_each_side(corners, [this](ElementId a, ElementId b) { dropped_.insert(edge_key(a, b)); });
+  }
+  void keep_sides(std::span<const ElementId> corners) {
+    for_each_side(corners, [this](ElementId a, ElementId b) { dropped_.erase(edge_key(a, b)); });
+  }
+  void add_sides(std::span<const ElementId> corners) {
+    for_each_side(corners, [this](ElementId a, ElementId b) {
+      dropped_.erase(edge_key(a, b));
+      if (const bool old = a < mesh_.element_count() && b < mesh_.element_count(); !old || !find_link(mesh_, a, b)) {
+        added_.insert(edge_key(a, b));
+      }
+    });
+  }
+
+  const Mesh& mesh_;
+  const SplitEdit& edit_;
+  MeshParts parts_;
+  std::unordered_set<EdgeKey> dropped_, added_;  // links that no face has any more, and new ones
+};
+
+void MeshAfter::place() {
+  auto& rest = parts_.rest;
+  rest.reserve(mesh_.element_count() + edit_.elements.size());
+  for (ElementId e = 0; e < mesh_.element_count(); ++e) {
+    rest.push_back(mesh_.rest_position(e));
+  }
+  for (const SplitPoint& point : edit_.elements) {
+    rest.push_back(point.mix<Point>(rest[point.of[0]], rest[point.of[1]], rest[point.of[2]]));
+  }
+}
+
+void MeshAfter::take_triangles() {
+  for (const std::uint32_t one : edit_.removed) {
+    drop_sides(mesh_.triangles[one]);
+  }
+  for_each_polygon(mesh_.polygons, [&](std::uint32_t number, auto corners) {
+    if (std::ranges::binary_search(edit_.removed_polygons, number)) {
+      drop_sides(corners);
+    }
+  });
+  for (std::uint32_t i = 0; i < mesh_.own_triangles; ++i) {
+    if (!std::ranges::binary_search(edit_.removed, i)) {
+      parts_.triangles.push_back(mesh_.triangles[i]);
+      keep_sides(mesh_.triangles[i]);
+    }
+  }
+  for (const auto& triangle : edit_.triangles) {
+    parts_.triangles.push_back(triangle);
+    add_sides(triangle);
+  }
+}
+
+void MeshAfter::take_polygons() {
+  const auto take = [this](std::span<const ElementId> corners) {
+    parts_.polygons.push_back(static_cast<ElementId>(corners.size()));
+    parts_.polygons.insert(parts_.polygons.end(), corners.begin(), corners.end());
+  };
+  for_each_polygon(mesh_.polygons, [&](std::uint32_t number, auto corners) {
+    if (!std::ranges::binary_search(edit_.removed_polygons, number)) {
+      take(corners);
+      keep_sides(corners);
+    }
+  });
+  for_each_polygon(edit_.polygons, [&](std::uint32_t, auto corners) {
+    take(corners);
+    add_sides(corners);
+  });
+}
+
+/// Writes the neighbour table. Rows that the file ordered keep their order, with new neighbours last.
+void MeshAfter::link() {
+  std::vector<std::array<ElementId, 2>> entries;  // element and new neighbour, ascending
+  for (const EdgeKey one : added_) {
+    const auto [a, b] = ends_of(one);
+    entries.push_back({a, b});
+    entries.push_back({b, a});
+  }
+  std::ranges::sort(entries);
+  auto& neighbours = parts_.neighbours;
+  auto next = entries.begin();
+  for (ElementId e = 0; e < parts_.rest.size(); ++e) {
+    parts_.first_entry.push_back(static_cast<EntryId>(neighbours.size()));
+    bool ascending = true;
+    if (e < mesh_.element_count()) {
+      const auto row = mesh_.neighbours_of(e);
+      ascending = std::ranges::is_sorted(row);
+      std::ranges::copy_if(row, std::back_inserter(neighbours),
+                           [&](ElementId other) { return dropped_.empty() || !dropped_.contains(edge_key(e, other)); });
+    }
+    for (; next != entries.end() && (*next)[0] == e; ++next) {
+      neighbours.push_back((*next)[1]);
+    }
+    if (ascending) {
+      std::sort(neighbours.begin() + parts_.first_entry.back(), neighbours.end());
+    }
+  }
+  parts_.first_entry.push_back(static_cast<EntryId>(neighbours.size()));
+}
+
+/// Finds on which link of the old mesh elements and links of the new one lie.
+class Origins {
+ public:
+  explicit Origins(Split& split) : split_(split), old_(split.before->element_count()) {}
+
+  void find() {
+    for (const SplitPoint& point : split_.edit.elements) {
+      const LinkId on = point.is_copy() || point.shares[1] != 0 ? Split::none : between(point.of[0], point.of[1]);
+      const ElementId self = old_ + static_cast<ElementId>(original_.size());
+      original_.push_back(point.is_copy() ? original(point.of[0]) : self);
+      split_.link_of.push_back(point.is_copy() ? split_.link_at(point.of[0]) : on);
+    }
+    for (const auto& [a, b] : split_.after->links) {
+      split_.parents.push_back(between(a, b));
+    }
+  }
+
+ private:
+  ElementId original(ElementId element) const { return element < old_ ? element : original_[element - old_]; }
+
+  /// Returns the old link on which the line between two elements lies.
+  LinkId between(ElementId a, ElementId b) const {
+    a = original(a);
+    b = original(b);
+    if (a < old_ && b < old_) {
+      return a == b ? Split::none : find_link(*split_.before, a, b).value_or(Split::none);
+    }
+    const LinkId at_a = split_.link_at(a), at_b = split_.link_at(b);
+    const LinkId link = at_a == Split::none ? at_b : at_a;
+    return link != Split::none && is_on(a, at_a, link) && is_on(b, at_b, link) ? link : Split::none;
+  }
+  bool is_on(ElementId element, LinkId at, LinkId link) const {
+    const auto& [from, to] = split_.before->links[link];
+    return at == link || element == from || element == to;
+  }
+
+  Split& split_;
+  ElementId old_;
+  std::vector<ElementId> original_;  // of each appended element: itself, or what it is a copy of
+};
+
+}  // namespace
+
+bool can_split(const Mesh& mesh) {
+  return !mesh.triangles.empty() && mesh.tetrahedra.empty() && mesh.hexahedra.empty() && !mesh.lattice;
+}
+
+SplitPointer make_split(MeshPointer mesh, SplitEdit edit) {
+  check(edit, *mesh);
+  auto split = std::make_shared<Split>();
+  split->after = MeshAfter(*mesh, edit).build();
+  split->before = std::move(mesh);
+  split->edit = std::move(edit);
+  Origins(*split).find();
+  return split;
+}
+
+std::vector<LinkId> cuts_after(const Split& split, std::span<const LinkId> cuts) {
+  std::vector<LinkId> result;
+  if (cuts.empty()) {
+    return result;
+  }
+  for (LinkId link = 0; link < split.parents.size(); ++link) {
+    if (std::ranges::binary_search(cuts, split.parents[link])) {
+      result.push_back(link);
+    }
+  }
+  return result;
+}
+
+std::vector<ElementId> pins_after(const Split& split, std::span<const ElementId> pins) {
+  std::vector<ElementId> result(pins.begin(), pins.end());
+  for (ElementId i = 0; i < split.edit.elements.size(); ++i) {
+    const auto is_pinned = [&](ElementId one) { return std::ranges::binary_search(result, one); };
+    if (std::ranges::all_of(split.edit.elements[i].of, is_pinned)) {
+      result.push_back(split.before->element_count() + i);
+    }
+  }
+  return result;
+}
+
+}  // namespace chainmail

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// An element that a split appends: a point on the line between two elements, or inside the triangle of three. They
+/// come before it in the order of ids.
+struct SplitPoint {
+  /// Its rest position is p0 + shares[0] · (p1 − p0) + shares[1] · (p2 − p0). A copy has three equal elements.
+  std::array<ElementId, 3> of{};
+  std::array<double, 2> shares{};
+
+  static SplitPoint copy(ElementId element) { return {{element, element, element}, {0, 0}}; }
+  static SplitPoint between(ElementId from, ElementId to, double share) { return {{from, to, from}, {share, 0}}; }
+  bool is_copy() const { return of[1] == of[0] && of[2] == of[0]; }
+  /// Returns the value at the point of anything that is known at its elements and linear between them.
+  template <class Value>
+  Value mix(const Value& first, const Value& second, const Value& third) const {
+    return first + shares[0] * (second - first) + shares[1] * (third - first);
+  }
+
+  bool operator==(const SplitPoint&) const = default;
+};
+
+/// What a cut along a stroke changes in a mesh of faces: it appends elements, and replaces faces.
+struct SplitEdit {
+  std::vector<SplitPoint> elements;                 // appended
+  std::vector<std::uint32_t> removed;               // triangles that go, ascending: indices below Mesh::own_triangles
+  std::vector<std::array<ElementId, 3>> triangles;  // appended
+  std::vector<std::uint32_t> removed_polygons;      // the same for polygons, which are counted from 0
+  std::vector<ElementId> polygons;                  // appended: count, corner…, count, corner…
+
+  bool empty() const { return elements.empty() && removed.empty() && removed_polygons.empty(); }
+  bool operator==(const SplitEdit&) const = default;
+};
+
+/// A mesh before and after a split, and how its links go over. The elements keep their ids. The links are numbered
+/// anew, because their numbers follow from their ends.
+struct Split {
+  static constexpr LinkId none = std::numeric_limits<LinkId>::max();
+
+  MeshPointer before, after;
+  SplitEdit edit;
+  /// For each link of the mesh after the split: the link before it on which it lies; none if it is inside a face.
+  std::vector<LinkId> parents;
+  /// For each appended element: the link on which it lies; none for others.
+  std::vector<LinkId> link_of;
+
+  /// Returns the link before the split on which an element lies; none if it is not on one, or if it is older.
+  LinkId link_at(ElementId element) const {
+    return element < before->element_count() ? none : link_of[element - before->element_count()];
+  }
+};
+
+using SplitPointer = std::shared_ptr<const Split>;
+
+/// True if strokes may split the faces of this mesh: it has faces, and neither cells nor a lattice.
+bool can_split(const Mesh& mesh);
+
+/// Applies an edit. Throws Error, with the reason, if it does not fit the mesh.
+SplitPointer make_split(MeshPointer mesh, SplitEdit edit);
+
+/// Returns the links that are cut after the split: those on cut links. Ascending.
+std::vector<LinkId> cuts_after(const Split& split, std::span<const LinkId> cuts);
+/// Returns the pins after the split: also the new elements all of whose elements are pinned. Ascending.
+std::vector<ElementId> pins_after(const Split& split, std::span<const ElementId> pins);
+
+}  // namespace chainmail

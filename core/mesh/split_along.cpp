@@ -1,0 +1,804 @@
+// The order of this file: faces, crossings in the view, dividing faces along the stroke, separating them.
+//
+// The view is needed only to find in which order the stroke crosses the sides of a face, and where on the sides.
+// Everything after this is done on the faces themselves, in coordinates in which each is a regular polygon. Straight
+// lines stay straight there, and pieces between straight cuts stay convex.
+
+#include "mesh/split_along.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+#include "mesh/edge_key.h"
+
+namespace chainmail {
+namespace {
+
+using Eigen::Vector2d;
+using Ring = std::vector<ElementId>;  // the corners of a face or of a piece of one, in order
+constexpr ElementId nobody = std::numeric_limits<ElementId>::max();
+constexpr double pi = std::numbers::pi;
+// Moves the stroke (pixels), so that no corner is exactly on it.
+const Vector2d aside(1.37e-6, 0.73e-6);
+
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// Faces
+
+/// The faces of a mesh: its own triangles, then its polygons.
+class Faces {
+ public:
+  explicit Faces(const Mesh& mesh) : mesh_(mesh) {
+    for (std::size_t i = 0; i < mesh.polygons.size(); i += mesh.polygons[i] + 1) {
+      polygons_.push_back(i);
+    }
+  }
+  std::uint32_t count() const { return static_cast<std::uint32_t>(mesh_.own_triangles + polygons_.size()); }
+  bool is_polygon(std::uint32_t face) const { return face >= mesh_.own_triangles; }
+  std::uint32_t polygon(std::uint32_t face) const { return face - static_cast<std::uint32_t>(mesh_.own_triangles); }
+  std::span<const ElementId> operator[](std::uint32_t face) const {
+    if (!is_polygon(face)) {
+      return mesh_.triangles[face];
+    }
+    const std::size_t first = polygons_[polygon(face)];
+    return std::span(mesh_.polygons).subspan(first + 1, mesh_.polygons[first]);
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<std::size_t> polygons_;  // where each begins
+};
+
+// Crossings in the view
+
+/// A point where the stroke crosses a side of faces.
+struct Crossing {
+  double when = 0;   // number of the segment, and the share of it
+  double share = 0;  // of the side, from its element with the lower id, on the object
+};
+
+/// The stroke in the view, and where the elements are.
+class StrokeInView {
+ public:
+  StrokeInView(std::span<const ViewPlace> places, std::span<const Vector2d> stroke) : places_(places) {
+    for (const Vector2d& point : stroke) {
+      points_.push_back(point + aside);
+      low_ = low_.cwiseMin(points_.back());
+      high_ = high_.cwiseMax(points_.back());
+    }
+  }
+
+  bool empty() const { return points_.size() < 2; }
+  const Vector2d& first() const { return points_.front(); }
+  const Vector2d& last() const { return points_.back(); }
+  const ViewPlace& place(ElementId element) const { return places_[element]; }
+  /// Returns the crossings with a side, from its element with the lower id, in the order of the stroke.
+  std::vector<Crossing> crossings(ElementId a, ElementId b) const;
+  bool is_inside(const Vector2d& point, std::span<const ElementId> corners) const;
+
+ private:
+  std::optional<Crossing> crossing(std::size_t segment, const ViewPlace& a, const ViewPlace& b) const;
+
+  std::span<const ViewPlace> places_;
+  std::vector<Vector2d> points_;
+  Vector2d low_ = Vector2d::Constant(std::numeric_limits<double>::max()), high_ = -low_;
+};
+
+std::vector<Crossing> StrokeInView::crossings(ElementId a, ElementId b) const {
+  const ViewPlace &from = places_[std::min(a, b)], &to = places_[std::max(a, b)];
+  std::vector<Crossing> result;
+  if ((from.at.cwiseMin(to.at).array() > high_.array()).any() ||
+      (from.at.cwiseMax(to.at).array() < low_.array()).any() || from.distance <= 0 || to.distance <= 0) {
+    return result;
+  }
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+    if (const auto found = crossing(i, from, to)) {
+      result.push_back(*found);
+    }
+  }
+  return result;
+}
+
+std::optional<Crossing> StrokeInView::crossing(std::size_t segment, const ViewPlace& a, const ViewPlace& b) const {
+  const Vector2d &p = points_[segment], &q = points_[segment + 1];
+  const Vector2d way = q - p, side = b.at - a.at;
+  const double of_a = cross(way, a.at - p), of_b = cross(way, b.at - p);
+  const double of_p = cross(side, p - a.at), of_q = cross(side, q - a.at);
+  if ((of_a >= 0) == (of_b >= 0) || (of_p >= 0) == (of_q >= 0)) {
+    return std::nullopt;
+  }
+  const double seen = of_a / (of_a - of_b), near = seen * a.distance;  // perspective shortens what is far away
+  return Crossing{double(segment) + of_p / (of_p - of_q), near / ((1 - seen) * b.distance + near)};
+}
+
+bool StrokeInView::is_inside(const Vector2d& point, std::span<const ElementId> corners) const {
+  bool inside = false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector2d &a = places_[corners[i]].at, &b = places_[corners[(i + 1) % corners.size()]].at;
+    if ((a.y() > point.y()) != (b.y() > point.y()) &&
+        point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
+      inside = !inside;
+    }
+  }
+  return inside;
+}
+
+/// A way of the stroke through a face, from side to side; or, at an end of the stroke, from a side to a point inside.
+struct Chord {
+  double when = 0;  // of its first crossing
+  std::uint32_t face = 0;
+  std::array<ElementId, 2> nodes{nobody, nobody};  // the second is nobody for a point inside
+  std::array<double, 3> inside{};                  // this point, as shares of the three corners
+};
+
+// Dividing
+
+/// Returns the coordinates of corner i of n.
+Vector2d corner_place(std::size_t i, std::size_t n) {
+  const double angle = 2 * pi * double(i) / double(n);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// A face that is divided into pieces.
+struct Divided {
+  std::vector<Ring> sides;               // the elements on each side, with both corners, in order
+  std::map<ElementId, Vector2d> places;  // coordinates of its elements
+  std::vector<Ring> pieces;              // convex
+};
+
+bool has(const Ring& ring, ElementId element) { return std::ranges::find(ring, element) != ring.end(); }
+
+/// True if the elements of a ring are on a line.
+bool is_line(const Divided& face, const Ring& ring) {
+  constexpr double rounding = 1e-9;  // the whole face has an area of 1.3 or more
+  double area = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    area += cross(face.places.at(ring[i]), face.places.at(ring[(i + 1) % ring.size()])) / 2;
+  }
+  return std::abs(area) < rounding;
+}
+
+/// Divides the faces of a mesh along a stroke.
+class Division {
+ public:
+  Division(const Mesh& mesh, const Faces& faces, const StrokeInView& stroke, std::span<const LinkId> reached)
+      : mesh_(mesh), faces_(faces), stroke_(stroke), reached_(reached), next_(mesh.element_count()) {}
+
+  void run();
+
+  /// The faces with elements on their sides, and the pieces into which they are divided.
+  const std::map<std::uint32_t, Divided>& divided() const { return divided_; }
+  const std::vector<SplitPoint>& points() const { return points_; }
+  /// The sides of pieces along which the stroke runs.
+  const std::set<EdgeKey>& cut() const { return cut_; }
+
+ private:
+  struct Side {
+    std::vector<Crossing> crossings;
+    std::map<double, ElementId> nodes;  // elements on the side by their share; its ends are not among them
+    bool reached = false;
+  };
+  struct FaceCrossing {
+    double when = 0;
+    EdgeKey side = 0;
+    std::size_t number = 0;  // among the crossings of the side
+  };
+
+  void find_sides();
+  template <class Meant>
+  std::vector<std::uint32_t> faces_at(Meant is_meant) const;
+  void find_chords(std::uint32_t face);
+  void find_tip(std::uint32_t face, const FaceCrossing& at, const Vector2d& end);
+  std::vector<FaceCrossing> crossings_of(std::uint32_t face);
+  Side& side(ElementId a, ElementId b);
+  bool is_reached(const FaceCrossing& one) const { return sides_.at(one.side).reached; }
+  ElementId node(const FaceCrossing& one) { return node(one.side, sides_.at(one.side).crossings[one.number].share); }
+  ElementId node(EdgeKey key, double share);
+  ElementId add(const SplitPoint& point) {
+    points_.push_back(point);
+    return next_++;
+  }
+  std::optional<Eigen::Vector3d> shares_at(std::uint32_t face, const Vector2d& seen) const;
+
+  void begin_face(std::uint32_t face);
+  void connect(Divided& face, ElementId from, ElementId to);
+  bool run_along_side(const Divided& face, ElementId from, ElementId to);
+  bool join(Divided& face, ElementId from, ElementId to);
+  ElementId step(Divided& face, ElementId from, ElementId to);
+  ElementId divide_side(Divided& face, ElementId a, ElementId b, double share);
+  void add_tip(const Chord& chord);
+
+  const Mesh& mesh_;
+  const Faces& faces_;
+  const StrokeInView& stroke_;
+  std::span<const LinkId> reached_;
+  ElementId next_;
+  std::unordered_map<EdgeKey, Side> sides_;
+  std::vector<Chord> chords_;
+  std::map<std::uint32_t, Divided> divided_;
+  std::vector<SplitPoint> points_;
+  std::set<EdgeKey> cut_;
+};
+
+Division::Side& Division::side(ElementId a, ElementId b) {
+  const auto [found, is_new] = sides_.try_emplace(edge_key(a, b));
+  if (is_new) {
+    found->second.crossings = stroke_.crossings(a, b);
+  }
+  return found->second;
+}
+
+/// Finds the links that the stroke crosses.
+void Division::find_sides() {
+  for (const LinkId link : reached_) {
+    const auto& [a, b] = mesh_.links[link];
+    if (Side& one = side(a, b); one.crossings.empty()) {
+      sides_.erase(edge_key(a, b));
+    } else {
+      one.reached = true;
+    }
+  }
+}
+
+/// Returns the faces with a side for which `is_meant` is true, ascending.
+template <class Meant>
+std::vector<std::uint32_t> Division::faces_at(Meant is_meant) const {
+  std::vector<bool> is_end(mesh_.element_count());
+  for (const auto& [key, one] : sides_) {
+    if (is_meant(one)) {
+      is_end[ends_of(key)[0]] = is_end[ends_of(key)[1]] = true;
+    }
+  }
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t face = 0; face < faces_.count(); ++face) {
+    const auto corners = faces_[face];
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const ElementId a = corners[i], b = corners[(i + 1) % corners.size()];
+      const auto found = is_end[a] && is_end[b] ? sides_.find(edge_key(a, b)) : sides_.end();
+      if (found != sides_.end() && is_meant(found->second)) {
+        result.push_back(face);
+        break;
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<Division::FaceCrossing> Division::crossings_of(std::uint32_t face) {
+  const auto corners = faces_[face];
+  std::vector<FaceCrossing> result;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const ElementId a = corners[i], b = corners[(i + 1) % corners.size()];
+    const auto& crossings = side(a, b).crossings;
+    for (std::size_t k = 0; k < crossings.size(); ++k) {
+      result.push_back({crossings[k].when, edge_key(a, b), k});
+    }
+  }
+  std::ranges::sort(result, {}, &FaceCrossing::when);
+  return result;
+}
+
+/// Finds the ways of the stroke through a face: each crossing leads into it or out of it, also if it is seen from its
+/// edge, where no point is between them.
+void Division::find_chords(std::uint32_t face) {
+  const auto corners = faces_[face];
+  if (std::ranges::any_of(corners, [this](ElementId one) { return stroke_.place(one).distance <= 0; })) {
+    return;
+  }
+  const auto all = crossings_of(face);
+  const bool begins_inside = stroke_.is_inside(stroke_.first(), corners);
+  for (std::size_t i = begins_inside ? 1 : 0; i + 1 < all.size(); i += 2) {
+    if (is_reached(all[i]) && is_reached(all[i + 1])) {
+      chords_.push_back({all[i].when, face, {node(all[i]), node(all[i + 1])}, {}});
+    }
+  }
+  if (corners.size() != 3) {
+    return;  // a polygon is not divided by a point inside it
+  }
+  if (begins_inside && is_reached(all.front())) {
+    find_tip(face, all.front(), stroke_.first());
+  }
+  if (begins_inside == (all.size() % 2 == 0) && is_reached(all.back())) {
+    find_tip(face, all.back(), stroke_.last());
+  }
+}
+
+/// The stroke begins or ends inside a triangle. The cut ends there; or, near a side or a corner, on it.
+void Division::find_tip(std::uint32_t face, const FaceCrossing& at, const Vector2d& end) {
+  const auto corners = faces_[face];
+  const auto shares = shares_at(face, end);
+  if (!shares) {
+    return;
+  }
+  if (shares->minCoeff() >= tip_share) {
+    chords_.push_back({at.when, face, {node(at), nobody}, {shares->x(), shares->y(), shares->z()}});
+    return;
+  }
+  Eigen::Index least = 0;
+  shares->minCoeff(&least);
+  const auto first = std::size_t((least + 1) % 3), second = std::size_t((least + 2) % 3);
+  const ElementId a = corners[first], b = corners[second];
+  if (edge_key(a, b) != at.side) {  // otherwise the stroke has just crossed this side
+    side(a, b);
+    const double of_b = (*shares)[Eigen::Index(second)] / (1 - (*shares)[least]);
+    chords_.push_back({at.when, face, {node(at), node(edge_key(a, b), a < b ? of_b : 1 - of_b)}, {}});
+  }
+}
+
+/// Returns the shares of the three corners of a triangle at a position in the view; none if the triangle is seen from
+/// its edge or if a corner is behind the eye.
+std::optional<Eigen::Vector3d> Division::shares_at(std::uint32_t face, const Vector2d& seen) const {
+  const auto corners = faces_[face];
+  const auto &a = stroke_.place(corners[0]), &b = stroke_.place(corners[1]), &c = stroke_.place(corners[2]);
+  const double area = cross(b.at - a.at, c.at - a.at);
+  if (area == 0 || std::min({a.distance, b.distance, c.distance}) <= 0) {
+    return std::nullopt;
+  }
+  // In perspective, the shares in the view are those on the object, times the distance.
+  Eigen::Vector3d shares(cross(b.at - seen, c.at - seen) / area / a.distance,
+                         cross(c.at - seen, a.at - seen) / area / b.distance,
+                         cross(a.at - seen, b.at - seen) / area / c.distance);
+  shares = shares.cwiseMax(0);
+  return shares / shares.sum();
+}
+
+/// Returns the element on a side at this share of it: an end or another element nearby, or a new one.
+ElementId Division::node(EdgeKey key, double share) {
+  const auto [a, b] = ends_of(key);
+  if (!(share >= snap_share)) {
+    return a;
+  }
+  if (share > 1 - snap_share) {
+    return b;
+  }
+  auto& nodes = sides_.at(key).nodes;
+  const auto after = nodes.lower_bound(share);
+  if (after != nodes.end() && after->first - share < snap_share) {
+    return after->second;
+  }
+  if (after != nodes.begin() && share - std::prev(after)->first < snap_share) {
+    return std::prev(after)->second;
+  }
+  return nodes[share] = add(SplitPoint::between(a, b, share));
+}
+
+/// Puts the elements on its sides into a face, which is one piece then.
+void Division::begin_face(std::uint32_t face) {
+  const auto corners = faces_[face];
+  Divided& divided = divided_[face];
+  Ring whole;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const ElementId a = corners[i], b = corners[(i + 1) % corners.size()];
+    const Vector2d from = corner_place(i, corners.size()), to = corner_place(i + 1, corners.size());
+    divided.places[a] = from;
+    Ring on{a};
+    if (const auto found = sides_.find(edge_key(a, b)); found != sides_.end()) {
+      for (const auto& [share, element] : found->second.nodes) {
+        divided.places[element] = from + (a < b ? share : 1 - share) * (to - from);
+        on.push_back(element);
+      }
+    }
+    if (a > b) {
+      std::reverse(on.begin() + 1, on.end());
+    }
+    whole.insert(whole.end(), on.begin(), on.end());
+    on.push_back(b);
+    divided.sides.push_back(std::move(on));
+  }
+  divided.pieces = {whole};
+}
+
+void Division::run() {
+  find_sides();
+  for (const std::uint32_t face : faces_at([](const Side& side) { return side.reached; })) {
+    find_chords(face);
+  }
+  for (const std::uint32_t face : faces_at([](const Side& side) { return !side.nodes.empty(); })) {
+    begin_face(face);
+  }
+  std::ranges::stable_sort(chords_, {}, &Chord::when);
+  for (const Chord& chord : chords_) {
+    if (!divided_.contains(chord.face)) {
+      begin_face(chord.face);  // all its crossings are at corners
+    }
+    if (chord.nodes[1] == nobody) {
+      add_tip(chord);
+    } else {
+      connect(divided_.at(chord.face), chord.nodes[0], chord.nodes[1]);
+    }
+  }
+}
+
+/// Cuts a face from one element on its sides to another.
+void Division::connect(Divided& face, ElementId from, ElementId to) {
+  constexpr int most_steps = 1000;
+  if (from == to || run_along_side(face, from, to)) {
+    return;
+  }
+  for (int i = 0; i < most_steps && from != nobody && !join(face, from, to); ++i) {
+    from = step(face, from, to);
+  }
+}
+
+/// The cut runs along a side if both elements are on it. Returns false if they are not.
+bool Division::run_along_side(const Divided& face, ElementId from, ElementId to) {
+  for (const Ring& on : face.sides) {
+    auto first = std::ranges::find(on, from), last = std::ranges::find(on, to);
+    if (first != on.end() && last != on.end()) {
+      if (last < first) {
+        std::swap(first, last);
+      }
+      for (; first != last; ++first) {
+        cut_.insert(edge_key(*first, *std::next(first)));
+      }
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Cuts the piece with both elements between them. Returns false if there is no such piece.
+bool Division::join(Divided& face, ElementId from, ElementId to) {
+  const auto piece = std::ranges::find_if(face.pieces, [&](const Ring& one) { return has(one, from) && has(one, to); });
+  if (piece == face.pieces.end()) {
+    return false;
+  }
+  std::rotate(piece->begin(), std::ranges::find(*piece, from), piece->end());
+  const auto second = std::ranges::find(*piece, to);
+  Ring one(piece->begin(), second + 1), other(second, piece->end());
+  other.push_back(from);
+  for (const Ring& half : {one, other}) {
+    if (is_line(face, half)) {  // the cut runs along a side of the piece
+      for (std::size_t i = 0; i + 1 < half.size(); ++i) {
+        cut_.insert(edge_key(half[i], half[i + 1]));
+      }
+      return true;
+    }
+  }
+  cut_.insert(edge_key(from, to));
+  *piece = std::move(one);
+  face.pieces.push_back(std::move(other));
+  return true;
+}
+
+/// Cuts the piece into which the way from one element to another leads. Returns the element where the way leaves the
+/// piece, or nobody.
+ElementId Division::step(Divided& face, ElementId from, ElementId to) {
+  constexpr double rounding = 1e-9;
+  const Vector2d start = face.places.at(from), way = face.places.at(to) - start;
+  for (const Ring& piece : face.pieces) {
+    for (std::size_t i = 0; has(piece, from) && i < piece.size(); ++i) {
+      const ElementId a = piece[i], b = piece[(i + 1) % piece.size()];
+      if (a == from || b == from) {
+        continue;
+      }
+      const Vector2d side = face.places.at(b) - face.places.at(a), there = face.places.at(a) - start;
+      const double across = cross(way, side);
+      const double along = cross(there, side) / across, share = cross(there, way) / across;
+      if (across != 0 && along > rounding && along < 1 && share >= 0 && share <= 1) {
+        const ElementId next = share < snap_share ? a : share > 1 - snap_share ? b : divide_side(face, a, b, share);
+        return next != nobody && join(face, from, next) ? next : nobody;
+      }
+    }
+  }
+  return nobody;
+}
+
+/// Adds an element to a side that two pieces share; returns nobody if they do not.
+ElementId Division::divide_side(Divided& face, ElementId a, ElementId b, double share) {
+  std::vector<std::pair<Ring*, std::size_t>> where;  // pieces, and the index at which to insert
+  for (Ring& piece : face.pieces) {
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      if (edge_key(piece[i], piece[(i + 1) % piece.size()]) == edge_key(a, b)) {
+        where.emplace_back(&piece, i + 1);
+      }
+    }
+  }
+  if (where.size() != 2) {
+    return nobody;
+  }
+  const ElementId element = add(SplitPoint::between(a, b, share));
+  face.places[element] = (1 - share) * face.places.at(a) + share * face.places.at(b);
+  for (const auto& [piece, index] : where) {
+    piece->insert(piece->begin() + std::ptrdiff_t(index), element);
+  }
+  if (cut_.erase(edge_key(a, b)) != 0) {
+    cut_.insert(edge_key(a, element));
+    cut_.insert(edge_key(element, b));
+  }
+  return element;
+}
+
+/// Cuts a triangle from an element on its sides to a point inside, around which the piece becomes triangles.
+void Division::add_tip(const Chord& chord) {
+  constexpr double least_area = 0.01;  // of a triangle at the point; the whole face has 1.3
+  const auto corners = faces_[chord.face];
+  Divided& face = divided_.at(chord.face);
+  Vector2d place = Vector2d::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    place += chord.inside[i] * corner_place(i, corners.size());
+  }
+  const auto contains = [&](const Ring& piece) {
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const Vector2d &a = face.places.at(piece[i]), &b = face.places.at(piece[(i + 1) % piece.size()]);
+      if (cross(b - a, place - a) / 2 < least_area) {
+        return false;
+      }
+    }
+    return has(piece, chord.nodes[0]);
+  };
+  const auto found = std::ranges::find_if(face.pieces, contains);
+  if (found == face.pieces.end()) {
+    return;  // the cut ends at the side
+  }
+  const Ring piece = *found;
+  face.pieces.erase(found);
+  const ElementId tip = add({{corners[0], corners[1], corners[2]}, {chord.inside[1], chord.inside[2]}});
+  face.places[tip] = place;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    face.pieces.push_back({piece[i], piece[(i + 1) % piece.size()], tip});
+  }
+  cut_.insert(edge_key(chord.nodes[0], tip));
+}
+
+// Separating
+
+using Triangle = std::array<ElementId, 3>;
+
+/// Rest positions of the elements, with those that are new.
+std::vector<Point> rest_of(const Mesh& mesh, const std::vector<SplitPoint>& points) {
+  std::vector<Point> rest;
+  rest.reserve(mesh.element_count() + points.size());
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    rest.push_back(mesh.rest_position(e));
+  }
+  for (const SplitPoint& point : points) {
+    rest.push_back(point.mix<Point>(rest[point.of[0]], rest[point.of[1]], rest[point.of[2]]));
+  }
+  return rest;
+}
+
+/// Returns the quality of a triangle at rest: its area, relative to its sides. 0 if its corners are on a line.
+double quality(const std::vector<Point>& rest, ElementId a, ElementId b, ElementId c) {
+  const Point ab = rest[b] - rest[a], ac = rest[c] - rest[a], bc = rest[c] - rest[b];
+  return ab.cross(ac).norm() / (ab.squaredNorm() + ac.squaredNorm() + bc.squaredNorm());
+}
+
+/// Returns the triangles of a convex piece whose worst one is best: the best way to fill the corners i to j follows
+/// from the third corner of the triangle at the line between them (Klincsek 1980).
+std::vector<Triangle> triangulated(const Ring& ring, const std::vector<Point>& rest) {
+  const std::size_t n = ring.size();
+  std::vector<double> worst(n * n, std::numeric_limits<double>::max());
+  std::vector<std::size_t> third(n * n, 0);
+  for (std::size_t length = 2; length < n; ++length) {
+    for (std::size_t i = 0; i + length < n; ++i) {
+      const std::size_t j = i + length;
+      worst[i * n + j] = -1;
+      for (std::size_t k = i + 1; k < j; ++k) {
+        const double here = std::min({worst[i * n + k], worst[k * n + j], quality(rest, ring[i], ring[k], ring[j])});
+        if (here > worst[i * n + j]) {
+          worst[i * n + j] = here;
+          third[i * n + j] = k;
+        }
+      }
+    }
+  }
+  std::vector<Triangle> result;
+  std::vector<std::array<std::size_t, 2>> open{{0, n - 1}};
+  while (!open.empty()) {
+    const auto [i, j] = open.back();
+    open.pop_back();
+    if (j >= i + 2) {
+      const std::size_t k = third[i * n + j];
+      result.push_back({ring[i], ring[k], ring[j]});
+      open.push_back({k, j});
+      open.push_back({i, k});
+    }
+  }
+  return result;
+}
+
+/// Rotates a polygon so that the triangles about its first corner, as which it is drawn, are as good as possible.
+Ring rotated(Ring ring, const std::vector<Point>& rest) {
+  const auto worst = [&rest](const Ring& one) {
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t i = 2; i < one.size(); ++i) {
+      least = std::min(least, quality(rest, one[0], one[i - 1], one[i]));
+    }
+    return least;
+  };
+  Ring best = ring;
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    std::rotate(ring.begin(), ring.begin() + 1, ring.end());
+    best = worst(ring) > worst(best) ? ring : best;
+  }
+  return best;
+}
+
+/// Groups of numbers that grow together.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  /// Returns the lowest number in the group of a number.
+  std::size_t of(std::size_t one) const {
+    while (parent_[one] != one) {
+      one = parent_[one];
+    }
+    return one;
+  }
+  void unite(std::size_t one, std::size_t other) {
+    one = of(one);
+    other = of(other);
+    parent_[std::max(one, other)] = std::min(one, other);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Separates faces along the sides that are cut, and writes the edit.
+class Separation {
+ public:
+  Separation(const Mesh& mesh, const Faces& faces, const Division& division)
+      : faces_(faces), cut_(division.cut()), rest_(rest_of(mesh, division.points())) {
+    edit_.elements = division.points();
+    for (const auto& [face, divided] : division.divided()) {
+      replace(face);
+      for (const Ring& piece : divided.pieces) {
+        add(piece, faces.is_polygon(face));
+      }
+    }
+  }
+
+  SplitEdit run();
+
+ private:
+  /// A face that has an element as a corner.
+  struct Corner {
+    std::uint32_t face = 0;  // of the mesh; or, from the number of these on, a new one
+    std::size_t index = 0;
+  };
+
+  void replace(std::uint32_t face) {
+    (faces_.is_polygon(face) ? edit_.removed_polygons : edit_.removed)
+        .push_back(faces_.is_polygon(face) ? faces_.polygon(face) : face);
+    replaced_.insert(face);
+  }
+  void add(const Ring& piece, bool is_polygon);
+  std::span<const ElementId> corners(std::uint32_t face) const {
+    return face < faces_.count() ? faces_[face] : std::span<const ElementId>(added_[face - faces_.count()]);
+  }
+  std::map<ElementId, std::vector<Corner>> corners_at_cut() const;
+  void separate(ElementId element, const std::vector<Corner>& around);
+  void write();
+
+  const Faces& faces_;
+  const std::set<EdgeKey>& cut_;
+  std::vector<Point> rest_;
+  std::set<std::uint32_t> replaced_;
+  std::vector<Ring> added_;
+  std::map<std::uint32_t, std::map<std::size_t, ElementId>> moved_;  // corners that become copies, by face
+  SplitEdit edit_;
+};
+
+void Separation::add(const Ring& piece, bool is_polygon) {
+  if (is_polygon) {
+    added_.push_back(rotated(piece, rest_));
+    return;
+  }
+  for (const Triangle& one : triangulated(piece, rest_)) {
+    added_.emplace_back(one.begin(), one.end());
+  }
+}
+
+/// Returns the corners of faces at each element on the cut.
+std::map<ElementId, std::vector<Separation::Corner>> Separation::corners_at_cut() const {
+  std::vector<bool> is_meant(rest_.size());
+  for (const EdgeKey one : cut_) {
+    is_meant[ends_of(one)[0]] = is_meant[ends_of(one)[1]] = true;
+  }
+  std::map<ElementId, std::vector<Corner>> result;
+  for (std::uint32_t face = 0; face < faces_.count() + added_.size(); ++face) {
+    const auto all = corners(face);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (is_meant[all[i]] && !replaced_.contains(face)) {
+        result[all[i]].push_back({face, i});
+      }
+    }
+  }
+  return result;
+}
+
+/// Groups the faces around an element by the sides at it that are not cut. One group keeps the element; each other gets
+/// a copy. Faces that no side joined before keep the element, too.
+void Separation::separate(ElementId element, const std::vector<Corner>& around) {
+  std::map<ElementId, std::vector<std::size_t>> at_side;
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const auto all = corners(around[i].face);
+    at_side[all[(around[i].index + 1) % all.size()]].push_back(i);
+    at_side[all[(around[i].index + all.size() - 1) % all.size()]].push_back(i);
+  }
+  Groups before(around.size()), after(around.size());
+  for (const auto& [other, faces] : at_side) {
+    for (const std::size_t one : faces) {
+      before.unite(faces[0], one);
+      if (!cut_.contains(edge_key(element, other))) {
+        after.unite(faces[0], one);
+      }
+    }
+  }
+  std::map<std::size_t, ElementId> copies;
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const std::size_t group = after.of(i);
+    if (group == before.of(i)) {
+      continue;
+    }
+    if (const auto [copy, is_new] = copies.try_emplace(group, static_cast<ElementId>(rest_.size())); is_new) {
+      rest_.push_back(rest_[element]);
+      edit_.elements.push_back(SplitPoint::copy(element));
+    }
+    moved_[around[i].face][around[i].index] = copies[group];
+  }
+}
+
+/// Moves corners to their copies, and writes the new faces.
+void Separation::write() {
+  for (const auto& [face, to] : moved_) {
+    Ring ring(corners(face).begin(), corners(face).end());
+    for (const auto& [index, copy] : to) {
+      ring[index] = copy;
+    }
+    if (face < faces_.count()) {
+      replace(face);
+      added_.push_back(std::move(ring));
+    } else {
+      added_[face - faces_.count()] = std::move(ring);
+    }
+  }
+  std::ranges::sort(edit_.removed);
+  std::ranges::sort(edit_.removed_polygons);
+  for (const Ring& ring : added_) {
+    if (ring.size() == 3) {
+      edit_.triangles.push_back({ring[0], ring[1], ring[2]});
+    } else {
+      edit_.polygons.push_back(static_cast<ElementId>(ring.size()));
+      edit_.polygons.insert(edit_.polygons.end(), ring.begin(), ring.end());
+    }
+  }
+}
+
+SplitEdit Separation::run() {
+  for (const auto& [element, around] : corners_at_cut()) {
+    separate(element, around);
+  }
+  if (moved_.empty()) {
+    return {};
+  }
+  write();
+  return std::move(edit_);
+}
+
+}  // namespace
+
+SplitEdit split_along(const Mesh& mesh, std::span<const ViewPlace> places, std::span<const Vector2d> points,
+                      std::span<const LinkId> reached) {
+  assert(places.size() == mesh.element_count());
+  const StrokeInView stroke(places, points);
+  if (stroke.empty() || !can_split(mesh)) {
+    return {};
+  }
+  const Faces faces(mesh);
+  Division division(mesh, faces, stroke, reached);
+  division.run();
+  return Separation(mesh, faces, division).run();
+}
+
+}  // namespace chainmail

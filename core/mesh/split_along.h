@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+
+#include "mesh/split.h"
+
+namespace chainmail {
+
+/// Where an element is in a view.
+struct ViewPlace {
+  Eigen::Vector2d at;
+  /// Distance from the eye in perspective; 1 in parallel projection; at most 0 behind the eye.
+  double distance = 1;
+};
+
+/// A crossing this close to the end of a side, as a share of the side, goes through the end: no new side is shorter.
+inline constexpr double snap_share = 0.05;
+/// The cut ends inside a face only if its end is this far from all sides, as a share of the height; otherwise at the
+/// nearest side or corner.
+inline constexpr double tip_share = 0.1;
+
+/// Returns the edit that cuts the faces of a mesh along a stroke. It appends elements where the stroke crosses the
+/// sides of faces and where it begins and ends inside a face, divides the faces along the stroke, and then separates
+/// them: elements on the stroke are doubled, except where the cut ends inside the object. Total area stays the same. A
+/// face is divided only between crossings of links in `reached`, which is ascending. The edit is empty if nothing comes
+/// apart.
+SplitEdit split_along(const Mesh& mesh, std::span<const ViewPlace> places, std::span<const Eigen::Vector2d> stroke,
+                      std::span<const LinkId> reached);
+
+}  // namespace chainmail
