@@ -76,6 +76,23 @@ class WindowExact : public QObject {
     QTRY_VERIFY(readout(bench).contains(QStringLiteral("Left: drag an element")));
   }
 
+  void aNarrowWindowLeavesOutTheSoftnessAndThenOtherPanels() {
+    Workbench bench;
+    auto* label = bench.find<QLabel>("readout");
+    const auto shown = [&](int width) {
+      label->resize(width, label->height());
+      bench.document().setHighlight({});
+      bench.document().setHighlight({middle, false, {}});
+      return readout(bench);
+    };
+    QVERIFY(shown(2000).contains(QStringLiteral("compression")));
+    const QString fewer = shown(500);
+    QVERIFY(fewer.contains(QStringLiteral("B: ")) && fewer.contains(QStringLiteral("links")));
+    QVERIFY(!fewer.contains(QStringLiteral("compression")));
+    const QString fewest = shown(300);
+    QVERIFY(fewest.contains(QStringLiteral("x 4, y 3")) && !fewest.contains(QStringLiteral("B: ")));
+  }
+
   void theFiguresFollowADragByAnotherHand() {
     Workbench bench;
     bench.document().setHighlight({middle, false, {}});

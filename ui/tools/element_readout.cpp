@@ -1,6 +1,7 @@
 #include "tools/element_readout.h"
 
 #include <QLocale>
+#include <QTextDocument>
 
 #include "common/text.h"
 #include "document/element_facts.h"
@@ -9,6 +10,14 @@ namespace chainmail {
 namespace {
 
 constexpr int refreshMilliseconds = 100;
+
+QString softnessInWords(const SoftnessRange& softness) {
+  return softness.links == 0 ? QString()
+                             : QStringLiteral(": compression %1, stretch %2, shear %3")
+                                   .arg(range(softness.least.compression, softness.most.compression),
+                                        range(softness.least.stretch, softness.most.stretch),
+                                        range(softness.least.shear, softness.most.shear));
+}
 
 }  // namespace
 
@@ -73,29 +82,39 @@ QString ElementReadout::describeHandle() const {
   return text;
 }
 
-/// Describes the element in all panels; the panel under the cursor comes first.
+/// Describes the element in all panels; the panel under the cursor comes first. Leaves out the softness, then the other
+/// panels, if there is no room for them.
 QString ElementReadout::describe(ElementId element) const {
   const int first = hovered_();
-  QString places;
+  QString place, others;
   for (const int panel : panelsInOrder()) {
-    places += QStringLiteral("  ·  %1: %2, violation %3")
-                  .arg(panel == first ? QStringLiteral("<b>%1</b>").arg(panelName(panel)) : panelName(panel),
-                       coordinates(*document_.mesh(), positionIn(document_, panel, element)),
-                       QLocale().toString(violationIn(document_, panel, element), 'g', 3));
+    (panel == first ? place : others) +=
+        QStringLiteral("  ·  %1: %2, violation %3")
+            .arg(panel == first ? QStringLiteral("<b>%1</b>").arg(panelName(panel)) : panelName(panel),
+                 coordinates(*document_.mesh(), positionIn(document_, panel, element)),
+                 QLocale().toString(violationIn(document_, panel, element), 'g', 3));
   }
   const SoftnessRange softness = softnessOf(document_, element);
-  QString links = QStringLiteral("no links");
-  if (softness.links > 0) {
-    links = QStringLiteral("%L1 %2: compression %3, stretch %4, shear %5")
-                .arg(softness.links)
-                .arg(softness.links == 1 ? QStringLiteral("link") : QStringLiteral("links"),
-                     range(softness.least.compression, softness.most.compression),
-                     range(softness.least.stretch, softness.most.stretch),
-                     range(softness.least.shear, softness.most.shear));
+  const QString links = softness.links == 0 ? QStringLiteral("  ·  no links")
+                                            : QStringLiteral("  ·  ") + counted(softness.links, QStringLiteral("link"));
+  const QString head = QStringLiteral("<b>Element %L1</b>%2")
+                           .arg(element)
+                           .arg(document_.isPinned(element) ? QStringLiteral(", pinned") : QString());
+  for (const QString& text :
+       {head + place + others + links + softnessInWords(softness), head + place + others + links}) {
+    if (hasRoomFor(text)) {
+      return text;
+    }
   }
-  return QStringLiteral("<b>Element %L1</b>%2%3  ·  %4")
-      .arg(element)
-      .arg(document_.isPinned(element) ? QStringLiteral(", pinned") : QString(), places, links);
+  return head + place + links;
+}
+
+bool ElementReadout::hasRoomFor(const QString& text) const {
+  QTextDocument whole;
+  whole.setDefaultFont(font());
+  whole.setDocumentMargin(0);
+  whole.setHtml(text);
+  return whole.idealWidth() <= width();
 }
 
 }  // namespace chainmail

@@ -22,6 +22,7 @@ class ElementReadout : public QLabel {
  private:
   void updateText();
   QString describe(ElementId element) const;
+  bool hasRoomFor(const QString& text) const;
   bool holdsMany() const;
   QString describeHandle() const;
   std::vector<int> panelsInOrder() const;
