@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <bit>
+#include <limits>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -104,6 +106,13 @@ void add_words(std::string& words, std::uint64_t count, const char* one, const c
   }
 }
 
+/// Spreads the bits of a number over all bits (the finalizer of SplitMix64, Steele et al. 2014).
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31U);
+}
+
 }  // namespace
 
 void leave_out_flawed(MeshParts& parts, MeshFlaws& flaws) {
@@ -115,22 +124,24 @@ void leave_out_flawed(MeshParts& parts, MeshFlaws& flaws) {
 }
 
 std::vector<ElementId> first_at_position(const Mesh& mesh) {
-  const int dimension = mesh.space_dimension;
-  std::vector<ElementId> order(mesh.element_count());
-  std::iota(order.begin(), order.end(), ElementId{0});
-  std::vector<ElementId> first = order;
-  const auto position = [&](ElementId e) {
-    return std::span(mesh.rest).subspan(std::size_t{e} * dimension, dimension);
-  };
-  std::sort(order.begin(), order.end(), [&](ElementId a, ElementId b) {
-    const auto way = std::lexicographical_compare_three_way(position(a).begin(), position(a).end(), position(b).begin(),
-                                                            position(b).end());
-    return way == 0 ? a < b : way < 0;
-  });
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (std::ranges::equal(position(order[i]), position(order[i - 1]))) {
-      first[order[i]] = first[order[i - 1]];
+  const auto dimension = std::size_t(mesh.space_dimension);
+  const auto position = [&](ElementId e) { return std::span(mesh.rest).subspan(e * dimension, dimension); };
+  // A hash table of elements with open addressing. A file cannot choose positions with equal hashes: the seed is
+  // random.
+  constexpr auto empty = std::numeric_limits<ElementId>::max();
+  static const std::uint64_t seed = std::random_device{}();
+  std::vector<ElementId> table(std::bit_ceil(2 * std::size_t{mesh.element_count()} + 1), empty);
+  std::vector<ElementId> first(mesh.element_count());
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    std::uint64_t hash = seed;
+    for (const double coordinate : position(e)) {
+      hash = mixed(hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0));  // -0 is 0
     }
+    std::size_t at = hash % table.size();
+    while (table[at] != empty && !std::ranges::equal(position(table[at]), position(e))) {
+      at = (at + 1) % table.size();
+    }
+    first[e] = table[at] = table[at] == empty ? e : table[at];
   }
   return first;
 }
