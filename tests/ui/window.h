@@ -49,9 +49,9 @@ struct Workbench {
   /// Waits until background jobs are done, all solvers have executed all commands, and their frames are drawn.
   void settle() {
     QCoreApplication::processEvents();  // pending requests may start a job
-    QTRY_VERIFY_WITH_TIMEOUT(!window.jobs().running(), patience);
-    QTRY_VERIFY_WITH_TIMEOUT(document().idle(), patience);
-    QTRY_VERIFY_WITH_TIMEOUT(showsTheObject(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!window.jobs().running(), longestWait);
+    QTRY_VERIFY_WITH_TIMEOUT(document().idle(), longestWait);
+    QTRY_VERIFY_WITH_TIMEOUT(showsTheObject(), longestWait);
     awaitFrames();
     do {
       QTRY_VERIFY(!refreshes(shortly));
@@ -211,7 +211,7 @@ struct Workbench {
   }
 
   static constexpr int shortly = 50, readably = 100;  // milliseconds from a change to its display
-  static constexpr int patience = 60'000;             // milliseconds: the sanitizers are slow, and so is a busy machine
+  static constexpr int longestWait = 60'000;          // milliseconds: the sanitizers are slow, and so is a busy machine
   static constexpr int patience = 200;  // milliseconds that a stroke waits for the solvers after each step
 
   MainWindow window;
