@@ -33,9 +33,15 @@ struct SimplexEnergy {
   CornerVector gradient;  // by the coordinates of the corners, corner by corner
   CornerMatrix hessian;
 };
-enum class Want { energy, gradient, hessian };
+/// What to compute; each includes those before it. `convex` is the Hessian, or the nearest matrix without negative
+/// curvature instead of it (Teran et al. 2005).
+enum class Want { energy, gradient, hessian, convex };
 SimplexEnergy neo_hookean(const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at,
                           const Lame& lame, Want want);
+
+/// The energy of a material: neo_hookean, or corotated.
+using SimplexModel = SimplexEnergy (*)(const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at,
+                                       const Lame& lame, Want want);
 
 /// Returns the stiffness of a simplex: the Hessian at rest.
 CornerMatrix stiffness(const Simplices& simplices, std::size_t simplex, const Lame& lame);

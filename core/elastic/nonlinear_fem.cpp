@@ -3,9 +3,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "elastic/corotated.h"
 #include "elastic/elimination.h"
 #include "elastic/methods.h"
 #include "elastic/newton.h"
+#include "elastic/rigid_fit.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -21,12 +23,13 @@ std::string percent(double share) {
   return text.data();
 }
 
-/// Finite deformations on linear elements: Newton's method with a line search. The handle's displacement is applied in
-/// load steps.
-class NeoHookean final : public ElasticSolver {
+/// Finite deformations on linear elements, of a neo-Hookean or a corotated energy: Newton's method with a line search.
+/// The handle's displacement is applied in load steps.
+class NonlinearFem final : public ElasticSolver {
  public:
-  NeoHookean(const ElasticProblem& problem, const Progress& progress)
-      : dimension_(static_cast<std::size_t>(problem.mesh->space_dimension)),
+  NonlinearFem(const char* name, SimplexModel model, const ElasticProblem& problem, const Progress& progress)
+      : model_(model),
+        dimension_(static_cast<std::size_t>(problem.mesh->space_dimension)),
         elements_(problem.mesh->element_count()),
         pins_(problem.pins),
         pinned_(problem.pinned),
@@ -36,10 +39,11 @@ class NeoHookean final : public ElasticSolver {
         base_(problem.mesh->rest.size(), 0.0) {
     check_held(simplices_, *problem.mesh, problem.pins);
     if (std::ranges::any_of(pinned_, [](double one) { return one != 0; })) {
-      Newton newton(simplices_, lame_, elements_, order_, pins_);
+      Newton newton(simplices_, lame_, elements_, order_, pins_, model_);
+      start_rigidly(rigid_fit(problem));
       const std::string stuck = carry(newton, pins_, pinned_, base_, progress.part(0.1, 1));
       if (!stuck.empty()) {
-        throw Error("neo-Hookean FEM", "with the pins at their positions, " + stuck, "reset the object, then pin it");
+        throw Error(name, "with the pins at their positions, " + stuck, "reset the object, then pin it");
       }
     }
     reset();
@@ -49,7 +53,7 @@ class NeoHookean final : public ElasticSolver {
     if (!newton_ || handle.elements != handle_.elements) {
       std::vector<ElementId> prescribed = pins_;
       prescribed.insert(prescribed.end(), handle.elements.begin(), handle.elements.end());
-      newton_ = std::make_unique<Newton>(simplices_, lame_, elements_, order_, prescribed);
+      newton_ = std::make_unique<Newton>(simplices_, lame_, elements_, order_, prescribed, model_);
     }
     handle_ = handle;
   }
@@ -81,8 +85,17 @@ class NeoHookean final : public ElasticSolver {
   }
   const std::vector<double>& displacements() const override { return displacements_; }
   const std::string& remark() const override { return remark_; }
+  bool follows_path() const override { return true; }
 
  private:
+  /// Elements without a cell stay at rest.
+  void start_rigidly(const std::vector<double>& displacements) {
+    for (const ElementId e : order_) {
+      std::copy_n(displacements.begin() + static_cast<std::ptrdiff_t>(e * dimension_), dimension_,
+                  base_.begin() + static_cast<std::ptrdiff_t>(e * dimension_));
+    }
+  }
+
   /// Moves some prescribed elements from their displacements to their targets. Returns an empty text if it converged.
   /// Otherwise returns the reason, and `displacements` is the last converged state.
   std::string carry(Newton& newton, const std::vector<ElementId>& carried, const std::vector<double>& target,
@@ -117,6 +130,7 @@ class NeoHookean final : public ElasticSolver {
     return {};
   }
 
+  SimplexModel model_;
   std::size_t dimension_;
   ElementId elements_;
   std::vector<ElementId> pins_;
@@ -133,7 +147,11 @@ class NeoHookean final : public ElasticSolver {
 }  // namespace
 
 std::unique_ptr<ElasticSolver> make_neo_hookean(const ElasticProblem& problem, const Progress& progress) {
-  return std::make_unique<NeoHookean>(problem, progress);
+  return std::make_unique<NonlinearFem>("neo-Hookean FEM", neo_hookean, problem, progress);
+}
+
+std::unique_ptr<ElasticSolver> make_corotational(const ElasticProblem& problem, const Progress& progress) {
+  return std::make_unique<NonlinearFem>("corotational FEM", corotated, problem, progress);
 }
 
 }  // namespace chainmail
