@@ -19,7 +19,9 @@ inline void turn_to_closest(const Eigen::Matrix2d& matrix, Eigen::Matrix2d& rota
   const double cosine = matrix(0, 0) + matrix(1, 1), sine = matrix(1, 0) - matrix(0, 1);
   const double size = std::sqrt(cosine * cosine + sine * sine);
   if (size > 0) {
-    rotation << cosine / size, -sine / size, sine / size, cosine / size;
+    rotation(0, 0) = rotation(1, 1) = cosine / size;
+    rotation(1, 0) = sine / size;
+    rotation(0, 1) = -rotation(1, 0);
   }
 }
 
