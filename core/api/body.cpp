@@ -234,8 +234,8 @@ void Body::set_energy(EnergyKind kind) {
 EnergyKind Body::energy() const { return energy_of(inside_->body().softness().energy); }
 
 void Body::set_elasticity(const Elasticity& elasticity) {
-  const ElasticOptions options{{elasticity.young, elasticity.poisson}, elasticity.control_points,
-                               elasticity.iterations};
+  const ElasticOptions options{
+      {elasticity.young, elasticity.poisson}, elasticity.control_points, elasticity.iterations};
   guarded([&] { inner::check(options); });
   inside_->body().set_elastic(options);
 }

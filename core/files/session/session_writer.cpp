@@ -215,10 +215,8 @@ void SessionWriter::write_state() {
   out_ << ",\n\"relaxation\": " << relaxation.dump();
   if (session_.elastic != ElasticOptions()) {
     const auto& [material, lattice, iterations] = session_.elastic;
-    const OrderedJson elastic{{"young", material.young},
-                              {"poisson", material.poisson},
-                              {"lattice", lattice},
-                              {"iterations", iterations}};
+    const OrderedJson elastic{
+        {"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}, {"iterations", iterations}};
     out_ << ",\n\"elastic\": " << elastic.dump();
   }
 }
