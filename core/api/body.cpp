@@ -41,6 +41,7 @@ std::unique_ptr<Solver> copy_of(Solver& solver) {
   inner::Body& from = solver.body();
   auto copy = make_solver(from.mesh_pointer(), Algorithm::natural_queue, from.precision());
   inner::Body& body = copy->body();
+  body.work_in_frame(from.works_in_frame());
   body.store_displacements(from.stores_displacements());
   body.set_softness(from.shared_softness());
   body.set_elastic(from.elastic());

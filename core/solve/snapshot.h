@@ -7,6 +7,7 @@
 #include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
 #include "solve/positions.h"
+#include "solve/region_frame.h"
 
 namespace chainmail {
 
@@ -22,6 +23,8 @@ struct Snapshot {
   /// True if the coordinates are displacements from rest, as Exact ChainMail stores them; otherwise positions (mesh
   /// units).
   bool from_rest = false;
+  /// The frame whose coordinates they are.
+  RegionFrame frame = {};
   /// One for each block of the mesh; or none if all elements are at rest.
   std::vector<Block> blocks;
 
@@ -40,6 +43,8 @@ struct PositionRuns {
   std::vector<ElementId> runs;
   /// space_dimension coordinates for each element of the runs.
   std::vector<double> held;
+  /// The frame whose coordinates they are.
+  RegionFrame frame = {};
 
   bool operator==(const PositionRuns&) const = default;
 };

@@ -157,7 +157,8 @@ bool has_global_regions(const Softness& softness) {
 }
 
 SoftnessChange change_of(const Softness& before, const Softness& after) {
-  SoftnessChange change{.regions = false, .energy = before.energy != after.energy};
+  SoftnessChange change{.regions = before.frame.rotation() != after.frame.rotation(),
+                        .energy = before.energy != after.energy};
   add_change(change, before.global, after.global);
   for (const auto& [link, own] : before.links) {
     add_change(change, own, after.of(link));

@@ -25,7 +25,7 @@ class Contest::Participant {
       return;
     }
     if (contestant.calibrated) {
-      object_.softness = {*contestant.calibrated, {}, object_.softness.energy};
+      object_.softness = {*contestant.calibrated, {}, object_.softness.energy, object_.softness.frame};
     }
     try {
       runner_ = std::make_unique<Runner>(object_, *contestant.algorithm, options.precision, options);
