@@ -1,6 +1,7 @@
 #include "chainmail/body.h"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "api/access.h"
@@ -232,6 +233,27 @@ void Body::set_energy(EnergyKind kind) {
 }
 
 EnergyKind Body::energy() const { return energy_of(inside_->body().softness().energy); }
+
+void Body::set_frame(const Rotation& rotation) {
+  guarded([&] { inner::check(rotation_of(rotation), inside_->body().mesh()); });
+  Softness next = inside_->body().softness();
+  next.frame = RegionFrame(FrameKind::given, rotation_of(rotation).vector());
+  inside_->set_softness(next);
+}
+
+bool Body::set_frame_of_object() {
+  const PrincipalAxes principal = principal_axes(inside_->body().mesh());
+  Softness next = inside_->body().softness();
+  next.frame = principal.frame;
+  inside_->set_softness(next);
+  return principal.are_unique;
+}
+
+Rotation Body::frame() const {
+  const Point& turn = inside_->body().softness().frame.rotation();
+  const double angle = turn.norm();
+  return angle > 0 ? Rotation{vector_of(turn / angle), angle * 180 / std::numbers::pi} : Rotation();
+}
 
 void Body::set_elasticity(const Elasticity& elasticity) {
   const ElasticOptions options{{elasticity.young, elasticity.poisson}, elasticity.control_points};

@@ -487,8 +487,7 @@ void Simulation::carry_out(const commands::ReplaceMesh& command) {
   if (!command.mesh) {
     throw Error("replace mesh", "the command contains no mesh", "use a command with a mesh");
   }
-  const auto softness = std::make_shared<const Softness>(
-      Softness{this->softness().global, {}, this->softness().energy, frame_for(*command.mesh, this->softness().frame)});
+  const auto softness = std::make_shared<const Softness>(kept_for(*command.mesh, this->softness()));
   take_mesh(command.mesh);
   set_softness(softness);
 }

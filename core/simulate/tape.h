@@ -66,7 +66,7 @@ class Tape {
 
   void add(const Command& command);
   void begin();
-  void begin_mesh();
+  void begin_mesh(const Mesh& mesh);
   void return_to(Node last);
   Node last() const { return position_ == 0 ? beginning_ : timeline_[position_ - 1]; }
 

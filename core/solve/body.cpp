@@ -178,7 +178,7 @@ void Body::store_in(const RegionFrame& frame, const Softness& softness) {
   std::visit([&](auto& typed) { typed.regions.set(*mesh, softness, stores_displacements_); }, typed_);
   // Nothing runs out of memory from here on.
   stored_mesh_ = mesh;
-  frame_ = frame;
+  frame_ = frame.is_turned() ? RegionFrame(FrameKind::given, frame.rotation()) : RegionFrame();
   turn_ = turn;
   with_view([&]<class View>(const View& view) {
     for (ElementId e = 0; e < mesh_->element_count(); ++e) {

@@ -151,6 +151,10 @@ void set_energy(Softness& softness, EnergyKind kind) {
   softness.energy = kind;
 }
 
+Softness kept_for(const Mesh& mesh, const Softness& softness) {
+  return {softness.global, {}, softness.energy, frame_for(mesh, softness.frame)};
+}
+
 bool has_global_regions(const Softness& softness) {
   return std::all_of(softness.links.begin(), softness.links.end(),
                      [&](const OwnSoftness::Entry& own) { return same_region(own.second, softness.global); });

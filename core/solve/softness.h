@@ -172,6 +172,9 @@ struct Softness {
 /// Sets the kind of energy. A global lateral stiffness that was the suggested one stays so.
 void set_energy(Softness& softness, EnergyKind kind);
 
+/// Returns what another object keeps of a softness: all but that of single links.
+Softness kept_for(const Mesh& mesh, const Softness& softness);
+
 /// True if the valid regions of all links follow from the global softness.
 bool has_global_regions(const Softness& softness);
 
