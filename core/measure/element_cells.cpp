@@ -4,14 +4,8 @@ namespace chainmail {
 namespace {
 
 // The corners of a hexahedron, each with its three neighbours, counterclockwise as seen from outside the corner.
-constexpr std::array<std::array<std::size_t, 4>, 8> corners_of_hexahedron{{{0, 1, 3, 4},
-                                                                          {1, 2, 0, 5},
-                                                                          {2, 3, 1, 6},
-                                                                          {3, 0, 2, 7},
-                                                                          {4, 7, 5, 0},
-                                                                          {5, 4, 6, 1},
-                                                                          {6, 5, 7, 2},
-                                                                          {7, 6, 4, 3}}};
+constexpr std::array<std::array<std::size_t, 4>, 8> corners_of_hexahedron{
+    {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}}};
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #include "measure/hausdorff.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -67,8 +68,8 @@ class TriangleTree {
 
   struct Node {
     Point low, high;
-    std::size_t first = 0, end = 0;       // in order_
-    std::size_t left = 0, right = 0;      // 0 for a leaf
+    std::size_t first = 0, end = 0;   // in order_
+    std::size_t left = 0, right = 0;  // 0 for a leaf
     double squared_distance(const Point& from) const {
       return (low - from).cwiseMax(from - high).cwiseMax(0).squaredNorm();
     }
@@ -112,8 +113,7 @@ class TriangleTree {
       }
       return;
     }
-    const bool left_first =
-        nodes_[node.left].squared_distance(from) <= nodes_[node.right].squared_distance(from);
+    const bool left_first = nodes_[node.left].squared_distance(from) <= nodes_[node.right].squared_distance(from);
     visit(left_first ? node.left : node.right, from, nearest, enough);
     visit(left_first ? node.right : node.left, from, nearest, enough);
   }
@@ -176,7 +176,8 @@ double hausdorff_distance(const PointSurface& one, const PointSurface& other) {
 }
 
 double hausdorff_distance(const Mesh& mesh, const PositionView& one, const PositionView& other) {
-  return hausdorff_distance(surface_of(mesh, one), surface_of(mesh, other)) / (mesh.mean_link_length > 0 ? mesh.mean_link_length : 1);
+  return hausdorff_distance(surface_of(mesh, one), surface_of(mesh, other)) /
+         (mesh.mean_link_length > 0 ? mesh.mean_link_length : 1);
 }
 
 }  // namespace chainmail

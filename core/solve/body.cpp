@@ -58,6 +58,16 @@ AxisTurn turn_into_world_of(const Mesh& mesh, const RegionFrame& frame) {
   return turn;
 }
 
+/// Returns the displacements from rest, in the coordinates of the body's frame.
+constexpr auto displacements_in_view = []<class View>(const View& view) {
+  std::vector<double> result(view.mesh->rest.size());
+  for (std::size_t at = 0; at < result.size(); ++at) {
+    const double stored = view.positions[at / View::Dimension][int(at % View::Dimension)];
+    result[at] = view.from_rest ? stored : stored - view.mesh->rest[at];
+  }
+  return result;
+};
+
 /// Restores a run of elements from the coordinates of a block.
 template <class View>
 void restore_block(const View& body, const std::vector<double>& held, ElementId first, ElementId end, bool from_rest) {
@@ -174,7 +184,7 @@ void Body::work_in_frame(bool works) {
 void Body::store_in(const RegionFrame& frame, const Softness& softness) {
   const MeshPointer mesh = in_frame(mesh_, frame);
   const AxisTurn turn = turn_into_world_of(*mesh_, frame);
-  std::vector<double> away = displacements_of(*mesh_, positions());
+  const std::vector<double> away = turned(*mesh_, with_view(displacements_in_view), frame_, frame);
   std::visit([&](auto& typed) { typed.regions.set(*mesh, softness, stores_displacements_); }, typed_);
   // Nothing runs out of memory from here on.
   stored_mesh_ = mesh;
@@ -182,11 +192,10 @@ void Body::store_in(const RegionFrame& frame, const Softness& softness) {
   turn_ = turn;
   with_view([&]<class View>(const View& view) {
     for (ElementId e = 0; e < mesh_->element_count(); ++e) {
-      double* const own = away.data() + std::size_t{e} * View::Dimension;
-      turn_into_frame(*mesh_, frame_, own);
       for (int k = 0; k < View::Dimension; ++k) {
-        const double rest = view.mesh->rest[std::size_t{e} * View::Dimension + std::size_t(k)];
-        view.set_position(e, k, is_at_rest_ ? rest : rest + own[k]);
+        const std::size_t at = std::size_t{e} * View::Dimension + std::size_t(k);
+        const double origin = view.from_rest ? 0 : view.mesh->rest[at];
+        view.positions[e][k] = static_cast<typename View::Scalar>(is_at_rest_ ? origin : origin + away[at]);
       }
     }
   });

@@ -96,6 +96,7 @@ class RegionFrameTest : public QObject {
   void principal_axes_of_a_symmetric_object_are_those_of_the_world();
   void an_identity_frame_gives_the_same_bits();
   void world_coordinates_come_back();
+  void far_from_the_origin_exact_keeps_its_digits();
   void relaxation_and_equilibrium_turn_with_the_object();
   void a_snapshot_of_another_frame_is_restored();
   void undo_restores_the_frame_exactly();
@@ -223,6 +224,22 @@ void RegionFrameTest::world_coordinates_come_back() {
     QCOMPARE(solver->move(50, point_of(*scene.mesh, body.positions(), 50)).stopped, false);
     QVERIFY(std::abs(body.positions()(50, 1) - positions[151]) < 1e-13);
   }
+}
+
+void RegionFrameTest::far_from_the_origin_exact_keeps_its_digits() {
+  const Scene scene = space_scene();
+  MeshParts parts = placed(*scene.mesh, [](const Point& at) { return Point(at + Point(1e6, -2e6, 3e6)); });
+  const MeshPointer mesh = build_mesh(std::move(parts));
+  const auto frame = [](double degrees) {
+    return Softness{{}, {}, standard_energy, {FrameKind::given, turn(Point(1, 2, 3), degrees)}};
+  };
+  const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
+  solver->body().set_softness(frame(30));
+  solver->move(50, mesh->rest_position(50) + Point(0.5, 0.3, 0.1));
+  const double before = solver->body().positions().between(49, 50, 0);
+  QVERIFY(std::abs(point_of(*mesh, solver->body().positions(), 50).x() - mesh->rest_position(50).x() - 0.5) < 1e-6);
+  solver->body().set_softness(frame(70));
+  QVERIFY(std::abs(solver->body().positions().between(49, 50, 0) - before) < 1e-6);
 }
 
 void RegionFrameTest::relaxation_and_equilibrium_turn_with_the_object() {

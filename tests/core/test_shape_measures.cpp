@@ -89,8 +89,7 @@ void ShapeMeasuresTest::a_mirrored_box_is_inverted() {
 void ShapeMeasuresTest::one_cell_that_is_turned_inside_out_counts_once() {
   const MeshPointer bricks_of_8 = hexahedral_block({2, 2, 2});
   // A corner of the box goes through its brick, and further.
-  const Placed now(*bricks_of_8,
-                   [](const Point& at) { return at == Point(0, 0, 0) ? Point(0.9, 0.9, 0.9) : at; });
+  const Placed now(*bricks_of_8, [](const Point& at) { return at == Point(0, 0, 0) ? Point(0.9, 0.9, 0.9) : at; });
   QCOMPARE(*inverted_cells(*bricks_of_8, now), std::uint64_t{1});
   MeshParts parts;
   parts.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -132,7 +131,8 @@ void ShapeMeasuresTest::sheared_cells_have_the_stretch_of_the_closed_form() {
 }
 
 void ShapeMeasuresTest::objects_without_cells_have_no_figures() {
-  const MeshPointer line = generate({MeshKind::line, {5, 1, 1}, 1, {}}), cube = generate({MeshKind::block, {3, 3, 3}, 1, {}});
+  const MeshPointer line = generate({MeshKind::line, {5, 1, 1}, 1, {}}),
+                    cube = generate({MeshKind::block, {3, 3, 3}, 1, {}});
   for (const MeshPointer& mesh : {line, cube}) {
     const Placed now(*mesh, larger);
     QVERIFY(!volume_change(*mesh, now) && !inverted_cells(*mesh, now) && !largest_principal_stretch(*mesh, now));
@@ -147,7 +147,7 @@ void ShapeMeasuresTest::hausdorff_is_from_points_to_triangles() {
   const MeshPointer mesh = generate({MeshKind::cloth, {5, 5, 1}, 1, 3});
   // Shifted in its plane, only the border is away. Raised, all of it is.
   const auto moved = [&](const Point& by) {
-    const Placed rest(*mesh, same), now(*mesh, [&](const Point& at) { return Point(at + by); });
+    const Placed rest(*mesh, same), now(*mesh, [&](const Point&at) { return Point(at + by); });
     return hausdorff_distance(surface_of(*mesh, rest), surface_of(*mesh, now));
   };
   QVERIFY(near(moved({0.4, 0, 0}), 0.4));

@@ -13,11 +13,11 @@ namespace chainmail::report {
 /// Figures about the shape of a deformed object at the end of a drag. Those that are not defined for the object are
 /// none; see their headers in core/measure.
 struct ShapeFigures {
-  std::optional<double> hausdorff;               // distance of the surfaces from the reference (mean rest lengths)
-  std::optional<double> volume_change;           // relative to rest
-  std::optional<std::uint64_t> inverted_cells;   // number of them
-  std::optional<double> stretch;                 // the largest principal stretch
-  double violation = 0;                          // the largest of a link (its rest lengths)
+  std::optional<double> hausdorff;              // distance of the surfaces from the reference (mean rest lengths)
+  std::optional<double> volume_change;          // relative to rest
+  std::optional<std::uint64_t> inverted_cells;  // number of them
+  std::optional<double> stretch;                // the largest principal stretch
+  double violation = 0;                         // the largest of a link (its rest lengths)
 
   bool operator==(const ShapeFigures&) const = default;
 };

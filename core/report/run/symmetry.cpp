@@ -88,6 +88,11 @@ Case turned(const Case& object, const Point& rotation) {
   return result;
 }
 
+const Symmetry* find_symmetry(const std::vector<Symmetry>& all, const PhysicsContestant& contestant) {
+  const auto found = std::ranges::find(all, contestant, &Symmetry::contestant);
+  return found == all.end() ? nullptr : &*found;
+}
+
 std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vector<PhysicsContestant>& contestants,
                                               const CompareOptions& options, const std::function<void(double)>& tell,
                                               const std::stop_token& stop) {
@@ -114,8 +119,8 @@ std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vect
       const double displacement = measure_distance(mesh, view_of(mesh, own), view_of(mesh, mesh.rest)).rms;
       for (const double degrees : symmetry_angles) {
         const Point rotation = rotation_by(mesh, degrees);
-        const std::vector<double> back = answer_of(turned(object, rotation), contestants[i], options,
-                                                   RegionFrame(FrameKind::given, rotation), stop);
+        const std::vector<double> back =
+            answer_of(turned(object, rotation), contestants[i], options, RegionFrame(FrameKind::given, rotation), stop);
         const Distance apart = measure_distance(mesh, view_of(mesh, own), view_of(mesh, back));
         one.turns.push_back({degrees, apart.max, displacement > 0 ? apart.rms / displacement : 0});
       }

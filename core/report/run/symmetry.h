@@ -28,8 +28,11 @@ struct Symmetry {
   std::string refusal;
 };
 
-/// Returns the case with its object, its frame of valid regions and its drags turned about the origin. Its 3D lists stay
-/// those of the object, though its links no longer follow the axes.
+/// Returns the differences of a contestant, if it took part.
+const Symmetry* find_symmetry(const std::vector<Symmetry>& all, const PhysicsContestant& contestant);
+
+/// Returns the case with its object, its frame of valid regions and its drags turned about the origin. Its 3D lists
+/// stay those of the object, though its links no longer follow the axes.
 Case turned(const Case& object, const Point& rotation);
 
 /// Runs one move of each contestant, in double, on the object and on its turned copies: the end of the drag `bend`, or
