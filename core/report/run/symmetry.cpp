@@ -8,11 +8,15 @@
 
 #include "measure/distance.h"
 #include "mesh/error.h"
+#include "report/run/clocks.h"
 #include "report/run/preparing.h"
 #include "report/run/runner.h"
 
 namespace chainmail::report {
 namespace {
+
+// Contestants whose move takes longer than this (s), with all preparation, do not run on the turned objects.
+constexpr double longest_answer = 10;
 
 /// Returns the rotation across the plane of the object, or about z.
 Point rotation_by(const Mesh& mesh, double degrees) {
@@ -100,6 +104,7 @@ std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vect
   if (asked.mesh->space_dimension < 2 || asked.drags.empty()) {
     return result;
   }
+  const Clocks clocks = machine_clocks();
   Case object = asked;
   object.drags = {one_move(asked)};
   for (std::size_t i = 0; i < contestants.size() && !stop.stop_requested(); ++i) {
@@ -115,7 +120,12 @@ std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vect
     }
     try {
       const Mesh& mesh = *object.mesh;
+      const double start = clocks.wall();
       const std::vector<double> own = answer_of(object, contestants[i], options, {}, stop);
+      if (const double seconds = clocks.wall() - start; seconds > longest_answer) {
+        throw Error(object.name, "one move takes " + std::to_string(int(seconds)) + " s, so it is not repeated turned",
+                    "use a smaller object");
+      }
       const double displacement = measure_distance(mesh, view_of(mesh, own), view_of(mesh, mesh.rest)).rms;
       for (const double degrees : symmetry_angles) {
         const Point rotation = rotation_by(mesh, degrees);
