@@ -129,8 +129,8 @@ void DeformModelTest::regions_lie_along_a_frame() {
   QCOMPARE(program_->run("generate grid 5x4 -o grid.obj").code, 0);
   const auto largest_difference = [this](const QByteArray& frame) {
     const auto positions = [&](const QByteArray& options) {
-      const auto outcome =
-          program_->run("deform grid.obj --algorithm exact --move 19:6,5 --positions out.csv --json out.json " + options);
+      const auto outcome = program_->run(
+          "deform grid.obj --algorithm exact --move 19:6,5 --positions out.csv --json out.json " + options);
       return outcome.code == 0 ? rows_of(program_->read("out.csv")) : decltype(rows_of(QByteArray()))();
     };
     const auto world = positions(""), turned = positions(frame);
