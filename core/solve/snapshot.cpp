@@ -112,7 +112,7 @@ Snapshot snapshot_of(const PositionRuns& positions, const Mesh& mesh, Precision 
                      });
     }
   }
-  return {positions.from_rest, positions.frame, {blocks.begin(), blocks.end()}};
+  return {positions.from_rest, {blocks.begin(), blocks.end()}, positions.frame};
 }
 
 void check(const Snapshot& snapshot, const Mesh& mesh, Precision precision) {

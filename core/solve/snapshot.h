@@ -23,10 +23,10 @@ struct Snapshot {
   /// True if the coordinates are displacements from rest, as Exact ChainMail stores them; otherwise positions (mesh
   /// units).
   bool from_rest = false;
-  /// The frame whose coordinates they are.
-  RegionFrame frame = {};
   /// One for each block of the mesh; or none if all elements are at rest.
   std::vector<Block> blocks;
+  /// The frame whose coordinates they are.
+  RegionFrame frame = {};
 
   bool is_at_rest() const;
   /// Returns the blocks with an element that may be away from rest.
