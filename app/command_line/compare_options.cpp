@@ -66,6 +66,7 @@ void add_contest(CLI::App& app, CompareArguments& options) {
 void add_physics(CLI::App& app, CompareArguments& options) {
   options.pins = add_pins(app);
   options.elastic = add_elastic(app);
+  options.laws = add_strain_laws(app);
   options.grow = add_value(app, "--grow", "SECONDS",
                            "time that each contestant may use on a growing bar and a growing sheet; 0: off [1]");
   options.calibrated =
@@ -73,6 +74,9 @@ void add_physics(CLI::App& app, CompareArguments& options) {
                 "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 sweeps [on]");
   for (CLI::Option* option : {options.pins, options.grow, options.calibrated, options.elastic.young,
                               options.elastic.poisson, options.elastic.lattice}) {
+    option->group("Against physics");
+  }
+  for (CLI::Option* option : {options.laws.materials, options.laws.gent_limit, options.laws.fung_exponent}) {
     option->group("Against physics");
   }
 }

@@ -15,6 +15,7 @@ struct CompareArguments {
   SoftnessArguments softness;
   CLI::Option *preset = nullptr, *moves = nullptr;
   ElasticArguments elastic;
+  StrainLawArguments laws;
   CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr;
 };
 CompareArguments add_compare_arguments(CLI::App& app);

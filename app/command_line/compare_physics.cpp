@@ -63,6 +63,21 @@ std::vector<report::Case> physics_cases(const CompareArguments& arguments) {
   return cases;
 }
 
+/// Returns each case with each material of the reference solution. Names say the material, except neo-Hookean alone.
+std::vector<report::Case> with_materials(const std::vector<report::Case>& cases, const std::vector<StrainLaw>& laws) {
+  std::vector<report::Case> all;
+  for (const report::Case& object : cases) {
+    for (const StrainLaw& law : laws) {
+      all.push_back(object);
+      all.back().law = law;
+      if (laws.size() > 1 || law.kind != StrainLaw::Kind::neo_hookean) {
+        all.back().name += ", " + label(law);
+      }
+    }
+  }
+  return all;
+}
+
 void add_plots(Outputs& outputs, const std::filesystem::path& folder, const report::PhysicsReport& report) {
   const auto add = [&](const std::string& name, const report::Plot& plot) {
     outputs.add(folder / (name + ".svg"), [plot](std::ostream& out) { write_svg(out, plot, ink); });
@@ -85,7 +100,8 @@ void add_plots(Outputs& outputs, const std::filesystem::path& folder, const repo
 void compare_with_physics(const CompareArguments& arguments, const std::string& command_line) {
   const report::PhysicsOptions options = physics_options(arguments);
   OutputFolder folder(*value_of(arguments.output));
-  const std::vector<report::Case> cases = physics_cases(arguments);
+  const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, elastic_of(arguments.elastic).material);
+  const std::vector<report::Case> cases = with_materials(physics_cases(arguments), laws);
   ProgressLine line;
   const report::PhysicsReport report = report::compare_with_physics(
       cases, options,

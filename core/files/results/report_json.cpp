@@ -182,12 +182,24 @@ Json to_json(const report::Calibration& calibration) {
   return json;
 }
 
+/// Returns the material of a reference solution, with the parameter of its law.
+Json material_of(const StrainLaw& law) {
+  Json json{{"law", name(law.kind)}};
+  if (law.kind == StrainLaw::Kind::gent) {
+    json["gent_limit"] = law.gent_limit;
+  } else if (law.kind == StrainLaw::Kind::fung) {
+    json["fung_exponent"] = law.fung_exponent;
+  }
+  return json;
+}
+
 Json to_json(const report::PhysicsObject& object) {
   return {{"name", object.name},
           {"description", object.description},
           {"elements", object.elements},
           {"links", object.links},
           {"pins", object.pins},
+          {"material", material_of(object.law)},
           {"drags", all_of(object.drags)},
           {"calibrations", all_of(object.calibrations)}};
 }

@@ -174,6 +174,9 @@ std::string about(const PhysicsObject& object) {
     text += (handle == handles.front() ? "" : ", ") + std::to_string(handle);
   }
   text += drags + left_out;
+  if (object.law.kind != StrainLaw::Kind::neo_hookean) {
+    text += "; reference: " + label(object.law);
+  }
   for (const Calibration& calibration : object.calibrations) {
     text += "; " + about(calibration);
   }
@@ -183,7 +186,8 @@ std::string about(const PhysicsObject& object) {
 constexpr const char* how_to_read_text =
     "Relative error: RMS of the error over RMS of the reference's displacements, over all elements; means over the\n"
     "handles of an object. An object that does not move has about 1: a larger error is no better than no method.\n"
-    "The reference is neo-Hookean FEM, converged on the same cells as linear FEM, not under refinement of the mesh;\n"
+    "The reference is neo-Hookean FEM (or the named material), converged on the same cells as linear FEM, not under "
+    "refinement of the mesh;\n"
     "BEM works on its own surface mesh. Times are medians in ms, means over the drags: the first move of a drag, a\n"
     "later move, and the move after a cut with all repeated preparation. Preparation: factorizing is done once for an\n"
     "object, its pins and its cuts; grabbing is done once for each handle.\n";

@@ -25,6 +25,7 @@ struct Case {
   Softness softness;
   std::vector<RecordedMoves> drags;
   ElasticOptions elastic = {};
+  StrainLaw law = {};  // of the reference solution; no contestant knows it
 };
 
 /// Returns the built-in objects of the comparison, each with its three drags. All links have this softness, except

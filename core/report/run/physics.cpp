@@ -37,7 +37,7 @@ ReferenceSolver reference_of(const Case& object, const std::vector<LinkId>& cut)
     throw Error(object.name, "nothing pins it, so physics has no solution", "pin a side, the boundary, or elements");
   }
   try {
-    return ReferenceSolver(elastic_problem(object, cut));
+    return ReferenceSolver(reference_problem(object, cut));
   } catch (const Error& error) {
     throw error.at(object.name);
   }
@@ -162,7 +162,8 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
               object.mesh->link_count(),
               object.pins.size(),
               {},
-              {}};
+              {},
+              object.law};
     ReferenceSolver solver = reference_of(object, {});
     const CompareOptions& how = report.options.contest;
     result.calibrations = calibrations_of(object, report.options, teller.of_drag(object.name + ", calibrating"), stop);

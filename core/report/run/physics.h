@@ -66,6 +66,7 @@ struct PhysicsObject {
   std::uint64_t elements = 0, links = 0, pins = 0;
   std::vector<PhysicsDrag> drags;
   std::vector<Calibration> calibrations;
+  StrainLaw law;  // of the reference solution
 };
 
 /// Figures of a contestant at one size.

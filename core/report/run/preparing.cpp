@@ -49,6 +49,12 @@ ElasticProblem elastic_problem(const Case& object, const std::vector<LinkId>& cu
   return problem;
 }
 
+ElasticProblem reference_problem(const Case& object, const std::vector<LinkId>& cut) {
+  ElasticProblem problem = elastic_problem(object, cut);
+  problem.law = object.law;
+  return problem;
+}
+
 std::vector<ElementId> handles_of(const Case& object) {
   std::vector<ElementId> handles;
   for (const RecordedMoves& moves : object.drags) {
