@@ -16,7 +16,7 @@ struct CompareArguments {
   CLI::Option *preset = nullptr, *moves = nullptr;
   ElasticArguments elastic;
   StrainLawArguments laws;
-  CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr;
+  CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr, *reference = nullptr;
 };
 CompareArguments add_compare_arguments(CLI::App& app);
 

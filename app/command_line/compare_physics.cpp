@@ -31,6 +31,11 @@ report::PhysicsOptions physics_options(const CompareArguments& arguments) {
   if (calibrated == "on") {
     options.calibrate = calibrator_for_reports(options.contest.scheme);
   }
+  const std::string reference = value_of(arguments.reference).value_or("same-cells");
+  check_word("--reference", reference, {"same-cells", "refined"});
+  if (reference == "refined") {
+    options.refine = ConvergingOptions();
+  }
   if (const auto seconds = value_of(arguments.grow)) {
     options.growth_seconds = parse_number_of("--grow", *seconds);
     if (options.growth_seconds < 0) {
@@ -101,7 +106,13 @@ void compare_with_physics(const CompareArguments& arguments, const std::string& 
   const report::PhysicsOptions options = physics_options(arguments);
   OutputFolder folder(*value_of(arguments.output));
   const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, elastic_of(arguments.elastic).material);
-  const std::vector<report::Case> cases = with_materials(physics_cases(arguments), laws);
+  std::vector<report::Case> objects = physics_cases(arguments);
+  if (options.refine) {
+    for (report::Case& object : objects) {
+      object.drags = report::physics_drags(object, true, report::patch_share);
+    }
+  }
+  const std::vector<report::Case> cases = with_materials(objects, laws);
   ProgressLine line;
   const report::PhysicsReport report = report::compare_with_physics(
       cases, options,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace chainmail {
 
-/// The elements whose rest positions are within a distance of a point: the same part of an object on every mesh of it.
+/// The elements whose rest positions are within a distance of a point.
 struct Patch {
   Point centre = Point::Zero();
   double radius = 0;  // mesh units
@@ -40,12 +41,15 @@ struct ConvergingOptions {
   double change = converged_change;
   double seconds = 30;  // no level is begun that would probably exceed it
   int most_levels = 6;
+  std::array<std::uint64_t, 4> most_elements{0, 100'000, 50'000, 12'000};  // by space dimension
 };
 
 /// Computes the reference solution on cells that are refined uniformly until the answer at the object's own elements
-/// changes little. The handle is a patch, which has more and more elements. A new element between two pinned ones is
-/// pinned. Cut cells are missing on all levels.
+/// changes little. The handle is a patch of the object's elements; on finer cells it is the same part of the object:
+/// the cells, faces and edges between these elements. So are the pins. (A ball would cover another part on each level.)
+/// Cut cells are missing on all levels. Each level starts from the answer of the level before.
 ///
+/// A handle or pins without an edge between them are points, which have no continuum limit in a plane or in space.
 /// Hexahedra and lattices are refined as the tetrahedra or triangles of the finite elements that they consist of.
 /// Curved surfaces stay as they are on the object, so a converged reference is that of the object with flat faces.
 class ConvergingReference {
@@ -56,13 +60,18 @@ class ConvergingReference {
 
   /// Returns the solution with the elements of the patch displaced by `way` (mesh units), as far as the time and the
   /// limit of the method allow. Throws Error if the object's own cells have no answer, and Cancelled.
-  ConvergedReference at(const Patch& handle, const Point& way, const Progress& progress = {});
+  ConvergedReference at(const Patch& patch, const Point& way, const Progress& progress = {});
 
  private:
   struct Level;
 
   void add_level();
-  static std::vector<double> answer(Level& level, const Patch& handle, const Point& way, const Progress& progress);
+  // These return the displacements of all elements of a level.
+  static std::vector<double> from_rest(Level& level, const std::vector<ElementId>& elements, const Point& way,
+                                       const Progress& progress);
+  static std::vector<double> from_start(Level& level, const std::vector<ElementId>& elements,
+                                        std::vector<double> displacements, const Progress& progress);
+  bool is_last(ConvergedReference& result, double expected) const;
 
   ConvergingOptions options_;
   std::vector<std::shared_ptr<Level>> levels_;  // made when they are first needed

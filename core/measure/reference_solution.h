@@ -15,6 +15,8 @@ struct ReferenceSolution {
   double handle_displacement = 0;
   /// The handle's elements and the pins. Every method gets their positions as input.
   std::vector<ElementId> prescribed;
+  /// True: the relative error leaves out the prescribed elements, which may be many.
+  bool only_free = false;
 };
 
 /// Computes reference solutions by finite elements in double, neo-Hookean or of the problem's law, with prescribed

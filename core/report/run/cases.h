@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct RecordedMoves {
   std::string name;
   std::string description;
   std::vector<Command> commands;
+  // If the handle is a patch, the element at its centre and its radius (mesh units).
+  std::optional<ElementId> centre = {};
+  double radius = 0;
 };
 
 /// An object at rest, and the drags to run on it.
