@@ -5,6 +5,7 @@
 
 #include "elastic/limits.h"
 #include "elastic/methods.h"
+#include "elastic/shells.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -46,6 +47,9 @@ void check_boundary(const Mesh& mesh) {
   }
   // The number of triangles around a volume is known only after its faces were found.
   check_boundary_size(has_cells ? 0 : mesh.triangles.size(), has_cells ? mesh.element_count() : 0);
+  if (!has_cells) {
+    check_closed(mesh);
+  }
 }
 
 /// One method: its check of an object, and its maker. To add a method, add a constant to ElasticMethod and an entry

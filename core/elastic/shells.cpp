@@ -36,19 +36,18 @@ std::vector<Edge> list_edges(std::span<const Triangle> triangles) {
   return edges;
 }
 
-[[noreturn]] void refuse_edge(const Mesh& mesh, const Cuts& cuts, const std::array<ElementId, 2>& ends,
-                              std::ptrdiff_t triangles) {
+[[noreturn]] void refuse_edge(const std::array<ElementId, 2>& ends, std::ptrdiff_t triangles, bool cut) {
   const std::string where = "the edge between the elements " + name(ends[0]) + " and " + name(ends[1]);
-  if (is_cut_between(mesh, cuts, ends[0], ends[1])) {
+  if (cut) {
     throw Error("BEM", "a cut along " + where + " opens the surface, and BEM needs a closed one", "undo the cut");
   }
   if (triangles == 1) {
     throw Error("BEM", "the surface is open along " + where + ", and BEM needs a closed one",
-                "close the hole in the file, or compare by another method");
+                "close its holes by repair, or choose another method");
   }
   throw Error("BEM",
               std::to_string(triangles) + " triangles meet at " + where + ", so the surface has no inside and outside",
-              "separate them in the file, or compare by another method");
+              "separate them in the file, or choose another method");
 }
 
 /// The triangle across a side of another one. `agrees` is true if both have the same orientation, so that they run
@@ -58,15 +57,17 @@ struct Across {
   bool agrees = false;
 };
 
-std::vector<std::array<Across, 3>> pair_triangles(const Mesh& mesh, const Cuts& cuts,
+/// `cuts` may be null.
+std::vector<std::array<Across, 3>> pair_triangles(const Mesh& mesh, const Cuts* cuts,
                                                   std::span<const Triangle> triangles) {
   std::vector<std::array<Across, 3>> across(triangles.size());
   const auto edges = list_edges(triangles);
   for (auto first = edges.begin(); first != edges.end();) {
     const auto end = std::find_if(first, edges.end(), [&](const Edge& edge) { return edge.ends != first->ends; });
     const Edge &one = *first, &other = *(end - 1);
-    if (end - first != 2 || is_cut_between(mesh, cuts, one.ends[0], one.ends[1])) {
-      refuse_edge(mesh, cuts, one.ends, end - first);
+    const bool cut = cuts != nullptr && is_cut_between(mesh, *cuts, one.ends[0], one.ends[1]);
+    if (end - first != 2 || cut) {
+      refuse_edge(one.ends, end - first, cut);
     }
     const bool agrees = one.ascending != other.ascending;
     across[one.triangle][std::size_t(one.side)] = {other.triangle, agrees};
@@ -107,9 +108,11 @@ std::vector<std::uint32_t> turn_alike(std::vector<Triangle>& triangles,
 
 }  // namespace
 
+void check_closed(const Mesh& mesh) { pair_triangles(mesh, nullptr, mesh.triangles); }
+
 std::vector<std::vector<std::uint32_t>> part_into_shells(const Mesh& mesh, const Cuts& cuts,
                                                          std::vector<Triangle>& triangles) {
-  const auto across = pair_triangles(mesh, cuts, triangles);
+  const auto across = pair_triangles(mesh, &cuts, triangles);
   std::vector<std::optional<bool>> turned(triangles.size());
   std::vector<std::vector<std::uint32_t>> shells;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {

@@ -15,4 +15,7 @@ namespace chainmail {
 std::vector<std::vector<std::uint32_t>> part_into_shells(const Mesh& mesh, const Cuts& cuts,
                                                          std::vector<std::array<ElementId, 3>>& triangles);
 
+/// Throws Error if the surface of triangles is open, or if three triangles meet at an edge. Cuts do not count.
+void check_closed(const Mesh& mesh);
+
 }  // namespace chainmail

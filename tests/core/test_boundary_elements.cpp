@@ -315,6 +315,7 @@ void BoundaryElementsTest::wrong_surfaces_are_refused() {
   MeshParts open = sphere_parts(3), three = sphere_parts(3), flat = sphere_parts(3);
   open.triangles.erase(open.triangles.begin());
   QVERIFY(refused(build_mesh(open), pins).startsWith("BEM: the surface is open along the edge between the elements "));
+  QVERIFY(!fits(ElasticMethod::boundary, *build_mesh(open)) && fits(ElasticMethod::boundary, *ball));
   three.rest.emplace_back(3, 3, 3);
   three.triangles.push_back({three.triangles[0][0], three.triangles[0][1], ElementId(three.rest.size() - 1)});
   QVERIFY(refused(build_mesh(three), pins).contains("3 triangles meet at the edge between the elements "));

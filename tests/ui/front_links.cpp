@@ -101,6 +101,31 @@ class FrontLinks : public QObject {
     QVERIFY(hidden > 0 && hidden < int(scene.elementsIn(part).size()));
   }
 
+  void aPositionInAFaceHasTheCornerNearestToIt() {
+    const Front scene(twoSheets());
+    const QRectF part(330, 230, 140, 140);
+    const FrontFaces front(scene.frame, scene.projection(),
+                           wholeFaces(scene.frame, scene.boxes, scene.cuts, scene.projection(), part), part);
+    int faces = 0;
+    for (const auto& face : scene.frame.mesh->triangles) {
+      std::array<QPointF, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto place = plain::placeOf(scene.frame, scene.projection(), face[k]);
+        corners[k] = {place.x, place.y};
+      }
+      const QPointF inside = 0.6 * corners[0] + 0.2 * corners[1] + 0.2 * corners[2];
+      const bool second = QLineF(inside, corners[1]).length() < QLineF(inside, corners[2]).length();
+      if (scene.frame.mesh->rest_position(face[0]).z() == 0 && part.contains(inside)) {
+        QCOMPARE(front.cornerAt(inside), std::optional(face[0]));
+        QCOMPARE(front.cornerAt(inside, [&](ElementId e) { return e != face[0]; }),
+                 std::optional(second ? face[1] : face[2]));
+        ++faces;
+      }
+    }
+    QVERIFY(faces > 0);
+    QVERIFY(!front.cornerAt({-1000, -1000}));
+  }
+
   void whatAHoleShowsIsInFront() {
     Front scene(twoSheets());
     const auto first = scene.crossedWhere([](const Point& p) { return p.z() == 0; });

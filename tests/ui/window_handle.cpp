@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "common/colours.h"
+#include "core/families.h"
 #include "io/sessions.h"
 #include "mesh/mesh.h"
 #include "window.h"
@@ -221,6 +222,24 @@ class WindowHandle : public QObject {
     QTest::keyClick(&bench.window, Qt::Key_Escape);
     bench.settle();
     QVERIFY(bench.distanceFromColour(0, below, colours::marked) > 60);
+  }
+
+  void aPressInsideALargeFaceGrabsItsNearestCorner() {
+    MeshParts parts;
+    parts.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    test::add_triangle(parts, 0, 1, 2);
+    test::add_triangle(parts, 0, 2, 3);
+    Workbench bench(build_mesh(std::move(parts)));
+    View& view = bench.view(0);
+    const QPointF inside = 0.2 * view.placeOf(ElementId(0)) + 0.1 * view.placeOf(1) + 0.7 * view.placeOf(2);
+    for (const ElementId corner : {0, 1, 2}) {
+      QVERIFY(QLineF(inside, view.placeOf(corner)).length() > 40);
+    }
+    pointAt(bench, 0, inside);
+    QCOMPARE(bench.document().highlight().element, std::optional<ElementId>(2));
+    QTest::mousePress(&view, Qt::LeftButton, {}, inside.toPoint());
+    QCOMPARE(held(bench), std::vector<ElementId>{2});
+    QTest::mouseRelease(&view, Qt::LeftButton, {}, inside.toPoint());
   }
 
   void theBrushReturnsToOneElement() {

@@ -65,14 +65,18 @@ struct SeenFace {
   bool has(ElementId element) const { return std::ranges::find(corners, element) != corners.end(); }
   /// True if the face covers this spot and is nearer to the eye.
   bool hides(const Spot& spot) const {
+    const auto depth = depthAt(spot.at);
+    return depth && *depth < spot.depth - depthRounding;
+  }
+  /// Returns the depth of the face at a position, if the face covers it.
+  std::optional<double> depthAt(QPointF at) const {
     const auto& [a, b, c] = spots;
     const double all = crossProduct(b.at - a.at, c.at - a.at);
-    const double ofB = crossProduct(spot.at - a.at, c.at - a.at) / all,
-                 ofC = crossProduct(b.at - a.at, spot.at - a.at) / all;
+    const double ofB = crossProduct(at - a.at, c.at - a.at) / all, ofC = crossProduct(b.at - a.at, at - a.at) / all;
     if (!(ofB >= 0 && ofC >= 0 && ofB + ofC <= 1)) {
-      return false;  // also false (NaN) for a face that is seen edge-on
+      return std::nullopt;  // also (NaN) for a face that is seen edge-on
     }
-    return a.depth + ofB * (b.depth - a.depth) + ofC * (c.depth - a.depth) < spot.depth - depthRounding;
+    return a.depth + ofB * (b.depth - a.depth) + ofC * (c.depth - a.depth);
   }
 };
 
@@ -157,6 +161,27 @@ FrontFaces::~FrontFaces() = default;
 bool FrontFaces::hides(ElementId element) const {
   const Spot spot = spotOf(project(frame_, projection_, element));
   return std::ranges::any_of(faces_, [&](const SeenFace& face) { return !face.has(element) && face.hides(spot); });
+}
+
+std::optional<ElementId> FrontFaces::cornerAt(QPointF position, const std::function<bool(ElementId)>& shown) const {
+  const SeenFace* front = nullptr;
+  double least = 0;
+  for (const SeenFace& face : faces_) {
+    if (const auto depth = face.depthAt(position); depth && (front == nullptr || *depth < least)) {
+      front = &face;
+      least = *depth;
+    }
+  }
+  std::optional<ElementId> nearest;
+  double distance = 0;
+  for (std::size_t k = 0; front != nullptr && k < 3; ++k) {
+    const double to = QLineF(position, front->spots[k].at).length();
+    if ((!shown || shown(front->corners[k])) && (!nearest || to < distance)) {
+      nearest = front->corners[k];
+      distance = to;
+    }
+  }
+  return nearest;
 }
 
 std::vector<Face> wholeFaces(const Frame& frame, const ClusterBoxes& boxes, const Cuts& cuts,

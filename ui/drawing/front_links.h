@@ -24,6 +24,8 @@ class FrontFaces {
 
   /// True if a face without this element covers it and is nearer to the eye.
   bool hides(ElementId element) const;
+  /// Returns the corner nearest to a position in the view, of the face that is seen there. `shown` filters the corners.
+  std::optional<ElementId> cornerAt(QPointF position, const std::function<bool(ElementId)>& shown = {}) const;
 
  private:
   const Frame& frame_;

@@ -312,8 +312,11 @@ std::optional<ElementId> View::elementAt(QPointF position) const {
   const QPointF reach(elementReach, elementReach);
   const QRectF part(position - reach, position + reach);
   const FrontFaces front(*frame, projection(), frontFaces(*frame, part), part);
-  return nearest(
-      [&, isShown = shown()](ElementId element) { return (!isShown || isShown(element)) && !front.hides(element); });
+  const auto isShown = shown();
+  const auto near =
+      nearest([&](ElementId element) { return (!isShown || isShown(element)) && !front.hides(element); });
+  // The cap of a section is none of these faces, so the face that is found there may be hidden.
+  return near || look_.section ? near : front.cornerAt(position, isShown);
 }
 
 std::vector<LinkId> View::linksCrossing(QLineF stroke) const {

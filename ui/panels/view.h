@@ -82,7 +82,8 @@ class View : public QOpenGLWidget {
   void setParallel(bool parallel);
 
   // For tools and overlays. Positions in the view are in logical pixels from its top left corner.
-  /// Returns the element at a position in the view, if there is one.
+  /// Returns the element at a position in the view, if there is one: the nearest that can be seen, otherwise the
+  /// nearest corner of the face that is seen there.
   std::optional<ElementId> elementAt(QPointF position) const;
   std::vector<LinkId> linksCrossing(QLineF stroke) const;
   /// Returns the crossed links of the front layer; in a plane, all crossed links.
