@@ -57,6 +57,6 @@ struct ReportBench : Workbench {
 };
 
 // Columns of the table.
-constexpr int msColumn = 1, violationColumn = 4, exactColumn = 7;
+constexpr int msColumn = 1, violationColumn = 2, exactColumn = 5;
 
 }  // namespace chainmail

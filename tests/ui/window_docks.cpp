@@ -376,6 +376,14 @@ class WindowDocks : public QObject {
     // Nothing is painted while nothing moves.
     QTRY_COMPARE(bench.find<QLabel>("painted0")->text(), QStringLiteral("idle"));
     QTRY_COMPARE(bench.find<QLabel>("painted1")->text(), QStringLiteral("idle"));
+    // The figures of another algorithm do not count for the new one.
+    bench.document().setAlgorithm(1, Algorithm::exact);
+    bench.settle();
+    QTRY_COMPARE(bench.find<QLabel>("painted1")->text(), QStringLiteral("idle"));
+    for (const char* name : {"passes1", "median1", "worst1"}) {
+      QCOMPARE(bench.find<QLabel>(name)->text(), QStringLiteral("–"));
+    }
+    QVERIFY(bench.find<QLabel>("median0")->text() != QStringLiteral("–"));
   }
 
  private:

@@ -145,13 +145,18 @@ class WindowWords : public QObject {
     }
     auto& legend = bench.window.panel(0).legend();
     QVERIFY(legend.height() >= 2 * legend.fontMetrics().height() && !bench.find<QFrame>("hints")->isVisible());
-    QVERIFY(!bench.find<QToolBar>("mainToolBar")->isVisible() && !bench.window.statusBar()->isVisible());
+    QVERIFY(!bench.find<QToolBar>("mainToolBar")->isVisible());
+    auto* tool = bench.find<QLabel>("lectureTool");
+    QVERIFY(tool->isVisible());
+    QCOMPARE(tool->text(), QStringLiteral("Tool: <b>Drag</b>  ·  F11 ends the lecture mode"));
+    bench.trigger("toolCut");
+    QVERIFY(tool->text().contains(QStringLiteral("Cut")));
     QVERIFY(bench.window.findChild<ViolationLine*>(QStringLiteral("violation0"))->fontInfo().pixelSize() > letters);
     QCOMPARE(bench.window.savedLayout(), before);  // what a session stores
     QTest::keyClick(&bench.view(0), Qt::Key_Escape);
     bench.settle();
     QVERIFY(!bench.find<QAction>("lectureMode")->isChecked());
-    QVERIFY(bench.find<QToolBar>("mainToolBar")->isVisible() && bench.window.statusBar()->isVisible());
+    QVERIFY(bench.find<QToolBar>("mainToolBar")->isVisible() && !tool->isVisible());
     QVERIFY(bench.find<QFrame>("hints")->isVisible());
     QVERIFY(bench.find<QDockWidget>("toolsDock")->isVisible());
     QTRY_COMPARE(bench.window.size(), size);

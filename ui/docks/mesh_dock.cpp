@@ -101,14 +101,15 @@ void MeshDock::arrange() {
   form->addRow(QStringLiteral("Kind"), kind_);
   form->addRow(QStringLiteral("Size"), makeSizes());
   form->addRow(QStringLiteral("Space"), space_);
-  column->addLayout(form);
-  column->addWidget(spacing_);
-  column->addWidget(build_);
   column->addWidget(description_);
   auto* files = new QHBoxLayout;
   files->addWidget(open);
   files->addWidget(save);
   column->addLayout(files);
+  column->addWidget(new QLabel(QStringLiteral("New mesh")));
+  column->addLayout(form);
+  column->addWidget(spacing_);
+  column->addWidget(build_);
   column->addWidget(new QLabel(QStringLiteral("Samples")));
   auto* gallery = new Gallery(samplesFolder());
   connect(gallery, &Gallery::chosen, this, &MeshDock::sampleRequested);

@@ -10,12 +10,14 @@
 
 namespace chainmail {
 
-LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, QWidget& hints,
-                         int layoutVersion)
+LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, QActionGroup& tools,
+                         QWidget& hints, int layoutVersion)
     : QObject(&window),
       window_(window),
       area_(area),
       propagation_(propagation),
+      tools_(tools),
+      tool_(new QLabel),
       hints_(hints),
       layoutVersion_(layoutVersion),
       action_(new QAction(QStringLiteral("Lecture mode"), this)) {
@@ -24,6 +26,10 @@ LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& prop
   action_->setShortcut(Qt::Key_F11);
   action_->setStatusTip(
       QStringLiteral("Shows only the panels, on the whole screen, with large texts and a ring at the cursor"));
+  tool_->setObjectName(QStringLiteral("lectureTool"));
+  tool_->hide();
+  window.statusBar()->addPermanentWidget(tool_);
+  connect(&tools, &QActionGroup::triggered, this, &LectureMode::nameTool);
   connect(action_, &QAction::toggled, this, [this](bool on) { on ? enter() : restore(); });
 }
 
@@ -37,7 +43,8 @@ void LectureMode::enter() {
   for (auto* bar : window_.findChildren<QToolBar*>(Qt::FindDirectChildrenOnly)) {
     bar->hide();
   }
-  window_.statusBar()->hide();
+  nameTool();
+  tool_->show();
   hadHints_ = hints_.isVisible();
   hints_.hide();
   area_.setLecture(true);
@@ -47,7 +54,7 @@ void LectureMode::enter() {
 void LectureMode::restore() {
   window_.showNormal();
   window_.restoreGeometry(geometry_);
-  window_.statusBar()->show();
+  tool_->hide();
   // restoreState shows tabbed docks one by one. A layout that reacts at once removes some meanwhile, and Qt crashes.
   window_.layout()->setEnabled(false);
   window_.restoreState(layout_, layoutVersion_);
@@ -56,6 +63,13 @@ void LectureMode::restore() {
   hints_.setVisible(hadHints_);
   propagation_.setHeld(false);
   area_.setLecture(false);
+}
+
+void LectureMode::nameTool() {
+  const QAction* tool = tools_.checkedAction();
+  tool_->setText(QStringLiteral("Tool: <b>%1</b>  ·  %2 ends the lecture mode")
+                     .arg(tool != nullptr ? tool->text().remove(QLatin1Char('&')) : QString(),
+                          action_->shortcut().toString(QKeySequence::NativeText)));
 }
 
 }  // namespace chainmail

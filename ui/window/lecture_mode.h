@@ -1,6 +1,7 @@
 #pragma once
 
-#include <QAction>
+#include <QActionGroup>
+#include <QLabel>
 #include <QMainWindow>
 #include <vector>
 
@@ -10,12 +11,14 @@ class PanelArea;
 class Propagation;
 
 /// Shows only the panels, on the whole screen, with large texts and a ring at the cursor, for an audience. The
-/// propagation that is shown stays, without its dock. Afterwards, docks, bars and the window are as before.
+/// propagation that is shown stays, without its dock. The status bar names the tool and the way out. Afterwards, docks,
+/// bars and the window are as before.
 class LectureMode : public QObject {
   Q_OBJECT
 
  public:
-  LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, QWidget& hints, int layoutVersion);
+  LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, QActionGroup& tools, QWidget& hints,
+              int layoutVersion);
 
   /// The switch for the menu.
   QAction& action() { return *action_; }
@@ -27,10 +30,13 @@ class LectureMode : public QObject {
  private:
   void enter();
   void restore();
+  void nameTool();
 
   QMainWindow& window_;
   PanelArea& area_;
   Propagation& propagation_;
+  const QActionGroup& tools_;
+  QLabel* tool_;
   QWidget& hints_;
   bool hadHints_ = false;
   int layoutVersion_;

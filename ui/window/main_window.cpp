@@ -92,9 +92,9 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       help_(new HelpMenu(*this, document_)),
       panelActions_(new PanelActions(*area_, document_, colouring_)),
       showMenu_(new ShowMenu(document_, this)),
-      lecture_(new LectureMode(*this, *area_, propagation_, help_->hints(), layoutVersion)),
-      lessons_(new Lessons(*this, propagation_, *sessions_)),
       toolActions_(new QActionGroup(this)),
+      lecture_(new LectureMode(*this, *area_, propagation_, *toolActions_, help_->hints(), layoutVersion)),
+      lessons_(new Lessons(*this, propagation_, *sessions_)),
       colourBy_(new ColourSelector(colouring_)),
       readout_(new ElementReadout(document_, measurement_, [this] { return area_->links().pointed(); })) {
   arrange();

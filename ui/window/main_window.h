@@ -123,9 +123,9 @@ class MainWindow : public QMainWindow {
   HelpMenu* help_;
   PanelActions* panelActions_;
   ShowMenu* showMenu_;
+  QActionGroup* toolActions_;
   LectureMode* lecture_;
   Lessons* lessons_;
-  QActionGroup* toolActions_;
   QAction *undo_ = nullptr, *redo_ = nullptr;
   QAction *resetObject_ = nullptr, *unpinAll_ = nullptr, *fitView_ = nullptr;
   ColourSelector* colourBy_;

@@ -168,7 +168,7 @@ RateSample FrameRateDock::read(int panel) {
     sample.violationMax = statistics.violation.max;
     sample.violationRms = statistics.violation.rms;
     sample.ofWholeMesh = statistics.violation_of_whole_mesh;
-    if (statistics.last_second.passes != 0) {
+    if (statistics.last_second.passes != 0 && statistics.algorithm == sample.algorithm) {
       sample.ms = statistics.last_pass_ms;
       sample.medianMs = statistics.last_second.median_ms;
       sample.worstMs = statistics.last_second.worst_ms;

@@ -28,8 +28,10 @@ RateFigures::RateFigures(const Document& document) : document_(document) {
   }
   followPanels();
   connect(&document, &Document::panelsChanged, this, &RateFigures::followPanels);
-  // The colours of other panels may change, too.
-  connect(&document, &Document::algorithmChanged, this, &RateFigures::followPanels);
+  connect(&document, &Document::algorithmChanged, this, [this](int panel) {
+    clear(panel);
+    followPanels();  // the colours of other panels may change, too
+  });
 }
 
 void RateFigures::addHead(QGridLayout& grid) {
@@ -93,6 +95,14 @@ void RateFigures::nameRow(int panel) {
     row.name->setText(QStringLiteral("<span style='color:%1'>━━</span> <b>%2</b> %3")
                           .arg(QColor(panelColour(document_, panel)).name(), panelName(panel),
                                text(info(document_.algorithm(panel)).label)));
+  }
+}
+
+/// Removes the figures of the algorithm before.
+void RateFigures::clear(int panel) {
+  const Row& row = rows_[std::size_t(panel)];
+  for (QLabel* label : {row.passes, row.median, row.worst}) {
+    label->setText(QStringLiteral("–"));
   }
 }
 

@@ -30,6 +30,7 @@ class RateFigures : public QWidget {
   void addRow(QGridLayout& grid);
   void followPanels();
   void nameRow(int panel);
+  void clear(int panel);
 
   const Document& document_;
   std::vector<Row> rows_;

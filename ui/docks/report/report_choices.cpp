@@ -46,9 +46,9 @@ ReportChoices::ReportChoices(Document& document)
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   form->setVerticalSpacing(3);
   form->addRow(QStringLiteral("Drags"), drags_);
-  form->addRow(QStringLiteral("Sweeps"), sweeps_);
+  form->addRow(QStringLiteral("Relax"), sweeps_);
   form->addRow(QStringLiteral("Precision"), precision_);
-  form->addRow(QStringLiteral("Time"), seconds_);
+  form->addRow(QStringLiteral("Run time"), seconds_);
   column->addWidget(algorithms_, 1);
   column->addLayout(form);
   connect(algorithms_, &QListWidget::itemChanged, this, &ReportChoices::changed);
@@ -87,14 +87,14 @@ void ReportChoices::fillAlgorithms() {
 }
 
 void ReportChoices::fillRest() {
-  name(sweeps_, "reportSweeps", QStringLiteral("Sweeps of relaxation"),
+  name(sweeps_, "reportSweeps", QStringLiteral("Relaxation after each move"),
        QStringLiteral("Each algorithm without relaxation, with 10 sweeps after each move, or both.\n"
                       "Scheme and step are those of the Relaxation dock; the scheme is mean if it is the equilibrium "
                       "there.\n"
                       "With equilibrium, Natural Queue and Exact also relax to the equilibrium after each move."));
-  sweeps_->addItems({QStringLiteral("off"), QStringLiteral("%1 per move").arg(sweepsPerMove),
-                     QStringLiteral("off, and %1 per move").arg(sweepsPerMove),
-                     QStringLiteral("off, %1 per move, and equilibrium").arg(sweepsPerMove)});
+  sweeps_->addItems({QStringLiteral("off"), QStringLiteral("%1 sweeps").arg(sweepsPerMove),
+                     QStringLiteral("off and %1 sweeps").arg(sweepsPerMove),
+                     QStringLiteral("off, %1 sweeps and equilibrium").arg(sweepsPerMove)});
   sweeps_->setCurrentIndex(2);
   name(precision_, "reportPrecision", QStringLiteral("Precision of the contestants"),
        QStringLiteral("Number type that the algorithms use (float or double). Reference solutions always use double"));

@@ -4,9 +4,8 @@
 #include <QDateTime>
 #include <QDir>
 #include <QGuiApplication>
-#include <QLocale>
+#include <QResizeEvent>
 #include <QSettings>
-#include <QSplitter>
 #include <QVBoxLayout>
 
 #include "common/ask_where.h"
@@ -23,6 +22,8 @@
 
 namespace chainmail {
 namespace {
+
+constexpr double widestColumn = 2.4;  // ratio of width to height up to which the table is below the plot
 
 /// Writes the three files, or none of them.
 void saveReport(const std::filesystem::path& folder, const report::Comparison& comparison) {
@@ -75,15 +76,13 @@ ReportResults::ReportResults()
       plot_(new PlotWidget(QStringLiteral("No values for this drag"))),
       legend_(new PlotLegend),
       table_(new ReportTable),
-      refusals_(new QLabel) {
-  auto* split = new QSplitter;
-  split->setObjectName(QStringLiteral("reportSplitter"));
-  split->setChildrenCollapsible(false);
-  split->addWidget(makePlot());
-  split->addWidget(table_);
-  split->setStretchFactor(0, 2);
-  split->setStretchFactor(1, 3);
-  split->setSizes({330, 440});
+      refusals_(new QLabel),
+      split_(new QSplitter(Qt::Vertical)) {
+  split_->setObjectName(QStringLiteral("reportSplitter"));
+  split_->setChildrenCollapsible(false);
+  split_->addWidget(makePlot());
+  split_->addWidget(table_);
+  split_->setSizes({1000, 1000});  // equal shares
   refusals_->setObjectName(QStringLiteral("reportRefusals"));
   refusals_->setAccessibleName(QStringLiteral("Refused algorithms, with the reason"));
   refusals_->setToolTip(refusals_->accessibleName());
@@ -94,9 +93,16 @@ ReportResults::ReportResults()
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);
   column->addLayout(makeBar());
-  column->addWidget(split, 1);
+  column->addWidget(heading_);
+  column->addWidget(split_, 1);
   column->addWidget(refusals_);
   followTheme(*this, [this] { showDrag(); });  // the marks depend on the theme
+}
+
+/// Sets the table beside the plot where there is room for both, otherwise below it.
+void ReportResults::resizeEvent(QResizeEvent* event) {
+  split_->setOrientation(event->size().width() > widestColumn * event->size().height() ? Qt::Horizontal : Qt::Vertical);
+  QWidget::resizeEvent(event);
 }
 
 QWidget* ReportResults::makePlot() {
@@ -122,7 +128,7 @@ QLayout* ReportResults::makeBar() {
     widget->setAccessibleName(accessible);
     widget->setToolTip(help);
   };
-  name(heading_, "reportHeading", QStringLiteral("Compared object"), QStringLiteral("The object of the last run"));
+  name(heading_, "reportHeading", QStringLiteral("Compared object and drag"), {});
   heading_->setTextFormat(Qt::PlainText);
   heading_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // a long name does not widen the dock
   name(drag_, "reportDrag", QStringLiteral("Drag shown"), QStringLiteral("Drag that the plot and the table show"));
@@ -141,7 +147,7 @@ QLayout* ReportResults::makeBar() {
   auto* bar = new QHBoxLayout;
   bar->addWidget(drag_);
   bar->addWidget(error_);
-  bar->addWidget(heading_, 1);
+  bar->addStretch();
   bar->addWidget(copy_);
   bar->addWidget(savePlot_);
   bar->addWidget(save_);
@@ -174,11 +180,10 @@ void ReportResults::showDrag() {
   }
   const report::CaseResult& object = result_->cases.front();
   const report::DragResult& drag = object.drags[std::size_t(drag_->currentIndex())];
-  const QLocale locale;
-  heading_->setText(
-      QStringLiteral("%1, %2 elements; %3 moves")
-          .arg(text(object.name), locale.toString(qulonglong(object.elements)), locale.toString(drag.moves)));
-  heading_->setToolTip(text(drag.description));
+  heading_->setText(QStringLiteral("%1, %2; %3; %4")
+                        .arg(text(object.name), counted(object.elements, QStringLiteral("element")),
+                             text(drag.description), counted(drag.moves, QStringLiteral("move"))));
+  heading_->setToolTip(heading_->text());
   showPlot(drag);
   table_->show(drag);
   const QString refusals = refusalsOf(drag);

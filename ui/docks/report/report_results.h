@@ -3,6 +3,7 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
+#include <QSplitter>
 
 #include "docks/report/report_thread.h"
 
@@ -29,6 +30,9 @@ class ReportResults : public QWidget {
   void saved(const QString& path);
   void failed(const QString& sentence);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   QLayout* makeBar();
   QWidget* makePlot();
@@ -49,6 +53,7 @@ class ReportResults : public QWidget {
   PlotLegend* legend_;
   ReportTable* table_;
   QLabel* refusals_;
+  QSplitter* split_;
 };
 
 }  // namespace chainmail

@@ -49,15 +49,6 @@ std::optional<double> of(const std::optional<Distance>& distance) {
 constexpr std::array columns{
     Column{"Time\n(ms per move)", "Median over the repetitions: a pass and its relaxation",
            [](auto& one) { return std::optional(one.ms_per_move.median); }},
-    Column{"Quartiles\n(ms per move)", "Lower and upper quartile of the repetitions (ms per move)",
-           [](auto& one) { return std::optional(one.ms_per_move.lower_quartile); },
-           [](auto& one) {
-             return report::figure(one.ms_per_move.lower_quartile) + " – " +
-                    report::figure(one.ms_per_move.upper_quartile);
-           }},
-    Column{"Moved\n(elements)", "Elements moved, in all moves together, without the handle",
-           [](auto& one) { return std::optional(double(one.moved)); },
-           [](auto& one) { return report::thousands(one.moved); }},
     Column{"Max violation\n(rest lengths)", "Largest violation of a link, in its rest lengths",
            [](auto& one) { return std::optional(one.errors.violation.max); }},
     Column{"RMS violation\n(rest lengths)", "Root mean square of the violation over all links, in rest lengths",
@@ -73,6 +64,15 @@ constexpr std::array columns{
            [](auto& one) { return of<&Distance::rms>(one.errors.to_exact); }},
     Column{"Energy\n(ratio to Exact)", "Elastic energy over that of Exact ChainMail; n/a if that is 0",
            [](auto& one) { return one.errors.energy_over_exact; }},
+    Column{"Quartiles\n(ms per move)", "Lower and upper quartile of the repetitions (ms per move)",
+           [](auto& one) { return std::optional(one.ms_per_move.lower_quartile); },
+           [](auto& one) {
+             return report::figure(one.ms_per_move.lower_quartile) + " – " +
+                    report::figure(one.ms_per_move.upper_quartile);
+           }},
+    Column{"Moved\n(elements)", "Elements moved, in all moves together, without the handle",
+           [](auto& one) { return std::optional(double(one.moved)); },
+           [](auto& one) { return report::thousands(one.moved); }},
     Column{"Float to double\n(mean rest lengths)",
            "Largest distance between the contestant in float and in double, in mean rest lengths",
            [](auto& one) { return std::optional(one.errors.float_to_double.max); }},
@@ -96,7 +96,7 @@ ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   verticalHeader()->hide();
   verticalHeader()->setDefaultSectionSize(21);
   verticalHeader()->setMinimumSectionSize(21);
-  auto* contestant = new QTableWidgetItem(QStringLiteral("Contestant"));
+  auto* contestant = new QTableWidgetItem(QStringLiteral("Algorithm"));
   contestant->setToolTip(QStringLiteral("Algorithm, and relaxation after each move"));
   setHorizontalHeaderItem(0, contestant);
   for (std::size_t i = 0; i < columns.size(); ++i) {
