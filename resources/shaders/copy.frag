@@ -15,11 +15,13 @@ void main() {
   }
   float depth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;
   if (darkening > 0.0) {
-    // The mean over a block of 4 by 4, which takes four samples of 2 by 2.
-    vec2 texel = 1.0 / vec2(textureSize(occlusions, 0));
+    // The mean over a block of 4 by 4, which takes four samples of 2 by 2. Samples must be at corners of pixels: anywhere
+    // else, the pixels of the block would have different weights, and the pattern would stay as stripes.
+    vec2 texels = vec2(textureSize(occlusions, 0));
+    vec2 corner = round(place * texels);
     float hidden = 0.0;
     for (int i = 0; i < 4; ++i) {
-      hidden += textureLod(occlusions, place + texel * vec2(i % 2 == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0), 0.0).r;
+      hidden += textureLod(occlusions, (corner + vec2(i % 2 == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0)) / texels, 0.0).r;
     }
     result.rgb *= 1.0 - darkening * hidden / 4.0;
   }
