@@ -140,6 +140,17 @@ class WindowLayout : public QObject {
     QVERIFY(more->width() >= 20);
   }
 
+  void thePropagationAndTheHintsFitOnASmallScreen() {
+    Workbench bench;
+    bench.trigger("showHints");
+    bench.trigger("showPropagation");
+    bench.window.resize(1024, 768);
+    bench.settle();
+    QVERIFY(bench.find<QFrame>("hints")->isVisible() && bench.find<QDockWidget>("propagationDock")->isVisible());
+    QVERIFY2(bench.window.width() <= 1024 && bench.window.height() <= 768,
+             qPrintable(QStringLiteral("%1 x %2").arg(bench.window.width()).arg(bench.window.height())));
+  }
+
   void docksFloatAndComeBack() {
     Workbench bench;
     for (auto* dock : bench.window.findChildren<QDockWidget*>()) {

@@ -14,11 +14,13 @@ class DetailBudget {
 
   /// Takes note of a complete picture that took this long (ms).
   void tookComplete(double milliseconds) { complete_ = milliseconds; }
-  /// Takes note of a quick picture with this many links and faces. Small pictures say little about large ones.
+  /// Takes note of a quick picture with this many links and faces. Small pictures say little about large ones. Slow
+  /// pictures count more than fast ones, because a lag is felt more than missing detail.
   void tookQuick(std::size_t shapes, double milliseconds) {
     if (shapes > fewestShapes / 2) {
       const double affordable = double(shapes) * longestFrame / std::max(milliseconds, 0.1);
-      most_ = std::clamp(0.7 * most_ + 0.3 * affordable, double(fewestShapes), double(mostAtRest));
+      const double weight = affordable < most_ ? 0.7 : 0.3;
+      most_ = std::clamp(most_ + weight * (affordable - most_), double(fewestShapes), double(mostAtRest));
     }
   }
 

@@ -149,9 +149,10 @@ void PanelHead::showState(const QString& state) {
   fitState();
 }
 
-/// Shortens the state only as far as the room requires.
+/// Shortens the state only as far as the room requires. Less than a word is not shown.
 void PanelHead::fitState() {
-  state_->setText(state_->fontMetrics().elidedText(state_->toolTip(), Qt::ElideRight, state_->width()));
+  const QString fitting = state_->fontMetrics().elidedText(state_->toolTip(), Qt::ElideRight, state_->width());
+  state_->setText(fitting == state_->toolTip() || fitting.contains(QLatin1Char(' ')) ? fitting : QString());
 }
 
 bool PanelHead::eventFilter(QObject* watched, QEvent* event) {

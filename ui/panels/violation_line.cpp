@@ -54,7 +54,7 @@ ViolationLine::ViolationLine() : sentence_(new QLabel) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(shareWidth + shareMargin, 0, 0, 0);
   row->addWidget(sentence_);
-  words_ = QStringLiteral("No figures yet");
+  words_ = brief_ = QStringLiteral("No figures yet");
   sentence_->setTextFormat(Qt::PlainText);
   sentence_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   sentence_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -62,7 +62,10 @@ ViolationLine::ViolationLine() : sentence_(new QLabel) {
 }
 
 void ViolationLine::show(const Statistics& statistics, bool hasMoved) {
-  words_ = violationInWords(statistics, hasMoved);
+  words_ = brief_ = violationInWords(statistics, hasMoved);
+  if (const Violation& violation = statistics.violation; statistics.remark.empty() && violation.fraction > 0) {
+    brief_ = QStringLiteral("%1 violated, worst %2 ×").arg(percentage(violation.fraction), rounded(violation.max));
+  }
   fitWords();
   share_ = hasMoved ? statistics.violation.fraction : 0;
   update();
@@ -70,7 +73,9 @@ void ViolationLine::show(const Statistics& statistics, bool hasMoved) {
 
 /// Shortens the sentence only as far as the room requires.
 void ViolationLine::fitWords() {
-  sentence_->setText(sentence_->fontMetrics().elidedText(words_, Qt::ElideRight, sentence_->width()));
+  const QFontMetrics metrics = sentence_->fontMetrics();
+  const bool fits = metrics.horizontalAdvance(words_) <= sentence_->width();
+  sentence_->setText(metrics.elidedText(fits ? words_ : brief_, Qt::ElideRight, sentence_->width()));
 }
 
 void ViolationLine::resizeEvent(QResizeEvent* event) {

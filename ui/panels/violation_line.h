@@ -28,7 +28,7 @@ class ViolationLine : public QWidget {
   void fitWords();
 
   QLabel* sentence_;
-  QString words_;  // the whole sentence
+  QString words_, brief_;  // the whole sentence, and one for narrow panels
   double share_ = -1;
 };
 

@@ -41,7 +41,9 @@ Hints::Hints() {
       sign->setPixmap(icon(name).pixmap({iconSize, iconSize}, sign->devicePixelRatioF()));
     });
     grid->addWidget(sign, row, 0);
-    grid->addWidget(new QLabel(QLatin1String(hints[std::size_t(row)].words)), row, 1);
+    auto* words = new QLabel(QLatin1String(hints[std::size_t(row)].words));
+    words->setWordWrap(true);  // otherwise the hints would widen a small window
+    grid->addWidget(words, row, 1);
   }
   auto* done = new QPushButton(QStringLiteral("Got it"));
   done->setObjectName(QStringLiteral("hintsDone"));
