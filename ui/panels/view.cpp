@@ -313,8 +313,7 @@ std::optional<ElementId> View::elementAt(QPointF position) const {
   const QRectF part(position - reach, position + reach);
   const FrontFaces front(*frame, projection(), frontFaces(*frame, part), part);
   const auto isShown = shown();
-  const auto near =
-      nearest([&](ElementId element) { return (!isShown || isShown(element)) && !front.hides(element); });
+  const auto near = nearest([&](ElementId element) { return (!isShown || isShown(element)) && !front.hides(element); });
   // The cap of a section is none of these faces, so the face that is found there may be hidden.
   return near || look_.section ? near : front.cornerAt(position, isShown);
 }

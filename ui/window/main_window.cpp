@@ -11,6 +11,7 @@
 #include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
+#include <QTimer>
 #include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -436,6 +437,8 @@ void MainWindow::restoreLayout() {
   const QSettings settings;
   restoreGeometry(settings.value(QStringLiteral("geometry")).toByteArray());
   takeLayout(settings.value(QStringLiteral("layout")).toByteArray());
+  // Widgets that were never shown ask for more room than they need, which widens the window beyond a small screen.
+  QTimer::singleShot(0, this, [this] { resize(size().boundedTo(screen()->availableSize())); });
 }
 
 // The window as a whole.

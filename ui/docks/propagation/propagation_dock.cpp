@@ -17,26 +17,26 @@ namespace {
 
 constexpr std::array speeds{1, 2, 5, 10, 30, 100, 1000, 10'000};  // steps per second
 constexpr int usualSpeed = 5;
-constexpr int columnsPerRow = 2;
+constexpr int smallWindow = 1200;  // width (pixels) below which the lists of the panels are below each other
 
 }  // namespace
 
 PropagationDock::PropagationDock(Document& document, Propagation& propagation, PropagationOverlay& overlay)
     : propagation_(propagation),
       overlay_(overlay),
+      lists_(new QGridLayout),
       speed_(new QComboBox),
-      together_(new QCheckBox(QStringLiteral("Panels &together"))),
+      together_(new QCheckBox(QStringLiteral("&Together"))),
       arrows_(new QCheckBox(QStringLiteral("&Arrows"))) {
   makeActions();
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
   column->addWidget(makeButtons());
   column->addWidget(makeChoices());
-  auto* lists = new QGridLayout;  // two per row, like the panels
   for (int panel = 0; panel < Document::mostPanels; ++panel) {
     columns_.push_back(new PropagationColumn(document, propagation, panel));
-    lists->addWidget(columns_.back(), panel / columnsPerRow, panel % columnsPerRow);
   }
+  arrangeLists();
   const auto adapt = [this, &document] {
     for (int panel = 0; panel < Document::mostPanels; ++panel) {
       columns_[std::size_t(panel)]->setVisible(panel < document.panels());
@@ -44,7 +44,7 @@ PropagationDock::PropagationDock(Document& document, Propagation& propagation, P
   };
   connect(&document, &Document::panelsChanged, this, adapt);
   adapt();
-  column->addLayout(lists, 1);
+  column->addLayout(lists_, 1);
   setWidget(new DockScroll(content));
   connect(this, &QDockWidget::visibilityChanged, this, [this](bool seen) {
     propagation_.setShown(seen);
@@ -53,6 +53,30 @@ PropagationDock::PropagationDock(Document& document, Propagation& propagation, P
   connect(&propagation, &Propagation::changed, this, &PropagationDock::refresh);
   connect(&document, &Document::algorithmChanged, this, &PropagationDock::refresh);
   refresh();
+}
+
+/// Sets two lists side by side, like the panels, or one in a small window.
+void PropagationDock::arrangeLists() {
+  const QWidget* main = parentWidget();
+  const int perRow = main != nullptr && main->width() < smallWindow ? 1 : 2;
+  for (int panel = 0; panel < int(columns_.size()); ++panel) {
+    lists_->addWidget(columns_[std::size_t(panel)], panel / perRow, panel % perRow);  // moves a list that is in it
+  }
+}
+
+bool PropagationDock::event(QEvent* event) {
+  if (event->type() == QEvent::ParentChange && parentWidget() != nullptr) {
+    parentWidget()->installEventFilter(this);
+    arrangeLists();
+  }
+  return QDockWidget::event(event);
+}
+
+bool PropagationDock::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == parentWidget() && event->type() == QEvent::Resize) {
+    arrangeLists();
+  }
+  return QDockWidget::eventFilter(watched, event);
 }
 
 /// Opens at once. Closes later, because a dock behind another one is hidden for a moment when its key brings it to the
@@ -126,7 +150,7 @@ void PropagationDock::makeSpeeds() {
   speed_->setAccessibleName(QStringLiteral("Speed of slow motion"));
   speed_->setToolTip(QStringLiteral("Speed of slow motion (candidates per second)"));
   for (const int speed : speeds) {
-    speed_->addItem(QStringLiteral("%L1 candidates/s").arg(speed), speed);
+    speed_->addItem(QStringLiteral("%L1 / s").arg(speed), speed);
   }
   connect(speed_, &QComboBox::currentIndexChanged, this,
           [this] { propagation_.setSpeed(speed_->currentData().toDouble()); });

@@ -8,6 +8,7 @@
 #include "tools/propagation_overlay.h"
 
 class QAction;
+class QGridLayout;
 class QMenu;
 
 namespace chainmail {
@@ -26,7 +27,12 @@ class PropagationDock : public QDockWidget {
   /// Emitted when the panels must be redrawn.
   void changed();
 
+ protected:
+  bool event(QEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
+  void arrangeLists();
   void followDock();
   QAction* add(const QString& name, const QString& text, const QKeySequence& key, const QString& tip);
   void makeActions();
@@ -38,6 +44,7 @@ class PropagationDock : public QDockWidget {
 
   Propagation& propagation_;
   PropagationOverlay& overlay_;
+  QGridLayout* lists_;
   std::vector<PropagationColumn*> columns_;
   QAction *first_, *back_, *play_, *forward_, *last_, *follow_;
   QComboBox* speed_;
