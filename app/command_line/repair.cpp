@@ -22,6 +22,7 @@ struct RepairOptions {
   }
 };
 
+/// Adds an option without a value. (With two literals, CLI11's add_flag is ambiguous.)
 CLI::Option* add_switch(CLI::App& app, const std::string& name, const std::string& help) {
   return app.add_flag(name, help);
 }
@@ -97,7 +98,7 @@ void write_repairs(std::ostream& out, const Repair& repair) {
     out << "left      " << joined_words(in_words(repair.defects()), ", ") << '\n';
   }
   if (const auto count = repair.defects().outlines; count > 0) {
-    out << "open      " << number_of(count, "border, the outline", "borders, outlines") << " of an open surface\n";
+    out << "open      " << number_of(count, "border: the outline", "borders: outlines") << " of an open surface\n";
   }
 }
 
@@ -139,7 +140,7 @@ Command add_repair(CLI::App& root) {
   const CLI::Option* target = add_mesh_target(*app);
   app->footer(
       "Without --weld, --loose and --holes, all three repairs are made. Several may be given.\n"
-      "Non-manifold edges are named and stay.\n\nExample:\n  chainmail repair scan.ply -o whole.ply");
+      "Non-manifold edges are reported but not changed.\n\nExample:\n  chainmail repair scan.ply -o whole.ply");
   return {app, [options, json, target] { repair_file(options, *value_of(target), value_of(json)); }};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "mesh/edge_key.h"
@@ -84,6 +85,9 @@ std::uint32_t polygon_count(const Mesh& mesh) {
 void check(const SplitEdit& edit, const Mesh& mesh) {
   if (!can_split(mesh)) {
     refuse("the object has no faces, or it is a lattice or a volume", "cut its links instead");
+  }
+  if (edit.empty() && edit.triangles.empty() && edit.polygons.empty()) {
+    refuse("it changes nothing", "leave it out");
   }
   check_points(edit.elements, mesh.element_count());
   check_removed(edit.removed, mesh.own_triangles, "triangles");
@@ -270,6 +274,24 @@ SplitPointer make_split(MeshPointer mesh, SplitEdit edit) {
   split->edit = std::move(edit);
   Origins(*split).find();
   return split;
+}
+
+std::vector<LinkId> links_without_faces(const Mesh& mesh, std::span<const LinkId> links) {
+  std::unordered_map<EdgeKey, LinkId> found;
+  for (const LinkId link : links) {
+    found[edge_key(mesh.links[link][0], mesh.links[link][1])] = link;
+  }
+  const auto leave_out = [&](ElementId a, ElementId b) { found.erase(edge_key(a, b)); };
+  for (std::size_t t = 0; t < mesh.own_triangles; ++t) {
+    for_each_side(mesh.triangles[t], leave_out);
+  }
+  for_each_polygon(mesh.polygons, [&](std::uint32_t, auto corners) { for_each_side(corners, leave_out); });
+  std::vector<LinkId> result;
+  for (const auto& [edge, link] : found) {
+    result.push_back(link);
+  }
+  std::ranges::sort(result);
+  return result;
 }
 
 std::vector<LinkId> cuts_after(const Split& split, std::span<const LinkId> cuts) {

@@ -65,6 +65,9 @@ using SplitPointer = std::shared_ptr<const Split>;
 /// True if strokes may split the faces of this mesh: it has faces, and neither cells nor a lattice.
 bool can_split(const Mesh& mesh);
 
+/// Returns those of the links that are not the side of a face.
+std::vector<LinkId> links_without_faces(const Mesh& mesh, std::span<const LinkId> links);
+
 /// Applies an edit. Throws Error, with the reason, if it does not fit the mesh.
 SplitPointer make_split(MeshPointer mesh, SplitEdit edit);
 

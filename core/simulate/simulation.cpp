@@ -494,10 +494,14 @@ void Simulation::carry_out(const commands::Split& command) {
   state.softness = softness_after(split, state.softness);
   state.positions = positions_after(split, state.positions, precision_);
   const auto handle = last_handle_;
+  const bool was_relaxing = statistics_.relaxing;
   take_state(state);
   if (handle && std::ranges::none_of(handle->elements(), [this](ElementId one) { return body().is_pinned(one); })) {
     const auto elements = handle->elements();
     last_handle_ = std::make_shared<Handle>(body(), std::vector<ElementId>(elements.begin(), elements.end()));
+  }
+  if (was_relaxing) {
+    solver_->wake_all();
   }
   wake_new(split.before->element_count());
 }

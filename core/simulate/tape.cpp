@@ -8,6 +8,8 @@
 namespace chainmail {
 namespace {
 
+constexpr std::size_t most_unreachable = 10'000;
+
 template <class... Kinds>
 bool is_one_of(const Command& command) {
   return (std::holds_alternative<Kinds>(command) || ...);
@@ -40,22 +42,59 @@ void Tape::note(const Command& command) {
 }
 
 void Tape::add(const Command& command) {
-  const Node before = last();
   if (position_ < timeline_.size()) {
     timeline_.resize(position_);
     ++timeline_number_;
   }
+  // Splits contain meshes.
+  if (is_one_of<commands::Split>(command) || nodes_.size() > 2 * reachable_ + most_unreachable) {
+    drop_unreachable();
+  }
+  const Node before = last();
   nodes_.push_back({command, before, nodes_[before].passes + (is_one_of<commands::Drag>(command) ? 1U : 0U)});
   timeline_.push_back(static_cast<Node>(nodes_.size() - 1));
   ++position_;
 }
 
 void Tape::begin() {
+  drop_unreachable();
   beginning_ = static_cast<Node>(nodes_.size());
   nodes_.push_back({{}, none, 0});
   timeline_.clear();
   position_ = 0;
   ++timeline_number_;
+}
+
+/// Drops commands to which neither the timeline nor a kept state returns.
+void Tape::drop_unreachable() {
+  std::vector<bool> reachable(nodes_.size());
+  const auto mark = [&](Node node) {
+    for (; node != none && !reachable[node]; node = nodes_[node].before) {
+      reachable[node] = true;
+    }
+  };
+  mark(beginning_);
+  std::ranges::for_each(timeline_, mark);
+  for (const auto& [state, node] : kept_) {
+    mark(node);
+  }
+  std::vector<Node> moved(nodes_.size(), none);
+  Node count = 0;
+  for (Node node = 0; node < nodes_.size(); ++node) {
+    if (reachable[node]) {
+      Entry entry = std::move(nodes_[node]);
+      entry.before = entry.before == none ? none : moved[entry.before];
+      moved[node] = count;
+      nodes_[count++] = std::move(entry);
+    }
+  }
+  nodes_.resize(count);
+  reachable_ = count;
+  beginning_ = moved[beginning_];
+  std::ranges::transform(timeline_, timeline_.begin(), [&](Node node) { return moved[node]; });
+  for (auto& [state, node] : kept_) {
+    node = moved[node];
+  }
 }
 
 /// Begins the timeline of a new object, which keeps the global softness and the kind of energy.
@@ -133,6 +172,14 @@ MeshPointer last_mesh(const MeshPointer& mesh, std::span<const Command> commands
   return last;
 }
 
+MeshPointer Tape::first_mesh() const {
+  MeshPointer first;
+  for (std::size_t i = 0; i < length() && !first; ++i) {
+    first = mesh_before(at(i));
+  }
+  return first;
+}
+
 Tape::Object Tape::object(std::size_t position) const {
   std::set<LinkId> cuts;
   std::set<ElementId> pins;
@@ -142,9 +189,7 @@ Tape::Object Tape::object(std::size_t position) const {
       add ? void(all.insert(one)) : void(all.erase(one));
     }
   };
-  for (std::size_t i = 0; i < length() && !object.mesh; ++i) {
-    object.mesh = mesh_before(at(i));
-  }
+  object.mesh = first_mesh();
   for (std::size_t i = 0; i < position; ++i) {
     const Command& command = at(i);
     if (const auto* cut = std::get_if<commands::Cut>(&command)) {

@@ -39,6 +39,9 @@ class Tape {
   /// Returns the last grab before the current position that has drags, with these drags; empty if there is none.
   std::vector<Command> last_drag() const;
 
+  /// Returns the mesh with which the commands begin, if one of them splits it; otherwise null.
+  MeshPointer first_mesh() const;
+
   /// Returns a number that changes when commands after the current position are replaced, or others are loaded.
   std::uint64_t timeline() const { return timeline_number_; }
 
@@ -68,10 +71,12 @@ class Tape {
   void begin();
   void begin_mesh();
   void return_to(Node last);
+  void drop_unreachable();
   Node last() const { return position_ == 0 ? beginning_ : timeline_[position_ - 1]; }
 
-  // All commands ever recorded, undone or not: commands after an undo form a branch.
+  // All commands that the timeline or a kept state may return to: commands after an undo form a branch.
   std::vector<Entry> nodes_{{{}, none, 0}};
+  std::size_t reachable_ = 0;   // number of nodes after the last drop of unreachable ones
   Node beginning_ = 0;          // node before the first command of this object, or of the loaded commands
   std::vector<Node> timeline_;  // the current branch
   std::size_t position_ = 0;

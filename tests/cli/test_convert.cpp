@@ -116,7 +116,7 @@ void ConvertCommandTest::only_the_repairs_asked_for_are_made() {
   QVERIFY(program.run("repair a.off -o a.obj --json -").out.startsWith('{'));
   QCOMPARE(program.run("generate cloth 20x20 -o cloth.obj").code, 0);
   QCOMPARE(program.run("repair cloth.obj -o whole.obj").out,
-           QByteArray("repaired  nothing\nopen      1 border, the outline of an open surface\n"));
+           QByteArray("repaired  nothing\nopen      1 border: the outline of an open surface\n"));
   QCOMPARE(read_mesh(program.path("whole.obj").toStdString())->triangles.size(), std::size_t{722});
 }
 

@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <QtTest>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "core/families.h"
@@ -34,7 +35,10 @@ class SplitTest : public QObject {
   void positions_go_over();
   void a_simulation_is_split_and_undone_exactly();
   void the_parts_move_apart();
+  void a_split_does_not_stop_relaxation();
   void recorded_splits_are_replayed();
+  void meshes_of_undone_splits_are_freed();
+  void links_beside_faces_are_told_apart();
   void edits_that_do_not_fit_are_refused();
 };
 
@@ -429,6 +433,68 @@ void SplitTest::the_parts_move_apart() {
   QVERIFY(simulation.statistics().violation.max < 1e-4);
 }
 
+void SplitTest::a_split_does_not_stop_relaxation() {
+  const MeshPointer mesh = regular_sheet(20, 3);
+  Simulation simulation(mesh, Algorithm::natural_queue, Precision::double_precision);
+  simulation.apply(commands::SetRelaxation{true});
+  drag_by(simulation, 0, Point(40, 0, 0));
+  QVERIFY(simulation.statistics().relaxing);
+  simulation.apply(commands::Split{split_of(mesh, {{175, -20}, {175, 80}})});
+  const Point before = point_of(simulation.mesh(), simulation.body().positions(), 1);
+  while (simulation.step()) {
+  }
+  QVERIFY(point_of(simulation.mesh(), simulation.body().positions(), 1) != before);  // far from the split
+}
+
+void SplitTest::meshes_of_undone_splits_are_freed() {
+  const MeshPointer mesh = sheet();
+  Tape tape;
+  std::weak_ptr<const Mesh> undone, done;
+  {
+    const auto split = split_of(mesh, line_across(3));
+    tape.note(commands::KeepState{1});
+    tape.note(commands::Split{split});
+    tape.note(commands::KeepState{2});
+    undone = split->after;
+  }
+  tape.note(commands::RestoreState{1});
+  QVERIFY(!undone.expired());
+  tape.note(commands::RestoreState{2});  // redo
+  QCOMPARE(tape.object().mesh, undone.lock());
+  tape.note(commands::RestoreState{1});
+  tape.note(commands::DropState{2});
+  {
+    const auto split = split_of(mesh, {{60, -20}, {80, 200}});
+    tape.note(commands::Split{split});
+    done = split->after;
+  }
+  QVERIFY(undone.expired());
+  QCOMPARE(tape.object().mesh, done.lock());
+  tape.note(commands::RestoreState{1});
+  QCOMPARE(tape.position(), 0U);
+  tape.note(commands::DropState{1});
+  tape.note(commands::ReplaceMesh{mesh});
+  QVERIFY(done.expired());
+}
+
+void SplitTest::links_beside_faces_are_told_apart() {
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {5, 5, 0}, {6, 5, 0}, {6, 6, 0}, {5, 6, 0}};
+  test::add_triangle(parts, 0, 1, 2);
+  parts.polygons = {4, 4, 5, 6, 7};
+  for (ElementId a = 4; a < 8; ++a) {
+    parts.links.push_back({a, a == 7 ? 4 : a + 1});
+  }
+  parts.links.push_back({2, 3});
+  parts.links.push_back({3, 4});
+  const auto mesh = build_mesh(std::move(parts));
+  std::vector<LinkId> all(mesh->link_count());
+  std::iota(all.begin(), all.end(), 0U);
+  QCOMPARE(links_without_faces(*mesh, all), (std::vector{*find_link(*mesh, 2, 3), *find_link(*mesh, 3, 4)}));
+  const std::vector some{*find_link(*mesh, 0, 1), *find_link(*mesh, 3, 4)};
+  QCOMPARE(links_without_faces(*mesh, some), std::vector{*find_link(*mesh, 3, 4)});
+}
+
 void SplitTest::recorded_splits_are_replayed() {
   const MeshPointer mesh = sheet();
   const auto first = split_of(mesh, line_across(3));
@@ -472,6 +538,7 @@ void SplitTest::edits_that_do_not_fit_are_refused() {
   QVERIFY(refused({{SplitPoint::copy(9)}, {0}, {{0, 1, 9}}, {}, {}}));
   QVERIFY(refused({{SplitPoint::between(0, 1, 1.5)}, {0}, {{0, 1, 9}}, {}, {}}));
   QVERIFY(refused({{SplitPoint::between(0, 1, std::nan(""))}, {0}, {{0, 1, 9}}, {}, {}}));
+  QVERIFY(refused({}));
   QVERIFY(refused({{}, {8}, {}, {}, {}}));
   QVERIFY(refused({{}, {1, 1}, {}, {}, {}}));
   QVERIFY(refused({{}, {}, {{0, 1, 9}}, {}, {}}));

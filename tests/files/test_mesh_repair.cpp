@@ -82,6 +82,7 @@ class MeshRepairTest : public QObject {
   void a_polygon_with_welded_corners_becomes_a_triangle();
   void faces_that_become_equal_are_left_out();
   void loose_points_are_removed();
+  void corners_of_faces_are_not_loose();
   void a_mesh_without_links_keeps_its_points();
   void rows_of_neighbours_keep_their_order();
   void a_fin_is_a_non_manifold_edge();
@@ -171,6 +172,20 @@ void MeshRepairTest::faces_that_become_equal_are_left_out() {
   const auto welded = weld(*obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 5 6 4\n"));
   QCOMPARE(welded.mesh->element_count(), 3U);
   QCOMPARE(welded.mesh->triangles.size(), std::size_t{1});
+}
+
+/// Files may contain faces and cells without links.
+void MeshRepairTest::corners_of_faces_are_not_loose() {
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 0}, {3, 3, 0}, {0, 0, 1}, {1, 1, 1}};
+  parts.triangles = {{0, 1, 2}};
+  parts.tetrahedra = {{0, 1, 2, 5}};
+  parts.links = {{3, 4}};
+  const auto mesh = build_mesh(parts);
+  QCOMPARE(find_defects(*mesh).loose, Ids{6});
+  const auto kept = remove_loose(*mesh).mesh;
+  QCOMPARE(kept->element_count(), 6U);
+  QVERIFY(kept->triangles == mesh->triangles && kept->tetrahedra == mesh->tetrahedra);
 }
 
 void MeshRepairTest::loose_points_are_removed() {

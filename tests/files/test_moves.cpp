@@ -171,12 +171,13 @@ void MovesTest::splits_that_do_not_fit_are_refused_data() {
   QTest::addColumn<QString>("sentence");
   const auto row = [](const char* command, const char* sentence) { QTest::newRow(command) << command << sentence; };
   row(R"({"do": "split"})", "m.json: command 0: 'elements' is missing; add it");
-  row(R"({"do": "split", "elements": [[0, 0]]})", "m.json: command 0: 'elements' holds something");
+  row(R"({"do": "split", "elements": []})", "m.json: command 0: split: it changes nothing");
+  row(R"({"do": "split", "elements": [[0, 0]]})", "m.json: command 0: 'elements' contains something");
   row(R"({"do": "split", "elements": [[0, 0, 0, 0, "x"]]})", "m.json: command 0: ");
   row(R"({"do": "split", "elements": [[9, 0, 0, 0, 0]]})", "m.json: command 0: split: element 4 lies between");
-  row(R"({"do": "split", "elements": [], "removed": [-1]})", "m.json: command 0: 'removed' holds '-1'");
+  row(R"({"do": "split", "elements": [], "removed": [-1]})", "m.json: command 0: 'removed' contains '-1'");
   row(R"({"do": "split", "elements": [], "removed": [7]})", "m.json: command 0: split: the triangles to replace");
-  row(R"({"do": "split", "elements": [], "triangles": [[0, 1]]})", "m.json: command 0: 'triangles' holds something");
+  row(R"({"do": "split", "elements": [], "triangles": [[0, 1]]})", "m.json: command 0: 'triangles' contains something");
   row(R"({"do": "split", "elements": [], "triangles": [[0, 1, 7]]})", "m.json: command 0: split: a new face");
   row(R"({"do": "split", "elements": [], "polygons": [4, 0, 1, 2]})", "m.json: command 0: split: a new polygon");
   row(R"({"do": "split", "elements": [], "sides": []})", "m.json: command 0: ");
@@ -215,8 +216,8 @@ void MovesTest::other_files_are_refused_data() {
   row(R"({"version": 1, "commands": []} x)", "m.json:1: it is not JSON; ");
   row(R"({"version": 1, "commands": [NaN]})", "m.json:1: it is not JSON; ");
   row(R"({"version": 1, "commands": [1e999]})", "m.json: it contains a number that is too large");
-  row("[]", "m.json: it holds no recorded moves; ");
-  row("null", "m.json: it holds no recorded moves; ");
+  row("[]", "m.json: it contains no recorded moves; ");
+  row("null", "m.json: it contains no recorded moves; ");
   row("{}", "m.json: 'version' is missing; ");
   row(R"({"commands": []})", "m.json: 'version' is missing; ");
   row(R"({"version": 3, "commands": []})", "m.json: its version is not 1 or 2; ");

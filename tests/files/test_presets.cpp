@@ -81,7 +81,7 @@ void PresetsTest::other_files_are_refused_data() {
     QTest::newRow(said) << QString::fromStdString(text) << QString(said);
   };
   row("{", "p.json:1: it is not JSON; use a file with presets of softness");
-  row("[]", "p.json: it holds no presets; ");
+  row("[]", "p.json: it contains no presets; ");
   row("{}", "p.json: 'version' is missing; ");
   row(R"({"version": 2, "presets": []})", "p.json: its version is not 1; ");
   row(R"({"version": 1})", "p.json: 'presets' is missing; ");

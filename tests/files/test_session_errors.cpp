@@ -53,8 +53,8 @@ void SessionErrorsTest::other_files_are_refused_data() {
   row("{\"format\": \"chainmail session\",\n", "a.chainmail:2: it ends too early; ");
   row("{} x", "a.chainmail:1: it is not JSON; ");
   row("{\"format\": NaN}", "a.chainmail:1: it is not JSON; ");
-  row("{\"format\": 1e999}", "a.chainmail: it holds a number that is too large ");
-  row("{\"rest\": [1e999]}", "a.chainmail: it holds a number that is too large ");
+  row("{\"format\": 1e999}", "a.chainmail: it contains a number that is too large ");
+  row("{\"rest\": [1e999]}", "a.chainmail: it contains a number that is too large ");
   row("[]", "a.chainmail: it is not a session; ");
   row("[[1], [2]]", "a.chainmail: it is not a session; ");
   row("null", "a.chainmail: it is not a session; ");
@@ -86,7 +86,7 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"name\": ", "\"nam\": ", "'nam' is not a known key; ");
   row("\"name\": ", "\"format\": 1, \"name\": ", "'format' appears twice; ");
   row("\"cloth 3 × 3\"", "3", "'name' is not a text; ");
-  row("\"name\": ", "\"moves\": 3, \"name\": ", "moves: it holds no recorded moves; ");
+  row("\"name\": ", "\"moves\": 3, \"name\": ", "moves: it contains no recorded moves; ");
   row("\"name\": ", R"("moves": {"version": 1, "commands": [{"do": "grab", "element": 9}]}, "name": )",
       "moves: command 0: ");
   row("\"name\": ", R"("moves": {"version": 1, "commands": [{"do": "cut", "links": [[0, 5]]}]}, "name": )",
@@ -94,7 +94,7 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"name\": ", R"("moves": {"version": 1, "commands": []}, "name": )", "'moves_done' is missing; ");
   row("\"name\": ", R"("moves": {"version": 1, "commands": []}, "moves_done": 1, "name": )",
       "'moves_done' is not a whole number up to ");
-  row("\"elements\": 9", "\"elements\": 8", "mesh: 'rest' holds 27 numbers, but 8 elements have 24; ");
+  row("\"elements\": 9", "\"elements\": 8", "mesh: 'rest' contains 27 numbers, but 8 elements have 24; ");
   row("\"elements\": 9", "\"elements\": 0", "mesh: 'elements' is not a whole number from 1 to 20000000; ");
   row("\"elements\": 9", "\"elements\": -9", "mesh: 'elements' is not a whole number from 1 to 20000000; ");
   row("\"space\": 2", "\"space\": 1", "mesh: space dimension 1: the object extends along 2 axes; ");
@@ -108,10 +108,10 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("3,3,0],", "3,3,\"0\"],", "number 26 of 'rest' is not a number; ");
   row("3,3,0],", "3,3,[0]],", "number 26 of 'rest' is not a number; ");
   row("3,3,0],", "3,3,{}],", "number 26 of 'rest' is not a number; ");
-  row("3,3,0],", "3,3],", "mesh: 'rest' holds 26 numbers, but 9 elements have 27; ");
+  row("3,3,0],", "3,3],", "mesh: 'rest' contains 26 numbers, but 9 elements have 27; ");
   row("0,1,0,3,0,4", "0,1,0,3,0,9", "mesh: 'links' names element 9, which does not exist; ids run from 0 to 8");
   row("0,1,0,3,0,4", "0,1,0,3,0", "mesh: 'links' ends within a group of 2; ");
-  row("0,1,0,3,0,4", "0,1,0,3,1,0", "mesh: 'links' holds a link twice; ");
+  row("0,1,0,3,0,4", "0,1,0,3,1,0", "mesh: 'links' contains a link twice; ");
   row("0,1,0,3,0,4", "0,1,0,3,0,0", "mesh: element 0 is linked to itself; ");
   row("0,1,0,3,0,4", "0,1,0,3,0,-4", "number 5 of 'links' is not a whole number; ");
   row("0,1,0,3,0,4", "0,1,0,3,0,4.0", "number 5 of 'links' is not a whole number; ");
@@ -136,18 +136,21 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
           "mesh: the texture has no size ");
   texture(R"("size": [1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "AA==")", "mesh: the texture has no size ");
   texture(R"("size": [4294967295,4294967295,4294967295], "channels": 4, "box": [0,0,0,1,1,0], "texels": "AA==")",
-          "mesh: 'texels' does not hold one byte ");
+          "mesh: 'texels' does not contain one byte ");
   texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,0,0], "texels": "AA==")",
           "mesh: 'box' is not the box of a ");
-  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1], "texels": "AA==")", "mesh: 'box' holds 5 numbers; ");
-  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "AAAA")", "mesh: 'texels' does not hold ");
-  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "A!==")", "mesh: 'texels' does not hold ");
-  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": [0])", "mesh: 'texels' does not hold ");
+  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1], "texels": "AA==")",
+          "mesh: 'box' contains 5 numbers; ");
+  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "AAAA")",
+          "mesh: 'texels' does not contain ");
+  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": "A!==")",
+          "mesh: 'texels' does not contain ");
+  texture(R"("size": [1,1,1], "channels": 1, "box": [0,0,0,1,1,0], "texels": [0])", "mesh: 'texels' does not contain ");
   texture(R"("size": [1,1,1], "colour": 1)", "mesh: 'colour' is not a known key; ");
   row("\"cuts\": [0,1,", "\"cuts\": [0,2,", "the elements 0 and 2 are not linked; ");
-  row("\"cuts\": [0,1,", "\"cuts\": [5,4,", "'cuts' holds a link twice; ");
+  row("\"cuts\": [0,1,", "\"cuts\": [5,4,", "'cuts' contains a link twice; ");
   row("\"pins\": [0,8]", "\"pins\": [0,9]", "'pins' names element 9, which does not exist; ");
-  row("\"pins\": [0,8]", "\"pins\": [8,0,8]", "'pins' holds an element twice; ");
+  row("\"pins\": [0,8]", "\"pins\": [8,0,8]", "'pins' contains an element twice; ");
   row("\"pins\": [0,8]", "\"pins\": true", "'pins' is not an array; ");
   row("\"stretch\":1.25", "\"stretch\":0.5", "softness: stretch: Stretch 0.5 is out of range; ");
   row("\"own\": [3,4,1,1,0]", "\"own\": [3,4,2,1,0]", "softness: compression: Compression 2 is out of range; ");
@@ -219,7 +222,8 @@ void SessionErrorsTest::wrong_paths() {
 void SessionErrorsTest::huge_claims_take_no_memory() {
   QVERIFY(
       with("\"elements\": 9", "\"elements\": 1000000000").contains("mesh: 'elements' is not a whole number from 1 "));
-  QVERIFY(with("\"elements\": 9", "\"elements\": 20000000").contains("mesh: 'rest' holds 27 numbers, but 20000000 "));
+  QVERIFY(
+      with("\"elements\": 9", "\"elements\": 20000000").contains("mesh: 'rest' contains 27 numbers, but 20000000 "));
   QVERIFY(with("\"elements\": 9", "\"elements\": 18446744073709551617").contains("mesh: 'elements' is not a whole "));
   QVERIFY(with("[3,3,1]", "[4294967295,4294967295,4294967295]").contains("mesh: the size of the lattice does not "));
   const auto table = [&](const char* counts) {

@@ -2,8 +2,10 @@
 
 #include <QSettings>
 #include <QToolButton>
+#include <QWheelEvent>
 
 #include "core/families.h"
+#include "docks/replay/replay_dock.h"
 #include "window.h"
 
 using namespace chainmail;
@@ -121,6 +123,93 @@ class WindowKnife : public QObject {
     bench.trigger("undo");
     bench.settle();
     QCOMPARE(bench.document().mesh(), whole);
+  }
+
+  void playingGoesOnAfterASplit() {
+    Workbench bench(test::jittered_triangles(9, 7, 3));
+    bench.trigger("toolCut");
+    bench.find<QAction>("cutSplits")->setChecked(true);
+    bench.stroke(0, acrossColumns(bench));
+    const MeshPointer split = bench.document().mesh();
+    bench.trigger("toolDrag");
+    const QPoint right = bench.place(0, 44);
+    bench.stroke(0, {right, right + QPoint(60, 10)});
+    bench.trigger("showReplay");
+    bench.trigger("replayPlay");  // from the end: begins anew
+    QCOMPARE(bench.find<QAction>("replayPlay")->text().remove(QLatin1Char('&')), QStringLiteral("Pause"));
+    QTRY_COMPARE(bench.document().tape().position(), bench.document().tape().length());
+    QTRY_VERIFY(bench.find<QAction>("replayPlay")->text().remove(QLatin1Char('&')) != QStringLiteral("Pause"));
+    QCOMPARE(bench.document().mesh(), split);
+  }
+
+  void savedMovesOfASplitOpenOnTheSplitObject() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("moves.json"));
+    Workbench bench(test::jittered_triangles(9, 7, 3));
+    const MeshPointer whole = bench.document().mesh();
+    bench.trigger("toolCut");
+    bench.find<QAction>("cutSplits")->setChecked(true);
+    bench.stroke(0, acrossColumns(bench));
+    const MeshPointer split = bench.document().mesh();
+    bench.trigger("showReplay");
+    auto& replay = *bench.find<ReplayDock>("replayDock");
+    replay.saveMoves(path);
+    bench.settle();
+    replay.openMoves(path);
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), whole);
+    QCOMPARE(bench.document().tape().length(), std::size_t{1});
+    bench.document().goTo(1);
+    bench.settle();
+    QCOMPARE(bench.document().mesh()->element_count(), split->element_count());
+    QCOMPARE(bench.document().parts(), 2U);
+    bench.trigger("undo");
+    bench.trigger("undo");
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), split);
+  }
+
+  void linksBesideFacesAreCutWithTheStroke() {
+    MeshParts parts;
+    parts.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}, {1, 2, 0}};
+    test::add_triangle(parts, 0, 1, 2);
+    test::add_triangle(parts, 1, 3, 2);
+    parts.links.push_back({4, 5});  // above the faces
+    Workbench bench(build_mesh(std::move(parts)));
+    const LinkId beside = *find_link(*bench.document().mesh(), 4, 5);
+    bench.trigger("toolCut");
+    bench.find<QAction>("cutSplits")->setChecked(true);
+    const QPoint top = (bench.place(0, 4) + bench.place(0, 5)) / 2,
+                 middle = (bench.place(0, 2) + bench.place(0, 3)) / 2;
+    const QPoint bottom = (bench.place(0, 0) + bench.place(0, 1)) / 2;
+    bench.stroke(0, {top + QPoint(3, -20), (top + middle) / 2 + QPoint(3, 0)});  // crosses only this link
+    QCOMPARE(bench.document().cuts().links(), std::vector{beside});
+    bench.trigger("undo");
+    bench.settle();
+    bench.stroke(0, {top + QPoint(3, -20), bottom + QPoint(3, 20)});
+    const Mesh& split = *bench.document().mesh();
+    QVERIFY(split.element_count() > 6);
+    QCOMPARE(bench.document().cuts().links(), std::vector{*find_link(split, 4, 5)});
+    const auto states = bench.document().snapshot(0).get();
+    QVERIFY(states.is_at_rest());
+    bench.trigger("undo");
+    bench.settle();
+    QVERIFY(bench.document().cuts().links().empty() && bench.document().mesh()->element_count() == 6);
+  }
+
+  void theWheelDoesNotZoomDuringAStroke() {
+    Workbench bench(test::jittered_triangles(9, 7, 3));
+    bench.trigger("toolCut");
+    View& view = bench.view(0);
+    const QPoint at = acrossColumns(bench).first();
+    const QPointF before = view.placeOf(ElementId(40));
+    QTest::mousePress(&view, Qt::LeftButton, {}, at);
+    QWheelEvent event(at, view.mapToGlobal(at), {}, {0, 240}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&view, &event);
+    QCOMPARE(view.placeOf(ElementId(40)), before);
+    QTest::mouseRelease(&view, Qt::LeftButton, {}, at);
+    QApplication::sendEvent(&view, &event);
+    QVERIFY(view.placeOf(ElementId(40)) != before);
   }
 
   void linksAreCutWhereOnlyLinksAreDrawnAndOnRequest() {

@@ -147,6 +147,7 @@ class WindowLessons : public QObject {
   void unsavedWorkIsOfferedAgain();
   void undoAndRedoKeepTheLesson();
   void savingKeepsTheCaptions();
+  void aCutByTheUserStaysOutOfTheLesson();
   void aDamagedLessonChangesNothing();
   void unknownNamesAreReported();
   void closingHidesTheBar();
@@ -405,6 +406,30 @@ void WindowLessons::savingKeepsTheCaptions() {
   back(bench);
   next(bench);
   QVERIFY(stateOf(bench) == state);
+}
+
+void WindowLessons::aCutByTheUserStaysOutOfTheLesson() {
+  const QTemporaryDir folder;
+  const QString path = folder.filePath(QStringLiteral("cut.chainmail"));
+  Workbench& bench = shared();
+  open(bench, pathOf("face.chainmail"));
+  const MeshPointer whole = bench.document().mesh();
+  bench.trigger("toolCut");
+  bench.find<QAction>("cutSplits")->setChecked(true);
+  const QRect view = bench.view(0).rect();
+  bench.stroke(0, {view.center() - QPoint(40, 60), view.center() + QPoint(40, 60)});
+  bench.trigger("toolDrag");
+  const MeshPointer split = bench.document().mesh();
+  QVERIFY(split->element_count() > whole->element_count());
+  bench.window.sessions().savePath(path);
+  bench.settle();
+  const Session saved = read_session(path.toStdString());
+  QCOMPARE(saved.mesh->element_count(), split->element_count());
+  QVERIFY(saved.lesson.steps.empty());
+  QCOMPARE(first_mesh(saved)->element_count(), whole->element_count());
+  next(bench);
+  QCOMPARE(player(bench).step(), std::size_t{1});
+  QCOMPARE(bench.document().mesh(), whole);
 }
 
 void WindowLessons::aDamagedLessonChangesNothing() {

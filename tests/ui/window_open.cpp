@@ -176,6 +176,30 @@ class WindowOpen : public QObject {
             !bench.find<QPushButton>("repairHoles")->isVisible());
   }
 
+  void aRepairKeepsTheSoftnessOfLinksInTheSolvers() {
+    Workbench bench;
+    bench.open(brokenCube());
+    const LinkId link = *find_link(*bench.document().mesh(), 0, 1);
+    bench.document().setSoftnessOf({link}, LinkSoftness{1, 1, 0});
+    bench.find<QPushButton>("repairLoose")->click();
+    bench.settle();
+    QVERIFY(bench.document().wholeSoftness()->links.contains(link));
+    QCOMPARE(*bench.document().tape().object().softness, *bench.document().wholeSoftness());  // what the solvers got
+  }
+
+  void aRepairThatComesTooLateReplacesNothing() {
+    Workbench bench;
+    bench.open(brokenCube());
+    bench.find<QPushButton>("repairHoles")->click();
+    QVERIFY(bench.window.jobs().running());
+    const auto other = generate({MeshKind::cloth, {4, 4, 1}, 1, {}});
+    bench.document().replaceMesh(other, QStringLiteral("other"), QStringLiteral("build"));
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), other);
+    QCOMPARE(messages(bench).sentence(),
+             QStringLiteral("broken.off: the object was changed while it was repaired. Start the repair again"));
+  }
+
   void showSelectsOneDefectAfterAnother() {
     Workbench bench;
     bench.open(brokenCube());

@@ -82,7 +82,7 @@ QWidget* ToolsDock::makeCutOptions(Document& document, CutTool& cut) {
 
 /// Makes the switch between splitting faces and cutting links, which is remembered.
 QWidget* ToolsDock::makeSplits(Document& document, CutTool& cut) {
-  splits_ = new QAction(QStringLiteral("Cut splits triangles"), this);
+  splits_ = new QAction(QStringLiteral("Split triangles when cutting"), this);
   splits_->setObjectName(QStringLiteral("cutSplits"));
   splits_->setIconText(QStringLiteral("Split triangles"));
   splits_->setCheckable(true);
@@ -98,8 +98,8 @@ QWidget* ToolsDock::makeSplits(Document& document, CutTool& cut) {
     splits_->setStatusTip(
         can_split(mesh) ? QStringLiteral("On: a stroke splits the triangles that it crosses, except where only links "
                                          "are drawn. Off: it cuts the links that it crosses")
-                        : QStringLiteral("Not available: this object is a volume, a generated lattice or has no faces. "
-                                         "A stroke cuts links"));
+                        : QStringLiteral("Not available: a stroke cuts the links of volumes, of generated lattices and "
+                                         "of objects without faces"));
     splits_->setToolTip(splits_->statusTip());
   };
   connect(&document, &Document::meshChanged, this, adapt);

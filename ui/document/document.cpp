@@ -183,8 +183,10 @@ void Document::carryOut(const Change& change, const Contents& before) {
   if (isOther) {
     post(commands::ReplaceMesh{after.object->mesh});  // keeps only the global softness
   }
-  if (after.softness != before.softness && !follows &&
-      (!isOther || *after.softness != Softness{before.softness->global, {}, before.softness->energy})) {
+  const bool softnessIsThere = isOther
+                                   ? *after.softness == Softness{before.softness->global, {}, before.softness->energy}
+                                   : after.softness == before.softness;
+  if (!softnessIsThere && !follows) {
     post(commands::SetSoftness{after.softness});
   }
   const auto links = isOther ? after.object->cuts.links() : change.cut;
@@ -409,9 +411,13 @@ void Document::cut(const std::vector<LinkId>& links) {
   }
 }
 
-void Document::split(const SplitPointer& split) {
+void Document::split(const SplitPointer& split, const std::vector<LinkId>& cut) {
   Change edit = change(QStringLiteral("cut along a stroke"));
-  edit.after.object = objectOf(split->after, cuts_after(*split, cuts().links()), pins_after(*split, pins()));
+  std::vector<LinkId> all = cuts_after(*split, cuts().links());
+  std::ranges::set_difference(cuts_after(*split, cut), all, std::back_inserter(edit.cut));
+  const auto old = all.insert(all.end(), edit.cut.begin(), edit.cut.end());
+  std::inplace_merge(all.begin(), old, all.end());
+  edit.after.object = objectOf(split->after, all, pins_after(*split, pins()));
   edit.after.softness = softness_after(*split, wholeSoftness());
   edit.split = split;
   apply(std::move(edit));

@@ -173,8 +173,8 @@ class Document : public QObject {
   void setAlgorithm(int panel, Algorithm algorithm);
   void setPinned(const std::vector<ElementId>& elements, bool pinned);
   void cut(const std::vector<LinkId>& links);
-  /// Splits faces of the object.
-  void split(const SplitPointer& split);
+  /// Splits faces of the object, and cuts links of the object before the split.
+  void split(const SplitPointer& split, const std::vector<LinkId>& cut = {});
   void resetObject();
   /// Replaces the object. `own` contains the softness of links that have their own.
   void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own = {});

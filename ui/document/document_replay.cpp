@@ -65,8 +65,10 @@ void Document::goTo(std::size_t position) {
   endSweeps();
   Change edit = change(QStringLiteral("replay"), travelGesture);
   edit.after.relaxation.on = false;
-  const MeshPointer first = tape().object(0).mesh;
-  replaceSplit(edit, tape().object(position), first);
+  const MeshPointer first = tape().first_mesh();
+  if (first) {
+    replaceSplit(edit, tape().object(position), first);
+  }
   edit.carryOut = [this, position, first] { travel(position, first); };
   edit.followsTape = true;
   apply(std::move(edit));
@@ -86,8 +88,10 @@ void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& move
   endSweeps();
   Change edit = change(text);
   edit.after.relaxation.on = false;
-  edit.carryOut = [this, moves] {
-    goToBeginning({});
+  const MeshPointer first = unsplitMesh();
+  replaceSplit(edit, {}, first);
+  edit.carryOut = [this, moves, first] {
+    goToBeginning(first);
     log_->tape().load(*moves);
     replayed_ = true;
   };
@@ -127,9 +131,11 @@ void Document::goToInLesson(std::size_t position, const std::vector<Algorithm>& 
   edit.after.elastic = lesson()->elastic;
   std::ranges::copy(algorithms, edit.after.algorithms.begin());
   const MeshPointer first = first_mesh(*lesson());
-  Tape moves;
-  moves.load(lesson()->moves);
-  replaceSplit(edit, moves.object(std::min(position, moves.length())), first);
+  if (first_mesh(lesson()->moves) || first != mesh()) {
+    Tape moves;
+    moves.load(lesson()->moves);
+    replaceSplit(edit, moves.object(std::min(position, moves.length())), first);
+  }
   edit.carryOut = [this, position, goesOn, first, session = lesson()] {
     if (!goesOn) {
       dropWaypoints();

@@ -1,5 +1,6 @@
 #include "document/lesson_player.h"
 
+#include <QScopedValueRollback>
 #include <algorithm>
 
 #include "files/session/session.h"
@@ -36,6 +37,9 @@ const std::string& LessonPlayer::name(std::string LessonStep::*which) const {
 
 /// Takes over the lesson of a new object, or of one that an undo brought back.
 void LessonPlayer::adopt() {
+  if (travels_) {
+    return;  // the moves of the lesson split the object
+  }
   clock_.stop();
   session_ = document_.lesson() == closed_ ? nullptr : document_.lesson();
   step_ = session_ ? stepAt(document_.tape().position()) : 0;
@@ -109,10 +113,15 @@ void LessonPlayer::show(std::size_t step, bool animated) {
 void LessonPlayer::goTo(std::size_t position, bool withPass) {
   for (std::size_t last = position; withPass && last > 0; --last) {
     if (std::holds_alternative<commands::Drag>(session_->moves[last - 1])) {
-      document_.goToInLesson(last - 1, algorithms(step_));
+      travel(last - 1);
       break;
     }
   }
+  travel(position);
+}
+
+void LessonPlayer::travel(std::size_t position) {
+  const QScopedValueRollback guard(travels_, true);
   document_.goToInLesson(position, algorithms(step_));
 }
 
@@ -158,7 +167,7 @@ void LessonPlayer::playMoves() {
     return;
   }
   position_ = animated_ ? nextMove() : lesson().steps[step_].until;
-  document_.goToInLesson(position_, algorithms(step_));
+  travel(position_);
 }
 
 /// Returns the position after the next move of the handle, at most the end of the step.

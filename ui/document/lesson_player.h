@@ -58,6 +58,7 @@ class LessonPlayer : public QObject {
   void setPanels(std::size_t count);
   std::vector<Algorithm> algorithms(std::size_t step) const;
   std::size_t nextMove() const;
+  void travel(std::size_t position);
 
   Document& document_;
   Propagation& propagation_;
@@ -67,6 +68,7 @@ class LessonPlayer : public QObject {
   std::size_t position_ = 0;   // in the recorded moves, while playing
   std::size_t candidate_ = 0;  // shown last
   bool animated_ = true;       // false: goes to the end of the step at once
+  bool travels_ = false;       // the player itself moves the object
   int waited_ = 0;             // ticks of the clock, for passes
   QTimer clock_;
 };

@@ -22,17 +22,22 @@ SessionDraft::SessionDraft(Document& document, std::string look) {
   }
 }
 
-/// A lesson keeps its captions. They belong to its own moves, which the user's moves may have replaced meanwhile.
+/// A lesson keeps its captions. They belong to its own moves, which the user's moves may have replaced meanwhile. If
+/// the user has also split the object, the lesson's moves do not lead to it: the session is then the user's alone.
 void SessionDraft::takeLesson(const Document& document) {
   const auto& lesson = document.lesson();
   if (!lesson) {
     return;
   }
-  session_.lesson = lesson->lesson;
   if (!document.recordsLesson()) {
+    const std::size_t done = std::min(session_.moves_done, lesson->moves.size());
+    if (last_mesh(first_mesh(*lesson), std::span(lesson->moves).first(done)) != session_.mesh) {
+      return;
+    }
     session_.moves = lesson->moves;
-    session_.moves_done = std::min(session_.moves_done, session_.moves.size());
+    session_.moves_done = done;
   }
+  session_.lesson = lesson->lesson;
 }
 
 Session SessionDraft::finished(const Progress& progress) const {

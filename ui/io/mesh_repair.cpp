@@ -95,13 +95,13 @@ void MeshRepair::follow() {
 
 void MeshRepair::check() {
   jobs_.start(Jobs::Kind::load, QStringLiteral("Checking %1").arg(document_.name()),
-              [this, mesh = document_.mesh()](const Progress& progress) -> Jobs::Finish {
+              [this, name = document_.name(), mesh = document_.mesh()](const Progress& progress) -> Jobs::Finish {
                 const Defects defects = find_defects(*mesh, progress);
-                return [this, mesh, defects] {
+                return [this, name, mesh, defects] {
                   remember(mesh, defects);
                   follow();
                   if (defects.empty()) {
-                    emit noted(nothingToRepair(document_.name(), defects));
+                    emit noted(nothingToRepair(name, defects));
                   }
                 };
               });
@@ -126,21 +126,27 @@ void MeshRepair::showNext() {
 /// Replaces the object with the repaired one. The softness of single links stays.
 void MeshRepair::start(const QString& doing, const QString& step, const Repair& repair) {
   const QString name = document_.name();
-  jobs_.start(Jobs::Kind::load, QStringLiteral("%1 of %2").arg(doing, name),
-              [this, name, step, repair, mesh = document_.mesh(),
-               softness = document_.wholeSoftness()](const Progress& progress) -> Jobs::Finish {
-                try {
-                  const Repaired repaired = repair(*mesh, progress.part(0, 0.9));
-                  const Defects defects = find_defects(*repaired.mesh, progress.part(0.9, 1));
-                  const OwnSoftness own = carried(softness->links, *mesh, repaired);
-                  return [this, name, step, repaired, defects, own] {
-                    remember(repaired.mesh, defects);
-                    document_.replaceMesh(repaired.mesh, name, step, own);
-                  };
-                } catch (const Error& error) {
-                  throw error.at(name.toStdString());
-                }
-              });
+  jobs_.start(
+      Jobs::Kind::load, QStringLiteral("%1 of %2").arg(doing, name),
+      [this, name, step, repair, mesh = document_.mesh(),
+       softness = document_.wholeSoftness()](const Progress& progress) -> Jobs::Finish {
+        try {
+          const Repaired repaired = repair(*mesh, progress.part(0, 0.9));
+          const Defects defects = find_defects(*repaired.mesh, progress.part(0.9, 1));
+          const OwnSoftness own = carried(softness->links, *mesh, repaired);
+          return [this, name, step, repaired, defects, own, mesh, softness] {
+            if (document_.mesh() != mesh || document_.wholeSoftness() != softness) {
+              emit document_.refused(
+                  QStringLiteral("%1: the object was changed while it was repaired. Start the repair again").arg(name));
+              return;
+            }
+            remember(repaired.mesh, defects);
+            document_.replaceMesh(repaired.mesh, name, step, own);
+          };
+        } catch (const Error& error) {
+          throw error.at(name.toStdString());
+        }
+      });
 }
 
 void MeshRepair::weld() {

@@ -44,7 +44,8 @@ RepairBar::RepairBar() : row_(new QHBoxLayout(this)), text_(makeText("repairText
   row_->setContentsMargins(10, 4, 6, 4);
   row_->addLayout(words, 1);
   addButton(QStringLiteral("&Show"), "repairShow",
-            QStringLiteral("Selects the elements of the first defect; again: of the next"), &RepairBar::showRequested);
+            QStringLiteral("Selects the elements of one defect. Each click selects the next one"),
+            &RepairBar::showRequested);
   weld_ = addButton(QStringLiteral("&Weld"), "repairWeld",
                     QStringLiteral("Joins vertices at the same position, as one undo step. The object is then at rest, "
                                    "without cuts and pins"),

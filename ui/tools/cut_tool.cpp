@@ -1,7 +1,9 @@
 #include "tools/cut_tool.h"
 
 #include <QLineF>
+#include <new>
 
+#include "mesh/error.h"
 #include "panels/view.h"
 
 namespace chainmail {
@@ -54,10 +56,21 @@ void CutTool::release(View& view, QPointF position) {
 void CutTool::cut(const View& view, const std::vector<LinkId>& links, const std::vector<QPointF>& stroke) {
   if (!splits_ || !view.splitsFaces()) {
     document_.cut(links);
-  } else if (const SplitPointer split = view.splitAlong(stroke, links)) {
-    document_.split(split);
-  } else if (!links.empty()) {
-    emit document_.noticed(QStringLiteral("The stroke is too short to open the object: draw it across a whole face"));
+    return;
+  }
+  try {
+    const auto loose = links_without_faces(*document_.mesh(), links);
+    if (const SplitPointer split = view.splitAlong(stroke, links)) {
+      document_.split(split, loose);
+    } else if (!loose.empty() || links.empty()) {
+      document_.cut(loose);
+    } else {
+      emit document_.noticed(QStringLiteral("The stroke is too short to open the object: draw it across a whole face"));
+    }
+  } catch (const Error& error) {
+    emit document_.refused(QString::fromStdString(error.what()));
+  } catch (const std::bad_alloc&) {
+    emit document_.refused(QStringLiteral("There is not enough memory to split this object: cut its links instead"));
   }
 }
 

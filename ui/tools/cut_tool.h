@@ -29,6 +29,8 @@ class CutTool : public Tool {
   void move(View& view, QPointF position, Qt::KeyboardModifiers modifiers) override;
   void release(View& view, QPointF position) override;
   bool busy() const override { return at_ != nullptr; }
+  /// During a stroke, the view does not zoom: the stroke is a line on the screen.
+  bool wheel(View& /*view*/, QPointF /*position*/, double /*notches*/) override { return busy(); }
   void cancel() override;
   std::span<const QPointF> stroke(const View& view) const override;
 

@@ -217,15 +217,35 @@ std::vector<std::array<ElementId, 3>> joined_triangles(const Mesh& mesh, const s
   return triangles;
 }
 
+std::vector<bool> loose_elements(const Mesh& mesh) {
+  std::vector<bool> loose(mesh.element_count());
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    loose[e] = mesh.link_count() > 0 && mesh.neighbours_of(e).empty();
+  }
+  // Files may contain faces and cells without links. The triangles include those of polygons.
+  const auto keep_corners = [&loose](const auto& all) {
+    for (const auto& corners : all) {
+      for (const ElementId corner : corners) {
+        loose[corner] = false;
+      }
+    }
+  };
+  keep_corners(mesh.triangles);
+  keep_corners(mesh.tetrahedra);
+  keep_corners(mesh.hexahedra);
+  return loose;
+}
+
 Defects find_defects(const Mesh& mesh, const Progress& progress) {
   Defects defects;
   progress.report(0);
   const auto first = first_at_position(mesh);
+  const auto loose = loose_elements(mesh);
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
     if (first[e] != e) {
       defects.duplicates.push_back(e);
     }
-    if (mesh.neighbours_of(e).empty() && mesh.link_count() > 0) {
+    if (loose[e]) {
       defects.loose.push_back(e);
     }
   }

@@ -17,7 +17,7 @@ namespace chainmail {
 struct Defects {
   /// Elements at exactly the position of an element with a lower id; ascending.
   std::vector<ElementId> duplicates;
-  /// Elements without links, in a mesh with links; ascending.
+  /// Loose elements (see loose_elements), ascending.
   std::vector<ElementId> loose;
   /// The elements around each hole, in order.
   std::vector<std::vector<ElementId>> holes;
@@ -44,6 +44,9 @@ std::vector<std::string> in_words(const Defects& defects);
 
 /// Joins such descriptions.
 std::string joined_words(const std::vector<std::string>& words, const std::string& between);
+
+/// Returns for each element whether it is loose: without links, faces and cells, in a mesh with links.
+std::vector<bool> loose_elements(const Mesh& mesh);
 
 /// True if the mesh has cells. Only surfaces have holes.
 bool has_cells(const Mesh& mesh);

@@ -162,10 +162,8 @@ Repaired weld(const Mesh& mesh, const Progress& progress) {
 
 Repaired remove_loose(const Mesh& mesh, const Progress& progress) {
   progress.report(0);
-  std::vector<bool> kept(mesh.element_count());
-  for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    kept[e] = mesh.link_count() == 0 || !mesh.neighbours_of(e).empty();
-  }
+  std::vector<bool> kept = loose_elements(mesh);
+  kept.flip();
   Repaired repaired{nullptr, numbered(kept)};
   MeshParts parts = parts_of(mesh);
   rename(parts, repaired.new_ids, kept);

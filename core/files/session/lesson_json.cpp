@@ -36,7 +36,7 @@ std::vector<Algorithm> read_algorithms(const JsonFields& fields, const Json& ste
   for (const Json& name : fields.array(step, "algorithms")) {
     const auto algorithm = name.is_string() ? find_algorithm(name.get<std::string>()) : std::nullopt;
     if (!algorithm) {
-      fields.fail("'algorithms' holds " + text_of(name) + ", which is not known",
+      fields.fail("'algorithms' contains " + text_of(name) + ", which is not known",
                   "use names that 'chainmail deform --help' lists");
     }
     try {

@@ -128,7 +128,7 @@ std::vector<ElementId> MoveFields::elements(const MoveMembers& command, const st
 
 std::uint32_t MoveFields::index(const Json& json, const std::string& key) const {
   if (!json.is_number_unsigned() || json.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
-    fail("'" + key + "' holds " + in_quotes(text_of(json)), "write whole numbers from 0");
+    fail("'" + key + "' contains " + in_quotes(text_of(json)), "write whole numbers from 0");
   }
   return json.get<std::uint32_t>();
 }
@@ -147,7 +147,7 @@ std::vector<std::uint32_t> MoveFields::indices(const MoveMembers& command, const
 /// Returns the numbers of an item of a list.
 std::vector<double> MoveFields::row(const Json& json, std::size_t size, const std::string& key) const {
   if (!json.is_array() || json.size() != size) {
-    fail("'" + key + "' holds something that is not an array of " + std::to_string(size) + " numbers",
+    fail("'" + key + "' contains something that is not an array of " + std::to_string(size) + " numbers",
          "write " + std::to_string(size) + " numbers for each");
   }
   std::vector<double> result;
@@ -184,6 +184,8 @@ SplitEdit MoveFields::split(const MoveMembers& command) const {
 // The second version knows `split`.
 constexpr std::uint64_t first_version = 1, split_version = 2;
 constexpr std::uint64_t most_sweeps = 1'000'000;
+// Every split has its own mesh, so a short file could ask for much memory.
+constexpr std::uint64_t most_split_elements = 10 * element_limit;
 // Numbers in the row of a link: its ends and its softness, without or with the numbers of its energy.
 constexpr std::size_t short_row = 2 + region_numbers, long_row = 2 + softness_numbers.size();
 
@@ -223,6 +225,7 @@ class MovesReader {
   // The state that the simulation would be in.
   std::set<ElementId> grabbed_;
   std::set<ElementId> pinned_;
+  std::uint64_t split_elements_ = 0;  // in the meshes after all splits
 };
 
 Command MovesReader::grab(const Members& of) {
@@ -347,7 +350,13 @@ Command MovesReader::relax(const Members& of) {
 
 Command MovesReader::split(const Members& of) {
   try {
-    SplitPointer split = make_split(fields_.mesh(), fields_.split(of));
+    SplitEdit edit = fields_.split(of);
+    split_elements_ += fields_.mesh()->element_count() + edit.elements.size();
+    if (split_elements_ > most_split_elements) {
+      fields_.fail("the meshes after all splits have more than " + std::to_string(most_split_elements) + " elements",
+                   "use fewer splits, or a smaller object");
+    }
+    SplitPointer split = make_split(fields_.mesh(), std::move(edit));
     const auto pins = pins_after(*split, std::vector(pinned_.begin(), pinned_.end()));
     pinned_ = {pins.begin(), pins.end()};
     grabbed_.clear();
@@ -391,7 +400,7 @@ void MovesReader::take(const Json& value, const Members& of) {
 
 void MovesReader::check_head(const Json& head) const {
   if (!head.is_object()) {
-    fields_.fail("it holds no recorded moves", "use a file of recorded moves");
+    fields_.fail("it contains no recorded moves", "use a file of recorded moves");
   }
   const Json& version = fields_.member(head, "version");
   if (!version.is_number_unsigned() || version.get<std::uint64_t>() < first_version ||

@@ -120,7 +120,7 @@ bool SessionScanner::number(Value value, double real, std::optional<std::uint64_
 /// Adds a value to the tree.
 Json& SessionScanner::add(Json value) {
   if (++values_ > most_session_values) {
-    fail("it holds too many values", "use a session that the workbench saved");
+    fail("it contains too many values", "use a session that the workbench saved");
   }
   if (open_.empty()) {
     return result_.tree = std::move(value);
@@ -213,7 +213,7 @@ bool SessionScanner::end_array() {
 
 bool SessionScanner::parse_error(std::size_t position, const std::string&, const Json::exception& error) {
   if (dynamic_cast<const Json::parse_error*>(&error) == nullptr) {
-    fail("it holds a number that is too large for a double", "use a session that the workbench saved");
+    fail("it contains a number that is too large for a double", "use a session that the workbench saved");
   }
   const bool ended = position > text_.size();
   throw Error(shown(path_, line_at(text_, position)), ended ? "it ends too early" : "it is not JSON",

@@ -20,7 +20,8 @@ using Json = nlohmann::json;
 std::array<Point, 2> read_texture_box(const SessionFields& fields, const nlohmann::json& texture) {
   const auto& numbers = fields.array(texture, "box");
   if (numbers.size() != 6) {
-    fields.fail("'box' holds " + std::to_string(numbers.size()) + " numbers", "give its lowest and its highest corner");
+    fields.fail("'box' contains " + std::to_string(numbers.size()) + " numbers",
+                "give its lowest and its highest corner");
   }
   std::array<Point, 2> box;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -58,7 +59,7 @@ std::shared_ptr<const Texture> read_texture(const SessionFields& fields, const J
   const auto& text = fields.member(json, "texels");
   auto texels = text.is_string() ? from_base64(text.get_ref<const std::string&>()) : std::nullopt;
   if (!texels || double(texels->size()) != bytes) {
-    fields.fail("'texels' does not hold one byte for each channel of each texel", "write them in base 64");
+    fields.fail("'texels' does not contain one byte for each channel of each texel", "write them in base 64");
   }
   texture.texels = std::move(*texels);
   return std::make_shared<const Texture>(std::move(texture));
@@ -90,7 +91,7 @@ class SessionMeshReader {
 void SessionMeshReader::take_rest(const Progress& progress) {
   const auto& rest = fields_.reals(object_, "rest");
   if (rest.size() != 3 * count_) {
-    fields_.fail("'rest' holds " + std::to_string(rest.size()) + " numbers, but " + std::to_string(count_) +
+    fields_.fail("'rest' contains " + std::to_string(rest.size()) + " numbers, but " + std::to_string(count_) +
                      " elements have " + std::to_string(3 * count_),
                  "give three coordinates of each element");
   }
@@ -213,7 +214,7 @@ MeshPointer SessionMeshReader::read(const Progress& progress) {
     throw error.at(fields_.where() + ": " + error.where());
   }
   if (!ordered && mesh->link_count() != links) {
-    fields_.fail("'links' holds a link twice", "give each link once");
+    fields_.fail("'links' contains a link twice", "give each link once");
   }
   return mesh;
 }

@@ -92,7 +92,7 @@ void SessionReader::take_cuts() {
   }
   std::sort(result_.cuts.begin(), result_.cuts.end());
   if (std::adjacent_find(result_.cuts.begin(), result_.cuts.end()) != result_.cuts.end()) {
-    fields_.fail("'cuts' holds a link twice", "give each link once");
+    fields_.fail("'cuts' contains a link twice", "give each link once");
   }
 }
 
@@ -100,7 +100,7 @@ void SessionReader::take_pins() {
   result_.pins = fields_.elements(tree_, "pins", result_.mesh->element_count());
   std::sort(result_.pins.begin(), result_.pins.end());
   if (std::adjacent_find(result_.pins.begin(), result_.pins.end()) != result_.pins.end()) {
-    fields_.fail("'pins' holds an element twice", "give each element once");
+    fields_.fail("'pins' contains an element twice", "give each element once");
   }
 }
 

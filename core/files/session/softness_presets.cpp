@@ -69,7 +69,7 @@ std::vector<SoftnessPreset> read_presets(std::string_view text, const std::files
   const auto json = parse_json(text, path, "presets of softness");
   JsonFields fields(shown(path));
   if (!json.is_object()) {
-    fields.fail("it holds no presets", "use a file of softness presets");
+    fields.fail("it contains no presets", "use a file of softness presets");
   }
   const auto& version = fields.member(json, "version");
   if (!version.is_number_unsigned() || version.get<std::uint64_t>() != presets_version) {

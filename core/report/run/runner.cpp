@@ -106,7 +106,8 @@ void Runner::carry_out(const Command& command, Relaxing relaxing, Run& run) {
 void check(const RecordedMoves& moves) {
   for (const Command& command : moves.commands) {
     if (is_one_of<commands::ReplaceMesh, commands::Split, commands::SetPositions, commands::RestoreState>(command)) {
-      throw Error(moves.name, "these moves replace the object or use undo", "record moves of one object, without undo");
+      throw Error(moves.name, "these moves split or replace the object, or use undo",
+                  "record moves of the object after the cut, or cut links only, and use no undo");
     }
   }
   if (count_moves(moves) == 0) {

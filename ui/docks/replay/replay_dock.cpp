@@ -47,7 +47,11 @@ ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
   refresh_.setInterval(tapeRefreshMilliseconds);
   connect(&refresh_, &QTimer::timeout, this, &ReplayDock::showTape);
   connect(&document, &Document::tapeChanged, this, &ReplayDock::scheduleShow);
-  connect(&document, &Document::meshChanged, this, [this] { setPlaying(false); });
+  connect(&document, &Document::meshChanged, this, [this] {
+    if (std::exchange(played_, document_.unsplitMesh()) != document_.unsplitMesh()) {
+      setPlaying(false);
+    }
+  });
   listenToFilm();
   showTape();
 }
@@ -322,12 +326,12 @@ void ReplayDock::openMoves(const QString& path) {
   const QString name = QFileInfo(path).fileName();
   jobs_.start(
       Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
-      [this, path, name, mesh = document_.mesh()](const Progress& progress) -> Jobs::Finish {
+      [this, path, name, mesh = document_.unsplitMesh()](const Progress& progress) -> Jobs::Finish {
         const auto moves = std::make_shared<const std::vector<Command>>(read_moves(asPath(path), mesh, progress));
         return [this, moves, name, mesh] {
           setPlaying(false);
           film_.cancel();
-          if (mesh == document_.mesh()) {
+          if (mesh == document_.unsplitMesh()) {
             document_.loadMoves(moves, QStringLiteral("open %1").arg(name));
           } else {
             emit failed(QStringLiteral("%1: the object was replaced while the moves were read. Open the moves again")
@@ -340,7 +344,7 @@ void ReplayDock::openMoves(const QString& path) {
 void ReplayDock::saveMoves(const QString& path) {
   document_.noteRelaxation();
   jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
-              [this, path, mesh = document_.mesh(),
+              [this, path, mesh = document_.unsplitMesh(),
                moves = document_.tape().commands()](const Progress& progress) -> Jobs::Finish {
                 write_file(asPath(path), [&](std::ostream& out) { write_moves(out, moves, *mesh, progress); });
                 return [this, path] { emit saved(path); };

@@ -89,9 +89,9 @@ void take_type(MeshParts& parts, int type, const std::vector<std::size_t>& nodes
       return take(parts.hexahedra, nodes, points);
     case prism:
     case pyramid:
-      refuse("it holds prisms or pyramids", "split them into tetrahedra");
+      refuse("it contains prisms or pyramids", "split them into tetrahedra");
     default:
-      refuse("it holds elements of higher order or of an uncommon kind (Gmsh's type " + std::to_string(type) + ")",
+      refuse("it contains elements of higher order or of an uncommon kind (Gmsh's type " + std::to_string(type) + ")",
              "save it with elements of first order");
   }
 }

@@ -17,7 +17,7 @@ ImportedMesh read_surface(const std::filesystem::path& path) {
   auto imported = decode_imported(std::as_bytes(std::span(letters)), path);
   auto* mesh = std::get_if<ImportedMesh>(&imported);
   if (mesh == nullptr) {
-    refuse("it holds no surface", "use a surface");
+    refuse("it contains no surface", "use a surface");
   }
   return std::move(*mesh);
 }
