@@ -57,12 +57,12 @@ void Tape::add(const Command& command) {
 }
 
 void Tape::begin() {
-  drop_unreachable();
-  beginning_ = static_cast<Node>(nodes_.size());
-  nodes_.push_back({{}, none, 0});
   timeline_.clear();
   position_ = 0;
   ++timeline_number_;
+  drop_unreachable();
+  beginning_ = static_cast<Node>(nodes_.size());
+  nodes_.push_back({{}, none, 0});
 }
 
 /// Drops commands to which neither the timeline nor a kept state returns.
