@@ -126,7 +126,7 @@ void Panel::enlargeTexts(double factor) {
 
 /// Shows the sentence and the figures of the last pass. Uses a shorter text if the panel is narrow.
 void Panel::update(const Statistics& statistics) {
-  violation_->show(statistics, statistics.passes > 0 || document_.cuts().count() > 0);
+  violation_->show(statistics, statistics.passes > 0 || document_.cuts().count() > 0, view_->showsEarlier());
   const QString help = QStringLiteral(
       "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is "
       "the share of links above 1e-4 rest lengths.\nDuring a drag it covers the links that the pass touched, at "

@@ -61,10 +61,14 @@ ViolationLine::ViolationLine() : sentence_(new QLabel) {
   followTheme(*this, [this] { update(); });
 }
 
-void ViolationLine::show(const Statistics& statistics, bool hasMoved) {
+void ViolationLine::show(const Statistics& statistics, bool hasMoved, bool showsEarlier) {
   words_ = brief_ = violationInWords(statistics, hasMoved);
   if (const Violation& violation = statistics.violation; statistics.remark.empty() && violation.fraction > 0) {
     brief_ = QStringLiteral("%1 violated, worst %2 ×").arg(percentage(violation.fraction), rounded(violation.max));
+  }
+  if (showsEarlier) {
+    words_[0] = words_[0].toLower();
+    words_.prepend(QStringLiteral("At the end of the pass: "));
   }
   fitWords();
   share_ = hasMoved ? statistics.violation.fraction : 0;

@@ -10,13 +10,14 @@ class QAction;
 
 namespace chainmail {
 
-/// The bar of an open lesson, below the panels: title, caption, number of the step, Back, Next and Close.
+/// The bar of an open lesson, below the panels: title, caption, number of the step, Back, Next and Close. At
+/// its end, it offers the next lesson.
 class LessonBar : public QFrame {
   Q_OBJECT
 
  public:
   /// The buttons trigger the actions.
-  LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& close);
+  LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& following, QAction& close);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -25,11 +26,12 @@ class LessonBar : public QFrame {
   void refresh();
   void showTitle();
   void showKeys();
+  void keepHeight();
 
   const LessonPlayer& player_;
-  QAction &backAction_, &nextAction_;
+  QAction &backAction_, &nextAction_, &followingAction_;
   QLabel *title_, *text_, *step_;
-  QPushButton *back_, *next_;
+  QPushButton *back_, *next_, *following_;
 };
 
 }  // namespace chainmail
