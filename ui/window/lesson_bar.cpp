@@ -41,8 +41,9 @@ LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, Q
       step_(makeLabel("lessonStep")),
       back_(makeButton(QStringLiteral("Back"), "lessonBackButton", back)),
       next_(makeButton(QStringLiteral("Next"), "lessonNextButton", next)),
-      following_(makeButton({}, "lessonFollowingButton", following)) {
+      following_(makeButton(QStringLiteral("Next lesson"), "lessonFollowingButton", following)) {
   setObjectName(QStringLiteral("lessonBar"));
+  following_->setToolTip(QStringLiteral("Opens the next lesson"));
   setAccessibleName(QStringLiteral("Lesson"));
   setFrameShape(QFrame::StyledPanel);
   setAutoFillBackground(true);

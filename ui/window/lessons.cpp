@@ -55,7 +55,7 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
                 QStringLiteral("Plays the next step of the lesson; during a step, goes to its end"))),
       back_(add("lessonBack", QStringLiteral("Step &back"), Qt::Key_PageUp,
                 QStringLiteral("Restores the end of the step before"))),
-      following_(add("lessonFollowing", QStringLiteral("Next &lesson"), {}, {})),
+      following_(add("lessonFollowing", QStringLiteral("Next &lesson"), {}, QStringLiteral("Opens the next lesson"))),
       close_(add("lessonClose", QStringLiteral("&Close lesson"), {},
                  QStringLiteral("Closes the lesson; the object stays as it is"))),
       bar_(nullptr) {
