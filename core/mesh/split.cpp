@@ -107,7 +107,7 @@ class MeshAfter {
   MeshPointer build() {
     parts_.space_dimension = mesh_.space_dimension;
     parts_.texture = mesh_.texture;
-    place();
+    parts_.rest = rest_after(mesh_, edit_.elements);
     take_triangles();
     take_polygons();
     link();
@@ -115,7 +115,6 @@ class MeshAfter {
   }
 
  private:
-  void place();
   void take_triangles();
   void take_polygons();
   void link();
@@ -139,17 +138,6 @@ class MeshAfter {
   MeshParts parts_;
   std::unordered_set<EdgeKey> dropped_, added_;  // links that no face has any more, and new ones
 };
-
-void MeshAfter::place() {
-  auto& rest = parts_.rest;
-  rest.reserve(mesh_.element_count() + edit_.elements.size());
-  for (ElementId e = 0; e < mesh_.element_count(); ++e) {
-    rest.push_back(mesh_.rest_position(e));
-  }
-  for (const SplitPoint& point : edit_.elements) {
-    rest.push_back(point.mix<Point>(rest[point.of[0]], rest[point.of[1]], rest[point.of[2]]));
-  }
-}
 
 void MeshAfter::take_triangles() {
   for (const std::uint32_t one : edit_.removed) {
@@ -276,6 +264,18 @@ SplitPointer make_split(MeshPointer mesh, SplitEdit edit) {
   return split;
 }
 
+std::vector<Point> rest_after(const Mesh& mesh, std::span<const SplitPoint> points) {
+  std::vector<Point> rest;
+  rest.reserve(mesh.element_count() + points.size());
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    rest.push_back(mesh.rest_position(e));
+  }
+  for (const SplitPoint& point : points) {
+    rest.push_back(point.mix<Point>(rest[point.of[0]], rest[point.of[1]], rest[point.of[2]]));
+  }
+  return rest;
+}
+
 std::vector<LinkId> links_without_faces(const Mesh& mesh, std::span<const LinkId> links) {
   std::unordered_map<EdgeKey, LinkId> found;
   for (const LinkId link : links) {
@@ -287,6 +287,7 @@ std::vector<LinkId> links_without_faces(const Mesh& mesh, std::span<const LinkId
   }
   for_each_polygon(mesh.polygons, [&](std::uint32_t, auto corners) { for_each_side(corners, leave_out); });
   std::vector<LinkId> result;
+  result.reserve(found.size());
   for (const auto& [edge, link] : found) {
     result.push_back(link);
   }

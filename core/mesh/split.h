@@ -68,6 +68,9 @@ bool can_split(const Mesh& mesh);
 /// Returns those of the links that are not the side of a face.
 std::vector<LinkId> links_without_faces(const Mesh& mesh, std::span<const LinkId> links);
 
+/// Returns the rest positions of the elements of a mesh, and of elements that are appended to them.
+std::vector<Point> rest_after(const Mesh& mesh, std::span<const SplitPoint> points);
+
 /// Applies an edit. Throws Error, with the reason, if it does not fit the mesh.
 SplitPointer make_split(MeshPointer mesh, SplitEdit edit);
 

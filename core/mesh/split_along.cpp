@@ -1,4 +1,4 @@
-// The order of this file: faces, crossings in the view, dividing faces along the stroke, separating them.
+// The order of this file: crossings in the view, dividing faces along the stroke. separate.h then separates them.
 //
 // The view is needed only to find in which order the stroke crosses the sides of a face, and where on the sides.
 // Everything after this is done on the faces themselves, in coordinates in which each is a regular polygon. Straight
@@ -12,50 +12,23 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <unordered_map>
 
 #include "mesh/edge_key.h"
+#include "mesh/separate.h"
 
 namespace chainmail {
 namespace {
 
 using Eigen::Vector2d;
-using Ring = std::vector<ElementId>;  // the corners of a face or of a piece of one, in order
 constexpr ElementId nobody = std::numeric_limits<ElementId>::max();
 constexpr double pi = std::numbers::pi;
 // Moves the stroke (pixels), so that no corner is exactly on it.
 const Vector2d aside(1.37e-6, 0.73e-6);
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-// Faces
-
-/// The faces of a mesh: its own triangles, then its polygons.
-class Faces {
- public:
-  explicit Faces(const Mesh& mesh) : mesh_(mesh) {
-    for (std::size_t i = 0; i < mesh.polygons.size(); i += mesh.polygons[i] + 1) {
-      polygons_.push_back(i);
-    }
-  }
-  std::uint32_t count() const { return static_cast<std::uint32_t>(mesh_.own_triangles + polygons_.size()); }
-  bool is_polygon(std::uint32_t face) const { return face >= mesh_.own_triangles; }
-  std::uint32_t polygon(std::uint32_t face) const { return face - static_cast<std::uint32_t>(mesh_.own_triangles); }
-  std::span<const ElementId> operator[](std::uint32_t face) const {
-    if (!is_polygon(face)) {
-      return mesh_.triangles[face];
-    }
-    const std::size_t first = polygons_[polygon(face)];
-    return std::span(mesh_.polygons).subspan(first + 1, mesh_.polygons[first]);
-  }
-
- private:
-  const Mesh& mesh_;
-  std::vector<std::size_t> polygons_;  // where each begins
-};
 
 // Crossings in the view
 
@@ -174,11 +147,7 @@ class Division {
 
   void run();
 
-  /// The faces with elements on their sides, and the pieces into which they are divided.
-  const std::map<std::uint32_t, Divided>& divided() const { return divided_; }
-  const std::vector<SplitPoint>& points() const { return points_; }
-  /// The sides of pieces along which the stroke runs.
-  const std::set<EdgeKey>& cut() const { return cut_; }
+  FacesInPieces pieces() const;
 
  private:
   struct Side {
@@ -549,241 +518,12 @@ void Division::add_tip(const Chord& chord) {
   cut_.insert(edge_key(chord.nodes[0], tip));
 }
 
-// Separating
-
-using Triangle = std::array<ElementId, 3>;
-
-/// Rest positions of the elements, with those that are new.
-std::vector<Point> rest_of(const Mesh& mesh, const std::vector<SplitPoint>& points) {
-  std::vector<Point> rest;
-  rest.reserve(mesh.element_count() + points.size());
-  for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    rest.push_back(mesh.rest_position(e));
-  }
-  for (const SplitPoint& point : points) {
-    rest.push_back(point.mix<Point>(rest[point.of[0]], rest[point.of[1]], rest[point.of[2]]));
-  }
-  return rest;
-}
-
-/// Returns the quality of a triangle at rest: its area, relative to its sides. 0 if its corners are on a line.
-double quality(const std::vector<Point>& rest, ElementId a, ElementId b, ElementId c) {
-  const Point ab = rest[b] - rest[a], ac = rest[c] - rest[a], bc = rest[c] - rest[b];
-  return ab.cross(ac).norm() / (ab.squaredNorm() + ac.squaredNorm() + bc.squaredNorm());
-}
-
-/// Returns the triangles of a convex piece whose worst one is best: the best way to fill the corners i to j follows
-/// from the third corner of the triangle at the line between them (Klincsek 1980).
-std::vector<Triangle> triangulated(const Ring& ring, const std::vector<Point>& rest) {
-  const std::size_t n = ring.size();
-  std::vector<double> worst(n * n, std::numeric_limits<double>::max());
-  std::vector<std::size_t> third(n * n, 0);
-  for (std::size_t length = 2; length < n; ++length) {
-    for (std::size_t i = 0; i + length < n; ++i) {
-      const std::size_t j = i + length;
-      worst[i * n + j] = -1;
-      for (std::size_t k = i + 1; k < j; ++k) {
-        const double here = std::min({worst[i * n + k], worst[k * n + j], quality(rest, ring[i], ring[k], ring[j])});
-        if (here > worst[i * n + j]) {
-          worst[i * n + j] = here;
-          third[i * n + j] = k;
-        }
-      }
-    }
-  }
-  std::vector<Triangle> result;
-  std::vector<std::array<std::size_t, 2>> open{{0, n - 1}};
-  while (!open.empty()) {
-    const auto [i, j] = open.back();
-    open.pop_back();
-    if (j >= i + 2) {
-      const std::size_t k = third[i * n + j];
-      result.push_back({ring[i], ring[k], ring[j]});
-      open.push_back({k, j});
-      open.push_back({i, k});
-    }
+FacesInPieces Division::pieces() const {
+  FacesInPieces result{{}, points_, cut_};
+  for (const auto& [face, divided] : divided_) {
+    result.pieces[face] = divided.pieces;
   }
   return result;
-}
-
-/// Rotates a polygon so that the triangles about its first corner, as which it is drawn, are as good as possible.
-Ring rotated(Ring ring, const std::vector<Point>& rest) {
-  const auto worst = [&rest](const Ring& one) {
-    double least = std::numeric_limits<double>::max();
-    for (std::size_t i = 2; i < one.size(); ++i) {
-      least = std::min(least, quality(rest, one[0], one[i - 1], one[i]));
-    }
-    return least;
-  };
-  Ring best = ring;
-  for (std::size_t i = 1; i < ring.size(); ++i) {
-    std::rotate(ring.begin(), ring.begin() + 1, ring.end());
-    best = worst(ring) > worst(best) ? ring : best;
-  }
-  return best;
-}
-
-/// Groups of numbers that grow together.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  /// Returns the lowest number in the group of a number.
-  std::size_t of(std::size_t one) const {
-    while (parent_[one] != one) {
-      one = parent_[one];
-    }
-    return one;
-  }
-  void unite(std::size_t one, std::size_t other) {
-    one = of(one);
-    other = of(other);
-    parent_[std::max(one, other)] = std::min(one, other);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
-/// Separates faces along the sides that are cut, and writes the edit.
-class Separation {
- public:
-  Separation(const Mesh& mesh, const Faces& faces, const Division& division)
-      : faces_(faces), cut_(division.cut()), rest_(rest_of(mesh, division.points())) {
-    edit_.elements = division.points();
-    for (const auto& [face, divided] : division.divided()) {
-      replace(face);
-      for (const Ring& piece : divided.pieces) {
-        add(piece, faces.is_polygon(face));
-      }
-    }
-  }
-
-  SplitEdit run();
-
- private:
-  /// A face that has an element as a corner.
-  struct Corner {
-    std::uint32_t face = 0;  // of the mesh; or, from the number of these on, a new one
-    std::size_t index = 0;
-  };
-
-  void replace(std::uint32_t face) {
-    (faces_.is_polygon(face) ? edit_.removed_polygons : edit_.removed)
-        .push_back(faces_.is_polygon(face) ? faces_.polygon(face) : face);
-    replaced_.insert(face);
-  }
-  void add(const Ring& piece, bool is_polygon);
-  std::span<const ElementId> corners(std::uint32_t face) const {
-    return face < faces_.count() ? faces_[face] : std::span<const ElementId>(added_[face - faces_.count()]);
-  }
-  std::map<ElementId, std::vector<Corner>> corners_at_cut() const;
-  void separate(ElementId element, const std::vector<Corner>& around);
-  void write();
-
-  const Faces& faces_;
-  const std::set<EdgeKey>& cut_;
-  std::vector<Point> rest_;
-  std::set<std::uint32_t> replaced_;
-  std::vector<Ring> added_;
-  std::map<std::uint32_t, std::map<std::size_t, ElementId>> moved_;  // corners that become copies, by face
-  SplitEdit edit_;
-};
-
-void Separation::add(const Ring& piece, bool is_polygon) {
-  if (is_polygon) {
-    added_.push_back(rotated(piece, rest_));
-    return;
-  }
-  for (const Triangle& one : triangulated(piece, rest_)) {
-    added_.emplace_back(one.begin(), one.end());
-  }
-}
-
-/// Returns the corners of faces at each element on the cut.
-std::map<ElementId, std::vector<Separation::Corner>> Separation::corners_at_cut() const {
-  std::vector<bool> is_meant(rest_.size());
-  for (const EdgeKey one : cut_) {
-    is_meant[ends_of(one)[0]] = is_meant[ends_of(one)[1]] = true;
-  }
-  std::map<ElementId, std::vector<Corner>> result;
-  for (std::uint32_t face = 0; face < faces_.count() + added_.size(); ++face) {
-    const auto all = corners(face);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (is_meant[all[i]] && !replaced_.contains(face)) {
-        result[all[i]].push_back({face, i});
-      }
-    }
-  }
-  return result;
-}
-
-/// Groups the faces around an element by the sides at it that are not cut. One group keeps the element; each other gets
-/// a copy. Faces that no side joined before keep the element, too.
-void Separation::separate(ElementId element, const std::vector<Corner>& around) {
-  std::map<ElementId, std::vector<std::size_t>> at_side;
-  for (std::size_t i = 0; i < around.size(); ++i) {
-    const auto all = corners(around[i].face);
-    at_side[all[(around[i].index + 1) % all.size()]].push_back(i);
-    at_side[all[(around[i].index + all.size() - 1) % all.size()]].push_back(i);
-  }
-  Groups before(around.size()), after(around.size());
-  for (const auto& [other, faces] : at_side) {
-    for (const std::size_t one : faces) {
-      before.unite(faces[0], one);
-      if (!cut_.contains(edge_key(element, other))) {
-        after.unite(faces[0], one);
-      }
-    }
-  }
-  std::map<std::size_t, ElementId> copies;
-  for (std::size_t i = 0; i < around.size(); ++i) {
-    const std::size_t group = after.of(i);
-    if (group == before.of(i)) {
-      continue;
-    }
-    if (const auto [copy, is_new] = copies.try_emplace(group, static_cast<ElementId>(rest_.size())); is_new) {
-      rest_.push_back(rest_[element]);
-      edit_.elements.push_back(SplitPoint::copy(element));
-    }
-    moved_[around[i].face][around[i].index] = copies[group];
-  }
-}
-
-/// Moves corners to their copies, and writes the new faces.
-void Separation::write() {
-  for (const auto& [face, to] : moved_) {
-    Ring ring(corners(face).begin(), corners(face).end());
-    for (const auto& [index, copy] : to) {
-      ring[index] = copy;
-    }
-    if (face < faces_.count()) {
-      replace(face);
-      added_.push_back(std::move(ring));
-    } else {
-      added_[face - faces_.count()] = std::move(ring);
-    }
-  }
-  std::ranges::sort(edit_.removed);
-  std::ranges::sort(edit_.removed_polygons);
-  for (const Ring& ring : added_) {
-    if (ring.size() == 3) {
-      edit_.triangles.push_back({ring[0], ring[1], ring[2]});
-    } else {
-      edit_.polygons.push_back(static_cast<ElementId>(ring.size()));
-      edit_.polygons.insert(edit_.polygons.end(), ring.begin(), ring.end());
-    }
-  }
-}
-
-SplitEdit Separation::run() {
-  for (const auto& [element, around] : corners_at_cut()) {
-    separate(element, around);
-  }
-  if (moved_.empty()) {
-    return {};
-  }
-  write();
-  return std::move(edit_);
 }
 
 }  // namespace
@@ -798,7 +538,7 @@ SplitEdit split_along(const Mesh& mesh, std::span<const ViewPlace> places, std::
   const Faces faces(mesh);
   Division division(mesh, faces, stroke, reached);
   division.run();
-  return Separation(mesh, faces, division).run();
+  return separate(mesh, faces, division.pieces());
 }
 
 }  // namespace chainmail
