@@ -208,9 +208,9 @@ def cut_an_organ():
     lesson.drag(near(6.5, 6.5, 0, 3.5), [[4, 0.5, 0]], 50)
     lesson.drag(near(-1.5, 6.5, 0, 3.5), [[-4, 0.5, 0]], 50)
     lesson.step("Open it",
-                "The sides part and show the inside of the solid. In panel A, links near handles and pins are violated: "
-                "Natural Queue moves elements one after another, and pins cannot give way. Panel B, Exact, keeps all "
-                "links valid. Press K to cut further yourself.", tool="drag")
+                "The sides part and show the inside of the solid. In panel A, some links exceed their limits: Natural "
+                "Queue places each element within reach of one neighbour, its sponsor, but not always of the others. "
+                "Exact ChainMail in panel B keeps all limits. Press K to cut further yourself.", tool="drag")
     return lesson
 
 
