@@ -335,7 +335,8 @@ void WindowLessons::theWaitingListIsShownStepByStep() {
     whole = bench.document().snapshot(0).get();
   }
   auto* sentence = bench.window.findChild<ViolationLine*>(QStringLiteral("violation0"));
-  QTRY_VERIFY2(sentence->sentence().startsWith(QStringLiteral("At the end of the pass: ")),
+  QTRY_VERIFY2(sentence->sentence().startsWith(QStringLiteral("At the end of the pass: 3")) &&
+                   sentence->sentence().contains(QStringLiteral(" violated")),
                qPrintable(sentence->sentence()));
   // Only the handle; it and the first candidate; all six candidates moved.
   QCOMPARE(moved, (std::vector<std::vector<std::size_t>>{{1, 1}, {2, 2}, {7, 7}}));
