@@ -72,6 +72,11 @@ class Lesson:
         path.write_text(text, encoding="utf-8")
 
 
+def looking_at(x, y, z, height, **more):
+    """Returns a view of all panels: the middle and the height of what they show, in mesh units."""
+    return {"cameras": [{"centre": [x, y, z], "height": height, "framed": False, **more}] * 2, "linked": True}
+
+
 def grid(width, height):
     """Returns a flat grid of elements one unit apart, and the function from column and row to the element."""
     at = lambda x, y: y * width + x
@@ -88,7 +93,8 @@ def grid(width, height):
 
 def why_order_matters():
     at = lambda x, y: y * 24 + x
-    lesson = Lesson("Why order matters", {"file": "grid.dat"}, ["generalized", "natural-queue"])
+    lesson = Lesson("Why order matters", {"file": "grid.dat"}, ["generalized", "natural-queue"],
+                    looking_at(12.5, 11.5, 0, 37))
     lesson.step("One object, two algorithms",
                 "Both panels show the same sheet. A link may shorten, stretch and lean only a little. "
                 "Press Next: a handle pulls one element, and the algorithm of each panel moves the others.",
@@ -96,29 +102,30 @@ def why_order_matters():
     lesson.drag([at(15, 15)], [[3, 2, 0]], 40, release=False)
     lesson.step("A gentle pull",
                 "Each element that moves makes its neighbours candidates to move next. Panel A takes the newest "
-                "candidate first, panel B the oldest. The colours show links that are longer, shorter or more slanted "
-                "than they may be: already now, they are all in panel A.")
+                "candidate first, panel B the oldest. In small moves they differ little.")
     for by in ([4, 5, 0], [-3, 5, 0], [-6, -3, 0], [2, -5, 0], [5, 3, 0]):
         start = lesson.moves[-1]["by"]
         for i in range(1, 9):
             lesson.moves.append({"do": "drag", "by": [round(s + (b - s) * i / 8, 3) for s, b in zip(start, by)]})
     lesson.moves.append({"do": "release"})
     lesson.step("A fast drag",
-                "Now the handle runs around quickly. Panel A tangles. Panel B stays calm: none of its links is violated.")
+                "Now the handle runs around quickly. The colours show links that are longer, shorter or more slanted "
+                "than they may be.")
     lesson.step("The order decides",
                 "Panel A follows one chain of neighbours to its end before it returns, so far elements are placed "
-                "before near ones, and the sheet tangles. Panel B works outward in rings. It also leaves out candidates "
-                "that need not move, but this changes no position: the order makes the difference.")
+                "before near ones, and the sheet tangles. Panel B works outward in rings and stays calm. "
+                "Only the order differs.")
     return lesson
 
 
 def waiting_list():
     mesh, at = grid(7, 7)
-    lesson = Lesson("The waiting list, step by step", mesh, ["generalized", "natural-queue"])
+    lesson = Lesson("The waiting list, step by step", mesh, ["generalized", "natural-queue"],
+                    looking_at(3.8, 3.2, 0, 14))
     lesson.step("A small sheet",
                 "The Propagation dock on the left shows the waiting list of each panel. "
                 "Next pulls the element in the middle up and to the right, in a single move.",
-                colour="violation", dock="propagation", tool="drag")
+                colour="plain", dock="propagation", tool="drag")
     lesson.drag([at(3, 3)], [[1.5, 1.2, 0]], 1, release=False)
     lesson.step("Only the handle has moved",
                 "The handle is at its target and its four neighbours wait in the list. Nothing else has moved yet. "
@@ -138,7 +145,7 @@ def waiting_list():
 
 def exact_and_taut():
     mesh, at = grid(12, 9)
-    lesson = Lesson("Exact and taut", mesh, ["natural-queue", "exact"])
+    lesson = Lesson("Exact and taut", mesh, ["natural-queue", "exact"], looking_at(8.5, 4, 0, 23))
     lesson.pin([at(0, y) for y in range(9)])
     lesson.step("A pinned sheet",
                 "The left edge of the sheet is pinned. Panel A runs Natural Queue ChainMail, panel B Exact ChainMail. "
@@ -186,7 +193,7 @@ def cut_an_organ():
     points, tetrahedra = read_msh(MESHES / "organ.msh")
     links = sorted({(min(a, b), max(a, b)) for t in tetrahedra for a in t for b in t if a != b})
     lesson = Lesson("Cut an organ", {"file": "organ.msh"}, ["natural-queue", "exact"],
-                    {"cameras": [{"yaw": 25, "pitch": 40, "framed": True}] * 2, "linked": True})
+                    looking_at(1.2, 1, 0, 40, yaw=25, pitch=40))
     near = lambda x, y, z, r: [e for e, p in enumerate(points) if math.dist(p, (x, y, z)) < r]
     lesson.pin([e for e, p in enumerate(points) if p[1] < -7.5])
     lesson.soften(compression=0.5, stretch=1.5, shear=0.5)
@@ -208,15 +215,14 @@ def cut_an_organ():
     lesson.drag(near(6.5, 6.5, 0, 3.5), [[4, 0.5, 0]], 50)
     lesson.drag(near(-1.5, 6.5, 0, 3.5), [[-4, 0.5, 0]], 50)
     lesson.step("Open it",
-                "The sides part and show the inside of the solid. In panel A, some links exceed their limits: Natural "
-                "Queue places each element within reach of one neighbour, its sponsor, but not always of the others. "
-                "Exact ChainMail in panel B keeps all limits. Press K to cut further yourself.", tool="drag")
+                "The sides part and show the inside of the solid. Turn the view with the right mouse button, or press "
+                "K and cut further yourself.", tool="drag")
     return lesson
 
 
 def against_fem():
     mesh, at = grid(25, 6)
-    lesson = Lesson("ChainMail against FEM", mesh, ["natural-queue", "fem"])
+    lesson = Lesson("ChainMail against FEM", mesh, ["natural-queue", "fem"], looking_at(12, 6, 0, 36))
     lesson.pin([at(0, y) for y in range(6)])
     lesson.step("A beam, held at the left",
                 "Panel A runs Natural Queue ChainMail. Panel B runs linear FEM, the finite elements of engineers. "
@@ -231,7 +237,7 @@ def against_fem():
         lesson.moves.append({"do": "drag", "by": [0, round(start[1] + 9 * i / 70, 3), 0]})
     lesson.step("A large bend",
                 "Now ChainMail reaches the pins, and the links next to them stretch beyond their limit: it knows "
-                "limits, but no forces. FEM knows forces, and spreads the bend over the whole beam.", colour="violation")
+                "limits, but no forces. FEM knows forces, and spreads the bend over the whole beam.")
     lesson.step("How far from physics?",
                 "The colours show how far each element is from a neo-Hookean solid, which suits large bends. ChainMail "
                 "is farther off. Its gain: it works without pins and prepares nothing, not even after a cut.",

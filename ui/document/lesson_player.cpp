@@ -123,21 +123,6 @@ void LessonPlayer::goTo(std::size_t position, bool withPass) {
 void LessonPlayer::travel(std::size_t position) {
   const QScopedValueRollback guard(travels_, true);
   document_.goToInLesson(position, algorithms(step_));
-  document_.setHighlight({std::nullopt, false, {}, heldAt(position)});
-}
-
-/// Returns the handle at a position in the moves.
-std::vector<ElementId> LessonPlayer::heldAt(std::size_t position) const {
-  for (std::size_t i = std::min(position, session_->moves.size()); i > 0; --i) {
-    const Command& move = session_->moves[i - 1];
-    if (const auto* grab = std::get_if<commands::Grab>(&move)) {
-      return grab->elements;
-    }
-    if (std::holds_alternative<commands::Release>(move) || std::holds_alternative<commands::Reset>(move)) {
-      break;
-    }
-  }
-  return {};
 }
 
 void LessonPlayer::setPanels(std::size_t count) {

@@ -59,7 +59,6 @@ class LessonPlayer : public QObject {
   std::vector<Algorithm> algorithms(std::size_t step) const;
   std::size_t nextMove() const;
   void travel(std::size_t position);
-  std::vector<ElementId> heldAt(std::size_t position) const;
 
   Document& document_;
   Propagation& propagation_;

@@ -44,8 +44,6 @@ class Overlay {
   virtual std::vector<Annotation> annotations(const View& /*view*/) const { return {}; }
   /// Returns a note for the head of a panel; may be empty.
   virtual QString note(int /*panel*/) const { return {}; }
-  /// True if the object is shown at an earlier moment than the one that its figures describe.
-  virtual bool showsEarlier(int /*panel*/) const { return false; }
   /// Returns the legend of a panel whose object the overlay colours.
   virtual std::optional<OverlayLegend> legend(int /*panel*/) const { return std::nullopt; }
 };

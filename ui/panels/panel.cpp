@@ -104,10 +104,9 @@ void Panel::showStatistics() {
   } else {
     legend_->follow(colouring_, panel_);
   }
-  if (document_.frame(panel_) != nullptr) {
-    const Statistics& statistics = document_.statistics(panel_);
-    update(statistics);
-    head_->showState(states(statistics).join(QStringLiteral(" · ")));
+  if (const Frame* frame = document_.frame(panel_)) {
+    update(frame->statistics);
+    head_->showState(states(frame->statistics).join(QStringLiteral(" · ")));
   }
 }
 
@@ -127,7 +126,7 @@ void Panel::enlargeTexts(double factor) {
 
 /// Shows the sentence and the figures of the last pass. Uses a shorter text if the panel is narrow.
 void Panel::update(const Statistics& statistics) {
-  violation_->show(statistics, statistics.passes > 0 || document_.cuts().count() > 0, view_->showsEarlier());
+  violation_->show(statistics, statistics.passes > 0 || document_.cuts().count() > 0);
   const QString help = QStringLiteral(
       "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is "
       "the share of links above 1e-4 rest lengths.\nDuring a drag it covers the links that the pass touched, at "

@@ -250,14 +250,6 @@ void PanelArea::fitAgain() {
   }
 }
 
-void PanelArea::keepInView() {
-  const auto framed = [](Panel* panel) { return panel->view().camera()->framed(); };
-  const auto showsAll = [](Panel* panel) { return panel->isHidden() || panel->view().showsAll(); };
-  if (std::ranges::all_of(panels_, framed) && !std::ranges::all_of(panels_, showsAll)) {
-    fit();
-  }
-}
-
 void PanelArea::addOverlay(Overlay& overlay) {
   overlays_.push_back(&overlay);
   for (Panel* panel : panels_) {

@@ -47,8 +47,6 @@ class PanelArea : public QWidget {
   /// Shows all that is there now in every panel, from its current side. Panels with linked cameras show the objects of
   /// all of them.
   void fit() { frame(false); }
-  /// Fits the views if a part of an object is out of view, unless the user has panned or zoomed since the last fit.
-  void keepInView();
   /// Shows the whole rest shape in every panel, from the initial side.
   void fitRest();
 

@@ -140,10 +140,6 @@ QStringList View::notes() const {
   return notes;
 }
 
-bool View::showsEarlier() const {
-  return std::ranges::any_of(overlays_, [this](const Overlay* overlay) { return overlay->showsEarlier(panel_); });
-}
-
 std::optional<OverlayLegend> View::overlayLegend() const {
   for (const Overlay* overlay : overlays_) {
     if (auto legend = overlay->legend(panel_)) {
@@ -190,13 +186,6 @@ void View::fitRest() {
   camera_->fit(bounds(mesh), std::span(mesh.axes).first(std::size_t(mesh.space_dimension)), size());
   fitPending_ = false;
   frame(outline(true));
-}
-
-bool View::showsAll() const {
-  const QRectF inside = rect();
-  return std::ranges::all_of(outline(false), [&](const QVector3D& point) {
-    return inside.contains(placeOf(Point(point.x(), point.y(), point.z())));
-  });
 }
 
 std::vector<QVector3D> View::outline(bool atRest) const {

@@ -54,8 +54,6 @@ class View : public QOpenGLWidget {
   QStringList notes() const;
   /// The legend of the first overlay that has one for this panel.
   std::optional<OverlayLegend> overlayLegend() const;
-  /// True if an overlay shows the object at an earlier moment than its newest frame.
-  bool showsEarlier() const;
   /// Sets the parts of the object that are drawn.
   void setLook(const Look& look);
   void setGhost(const Ghost& ghost);
@@ -70,8 +68,6 @@ class View : public QOpenGLWidget {
   void fitRest();
   /// Returns points that enclose what the view should show: the object now, or its rest shape (mesh units).
   std::vector<QVector3D> outline(bool atRest) const;
-  /// True if no part of the object is out of view.
-  bool showsAll() const;
   /// Shows all these points from the current side.
   void frame(std::span<const QVector3D> points);
   /// Moves the camera as if the mouse had moved by this many logical pixels.

@@ -61,19 +61,13 @@ ViolationLine::ViolationLine() : sentence_(new QLabel) {
   followTheme(*this, [this] { update(); });
 }
 
-void ViolationLine::show(const Statistics& statistics, bool hasMoved, bool showsEarlier) {
-  share_ = hasMoved ? statistics.violation.fraction : 0;
+void ViolationLine::show(const Statistics& statistics, bool hasMoved) {
   words_ = brief_ = violationInWords(statistics, hasMoved);
   if (const Violation& violation = statistics.violation; statistics.remark.empty() && violation.fraction > 0) {
     brief_ = QStringLiteral("%1 violated, worst %2 ×").arg(percentage(violation.fraction), rounded(violation.max));
   }
-  if (showsEarlier) {
-    words_[0] = words_[0].toLower();
-    words_.prepend(QStringLiteral("At the end of the pass: "));
-    brief_ = QStringLiteral("At the end: ") +
-             (share_ > 0 ? percentage(share_) + QStringLiteral(" violated") : QStringLiteral("valid"));
-  }
   fitWords();
+  share_ = hasMoved ? statistics.violation.fraction : 0;
   update();
 }
 

@@ -14,8 +14,8 @@ class ViolationLine : public QWidget {
  public:
   ViolationLine();
 
-  /// Shows the figures of the last pass. `showsEarlier`: the object is shown as it was before the end of the pass.
-  void show(const Statistics& statistics, bool hasMoved, bool showsEarlier = false);
+  /// Shows the figures of the last pass.
+  void show(const Statistics& statistics, bool hasMoved);
   const QString& sentence() const { return words_; }
   /// Fraction of the violated links; negative while there is none to show.
   double share() const { return share_; }

@@ -132,11 +132,6 @@ QString PropagationOverlay::note(int panel) const {
   return note;
 }
 
-bool PropagationOverlay::showsEarlier(int panel) const {
-  const PassPlayer* player = this->player(panel);
-  return player != nullptr && player->step() < player->stepCount();
-}
-
 void PropagationOverlay::draw(const Canvas& canvas) {
   const PassPlayer* player = this->player(canvas.panel);
   if (player == nullptr || player->pass().mesh != canvas.frame.mesh) {

@@ -4,7 +4,6 @@
 #include <QAction>
 #include <QGridLayout>
 #include <QToolButton>
-#include <algorithm>
 
 #include "common/colours.h"
 #include "common/icons.h"
@@ -31,19 +30,16 @@ QString shown(const std::string& text) { return QString::fromStdString(text); }
 
 }  // namespace
 
-LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& following, QAction& close)
+LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& close)
     : player_(player),
       backAction_(back),
       nextAction_(next),
-      followingAction_(following),
       title_(makeLabel("lessonTitle")),
       text_(makeLabel("lessonText")),
       step_(makeLabel("lessonStep")),
       back_(makeButton(QStringLiteral("Back"), "lessonBackButton", back)),
-      next_(makeButton(QStringLiteral("Next"), "lessonNextButton", next)),
-      following_(makeButton(QStringLiteral("Next lesson"), "lessonFollowingButton", following)) {
+      next_(makeButton(QStringLiteral("Next"), "lessonNextButton", next)) {
   setObjectName(QStringLiteral("lessonBar"));
-  following_->setToolTip(QStringLiteral("Opens the next lesson"));
   setAccessibleName(QStringLiteral("Lesson"));
   setFrameShape(QFrame::StyledPanel);
   setAutoFillBackground(true);
@@ -69,7 +65,6 @@ LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, Q
   grid->addWidget(text_, 1, 0);
   grid->addWidget(back_, 1, 1, Qt::AlignBottom);
   grid->addWidget(next_, 1, 2, Qt::AlignBottom);
-  grid->addWidget(following_, 1, 2, Qt::AlignBottom);
   connect(&player, &LessonPlayer::openChanged, this, &LessonBar::refresh);
   connect(&player, &LessonPlayer::stepChanged, this, &LessonBar::refresh);
   connect(&player, &LessonPlayer::playsChanged, this, &LessonBar::refresh);
@@ -97,17 +92,6 @@ void LessonBar::showKeys() {
 void LessonBar::resizeEvent(QResizeEvent* event) {
   QFrame::resizeEvent(event);
   showTitle();
-  keepHeight();
-}
-
-/// Gives the caption the height of the longest caption of the lesson, so that the panels keep their size.
-void LessonBar::keepHeight() {
-  int height = 0;
-  for (const LessonStep& step : player_.lesson().steps) {
-    const QRect room(0, 0, text_->width(), QWIDGETSIZE_MAX);
-    height = std::max(height, text_->fontMetrics().boundingRect(room, Qt::TextWordWrap, shown(step.text)).height());
-  }
-  text_->setMinimumHeight(height);
 }
 
 /// Shows the titles of the lesson and of the step, or of the step alone where there is no room for both.
@@ -134,11 +118,6 @@ void LessonBar::refresh() {
   step_->setText(QStringLiteral("Step %1 of %2").arg(player_.step() + 1).arg(lesson.steps.size()));
   back_->setEnabled(backAction_.isEnabled());
   next_->setEnabled(nextAction_.isEnabled());
-  next_->setVisible(!followingAction_.isEnabled());
-  following_->setVisible(followingAction_.isEnabled());
-  following_->setText(followingAction_.iconText());
-  following_->setToolTip(followingAction_.statusTip());
-  keepHeight();
   if (text_->text() != caption) {
     text_->setText(caption);
     QAccessibleEvent alert(this, QAccessible::Alert);

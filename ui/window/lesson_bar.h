@@ -10,14 +10,13 @@ class QAction;
 
 namespace chainmail {
 
-/// The bar of an open lesson, below the panels: title, caption, number of the step, Back, Next and Close. At
-/// its end, it offers the next lesson.
+/// The bar of an open lesson, below the panels: title, caption, number of the step, Back, Next and Close.
 class LessonBar : public QFrame {
   Q_OBJECT
 
  public:
   /// The buttons trigger the actions.
-  LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& following, QAction& close);
+  LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& close);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -26,12 +25,11 @@ class LessonBar : public QFrame {
   void refresh();
   void showTitle();
   void showKeys();
-  void keepHeight();
 
   const LessonPlayer& player_;
-  QAction &backAction_, &nextAction_, &followingAction_;
+  QAction &backAction_, &nextAction_;
   QLabel *title_, *text_, *step_;
-  QPushButton *back_, *next_, *following_;
+  QPushButton *back_, *next_;
 };
 
 }  // namespace chainmail

@@ -20,7 +20,6 @@
 namespace chainmail {
 namespace {
 
-constexpr int frameMilliseconds = 60;  // a step has ended when no frame follows for this long
 constexpr std::array tools{"drag", "cut", "pin", "measure", "select"};
 
 QString listOf(const QStringList& names) { return names.join(QStringLiteral(", ")); }
@@ -55,7 +54,6 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
                 QStringLiteral("Plays the next step of the lesson; during a step, goes to its end"))),
       back_(add("lessonBack", QStringLiteral("Step &back"), Qt::Key_PageUp,
                 QStringLiteral("Restores the end of the step before"))),
-      following_(add("lessonFollowing", QStringLiteral("Next &lesson"), {}, QStringLiteral("Opens the next lesson"))),
       close_(add("lessonClose", QStringLiteral("&Close lesson"), {},
                  QStringLiteral("Closes the lesson; the object stays as it is"))),
       bar_(nullptr) {
@@ -64,25 +62,15 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
   close_->setIcon(icon("close"));
   connect(next_, &QAction::triggered, &player_, &LessonPlayer::next);
   connect(back_, &QAction::triggered, &player_, &LessonPlayer::back);
-  connect(following_, &QAction::triggered, this, &Lessons::openFollowing);
   connect(close_, &QAction::triggered, &player_, &LessonPlayer::close);
   // In this order: the bar reads the actions.
   for (const auto change : {&LessonPlayer::openChanged, &LessonPlayer::stepChanged, &LessonPlayer::playsChanged}) {
     connect(&player_, change, this, &Lessons::adapt);
   }
-  bar_ = new LessonBar(player_, *back_, *next_, *following_, *close_);
+  bar_ = new LessonBar(player_, *back_, *next_, *close_);
   connect(&player_, &LessonPlayer::openChanged, this, &Lessons::leave);
   connect(&sessions, &Sessions::opened, this, &Lessons::start);
   connect(&player_, &LessonPlayer::stepChanged, this, &Lessons::showStep);
-  ended_.setSingleShot(true);
-  ended_.setInterval(frameMilliseconds);
-  connect(&ended_, &QTimer::timeout, this, [this] { window_.area().keepInView(); });
-  connect(&player_, &LessonPlayer::playsChanged, this, [this] { player_.plays() ? ended_.stop() : ended_.start(); });
-  connect(&window.document(), &Document::frameReady, this, [this] {
-    if (ended_.isActive()) {
-      ended_.start();
-    }
-  });
   adapt();
 }
 
@@ -105,7 +93,7 @@ void Lessons::fill(QMenu& menu) {
     connect(action, &QAction::triggered, this, [this, &lesson] { open(lesson.file); });
   }
   lessons->addSeparator();
-  lessons->addActions({next_, back_, following_, close_});
+  lessons->addActions({next_, back_, close_});
 }
 
 void Lessons::openFirst() { open(lessonFiles().front().file); }
@@ -120,30 +108,8 @@ void Lessons::open(const char* file) {
   window_.openFile(QDir(folder).filePath(QLatin1String(file)));
 }
 
-/// Returns the lesson after the open one; null if that is the last one, or not one of the program's.
-const LessonFile* Lessons::following() const {
-  const auto files = lessonFiles();
-  const auto present =
-      std::ranges::find_if(files, [this](const LessonFile& one) { return player_.lesson().title == one.title; });
-  return present == files.end() || present + 1 == files.end() ? nullptr : &*(present + 1);
-}
-
-void Lessons::openFollowing() {
-  if (const LessonFile* lesson = following()) {
-    open(lesson->file);
-  } else {
-    player_.close();
-  }
-}
-
 void Lessons::adapt() {
   const bool open = player_.isOpen();
-  const LessonFile* after = following();
-  following_->setEnabled(open && player_.isLast() && !player_.plays());
-  following_->setIconText(after != nullptr ? QStringLiteral("Next lesson") : QStringLiteral("Close"));
-  following_->setStatusTip(after != nullptr
-                               ? QStringLiteral("Opens the lesson '%1'").arg(QString::fromUtf8(after->title))
-                               : close_->statusTip());
   next_->setEnabled(open && (!player_.isLast() || player_.plays()));
   back_->setEnabled(open && player_.step() > 0);
   close_->setEnabled(open);

@@ -9,7 +9,6 @@ class QMenu;
 
 namespace chainmail {
 
-struct LessonFile;
 class LessonBar;
 class MainWindow;
 class Sessions;
@@ -31,8 +30,6 @@ class Lessons : public QObject {
 
  private:
   void open(const char* file);
-  const LessonFile* following() const;
-  void openFollowing();
   QAction* add(const char* name, const QString& text, const QKeySequence& key, const QString& help);
   void start();
   void leave();
@@ -46,9 +43,8 @@ class Lessons : public QObject {
 
   MainWindow& window_;
   LessonPlayer player_;
-  QAction *next_, *back_, *following_, *close_;
+  QAction *next_, *back_, *close_;
   LessonBar* bar_;
-  QTimer ended_;  // runs after the end of a step until the last frame
   QString dock_;  // name of the dock that the lesson has opened
 };
 

@@ -149,11 +149,6 @@ void MainWindow::arrange() {
 }
 
 void MainWindow::listen() {
-  connect(&lessons_->player(), &LessonPlayer::openChanged, help_, [this] {
-    if (lessons_->player().isOpen()) {
-      help_->dismissHints();  // the caption is enough
-    }
-  });
   connect(&document_, &Document::refused, messages_, &MessageBar::warn);
   connect(&document_, &Document::noticed, messages_, &MessageBar::note);
   area_->addOverlay(propagationOverlay_);

@@ -1,7 +1,6 @@
 #include "docks/propagation/propagation_dock.h"
 
 #include <QAction>
-#include <QEvent>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
