@@ -140,6 +140,10 @@ QStringList View::notes() const {
   return notes;
 }
 
+bool View::isInMidPass() const {
+  return std::ranges::any_of(overlays_, [this](const Overlay* overlay) { return overlay->isInMidPass(panel_); });
+}
+
 std::optional<OverlayLegend> View::overlayLegend() const {
   for (const Overlay* overlay : overlays_) {
     if (auto legend = overlay->legend(panel_)) {
@@ -768,6 +772,20 @@ std::optional<QPointF> View::wayToObject() const {
   }
   return bounds.empty() ? QRectF(rect()).center()
                         : QPointF((bounds.left + bounds.right) / 2, (bounds.top + bounds.bottom) / 2);
+}
+
+bool View::showsAll() const {
+  const Frame* frame = document_.frame(panel_);
+  if (frame == nullptr) {
+    return true;
+  }
+  const ClusterBoxes& all = boxes(*frame);
+  const Projection seen = projection();
+  ViewBounds bounds;
+  for (std::size_t cluster = 0; cluster < all.level().clusterCount(); ++cluster) {
+    bounds.unite(seen.bounds(all[cluster]));
+  }
+  return bounds.left >= 0 && bounds.top >= 0 && bounds.right <= width() && bounds.bottom <= height();
 }
 
 /// If the object is out of view, draws an arrow at the edge that points to it, and says how to see it.
