@@ -227,7 +227,7 @@ def against_fem():
     lesson.pin([at(0, y) for y in range(6)])
     lesson.step("A beam, held at the left",
                 "Panel A runs Natural Queue ChainMail. Panel B runs linear FEM, the finite elements of engineers. "
-                "The left end is pinned. Next bends the right end.", colour="stretch", tool="drag")
+                "The left end is pinned. Next bends the right end.", colour="violation", tool="drag")
     end = [at(24, y) for y in range(6)]
     lesson.drag(end, [[0, 2, 0]], 50, release=False)
     lesson.step("A small bend",
@@ -238,7 +238,8 @@ def against_fem():
         lesson.moves.append({"do": "drag", "by": [0, round(start[1] + 9 * i / 70, 3), 0]})
     lesson.step("A large bend",
                 "Now ChainMail reaches the pins, and the links next to them stretch beyond their limit: it knows "
-                "limits, but no forces. FEM knows forces, and spreads the bend over the whole beam.")
+                "limits, but no forces. FEM knows forces, but no limits: it spreads the bend over the whole beam, "
+                "and most links exceed their limits a little.")
     lesson.step("How far from physics?",
                 "The colours show how far each element is from a neo-Hookean solid, which suits large bends. ChainMail "
                 "is farther off. Its gain: it works without pins and prepares nothing, not even after a cut.",

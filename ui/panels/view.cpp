@@ -8,6 +8,7 @@
 #include <QOpenGLContext>
 #include <QOpenGLFramebufferObject>
 #include <QPainter>
+#include <QVector4D>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -775,17 +776,11 @@ std::optional<QPointF> View::wayToObject() const {
 }
 
 bool View::showsAll() const {
-  const Frame* frame = document_.frame(panel_);
-  if (frame == nullptr) {
-    return true;
-  }
-  const ClusterBoxes& all = boxes(*frame);
-  const Projection seen = projection();
-  ViewBounds bounds;
-  for (std::size_t cluster = 0; cluster < all.level().clusterCount(); ++cluster) {
-    bounds.unite(seen.bounds(all[cluster]));
-  }
-  return bounds.left >= 0 && bounds.top >= 0 && bounds.right <= width() && bounds.bottom <= height();
+  const QMatrix4x4 toClip = camera_->toClip(size()) * camera_->toView();
+  return std::ranges::all_of(outline(false), [&](const QVector3D& point) {
+    const QVector4D at = toClip.map(QVector4D(point, 1));
+    return std::abs(at.x()) <= at.w() && std::abs(at.y()) <= at.w();
+  });
 }
 
 /// If the object is out of view, draws an arrow at the edge that points to it, and says how to see it.

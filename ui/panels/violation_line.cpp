@@ -68,14 +68,18 @@ ViolationLine::ViolationLine() : sentence_(new QLabel) {
 }
 
 void ViolationLine::show(const Statistics& statistics, bool hasMoved, bool inMidPass) {
-  share_ = hasMoved ? statistics.violation.fraction : 0;
+  const Violation& violation = statistics.violation;
+  share_ = hasMoved ? violation.fraction : 0;
   words_ = brief_ = violationInWords(statistics, hasMoved);
-  if (const Violation& violation = statistics.violation; statistics.remark.empty() && violation.fraction > 0) {
-    brief_ = QStringLiteral("%1 violated, worst %2 ×").arg(percentage(violation.fraction), rounded(violation.max));
+  const bool isViolated = statistics.remark.empty() && violation.fraction > 0;
+  if (isViolated) {
+    brief_ = QStringLiteral("%1 violated").arg(percentage(violation.fraction));
+    brief_ += inMidPass ? QString() : QStringLiteral(", worst %1 ×").arg(rounded(violation.max));
   }
   if (inMidPass) {
     words_ = afterThePass(words_);
-    brief_ = afterThePass(share_ > 0 ? QStringLiteral("%1 violated").arg(percentage(share_)) : QStringLiteral("valid"));
+    brief_ =
+        afterThePass(statistics.remark.empty() && violation.fraction == 0 ? QStringLiteral("none violated") : brief_);
   }
   fitWords();
   update();

@@ -56,6 +56,7 @@ LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, Q
   leave_->setObjectName(QStringLiteral("lessonCloseButton"));
   leave_->setIcon(icon("close"));
   leave_->setAutoRaise(true);
+  leave_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Ignored);  // as high as the buttons that replace it
   leave_->setAccessibleName(QStringLiteral("Close lesson"));
   connect(leave_, &QToolButton::clicked, &close, &QAction::trigger);
   for (QWidget* button : {static_cast<QWidget*>(leave_), static_cast<QWidget*>(end_)}) {
