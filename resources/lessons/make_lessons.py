@@ -215,9 +215,9 @@ def cut_an_organ():
     lesson.drag(near(6.5, 6.5, 0, 3.5), [[4, 0.5, 0]], 50)
     lesson.drag(near(-1.5, 6.5, 0, 3.5), [[-4, 0.5, 0]], 50)
     lesson.step("Open it",
-                "The sides part and show the inside of the solid. In panel A, coloured links are overstretched: Natural "
-                "Queue moves each element at most once per pass, also where several neighbours pull at it. Exact "
-                "ChainMail in panel B violates no link. Press K to cut further yourself.", tool="drag")
+                "The sides part and show the inside of the solid. In panel A, the coloured links exceed their "
+                "limits: Natural Queue places each element within reach of one neighbour, its sponsor, but not always "
+                "of the others. Exact ChainMail in panel B keeps all limits. Press K to cut further yourself.", tool="drag")
     return lesson
 
 
@@ -231,15 +231,15 @@ def against_fem():
     end = [at(24, y) for y in range(6)]
     lesson.drag(end, [[0, 2, 0]], 50, release=False)
     lesson.step("A small bend",
-                "In FEM the whole beam shares the load and bends smoothly. In ChainMail only those elements move that "
-                "must: the rest of the beam, at the left, does not feel the handle.")
+                "In FEM the whole beam shares the load and bends smoothly. FEM has no limits: the coloured links "
+                "exceed those of ChainMail a little. In ChainMail, elements move only if they must, so the left of the "
+                "beam does not feel the handle.")
     start = lesson.moves[-1]["by"]
     for i in range(1, 71):
         lesson.moves.append({"do": "drag", "by": [0, round(start[1] + 9 * i / 70, 3), 0]})
     lesson.step("A large bend",
                 "Now ChainMail reaches the pins, and the links next to them stretch beyond their limit: it knows "
-                "limits, but no forces. FEM knows forces, but no limits: it spreads the bend over the whole beam, "
-                "and most links exceed their limits a little.")
+                "limits, but no forces. FEM knows forces, and spreads the bend over the whole beam.")
     lesson.step("How far from physics?",
                 "The colours show how far each element is from a neo-Hookean solid, which suits large bends. ChainMail "
                 "is farther off. Its gain: it works without pins and prepares nothing, not even after a cut.",
