@@ -104,9 +104,10 @@ void Panel::showStatistics() {
   } else {
     legend_->follow(colouring_, panel_);
   }
-  if (const Frame* frame = document_.frame(panel_)) {
-    update(frame->statistics);
-    head_->showState(states(frame->statistics).join(QStringLiteral(" · ")));
+  if (document_.frame(panel_) != nullptr) {
+    const Statistics& statistics = document_.statistics(panel_);
+    update(statistics);
+    head_->showState(states(statistics).join(QStringLiteral(" · ")));
   }
 }
 
