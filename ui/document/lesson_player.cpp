@@ -146,7 +146,7 @@ void LessonPlayer::noteDragged() {
     dragged_.insert(dragged_.end(), drag.elements.begin(), drag.elements.end());
   }
   std::ranges::sort(dragged_);
-  dragged_.erase(std::ranges::unique(dragged_).begin(), dragged_.end());
+  dragged_.erase(std::unique(dragged_.begin(), dragged_.end()), dragged_.end());
 }
 
 std::span<const ElementId> LessonPlayer::dragged() const {
