@@ -72,9 +72,9 @@ class Lesson:
         path.write_text(text, encoding="utf-8")
 
 
-def looking_at(x, y, z, height, **more):
-    """Returns a view of all panels: the middle and the height of what they show, in mesh units."""
-    return {"cameras": [{"centre": [x, y, z], "height": height, "framed": False, **more}] * 2, "linked": True}
+def looking_from(yaw, pitch):
+    """Returns a view of all panels from a side, in degrees. It fits the object, as views without it do."""
+    return {"cameras": [{"yaw": yaw, "pitch": pitch, "framed": True}] * 2, "linked": True}
 
 
 def grid(width, height):
@@ -93,39 +93,39 @@ def grid(width, height):
 
 def why_order_matters():
     at = lambda x, y: y * 24 + x
-    lesson = Lesson("Why order matters", {"file": "grid.dat"}, ["generalized", "natural-queue"],
-                    looking_at(12.5, 11.5, 0, 37))
+    lesson = Lesson("Why order matters", {"file": "grid.dat"}, ["generalized", "natural-queue"])
     lesson.step("One object, two algorithms",
                 "Both panels show the same sheet. A link may shorten, stretch and lean only a little. "
                 "Press Next: a handle pulls one element, and the algorithm of each panel moves the others.",
                 colour="violation", tool="drag")
-    lesson.drag([at(15, 15)], [[3, 2, 0]], 40, release=False)
-    lesson.step("A gentle pull",
+    lesson.drag([at(15, 15)], [[0.8, 0.5, 0]], 40, release=False)
+    lesson.step("A short pull",
                 "Each element that moves makes its neighbours candidates to move next. Panel A takes the newest "
-                "candidate first, panel B the oldest. In small moves they differ little.")
+                "candidate first, panel B the oldest. After a short pull the sheets look alike, although a few links "
+                "in A are already violated.")
     for by in ([4, 5, 0], [-3, 5, 0], [-6, -3, 0], [2, -5, 0], [5, 3, 0]):
         start = lesson.moves[-1]["by"]
         for i in range(1, 9):
             lesson.moves.append({"do": "drag", "by": [round(s + (b - s) * i / 8, 3) for s, b in zip(start, by)]})
     lesson.moves.append({"do": "release"})
     lesson.step("A fast drag",
-                "Now the handle runs around quickly. The colours show links that are longer, shorter or more slanted "
-                "than they may be.")
+                "Now the handle runs around quickly. The coloured links are longer, shorter or more slanted than "
+                "they may be: in A more with every pass, in B none.")
     lesson.step("The order decides",
                 "Panel A follows one chain of neighbours to its end before it returns, so far elements are placed "
                 "before near ones, and the sheet tangles. Panel B works outward in rings and stays calm. "
-                "Only the order differs.")
+                "B also leaves elements that are already placed out of its list. That makes it shorter, but moves "
+                "nothing: the order alone decides.")
     return lesson
 
 
 def waiting_list():
     mesh, at = grid(7, 7)
-    lesson = Lesson("The waiting list, step by step", mesh, ["generalized", "natural-queue"],
-                    looking_at(3.8, 3.2, 0, 14))
+    lesson = Lesson("The waiting list, step by step", mesh, ["generalized", "natural-queue"])
     lesson.step("A small sheet",
                 "The Propagation dock on the left shows the waiting list of each panel. "
                 "Next pulls the element in the middle up and to the right, in a single move.",
-                colour="plain", dock="propagation", tool="drag")
+                colour="violation", dock="propagation", tool="drag")
     lesson.drag([at(3, 3)], [[1.5, 1.2, 0]], 1, release=False)
     lesson.step("Only the handle has moved",
                 "The handle is at its target and its four neighbours wait in the list. Nothing else has moved yet. "
@@ -145,7 +145,7 @@ def waiting_list():
 
 def exact_and_taut():
     mesh, at = grid(12, 9)
-    lesson = Lesson("Exact and taut", mesh, ["natural-queue", "exact"], looking_at(8.5, 4, 0, 23))
+    lesson = Lesson("Exact and taut", mesh, ["natural-queue", "exact"])
     lesson.pin([at(0, y) for y in range(9)])
     lesson.step("A pinned sheet",
                 "The left edge of the sheet is pinned. Panel A runs Natural Queue ChainMail, panel B Exact ChainMail. "
@@ -193,13 +193,13 @@ def cut_an_organ():
     points, tetrahedra = read_msh(MESHES / "organ.msh")
     links = sorted({(min(a, b), max(a, b)) for t in tetrahedra for a in t for b in t if a != b})
     lesson = Lesson("Cut an organ", {"file": "organ.msh"}, ["natural-queue", "exact"],
-                    looking_at(1.2, 1, 0, 40, yaw=25, pitch=40))
+                    looking_from(25, 40))
     near = lambda x, y, z, r: [e for e, p in enumerate(points) if math.dist(p, (x, y, z)) < r]
     lesson.pin([e for e, p in enumerate(points) if p[1] < -7.5])
     lesson.soften(compression=0.5, stretch=1.5, shear=0.5)
     lesson.step("A soft organ",
                 "This kidney is a solid of 9,891 tetrahedra, not only a surface. Its underside is pinned. "
-                "Next pulls at its upper side.", colour="plain", show="surface", tool="drag")
+                "Next pulls at its upper side.", colour="violation", show="surface", tool="drag")
     lesson.drag(near(8, 7, 1, 3), [[3, 3, 1], [0, 0, 0]], 45)
     lesson.step("Pull and push",
                 "The handle takes its surroundings along. On the way back, elements follow only as far as their links "
@@ -215,23 +215,25 @@ def cut_an_organ():
     lesson.drag(near(6.5, 6.5, 0, 3.5), [[4, 0.5, 0]], 50)
     lesson.drag(near(-1.5, 6.5, 0, 3.5), [[-4, 0.5, 0]], 50)
     lesson.step("Open it",
-                "The sides part and show the inside of the solid. Turn the view with the right mouse button, or press "
-                "K and cut further yourself.", tool="drag")
+                "The sides part and show the inside of the solid. In panel A, the coloured links exceed their "
+                "limits: Natural Queue places each element within reach of one neighbour, its sponsor, but not always "
+                "of the others. Exact ChainMail in panel B keeps all limits. Press K to cut further yourself.", tool="drag")
     return lesson
 
 
 def against_fem():
     mesh, at = grid(25, 6)
-    lesson = Lesson("ChainMail against FEM", mesh, ["natural-queue", "fem"], looking_at(12, 6, 0, 36))
+    lesson = Lesson("ChainMail against FEM", mesh, ["natural-queue", "fem"])
     lesson.pin([at(0, y) for y in range(6)])
     lesson.step("A beam, held at the left",
                 "Panel A runs Natural Queue ChainMail. Panel B runs linear FEM, the finite elements of engineers. "
-                "The left end is pinned. Next bends the right end.", colour="plain", tool="drag")
+                "The left end is pinned. Next bends the right end.", colour="violation", tool="drag")
     end = [at(24, y) for y in range(6)]
     lesson.drag(end, [[0, 2, 0]], 50, release=False)
     lesson.step("A small bend",
-                "In FEM the whole beam shares the load and bends smoothly. In ChainMail only those elements move that "
-                "must: the rest of the beam, at the left, does not feel the handle.")
+                "In FEM the whole beam shares the load and bends smoothly. FEM has no limits: the coloured links "
+                "exceed those of ChainMail a little. In ChainMail, elements move only if they must, so the left of the "
+                "beam does not feel the handle.")
     start = lesson.moves[-1]["by"]
     for i in range(1, 71):
         lesson.moves.append({"do": "drag", "by": [0, round(start[1] + 9 * i / 70, 3), 0]})

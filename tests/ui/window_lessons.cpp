@@ -4,13 +4,17 @@
 #include <QFileInfo>
 #include <QLabel>
 #include <QPushButton>
+#include <cmath>
 
+#include "common/colours.h"
 #include "document/lesson_player.h"
 #include "files/session/session.h"
 #include "io/recovery_bar.h"
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "measure/violation.h"
+#include "panels/panel_area.h"
+#include "panels/violation_line.h"
 #include "window.h"
 #include "window/hints.h"
 #include "window/lesson_bar.h"
@@ -138,6 +142,14 @@ class WindowLessons : public QObject {
   void eachLessonRunsToItsEndAndBack();
   void theBarShowsTheStep();
   void nextPlaysVisiblyAndASecondNextEndsIt();
+  void theViewsStayStillWhileAStepPlays();
+  void aViewThatTheUserChoseStays();
+  void theHandleIsMarkedAfterItsDrag();
+  void figuresOfAWholePassSaySo();
+  void theEndLeadsToTheNextLesson();
+  void theBarKeepsItsHeight();
+  void theHintsAreHiddenDuringALesson();
+  void theNextObjectHasTheColoursOfBefore();
   void aDragDuringAStepStopsIt();
   void relaxationAndPanelsOfTheUserAreTakenBack();
   void theWaitingListIsShownStepByStep();
@@ -184,12 +196,15 @@ void WindowLessons::eachLessonRunsToItsEndAndBack() {
     next(bench);
     states.push_back(stateOf(bench));
     QCOMPARE(states.back().position, player(bench).lesson().steps[player(bench).step()].until);
+    QVERIFY(bench.window.area().fits());
+    QVERIFY(bench.window.area().showsAll());
   }
   QVERIFY(bench.window.messages().isHidden());  // no panel has refused a move
   for (std::size_t step = states.size() - 1; step-- > 0;) {
     back(bench);
     QCOMPARE(player(bench).step(), step);
     QVERIFY2(stateOf(bench) == states[step], qPrintable(QStringLiteral("back to step %1").arg(step + 1)));
+    QVERIFY(bench.window.area().showsAll());
   }
   for (std::size_t step = 1; step < states.size(); ++step) {
     disturb(bench);
@@ -223,7 +238,7 @@ void WindowLessons::theBarShowsTheStep() {
   for (int i = 0; i < 3; ++i) {
     next(bench);
   }
-  QVERIFY(!bench.find<QPushButton>("lessonNextButton")->isEnabled());
+  QVERIFY(!bench.find<QPushButton>("lessonNextButton")->isVisible());
   QCOMPARE(bench.window.colouring().mode(), ColourMode::violation);
 }
 
@@ -244,6 +259,161 @@ void WindowLessons::nextPlaysVisiblyAndASecondNextEndsIt() {
   QCOMPARE(bench.document().tape().position(), until);
   QCOMPARE(player(bench).step(), std::size_t{1});
   awaitStep(bench);
+}
+
+/// The views make room before the first move. The handle goes far beyond the object at rest.
+void WindowLessons::theViewsStayStillWhileAStepPlays() {
+  Workbench& bench = shared();
+  open(bench, pathOf("physics.chainmail"));
+  next(bench);
+  const double before = bench.view(0).camera()->pose().height;
+  std::vector<double> seen;
+  QObject context;
+  connect(&bench.document(), &Document::tapeChanged, &context,
+          [&] { seen.push_back(bench.view(0).camera()->pose().height); });
+  bench.trigger("lessonNext");
+  QTRY_VERIFY(seen.size() > 5);
+  QVERIFY(player(bench).plays());
+  QVERIFY(seen.front() > before);
+  QCOMPARE(std::ranges::count(seen, seen.front()), std::ptrdiff_t(seen.size()));
+  bench.trigger("lessonNext");
+  awaitStep(bench);
+  QVERIFY(bench.window.area().showsAll());
+}
+
+void WindowLessons::aViewThatTheUserChoseStays() {
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  bench.view(0).zoom(1.5);
+  const double chosen = bench.view(0).camera()->pose().height;
+  next(bench);
+  back(bench);
+  QCOMPARE(bench.view(0).camera()->pose().height, chosen);
+  bench.trigger("fitView");
+  QVERIFY(bench.view(0).camera()->pose().height != chosen);
+}
+
+void WindowLessons::theHandleIsMarkedAfterItsDrag() {
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  QVERIFY(player(bench).dragged().empty());
+  const auto marked = [&] {
+    const auto all = player(bench).dragged();
+    return std::vector<ElementId>(all.begin(), all.end());
+  };
+  const ElementId handle = 15 * 24 + 15;
+  const auto isDrawn = [&](int panel) {
+    bench.settle();
+    return bench.distanceFromColour(panel, bench.view(panel).placeOf(handle), colours::lit) == 0;
+  };
+  for (int step = 0; step < 3; ++step) {  // the last step has no moves
+    next(bench);
+    QCOMPARE(marked(), std::vector{handle});
+    QVERIFY(isDrawn(0));
+    QVERIFY(isDrawn(1));
+  }
+  disturb(bench);
+  QVERIFY(marked().empty());
+  back(bench);
+  QCOMPARE(marked(), std::vector{handle});
+  open(bench, pathOf("face.chainmail"));
+  next(bench);
+  QCOMPARE(marked().size(), std::size_t{2});  // both corners of the mouth
+  open(bench, pathOf("organ.chainmail"));
+  next(bench);
+  QVERIFY(marked().size() > 1);
+  next(bench);
+  QVERIFY(marked().empty());  // a cut
+}
+
+void WindowLessons::figuresOfAWholePassSaySo() {
+  Workbench& bench = shared();
+  open(bench, pathOf("waiting-list.chainmail"));
+  const auto sentence = [&] {
+    bench.settleFigures();
+    const auto* line = bench.find<ViolationLine>("violation0");
+    // The solver measures the whole mesh in idle time.
+    (void)QTest::qWaitFor([&] { return line->sentence().contains(QStringLiteral(" of links violated")); });
+    return line->sentence();
+  };
+  next(bench);
+  const QString early = sentence();
+  while (!player(bench).isLast()) {
+    next(bench);
+  }
+  const QString late = sentence();
+  QVERIFY2(late.startsWith(QStringLiteral("%1 % of links violated").arg(std::lround(100 * violated(bench, 0)))),
+           qPrintable(late));
+  QCOMPARE(early, QStringLiteral("After the pass: ") + late);
+}
+
+void WindowLessons::theEndLeadsToTheNextLesson() {
+  Workbench& bench = shared();
+  const auto toEnd = [&] {
+    while (!player(bench).isLast()) {
+      next(bench);
+    }
+  };
+  auto* following = bench.find<QPushButton>("lessonFollowingButton");
+  auto* close = bench.find<QPushButton>("lessonEndButton");
+  open(bench, pathOf("exact.chainmail"));
+  QVERIFY(!following->isVisible());
+  QVERIFY(!close->isVisible());
+  toEnd();
+  QVERIFY(following->isVisible());
+  QCOMPARE(following->text(), QStringLiteral("Next lesson: Cut an organ"));
+  QVERIFY(close->isVisible());
+  QTest::mouseClick(following, Qt::LeftButton);
+  bench.settle();
+  QCOMPARE(player(bench).lesson().title, std::string("Cut an organ"));
+  QCOMPARE(player(bench).step(), std::size_t{0});
+  open(bench, pathOf("face.chainmail"));
+  toEnd();
+  QVERIFY(!following->isVisible());
+  QTest::mouseClick(close, Qt::LeftButton);
+  QVERIFY(bench.window.lessons().bar().isHidden());
+}
+
+void WindowLessons::theBarKeepsItsHeight() {
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  const LessonBar& bar = bench.window.lessons().bar();
+  const int height = bar.height(), ofView = bench.view(0).height();
+  while (!player(bench).isLast()) {
+    next(bench);
+    bench.settle();
+    QCOMPARE(bar.height(), height);
+    QCOMPARE(bench.view(0).height(), ofView);
+    const auto* text = bench.find<QLabel>("lessonText");
+    QVERIFY(text->height() >= text->heightForWidth(text->width()));  // nothing is cut off
+  }
+}
+
+void WindowLessons::theHintsAreHiddenDuringALesson() {
+  Workbench& bench = shared();
+  const auto* hints = bench.find<Hints>("hints");
+  bench.trigger("showHints");
+  QVERIFY(hints->isVisible());
+  open(bench, pathOf("order.chainmail"));
+  QVERIFY(!hints->isVisible());
+  bench.trigger("lessonClose");
+  QVERIFY(hints->isVisible());
+  open(bench, pathOf("order.chainmail"));
+  bench.trigger("showHints");  // the user asks for them
+  QVERIFY(hints->isVisible());
+  bench.find<Hints>("hints")->hide();
+}
+
+void WindowLessons::theNextObjectHasTheColoursOfBefore() {
+  Workbench& bench = shared();
+  bench.window.colouring().setMode(ColourMode::violation);
+  open(bench, pathOf("order.chainmail"));
+  open(bench, pathOf("face.chainmail"));  // a picture, without colours of values
+  QCOMPARE(bench.window.colouring().mode(), ColourMode::plain);
+  bench.trigger("lessonClose");
+  QCOMPARE(bench.window.colouring().mode(), ColourMode::plain);
+  shared();
+  QCOMPARE(bench.window.colouring().mode(), ColourMode::violation);
 }
 
 void WindowLessons::aDragDuringAStepStopsIt() {
@@ -305,6 +475,10 @@ void WindowLessons::theLessonsShowTheirPoint() {
   toEnd("order.chainmail");
   QVERIFY(violated(bench, 0) > 0.1);
   QCOMPARE(violated(bench, 1), 0.0);
+  back(bench);
+  back(bench);
+  QVERIFY(violated(bench, 0) > 0 && violated(bench, 0) < 0.03);  // a few links
+  QCOMPARE(violated(bench, 1), 0.0);
   toEnd("exact.chainmail");
   QVERIFY(violated(bench, 0) > 0);
   QCOMPARE(violated(bench, 1), 0.0);
@@ -313,6 +487,8 @@ void WindowLessons::theLessonsShowTheirPoint() {
   QCOMPARE(violated(bench, 0), 0.0);  // within reach
   toEnd("organ.chainmail");
   QCOMPARE(bench.document().mesh()->tetrahedra.size(), std::size_t{9891});
+  QVERIFY(violated(bench, 0) > 0.05);
+  QCOMPARE(violated(bench, 1), 0.0);
 }
 
 /// Opening a lesson is one step of undo, which returns to the object with all its steps.

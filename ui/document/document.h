@@ -80,6 +80,8 @@ class Document : public QObject {
   /// The frame that a panel shows, valid until the next frameReady; null while the panel has none of the current
   /// object.
   const Frame* frame(int panel) const;
+  /// The statistics of a panel's newest frame, also while the panel shows another one. Valid if frame() is not null.
+  const Statistics& statistics(int panel) const { return frames_[std::size_t(panel)]->statistics; }
   /// Shows `frame` instead of the panel's newest one; null shows the newest one again. The frame must stay alive until
   /// then. Call this again after each change of the frame.
   void showInstead(int panel, const Frame* frame);

@@ -2,6 +2,7 @@
 
 #include <QScopedValueRollback>
 #include <algorithm>
+#include <utility>
 
 #include "files/session/session.h"
 
@@ -43,6 +44,7 @@ void LessonPlayer::adopt() {
   clock_.stop();
   session_ = document_.lesson() == closed_ ? nullptr : document_.lesson();
   step_ = session_ ? stepAt(document_.tape().position()) : 0;
+  dragged_.clear();
   emit openChanged();
 }
 
@@ -92,9 +94,11 @@ void LessonPlayer::show(std::size_t step, bool animated) {
   const std::size_t before = step > 0 ? steps[step - 1].until : 0;
   step_ = step;
   animated_ = animated;
+  begun_ = false;
   position_ = animated ? before : steps[step].until;
   candidate_ = 0;
   waited_ = 0;
+  noteDragged();
   setPanels(algorithms(step).size());
   emit stepChanged();
   const bool samePass = steps[step].candidate && animated && steps[step].until == before;
@@ -125,6 +129,38 @@ void LessonPlayer::travel(std::size_t position) {
   document_.goToInLesson(position, algorithms(step_));
 }
 
+/// Returns the position at which the moves of the present step begin. A step without moves has those of the step
+/// before.
+std::size_t LessonPlayer::beginning() const {
+  const auto& steps = lesson().steps;
+  std::size_t from = step_;
+  while (from > 0 && steps[from - 1].until == steps[step_].until) {
+    --from;
+  }
+  return from > 0 ? steps[from - 1].until : 0;
+}
+
+void LessonPlayer::noteDragged() {
+  dragged_.clear();
+  for (const LessonDrag& drag : dragsAmong(session_->moves, beginning(), position_)) {
+    dragged_.insert(dragged_.end(), drag.elements.begin(), drag.elements.end());
+  }
+  std::ranges::sort(dragged_);
+  dragged_.erase(std::unique(dragged_.begin(), dragged_.end()), dragged_.end());
+}
+
+std::span<const ElementId> LessonPlayer::dragged() const {
+  const bool isShown = isOpen() && !dragged_.empty() && document_.isInLesson(position_, algorithms(step_));
+  return isShown ? std::span<const ElementId>(dragged_) : std::span<const ElementId>();
+}
+
+std::vector<Point> LessonPlayer::reach() const {
+  const Frame* frame = document_.frame(0);
+  return isOpen() && frame != nullptr
+             ? cornersOf(dragsAmong(session_->moves, position_, lesson().steps[step_].until), *frame)
+             : std::vector<Point>();
+}
+
 void LessonPlayer::setPanels(std::size_t count) {
   while (document_.panels() < int(count)) {
     document_.addPanel();
@@ -153,12 +189,20 @@ std::vector<Algorithm> LessonPlayer::algorithms(std::size_t step) const {
 void LessonPlayer::tick() {
   const LessonStep& step = lesson().steps[step_];
   const bool userTookOver = !document_.isInLesson(position_, algorithms(step_));
+  const bool begins = animated_ && !begun_;
+  if (!userTookOver && (begins || position_ == step.until) && !document_.settled()) {
+    return;
+  }
+  if (!userTookOver && begins) {
+    begun_ = true;
+    emit movesBegin();
+  }
   if (!userTookOver && position_ < step.until) {
     playMoves();
   } else if (!userTookOver && step.candidate && propagation_.isOpen()) {
     playCandidates();
   } else {
-    end();
+    end(!userTookOver);
   }
 }
 
@@ -168,6 +212,7 @@ void LessonPlayer::playMoves() {
   }
   position_ = animated_ ? nextMove() : lesson().steps[step_].until;
   travel(position_);
+  noteDragged();
 }
 
 /// Returns the position after the next move of the handle, at most the end of the step.
@@ -193,7 +238,7 @@ void LessonPlayer::playCandidates() {
   propagation_.setStep(0, candidate_);
   clock_.setInterval(candidateMilliseconds);
   if (candidate_ == wanted) {
-    end();
+    end(true);
   }
 }
 
@@ -209,8 +254,12 @@ bool LessonPlayer::passesAreComplete() const {
   return true;
 }
 
-void LessonPlayer::end() {
+/// Ends the play of a step. `complete`: the object is as at the end of the step.
+void LessonPlayer::end(bool complete) {
   clock_.stop();
+  if (complete) {
+    emit movesEnd(animated_);
+  }
   emit playsChanged();
 }
 

@@ -44,6 +44,8 @@ class Overlay {
   virtual std::vector<Annotation> annotations(const View& /*view*/) const { return {}; }
   /// Returns a note for the head of a panel; may be empty.
   virtual QString note(int /*panel*/) const { return {}; }
+  /// True if the overlay shows a panel's object in the middle of its last pass. The figures are those after the pass.
+  virtual bool isInMidPass(int /*panel*/) const { return false; }
   /// Returns the legend of a panel whose object the overlay colours.
   virtual std::optional<OverlayLegend> legend(int /*panel*/) const { return std::nullopt; }
 };

@@ -104,9 +104,10 @@ void Panel::showStatistics() {
   } else {
     legend_->follow(colouring_, panel_);
   }
-  if (const Frame* frame = document_.frame(panel_)) {
-    update(frame->statistics);
-    head_->showState(states(frame->statistics).join(QStringLiteral(" · ")));
+  if (document_.frame(panel_) != nullptr) {
+    const Statistics& statistics = document_.statistics(panel_);
+    update(statistics);
+    head_->showState(states(statistics).join(QStringLiteral(" · ")));
   }
 }
 
@@ -126,11 +127,11 @@ void Panel::enlargeTexts(double factor) {
 
 /// Shows the sentence and the figures of the last pass. Uses a shorter text if the panel is narrow.
 void Panel::update(const Statistics& statistics) {
-  violation_->show(statistics, statistics.passes > 0 || document_.cuts().count() > 0);
+  violation_->show(statistics, statistics.passes > 0 || document_.cuts().count() > 0, view_->isInMidPass());
   const QString help = QStringLiteral(
       "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is "
       "the share of links above 1e-4 rest lengths.\nDuring a drag it covers the links that the pass touched, at "
-      "rest all links.");
+      "rest all links. While the Propagation dock shows a candidate, it is the violation after the whole pass.");
   statistics_->setToolTip(statistics.remark.empty() ? help : QString::fromStdString(statistics.remark));
   statistics_->setText(describe(statistics, false));
   violation_->setToolTip(QStringLiteral("<p>%1</p><p>%2</p><p>%3</p>")

@@ -213,7 +213,13 @@ void PanelArea::turnUp(Camera::Up up) {
   }
 }
 
+void PanelArea::fitWith(std::vector<QVector3D> reach) {
+  reach_ = std::move(reach);
+  frame(false);
+}
+
 void PanelArea::fitRest() {
+  reach_.clear();
   for (Panel* panel : byAspect()) {
     panel->view().fitRest();
   }
@@ -231,6 +237,7 @@ void PanelArea::frame(bool atRest) {
       const auto outline = panel->view().outline(atRest);
       auto& shared = outlines[panel->view().camera().get()];
       shared.insert(shared.end(), outline.begin(), outline.end());
+      shared.insert(shared.end(), reach_.begin(), reach_.end());
     }
   }
   for (Panel* panel : all) {
@@ -244,10 +251,17 @@ void PanelArea::frame(bool atRest) {
 /// Fits the views again after a resize or from another side, unless the user has panned or zoomed since. Does nothing
 /// during a drag, because the object must stay under the cursor.
 void PanelArea::fitAgain() {
-  const auto framed = [](Panel* panel) { return panel->view().camera()->framed(); };
-  if (!document_.highlight().grabbed && std::ranges::all_of(panels_, framed)) {
+  if (!document_.highlight().grabbed && fits()) {
     frame(fitsRest_);
   }
+}
+
+bool PanelArea::fits() const {
+  return std::ranges::all_of(panels_, [](Panel* panel) { return panel->view().camera()->framed(); });
+}
+
+bool PanelArea::showsAll() const {
+  return std::ranges::all_of(panels_, [](Panel* panel) { return panel->isHidden() || panel->view().showsAll(); });
 }
 
 void PanelArea::addOverlay(Overlay& overlay) {

@@ -46,7 +46,13 @@ class PanelArea : public QWidget {
   void setLecture(bool on);
   /// Shows all that is there now in every panel, from its current side. Panels with linked cameras show the objects of
   /// all of them.
-  void fit() { frame(false); }
+  void fit() { fitWith({}); }
+  /// Shows all that is there now, and these points (mesh units), which the object will reach soon.
+  void fitWith(std::vector<QVector3D> reach);
+  /// True if the user has neither panned nor zoomed since the views were fitted.
+  bool fits() const;
+  /// True if no panel shows a part of its object outside its view.
+  bool showsAll() const;
   /// Shows the whole rest shape in every panel, from the initial side.
   void fitRest();
 
@@ -101,6 +107,7 @@ class PanelArea : public QWidget {
   MeshPointer fitted_;  // Document::unsplitMesh() of the object that the cameras were fitted to
   Colouring& colouring_;
   PanelLinks links_;
+  std::vector<QVector3D> reach_;    // fitted views show these points, too (mesh units)
   std::shared_ptr<Camera> camera_;  // shared by all panels whose cameras are linked
   std::shared_ptr<MeshLevels> levels_;
   Look look_;

@@ -8,6 +8,7 @@
 #include <QOpenGLContext>
 #include <QOpenGLFramebufferObject>
 #include <QPainter>
+#include <QVector4D>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -138,6 +139,10 @@ QStringList View::notes() const {
     }
   }
   return notes;
+}
+
+bool View::isInMidPass() const {
+  return std::ranges::any_of(overlays_, [this](const Overlay* overlay) { return overlay->isInMidPass(panel_); });
 }
 
 std::optional<OverlayLegend> View::overlayLegend() const {
@@ -768,6 +773,14 @@ std::optional<QPointF> View::wayToObject() const {
   }
   return bounds.empty() ? QRectF(rect()).center()
                         : QPointF((bounds.left + bounds.right) / 2, (bounds.top + bounds.bottom) / 2);
+}
+
+bool View::showsAll() const {
+  const QMatrix4x4 toClip = camera_->toClip(size()) * camera_->toView();
+  return std::ranges::all_of(outline(false), [&](const QVector3D& point) {
+    const QVector4D at = toClip.map(QVector4D(point, 1));
+    return std::abs(at.x()) <= at.w() && std::abs(at.y()) <= at.w();
+  });
 }
 
 /// If the object is out of view, draws an arrow at the edge that points to it, and says how to see it.

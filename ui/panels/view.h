@@ -52,6 +52,8 @@ class View : public QOpenGLWidget {
   void addOverlay(Overlay& overlay) { overlays_.push_back(&overlay); }
   /// The notes of the overlays on this panel.
   QStringList notes() const;
+  /// True if an overlay shows the object in the middle of its last pass.
+  bool isInMidPass() const;
   /// The legend of the first overlay that has one for this panel.
   std::optional<OverlayLegend> overlayLegend() const;
   /// Sets the parts of the object that are drawn.
@@ -64,6 +66,8 @@ class View : public QOpenGLWidget {
   /// Looks through another camera and does not change that camera.
   void setCamera(std::shared_ptr<Camera> camera);
   const std::shared_ptr<Camera>& camera() const { return camera_; }
+  /// True if no part of the object is outside the view.
+  bool showsAll() const;
   /// Shows the whole rest shape from the initial side.
   void fitRest();
   /// Returns points that enclose what the view should show: the object now, or its rest shape (mesh units).

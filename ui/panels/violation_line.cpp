@@ -27,6 +27,12 @@ QString percentage(double share) {
                         : QStringLiteral("%1 %").arg(locale.toString(std::lround(percent)));
 }
 
+/// Says that a sentence is about the end of the pass.
+QString afterThePass(QString sentence) {
+  sentence[0] = sentence[0].toLower();
+  return QStringLiteral("After the pass: ") + sentence;
+}
+
 }  // namespace
 
 QString violationInWords(const Statistics& statistics, bool hasMoved) {
@@ -61,13 +67,21 @@ ViolationLine::ViolationLine() : sentence_(new QLabel) {
   followTheme(*this, [this] { update(); });
 }
 
-void ViolationLine::show(const Statistics& statistics, bool hasMoved) {
+void ViolationLine::show(const Statistics& statistics, bool hasMoved, bool inMidPass) {
+  const Violation& violation = statistics.violation;
+  share_ = hasMoved ? violation.fraction : 0;
   words_ = brief_ = violationInWords(statistics, hasMoved);
-  if (const Violation& violation = statistics.violation; statistics.remark.empty() && violation.fraction > 0) {
-    brief_ = QStringLiteral("%1 violated, worst %2 ×").arg(percentage(violation.fraction), rounded(violation.max));
+  const bool isViolated = statistics.remark.empty() && violation.fraction > 0;
+  if (isViolated) {
+    brief_ = QStringLiteral("%1 violated").arg(percentage(violation.fraction));
+    brief_ += inMidPass ? QString() : QStringLiteral(", worst %1 ×").arg(rounded(violation.max));
+  }
+  if (inMidPass) {
+    words_ = afterThePass(words_);
+    brief_ =
+        afterThePass(statistics.remark.empty() && violation.fraction == 0 ? QStringLiteral("none violated") : brief_);
   }
   fitWords();
-  share_ = hasMoved ? statistics.violation.fraction : 0;
   update();
 }
 

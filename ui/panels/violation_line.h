@@ -14,8 +14,8 @@ class ViolationLine : public QWidget {
  public:
   ViolationLine();
 
-  /// Shows the figures of the last pass.
-  void show(const Statistics& statistics, bool hasMoved);
+  /// Shows the figures of the last pass. `inMidPass`: the panel shows the object before the end of that pass.
+  void show(const Statistics& statistics, bool hasMoved, bool inMidPass);
   const QString& sentence() const { return words_; }
   /// Fraction of the violated links; negative while there is none to show.
   double share() const { return share_; }

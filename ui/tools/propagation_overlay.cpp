@@ -132,6 +132,11 @@ QString PropagationOverlay::note(int panel) const {
   return note;
 }
 
+bool PropagationOverlay::isInMidPass(int panel) const {
+  const PassPlayer* player = this->player(panel);
+  return player != nullptr && !propagation_.follows() && player->step() < player->stepCount();
+}
+
 void PropagationOverlay::draw(const Canvas& canvas) {
   const PassPlayer* player = this->player(canvas.panel);
   if (player == nullptr || player->pass().mesh != canvas.frame.mesh) {

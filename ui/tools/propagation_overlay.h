@@ -16,6 +16,7 @@ class PropagationOverlay : public Overlay {
   std::optional<ObjectDrawing::Paint> paint(int panel) const override;
   void draw(const Canvas& canvas) override;
   QString note(int panel) const override;
+  bool isInMidPass(int panel) const override;
   std::optional<OverlayLegend> legend(int panel) const override;
   /// The colour scale, which is the same for all panels: from the first step to the last step of the longest pass.
   ColourScale scale() const;

@@ -24,7 +24,7 @@ class HelpMenu : public QObject {
   bool welcome();
   void dismissHints() { hints_->hide(); }
   /// Returns the hints. The window places and owns them.
-  QWidget& hints() { return *hints_; }
+  Hints& hints() { return *hints_; }
 
  signals:
   /// The user asked for a lesson in the hints.

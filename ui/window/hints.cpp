@@ -64,14 +64,25 @@ Hints::Hints() {
     own.setColor(QPalette::Window, colours::infoGround);
     setPalette(own);
   });
-  hide();
+  QFrame::setVisible(false);
 }
 
 bool Hints::seen() { return QSettings().value(seenKey()).toBool(); }
 
 void Hints::present() {
   QSettings().setValue(seenKey(), true);
+  aside_ = false;
   show();
+}
+
+void Hints::setAside(bool aside) {
+  aside_ = aside;
+  setVisible(wanted_);
+}
+
+void Hints::setVisible(bool visible) {
+  wanted_ = visible;
+  QFrame::setVisible(visible && !aside_);
 }
 
 }  // namespace chainmail

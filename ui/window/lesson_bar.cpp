@@ -2,8 +2,8 @@
 
 #include <QAccessible>
 #include <QAction>
-#include <QGridLayout>
-#include <QToolButton>
+#include <QHBoxLayout>
+#include <algorithm>
 
 #include "common/colours.h"
 #include "common/icons.h"
@@ -30,15 +30,19 @@ QString shown(const std::string& text) { return QString::fromStdString(text); }
 
 }  // namespace
 
-LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& close)
+LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& following, QAction& close)
     : player_(player),
       backAction_(back),
       nextAction_(next),
+      followingAction_(following),
       title_(makeLabel("lessonTitle")),
       text_(makeLabel("lessonText")),
       step_(makeLabel("lessonStep")),
       back_(makeButton(QStringLiteral("Back"), "lessonBackButton", back)),
-      next_(makeButton(QStringLiteral("Next"), "lessonNextButton", next)) {
+      next_(makeButton(QStringLiteral("Next"), "lessonNextButton", next)),
+      following_(makeButton({}, "lessonFollowingButton", following)),
+      end_(makeButton(QStringLiteral("Close"), "lessonEndButton", close)),
+      leave_(new QToolButton) {
   setObjectName(QStringLiteral("lessonBar"));
   setAccessibleName(QStringLiteral("Lesson"));
   setFrameShape(QFrame::StyledPanel);
@@ -48,29 +52,19 @@ LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, Q
   title_->setFont(bold);
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   text_->setWordWrap(true);
-  auto* leave = new QToolButton;
-  leave->setObjectName(QStringLiteral("lessonCloseButton"));
-  leave->setIcon(icon("close"));
-  leave->setAutoRaise(true);
-  leave->setToolTip(QStringLiteral("Closes the lesson; the object stays as it is"));
-  leave->setAccessibleName(QStringLiteral("Close lesson"));
-  connect(leave, &QToolButton::clicked, &close, &QAction::trigger);
-  auto* grid = new QGridLayout(this);
-  grid->setContentsMargins(12, 6, 8, 6);
-  grid->setHorizontalSpacing(8);
-  grid->setColumnStretch(0, 1);
-  grid->addWidget(title_, 0, 0);
-  grid->addWidget(step_, 0, 1, 1, 2, Qt::AlignRight);
-  grid->addWidget(leave, 0, 3);
-  grid->addWidget(text_, 1, 0);
-  grid->addWidget(back_, 1, 1, Qt::AlignBottom);
-  grid->addWidget(next_, 1, 2, Qt::AlignBottom);
-  connect(&player, &LessonPlayer::openChanged, this, &LessonBar::refresh);
-  connect(&player, &LessonPlayer::stepChanged, this, &LessonBar::refresh);
-  connect(&player, &LessonPlayer::playsChanged, this, &LessonBar::refresh);
-  for (const QAction* action : {&back, &next}) {
-    connect(action, &QAction::changed, this, &LessonBar::showKeys);
+  text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  leave_->setObjectName(QStringLiteral("lessonCloseButton"));
+  leave_->setIcon(icon("close"));
+  leave_->setAutoRaise(true);
+  leave_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Ignored);  // as high as the buttons that replace it
+  leave_->setAccessibleName(QStringLiteral("Close lesson"));
+  connect(leave_, &QToolButton::clicked, &close, &QAction::trigger);
+  for (QWidget* button : {static_cast<QWidget*>(leave_), static_cast<QWidget*>(end_)}) {
+    button->setToolTip(QStringLiteral("Closes the lesson; the object stays as it is"));
   }
+  following_->setToolTip(QStringLiteral("Opens the next lesson"));
+  arrange();
+  listen();
   showKeys();
   hide();
   followTheme(*this, [this] {
@@ -78,6 +72,29 @@ LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, Q
     own.setColor(QPalette::Window, colours::infoGround);
     setPalette(own);
   });
+}
+
+/// The caption has the whole width in every step, so that its longest text decides on one height for the lesson.
+void LessonBar::arrange() {
+  auto* head = new QHBoxLayout;
+  head->addWidget(title_, 1);
+  for (QWidget* part : std::initializer_list<QWidget*>{step_, back_, next_, following_, end_, leave_}) {
+    head->addWidget(part);
+  }
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(12, 6, 8, 6);
+  column->setSpacing(4);
+  column->addLayout(head);
+  column->addWidget(text_);
+}
+
+void LessonBar::listen() {
+  connect(&player_, &LessonPlayer::openChanged, this, &LessonBar::refresh);
+  connect(&player_, &LessonPlayer::stepChanged, this, &LessonBar::refresh);
+  connect(&player_, &LessonPlayer::playsChanged, this, &LessonBar::refresh);
+  for (const QAction* action : {&backAction_, &nextAction_}) {
+    connect(action, &QAction::changed, this, &LessonBar::showKeys);
+  }
 }
 
 void LessonBar::showKeys() {
@@ -92,6 +109,34 @@ void LessonBar::showKeys() {
 void LessonBar::resizeEvent(QResizeEvent* event) {
   QFrame::resizeEvent(event);
   showTitle();
+  keepHeight();
+}
+
+/// Reserves the height of the longest caption of the lesson, so that the views keep their size from step to step.
+void LessonBar::keepHeight() {
+  if (!player_.isOpen()) {
+    return;
+  }
+  const QMargins margins = layout()->contentsMargins();
+  const QRect room(0, 0, contentsRect().width() - margins.left() - margins.right(), QWIDGETSIZE_MAX);
+  int height = 0;
+  for (const LessonStep& step : player_.lesson().steps) {
+    const QRect used = text_->fontMetrics().boundingRect(room, Qt::TextWordWrap, shown(step.text));
+    height = std::max(height, used.height());
+  }
+  text_->setFixedHeight(height);
+}
+
+/// At the end of the last step, the buttons lead on instead of to a next step.
+void LessonBar::showButtons() {
+  const bool ended = player_.isLast() && !player_.plays();
+  back_->setEnabled(backAction_.isEnabled());
+  next_->setEnabled(nextAction_.isEnabled());
+  next_->setVisible(!ended);
+  leave_->setVisible(!ended);
+  following_->setText(followingAction_.text());
+  following_->setVisible(ended && followingAction_.isEnabled());
+  end_->setVisible(ended);
 }
 
 /// Shows the titles of the lesson and of the step, or of the step alone where there is no room for both.
@@ -114,10 +159,11 @@ void LessonBar::refresh() {
   const Lesson& lesson = player_.lesson();
   const LessonStep& step = lesson.steps[player_.step()];
   const QString caption = shown(step.text);
-  showTitle();
   step_->setText(QStringLiteral("Step %1 of %2").arg(player_.step() + 1).arg(lesson.steps.size()));
-  back_->setEnabled(backAction_.isEnabled());
-  next_->setEnabled(nextAction_.isEnabled());
+  showButtons();
+  layout()->activate();  // gives the title its width
+  showTitle();
+  keepHeight();
   if (text_->text() != caption) {
     text_->setText(caption);
     QAccessibleEvent alert(this, QAccessible::Alert);

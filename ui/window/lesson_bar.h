@@ -3,6 +3,7 @@
 #include <QFrame>
 #include <QLabel>
 #include <QPushButton>
+#include <QToolButton>
 
 #include "document/lesson_player.h"
 
@@ -10,26 +11,32 @@ class QAction;
 
 namespace chainmail {
 
-/// The bar of an open lesson, below the panels: title, caption, number of the step, Back, Next and Close.
+/// The bar of an open lesson, below the panels: title, caption, number of the step, Back, Next and Close. At the
+/// end, Next gives way to the name of the next lesson.
 class LessonBar : public QFrame {
   Q_OBJECT
 
  public:
   /// The buttons trigger the actions.
-  LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& close);
+  LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& following, QAction& close);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
 
  private:
   void refresh();
+  void arrange();
+  void listen();
   void showTitle();
+  void showButtons();
+  void keepHeight();
   void showKeys();
 
   const LessonPlayer& player_;
-  QAction &backAction_, &nextAction_;
+  QAction &backAction_, &nextAction_, &followingAction_;
   QLabel *title_, *text_, *step_;
-  QPushButton *back_, *next_;
+  QPushButton *back_, *next_, *following_, *end_;
+  QToolButton* leave_;
 };
 
 }  // namespace chainmail

@@ -5,12 +5,16 @@
 #include <QMenu>
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <utility>
 
 #include "common/icons.h"
 #include "common/text.h"
+#include "drawing/camera.h"
 #include "files/session/session.h"
 #include "io/samples.h"
 #include "io/sessions.h"
+#include "panels/panel_area.h"
 #include "window/docks.h"
 #include "window/lesson_bar.h"
 #include "window/main_window.h"
@@ -54,23 +58,31 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
                 QStringLiteral("Plays the next step of the lesson; during a step, goes to its end"))),
       back_(add("lessonBack", QStringLiteral("Step &back"), Qt::Key_PageUp,
                 QStringLiteral("Restores the end of the step before"))),
+      following_(add("lessonFollowing", QStringLiteral("Next l&esson"), {},
+                     QStringLiteral("Opens the lesson after the present one"))),
       close_(add("lessonClose", QStringLiteral("&Close lesson"), {},
                  QStringLiteral("Closes the lesson; the object stays as it is"))),
+      handle_(player_),
       bar_(nullptr) {
   next_->setIcon(icon("stepForward"));
   back_->setIcon(icon("stepBack"));
   close_->setIcon(icon("close"));
   connect(next_, &QAction::triggered, &player_, &LessonPlayer::next);
   connect(back_, &QAction::triggered, &player_, &LessonPlayer::back);
+  connect(following_, &QAction::triggered, this, &Lessons::openFollowing);
   connect(close_, &QAction::triggered, &player_, &LessonPlayer::close);
   // In this order: the bar reads the actions.
   for (const auto change : {&LessonPlayer::openChanged, &LessonPlayer::stepChanged, &LessonPlayer::playsChanged}) {
     connect(&player_, change, this, &Lessons::adapt);
   }
-  bar_ = new LessonBar(player_, *back_, *next_, *close_);
+  bar_ = new LessonBar(player_, *back_, *next_, *following_, *close_);
   connect(&player_, &LessonPlayer::openChanged, this, &Lessons::leave);
   connect(&sessions, &Sessions::opened, this, &Lessons::start);
   connect(&player_, &LessonPlayer::stepChanged, this, &Lessons::showStep);
+  connect(&player_, &LessonPlayer::movesBegin, this, &Lessons::fitBefore);
+  connect(&player_, &LessonPlayer::movesEnd, this, &Lessons::fitAfter);
+  connect(&player_, &LessonPlayer::playsChanged, &window.area(), &PanelArea::refresh);
+  window.area().addOverlay(handle_);
   adapt();
 }
 
@@ -93,10 +105,25 @@ void Lessons::fill(QMenu& menu) {
     connect(action, &QAction::triggered, this, [this, &lesson] { open(lesson.file); });
   }
   lessons->addSeparator();
-  lessons->addActions({next_, back_, close_});
+  lessons->addActions({next_, back_, following_, close_});
 }
 
 void Lessons::openFirst() { open(lessonFiles().front().file); }
+
+/// Returns the bundled lesson after the present one; null if there is none.
+const LessonFile* Lessons::following() const {
+  const auto files = lessonFiles();
+  const auto isPresent = [this](const LessonFile& one) { return player_.lesson().title == one.title; };
+  const auto present = std::ranges::find_if(files, isPresent);
+  return !player_.isOpen() || present == files.end() || std::next(present) == files.end() ? nullptr
+                                                                                          : &*std::next(present);
+}
+
+void Lessons::openFollowing() {
+  if (const LessonFile* next = following()) {
+    open(next->file);
+  }
+}
 
 void Lessons::open(const char* file) {
   const QString folder = lessonsFolder();
@@ -112,6 +139,10 @@ void Lessons::adapt() {
   const bool open = player_.isOpen();
   next_->setEnabled(open && (!player_.isLast() || player_.plays()));
   back_->setEnabled(open && player_.step() > 0);
+  const LessonFile* next = following();
+  following_->setText(next != nullptr ? QStringLiteral("Next lesson: %1").arg(QString::fromUtf8(next->title))
+                                      : QStringLiteral("Next lesson"));
+  following_->setEnabled(next != nullptr);
   close_->setEnabled(open);
 }
 
@@ -122,16 +153,39 @@ void Lessons::start() {
   }
 }
 
-/// Hides the dock that the lesson has opened.
+/// When a lesson opens, hides the hints. When it closes, hides the dock that it has opened, and the next object has the
+/// colours that the user had chosen before.
 void Lessons::leave() {
-  if (!player_.isOpen()) {
-    chooseDock({});
+  emit openChanged(player_.isOpen());
+  if (player_.isOpen()) {
+    colourBefore_ = colourBefore_.value_or(window_.colouring().mode());
+    return;
+  }
+  chooseDock({});
+  if (!window_.document().lesson() && colourBefore_) {
+    window_.colouring().setMode(*std::exchange(colourBefore_, {}));
   }
 }
 
 // What the window shows at a step.
 
 QString Lessons::nameOf(std::string LessonStep::*which) const { return QString::fromStdString(player_.name(which)); }
+
+/// Before the moves of a step, the views make room for them, so that they need not jump meanwhile. They stay as they
+/// are if the user, or the session, has chosen a view.
+void Lessons::fitBefore() {
+  if (window_.area().fits()) {
+    std::vector<QVector3D> reach;
+    std::ranges::transform(player_.reach(), std::back_inserter(reach), asVector);
+    window_.area().fitWith(std::move(reach));
+  }
+}
+
+void Lessons::fitAfter(bool playedOneByOne) {
+  if (window_.area().fits() && !(playedOneByOne && window_.area().showsAll())) {
+    window_.area().fit();
+  }
+}
 
 void Lessons::showStep() {
   const QString colour = nameOf(&LessonStep::colour);

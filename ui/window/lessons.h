@@ -1,8 +1,11 @@
 #pragma once
 
 #include <QObject>
+#include <optional>
 
 #include "document/lesson_player.h"
+#include "panels/colouring.h"
+#include "tools/lesson_handle.h"
 
 class QAction;
 class QMenu;
@@ -12,6 +15,7 @@ namespace chainmail {
 class LessonBar;
 class MainWindow;
 class Sessions;
+struct LessonFile;
 
 /// The lessons of a window: the menu that opens them, their bar, and what the window shows at each step.
 class Lessons : public QObject {
@@ -28,13 +32,21 @@ class Lessons : public QObject {
   /// Opens the first lesson.
   void openFirst();
 
+ signals:
+  /// A lesson was opened or closed.
+  void openChanged(bool open);
+
  private:
   void open(const char* file);
+  void openFollowing();
+  const LessonFile* following() const;
   QAction* add(const char* name, const QString& text, const QKeySequence& key, const QString& help);
   void start();
   void leave();
   void adapt();
   void showStep();
+  void fitBefore();
+  void fitAfter(bool playedOneByOne);
   void warnOfUnknownNames();
   QString nameOf(std::string LessonStep::*which) const;
   void chooseDock(const QString& name);
@@ -43,9 +55,11 @@ class Lessons : public QObject {
 
   MainWindow& window_;
   LessonPlayer player_;
-  QAction *next_, *back_, *close_;
+  QAction *next_, *back_, *following_, *close_;
+  LessonHandle handle_;
   LessonBar* bar_;
-  QString dock_;  // name of the dock that the lesson has opened
+  QString dock_;                            // name of the dock that the lesson has opened
+  std::optional<ColourMode> colourBefore_;  // what coloured the object before the lesson
 };
 
 }  // namespace chainmail

@@ -177,6 +177,7 @@ void MainWindow::listen() {
     setWindowModified(document_.isModified());
   });
   connect(help_, &HelpMenu::lessonRequested, lessons_, &Lessons::openFirst);
+  connect(lessons_, &Lessons::openChanged, &help_->hints(), &Hints::setAside);
 }
 
 void MainWindow::listenToFiles() {
