@@ -149,10 +149,16 @@ void PanelHead::showState(const QString& state) {
   fitState();
 }
 
-/// Shortens the state only as far as the room requires. Less than a word is not shown.
+/// Shortens the state only as far as the room requires, to whole words.
 void PanelHead::fitState() {
-  const QString fitting = state_->fontMetrics().elidedText(state_->toolTip(), Qt::ElideRight, state_->width());
-  state_->setText(fitting == state_->toolTip() || fitting.contains(QLatin1Char(' ')) ? fitting : QString());
+  const QString state = state_->toolTip();
+  QString fitting = state_->fontMetrics().elidedText(state, Qt::ElideRight, state_->width());
+  if (fitting != state) {
+    fitting.truncate(std::max(0, int(fitting.lastIndexOf(QLatin1Char(' ')))));
+    const bool says = std::ranges::any_of(fitting, [](QChar one) { return one.isLetter(); });
+    fitting = says ? fitting + QStringLiteral(" …") : QString();
+  }
+  state_->setText(fitting);
 }
 
 bool PanelHead::eventFilter(QObject* watched, QEvent* event) {

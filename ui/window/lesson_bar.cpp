@@ -40,7 +40,7 @@ LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, Q
       step_(makeLabel("lessonStep")),
       back_(makeButton(QStringLiteral("Back"), "lessonBackButton", back)),
       next_(makeButton(QStringLiteral("Next"), "lessonNextButton", next)),
-      following_(makeButton({}, "lessonFollowingButton", following)),
+      following_(makeButton(QStringLiteral("Next lesson"), "lessonFollowingButton", following)),
       end_(makeButton(QStringLiteral("Close"), "lessonEndButton", close)),
       leave_(new QToolButton) {
   setObjectName(QStringLiteral("lessonBar"));

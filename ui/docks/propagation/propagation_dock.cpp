@@ -1,6 +1,7 @@
 #include "docks/propagation/propagation_dock.h"
 
 #include <QAction>
+#include <QEvent>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>

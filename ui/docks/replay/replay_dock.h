@@ -72,7 +72,7 @@ class ReplayDock : public QDockWidget {
   QWidget* filmBar_;
   QProgressBar* filmed_;
   QTimer playing_;
-  MeshPointer played_;  // Document::unsplitMesh() of the moves
+  MeshPointer played_;                 // Document::unsplitMesh() of the moves
   QTimer refresh_;                     // limits the rate of updates while commands are recorded
   std::optional<std::size_t> wanted_;  // position to go to once the solvers are idle
 };
