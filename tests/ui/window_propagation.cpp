@@ -183,8 +183,8 @@ class WindowPropagation : public QObject {
     bench.trigger("showPropagation");
     openAndDrag(bench);
     bench.trigger("passFirst");
-    QVERIFY(bench.find<QLabel>("propagationState1")->text().contains(QStringLiteral("no waiting list")));
-    QCOMPARE(cell(bench, 1, 1, 2), QStringLiteral("to come"));
+    QTRY_VERIFY(bench.find<QLabel>("propagationState1")->text().contains(QStringLiteral("no waiting list")));
+    QTRY_COMPARE(cell(bench, 1, 1, 2), QStringLiteral("to come"));
   }
 
   void elementsAreColouredByOrderOfUpdate() {
