@@ -66,6 +66,11 @@ void add_contest(CLI::App& app, CompareArguments& options) {
 void add_physics(CLI::App& app, CompareArguments& options) {
   options.pins = add_pins(app);
   options.elastic = add_elastic(app);
+  options.laws = add_strain_laws(app);
+  options.reference =
+      add_value(app, "--reference", "same-cells|refined",
+                "cells of the reference solution; refined: handles are patches, and the cells are refined until the "
+                "answer changes by less than 2 % [same-cells]");
   options.grow = add_value(app, "--grow", "SECONDS",
                            "time that each contestant may use on a growing bar and a growing sheet; 0: off [1]");
   options.calibrated =
@@ -73,6 +78,10 @@ void add_physics(CLI::App& app, CompareArguments& options) {
                 "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 sweeps [on]");
   for (CLI::Option* option : {options.pins, options.grow, options.calibrated, options.elastic.young,
                               options.elastic.poisson, options.elastic.lattice}) {
+    option->group("Against physics");
+  }
+  for (CLI::Option* option :
+       {options.reference, options.laws.materials, options.laws.gent_limit, options.laws.fung_exponent}) {
     option->group("Against physics");
   }
 }

@@ -15,7 +15,8 @@ struct CompareArguments {
   SoftnessArguments softness;
   CLI::Option *preset = nullptr, *moves = nullptr;
   ElasticArguments elastic;
-  CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr;
+  StrainLawArguments laws;
+  CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr, *reference = nullptr;
 };
 CompareArguments add_compare_arguments(CLI::App& app);
 

@@ -31,6 +31,11 @@ report::PhysicsOptions physics_options(const CompareArguments& arguments) {
   if (calibrated == "on") {
     options.calibrate = calibrator_for_reports(options.contest.scheme);
   }
+  const std::string reference = value_of(arguments.reference).value_or("same-cells");
+  check_word("--reference", reference, {"same-cells", "refined"});
+  if (reference == "refined") {
+    options.refine = ConvergingOptions();
+  }
   if (const auto seconds = value_of(arguments.grow)) {
     options.growth_seconds = parse_number_of("--grow", *seconds);
     if (options.growth_seconds < 0) {
@@ -63,6 +68,21 @@ std::vector<report::Case> physics_cases(const CompareArguments& arguments) {
   return cases;
 }
 
+/// Returns each case with each material of the reference solution. Names say the material, except neo-Hookean alone.
+std::vector<report::Case> with_materials(const std::vector<report::Case>& cases, const std::vector<StrainLaw>& laws) {
+  std::vector<report::Case> all;
+  for (const report::Case& object : cases) {
+    for (const StrainLaw& law : laws) {
+      all.push_back(object);
+      all.back().law = law;
+      if (laws.size() > 1 || law.kind != StrainLaw::Kind::neo_hookean) {
+        all.back().name += ", " + label(law);
+      }
+    }
+  }
+  return all;
+}
+
 void add_plots(Outputs& outputs, const std::filesystem::path& folder, const report::PhysicsReport& report) {
   const auto add = [&](const std::string& name, const report::Plot& plot) {
     outputs.add(folder / (name + ".svg"), [plot](std::ostream& out) { write_svg(out, plot, ink); });
@@ -85,7 +105,14 @@ void add_plots(Outputs& outputs, const std::filesystem::path& folder, const repo
 void compare_with_physics(const CompareArguments& arguments, const std::string& command_line) {
   const report::PhysicsOptions options = physics_options(arguments);
   OutputFolder folder(*value_of(arguments.output));
-  const std::vector<report::Case> cases = physics_cases(arguments);
+  const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, elastic_of(arguments.elastic).material);
+  std::vector<report::Case> objects = physics_cases(arguments);
+  if (options.refine) {
+    for (report::Case& object : objects) {
+      object.drags = report::physics_drags(object, true, report::patch_share);
+    }
+  }
+  const std::vector<report::Case> cases = with_materials(objects, laws);
   ProgressLine line;
   const report::PhysicsReport report = report::compare_with_physics(
       cases, options,

@@ -15,6 +15,14 @@ ElasticArguments add_material(CLI::App& app);
 /// Throws Error, with the option, if a value is out of range.
 ElasticOptions elastic_of(const ElasticArguments& arguments);
 
+/// The options for the material of the reference solution.
+struct StrainLawArguments {
+  CLI::Option *materials = nullptr, *gent_limit = nullptr, *fung_exponent = nullptr;
+};
+StrainLawArguments add_strain_laws(CLI::App& app);
+/// Returns the laws to compare with; neo-Hookean if none is named. Throws Error, with the option.
+std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const Material& material);
+
 /// Returns the elements of `boundary` or of a layer, like `bottom`; nothing for any other word. Throws Error, with the
 /// option, if the object has no boundary or layer with this name.
 std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, const std::string& word, const Mesh& mesh);

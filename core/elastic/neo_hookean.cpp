@@ -6,6 +6,7 @@
 #include "elastic/elimination.h"
 #include "elastic/methods.h"
 #include "elastic/newton.h"
+#include "elastic/stiffening.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -21,12 +22,13 @@ std::string percent(double share) {
   return text.data();
 }
 
-/// Finite deformations on linear elements: Newton's method with a line search. The handle's displacement is applied in
-/// load steps.
+/// Finite deformations on linear elements, of a neo-Hookean material or one that stiffens: Newton's method with a line
+/// search. The handle's displacement is applied in load steps.
 class NeoHookean final : public ElasticSolver {
  public:
   NeoHookean(const ElasticProblem& problem, const Progress& progress)
-      : dimension_(static_cast<std::size_t>(problem.mesh->space_dimension)),
+      : model_(model_of(problem.law)),
+        dimension_(static_cast<std::size_t>(problem.mesh->space_dimension)),
         elements_(problem.mesh->element_count()),
         pins_(problem.pins),
         pinned_(problem.pinned),
@@ -35,8 +37,9 @@ class NeoHookean final : public ElasticSolver {
         lame_(lame(problem.options.material)),
         base_(problem.mesh->rest.size(), 0.0) {
     check_held(simplices_, *problem.mesh, problem.pins);
+    check(problem.law, problem.options.material);
     if (std::ranges::any_of(pinned_, [](double one) { return one != 0; })) {
-      Newton newton(simplices_, lame_, elements_, order_, pins_);
+      Newton newton(simplices_, lame_, elements_, order_, pins_, model_);
       const std::string stuck = carry(newton, pins_, pinned_, base_, progress.part(0.1, 1));
       if (!stuck.empty()) {
         throw Error("neo-Hookean FEM", "with the pins at their positions, " + stuck, "reset the object, then pin it");
@@ -49,7 +52,7 @@ class NeoHookean final : public ElasticSolver {
     if (!newton_ || handle.elements != handle_.elements) {
       std::vector<ElementId> prescribed = pins_;
       prescribed.insert(prescribed.end(), handle.elements.begin(), handle.elements.end());
-      newton_ = std::make_unique<Newton>(simplices_, lame_, elements_, order_, prescribed);
+      newton_ = std::make_unique<Newton>(simplices_, lame_, elements_, order_, prescribed, model_);
     }
     handle_ = handle;
   }
@@ -117,6 +120,7 @@ class NeoHookean final : public ElasticSolver {
     return {};
   }
 
+  SimplexModel model_;
   std::size_t dimension_;
   ElementId elements_;
   std::vector<ElementId> pins_;

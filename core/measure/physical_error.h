@@ -14,7 +14,8 @@ inline constexpr double counts_as_moving = 0.01;
 /// Distance of the elements from the reference solution. Euclidean over the axes, in double.
 struct PhysicalError {
   /// RMS of the error divided by RMS of the reference's displacements, over all elements. About 1 for an object that
-  /// does not move: a method with a larger error is worse than no method.
+  /// does not move: a method with a larger error is worse than no method. With a reference for free elements alone,
+  /// over those; then it is exactly 1.
   double relative = 0;
   // Errors divided by the handle's displacement. They look small because most elements of the reference move little.
   double rms = 0, max = 0;                // over all elements, including the handle and the pins

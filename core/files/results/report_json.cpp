@@ -157,8 +157,24 @@ Json to_json(const report::PhysicsEntry& entry) {
   return json;
 }
 
+/// Returns null if the reference was computed on the object's own cells.
+Json refined_of(const std::optional<ConvergedReference>& reference) {
+  if (!reference) {
+    return {};
+  }
+  Json levels = Json::array();
+  for (const ReferenceLevel& level : reference->levels) {
+    levels.push_back({{"elements", level.elements}, {"change", level.change ? Json(*level.change) : Json()}});
+  }
+  return {{"levels", std::move(levels)},
+          {"order", reference->order ? Json(*reference->order) : Json()},
+          {"converged", reference->converged},
+          {"end", reference->end}};
+}
+
 Json to_json(const report::PhysicsDrag& drag) {
   return {{"name", drag.name},
+          {"refined_reference", refined_of(drag.refined)},
           {"description", drag.description},
           {"handle", drag.handle},
           {"moves", drag.moves},
@@ -182,14 +198,22 @@ Json to_json(const report::Calibration& calibration) {
   return json;
 }
 
+/// Returns the material of a reference solution, with the parameter of its law.
+Json material_of(const StrainLaw& law) {
+  Json json{{"law", name(law.kind)}};
+  if (law.kind == StrainLaw::Kind::gent) {
+    json["gent_limit"] = law.gent_limit;
+  } else if (law.kind == StrainLaw::Kind::fung) {
+    json["fung_exponent"] = law.fung_exponent;
+  }
+  return json;
+}
+
 Json to_json(const report::PhysicsObject& object) {
-  return {{"name", object.name},
-          {"description", object.description},
-          {"elements", object.elements},
-          {"links", object.links},
-          {"pins", object.pins},
-          {"drags", all_of(object.drags)},
-          {"calibrations", all_of(object.calibrations)}};
+  return {{"name", object.name},           {"description", object.description},
+          {"elements", object.elements},   {"links", object.links},
+          {"pins", object.pins},           {"material", material_of(object.law)},
+          {"drags", all_of(object.drags)}, {"calibrations", all_of(object.calibrations)}};
 }
 
 Json to_json(const report::GrowthSeries& series) {

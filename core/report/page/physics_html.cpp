@@ -52,7 +52,11 @@ void write_growths(std::ostream& out, const PhysicsReport& report) {
 
 void write_html(std::ostream& out, const PhysicsReport& report, const Origin& origin) {
   begin_page(out, "ChainMail against physics", origin);
-  out << how_to_read_physics << "<h2>Time against error</h2>\n";
+  out << how_to_read_physics;
+  if (has_refined(report)) {
+    out << "<p>" << escaped(how_to_read_refined) << "</p>\n";
+  }
+  out << "<h2>Time against error</h2>\n";
   if (report.objects.size() > 1) {
     out << "<h3>All objects, means of their drags</h3>\n";
     write_figure(out, physics_overview(report));

@@ -152,6 +152,59 @@ std::string what_happens(const PhysicsDrag& drag) {
   return drag.description.starts_with(handle) ? drag.description.substr(handle.size()) : drag.description;
 }
 
+/// Returns the elements of each level, as on the first of the drags, and the largest change on that level.
+std::string about_levels(const std::vector<const ConvergedReference*>& references) {
+  std::string text;
+  for (std::size_t level = 0;; ++level) {
+    std::uint64_t elements = 0;
+    double change = 0;
+    for (const ConvergedReference* one : references) {
+      if (level < one->levels.size()) {
+        elements = elements == 0 ? one->levels[level].elements : elements;
+        change = std::max(change, one->levels[level].change.value_or(0));
+      }
+    }
+    if (elements == 0) {
+      return text;
+    }
+    text += (level == 0 ? "" : ", ") + thousands(elements) + (level == 0 ? "" : " (" + percent(change) + ")");
+  }
+}
+
+std::string about_orders(const std::vector<const ConvergedReference*>& references) {
+  std::vector<double> orders;
+  for (const ConvergedReference* one : references) {
+    if (one->order) {
+      orders.push_back(*one->order);
+    }
+  }
+  if (orders.empty()) {
+    return {};
+  }
+  const auto [low, high] = std::ranges::minmax(orders);
+  return "; observed order " + figure(low) + " to " + figure(high);
+}
+
+/// Returns the levels of the references on refined cells; empty if there are none.
+std::string about_refined(const PhysicsObject& object) {
+  std::vector<const ConvergedReference*> references;
+  std::string end;
+  for (const PhysicsDrag& drag : object.drags) {
+    if (drag.refined) {
+      references.push_back(&*drag.refined);
+      end = drag.refined->converged ? end : drag.refined->end;
+    }
+  }
+  if (references.empty()) {
+    return {};
+  }
+  const auto converged = std::ranges::count(references, true, &ConvergedReference::converged);
+  return "; elements of the reference on refined cells (largest change from the level before): " +
+         about_levels(references) + "; below " + percent(converged_change) + " in " + std::to_string(converged) +
+         " of " + std::to_string(references.size()) + " drags" +
+         (end.empty() ? "" : ", in others not, because " + end) + about_orders(references);
+}
+
 std::string about(const PhysicsObject& object) {
   std::vector<ElementId> handles;
   std::vector<std::string> names;
@@ -173,7 +226,10 @@ std::string about(const PhysicsObject& object) {
   for (const ElementId handle : handles) {
     text += (handle == handles.front() ? "" : ", ") + std::to_string(handle);
   }
-  text += drags + left_out;
+  text += drags + left_out + about_refined(object);
+  if (object.law.kind != StrainLaw::Kind::neo_hookean) {
+    text += "; reference: " + label(object.law);
+  }
   for (const Calibration& calibration : object.calibrations) {
     text += "; " + about(calibration);
   }
@@ -183,7 +239,8 @@ std::string about(const PhysicsObject& object) {
 constexpr const char* how_to_read_text =
     "Relative error: RMS of the error over RMS of the reference's displacements, over all elements; means over the\n"
     "handles of an object. An object that does not move has about 1: a larger error is no better than no method.\n"
-    "The reference is neo-Hookean FEM, converged on the same cells as linear FEM, not under refinement of the mesh;\n"
+    "The reference is neo-Hookean FEM, converged on the same cells as linear FEM, not under "
+    "refinement of the mesh;\n"
     "BEM works on its own surface mesh. Times are medians in ms, means over the drags: the first move of a drag, a\n"
     "later move, and the move after a cut with all repeated preparation. Preparation: factorizing is done once for an\n"
     "object, its pins and its cuts; grabbing is done once for each handle.\n";
@@ -291,8 +348,17 @@ FigureTable growth_table(const PhysicsGrowth& growth) {
   return table;
 }
 
+bool has_refined(const PhysicsReport& report) {
+  return std::ranges::any_of(report.objects, [](const PhysicsObject& object) {
+    return std::ranges::any_of(object.drags, [](const PhysicsDrag& drag) { return drag.refined.has_value(); });
+  });
+}
+
 void write_text(std::ostream& out, const PhysicsReport& report) {
   out << how_to_read_text;
+  if (has_refined(report)) {
+    out << how_to_read_refined << '\n';
+  }
   if (report.objects.size() > 1) {
     write_table(out, physics_summary(report));
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "measure/converging_reference.h"
 #include "measure/physical_error.h"
 #include "report/run/compare.h"
 #include "report/run/growth.h"
@@ -24,6 +25,7 @@ struct PhysicsOptions {
   /// Options of the contest. If its list of algorithms is empty, all take part. Its sweeps apply to the ChainMail
   /// family.
   CompareOptions contest;
+  std::optional<ConvergingOptions> refine;  // the reference is computed on refined cells; the handles must be patches
   double growth_seconds = 1;  // time budget per contestant and kind of growing object; 0: growth is not measured
   Calibrator calibrate;       // finds the softness of the calibrated contestants; empty: no contestant is calibrated
 };
@@ -59,6 +61,7 @@ struct PhysicsDrag {
   double handle_displacement = 0;     // mesh units
   std::vector<PhysicsEntry> entries;  // all contestants, in the same order for all drags; none without a reference
   std::string no_reference;           // reason why there is no reference solution; empty if there is one
+  std::optional<ConvergedReference> refined = {};  // its levels, if it was computed on refined cells
 };
 
 struct PhysicsObject {
@@ -66,6 +69,7 @@ struct PhysicsObject {
   std::uint64_t elements = 0, links = 0, pins = 0;
   std::vector<PhysicsDrag> drags;
   std::vector<Calibration> calibrations;
+  StrainLaw law;  // of the reference solution
 };
 
 /// Figures of a contestant at one size.
