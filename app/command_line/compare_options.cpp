@@ -77,7 +77,7 @@ void add_physics(CLI::App& app, CompareArguments& options) {
       add_value(app, "--calibrated", "on|off",
                 "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 sweeps [on]");
   for (CLI::Option* option : {options.pins, options.grow, options.calibrated, options.elastic.young,
-                              options.elastic.poisson, options.elastic.lattice}) {
+                              options.elastic.poisson, options.elastic.lattice, options.elastic.iterations}) {
     option->group("Against physics");
   }
   for (CLI::Option* option :

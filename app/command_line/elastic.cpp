@@ -29,15 +29,25 @@ std::array<std::uint32_t, 3> lattice_of(const std::string& text) {
   return counts;
 }
 
+std::uint32_t iterations_of(const std::string& text) {
+  const auto count = parse_count(text);
+  if (!count) {
+    throw Error("--iterations", in_quotes(text) + " is not a number of iterations",
+                "use " + range_of(parameters::iterations));
+  }
+  return *count;
+}
+
 }  // namespace
 
 ElasticArguments add_material(CLI::App& app) {
-  return {add_parameter(app, parameters::young), add_parameter(app, parameters::poisson), nullptr};
+  return {add_parameter(app, parameters::young), add_parameter(app, parameters::poisson), nullptr, nullptr};
 }
 
 ElasticArguments add_elastic(CLI::App& app) {
   ElasticArguments arguments = add_material(app);
   arguments.lattice = add_value(app, "--lattice", "N|NxN[xN]", help_of(parameters::lattice));
+  arguments.iterations = add_parameter(app, parameters::iterations);
   return arguments;
 }
 
@@ -52,7 +62,11 @@ ElasticOptions elastic_of(const ElasticArguments& arguments) {
   if (const auto lattice = arguments.lattice == nullptr ? std::nullopt : value_of(arguments.lattice)) {
     options.lattice = lattice_of(*lattice);
   }
-  in_options({{"young", "--young"}, {"poisson", "--poisson"}, {"lattice", "--lattice"}}, [&] { check(options); });
+  if (const auto iterations = arguments.iterations == nullptr ? std::nullopt : value_of(arguments.iterations)) {
+    options.iterations = iterations_of(*iterations);
+  }
+  in_options({{"young", "--young"}, {"poisson", "--poisson"}, {"lattice", "--lattice"}, {"iterations", "--iterations"}},
+             [&] { check(options); });
   return options;
 }
 

@@ -7,7 +7,7 @@ namespace chainmail::command_line {
 
 /// The options for methods of elasticity and free-form deformation.
 struct ElasticArguments {
-  CLI::Option *young = nullptr, *poisson = nullptr, *lattice = nullptr;
+  CLI::Option *young = nullptr, *poisson = nullptr, *lattice = nullptr, *iterations = nullptr;
 };
 ElasticArguments add_elastic(CLI::App& app);
 /// Adds only the options of the material.

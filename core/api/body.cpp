@@ -22,7 +22,8 @@ static_assert(Elasticity().young == parameters::young.standard &&
               Elasticity().poisson == parameters::poisson.standard &&
               Elasticity().control_points[0] == ElasticOptions::control_points &&
               Elasticity().control_points[1] == ElasticOptions::control_points &&
-              Elasticity().control_points[2] == ElasticOptions::control_points);
+              Elasticity().control_points[2] == ElasticOptions::control_points &&
+              Elasticity().iterations == parameters::iterations.standard);
 
 namespace {
 
@@ -233,14 +234,15 @@ void Body::set_energy(EnergyKind kind) {
 EnergyKind Body::energy() const { return energy_of(inside_->body().softness().energy); }
 
 void Body::set_elasticity(const Elasticity& elasticity) {
-  const ElasticOptions options{{elasticity.young, elasticity.poisson}, elasticity.control_points};
+  const ElasticOptions options{
+      {elasticity.young, elasticity.poisson}, elasticity.control_points, elasticity.iterations};
   guarded([&] { inner::check(options); });
   inside_->body().set_elastic(options);
 }
 
 Elasticity Body::elasticity() const {
   const ElasticOptions& options = inside_->body().elastic();
-  return {options.material.young, options.material.poisson, options.lattice};
+  return {options.material.young, options.material.poisson, options.lattice, options.iterations};
 }
 
 }  // namespace chainmail::api

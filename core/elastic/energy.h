@@ -40,7 +40,7 @@ enum class Want { energy, gradient, hessian, convex };
 SimplexEnergy neo_hookean(const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at,
                           const Lame& lame, Want want);
 
-/// The energy of a material: that of neo_hookean, for example.
+/// The energy of a material: neo_hookean or corotated, for example.
 using SimplexModel = std::function<SimplexEnergy(const Simplices& simplices, std::size_t simplex,
                                                  const CornerDisplacements& at, const Lame& lame, Want want)>;
 

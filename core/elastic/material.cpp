@@ -22,6 +22,7 @@ void check(const ElasticOptions& options) {
   for (const std::uint32_t count : options.lattice) {
     check(parameters::lattice, count);
   }
+  check(parameters::iterations, options.iterations);
 }
 
 std::string name(StrainLaw::Kind kind) {

@@ -23,6 +23,8 @@ struct ElasticOptions {
   Material material;
   /// Control points along each axis. Fewer than 2 span nothing, and each one costs time for every element.
   std::array<std::uint32_t, 3> lattice{control_points, control_points, control_points};
+  /// Most iterations of XPBD and Projective Dynamics for one move.
+  std::uint32_t iterations = static_cast<std::uint32_t>(parameters::iterations.standard);
 
   bool operator==(const ElasticOptions&) const = default;
 };

@@ -178,6 +178,17 @@ inline constexpr Parameter lattice{.name = "lattice",
                                    .step = 1,
                                    .decimals = 0,
                                    .help = "control points of free-form deformation along each axis"};
+inline constexpr Parameter iterations{
+    .name = "iterations",
+    .label = "Iterations",
+    .unit = "per move, at most",
+    .standard = 2000,
+    .lowest = 1,
+    .highest = 100'000,
+    .slider_highest = 10'000,
+    .step = 100,
+    .decimals = 0,
+    .help = "most iterations of XPBD and Projective Dynamics for one move: they stop earlier if they converge"};
 
 }  // namespace parameters
 

@@ -288,6 +288,7 @@ void write_json(std::ostream& out, const report::PhysicsReport& report, const re
   options["young"] = report.elastic.material.young;
   options["poisson"] = report.elastic.material.poisson;
   options["lattice"] = report.elastic.lattice;
+  options["iterations"] = report.elastic.iterations;
   options["growth_seconds"] = report.options.growth_seconds;
   write_report(out, {{"origin", to_json(origin)},
                      {"options", std::move(options)},

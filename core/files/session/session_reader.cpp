@@ -162,7 +162,7 @@ void SessionReader::take_elastic() {
   }
   const Json& object = fields_.object(tree_, "elastic");
   fields_.say_at(file_ + ": elastic");
-  fields_.check_keys(object, {"young", "poisson", "lattice"});
+  fields_.check_keys(object, {"young", "poisson", "lattice", "iterations"});
   ElasticOptions options;
   options.material = {fields_.number(fields_.member(object, "young")),
                       fields_.number(fields_.member(object, "poisson"))};
@@ -172,6 +172,11 @@ void SessionReader::take_elastic() {
   }
   for (std::size_t k = 0; k < lattice.size(); ++k) {
     options.lattice[k] = lattice[k].is_number_unsigned() && lattice[k] < Json(9U) ? lattice[k].get<std::uint32_t>() : 0;
+  }
+  if (object.contains("iterations")) {
+    const Json& iterations = object["iterations"];
+    const bool counts = iterations.is_number_unsigned() && iterations <= Json(parameters::iterations.highest);
+    options.iterations = counts ? iterations.get<std::uint32_t>() : 0;
   }
   try {
     check(options);

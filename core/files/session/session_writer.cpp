@@ -228,8 +228,9 @@ void SessionWriter::write_state() {
                                {"step", session_.relaxation.step}};
   out_ << ",\n\"relaxation\": " << relaxation.dump();
   if (session_.elastic != ElasticOptions()) {
-    const auto& [material, lattice] = session_.elastic;
-    const OrderedJson elastic{{"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}};
+    const auto& [material, lattice, iterations] = session_.elastic;
+    const OrderedJson elastic{
+        {"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}, {"iterations", iterations}};
     out_ << ",\n\"elastic\": " << elastic.dump();
   }
 }

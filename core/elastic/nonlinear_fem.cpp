@@ -3,9 +3,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "elastic/corotated.h"
 #include "elastic/elimination.h"
 #include "elastic/methods.h"
 #include "elastic/newton.h"
+#include "elastic/rigid_fit.h"
 #include "elastic/stiffening.h"
 #include "mesh/error.h"
 
@@ -22,12 +24,12 @@ std::string percent(double share) {
   return text.data();
 }
 
-/// Finite deformations on linear elements, of a neo-Hookean material or one that stiffens: Newton's method with a line
-/// search. The handle's displacement is applied in load steps.
-class NeoHookean final : public ElasticSolver {
+/// Finite deformations on linear elements, of a neo-Hookean or a corotated energy, or of a material that stiffens:
+/// Newton's method with a line search. The handle's displacement is applied in load steps.
+class NonlinearFem final : public ElasticSolver {
  public:
-  NeoHookean(const ElasticProblem& problem, const Progress& progress)
-      : model_(model_of(problem.law)),
+  NonlinearFem(const char* name, SimplexModel model, const ElasticProblem& problem, const Progress& progress)
+      : model_(std::move(model)),
         dimension_(static_cast<std::size_t>(problem.mesh->space_dimension)),
         elements_(problem.mesh->element_count()),
         pins_(problem.pins),
@@ -37,12 +39,12 @@ class NeoHookean final : public ElasticSolver {
         lame_(lame(problem.options.material)),
         base_(problem.mesh->rest.size(), 0.0) {
     check_held(simplices_, *problem.mesh, problem.pins);
-    check(problem.law, problem.options.material);
     if (std::ranges::any_of(pinned_, [](double one) { return one != 0; })) {
       Newton newton(simplices_, lame_, elements_, order_, pins_, model_);
+      start_rigidly(rigid_fit(problem));
       const std::string stuck = carry(newton, pins_, pinned_, base_, progress.part(0.1, 1));
       if (!stuck.empty()) {
-        throw Error("neo-Hookean FEM", "with the pins at their positions, " + stuck, "reset the object, then pin it");
+        throw Error(name, "with the pins at their positions, " + stuck, "reset the object, then pin it");
       }
     }
     reset();
@@ -84,8 +86,17 @@ class NeoHookean final : public ElasticSolver {
   }
   const std::vector<double>& displacements() const override { return displacements_; }
   const std::string& remark() const override { return remark_; }
+  bool follows_path() const override { return true; }
 
  private:
+  /// Elements without a cell stay at rest.
+  void start_rigidly(const std::vector<double>& displacements) {
+    for (const ElementId e : order_) {
+      std::copy_n(displacements.begin() + static_cast<std::ptrdiff_t>(e * dimension_), dimension_,
+                  base_.begin() + static_cast<std::ptrdiff_t>(e * dimension_));
+    }
+  }
+
   /// Moves some prescribed elements from their displacements to their targets. Returns an empty text if it converged.
   /// Otherwise returns the reason, and `displacements` is the last converged state.
   std::string carry(Newton& newton, const std::vector<ElementId>& carried, const std::vector<double>& target,
@@ -137,7 +148,12 @@ class NeoHookean final : public ElasticSolver {
 }  // namespace
 
 std::unique_ptr<ElasticSolver> make_neo_hookean(const ElasticProblem& problem, const Progress& progress) {
-  return std::make_unique<NeoHookean>(problem, progress);
+  check(problem.law, problem.options.material);
+  return std::make_unique<NonlinearFem>("neo-Hookean FEM", model_of(problem.law), problem, progress);
+}
+
+std::unique_ptr<ElasticSolver> make_corotational(const ElasticProblem& problem, const Progress& progress) {
+  return std::make_unique<NonlinearFem>("corotational FEM", corotated, problem, progress);
 }
 
 }  // namespace chainmail
