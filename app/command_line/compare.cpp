@@ -59,11 +59,11 @@ std::vector<report::Case> cases_to_compare(const CompareArguments& options) {
     throw Error("--moves", "the mesh of the recorded moves is missing", "add its file");
   }
   if (options.meshes->count() == 0) {
-    return report::default_cases(softness);
+    return with_frames(report::default_cases(softness), options);
   }
   std::vector<report::Case> cases;
   for (const std::string& name : options.meshes->results()) {
-    report::Case object = case_of(name, softness);
+    report::Case object = case_of(name, options);
     object.drags = drags_of(object, recorded);
     cases.push_back(std::move(object));
   }

@@ -109,16 +109,25 @@ Softness softness_of(const CompareArguments& arguments) {
   return softness_of(arguments.softness, preset ? preset_of(*preset) : LinkSoftness());
 }
 
-report::Case case_of(const std::string& file, const Softness& softness) {
+report::Case case_of(const std::string& file, const CompareArguments& arguments) {
+  const Softness softness = softness_of(arguments);
   const std::filesystem::path path = file;
   OpenedMesh opened = chainmail::open_mesh(path);
+  const RegionFrame frame = frame_of(arguments.softness, *opened.mesh);
   return {printable(path.filename().string()),
           "mesh from a file",
           opened.mesh,
           {},
           {},
-          {softness.global, std::move(opened.softness), softness.energy},
+          {softness.global, std::move(opened.softness), softness.energy, frame},
           {}};
+}
+
+std::vector<report::Case> with_frames(std::vector<report::Case> cases, const CompareArguments& arguments) {
+  for (report::Case& one : cases) {
+    one.softness.frame = frame_of(arguments.softness, *one.mesh);
+  }
+  return cases;
 }
 
 CompareArguments add_compare_arguments(CLI::App& app) {

@@ -55,11 +55,11 @@ std::vector<report::Case> physics_cases(const CompareArguments& arguments) {
     if (arguments.pins->count() > 0) {
       throw Error("--pins", "the built-in objects have their own pins", "add a mesh, or leave out the option");
     }
-    return report::physics_cases(softness, elastic);
+    return with_frames(report::physics_cases(softness, elastic), arguments);
   }
   std::vector<report::Case> cases;
   for (const std::string& file : arguments.meshes->results()) {
-    report::Case object = case_of(file, softness);
+    report::Case object = case_of(file, arguments);
     object.pins = pins_of(arguments.pins, object.name, *object.mesh);
     object.elastic = elastic;
     object.drags = report::physics_drags(object);

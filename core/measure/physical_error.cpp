@@ -58,7 +58,7 @@ PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& posit
   return error;
 }
 
-PhysicalError error_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference) {
+std::vector<double> positions_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference) {
   const auto dimension = static_cast<std::size_t>(mesh.space_dimension);
   std::vector<double> positions = mesh.rest;
   for (const ElementId element : reference.prescribed) {
@@ -66,8 +66,13 @@ PhysicalError error_of_nothing_moving(const Mesh& mesh, const ReferenceSolution&
       positions[at] = mesh.rest[at] + reference.displacements[at];
     }
   }
-  return measure_physical_error(
-      mesh, PositionView(positions.data(), dimension * sizeof(double), Precision::double_precision), reference);
+  return positions;
+}
+
+PhysicalError error_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference) {
+  const std::vector<double> positions = positions_of_nothing_moving(mesh, reference);
+  const std::size_t stride = static_cast<std::size_t>(mesh.space_dimension) * sizeof(double);
+  return measure_physical_error(mesh, PositionView(positions.data(), stride, Precision::double_precision), reference);
 }
 
 double rms_displacement(const Mesh& mesh, const ReferenceSolution& reference) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "measure/reference_solution.h"
 #include "solve/solver.h"
@@ -31,6 +32,9 @@ PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& posit
 /// Returns the error of the null model: the handle and the pins are at their prescribed positions, and nothing else
 /// moves.
 PhysicalError error_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference);
+
+/// Returns the positions of the null model, space_dimension coordinates each (mesh units).
+std::vector<double> positions_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference);
 
 /// Returns the RMS of the reference's displacements over all elements (mesh units).
 double rms_displacement(const Mesh& mesh, const ReferenceSolution& reference);

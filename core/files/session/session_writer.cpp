@@ -241,6 +241,12 @@ void SessionWriter::write_panel(const Session::Panel& panel, const Progress& pro
   out_ << "\n{\"algorithm\": \"" << info(panel.algorithm).name << "\", \"precision\": \""
        << std::string_view(single ? "float" : "double")
        << "\", \"from_rest\": " << std::string_view(placement.from_rest ? "true" : "false");
+  if (placement.frame.is_turned()) {
+    const Point& turn = placement.frame.rotation();
+    out_ << ", \"frame\": [" << digits_(turn.x(), Precision::double_precision);
+    out_ << ", " << digits_(turn.y(), Precision::double_precision);
+    out_ << ", " << digits_(turn.z(), Precision::double_precision) << "]";
+  }
   write_ids("runs", placement.runs);
   write_array("held", placement.held.size(), progress,
               [&](std::size_t i) { out_ << digits_(placement.held[i], panel.precision); });

@@ -21,6 +21,10 @@ prescribed positions: its relative error is about 1, and a method with a larger 
 other errors are over the displacement of the handle: 10% is a tenth of it. They look small if most of the object moves
 little, also when nothing moves. <b>What moves</b> are the elements that the reference displaces by more than 1% of that
 displacement.</p>
+<p><b>Shape</b>: the Hausdorff distance is the largest distance from a point of one surface to the nearest point of the
+other, between the answer and the reference. Volume is that of the cells, or what the faces enclose; in a plane it is the
+area. A cell is inverted if it is turned inside out. The stretch is the largest factor by which any direction in a cell is
+lengthened. Violation is that of the valid regions of ChainMail, which methods of elasticity do not know.</p>
 <p><b>Times</b> include the sweeps of relaxation that follow a move: time of the first move of a drag, mean time of a later
 move, and time of the move <b>after a cut</b> in the middle of a drag, with all repeated preparation. <b>Prepare</b> is the
 work of a method before its first move: it factorizes once for an object, its pins and its cuts, and finds the response of
@@ -69,6 +73,13 @@ void write_html(std::ostream& out, const PhysicsReport& report, const Origin& or
          "the handle’s displacement.</p>\n";
   for (const PhysicsObject& object : report.objects) {
     write_html(out, physics_table(object));
+  }
+  if (const FigureTable turned = symmetry_table(report); !turned.rows.empty()) {
+    out << "<h2>Turned objects</h2>\n<p>The object, its pins and one move are turned by 45° and 90°, in the plane or "
+           "about z, and the answer is turned back. A method that does not depend on the axes differs by about 0. The "
+           "largest distance is over all elements; the relative one is RMS over RMS of the displacements. The valid "
+           "regions of ChainMail lie along axes: choose those of the object with <code>--frame object</code>.</p>\n";
+    write_html(out, turned);
   }
   write_growths(out, report);
   const Material& material = report.elastic.material;

@@ -12,6 +12,8 @@ using CellOf = std::string (*)(const PhysicsMeasurement&);
 
 // Relative errors below this come from Newton's method and from single precision: the method equals the reference.
 constexpr double reference_found_again = 1e-5;
+// Differences below this come from rounding.
+constexpr double rounding_of_turns = 1e-6;
 
 std::string relative_cell(const PhysicsMeasurement& m) {
   return m.error.relative < reference_found_again ? "<1e-5" : figure(m.error.relative);
@@ -32,6 +34,23 @@ constexpr ErrorColumns groups[]{{"relative error (ratio)", relative_cell, true},
                                 {"largest error (%)", max_cell},
                                 {"RMS, what moves (%)", moving_rms_cell},
                                 {"largest, what moves (%)", moving_max_cell}};
+
+std::string hausdorff_cell(const PhysicsMeasurement& m) { return figure(m.shape.hausdorff); }
+std::string volume_cell(const PhysicsMeasurement& m) { return signed_percent(m.shape.volume_change); }
+std::string inverted_cell(const PhysicsMeasurement& m) { return count(m.shape.inverted_cells); }
+std::string stretch_cell(const PhysicsMeasurement& m) { return figure(m.shape.stretch); }
+std::string violation_cell(const PhysicsMeasurement& m) { return figure(m.shape.violation); }
+
+/// Columns of a page about the shape, the worst of all drags without a cut.
+struct ShapeColumn {
+  const char* name;
+  CellOf cell;
+};
+constexpr ShapeColumn shape_columns[]{{"Hausdorff (rest lengths)", hausdorff_cell},
+                                      {"volume change (%)", volume_cell},
+                                      {"inverted cells", inverted_cell},
+                                      {"stretch (ratio)", stretch_cell},
+                                      {"violation (rest lengths)", violation_cell}};
 
 /// Formats a time (ms); empty if it was not measured because nothing is prepared or cut.
 std::string time_cell(const TimeSpread& ms, bool for_text) {
@@ -96,6 +115,12 @@ FigureTable::Row row_of(const Means& means, std::size_t entry, bool for_text) {
       add_errors(row, means, entry, group);
     }
   }
+  for (const ShapeColumn& column : shape_columns) {
+    if (!for_text) {
+      const auto& measured = means.all.entries[entry].measurement;
+      row.cells.push_back(measured ? column.cell(*measured) : "n/a");
+    }
+  }
   return row;
 }
 
@@ -116,6 +141,11 @@ std::vector<FigureTable::Column> columns_of(const Means& means, bool for_text) {
   for (const ErrorColumns& group : groups) {
     if (!group.in_text && !for_text) {
       add_group(group);
+    }
+  }
+  for (const ShapeColumn& column : shape_columns) {
+    if (!for_text) {
+      columns.push_back({"shape: worst of the drags", column.name});
     }
   }
   return columns;
@@ -302,6 +332,33 @@ FigureTable physics_table(const PhysicsObject& object, bool for_text) {
   return table;
 }
 
+FigureTable symmetry_table(const PhysicsReport& report) {
+  FigureTable table{"Turned object",
+                    "difference of the answer after turning back, at the end of one move",
+                    "detail",
+                    "object, contestant",
+                    {},
+                    {}};
+  for (const char* group : {"largest (mean rest lengths)", "relative (ratio)"}) {
+    for (const double degrees : symmetry_angles) {
+      table.columns.push_back({group, "turned by " + figure(degrees) + "°"});
+    }
+  }
+  for (const PhysicsObject& object : report.objects) {
+    for (const Symmetry& one : object.symmetry) {
+      FigureTable::Row& row = table.rows.emplace_back();
+      row.label = object.name + ": " + label(one.contestant);
+      row.refusal = one.refusal;
+      for (const auto member : {&TurnDifference::max, &TurnDifference::relative}) {
+        for (const TurnDifference& turn : one.turns) {
+          row.cells.push_back(turn.*member < rounding_of_turns ? "0" : figure(turn.*member));
+        }
+      }
+    }
+  }
+  return table;
+}
+
 FigureTable physics_summary(const PhysicsReport& report) {
   FigureTable table{"Summary", "contestants without sweeps, at equilibrium, and calibrated ones",
                     "detail",  "object, contestant",
@@ -364,6 +421,9 @@ void write_text(std::ostream& out, const PhysicsReport& report) {
   }
   for (const PhysicsObject& object : report.objects) {
     write_table(out, physics_table(object, true));
+  }
+  if (const FigureTable turned = symmetry_table(report); !turned.rows.empty()) {
+    write_table(out, turned);
   }
   for (const PhysicsGrowth& growth : report.growths) {
     out << (&growth == &report.growths.front() ? "\nGrowing objects\n" : "");

@@ -12,6 +12,8 @@ FigureTable physics_summary(const PhysicsReport& report);
 /// Returns the main table of one object: relative errors and times. The table of a page also has the errors divided by
 /// the handle's displacement.
 FigureTable physics_table(const PhysicsObject& object, bool for_text = false);
+/// Returns by how much each contestant differs on turned objects.
+FigureTable symmetry_table(const PhysicsReport& report);
 /// Returns a table of the largest size of each contestant and the growth of its time.
 FigureTable growth_table(const PhysicsGrowth& growth);
 

@@ -200,7 +200,9 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
     }
     const CompareOptions& how = report.options.contest;
     result.calibrations = calibrations_of(object, report.options, teller.of_drag(object.name + ", calibrating"), stop);
-    Contest contest(object, contestants_of(how.algorithms, how.sweeps, how.equilibrium, result.calibrations), how);
+    const auto contestants = contestants_of(how.algorithms, how.sweeps, how.equilibrium, result.calibrations);
+    result.symmetry = symmetry_under_rotation(object, contestants, how, teller.of_drag(object.name + ", turned"), stop);
+    Contest contest(object, contestants, how);
     for (const RecordedMoves& moves : object.drags) {
       const auto tell = teller.of_drag(object.name + ", " + moves.name);
       tell(0);

@@ -11,6 +11,8 @@
 #include "report/run/compare.h"
 #include "report/run/growth.h"
 #include "report/run/physics_contestant.h"
+#include "report/run/shape_figures.h"
+#include "report/run/symmetry.h"
 
 namespace chainmail::report {
 
@@ -45,6 +47,7 @@ struct PhysicsMeasurement {
   TimeSpread move_after_cut;  // move after the cut, if there is one, with the preparation that it repeats
   Preparation prepare;
   PhysicalError error;
+  ShapeFigures shape;  // at the end of the drag; the reference of the Hausdorff distance is the reference solution
 };
 
 struct PhysicsEntry {
@@ -69,7 +72,8 @@ struct PhysicsObject {
   std::uint64_t elements = 0, links = 0, pins = 0;
   std::vector<PhysicsDrag> drags;
   std::vector<Calibration> calibrations;
-  StrainLaw law;  // of the reference solution
+  StrainLaw law;                        // of the reference solution
+  std::vector<Symmetry> symmetry = {};  // of contestants without sweeps
 };
 
 /// Figures of a contestant at one size.
