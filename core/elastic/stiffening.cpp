@@ -9,8 +9,8 @@ namespace chainmail {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr int most_turns =
-    200;  // bisection alone reaches the rounding of a double in 60, from a bound found in as many
+constexpr int longest_search =
+    200;  // turns; bisection alone reaches the rounding of a double in 60, from a bound found in as many
 
 /// f and its first two derivatives at I₁ − 3 = x.
 struct Shape {
@@ -39,13 +39,13 @@ class FreeStretch {
   /// Newton's method between bounds, which are halved where it leaves them: the left side grows with ln s.
   double log() const {
     double low = -1, high = 1, a = 0;
-    while (slope(low) > 0 && low > -most_turns) {
+    while (slope(low) > 0 && low > -longest_search) {
       low *= 2;
     }
-    while (slope(high) < 0 && high < most_turns) {
+    while (slope(high) < 0 && high < longest_search) {
       high *= 2;
     }
-    for (int turn = 0; turn < most_turns; ++turn) {
+    for (int turn = 0; turn < longest_search; ++turn) {
       const double here = slope(a);
       (here > 0 ? high : low) = a;
       const double to = a - here / curvature(a);

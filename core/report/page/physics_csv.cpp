@@ -32,9 +32,9 @@ void write_measurement(std::ostream& out, const PhysicsMeasurement& measured) {
   write_spread(out, measured.prepare.grab);
 }
 
-constexpr int shape_columns = 5;
+constexpr int physics_shape_figures = 5;  // number of columns
 
-void write_shape(std::ostream& out, const ShapeFigures& shape) {
+void write_physics_shape(std::ostream& out, const ShapeFigures& shape) {
   out << ',' << all_digits(shape.hausdorff) << ',' << all_digits(shape.volume_change) << ','
       << (shape.inverted_cells ? std::to_string(*shape.inverted_cells) : "") << ',' << all_digits(shape.stretch) << ','
       << all_digits(shape.violation);
@@ -60,7 +60,7 @@ void write_growth(std::ostream& out, const PhysicsGrowth& growth) {
           << all_digits(point.prepare_ms) << ',' << known(error.rms) << ',' << known(error.max) << ','
           << known(error.moving_rms) << ',' << known(error.moving_max) << ",," << known(error.relative)
           << std::string(16, ',') << ",,," << (series.contestant.equilibrium ? 1 : 0)
-          << std::string(shape_columns + 2 * symmetry_angles.size(), ',') << '\n';
+          << std::string(physics_shape_figures + 2 * symmetry_angles.size(), ',') << '\n';
     }
   }
 }
@@ -90,9 +90,9 @@ void write_csv(std::ostream& out, const PhysicsReport& report) {
         out << ',' << drag.handle << ',' << (entry.contestant.calibrated ? 1 : 0) << ','
             << (entry.contestant.equilibrium ? 1 : 0);
         if (entry.measurement) {
-          write_shape(out, entry.measurement->shape);
+          write_physics_shape(out, entry.measurement->shape);
         } else {
-          out << std::string(shape_columns, ',');
+          out << std::string(physics_shape_figures, ',');
         }
         write_symmetry(out, object, entry.contestant);
         out << '\n';
