@@ -40,12 +40,7 @@ class NonlinearFem final : public ElasticSolver {
         base_(problem.mesh->rest.size(), 0.0) {
     check_held(simplices_, *problem.mesh, problem.pins);
     if (std::ranges::any_of(pinned_, [](double one) { return one != 0; })) {
-      Newton newton(simplices_, lame_, elements_, order_, pins_, model_);
-      start_rigidly(rigid_fit(problem));
-      const std::string stuck = carry(newton, pins_, pinned_, base_, progress.part(0.1, 1));
-      if (!stuck.empty()) {
-        throw Error(name, "with the pins at their positions, " + stuck, "reset the object, then pin it");
-      }
+      find_base(name, rigid_fit(problem), progress);
     }
     reset();
   }
@@ -89,6 +84,21 @@ class NonlinearFem final : public ElasticSolver {
   bool follows_path() const override { return true; }
 
  private:
+  /// Computes the answer to the pins alone: from the rigid motion that is closest to theirs, or else from rest.
+  void find_base(const char* name, const std::vector<double>& rigid, const Progress& progress) {
+    Newton newton(simplices_, lame_, elements_, order_, pins_, model_);
+    std::vector<double> from_rest = base_;
+    start_rigidly(rigid);
+    std::string stuck = carry(newton, pins_, pinned_, base_, progress.part(0.1, 0.5));
+    if (!stuck.empty()) {
+      stuck = carry(newton, pins_, pinned_, from_rest, progress.part(0.5, 1));
+      base_ = std::move(from_rest);
+    }
+    if (!stuck.empty()) {
+      throw Error(name, "with the pins at their positions, " + stuck, "reset the object, then pin it");
+    }
+  }
+
   /// Elements without a cell stay at rest.
   void start_rigidly(const std::vector<double>& displacements) {
     for (const ElementId e : order_) {
