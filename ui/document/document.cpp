@@ -183,8 +183,8 @@ void Document::carryOut(const Change& change, const Contents& before) {
   if (isOther) {
     post(commands::ReplaceMesh{after.object->mesh});  // keeps only the global softness
   }
-  const bool softnessIsThere = isOther ? *after.softness == kept_for(*after.object->mesh, *before.softness)
-                                       : after.softness == before.softness;
+  const bool softnessIsThere =
+      isOther ? *after.softness == kept_for(*after.object->mesh, *before.softness) : after.softness == before.softness;
   if (!softnessIsThere && !follows) {
     post(commands::SetSoftness{after.softness});
   }
